@@ -1,0 +1,185 @@
+// A scene as plain data: what scene.toml says, checked, with every default filled in.
+//
+// An optional table that is absent is an effect that is absent: there are no switches.
+// SI units; angles in degrees where the name says so. Vectors have three entries, the third is zero in
+// two-dimensional scenes. Two-dimensional masses and loads are per metre of depth.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace splashdown::apps {
+
+using Point = Eigen::Vector3d;
+
+// Shapes of bodies, each in its own frame; the reference point is that frame's origin.
+struct PolygonShape {
+  std::vector<Point> points;  ///< outline, either sense; reference point: the origin of these coordinates
+};
+struct WedgeShape {
+  double deadrise_deg = 30;  ///< of both faces [deg]
+  double breadth = 1;        ///< at the top [m]
+  double height = 0;         ///< keel to top [m]; 0: the faces end at the top (a triangle)
+};                           ///< reference point: the keel
+struct BoxShape {
+  double width = 1, height = 1;  ///< [m]; reference point: the centre
+};
+struct CircleShape {
+  double radius = 1;  ///< [m]; reference point: the centre
+};
+struct EllipseShape {
+  Point semi_axes = Point::Ones();  ///< [m]; reference point: the centre
+};
+struct CapsuleShape {
+  double radius = 1, length = 1;  ///< of the round ends; of the straight part between them, along x [m]
+};                                ///< reference point: the centre
+using Shape = std::variant<PolygonShape, WedgeShape, BoxShape, CircleShape, EllipseShape, CapsuleShape>;
+
+// Liquid regions, in the world frame.
+struct BoxRegion {
+  Point min = Point::Zero(), max = Point::Zero();  ///< corners [m]
+  double surface_amplitude = 0;   ///< of a cosine elevation of the top side [m]
+  double surface_wavelength = 0;  ///< [m]; 0: flat
+  double surface_phase_deg = 0;   ///< top = max_y + amplitude cos(2 pi (x - min_x) / wavelength + phase)
+};
+struct CircleRegion {
+  Point centre = Point::Zero();
+  double radius = 1;
+};
+struct EllipseRegion {
+  Point centre = Point::Zero();
+  Point semi_axes = Point::Ones();
+};
+struct PolygonRegion {
+  std::vector<Point> points;
+};
+
+struct Region {
+  std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion> shape;
+  Point velocity = Point::Zero();                             ///< at t = 0 [m/s]
+  Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();  ///< v = velocity + gradient (x - origin) [1/s]
+  Point velocity_origin = Point::Zero();                      ///< default: the region's centre, 0 for polygons
+};
+
+struct Sizes {
+  double surface = 0;          ///< at the free surface [m]
+  double far = 0;              ///< largest element [m]; default: `surface`
+  double growth = 0.15;        ///< dh/dx; 0.1-0.2 keeps wedge loads within 1 % (docs/validation.md)
+  double wetted_fraction = 0;  ///< h at a wall is at least this fraction of its wetted half length
+};
+
+struct Viscosity {
+  double dynamic = 1e-3;       ///< [Pa s]; water at 20 C
+  std::string walls = "slip";  ///< "slip" | "no_slip"
+};
+
+struct Absorber {
+  double width = 0;  ///< of the zone at each end of the tank [m]
+  double rate = 0;   ///< damping rate at the wall; rises smoothly from 0 at the zone's edge [1/s]
+};
+
+struct Fluid {
+  double density = 1000;  ///< [kg/m^3]
+  Sizes size;
+  std::vector<Region> regions;
+  std::optional<Viscosity> viscosity;
+  std::optional<Absorber> absorber;
+};
+
+struct Tank {
+  Point min = Point::Zero(), max = Point::Zero();  ///< corners [m]
+  double size = 0;                                 ///< element size at the walls [m]; default: fluid.size.far
+};
+
+struct Gravity {
+  Point acceleration = {0, -9.81, 0};  ///< [m/s^2]
+};
+
+enum class Motion { free, fixed, prescribed };
+
+/// A pose on a prescribed path: piecewise linear in time.
+struct Waypoint {
+  double time = 0;               ///< [s]
+  Point position = Point::Zero();  ///< of the shape's reference point [m]
+  double pitch_deg = 0;          ///< [deg]
+};
+
+struct Body {
+  std::string name;
+  Shape shape;
+  std::optional<double> mass;              ///< [kg/m]; exactly one of mass and density for free motion
+  std::optional<double> density;           ///< mean density [kg/m^3]
+  std::optional<Point> centre_of_mass;     ///< in the shape's frame [m]; default: the centroid
+  std::optional<double> inertia;           ///< about the centre of mass [kg m]; default: of uniform density
+  Motion motion = Motion::free;
+  std::vector<std::string> free = {"x", "y", "rotation"};  ///< freedoms of free motion
+  Point position = Point::Zero();          ///< of the shape's reference point at t = 0 [m]
+  double pitch_deg = 0;                    ///< about the reference point, counter-clockwise [deg]
+  Point velocity = Point::Zero();          ///< of the centre of mass at t = 0; constant if prescribed [m/s]
+  double spin_deg = 0;                     ///< angular velocity at t = 0; constant if prescribed [deg/s]
+  std::vector<Waypoint> path;              ///< prescribed motion; empty: constant velocity and spin
+  double size = 0;                         ///< element size at the hull [m]; default: fluid.size.surface
+};
+
+struct Coupling {
+  std::string scheme = "iterated";         ///< "iterated" | "staggered"
+  std::string interface_term = "rigid";    ///< "rigid" | "laplacian" | "none"
+  std::string accelerator = "constant";    ///< "constant" | "aitken"
+  double relaxation = 1;                   ///< first (aitken) or only (constant) factor, in (0, 1]
+  double tolerance = 1e-8;                 ///< of the interface velocities, relative
+  int max_passes = 50;                     ///< more: the step is refused
+};
+
+struct Time {
+  double end = 0;      ///< [s]
+  double cfl = 0.5;    ///< share of an edge by which its ends may approach in one step
+  double dt_max = 0;   ///< [s]; default: min(end / 100, cfl sqrt(h_min / |g|))
+};
+
+struct Output {
+  double interval = 0;           ///< between rows of the csv files [s]; 0: every step
+  std::optional<double> frames;  ///< between frames [s]; absent: none
+  double checkpoint = 60;        ///< wall seconds between checkpoints
+};
+
+// Things to record besides the standard files. Points given with a body are in its shape's frame and
+// move with it; others are in the world frame and stay.
+struct PressureRecord {
+  std::string name;
+  Point point = Point::Zero();
+  std::optional<std::size_t> body;
+};
+struct SurfacePressureRecord {
+  std::string name;
+  std::size_t body = 0;
+  std::vector<double> times;  ///< empty: use `interval`
+  double interval = 0;        ///< [s]; 0 without `times`: every recorded step
+};
+struct SurfaceElevationRecord {
+  std::string name;
+  double x = 0;  ///< [m]
+};
+struct AccelerationRecord {
+  std::string name;
+  std::size_t body = 0;
+  Point point = Point::Zero();  ///< in the shape's frame
+};
+using Record = std::variant<PressureRecord, SurfacePressureRecord, SurfaceElevationRecord, AccelerationRecord>;
+
+struct Scene {
+  int dimension = 2;
+  std::string title;
+  Time time;
+  std::optional<Fluid> fluid;
+  std::optional<Tank> tank;
+  std::optional<Gravity> gravity;
+  std::vector<Body> bodies;
+  std::optional<Coupling> coupling;  ///< present whenever a free body meets a fluid
+  Output output;
+  std::vector<Record> records;
+};
+
+}  // namespace splashdown::apps
