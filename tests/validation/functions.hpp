@@ -1,0 +1,31 @@
+// The functions of check.toml's expressions. y, x: columns of equal length; x increasing where it says so.
+//
+//   abs sqrt exp log sin cos            element by element
+//   first last min max sum count rms    of y
+//   mean(y), mean(y, x)                 of the rows; of the trapezoidal integral over x
+//   std(y)                              standard deviation about the mean of the rows
+//   slope(y, x)                         least squares line
+//   argmax(y, x)                        x where y is largest
+//   interp(x, y, at)                    linear, x increasing; nan more than 1 % of the range outside
+//   smooth(y, x, width)                 local least squares parabola, evaluated in its middle
+//   windows(y, x, width)                means over adjoining full windows of x, x increasing
+//   crossings(y, x)                     x of upward zeros; a first positive value after nan is one
+//   peaks(y, x)                         heights of local maxima (parabola through three points)
+//   group_max(y, key), group_argmax(y, key, x)   per run of equal keys
+//   bins(y, x, low, high, n), bin_centres(low, high, n)   mean of y in n equal bins of x
+//   column(a, b, ...), index(y), select(y, mask)
+//
+// nan is never hidden: it passes through every one of them, and a check that measures nan fails.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/validation/value.hpp"
+
+namespace splashdown::validation {
+
+/// Throws std::runtime_error for an unknown name, a wrong number of arguments, columns that do not fit.
+Value call_function(const std::string& name, const std::vector<Value>& arguments);
+
+}  // namespace splashdown::validation
