@@ -1,0 +1,45 @@
+// Channel frequency class filters of SAE J211-1 (2014), appendix C, for accelerations with uneven time steps.
+//
+//   two-pole Butterworth, design frequency 2.0775 CFC, run forward and backward (no phase shift):
+//   |H|^2 = 1 / (1 + (f / 2.0775 CFC)^4) in total, -3 dB at CFC / 0.6
+//
+// The histories are averages over consecutive intervals. They are brought to equal intervals by averaging again,
+// which keeps the velocity change exactly. Outside the record the first and last value are held.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "apps/summary.hpp"
+
+namespace splashdown::apps {
+
+inline constexpr int channel_frequency_classes[] = {60, 180, 600, 1000};
+
+/// Interval averages of a few channels (the components of a vector): interval i ends at ends[i] and begins
+/// where the one before ended; values holds `channels` numbers an interval.
+struct IntervalHistory {
+  int channels = 0;
+  double begin = 0;
+  std::vector<double> ends;
+  std::vector<double> values;
+
+  void append(double end, std::span<const double> sample);
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(channels, begin, ends, values);
+  }
+};
+
+/// Filters equally spaced samples, `dt` apart [s].
+std::vector<double> cfc_filter(std::span<const double> samples, double dt, int cfc);
+
+/// One channel averaged over equal intervals of length `dt` from history.begin on.
+std::vector<double> resample(const IntervalHistory& history, int channel, double dt);
+
+/// Peak of the filtered vector's magnitude, for each class the record allows: J211 asks for 10 CFC samples a
+/// second (here: within 1/CFC of the peak), and the record must be longer than 1/CFC.
+std::map<int, Peak> filtered_peaks(const IntervalHistory& history);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,74 @@
+// Pictures of a state for ParaView: one .vtu for the fluid, one for each wall, listed in frames.pvd.
+//
+// Fluid point data: v [m/s], p [Pa], kind (NodeKind), wall (index, -1: none). Nodes without a cell (separated
+// drops) are vertex cells. 2D points have z = 0.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fluid/types.hpp"
+
+namespace splashdown::apps {
+
+enum class NodeKind : unsigned char { interior = 0, free_surface = 1, wall = 2, wall_vertex = 3, contact = 4, drop = 5 };
+
+/// A wall in the world frame.
+template <int d>
+struct Outline {
+  std::string name;
+  fluid::Surface<d> surface;
+};
+
+template <int d>
+struct Frame {
+  double time = 0;
+  std::vector<fluid::Vec<d>> x, v;
+  std::vector<double> p;
+  std::vector<NodeKind> kind;
+  std::vector<int> wall;
+  std::vector<std::array<int, d + 1>> cells;
+  std::vector<Outline<d>> outlines;
+};
+
+/// DIR/STEM.vtu (unless there is no node) and DIR/STEM_WALL.vtu; gives (part, file name) of each.
+template <int d>
+std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesystem::path& directory,
+                                                              const std::string& stem, const Frame<d>& frame);
+
+/// frames.pvd with frames/000000.vtu, frames/000000_WALL.vtu, ...
+class FrameSeries {
+ public:
+  struct Entry {
+    double time;
+    int index;
+    std::string part, file;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(time, index, part, file);
+    }
+  };
+
+  explicit FrameSeries(std::filesystem::path directory) : directory_(std::move(directory)) {}
+
+  template <int d>
+  void add(const Frame<d>& frame);
+  void write_index() const;  ///< also after load: drops the frames that came after the checkpoint
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(count_, entries_);
+  }
+
+ private:
+  std::filesystem::path directory_;
+  long count_ = 0;
+  std::vector<Entry> entries_;
+};
+
+/// A name that is safe as part of a file name: letters, digits, - and _ stay, the rest becomes _.
+std::string file_name_of(const std::string& name);
+
+}  // namespace splashdown::apps

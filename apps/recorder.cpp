@@ -1,0 +1,304 @@
+#include "apps/recorder.hpp"
+
+#include <algorithm>
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
+#include <cmath>
+#include <limits>
+
+#include "apps/csv.hpp"
+#include "apps/frames.hpp"
+#include "apps/recorder_probes.hpp"
+#include "apps/recorder_rows.hpp"
+#include "apps/recorder_view.hpp"
+#include "apps/schedule.hpp"
+#include "apps/statistics.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+/// Removes what a recorder or a report may have left, and nothing else.
+void clear_earlier_run(const std::filesystem::path& directory) {
+  for (const char* name : {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "frames.pvd",
+                           "summary.json", "report.html"})
+    std::filesystem::remove(directory / name);
+  for (const char* folder : {"frames", "snapshots"}) {
+    if (!std::filesystem::is_directory(directory / folder)) continue;
+    std::vector<std::filesystem::path> pictures;
+    for (const auto& entry : std::filesystem::directory_iterator(directory / folder))
+      if (entry.path().extension() == ".vtu") pictures.push_back(entry.path());
+    for (const auto& picture : pictures) std::filesystem::remove(picture);
+  }
+}
+
+/// Acceleration of a point of a rigid body: a + alpha x r + w x (w x r).
+template <int d>
+rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
+                              const rigid::Twist<d>& acceleration) {
+  if constexpr (d == 2) {
+    const double alpha = acceleration(2), w = velocity(2);
+    return rigid::Vec<2>(acceleration(0) - alpha * r.y() - w * w * r.x(),
+                         acceleration(1) + alpha * r.x() - w * w * r.y());
+  } else {
+    const Eigen::Vector3d alpha = acceleration.template tail<3>(), w = velocity.template tail<3>();
+    return acceleration.template head<3>() + alpha.cross(r) + w.cross(w.cross(r));
+  }
+}
+
+}  // namespace
+
+template <int d>
+struct Recorder<d>::State {
+  RecorderSettings<d> settings;
+  std::map<std::string, CsvFile> files;  ///< by file name; opened when the first row is due
+  bool started = false;
+  double previous_dt = 0;
+  double still_water_level = std::numeric_limits<double>::quiet_NaN();
+  Schedule rows, frames_due;
+  std::vector<Schedule> surface_due;
+  FrameSeries frames;
+  RunStatistics run;
+  double max_speed_peak = 0;
+  std::vector<BodyStatistics<d>> bodies;
+  std::vector<AccelerationStatistics> equipment;
+  double peak_force = 0;
+  std::vector<std::string> body_names;
+  fluid::Ledger ledger;
+  double speed = 0;
+  bool has_fluid = false;
+  // Not part of the checkpoint.
+  std::optional<Frame<d>> peak;  ///< state at the largest load, until it is written
+  std::map<std::size_t, SurfaceRuler<d>> rulers;
+
+  explicit State(RecorderSettings<d> s)
+      : settings(std::move(s)), rows(settings.interval), frames_due(settings.frames.value_or(0)),
+        frames(settings.directory), equipment(settings.equipment.size()) {
+    for (const auto& record : settings.surface_pressure) {
+      auto times = record.times;
+      std::ranges::sort(times);
+      surface_due.push_back(record.every ? Schedule(*record.every) : Schedule(std::move(times)));
+    }
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, frames, run, max_speed_peak,
+            bodies, equipment, peak_force, body_names, speed, has_fluid,
+            cereal::binary_data(&ledger, sizeof ledger));
+  }
+
+  CsvFile& file(const std::string& name, const std::string& header) {
+    const auto [place, is_new] = files.try_emplace(name, settings.directory / name, header);
+    if (is_new) place->second.create();
+    return place->second;
+  }
+
+  void start(const RecordInput<d>& input);
+  void add_statistics(const RecordInput<d>& input);
+  void write_rows(const RecordInput<d>& input);
+  void write_probes(const RecordInput<d>& input);
+  void write_surface_pressure(const RecordInput<d>& input, std::size_t record);
+  rigid::Vec<d> equipment_acceleration(const RecordInput<d>& input, std::size_t i) const;
+  double probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const;
+  void write_peak();
+};
+
+template <int d>
+void Recorder<d>::State::start(const RecordInput<d>& input) {
+  std::filesystem::create_directories(settings.directory);
+  clear_earlier_run(settings.directory);
+  if (settings.still_water_level)
+    still_water_level = *settings.still_water_level;
+  else if (input.fluid)
+    still_water_level = water_level(*input.fluid);
+  if (input.bodies) bodies.resize(input.bodies->size());
+  started = true;
+}
+
+template <int d>
+rigid::Vec<d> Recorder<d>::State::equipment_acceleration(const RecordInput<d>& input, std::size_t i) const {
+  const auto& point = settings.equipment[i];
+  const std::size_t body = body_index(*input.bodies, point.body);
+  const rigid::Vec<d> arm = input.bodies->state(body).pose.linear() * point.point;
+  return acceleration_at<d>(arm, input.body_velocity_n[body], input.body_acceleration_n[body]);
+}
+
+template <int d>
+void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
+  const double before = run.steps == 0 ? 0 : 0.5 * previous_dt;
+  const Kick kick{input.time, input.time - before, input.time + 0.5 * input.dt};
+  run.add_step(input.passes);
+  if (input.fluid) {
+    run.add_mesh(input.fluid->nodes().size(), input.fluid->mesh().cells.size());
+    ledger = input.fluid->ledger();
+    speed = max_speed(*input.fluid);
+    max_speed_peak = std::max(max_speed_peak, speed);
+  }
+  has_fluid = input.fluid != nullptr;
+  bool new_peak = false;
+  body_names.clear();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto& spec = input.bodies->spec(b);
+    const double lowest = (input.bodies->state(b).pose * spec.surface.vertices).row(d - 1).minCoeff();
+    body_names.push_back(spec.name);
+    bodies[b].add(kick, {input.body_acceleration_n[b], input.body_load[b], still_water_level - lowest});
+    new_peak = new_peak || bodies[b].peak_force() > peak_force;
+    peak_force = std::max(peak_force, bodies[b].peak_force());
+  }
+  for (std::size_t i = 0; i < equipment.size(); ++i) {
+    const auto acceleration = equipment_acceleration(input, i);
+    equipment[i].add(kick, {acceleration.data(), static_cast<std::size_t>(d)});
+  }
+  if (new_peak) peak = take_frame(input);
+  previous_dt = input.dt;
+}
+
+template <int d>
+void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    write_row(file("bodies.csv", bodies_header),
+              BodyRow<d>{input.time, input.bodies->spec(b).name, input.bodies->state(b).pose,
+                         input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b]});
+  if (input.fluid) {
+    const auto& fluid = *input.fluid;
+    write_row(file("fluid.csv", fluid_header(effect_names(fluid))),
+              FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(),
+                       input.passes, input.residual, input.wall_seconds, speed, effect_energies(fluid)});
+  }
+  write_probes(input);
+}
+
+template <int d>
+double Recorder<d>::State::probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const {
+  fluid::Vec<d> point = probe.point;
+  if (!probe.body.empty()) point = input.bodies->state(body_index(*input.bodies, probe.body)).pose * point;
+  const auto& fluid = *input.fluid;
+  if (const auto p = fluid.pressure_at(point)) return *p;
+  return wall_pressure(fluid.nodes(), fluid.mesh(), point).value_or(0);
+}
+
+template <int d>
+void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
+  const auto put = [&](const std::string& name, double value) {
+    auto& probes = file("probes.csv", probes_header);
+    probes << input.time << name << value;
+    probes.end_row();
+  };
+  if (input.fluid) {
+    for (const auto& probe : settings.pressure_probes) put(probe.name, probe_pressure(input, probe));
+    for (const auto& gauge : settings.gauges)
+      put(gauge.name, surface_elevation(input.fluid->nodes(), input.fluid->mesh(), gauge.at)
+                          .value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  for (std::size_t i = 0; i < equipment.size(); ++i) {
+    const auto acceleration = equipment_acceleration(input, i);
+    for (int k = 0; k < d; ++k)
+      put(settings.equipment[i].name + ".a" + "xyz"[k], acceleration(k));
+  }
+}
+
+template <int d>
+void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std::size_t record) {
+  const auto& name = settings.surface_pressure[record].wall;
+  const int wall = wall_index(*input.fluid, name);
+  if (wall < 0) throw std::invalid_argument("a record names the wall \"" + name + "\", which does not exist");
+  const auto w = static_cast<std::size_t>(wall);
+  const auto& spec = input.fluid->spec().walls[w];
+  const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
+  auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
+  for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), wall, ruler,
+                                            input.fluid->wall_poses()[w])) {
+    csv << input.time << name;
+    for (int k = 0; k < d; ++k) csv << point.x(k);
+    csv << point.s << point.p;
+    csv.end_row();
+  }
+}
+
+template <int d>
+void Recorder<d>::State::write_peak() {
+  if (!peak) return;
+  write_pieces(settings.directory / "snapshots", "peak", *peak);
+  peak.reset();
+}
+
+template <int d>
+Recorder<d>::Recorder(RecorderSettings<d> settings) : s_(std::make_unique<State>(std::move(settings))) {}
+
+template <int d>
+Recorder<d>::~Recorder() = default;
+
+template <int d>
+void Recorder<d>::record(const RecordInput<d>& input) {
+  State& s = *s_;
+  const bool first = !s.started;
+  if (first) s.start(input);
+  s.add_statistics(input);
+  if (first) write_pieces(s.settings.directory / "snapshots", "start", take_frame(input));
+
+  // Each schedule is asked at each step, so that a last row does not shift the ones after a resume.
+  if (s.rows.due(input.time) || input.last) s.write_rows(input);
+  for (std::size_t r = 0; input.fluid && r < s.surface_due.size(); ++r)
+    if (s.surface_due[r].due(input.time)) s.write_surface_pressure(input, r);
+  if (s.settings.frames && (s.frames_due.due(input.time) || input.last)) s.frames.add(take_frame(input));
+  for (auto& [name, file] : s.files) file.write();
+}
+
+template <int d>
+void Recorder<d>::snapshot(const std::string& name, const RecordInput<d>& input) {
+  write_pieces(s_->settings.directory / "snapshots", file_name_of(name), take_frame(input));
+}
+
+template <int d>
+void Recorder<d>::finish() {
+  s_->write_peak();
+  for (auto& [name, file] : s_->files) file.sync();
+}
+
+template <int d>
+void Recorder<d>::summarise(Summary& summary) const {
+  const State& s = *s_;
+  summary.dimension = d;
+  if (s.has_fluid) {
+    summary.nodes = s.run.nodes;
+    summary.elements = s.run.elements;
+    summary.ledger = summary_of(s.ledger);
+    summary.fluid = FluidSummary{s.speed, s.max_speed_peak};
+  }
+  if (summary.coupling && s.run.steps > 0) {
+    summary.coupling->passes_mean = static_cast<double>(s.run.passes_sum) / static_cast<double>(s.run.steps);
+    summary.coupling->passes_max = s.run.passes_max;
+  }
+  for (std::size_t b = 0; b < s.body_names.size(); ++b) summary.bodies[s.body_names[b]] = s.bodies[b].summary();
+  for (std::size_t i = 0; i < s.equipment.size(); ++i)
+    summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary();
+}
+
+template <int d>
+void Recorder<d>::save(std::ostream& out) {
+  s_->write_peak();
+  std::map<std::string, std::uint64_t> lengths;
+  for (auto& [name, file] : s_->files) lengths[name] = file.sync();
+  cereal::BinaryOutputArchive archive(out);
+  archive(lengths, *s_);
+}
+
+template <int d>
+void Recorder<d>::load(std::istream& in) {
+  std::map<std::string, std::uint64_t> lengths;
+  cereal::BinaryInputArchive archive(in);
+  s_->files.clear();
+  archive(lengths, *s_);
+  for (const auto& [name, length] : lengths)
+    s_->files.try_emplace(name, s_->settings.directory / name, "").first->second.reopen(length);
+  if (s_->settings.frames) s_->frames.write_index();
+}
+
+template class Recorder<2>;
+template class Recorder<3>;
+
+}  // namespace splashdown::apps

@@ -1,0 +1,55 @@
+// What a run shall leave behind: plain values, filled from a scene's [output] tables.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fluid/types.hpp"
+
+namespace splashdown::apps {
+
+/// Gauge pressure at a point; 0 where it is dry.
+template <int d>
+struct PressureProbe {
+  std::string name;
+  fluid::Vec<d> point;  ///< [m] world frame, or the frame of `body` (origin at its centre of mass)
+  std::string body;     ///< the body it moves with; empty: stays in place
+};
+
+/// Height of the free surface on a vertical line, the highest crossing; nan where there is no water.
+template <int d>
+struct ElevationGauge {
+  std::string name;
+  Eigen::Matrix<double, d - 1, 1> at;  ///< horizontal position, world frame [m]
+};
+
+/// A point of a body whose acceleration is wanted: an instrument, a seat.
+template <int d>
+struct EquipmentPoint {
+  std::string name;
+  std::string body;
+  fluid::Vec<d> point;  ///< [m] body frame, origin at its centre of mass
+};
+
+/// Pressure along the wetted part of a wall, written to surface_pressure.csv.
+struct SurfacePressureRecord {
+  std::string wall;             ///< name of a body or a tank
+  std::optional<double> every;  ///< [s]; 0: each step
+  std::vector<double> times;    ///< [s]: first step at or after each
+};
+
+template <int d>
+struct RecorderSettings {
+  std::filesystem::path directory;
+  double interval = 0;           ///< of rows in bodies.csv, fluid.csv, probes.csv [s]; 0: each step
+  std::optional<double> frames;  ///< interval of frames [s], 0: each step; absent: no frames
+  std::vector<PressureProbe<d>> pressure_probes;
+  std::vector<ElevationGauge<d>> gauges;
+  std::vector<EquipmentPoint<d>> equipment;
+  std::vector<SurfacePressureRecord> surface_pressure;
+  std::optional<double> still_water_level;  ///< [m]; absent: highest free-surface node at the start
+};
+
+}  // namespace splashdown::apps

@@ -1,0 +1,34 @@
+// What pictures and rows need from a running scene, taken as plain values.
+#pragma once
+
+#include "apps/frames.hpp"
+#include "apps/recorder.hpp"
+
+namespace splashdown::apps {
+
+template <int d>
+Frame<d> take_frame(const RecordInput<d>& input);
+
+/// Index of a wall by name, -1 if there is none.
+template <int d>
+int wall_index(const fluid::Fluid<d>& fluid, const std::string& name);
+
+/// Index of a body by name; throws std::invalid_argument if there is none.
+template <int d>
+std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name);
+
+/// Potential energy of each effect on the fluid [J, J/m].
+template <int d>
+std::vector<double> effect_energies(const fluid::Fluid<d>& fluid);
+
+template <int d>
+std::vector<std::string> effect_names(const fluid::Fluid<d>& fluid);
+
+template <int d>
+double max_speed(const fluid::Fluid<d>& fluid);
+
+/// Highest free-surface node; nan without one [m].
+template <int d>
+double water_level(const fluid::Fluid<d>& fluid);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,91 @@
+// Running statistics of a run: peaks, impulses, accelerations. They see every step and survive a resume.
+//
+// Loads and accelerations are averages over the kick around t_n, [t_n - dt_{n-1}/2, t_n + dt_n/2]; impulses and
+// filters use them as such, so that impulse = change of momentum holds to rounding.
+#pragma once
+
+#include <span>
+
+#include "apps/filters.hpp"
+#include "apps/summary.hpp"
+#include "fluid/fluid.hpp"
+#include "rigid/bodies.hpp"
+
+namespace splashdown::apps {
+
+template <class Archive>
+void serialize(Archive& archive, Peak& peak) {
+  archive(peak.value, peak.time);
+}
+
+template <class Archive>
+void serialize(Archive& archive, RangeCount& count) {
+  archive(count.initial, count.max, count.final);
+}
+
+/// The kick around t_n.
+struct Kick {
+  double time, begin, end;
+  double length() const { return end - begin; }
+};
+
+class AccelerationStatistics {
+ public:
+  void add(const Kick& kick, std::span<const double> acceleration);  ///< [m/s^2]
+  AccelerationSummary summary() const;                               ///< [g]
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(raw_, history_);
+  }
+
+ private:
+  Peak raw_;  ///< [m/s^2]
+  IntervalHistory history_;
+};
+
+template <int d>
+struct BodyReading {
+  rigid::Twist<d> acceleration;
+  fluid::WallLoad<d> load;
+  double submergence;  ///< of the lowest point; nan without a water level [m]
+};
+
+template <int d>
+class BodyStatistics {
+ public:
+  /// True if the load has a new peak.
+  bool add(const Kick& kick, const BodyReading<d>& reading);
+  BodySummary summary() const;
+  double peak_force() const { return force_.time < 0 ? 0 : force_.value; }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, first_contact_);
+  }
+
+ private:
+  AccelerationStatistics acceleration_;
+  Peak force_, submergence_, wetted_;
+  std::array<double, d> impulse_{}, impulse_repair_{};
+  double first_contact_ = -1;
+};
+
+/// Counts of the mesh and of the coupling's passes.
+struct RunStatistics {
+  RangeCount nodes, elements;
+  long steps = 0, passes_sum = 0;
+  int passes_max = 0;
+
+  void add_step(int passes);
+  void add_mesh(std::size_t node_count, std::size_t element_count);
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(nodes, elements, steps, passes_sum, passes_max, mesh_seen_);
+  }
+
+ private:
+  bool mesh_seen_ = false;
+};
+
+LedgerSummary summary_of(const fluid::Ledger& ledger);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,127 @@
+#include "apps/summary.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/csv.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no nan or infinity; null says that there is no number.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json time_or_null(double time) { return time < 0 ? Json(nullptr) : number(time); }
+
+Json json_of(const Peak& peak) {
+  if (peak.time < 0) return nullptr;
+  return {{"value", number(peak.value)}, {"time", number(peak.time)}};
+}
+
+Json json_of(const AccelerationSummary& acceleration) {
+  Json json;
+  json["raw"] = json_of(acceleration.raw);
+  for (const auto& [cfc, peak] : acceleration.cfc) json["cfc" + std::to_string(cfc)] = json_of(peak);
+  return json;
+}
+
+Json json_of(const std::vector<double>& values) {
+  Json json = Json::array();
+  for (const double value : values) json.push_back(number(value));
+  return json;
+}
+
+Json json_of(const RangeCount& count) {
+  return {{"initial", count.initial}, {"max", count.max}, {"final", count.final}};
+}
+
+Json json_of(const BodySummary& body) {
+  return {{"peak_acceleration_g", json_of(body.acceleration)},
+          {"peak_force", json_of(body.force)},
+          {"impulse", json_of(body.impulse)},
+          {"impulse_repair", json_of(body.impulse_repair)},
+          {"maximum_submergence", json_of(body.submergence)},
+          {"maximum_wetted", json_of(body.wetted)},
+          {"first_contact_time", time_or_null(body.first_contact)}};
+}
+
+Json json_of(const LedgerSummary& ledger) {
+  return {{"volume_initial", number(ledger.volume_initial)},
+          {"volume_final", number(ledger.volume_final)},
+          {"volume_error", number(ledger.volume_error)},
+          {"volume_time_integration", number(ledger.time_integration)},
+          {"volume_remesh_created", number(ledger.remesh_created)},
+          {"volume_remesh_deleted", number(ledger.remesh_deleted)},
+          {"volume_spray", number(ledger.spray)},
+          {"kinetic_energy", number(ledger.kinetic_energy)},
+          {"potential_energy", number(ledger.potential_energy)},
+          {"energy_remesh", number(ledger.energy_remesh)},
+          {"energy_repair", number(ledger.energy_repair)},
+          {"work_on_walls", number(ledger.work_on_walls)}};
+}
+
+Json json_of(const CouplingSummary& coupling) {
+  Json causes = Json::object();
+  for (const auto& [cause, count] : coupling.rejected_causes) causes[cause] = count;
+  return {{"scheme", coupling.scheme},
+          {"interface_term", coupling.interface_term},
+          {"passes_mean", number(coupling.passes_mean)},
+          {"passes_max", coupling.passes_max},
+          {"rejected_steps", coupling.rejected_steps},
+          {"rejected_causes", causes}};
+}
+
+Json json_of_effects(const Summary& summary) {
+  Json active = Json::object(), inactive = Json::object();
+  for (const auto& effect : summary.effects)
+    active[effect.name] = {
+        {"seconds", number(effect.seconds)},
+        {"share", number(summary.wall_seconds > 0 ? effect.seconds / summary.wall_seconds : 0)}};
+  for (const auto& effect : summary.inactive_effects) inactive[effect.name] = effect.reason;
+  return {{"active", active}, {"inactive", inactive}};
+}
+
+}  // namespace
+
+bool Peak::offer(double v, double t) {
+  if (time >= 0 && !(v > value)) return false;
+  value = v;
+  time = t;
+  return true;
+}
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  json["scene"] = summary.scene;
+  json["dimension"] = summary.dimension;
+  json["status"] = summary.status;
+  if (!summary.cause.empty()) json["cause"] = summary.cause;
+  json["simulated_time"] = number(summary.simulated_time);
+  json["steps"] = summary.steps;
+  json["wall_seconds"] = number(summary.wall_seconds);
+  json["phases"] = Json::object();
+  for (const auto& [name, seconds] : summary.phases) json["phases"][name] = number(seconds);
+  json["effects"] = json_of_effects(summary);
+  if (summary.nodes) json["nodes"] = json_of(*summary.nodes);
+  if (summary.elements) json["elements"] = json_of(*summary.elements);
+  if (summary.coupling) json["coupling"] = json_of(*summary.coupling);
+  if (summary.ledger) json["ledger"] = json_of(*summary.ledger);
+  if (summary.fluid)
+    json["fluid"] = {{"max_speed", number(summary.fluid->max_speed)},
+                     {"max_speed_peak", number(summary.fluid->max_speed_peak)}};
+  json["bodies"] = Json::object();
+  for (const auto& [name, body] : summary.bodies) json["bodies"][name] = json_of(body);
+  if (!summary.equipment.empty())
+    for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of(point);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::filesystem::path& directory, const Summary& summary) {
+  std::filesystem::create_directories(directory);
+  write_file_atomically(directory / "summary.json", to_json(summary));
+}
+
+}  // namespace splashdown::apps

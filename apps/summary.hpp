@@ -1,0 +1,92 @@
+// summary.json: how a run ended and what it measured, one object per run.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace splashdown::apps {
+
+/// A largest value and when it happened; nothing happened while `time` is negative.
+struct Peak {
+  double value = 0;
+  double time = -1;
+  /// True if `v` is the new peak.
+  bool offer(double v, double t);
+};
+
+struct RangeCount {
+  long initial = 0, max = 0, final = 0;
+};
+
+struct ActiveEffect {
+  std::string name;
+  double seconds = 0;
+};
+
+struct InactiveEffect {
+  std::string name, reason;
+};
+
+struct AccelerationSummary {
+  Peak raw;                         ///< [g]
+  std::map<int, Peak> cfc;          ///< channel frequency class -> filtered peak [g]
+};
+
+struct BodySummary {
+  AccelerationSummary acceleration;    ///< of the centre of mass
+  Peak force;                          ///< magnitude of the fluid's total load [N, N/m]
+  std::vector<double> impulse;         ///< integral of the total load, x y (z) [N s]
+  std::vector<double> impulse_repair;  ///< the part of it from repair impulses
+  Peak submergence;                    ///< still-water level minus lowest point [m]
+  Peak wetted;                         ///< wetted length or area [m, m^2]
+  double first_contact = -1;           ///< time of first wetting [s]; negative: never
+};
+
+struct LedgerSummary {
+  double volume_initial = 0, volume_final = 0, volume_error = 0;  ///< the last one relative
+  double time_integration = 0, remesh_created = 0, remesh_deleted = 0, spray = 0;
+  double kinetic_energy = 0, potential_energy = 0;
+  double energy_remesh = 0, energy_repair = 0, work_on_walls = 0;
+};
+
+struct FluidSummary {
+  double max_speed = 0;       ///< of all nodes, at the end [m/s]
+  double max_speed_peak = 0;  ///< at any time
+};
+
+struct CouplingSummary {
+  std::string scheme, interface_term;
+  double passes_mean = 0;
+  int passes_max = 0;
+  long rejected_steps = 0;
+  std::map<std::string, long> rejected_causes;
+};
+
+struct Summary {
+  std::string scene;                ///< name of the scene, for headings
+  std::string status;               ///< "done", "failed", "interrupted" or "budget"
+  std::string cause;                ///< why it failed; empty otherwise
+  int dimension = 2;
+  double simulated_time = 0;        ///< [s]
+  long steps = 0;
+  double wall_seconds = 0;
+  std::vector<std::pair<std::string, double>> phases;  ///< seconds each
+  std::vector<ActiveEffect> effects;
+  std::vector<InactiveEffect> inactive_effects;
+  std::optional<RangeCount> nodes, elements;       ///< absent without a fluid
+  std::optional<CouplingSummary> coupling;         ///< absent unless fluid and bodies are coupled
+  std::optional<LedgerSummary> ledger;
+  std::optional<FluidSummary> fluid;
+  std::map<std::string, BodySummary> bodies;
+  std::map<std::string, AccelerationSummary> equipment;
+};
+
+std::string to_json(const Summary& summary);
+/// Writes DIR/summary.json, whole or not at all.
+void write_summary(const std::filesystem::path& directory, const Summary& summary);
+
+}  // namespace splashdown::apps
