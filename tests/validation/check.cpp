@@ -121,7 +121,7 @@ Bound read_bound(const Section& section) {
 
 CheckSpec read_check(const Section& section, const Example& example) {
   section.allow_only({"name", "run", "table", "where", "reference", "quantity", "expected", "tolerance",
-                      "tolerance_absolute", "at_most", "at_least", "unit", "why"});
+                      "tolerance_absolute", "at_most", "at_least", "unit", "why", "label"});
   CheckSpec check;
   check.name = section.required_text("name");
   check.run = section.text("run", example.runs.front().name);
@@ -132,9 +132,11 @@ CheckSpec read_check(const Section& section, const Example& example) {
   check.bound = read_bound(section);
   check.unit = section.text("unit", "-");
   check.why = section.required_text("why");
+  check.label = read_label(section);
   const bool known = std::any_of(example.runs.begin(), example.runs.end(),
                                  [&](const RunSpec& run) { return run.name == check.run; });
   if (!known) section.fail(*section.table().get("run"), fmt::format("there is no [[run]] '{}'", check.run));
+  if (example.run(check.run).label == Label::nightly) check.label = Label::nightly;
   return check;
 }
 

@@ -40,6 +40,7 @@ struct CheckSpec {
   Bound bound;
   std::string unit;
   std::string why;
+  Label label = Label::ci;  ///< nightly also if its run is
 };
 
 struct Example {

@@ -129,6 +129,16 @@ TEST_F(Checker, a_run_is_made_once_and_gets_its_arguments) {
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 2);
 }
 
+TEST_F(Checker, a_check_of_a_nightly_run_is_nightly) {
+  const Example read =
+      example(check("quantity = \"1\"\nrun = \"broken\"") +
+              "[[check]]\nname = \"d\"\nwhy = \"law\"\nquantity = \"2\"\n" +
+              "[[check]]\nname = \"e\"\nwhy = \"law\"\nquantity = \"3\"\nlabel = \"nightly\"\n");
+  EXPECT_EQ(read.checks[0].label, Label::nightly);
+  EXPECT_EQ(read.checks[1].label, Label::ci);
+  EXPECT_EQ(read.checks[2].label, Label::nightly);
+}
+
 TEST_F(Checker, misspelt_keys_and_missing_tolerances_are_refused_with_their_line) {
   for (const char* lines :
        {"quantity = \"1\"\ntolerence = 1", "quantity = \"1\"\nexpected = 1", "at_most = 1",

@@ -55,7 +55,7 @@ void register_example(const std::filesystem::path& folder, const Options& option
       std::make_shared<Judge>(example, Runner(std::filesystem::absolute(options.command),
                                               std::filesystem::absolute(options.scratch), options.reuse));
   for (const CheckSpec& check : example.checks) {
-    if (!nightly && example.run(check.run).label == Label::nightly) continue;
+    if (!nightly && check.label == Label::nightly) continue;
     testing::RegisterTest(example.folder.filename().string().c_str(), check.name.c_str(), nullptr, nullptr,
                           __FILE__, __LINE__, [judge, check, csv = options.csv]() -> CheckTest* {
                             return new CheckTest(judge, check, csv);  // owned by GoogleTest
