@@ -1,0 +1,30 @@
+// One step of a scene, tried and then committed or dropped. Each stepper holds exactly the parts it drives.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace splashdown::coupling {
+
+struct StepReport {
+  std::string cause;    ///< why the step must be refused; empty: it may be committed
+  int passes = 0;       ///< coupling passes
+  double residual = 0;  ///< of the interface velocities, relative [-]
+  bool ok() const { return cause.empty(); }
+};
+
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual double time() const = 0;
+  virtual double stable_dt() const = 0;
+  virtual StepReport attempt(double dt) = 0;  ///< begin + solve, always from t_n
+  virtual void commit() = 0;                  ///< accepts the last attempt
+  virtual std::vector<std::pair<std::string, double>> phase_seconds() const = 0;
+  virtual void save(std::ostream& out) const = 0;
+  virtual void load(std::istream& in) = 0;
+};
+
+}  // namespace splashdown::coupling

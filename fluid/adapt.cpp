@@ -1,0 +1,208 @@
+#include "fluid/adapt.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <unordered_set>
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double split_above = 1.5;
+constexpr double merge_below = 0.45;
+constexpr double crowd_below = 0.25;  // height of an inner node over a boundary facet, over h
+
+struct Edge {
+  int a, b;
+  double ratio;  // length over element size
+};
+
+std::uint64_t key(int a, int b) {
+  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+template <int d>
+class Adapter {
+ public:
+  Adapter(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls)
+      : nodes_(nodes), h_(h), mesh_(mesh), walls_(walls), on_boundary_(nodes.size(), 0), into_(nodes.size()) {
+    for (std::size_t i = 0; i < into_.size(); ++i) into_[i] = static_cast<int>(i);
+    for (const auto& f : mesh.boundary)
+      for (int a = 0; a < d; ++a) {
+        on_boundary_[f.nodes[a]] = 1;
+        for (int b = a + 1; b < d; ++b) boundary_edges_.insert(key(f.nodes[a], f.nodes[b]));
+      }
+  }
+
+  AdaptReport<d> run() {
+    collect();
+    touched_.assign(nodes_.size(), 0);
+    uncrowd();
+    merge();
+    split();
+    compact();
+    return report_;
+  }
+
+ private:
+  bool is_boundary_edge(int a, int b) const {
+    return on_boundary_[a] && on_boundary_[b] && boundary_edges_.contains(key(a, b));
+  }
+
+  // Each inner edge is met in several cells; only candidates are kept, duplicates fall to `touched_`.
+  void collect() {
+    for (const auto& cell : mesh_.cells)
+      for (int i = 0; i < d; ++i)
+        for (int j = i + 1; j <= d; ++j) {
+          const int a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
+          const double ratio = (nodes_.x[a] - nodes_.x[b]).norm() / (0.5 * (h_[a] + h_[b]));
+          if (ratio > split_above) long_.push_back({a, b, ratio});
+          if (ratio < merge_below) short_.push_back({a, b, ratio});
+        }
+    auto order = [](const Edge& p, const Edge& q) {
+      return p.ratio != q.ratio ? p.ratio < q.ratio : key(p.a, p.b) < key(q.a, q.b);
+    };
+    std::sort(short_.begin(), short_.end(), order);
+    std::sort(long_.begin(), long_.end(), [&](const Edge& p, const Edge& q) { return order(q, p); });
+  }
+
+  void remove(int gone, int kept) {
+    into_[gone] = kept;
+    touched_[gone] = touched_[kept] = 1;
+    ++report_.removed;
+  }
+
+  // An inner node close to a boundary facet makes a flat cell there, the harmful sliver of PFEM.
+  void uncrowd() {
+    for (const auto& cell : mesh_.cells) {
+      int inner = -1, count = 0;
+      for (int k = 0; k <= d; ++k)
+        if (!on_boundary_[cell[k]]) inner = k, ++count;
+      if (count != 1 || touched_[cell[inner]]) continue;
+      bool facet_on_boundary = true;
+      for (int i = 0; i <= d; ++i)
+        for (int j = i + 1; j <= d; ++j)
+          if (i != inner && j != inner) facet_on_boundary = facet_on_boundary && is_boundary_edge(cell[i], cell[j]);
+      if (!facet_on_boundary) continue;
+      const auto g = volume_gradients<d>(corners(nodes_.x, cell));
+      const double height = volume<d>(corners(nodes_.x, cell)) / g.col(inner).norm();
+      if (height < crowd_below * h_[cell[inner]]) remove(cell[inner], cell[inner == 0 ? 1 : 0]);
+    }
+  }
+
+  int rank(int i) const {
+    if (nodes_.tie[i].vertex >= 0) return 4;
+    if (nodes_.tie[i].wall >= 0 && nodes_.surface[i]) return 3;
+    return on_boundary_[i] ? 2 : 0;
+  }
+
+  void merge() {
+    for (const Edge& e : short_) {
+      if (touched_[e.a] || touched_[e.b]) continue;
+      const int rank_a = rank(e.a), rank_b = rank(e.b);
+      const bool both_boundary = rank_a > 0 && rank_b > 0;
+      if (both_boundary && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
+      if (rank_a == rank_b) {
+        if (rank_a > 2 || !(nodes_.tie[e.a] == nodes_.tie[e.b])) continue;
+        nodes_.x[e.a] = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);
+        nodes_.v[e.a] = 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]);
+        nodes_.p[e.a] = 0.5 * (nodes_.p[e.a] + nodes_.p[e.b]);
+        attach(e.a);
+        remove(e.b, e.a);
+      } else if (rank_a > rank_b) {
+        remove(e.b, e.a);
+      } else {
+        remove(e.a, e.b);
+      }
+    }
+    for (auto& f : mesh_.boundary)
+      for (int& n : f.nodes) n = into_[n];
+    std::erase_if(mesh_.boundary, [](const Facet<d>& f) {
+      for (int a = 0; a < d; ++a)
+        for (int b = a + 1; b < d; ++b)
+          if (f.nodes[a] == f.nodes[b]) return true;
+      return false;
+    });
+  }
+
+  void attach(int i) {
+    const int w = nodes_.tie[i].wall;
+    if (w < 0) return;
+    nodes_.x[i] = walls_.walls[w].nearest(walls_.poses[w], nodes_.x[i], walls_.walls[w].box().diagonal().norm()).point;
+  }
+
+  void split() {
+    for (const Edge& e : long_) {
+      if (touched_[e.a] || touched_[e.b]) continue;
+      touched_[e.a] = touched_[e.b] = 1;
+      const bool boundary = is_boundary_edge(e.a, e.b);
+      const WallTie a = nodes_.tie[e.a], b = nodes_.tie[e.b];
+      WallTie tie;
+      bool surface = false;
+      if (boundary) {
+        for (const auto& f : mesh_.boundary)
+          if (has(f, e.a) && has(f, e.b)) {
+            if (f.wall < 0) surface = true;
+            if (f.wall >= 0 && a.wall == f.wall && b.wall == f.wall) tie.wall = f.wall;
+          }
+      }
+      const int m = nodes_.add(0.5 * (nodes_.x[e.a] + nodes_.x[e.b]), 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]),
+                               0.5 * (nodes_.p[e.a] + nodes_.p[e.b]), tie, surface);
+      h_.push_back(0.5 * (h_[e.a] + h_[e.b]));
+      into_.push_back(m);
+      attach(m);
+      ++report_.inserted;
+      if (boundary) split_facets(e, m);
+    }
+  }
+
+  static bool has(const Facet<d>& f, int n) { return std::find(f.nodes.begin(), f.nodes.end(), n) != f.nodes.end(); }
+
+  void split_facets(const Edge& e, int m) {
+    const std::size_t count = mesh_.boundary.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!has(mesh_.boundary[i], e.a) || !has(mesh_.boundary[i], e.b)) continue;
+      Facet<d> other = mesh_.boundary[i];
+      std::replace(mesh_.boundary[i].nodes.begin(), mesh_.boundary[i].nodes.end(), e.a, m);
+      std::replace(other.nodes.begin(), other.nodes.end(), e.b, m);
+      mesh_.boundary.push_back(other);
+    }
+  }
+
+  void compact() {
+    if (report_.removed == 0) return;
+    std::vector<int> order;
+    std::vector<int> renumber(nodes_.size(), -1);
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (into_[i] == static_cast<int>(i)) {
+        renumber[i] = static_cast<int>(order.size());
+        order.push_back(static_cast<int>(i));
+      }
+    nodes_.select(order);
+    for (std::size_t i = 0; i < order.size(); ++i) h_[i] = h_[order[i]];
+    h_.resize(order.size());
+    for (auto& f : mesh_.boundary)
+      for (int& n : f.nodes) n = renumber[n];
+  }
+
+  Nodes<d>& nodes_;
+  std::vector<double>& h_;
+  Mesh<d>& mesh_;
+  const WallsAt<d>& walls_;
+  std::vector<char> on_boundary_, touched_;
+  std::vector<int> into_;
+  std::unordered_set<std::uint64_t> boundary_edges_;
+  std::vector<Edge> long_, short_;
+  AdaptReport<d> report_;
+};
+
+}  // namespace
+
+template <int d>
+AdaptReport<d> adapt(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls) {
+  return Adapter<d>(nodes, h, mesh, walls).run();
+}
+
+template AdaptReport<2> adapt(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&);
+template AdaptReport<3> adapt(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&);
+
+}  // namespace splashdown::fluid

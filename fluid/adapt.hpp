@@ -1,0 +1,24 @@
+// Keeps the node spacing near the size field: splits long edges, merges short ones, deletes inner nodes
+// that crowd a boundary. Works on the old mesh with its moved nodes; the closed boundary stays closed.
+//
+// Split at the midpoint above 1.5 h, merge below 0.45 h: a split edge is not merged again, a merged one
+// not split. Velocities are averaged, so a merge keeps momentum to second order.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/recognise.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+struct AdaptReport {
+  int inserted = 0, removed = 0;
+};
+
+/// Changes nodes and boundary (mesh.cells become stale) and renumbers; `h` is resized to the new nodes.
+template <int d>
+AdaptReport<d> adapt(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls);
+
+}  // namespace splashdown::fluid

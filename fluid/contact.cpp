@@ -1,0 +1,163 @@
+#include "fluid/contact.hpp"
+
+#include <limits>
+
+#include "fluid/inside.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double on_facet = 0.02;  // a sharp vertex this close to a wetted facet (over h) lies on it
+constexpr double snap = 0.3;       // a boundary node this close to a sharp vertex (over h) moves onto it
+
+template <int d>
+double diameter(const Wall<d>& wall) {
+  return wall.box().diagonal().norm();
+}
+
+template <int d>
+void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& at) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!(nodes.surface[i] || nodes.spray[i]) || nodes.tie[i].wall >= 0) continue;
+    for (std::size_t w = 0; w < at.walls.size(); ++w) {
+      // Drops may cross more than an element in a step, surface nodes may not.
+      const double reach = nodes.spray[i] ? diameter(at.walls[w]) : h[i];
+      const auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
+      if (near.distance > 0) continue;
+      nodes.x[i] = near.point;
+      nodes.tie[i] = {static_cast<int>(w), -1};
+      break;
+    }
+  }
+}
+
+template <int d>
+struct FacetHit {
+  int facet = -1;
+  double distance = 0;
+};
+
+// Few vertices are asked for, so looking at all facets is cheaper than building a tree.
+template <int d>
+FacetHit<d> nearest_facet(const Nodes<d>& nodes, const Mesh<d>& mesh, const Vec<d>& point) {
+  FacetHit<d> best{-1, std::numeric_limits<double>::max()};
+  for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = nodes.x[mesh.boundary[f].nodes[k]];
+    const double distance = (closest_on(corner, point) - point).norm();
+    if (distance < best.distance) best = {static_cast<int>(f), distance};
+  }
+  return best;
+}
+
+template <int d>
+void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int facet, const Vec<d>& point, WallTie tie) {
+  const Facet<d> old = mesh.boundary[facet];
+  Vec<d> v = Vec<d>::Zero();
+  double p = 0, size = 0;
+  for (int n : old.nodes) v += nodes.v[n] / d, p += nodes.p[n] / d, size += h[n] / d;
+  const int m = nodes.add(point, v, p, tie, old.wall < 0);
+  h.push_back(size);
+  for (int k = 0; k < d; ++k) {
+    Facet<d> part = old;
+    part.nodes[k] = m;
+    if (k == 0)
+      mesh.boundary[facet] = part;
+    else
+      mesh.boundary.push_back(part);
+  }
+}
+
+template <int d>
+void occupy_sharp_vertices(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+  for (std::size_t w = 0; w < at.walls.size(); ++w) {
+    std::vector<char> taken(at.walls[w].spec().surface.vertices.cols(), 0);
+    for (const WallTie& t : nodes.tie)
+      if (t.wall == static_cast<int>(w) && t.vertex >= 0) taken[t.vertex] = 1;
+    for (int v : at.walls[w].sharp_vertices()) {
+      if (taken[v]) continue;
+      const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
+      const auto hit = nearest_facet(nodes, mesh, point);
+      if (hit.facet < 0) continue;
+      const Facet<d>& f = mesh.boundary[hit.facet];
+      int closest = f.nodes[0];
+      bool touches = f.wall == static_cast<int>(w);
+      for (int n : f.nodes) {
+        touches = touches || nodes.tie[n].wall == static_cast<int>(w);
+        if ((nodes.x[n] - point).norm() < (nodes.x[closest] - point).norm()) closest = n;
+      }
+      const double size = h[closest];
+      const bool arrived = hit.distance < (touches ? on_facet : 1e-9) * size ||
+                           (hit.distance < 2 * size && InsideTest<d>(nodes.x, mesh.boundary)(point));
+      if (!arrived) continue;
+      const WallTie tie{static_cast<int>(w), v};
+      if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
+        nodes.x[closest] = point;
+        nodes.tie[closest] = tie;
+      } else {
+        split_facet(nodes, h, mesh, hit.facet, point, tie);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <int d>
+void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls) {
+  tie_arrivals<d>(nodes, h, walls);
+  occupy_sharp_vertices(nodes, h, mesh, walls);
+}
+
+template <int d>
+WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls)
+    : nodes_(nodes), walls_(walls.walls), wetted_(nodes.size(), 0), attached_vertex_(walls.walls.size()) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes.tie[i].wall >= 0) tied_.push_back(static_cast<int>(i));
+  for (const auto& f : mesh.boundary) {
+    if (f.wall < 0) continue;
+    for (int n : f.nodes) wetted_[n] = 1;
+    for (int k = 0; k < d; ++k) {
+      const int n = f.nodes[k];
+      if (nodes.tie[n].vertex >= 0 && nodes.surface[n]) separations_.push_back({n, f.nodes[(k + 1) % d]});
+    }
+  }
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    attached_vertex_[w].assign(walls_[w].spec().surface.vertices.cols(), 0);
+  for (int i : tied_)
+    if (nodes.tie[i].vertex >= 0 && !nodes.surface[i]) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = 1;
+}
+
+template <int d>
+void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const {
+  const std::size_t count = nodes_.size();
+  out.x.resize(count);
+  out.u.assign(v.begin(), v.end());
+  out.released.assign(count, 0);
+  for (std::size_t i = 0; i < count; ++i) out.x[i] = nodes_.x[i] + dt * v[i];
+  for (int i : tied_) {
+    const WallTie tie = nodes_.tie[i];
+    const Wall<d>& wall = walls_[tie.wall];
+    if (tie.vertex >= 0 && wetted_[i]) {
+      out.x[i] = wall.vertex(poses[tie.wall], tie.vertex);
+    } else {
+      const auto near = wall.nearest(poses[tie.wall], out.x[i], diameter(wall));
+      const bool passes_edge = tie.vertex < 0 && near.vertex >= 0 && near.distance > 0 &&
+                               !attached_vertex_[tie.wall][near.vertex];
+      if (passes_edge || (!wetted_[i] && near.distance > 0)) {
+        out.released[i] = 1;
+        continue;
+      }
+      out.x[i] = tie.vertex >= 0 ? wall.vertex(poses[tie.wall], tie.vertex) : near.point;
+    }
+    out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
+  }
+  for (const Separation& s : separations_) out.u[s.at] = out.u[s.upstream];
+}
+
+template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&);
+template void wet(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&);
+template class WallMotion<2>;
+template class WallMotion<3>;
+
+}  // namespace splashdown::fluid

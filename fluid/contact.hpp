@@ -1,0 +1,47 @@
+// Where fluid meets walls: nodes that reach a wall slide on it, sharp edges and keels keep a node, nodes
+// that pass a sharp edge or part from the wall leave it. Only fluid carries nodes: there are no dry wall
+// nodes, so no cell spans a gap and contact neither creates volume nor happens early.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/recognise.hpp"
+
+namespace splashdown::fluid {
+
+/// Ties surface and spray nodes that have reached a wall; puts nodes at wetted sharp vertices.
+template <int d>
+void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls);
+
+/// What ties nodes to walls on one mesh.
+template <int d>
+class WallMotion {
+ public:
+  WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls);
+
+  struct Moved {
+    std::vector<Vec<d>> x;      ///< at t_{n+1}
+    std::vector<Vec<d>> u;      ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
+                                ///< velocity at an edge where the flow separates
+    std::vector<char> released; ///< 1: parts from its wall
+  };
+  /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
+  void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
+
+ private:
+  const Nodes<d>& nodes_;
+  std::span<const Wall<d>> walls_;
+  std::vector<int> tied_;
+  std::vector<char> wetted_;  // node has a wetted facet
+  struct Separation {
+    int at, upstream;  // node on a sharp vertex, wetted neighbour it takes its velocity from
+  };
+  std::vector<Separation> separations_;
+  std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
+};
+
+extern template class WallMotion<2>;
+extern template class WallMotion<3>;
+
+}  // namespace splashdown::fluid

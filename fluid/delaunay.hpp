@@ -1,0 +1,27 @@
+// Delaunay triangulation of the nodes (CGAL, plain, never Alpha_shape_*: that sorts all alpha values).
+// O(n log n); 0.5 us a node in 2D, 4 us in 3D on a 2.6 GHz core.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "fluid/types.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+struct Delaunay {
+  std::vector<std::array<int, d + 1>> cells;       ///< positively oriented
+  std::vector<std::array<int, d + 1>> neighbours;  ///< cell opposite to each corner, -1 beyond the hull
+};
+
+/// Points that coincide with an earlier one belong to no cell.
+template <int d>
+Delaunay<d> delaunay(std::span<const Vec<d>> points);
+
+/// Order of the points along a space-filling curve.
+template <int d>
+std::vector<std::size_t> spatial_order(std::span<const Vec<d>> points);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,48 @@
+// Nearest facet of a simplicial surface: a bounding-box tree, O(log n) a query, O(n log n) to build.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fluid/types.hpp"
+
+namespace splashdown::fluid {
+
+/// Closest point of a facet.
+Vec<2> closest_on(const std::array<Vec<2>, 2>& facet, const Vec<2>& x);
+Vec<3> closest_on(const std::array<Vec<3>, 3>& facet, const Vec<3>& x);
+
+template <int d>
+class FacetTree {
+ public:
+  struct Hit {
+    int facet = -1;
+    Vec<d> point = Vec<d>::Zero();  ///< closest point on the surface
+    double squared_distance = 0;
+  };
+
+  FacetTree() = default;
+  FacetTree(Eigen::Matrix<double, d, Eigen::Dynamic> vertices, Eigen::Matrix<int, d, Eigen::Dynamic> facets);
+
+  bool empty() const { return order_.empty(); }
+  /// Closest point nearer than `reach`; facet = -1 if there is none.
+  Hit nearest(const Vec<d>& x, double reach) const;
+
+ private:
+  using Box = Eigen::AlignedBox<double, d>;
+  struct Branch {
+    Box box;
+    int first, count;  // leaf: facets order_[first, first + count); else count = 0, children first, first + 1
+  };
+  void build(int branch, int first, int count, std::vector<Vec<d>>& centre);
+
+  Eigen::Matrix<double, d, Eigen::Dynamic> vertices_;
+  Eigen::Matrix<int, d, Eigen::Dynamic> facets_;
+  std::vector<int> order_;
+  std::vector<Branch> branches_;
+};
+
+extern template class FacetTree<2>;
+extern template class FacetTree<3>;
+
+}  // namespace splashdown::fluid

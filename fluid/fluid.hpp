@@ -1,0 +1,102 @@
+// Inviscid or viscous incompressible fluid with a free surface by the particle finite element method.
+//
+//   rho Dv/Dt + grad p = rho g + ...,   div v = 0,   p = 0 on the free surface,   v.n = w.n on walls
+//
+// Linear simplices, lumped mass, fractional step. Leapfrog in time: velocities live at half steps,
+// positions at whole ones; the pressure impulse phi = kick * p makes the motion from x_n to x_{n+1}
+// volume preserving on the mesh of t_n (SHAKE, Ryckaert, Ciccotti, Berendsen 1977, applied to volumes).
+// Second order in time. docs/theory.md derives it; docs/validation.md measures it.
+//
+//   begin    remesh at t_n, fill and factor the pressure matrix
+//   solve    predict, repair, pressure, correct, for given wall velocities; repeatable
+//   commit   move the nodes, t_n <- t_{n+1}
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fluid/mesh.hpp"
+#include "fluid/nodes.hpp"
+#include "fluid/pressure.hpp"
+#include "fluid/spec.hpp"
+#include "fluid/term.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+struct WallLoad {
+  Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick, from the acceleration pressure
+  Wrench<d> repair = Wrench<d>::Zero();    ///< mean over the kick, from the repair impulse
+  double wetted = 0;                       ///< wetted length (2D) or area (3D) [m, m^2]
+  Wrench<d> total() const { return physical + repair; }
+};
+
+/// Why a step may be refused. `cause` is empty when all is well.
+struct Status {
+  std::string cause;
+  bool ok() const { return cause.empty(); }
+};
+
+/// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D].
+struct Ledger {
+  double volume_initial = 0, volume = 0;
+  double time_integration = 0;   ///< volume change by moving nodes
+  double remesh_created = 0;     ///< volume gained when the boundary was recognised anew
+  double remesh_deleted = 0;     ///< volume lost there (negative)
+  double spray = 0;              ///< volume now carried by separated drops
+  double kinetic_energy = 0, potential_energy = 0;
+  double energy_remesh = 0;      ///< kinetic energy changed by node insertion and removal
+  double energy_repair = 0;      ///< kinetic energy taken by repair impulses
+  double work_on_walls = 0;      ///< integral of load . wall velocity
+};
+
+template <int d>
+class Fluid {
+ public:
+  Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms);
+  ~Fluid();
+
+  double time() const;       ///< t_n
+  double stable_dt() const;  ///< largest dt the criterion allows from t_n
+
+  Status begin(double kick, double dt, std::span<const WallResponse<d>> responses);
+  /// `walls`: half-step velocity each wall would have without the fluid's load where its rigid response
+  /// is given, with it where it is not. `previous`: interface_impulse() of the previous pass, for walls
+  /// with an interface Laplacian; empty in the first pass.
+  Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {});
+  /// Pressure impulse of the last solve, one entry an unknown of the pressure equation [Pa s].
+  std::span<const double> interface_impulse() const;
+  std::span<const WallLoad<d>> loads() const;          ///< of the last solve
+  std::span<const Twist<d>> wall_velocities() const;   ///< half-step velocities the last solve ended with
+  /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
+  void commit(std::span<const Isometry<d>> poses);
+
+  const FluidSpec<d>& spec() const;
+  const Nodes<d>& nodes() const;
+  const Mesh<d>& mesh() const;
+  const Ledger& ledger() const;
+  std::span<const Isometry<d>> wall_poses() const;  ///< at t_n
+  /// Velocity at t_n: mean of the half-step velocities around it.
+  Vec<d> velocity_n(std::size_t node) const;
+  /// Pressure at a point at t_n; nothing where there is no fluid.
+  std::optional<double> pressure_at(const Vec<d>& point) const;
+  const std::vector<std::unique_ptr<Term<d>>>& terms() const;
+  /// Seconds spent so far per phase: remesh, assemble, momentum, pressure, move.
+  std::vector<std::pair<std::string, double>> phase_seconds() const;
+
+  void save(std::ostream& out) const;  ///< bit-exact state at t_n
+  void load(std::istream& in);
+
+ private:
+  struct State;
+  std::unique_ptr<State> s_;
+};
+
+extern template class Fluid<2>;
+extern template class Fluid<3>;
+
+}  // namespace splashdown::fluid

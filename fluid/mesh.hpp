@@ -1,0 +1,44 @@
+// Cells and boundary facets between the nodes at t_n.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fluid/geometry.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+struct Facet {
+  std::array<int, d> nodes;  ///< oriented: the area vector points out of the fluid
+  int wall = -1;             ///< the wall it is wetted by, -1: free surface
+};
+
+template <int d>
+struct Mesh {
+  std::vector<std::array<int, d + 1>> cells;  ///< positively oriented simplices
+  std::vector<Facet<d>> boundary;
+};
+
+/// Corner reader of a cell or facet for the functions of geometry.hpp.
+template <class Positions, class Indices>
+auto corners(const Positions& x, const Indices& nodes) {
+  return [&x, &nodes](int k) { return x[nodes[k]]; };
+}
+
+template <int d, class Positions>
+Vec<d> area_vector_of(const Facet<d>& f, const Positions& x) {
+  std::array<Vec<d>, d> corner;
+  for (int k = 0; k < d; ++k) corner[k] = x[f.nodes[k]];
+  return area_vector(corner);
+}
+
+/// Volume enclosed by a closed set of facets: (1/d) sum of x . A.
+template <int d, class Positions>
+double enclosed_volume(const std::vector<Facet<d>>& facets, const Positions& x) {
+  double volume_sum = 0;
+  for (const auto& f : facets) volume_sum += x[f.nodes[0]].dot(area_vector_of<d>(f, x)) / d;
+  return volume_sum;
+}
+
+}  // namespace splashdown::fluid

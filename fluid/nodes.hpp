@@ -1,0 +1,49 @@
+// The fluid's particles, one array per quantity.
+#pragma once
+
+#include <vector>
+
+#include "fluid/types.hpp"
+
+namespace splashdown::fluid {
+
+/// A node is free, or slides on a wall (wall >= 0), or sits on one of that wall's sharp vertices.
+struct WallTie {
+  int wall = -1;    ///< index of the wall, -1: none
+  int vertex = -1;  ///< index of the wall's surface vertex the node is fixed to, -1: slides
+  bool operator==(const WallTie&) const = default;
+};
+
+template <int d>
+struct Nodes {
+  std::vector<Vec<d>> x;       ///< position at t_n [m]
+  std::vector<Vec<d>> v;       ///< velocity at t_{n-1/2} [m/s]
+  std::vector<double> p;       ///< pressure at t_n [Pa]
+  std::vector<WallTie> tie;    ///< wall contact
+  std::vector<char> surface;   ///< 1: on the free surface (p = 0)
+  std::vector<char> spray;     ///< 1: belongs to no cell, flies ballistically
+
+  std::size_t size() const { return x.size(); }
+
+  int add(const Vec<d>& position, const Vec<d>& velocity, double pressure, WallTie t, bool on_surface) {
+    x.push_back(position);
+    v.push_back(velocity);
+    p.push_back(pressure);
+    tie.push_back(t);
+    surface.push_back(on_surface);
+    spray.push_back(0);
+    return static_cast<int>(x.size()) - 1;
+  }
+
+  /// Keeps the nodes named in `order`, in that order.
+  void select(const std::vector<int>& order) {
+    auto pick = [&](auto& values) {
+      std::remove_reference_t<decltype(values)> picked(order.size());
+      for (std::size_t i = 0; i < order.size(); ++i) picked[i] = values[order[i]];
+      values.swap(picked);
+    };
+    pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(spray);
+  }
+};
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,255 @@
+#include "fluid/pressure.hpp"
+
+#include <algorithm>
+
+namespace splashdown::fluid {
+namespace {
+
+/// |f| grad_s N_a . grad_s N_b on a facet.
+template <int d>
+Mat<d> facet_laplacian(const std::array<Vec<d>, d>& corner) {
+  Eigen::Matrix<double, d, d - 1> E;
+  for (int k = 0; k + 1 < d; ++k) E.col(k) = corner[k + 1] - corner[0];
+  const Eigen::Matrix<double, d - 1, d - 1> gram = E.transpose() * E;
+  Eigen::Matrix<double, d, d> g;  // columns: surface gradients of N
+  g.template rightCols<d - 1>() = E * gram.inverse();
+  g.col(0) = -g.template rightCols<d - 1>().rowwise().sum();
+  return g.transpose() * g * area_vector(corner).norm();
+}
+
+}  // namespace
+
+template <int d>
+bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density,
+                                std::span<const Vec<d>> centres, std::span<const WallResponse<d>> responses) {
+  nodes_ = &nodes;
+  mesh_ = &mesh;
+  density_ = density;
+  unknown_.assign(nodes.size(), -1);
+  node_.clear();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!nodes.surface[i] && !nodes.spray[i]) {
+      unknown_[i] = static_cast<int>(node_.size());
+      node_.push_back(static_cast<int>(i));
+    }
+  lumped_.assign(nodes.size(), 0.0);
+  gradients_.resize(mesh.cells.size());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto at = corners(nodes.x, mesh.cells[c]);
+    gradients_[c] = volume_gradients<d>(at);
+    const double share = (at(d) - at(0)).dot(gradients_[c].col(d)) / (d + 1);
+    for (int n : mesh.cells[c]) lumped_[n] += share;
+  }
+  wall_modes(centres);
+  laplacian_.resize(responses.size());
+  for (std::size_t w = 0; w < responses.size(); ++w) laplacian_[w] = responses[w].laplacian;
+  fill_pattern();
+  assemble(density, responses);
+  if (size() == 0) return true;
+  if (!solver_.factor(matrix_)) return false;
+
+  responding_.clear();
+  for (std::size_t w = 0; w < responses.size(); ++w)
+    if (!responses[w].rigid.isZero(0) && !modes_[w].empty()) responding_.push_back(w);
+  constexpr int m = freedoms<d>;
+  const int columns = static_cast<int>(responding_.size()) * m;
+  Y_.setZero(size(), columns);
+  C_.setZero(columns, columns);
+  for (std::size_t k = 0; k < responding_.size(); ++k) {
+    for (const Mode& mode : modes_[responding_[k]]) Y_.row(mode.unknown).segment(k * m, m) += mode.row.transpose();
+    C_.block(k * m, k * m, m, m) = responses[responding_[k]].rigid;
+  }
+  if (columns == 0) return true;
+  if (!solver_.solve({Y_.data(), static_cast<std::size_t>(Y_.size())}, columns)) return false;
+  added_mass_.setZero(columns, columns);
+  for (std::size_t k = 0; k < responding_.size(); ++k)
+    for (const Mode& mode : modes_[responding_[k]])
+      added_mass_.middleRows(k * m, m) += mode.row * Y_.row(mode.unknown);
+  elimination_ = (Eigen::MatrixXd::Identity(columns, columns) + C_ * added_mass_).inverse() * C_;
+  return true;
+}
+
+template <int d>
+void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
+  modes_.resize(centres.size());
+  for (auto& m : modes_) m.clear();
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall < 0) continue;
+    // int N_a n dA with the arm varying linearly along the facet: consistent facet mass matrix.
+    const Vec<d> area = area_vector_of<d>(f, nodes_->x);
+    Vec<d> sum = Vec<d>::Zero();
+    for (int n : f.nodes) sum += nodes_->x[n] - centres[f.wall];
+    for (int n : f.nodes) {
+      if (unknown_[n] < 0) continue;
+      const Vec<d> arm = (sum + nodes_->x[n] - centres[f.wall]) / (d + 1);
+      modes_[f.wall].push_back({unknown_[n], wrench_of<d>(arm, area / d)});
+    }
+  }
+}
+
+// Sparsity from the cells around each node; columns come out sorted because unknowns are visited in order.
+template <int d>
+void PressureEquation<d>::fill_pattern() {
+  const auto& cells = mesh_->cells;
+  cells_start_.assign(size() + 1, 0);
+  for (const auto& cell : cells)
+    for (int n : cell)
+      if (unknown_[n] >= 0) ++cells_start_[unknown_[n] + 1];
+  for (int i = 0; i < size(); ++i) cells_start_[i + 1] += cells_start_[i];
+  cells_of_.resize(cells_start_.back());
+  marker_.assign(cells_start_.begin(), cells_start_.end());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (int n : cells[c])
+      if (unknown_[n] >= 0) cells_of_[marker_[unknown_[n]]++] = static_cast<int>(c);
+
+  matrix_.column_start.assign(size() + 1, 0);
+  matrix_.row.clear();
+  marker_.assign(size(), -1);
+  for (int i = 0; i < size(); ++i) {
+    const std::size_t first = matrix_.row.size();
+    matrix_.row.push_back(i);
+    marker_[i] = i;
+    for (int k = cells_start_[i]; k < cells_start_[i + 1]; ++k)
+      for (int n : cells[cells_of_[k]]) {
+        const int j = unknown_[n];
+        if (j <= i || marker_[j] == i) continue;
+        marker_[j] = i;
+        matrix_.row.push_back(j);
+      }
+    std::sort(matrix_.row.begin() + static_cast<std::ptrdiff_t>(first), matrix_.row.end());
+    matrix_.column_start[i + 1] = static_cast<int>(matrix_.row.size());
+  }
+  matrix_.value.assign(matrix_.row.size(), 0.0);
+}
+
+template <int d>
+double& PressureEquation<d>::entry(int i, int j) {
+  if (i < j) std::swap(i, j);
+  int k = matrix_.column_start[j];
+  while (matrix_.row[k] != i) ++k;
+  return matrix_.value[k];
+}
+
+template <int d>
+void PressureEquation<d>::assemble(double density, std::span<const WallResponse<d>> responses) {
+  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
+    const auto& cell = mesh_->cells[c];
+    const auto& g = gradients_[c];
+    const auto at = corners(nodes_->x, cell);
+    const double scale = 1.0 / (density * (at(d) - at(0)).dot(g.col(d)));
+    for (int a = 0; a <= d; ++a) {
+      const int i = unknown_[cell[a]];
+      if (i < 0) continue;
+      for (int b = 0; b <= a; ++b) {
+        const int j = unknown_[cell[b]];
+        if (j >= 0) entry(i, j) += scale * g.col(a).dot(g.col(b));
+      }
+    }
+  }
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall < 0 || responses[f.wall].laplacian == 0) continue;
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = nodes_->x[f.nodes[k]];
+    const Mat<d> K = responses[f.wall].laplacian * facet_laplacian<d>(corner);
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b <= a; ++b) {
+        const int i = unknown_[f.nodes[a]], j = unknown_[f.nodes[b]];
+        if (i >= 0 && j >= 0) entry(i, j) += K(a, b);
+      }
+  }
+}
+
+template <int d>
+void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v,
+                                        std::span<const Twist<d>> s, std::span<const Vec<d>> centres,
+                                        std::vector<double>& r) const {
+  r.assign(size(), 0.0);
+  for (const auto& cell : mesh_->cells) {
+    const auto g = volume_gradients<d>(corners(x, cell));
+    Vec<d> mean = Vec<d>::Zero();
+    for (int n : cell) mean += v[n];
+    mean /= d + 1;
+    for (int k = 0; k <= d; ++k)
+      if (unknown_[cell[k]] >= 0) r[unknown_[cell[k]]] += g.col(k).dot(mean);
+  }
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall < 0) continue;
+    const Vec<d> area = area_vector_of<d>(f, x) / (d * (d + 1));
+    Vec<d> sum = Vec<d>::Zero();
+    std::array<Vec<d>, d> w;
+    for (int k = 0; k < d; ++k) sum += w[k] = rigid_velocity<d>(s[f.wall], x[f.nodes[k]] - centres[f.wall]);
+    for (int k = 0; k < d; ++k)
+      if (unknown_[f.nodes[k]] >= 0) r[unknown_[f.nodes[k]]] -= area.dot(sum + w[k]);
+  }
+}
+
+template <int d>
+void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u,
+                                          std::vector<double>& r) const {
+  r.assign(size(), 0.0);
+  for (const auto& cell : mesh_->cells) {
+    const auto g = volume_gradients<d>(corners(x, cell));
+    double rate = 0;
+    for (int k = 0; k <= d; ++k) rate += g.col(k).dot(u[cell[k]]);
+    rate /= d + 1;
+    for (int n : cell)
+      if (unknown_[n] >= 0) r[unknown_[n]] -= rate;
+  }
+}
+
+template <int d>
+bool PressureEquation<d>::solve(std::vector<double>& r, std::span<Twist<d>> s) {
+  if (size() == 0) return true;
+  if (!solver_.solve(r)) return false;
+  if (responding_.empty()) return true;
+  constexpr int m = freedoms<d>;
+  Eigen::VectorXd load(Y_.cols());
+  for (std::size_t k = 0; k < responding_.size(); ++k) {
+    Wrench<d> b = Wrench<d>::Zero();
+    for (const Mode& mode : modes_[responding_[k]]) b += mode.row * r[mode.unknown];
+    load.segment(k * m, m) = b;
+  }
+  const Eigen::VectorXd change = elimination_ * load;
+  Eigen::Map<Eigen::VectorXd>(r.data(), size()) -= Y_ * change;
+  for (std::size_t k = 0; k < responding_.size(); ++k) s[responding_[k]] += change.segment(k * m, m);
+  return true;
+}
+
+template <int d>
+void PressureEquation<d>::add_laplacian(std::span<const double> phi, std::vector<double>& r) const {
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall < 0 || laplacian_[f.wall] == 0) continue;
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = nodes_->x[f.nodes[k]];
+    const Mat<d> K = laplacian_[f.wall] * facet_laplacian<d>(corner);
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b < d; ++b) {
+        const int i = unknown_[f.nodes[a]], j = unknown_[f.nodes[b]];
+        if (i >= 0 && j >= 0) r[i] += K(a, b) * phi[j];
+      }
+  }
+}
+
+template <int d>
+void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<d>> v) const {
+  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
+    const auto& cell = mesh_->cells[c];
+    Vec<d> gradient = Vec<d>::Zero();
+    for (int k = 0; k <= d; ++k)
+      if (unknown_[cell[k]] >= 0) gradient += gradients_[c].col(k) * phi[unknown_[cell[k]]];
+    gradient /= density_ * (d + 1);
+    for (int n : cell) v[n] -= gradient / lumped_[n];
+  }
+}
+
+template <int d>
+Wrench<d> PressureEquation<d>::impulse(std::size_t wall, std::span<const double> phi) const {
+  Wrench<d> load = Wrench<d>::Zero();
+  for (const Mode& mode : modes_[wall]) load += mode.row * phi[mode.unknown];
+  return load;
+}
+
+template class PressureEquation<2>;
+template class PressureEquation<3>;
+
+}  // namespace splashdown::fluid

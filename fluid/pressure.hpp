@@ -1,0 +1,93 @@
+// The pressure equation on the mesh of t_n, for impulses phi = kick * p [Pa s]:
+//
+//   int grad q . grad phi / rho  [+ q B^T C B phi]  [+ lambda int_wall grad_s q . grad_s phi]  =  r(q)
+//
+// q and phi linear, zero on the free surface. r is the volume that a motion would create (per time):
+//
+//   flux form    r(q) = int grad q . v - int_wall q w.n     velocities free, walls through their flux
+//   motion form  r(q) = - int q div u                       u = actual displacement / dt, walls included
+//
+// Both are evaluated at the middle of the motion, where they are the exact change of volume in 2D.
+// B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
+// The exact rigid response C = M_b^-1 has low rank, so it is eliminated on the factor (Woodbury):
+//
+//   phi = phi_0 - Y (1 + C G)^-1 C B phi_0,   Y = A^-1 B^T,   G = B Y = added mass (docs/theory.md)
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/linear_solver.hpp"
+#include "fluid/mesh.hpp"
+#include "fluid/nodes.hpp"
+
+namespace splashdown::fluid {
+
+/// What the pressure equation knows about the body behind a wall.
+template <int d>
+struct WallResponse {
+  /// Exact rigid response: velocity change per unit impulse [1/kg ...]. Zero: none.
+  Compliance<d> rigid = Compliance<d>::Zero();
+  /// Weight lambda of the interface Laplacian [m^4/kg]; 0: none. See docs/theory.md.
+  double laplacian = 0;
+};
+
+template <int d>
+class PressureEquation {
+ public:
+  /// Assembles and factors; `centres`: reference points of the walls. False if the factor fails.
+  bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Vec<d>> centres,
+             std::span<const WallResponse<d>> responses);
+
+  /// r in flux form at positions `x`, for nodal velocities v and wall twists s about `centres`.
+  void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const Twist<d>> s,
+                     std::span<const Vec<d>> centres, std::vector<double>& r) const;
+  /// r in motion form at positions `x` for displacement velocities u.
+  void motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::vector<double>& r) const;
+
+  /// Solves in place; adds C B phi to the twists of walls that respond.
+  bool solve(std::vector<double>& r, std::span<Twist<d>> s);
+  /// Adds lambda int_wall grad_s q . grad_s phi to r: the interface Laplacian's previous pass.
+  void add_laplacian(std::span<const double> phi, std::vector<double>& r) const;
+
+  /// v -= grad phi / rho, lumped.
+  void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
+  /// B phi of a wall: impulse on the body about its reference point.
+  Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
+  /// G = B A^-1 B^T of a responding wall: its added mass.
+  const Eigen::MatrixXd& added_mass() const { return added_mass_; }
+
+  int size() const { return static_cast<int>(node_.size()); }
+  const std::vector<int>& unknown() const { return unknown_; }  ///< of a node, -1: p = 0
+  std::span<const double> lumped_volume() const { return lumped_; }
+  const SymmetricMatrix& matrix() const { return matrix_; }
+
+ private:
+  void assemble(double density, std::span<const WallResponse<d>> responses);
+  void fill_pattern();
+  double& entry(int i, int j);
+  void wall_modes(std::span<const Vec<d>> centres);
+
+  const Nodes<d>* nodes_ = nullptr;
+  const Mesh<d>* mesh_ = nullptr;
+  double density_ = 0;
+  std::vector<VolumeGradients<d>> gradients_;  // at t_n
+  std::vector<double> lumped_;
+  std::vector<int> unknown_, node_;
+  SymmetricMatrix matrix_;
+  LinearSolver solver_;
+  struct Mode {
+    int unknown;
+    Wrench<d> row;  // column of B
+  };
+  std::vector<std::vector<Mode>> modes_;  // of each wall
+  std::vector<double> laplacian_;         // of each wall
+  std::vector<std::size_t> responding_;
+  Eigen::MatrixXd Y_, C_, added_mass_, elimination_;
+  std::vector<int> cells_start_, cells_of_, marker_;
+};
+
+extern template class PressureEquation<2>;
+extern template class PressureEquation<3>;
+
+}  // namespace splashdown::fluid

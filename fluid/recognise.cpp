@@ -1,0 +1,123 @@
+#include "fluid/recognise.hpp"
+
+#include "fluid/delaunay.hpp"
+#include "fluid/inside.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double flat = 1e-7;         // volume over longest edge^d below which a cell is degenerate
+constexpr double facet_sag = 0.1;     // wetted facets stay this close to their wall, over their length
+
+template <int d>
+struct Opposite;
+template <>
+struct Opposite<2> {
+  static constexpr int nodes[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+};
+template <>
+struct Opposite<3> {
+  static constexpr int nodes[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+};
+
+struct Shape {
+  double radius;      // circumradius
+  bool degenerate;
+};
+
+template <int d>
+Shape shape(const Mat<d>& J) {
+  Vec<d> half;
+  double longest = 0;
+  for (int k = 0; k < d; ++k) {
+    const double squared = J.col(k).squaredNorm();
+    half[k] = 0.5 * squared;
+    longest = std::max(longest, squared);
+    for (int j = 0; j < k; ++j) longest = std::max(longest, (J.col(k) - J.col(j)).squaredNorm());
+  }
+  const double det = J.determinant();
+  if (det <= flat * std::pow(longest, 0.5 * d)) return {0, true};
+  return {(cofactor(J) * half).norm() / det, false};
+}
+
+template <int d>
+bool in_solid(const Vec<d>& point, const WallsAt<d>& at) {
+  for (std::size_t w = 0; w < at.walls.size(); ++w) {
+    const double reach = at.walls[w].box().diagonal().norm();
+    if (at.walls[w].nearest(at.poses[w], point, reach).distance < 0) return true;
+  }
+  return false;
+}
+
+template <int d>
+int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
+  const int wall = nodes.tie[f.nodes[0]].wall;
+  if (wall < 0) return -1;
+  Vec<d> centre = Vec<d>::Zero();
+  for (int n : f.nodes) {
+    if (nodes.tie[n].wall != wall) return -1;
+    centre += nodes.x[n] / d;
+  }
+  const double length = (nodes.x[f.nodes[1]] - nodes.x[f.nodes[0]]).norm();
+  const double gap = at.walls[wall].distance_unsigned(at.poses[wall], centre, length);
+  return gap < facet_sag * length ? wall : -1;
+}
+
+}  // namespace
+
+template <int d>
+Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
+                  const WallsAt<d>& walls, const Alpha& limit) {
+  const Delaunay<d> all = delaunay<d>(nodes.x);
+  const InsideTest<d> inside(nodes.x, old_boundary);
+  std::vector<char> inner(nodes.size(), 1);
+  for (const auto& f : old_boundary)
+    for (int n : f.nodes) inner[n] = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes.spray[i]) inner[i] = 0;
+
+  std::vector<char> is_fluid(all.cells.size());
+  for (std::size_t c = 0; c < all.cells.size(); ++c) {
+    const auto& cell = all.cells[c];
+    const Shape s = shape<d>(edge_matrix<d>(corners(nodes.x, cell)));
+    if (s.degenerate) continue;
+    double size = 0;
+    bool has_inner = false;
+    Vec<d> centroid = Vec<d>::Zero();
+    for (int n : cell) {
+      size += h[n] / (d + 1);
+      centroid += nodes.x[n] / (d + 1);
+      has_inner = has_inner || inner[n];
+    }
+    const double alpha = s.radius / size;
+    is_fluid[c] = alpha <= limit.never &&
+                  ((has_inner && alpha < limit.inner) || inside(centroid) ||
+                   (!has_inner && alpha < limit.join && !in_solid(centroid, walls)));
+  }
+
+  Mesh<d> mesh;
+  mesh.cells.reserve(all.cells.size());
+  nodes.spray.assign(nodes.size(), 1);
+  nodes.surface.assign(nodes.size(), 0);
+  for (std::size_t c = 0; c < all.cells.size(); ++c) {
+    if (!is_fluid[c]) continue;
+    mesh.cells.push_back(all.cells[c]);
+    for (int k = 0; k <= d; ++k) {
+      nodes.spray[all.cells[c][k]] = 0;
+      const int other = all.neighbours[c][k];
+      if (other >= 0 && is_fluid[other]) continue;
+      Facet<d> f;
+      for (int j = 0; j < d; ++j) f.nodes[j] = all.cells[c][Opposite<d>::nodes[k][j]];
+      f.wall = wall_of(f, nodes, walls);
+      if (f.wall < 0)
+        for (int n : f.nodes) nodes.surface[n] = 1;
+      mesh.boundary.push_back(f);
+    }
+  }
+  return mesh;
+}
+
+template Mesh<2> recognise(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, const WallsAt<2>&, const Alpha&);
+template Mesh<3> recognise(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, const WallsAt<3>&, const Alpha&);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,40 @@
+// Which Delaunay cells are fluid? The old boundary, advected with its nodes, decides.
+//
+// With R the circumradius of a cell and h the element size at it:
+//   R > 8 h                      not fluid
+//   R < 0.8 h, an inner node     fluid
+//   R < 0.3 h, boundary nodes    fluid unless inside a wall: lets two parts of fluid join
+//   else                         fluid if the centroid lies inside the advected old boundary
+// The single threshold of the alpha-shape method is the main noise in PFEM loads: it drops cells under the
+// pressure peak or bridges the cavity under a jet (docs/theory.md). Cf. arXiv 2512.20347.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/mesh.hpp"
+#include "fluid/nodes.hpp"
+#include "fluid/wall.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+struct WallsAt {
+  std::span<const Wall<d>> walls;
+  std::span<const Isometry<d>> poses;
+};
+
+/// Circumradius over element size at which a cell ...
+struct Alpha {
+  double never = 8.0;  ///< ... spans a gap
+  double inner = 0.8;  ///< ... around an inner node is surely fluid
+  double join = 0.3;   ///< ... joins two surfaces; 0.8 would fill the cavity under a jet
+};
+
+/// Triangulates the nodes, finds the fluid cells and labels boundary facets; sets nodes.surface and
+/// nodes.spray. `h`: element size at the nodes [m]; `old_boundary`: closed facets between the same nodes.
+template <int d>
+Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
+                  const WallsAt<d>& walls, const Alpha& limit = {});
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,31 @@
+// Element size h(x): the smallest of all sources' h_source + growth * distance, at most `far`.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/recognise.hpp"
+#include "fluid/spec.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+class SizeField {
+ public:
+  /// `wetted`: wetted measure of each wall [m in 2D]; `surface`: the boundary whose free part is a source.
+  SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted,
+            std::span<const Vec<d>> x, const std::vector<Facet<d>>& boundary);
+  double operator()(const Vec<d>& point) const;
+  double at_wall(std::size_t wall) const { return wall_size_[wall]; }
+
+ private:
+  SizeSpec spec_;
+  WallsAt<d> walls_;
+  std::vector<double> wall_size_;
+  FacetTree<d> surface_;
+};
+
+extern template class SizeField<2>;
+extern template class SizeField<3>;
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,53 @@
+// What a fluid is made from: liquid regions, walls, element sizes, time-step criterion.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fluid/types.hpp"
+
+namespace splashdown::fluid {
+
+/// A rigid surface that bounds the fluid: a body's hull or the inside of a tank.
+template <int d>
+struct WallSpec {
+  std::string name;
+  /// Wall frame; encloses the solid. A tank is a surface turned inside out (clockwise outline in 2D).
+  Surface<d> surface;
+  Isometry<d> pose = Isometry<d>::Identity();  ///< wall frame to world at t = 0
+  Twist<d> velocity = Twist<d>::Zero();        ///< of the wall frame's origin, at t = 0
+  double size = 0;                             ///< element size at the wall [m]
+};
+
+/// A region filled with liquid at t = 0. It is clipped by the walls; regions may not overlap.
+template <int d>
+struct LiquidSpec {
+  Surface<d> boundary;
+  std::function<Vec<d>(const Vec<d>&)> velocity;  ///< initial velocity field; empty: at rest
+};
+
+/// h(x) = min over sources of (h_source + growth * distance), at most `far`.
+struct SizeSpec {
+  double surface = 0;          ///< at the free surface [m]
+  double far = 0;              ///< largest element [m]
+  double growth = 0.15;        ///< dh/dx; 0.1-0.2: wedge study in docs/validation.md
+  double wetted_fraction = 0;  ///< at a wall h is at least this fraction of its wetted half length
+};
+
+/// dt = min(cfl * min over edges of length / |relative velocity along it|, dt_max)
+struct TimeStepSpec {
+  double cfl = 0.5;
+  double dt_max = 1e-2;
+};
+
+template <int d>
+struct FluidSpec {
+  double density = 1000;  ///< [kg/m^3]
+  SizeSpec size;
+  TimeStepSpec step;
+  std::vector<LiquidSpec<d>> liquids;
+  std::vector<WallSpec<d>> walls;
+};
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,46 @@
+// A wall in motion: closest points and sides of its rigid surface, its sharp vertices.
+#pragma once
+
+#include <vector>
+
+#include "fluid/facet_tree.hpp"
+#include "fluid/spec.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+class Wall {
+ public:
+  explicit Wall(const WallSpec<d>& spec);
+
+  struct Near {
+    Vec<d> point;      ///< closest point of the wall, world frame
+    double distance;   ///< signed: negative inside the solid
+    int vertex;        ///< sharp vertex that is the closest point, -1: none
+  };
+
+  /// Closest point of the wall in the given pose; distance = +reach where nothing is nearer.
+  Near nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
+  double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
+  Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
+  const std::vector<int>& sharp_vertices() const { return sharp_; }
+  const WallSpec<d>& spec() const { return spec_; }
+  /// Box around the surface in the wall frame.
+  const Eigen::AlignedBox<double, d>& box() const { return box_; }
+
+ private:
+  WallSpec<d> spec_;
+  FacetTree<d> tree_;
+  Eigen::Matrix<double, d, Eigen::Dynamic> normal_;         // of facets, unit
+  Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // sum over the facets around a vertex
+  std::vector<std::vector<int>> facets_of_;
+  std::vector<int> sharp_;
+  std::vector<char> is_sharp_;
+  Eigen::AlignedBox<double, d> box_;
+  double tiny_;  // length below which points coincide
+};
+
+extern template class Wall<2>;
+extern template class Wall<3>;
+
+}  // namespace splashdown::fluid
