@@ -20,10 +20,10 @@ struct PolygonShape {
   std::vector<Point> points;  ///< outline, either sense; reference point: the origin of these coordinates
 };
 struct WedgeShape {
-  double deadrise_deg = 30;  ///< of both faces [deg]
-  double breadth = 1;        ///< at the top [m]
-  double height = 0;         ///< keel to top [m]; 0: the faces end at the top (a triangle)
-};                           ///< reference point: the keel
+  double deadrise_deg = 30;      ///< of both faces [deg]
+  double breadth = 1;            ///< at the top [m]
+  std::optional<double> height;  ///< keel to top [m]; absent: no vertical sides, a triangle
+};                               ///< reference point: the keel
 struct BoxShape {
   double width = 1, height = 1;  ///< [m]; reference point: the centre
 };
@@ -41,9 +41,9 @@ using Shape = std::variant<PolygonShape, WedgeShape, BoxShape, CircleShape, Elli
 // Liquid regions, in the world frame.
 struct BoxRegion {
   Point min = Point::Zero(), max = Point::Zero();  ///< corners [m]
-  double surface_amplitude = 0;   ///< of a cosine elevation of the top side [m]
-  double surface_wavelength = 0;  ///< [m]; 0: flat
-  double surface_phase_deg = 0;   ///< top = max_y + amplitude cos(2 pi (x - min_x) / wavelength + phase)
+  double surface_amplitude = 0;                    ///< of a cosine elevation of the top side [m]
+  double surface_wavelength = 0;                   ///< [m]; 0: flat
+  double surface_phase_deg = 0;  ///< top = max_y + amplitude cos(2 pi (x - min_x) / wavelength + phase)
 };
 struct CircleRegion {
   Point centre = Point::Zero();
@@ -59,9 +59,10 @@ struct PolygonRegion {
 
 struct Region {
   std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion> shape;
-  Point velocity = Point::Zero();                             ///< at t = 0 [m/s]
-  Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();  ///< v = velocity + gradient (x - origin) [1/s]
-  Point velocity_origin = Point::Zero();                      ///< default: the region's centre, 0 for polygons
+  Point velocity = Point::Zero();  ///< at t = 0 [m/s]
+  Eigen::Matrix3d velocity_gradient =
+      Eigen::Matrix3d::Zero();            ///< v = velocity + gradient (x - origin) [1/s]
+  Point velocity_origin = Point::Zero();  ///< default: the region's centre, 0 for polygons
 };
 
 struct Sizes {
@@ -102,41 +103,41 @@ enum class Motion { free, fixed, prescribed };
 
 /// A pose on a prescribed path: piecewise linear in time.
 struct Waypoint {
-  double time = 0;               ///< [s]
+  double time = 0;                 ///< [s]
   Point position = Point::Zero();  ///< of the shape's reference point [m]
-  double pitch_deg = 0;          ///< [deg]
+  double pitch_deg = 0;            ///< [deg]
 };
 
 struct Body {
   std::string name;
   Shape shape;
-  std::optional<double> mass;              ///< [kg/m]; exactly one of mass and density for free motion
-  std::optional<double> density;           ///< mean density [kg/m^3]
-  std::optional<Point> centre_of_mass;     ///< in the shape's frame [m]; default: the centroid
-  std::optional<double> inertia;           ///< about the centre of mass [kg m]; default: of uniform density
+  std::optional<double> mass;           ///< [kg/m]; exactly one of mass and density for free motion
+  std::optional<double> density;        ///< mean density [kg/m^3]
+  std::optional<Point> centre_of_mass;  ///< in the shape's frame [m]; default: the centroid
+  std::optional<double> inertia;        ///< about the centre of mass [kg m]; default: of uniform density
   Motion motion = Motion::free;
   std::vector<std::string> free = {"x", "y", "rotation"};  ///< freedoms of free motion
-  Point position = Point::Zero();          ///< of the shape's reference point at t = 0 [m]
-  double pitch_deg = 0;                    ///< about the reference point, counter-clockwise [deg]
-  Point velocity = Point::Zero();          ///< of the centre of mass at t = 0; constant if prescribed [m/s]
-  double spin_deg = 0;                     ///< angular velocity at t = 0; constant if prescribed [deg/s]
-  std::vector<Waypoint> path;              ///< prescribed motion; empty: constant velocity and spin
-  double size = 0;                         ///< element size at the hull [m]; default: fluid.size.surface
+  Point position = Point::Zero();                          ///< of the shape's reference point at t = 0 [m]
+  double pitch_deg = 0;            ///< about the reference point, counter-clockwise [deg]
+  Point velocity = Point::Zero();  ///< of the centre of mass at t = 0; constant if prescribed [m/s]
+  double spin_deg = 0;             ///< angular velocity at t = 0; constant if prescribed [deg/s]
+  std::vector<Waypoint> path;      ///< prescribed motion; empty: constant velocity and spin
+  double size = 0;                 ///< element size at the hull [m]; default: fluid.size.surface
 };
 
 struct Coupling {
-  std::string scheme = "iterated";         ///< "iterated" | "staggered"
-  std::string interface_term = "rigid";    ///< "rigid" | "laplacian" | "none"
-  std::string accelerator = "constant";    ///< "constant" | "aitken"
-  double relaxation = 1;                   ///< first (aitken) or only (constant) factor, in (0, 1]
-  double tolerance = 1e-8;                 ///< of the interface velocities, relative
-  int max_passes = 50;                     ///< more: the step is refused
+  std::string scheme = "iterated";       ///< "iterated" | "staggered"
+  std::string interface_term = "rigid";  ///< "rigid" | "laplacian" | "none"
+  std::string accelerator = "constant";  ///< "constant" | "aitken"
+  double relaxation = 1;                 ///< first (aitken) or only (constant) factor, in (0, 1]
+  double tolerance = 1e-8;               ///< of the interface velocities, relative
+  int max_passes = 50;                   ///< more: the step is refused
 };
 
 struct Time {
-  double end = 0;      ///< [s]
-  double cfl = 0.5;    ///< share of an edge by which its ends may approach in one step
-  double dt_max = 0;   ///< [s]; default: min(end / 100, cfl sqrt(h_min / |g|))
+  double end = 0;     ///< [s]
+  double cfl = 0.5;   ///< share of an edge by which its ends may approach in one step
+  double dt_max = 0;  ///< [s]; default: min(end / 100, cfl sqrt(h_min / |g|))
 };
 
 struct Output {
@@ -147,27 +148,26 @@ struct Output {
 
 // Things to record besides the standard files. Points given with a body are in its shape's frame and
 // move with it; others are in the world frame and stay.
-struct PressureRecord {
+struct PressureEntry {
   std::string name;
   Point point = Point::Zero();
   std::optional<std::size_t> body;
 };
-struct SurfacePressureRecord {
-  std::string name;
-  std::size_t body = 0;
-  std::vector<double> times;  ///< empty: use `interval`
-  double interval = 0;        ///< [s]; 0 without `times`: every recorded step
+struct SurfacePressureEntry {
+  std::string wall;                ///< name of a body, or "tank"
+  std::optional<double> interval;  ///< [s]; 0: every step
+  std::vector<double> times;       ///< first step at or after each [s]
 };
-struct SurfaceElevationRecord {
+struct ElevationEntry {
   std::string name;
   double x = 0;  ///< [m]
 };
-struct AccelerationRecord {
+struct AccelerationEntry {
   std::string name;
   std::size_t body = 0;
   Point point = Point::Zero();  ///< in the shape's frame
 };
-using Record = std::variant<PressureRecord, SurfacePressureRecord, SurfaceElevationRecord, AccelerationRecord>;
+using RecordEntry = std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry>;
 
 struct Scene {
   int dimension = 2;
@@ -179,7 +179,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::optional<Coupling> coupling;  ///< present whenever a free body meets a fluid
   Output output;
-  std::vector<Record> records;
+  std::vector<RecordEntry> records;
 };
 
 }  // namespace splashdown::apps

@@ -1,0 +1,21 @@
+// Rules that bind several keys of a scene, or need its geometry.
+#pragma once
+
+#include "apps/scene.hpp"
+#include "apps/scene_problems.hpp"
+
+namespace splashdown::apps {
+
+/// How messages call the elements of arrays of tables, e.g. `body.wedge`, `fluid.region[0]`.
+struct SceneLabels {
+  std::vector<std::string> bodies, regions, records;
+};
+
+void check_scene(const Scene& scene, const SceneLabels& labels, Problems& problems);
+
+// Its parts.
+void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& problems);
+void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& problems);
+void check_records(const Scene& scene, const SceneLabels& labels, Problems& problems);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <set>
+
+#include "apps/scene_check.hpp"
+#include "apps/scene_geometry.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+class RecordChecker {
+ public:
+  RecordChecker(const Scene& scene, Problems& problems) : scene_(scene), problems_(problems) {}
+
+  void check(const RecordEntry& entry, const std::string& label) {
+    label_ = label;
+    std::visit(*this, entry);
+  }
+
+  void operator()(const PressureEntry& entry) {
+    needs_fluid();
+    unique(entry.name);
+    if (problems_.found_in(label_)) return;
+    const rigid::Vec<2> point = planar(entry.point);
+    if (!entry.body) return inside_tank(point, ".point");
+    const auto& body = scene_.bodies[*entry.body];
+    inside_tank(shape_pose(body) * point, ".point");
+    try {
+      const auto hull = shape_of(body.shape).surface;
+      const double extent = extents(hull).diagonal().norm(), depth = -signed_distance(hull, point);
+      // A sensor flush with the hull, up to the digits people write.
+      if (depth > 1e-3 * extent)
+        problems_.add(
+            label_ + ".point",
+            fmt::format("lies {:g} m inside the body '{}', where there is never water", depth, body.name),
+            "Put it on the hull (coordinates of the shape's frame).");
+    } catch (const std::invalid_argument&) {  // the body's own check has reported it
+    }
+  }
+  void operator()(const SurfacePressureEntry& entry) {
+    needs_fluid();
+    for (const double time : entry.times)
+      if (time > scene_.time.end)
+        return problems_.add(label_ + ".times",
+                             fmt::format("must not exceed time.end = {:g} s", scene_.time.end),
+                             "Remove the later ones.");
+  }
+  void operator()(const ElevationEntry& entry) {
+    needs_fluid();
+    unique(entry.name);
+    if (scene_.tank && !problems_.found_in(label_))
+      inside_tank({entry.x, 0.5 * (scene_.tank->min.y() + scene_.tank->max.y())}, ".x");
+  }
+  void operator()(const AccelerationEntry& entry) { unique(entry.name); }
+
+ private:
+  void needs_fluid() {
+    if (!scene_.fluid) problems_.add(label_ + ".kind", "needs a [fluid]", "Add one or remove the record.");
+  }
+  void unique(const std::string& name) {
+    if (!name.empty() && !names_.insert(name).second)
+      problems_.add(label_ + ".name", "is taken by another record", "Give every record its own name.");
+  }
+  void inside_tank(const rigid::Vec<2>& point, const std::string& key) {
+    if (!scene_.tank) return;
+    const auto& tank = *scene_.tank;
+    const Extents box(planar(tank.min), planar(tank.max));
+    if (box.isEmpty() || box.exteriorDistance(point) <= 1e-9 * box.diagonal().norm()) return;
+    problems_.add(label_ + key,
+                  fmt::format("({:g}, {:g}) m lies outside the tank [{:g}, {:g}] x [{:g}, {:g}] m", point.x(),
+                              point.y(), tank.min.x(), tank.max.x(), tank.min.y(), tank.max.y()),
+                  "Move it inside.");
+  }
+
+  const Scene& scene_;
+  Problems& problems_;
+  std::string label_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+void check_records(const Scene& scene, const SceneLabels& labels, Problems& problems) {
+  RecordChecker checker(scene, problems);
+  for (std::size_t i = 0; i < scene.records.size(); ++i) checker.check(scene.records[i], labels.records[i]);
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,16 @@
+// --set key.path=value: changes one value of a scene's TOML before it is read.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "apps/scene_problems.hpp"
+
+namespace splashdown::apps {
+
+/// Elements of arrays of tables are chosen by name or by index: body.wedge.mass, body.0.mass. Tables that
+/// are absent are created, so an effect can be added. The value is TOML; a bare word is a string.
+void apply_override(toml::table& root, const std::string& argument, Problems& problems);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,14 @@
+// The tables of a scene, one function each. Derived defaults (element sizes, the largest time step) are set
+// just before their key is read, from tables that were read earlier.
+#pragma once
+
+#include "apps/scene_reader.hpp"
+
+namespace splashdown::apps {
+
+void read_fluid(Reader& reader, Fluid& fluid);
+void read_body(Reader& reader, Body& body, const Scene& scene);
+void read_record(Reader& reader, Scene& scene);
+void read_coupling(Reader& reader, Coupling& coupling);
+
+}  // namespace splashdown::apps

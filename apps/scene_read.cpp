@@ -1,0 +1,152 @@
+#include "apps/scene_read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "apps/scene_check.hpp"
+#include "apps/scene_override.hpp"
+#include "apps/scene_parts.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+/// Finest element size of the scene.
+double finest(const Scene& scene) {
+  double h = std::min(scene.fluid->size.surface, scene.fluid->size.far);
+  if (scene.tank) h = std::min(h, scene.tank->size);
+  for (const auto& body : scene.bodies) h = std::min(h, body.size);
+  return h;
+}
+
+/// A hundred steps at least; and surface waves as short as the elements stay stable in an explicit scheme,
+/// which bounds dt by 2 / sqrt(pi |g| / h) = 1.13 sqrt(h / |g|).
+double default_dt_max(const Scene& scene) {
+  const double share = scene.time.end / 100;
+  const double g = scene.gravity ? scene.gravity->acceleration.norm() : 0;
+  return scene.fluid && g > 0 && finest(scene) > 0
+             ? std::min(share, scene.time.cfl * std::sqrt(finest(scene) / g))
+             : share;
+}
+
+bool meets_fluid_freely(const Scene& scene) {
+  return scene.fluid && std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                    [](const Body& body) { return body.motion == Motion::free; });
+}
+
+void read_tank(Reader& reader, Scene& scene) {
+  const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
+  auto& tank = scene.tank.emplace();
+  reader.point("min", tank.min, coordinate, Need::required);
+  reader.point("max", tank.max, coordinate, Need::required);
+  if (!scene.fluid) return reader.skip("size");
+  tank.size = scene.fluid->size.far;
+  reader.number("size", tank.size, positive("m", "Use e.g. fluid.size.far."));
+}
+
+void read_output(Reader& reader, Output& output) {
+  reader.number("interval", output.interval, not_negative("s", "Use 0 for a row every step."));
+  reader.number("frames", output.frames,
+                not_negative("s", "Use e.g. a hundredth of time.end; leave it out for no frames."));
+  reader.number("checkpoint", output.checkpoint, positive("s", "Use wall-clock seconds, e.g. 60."));
+}
+
+SceneLabels read_tables(Reader& root, Scene& scene) {
+  SceneLabels labels;
+  root.text("title", scene.title, "Use a short text in quotes.");
+  Reader time = root.table_or_defaults("time");
+  time.number("end", scene.time.end, positive("s", "Use the simulated time at which the run shall end."),
+              Need::required);
+  time.number("cfl", scene.time.cfl, share("Use e.g. 0.5."));
+  if (auto fluid = root.table("fluid")) read_fluid(*fluid, scene.fluid.emplace());
+  if (scene.fluid)
+    for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
+      labels.regions.push_back(fmt::format("fluid.region[{}]", i));
+  if (auto tank = root.table("tank")) read_tank(*tank, scene);
+  if (auto gravity = root.table("gravity"))
+    gravity->point("acceleration", scene.gravity.emplace().acceleration,
+                   any("m/s^2", "Use e.g. [0.0, -9.81]; leave the table out for none."));
+  root.each_table("body", [&](Reader& reader) {
+    labels.bodies.push_back(reader.path());
+    read_body(reader, scene.bodies.emplace_back(), scene);
+  });
+  scene.time.dt_max = default_dt_max(scene);
+  time.number("dt_max", scene.time.dt_max, positive("s", "Leave it out for a sensible value."));
+  if (meets_fluid_freely(scene)) {
+    Reader coupling = root.table_or_defaults("coupling");
+    read_coupling(coupling, scene.coupling.emplace());
+  } else if (auto coupling = root.table("coupling")) {
+    Coupling nothing_to_couple;  // still checked: a fixed body may be freed by the next --set
+    read_coupling(*coupling, nothing_to_couple);
+  }
+  Reader output = root.table_or_defaults("output");
+  read_output(output, scene.output);
+  root.each_table("record", [&](Reader& reader) {
+    labels.records.push_back(reader.path());
+    const auto before = scene.records.size();
+    read_record(reader, scene);
+    if (scene.records.size() == before) labels.records.pop_back();
+  });
+  return labels;
+}
+
+SceneFile read_root(const toml::table& table, Problems& problems) {
+  SceneFile file;
+  Echo echo;
+  ReadContext context{problems, echo};
+  SceneLabels labels;
+  {
+    Reader root(context, table, "", "");
+    root.ignore("provenance");  // what a run writes into scene.resolved.toml
+    root.integer("dimension", file.scene.dimension, within(2, 3, "", "Use 2."));
+    if (file.scene.dimension == 3) {
+      root.skip_all();
+      problems.add("dimension", "three-dimensional scenes are not available yet", "Use 2.");
+      problems.throw_if_any();
+    }
+    labels = read_tables(root, file.scene);
+  }
+  check_scene(file.scene, labels, problems);
+  problems.throw_if_any();
+  file.resolved = echo.text();
+  return file;
+}
+
+}  // namespace
+
+SceneFile read_scene_text(const std::string& text, const std::string& name,
+                          std::span<const std::string> overrides) {
+  Problems problems(name);
+  toml::table table;
+  try {
+    table = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    problems.add_at({name, static_cast<long>(error.source().begin.line)},
+                    fmt::format("not TOML: {} (column {}). See https://toml.io for the syntax.",
+                                error.description(), error.source().begin.column));
+    problems.throw_if_any();
+  }
+  for (const auto& argument : overrides) apply_override(table, argument, problems);
+  return read_root(table, problems);
+}
+
+SceneFile read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  const auto refuse = [&](const std::string& why) -> SceneError {
+    return SceneError(
+        {fmt::format("{}: cannot be read: {}. Name a scene file, e.g. examples/wedge_drop/scene.toml.",
+                     path.string(), why)});
+  };
+  if (std::filesystem::is_directory(path)) throw refuse("it is a folder");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw refuse(std::strerror(errno));
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return read_scene_text(text.str(), path.string(), overrides);
+}
+
+}  // namespace splashdown::apps

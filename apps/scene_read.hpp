@@ -1,0 +1,24 @@
+// scene.toml and --set arguments to a checked Scene.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "apps/scene.hpp"
+#include "apps/scene_problems.hpp"
+
+namespace splashdown::apps {
+
+struct SceneFile {
+  Scene scene;
+  std::string resolved;  ///< TOML with every value in force; reads to the same scene
+};
+
+/// `overrides`: texts `key.path=value`. Throws SceneError with every problem found.
+SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+/// The same from text; `name` stands for the file in messages.
+SceneFile read_scene_text(const std::string& text, const std::string& name,
+                          std::span<const std::string> overrides = {});
+
+}  // namespace splashdown::apps

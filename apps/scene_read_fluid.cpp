@@ -1,0 +1,108 @@
+#include <algorithm>
+
+#include "apps/scene_parts.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
+const Rule speed = any("m/s", "Use metres per second, one number for each axis, e.g. [0.0, -1.0].");
+
+struct ReadRegionShape {
+  Reader& reader;
+  Rule extent = positive("m", "Use e.g. 0.5.");
+
+  void operator()(BoxRegion& box) const {
+    reader.point("min", box.min, coordinate, Need::required);
+    reader.point("max", box.max, coordinate, Need::required);
+    reader.number("surface_amplitude", box.surface_amplitude,
+                  any("m", "Use e.g. 0.01; leave it out for a flat surface."));
+    if (box.surface_amplitude == 0 && !reader.holds("surface_wavelength") &&
+        !reader.holds("surface_phase_deg"))
+      return;
+    reader.number("surface_wavelength", box.surface_wavelength,
+                  positive("m", "Use e.g. twice the tank's length for the first sloshing mode."),
+                  Need::required);
+    reader.number("surface_phase_deg", box.surface_phase_deg, any("deg", "Use degrees, e.g. 90."));
+  }
+  void operator()(CircleRegion& circle) const {
+    reader.point("centre", circle.centre, coordinate, Need::required);
+    reader.number("radius", circle.radius, extent, Need::required);
+  }
+  void operator()(EllipseRegion& ellipse) const {
+    reader.point("centre", ellipse.centre, coordinate, Need::required);
+    reader.point("semi_axes", ellipse.semi_axes, positive("m", "Use e.g. [1.0, 0.5]."), Need::required);
+  }
+  void operator()(PolygonRegion& polygon) const { reader.points("points", polygon.points, coordinate); }
+};
+
+struct Centre {
+  Point operator()(const BoxRegion& box) const { return 0.5 * (box.min + box.max); }
+  Point operator()(const CircleRegion& circle) const { return circle.centre; }
+  Point operator()(const EllipseRegion& ellipse) const { return ellipse.centre; }
+  Point operator()(const PolygonRegion&) const { return Point::Zero(); }
+};
+
+void read_region(Reader& reader, Region& region) {
+  std::string shape = "box";
+  if (!reader.choice("shape", shape, {"box", "circle", "ellipse", "polygon"}, Need::required))
+    return reader.skip_all();
+  if (shape == "circle") region.shape = CircleRegion{};
+  if (shape == "ellipse") region.shape = EllipseRegion{};
+  if (shape == "polygon") region.shape = PolygonRegion{};
+  std::visit(ReadRegionShape{reader}, region.shape);
+  reader.point("velocity", region.velocity, speed);
+  if (!reader.holds("velocity_gradient")) return reader.skip("velocity_gradient");
+  reader.matrix("velocity_gradient", region.velocity_gradient,
+                any("1/s", "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0], [0.0, 1.0]]."));
+  region.velocity_origin = std::visit(Centre{}, region.shape);
+  reader.point("velocity_origin", region.velocity_origin, coordinate);
+}
+
+void read_sizes(Reader& reader, Sizes& size) {
+  reader.number("surface", size.surface, positive("m", "Use e.g. a fiftieth of the body's breadth."),
+                Need::required);
+  size.far = size.surface;
+  reader.number("far", size.far, positive("m", "Use fluid.size.surface or more."));
+  reader.number("growth", size.growth, share("Use 0.1 to 0.2: the element size's growth per unit distance."));
+  reader.number("wetted_fraction", size.wetted_fraction,
+                within(0, 0.5, "",
+                       "Use 0 (off) or 0.004 to 0.01: h over the wetted half length, for starting impacts."));
+}
+
+}  // namespace
+
+void read_fluid(Reader& reader, Fluid& fluid) {
+  reader.number("density", fluid.density, positive("kg/m^3", "Use e.g. 1000 for water."), Need::required);
+  if (auto size = reader.table("size", Need::required)) read_sizes(*size, fluid.size);
+  reader.each_table("region", [&](Reader& region) { read_region(region, fluid.regions.emplace_back()); });
+  if (fluid.regions.empty() && !reader.holds("region"))
+    reader.context().problems.add_missing(reader.key("region"), "a fluid needs liquid to begin with",
+                                          "Write [[fluid.region]] with shape = \"box\", min and max.");
+  if (auto viscosity = reader.table("viscosity")) {
+    auto& target = fluid.viscosity.emplace();
+    viscosity->number("dynamic", target.dynamic,
+                      positive("Pa s", "Use e.g. 1e-3 for water; leave the table out for none."));
+    viscosity->choice("walls", target.walls, {"slip", "no_slip"});
+  }
+  if (auto absorber = reader.table("absorber")) {
+    auto& target = fluid.absorber.emplace();
+    absorber->number("width", target.width, positive("m", "Use one to two of the longest wavelengths."),
+                     Need::required);
+    absorber->number("rate", target.rate, positive("1/s", "Use about the wave's angular frequency."),
+                     Need::required);
+  }
+}
+
+void read_coupling(Reader& reader, Coupling& coupling) {
+  reader.choice("scheme", coupling.scheme, {"iterated", "staggered"});
+  reader.choice("interface_term", coupling.interface_term, {"rigid", "laplacian", "none"});
+  reader.choice("accelerator", coupling.accelerator, {"constant", "aitken"});
+  reader.number("relaxation", coupling.relaxation, share("Use 1 unless the coupling diverges."));
+  reader.number(
+      "tolerance", coupling.tolerance,
+      within(1e-14, 0.1, "", "Use e.g. 1e-8: change of the bodies' velocities from pass to pass, relative."));
+  reader.integer("max_passes", coupling.max_passes, within(1, 10000, "", "Use e.g. 50."));
+}
+
+}  // namespace splashdown::apps

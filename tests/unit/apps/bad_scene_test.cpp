@@ -1,0 +1,264 @@
+// Every bad scene is refused with file:line, key, value, rule and cure.
+#include <gtest/gtest.h>
+
+#include "apps/scene_read.hpp"
+#include "scenes.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+struct BadScene {
+  const char* name;
+  const char* from;  ///< text of the good scene ...
+  const char* to;    ///< ... and what stands in its place
+  int line;          ///< where the problem is
+  const char* key;   ///< as the message begins after the place
+  const char* rule;  ///< part of the rule or the cure
+};
+
+void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.name; }
+
+std::vector<std::string> messages_of(const std::string& text, std::vector<std::string> overrides = {}) {
+  try {
+    read_scene_text(text, "scene.toml", overrides);
+  } catch (const SceneError& error) {
+    return error.messages();
+  }
+  return {};
+}
+
+class BadSceneIsRefused : public ::testing::TestWithParam<BadScene> {};
+
+TEST_P(BadSceneIsRefused, with_place_key_and_rule) {
+  const auto& bad = GetParam();
+  ASSERT_NE(testing::wedge_drop.find(bad.from), std::string::npos) << "the test's own text is out of date";
+  const auto messages = messages_of(testing::wedge_drop_with(bad.from, bad.to));
+  ASSERT_FALSE(messages.empty()) << "was accepted";
+  EXPECT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
+  const auto start = "scene.toml:" + std::to_string(bad.line) + ": " + bad.key;
+  EXPECT_TRUE(messages[0].starts_with(start)) << messages[0] << "\nshould start with " << start;
+  EXPECT_NE(messages[0].find(bad.rule), std::string::npos) << messages[0] << "\nshould contain " << bad.rule;
+  EXPECT_EQ(messages[0].find('\n'), std::string::npos) << messages[0];
+  EXPECT_TRUE(std::string(".?'").find(messages[0].back()) != std::string::npos) << "no cure: " << messages[0];
+}
+
+const std::vector<BadScene> scenes = {
+    {"syntax", "density = 1000", "density = = 1000", 10, "not TOML", "toml.io"},
+    {"twice_the_same_key", "mass = 241", "mass = 241\nmass = 3", 21, "not TOML", "toml.io"},
+    {"unfinished_string", "\"wedge\"\nmass", "\"wedge\nmass", 19, "not TOML", "toml.io"},
+    {"unknown_root_key", "title", "tilte", 1, "tilte = \"wedge\": unknown key", "Did you mean 'title'?"},
+    {"unknown_key", "density = 1000", "density = 1000\ndensty = 1", 11, "fluid.densty = 1: unknown key",
+     "Did you mean 'density'?"},
+    {"unknown_key_far_from_any", "surface = 0.01", "surface = 0.01\nqqqqqqqq = 1", 13,
+     "fluid.size.qqqqqqqq = 1: unknown key", "'growth'"},
+    {"unknown_table", "[output]", "[outptu]", 26, "outptu: unknown key", "Did you mean 'output'?"},
+    {"unknown_body_key", "mass = 241", "mass = 241\nrestitution = 0.5", 21,
+     "body.wedge.restitution = 0.5: unknown key", "Valid here"},
+    {"unknown_shape_key", "breadth = 0.5", "breadth = 0.5, widht = 1", 25,
+     "body.wedge.shape.widht = 1: unknown key", "Valid here"},
+    {"enable_keys_do_not_exist", "density = 1000", "density = 1000\n[fluid.viscosity]\nenable = true", 12,
+     "fluid.viscosity.enable = true: unknown key", "Valid here"},
+    {"negative_density", "density = 1000", "density = -3", 10, "fluid.density = -3",
+     "must be positive (kg/m^3). Use e.g. 1000"},
+    {"density_as_string", "density = 1000", "density = \"heavy\"", 10, "fluid.density = \"heavy\"",
+     "must be a number (kg/m^3), not a string"},
+    {"density_not_finite", "density = 1000", "density = nan", 10, "fluid.density = nan", "must be finite"},
+    {"density_infinite", "density = 1000", "density = inf", 10, "fluid.density = inf", "must be finite"},
+    {"density_missing", "density = 1000\n", "", 9, "fluid.density is missing", "Use e.g. 1000"},
+    {"end_missing", "end = 0.02\n", "", 2, "time.end is missing", "a number (s)"},
+    {"end_zero", "end = 0.02", "end = 0", 3, "time.end = 0", "must be positive (s)"},
+    {"end_as_date", "end = 0.02", "end = 2020-01-01", 3, "time.end = 2020-01-01", "not a date"},
+    {"cfl_zero", "end = 0.02", "end = 0.02\ncfl = 0", 4, "time.cfl = 0", "must lie in (0, 1]"},
+    {"cfl_above_one", "end = 0.02", "end = 0.02\ncfl = 1.5", 4, "time.cfl = 1.5", "must lie in (0, 1]"},
+    {"dt_max_beyond_end", "end = 0.02", "end = 0.02\ndt_max = 1", 4, "time.dt_max = 1",
+     "must not exceed time.end = 0.02 s"},
+    {"table_as_number", "[gravity]\nacceleration = [0, -9.81]", "[[gravity]]", 4, "gravity",
+     "must be a table, not an array of tables"},
+    {"gravity_too_long", "[0, -9.81]", "[0, 0, -9.81]", 5, "gravity.acceleration = [0, 0, -9.81]",
+     "must be a list of 2 numbers (m/s^2), not 3"},
+    {"gravity_as_number", "[0, -9.81]", "-9.81", 5, "gravity.acceleration = -9.81",
+     "must be a list of 2 numbers (m/s^2), not a number"},
+    {"gravity_holds_text", "[0, -9.81]", "[0, \"g\"]", 5, "gravity.acceleration",
+     "must be a number (m/s^2), not a string"},
+    {"tank_upside_down", "max = [2, 1]", "max = [2, -1]", 8, "tank.max = [2, -1]", "must lie above tank.min"},
+    {"tank_corner_missing", "max = [2, 1]\n", "", 6, "tank.max is missing", "list of 2 numbers"},
+    {"tank_size_too_large", "max = [2, 1]", "max = [2, 1]\nsize = 3", 9, "tank.size = 3",
+     "must not exceed the tank's smallest side, 2 m"},
+    {"size_table_missing", "[fluid.size]\nsurface = 0.01\nfar = 0.2\n", "", 9, "fluid.size is missing",
+     "[fluid.size]"},
+    {"surface_size_zero", "surface = 0.01", "surface = 0", 12, "fluid.size.surface = 0",
+     "must be positive (m)"},
+    {"surface_size_beyond_region", "surface = 0.01\nfar = 0.2", "surface = 1.5\nfar = 2", 12,
+     "fluid.size.surface = 1.5", "smallest extent of fluid.region[0], 1 m"},
+    {"far_below_surface", "far = 0.2", "far = 0.001", 13, "fluid.size.far = 0.001",
+     "must not be below fluid.size.surface"},
+    {"growth_above_one", "far = 0.2", "far = 0.2\ngrowth = 2", 14, "fluid.size.growth = 2",
+     "must lie in (0, 1]"},
+    {"growth_zero", "far = 0.2", "far = 0.2\ngrowth = 0", 14, "fluid.size.growth = 0", "must lie in (0, 1]"},
+    {"wetted_fraction_negative", "far = 0.2", "far = 0.2\nwetted_fraction = -1", 14,
+     "fluid.size.wetted_fraction = -1", "must lie in [0, 0.5]"},
+    {"no_region", "[[fluid.region]]\nshape = \"box\"\nmin = [-2, -1]\nmax = [2, 0]\n", "", 9,
+     "fluid.region is missing", "[[fluid.region]]"},
+    {"region_as_table", "[[fluid.region]]", "[fluid.region]", 14, "fluid.region",
+     "must be an array of tables, not a table"},
+    {"region_shape_unknown", "shape = \"box\"", "shape = \"boks\"", 15, "fluid.region[0].shape = \"boks\"",
+     "Did you mean 'box'?"},
+    {"region_turned_over", "max = [2, 0]", "max = [2, -3]", 17, "fluid.region[0].max = [2, -3]",
+     "must lie above min"},
+    {"region_outside_tank", "min = [-2, -1]\nmax = [2, 0]", "min = [5, -1]\nmax = [6, 0]", 14,
+     "fluid.region[0]", "lies outside the tank"},
+    {"wave_without_length", "max = [2, 0]", "max = [2, 0]\nsurface_amplitude = 0.1", 14,
+     "fluid.region[0].surface_wavelength is missing", "sloshing"},
+    {"wave_deeper_than_water", "max = [2, 0]",
+     "max = [2, 0]\nsurface_amplitude = 1.1\nsurface_wavelength = 2", 18,
+     "fluid.region[0].surface_amplitude = 1.1", "must stay below the depth"},
+    {"regions_overlap", "[[body]]",
+     "[[fluid.region]]\nshape = \"circle\"\ncentre = [0, -0.5]\nradius = 0.1\n[[body]]", 18,
+     "fluid.region[1]", "overlaps fluid.region[0]"},
+    {"gradient_makes_volume", "max = [2, 0]", "max = [2, 0]\nvelocity_gradient = [[1, 0], [0, 1]]", 18,
+     "fluid.region[0].velocity_gradient", "zero trace, not 2"},
+    {"gradient_not_square", "max = [2, 0]", "max = [2, 0]\nvelocity_gradient = [[1, 0]]", 18,
+     "fluid.region[0].velocity_gradient", "must have 2 rows, not 1"},
+    {"region_polygon_crosses_itself", "shape = \"box\"\nmin = [-2, -1]\nmax = [2, 0]",
+     "shape = \"polygon\"\npoints = [[-1, -1], [1, 0], [1, -1], [-1, -0.2]]", 16, "fluid.region[0].points",
+     "touch or cross"},
+    {"viscosity_zero", "[tank]", "[fluid.viscosity]\ndynamic = 0\n[tank]", 7, "fluid.viscosity.dynamic = 0",
+     "must be positive (Pa s)"},
+    {"viscous_wall_unknown", "[tank]", "[fluid.viscosity]\nwalls = \"no-slip\"\n[tank]", 7,
+     "fluid.viscosity.walls = \"no-slip\"", "Did you mean 'no_slip'?"},
+    {"absorber_longer_than_tank", "[tank]", "[fluid.absorber]\nwidth = 3\nrate = 1\n[tank]", 7,
+     "fluid.absorber.width = 3", "half the tank's length"},
+    {"body_as_table", "[[body]]", "[body]", 18, "body", "must be an array of tables, not a table"},
+    {"body_name_missing", "name = \"wedge\"\n", "", 18, "body[0].name is missing", "a string"},
+    {"body_name_is_a_number", "\"wedge\"\nmass", "\"12\"\nmass", 19, "body.12.name = \"12\"",
+     "not of digits alone"},
+    {"mass_zero", "mass = 241", "mass = 0", 20, "body.wedge.mass = 0",
+     "must be positive (kg/m). Use motion = \"fixed\""},
+    {"mass_missing", "mass = 241\n", "", 18, "body.wedge.mass is missing", "mass (kg/m) or mean density"},
+    {"mass_and_density", "mass = 241", "mass = 241\ndensity = 500", 21, "body.wedge.density = 500",
+     "exclude each other"},
+    {"inertia_negative", "mass = 241", "mass = 241\ninertia = -1", 21, "body.wedge.inertia = -1",
+     "must be positive (kg m)"},
+    {"motion_unknown", "mass = 241", "mass = 241\nmotion = \"frozen\"", 21, "body.wedge.motion = \"frozen\"",
+     "must be 'free', 'fixed' or 'prescribed'"},
+    {"freedom_unknown", "free = [\"y\"]", "free = [\"z\"]", 23, "body.wedge.free = [\"z\"]",
+     "must be a list of 'x', 'y' or 'rotation'"},
+    {"freedom_none", "free = [\"y\"]", "free = []", 23, "body.wedge.free = []", "must name at least one"},
+    {"fixed_body_with_velocity", "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]",
+     "motion = \"fixed\"\nposition = [0, 0.01]\nvelocity = [0, -6.15]", 22, "body.wedge.velocity",
+     "a fixed body does not move"},
+    {"path_of_a_free_body", "mass = 241", "mass = 241\npath = [[0, 0, 1, 0], [1, 0, 0, 0]]", 21,
+     "body.wedge.path", "only a body with motion = \"prescribed\""},
+    {"path_runs_backwards", "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]",
+     "motion = \"prescribed\"\npath = [[0, 0, 0.1, 0], [0.2, 0, 0.1, 0], [0.1, 0, 0.1, 0]]", 21,
+     "body.wedge.path", "times must increase"},
+    {"path_row_too_short", "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]",
+     "motion = \"prescribed\"\npath = [[0, 0, 0.1]]", 21, "body.wedge.path", "must be a list of 4 numbers"},
+    {"path_leaves_the_tank", "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]",
+     "motion = \"prescribed\"\npath = [[0, 0, 0.1, 0], [0.2, 0, -1.1, 0]]", 21, "body.wedge.path",
+     "leaves the tank"},
+    {"pitch_beyond_a_turn", "mass = 241", "mass = 241\npitch_deg = 400", 21, "body.wedge.pitch_deg = 400",
+     "must lie in [-360, 360] (deg)"},
+    {"position_outside_tank", "position = [0, 0.01]", "position = [1.9, 0.01]", 21,
+     "body.wedge.position = [1.9, 0.01]", "leaves the tank"},
+    {"body_size_zero", "size = 0.005", "size = 0", 24, "body.wedge.size = 0", "must be positive (m)"},
+    {"body_size_beyond_body", "size = 0.005", "size = 5", 24, "body.wedge.size = 5",
+     "must not exceed the body's extent"},
+    {"shape_missing", "shape = { type = \"wedge\", deadrise_deg = 30, breadth = 0.5 }\n", "", 18,
+     "body.wedge.shape is missing", "a table"},
+    {"shape_unknown", "type = \"wedge\"", "type = \"cone\"", 25, "body.wedge.shape.type = \"cone\"",
+     "must be 'polygon', 'wedge'"},
+    {"deadrise_zero", "deadrise_deg = 30", "deadrise_deg = 0", 25, "body.wedge.shape.deadrise_deg = 0",
+     "must lie in (0, 89] (deg)"},
+    {"breadth_negative", "breadth = 0.5", "breadth = -0.5", 25, "body.wedge.shape.breadth = -0.5",
+     "must be positive (m)"},
+    {"wedge_too_low", "breadth = 0.5", "breadth = 0.5, height = 0.1", 25, "body.wedge.shape.height = 0.1",
+     "must not be below that of the faces"},
+    {"outline_crosses_itself", "{ type = \"wedge\", deadrise_deg = 30, breadth = 0.5 }",
+     "{ type = \"polygon\", points = [[0, 0], [1, 1], [1, 0], [0, 0.7]] }", 25, "body.wedge.shape.points",
+     "touch or cross"},
+    {"outline_of_two_points", "{ type = \"wedge\", deadrise_deg = 30, breadth = 0.5 }",
+     "{ type = \"polygon\", points = [[0, 0], [1, 1]] }", 25, "body.wedge.shape.points", "at least 3"},
+    {"bodies_with_the_same_name", "[output]",
+     "[[body]]\nname = \"wedge\"\nmotion = \"fixed\"\nposition = [1, 0.5]\nshape = { type = \"circle\", "
+     "radius = 0.1 }\n[output]",
+     27, "body[1].name = \"wedge\"", "is taken by another body"},
+    {"bodies_overlap", "[output]",
+     "[[body]]\nname = \"rock\"\nmotion = \"fixed\"\nposition = [0.1, 0.1]\nshape = { type = \"circle\", "
+     "radius = 0.1 }\n[output]",
+     29, "body.rock.position = [0.1, 0.1]", "overlaps body.wedge"},
+    {"scheme_unknown", "[output]", "[coupling]\nscheme = \"iterate\"\n[output]", 27,
+     "coupling.scheme = \"iterate\"", "Did you mean 'iterated'?"},
+    {"interface_term_unknown", "[output]", "[coupling]\ninterface_term = \"exact\"\n[output]", 27,
+     "coupling.interface_term = \"exact\"", "'rigid', 'laplacian' or 'none'"},
+    {"relaxation_zero", "[output]", "[coupling]\nrelaxation = 0\n[output]", 27, "coupling.relaxation = 0",
+     "must lie in (0, 1]"},
+    {"passes_not_whole", "[output]", "[coupling]\nmax_passes = 2.5\n[output]", 27,
+     "coupling.max_passes = 2.5", "must be a whole number"},
+    {"interval_negative", "interval = 0.001", "interval = -1", 27, "output.interval = -1",
+     "must not be below 0 (s)"},
+    {"interval_beyond_end", "interval = 0.001", "interval = 1", 27, "output.interval = 1",
+     "must not exceed time.end"},
+    {"record_kind_unknown", "kind = \"pressure\"", "kind = \"presure\"", 29, "record.keel.kind = \"presure\"",
+     "Did you mean 'pressure'?"},
+    {"probe_on_unknown_body", "body = \"wedge\"", "body = \"wegde\"", 31, "record.keel.body = \"wegde\"",
+     "Did you mean 'wedge'?"},
+    {"probe_outside_tank", "body = \"wedge\"\npoint = [0, 0]", "point = [3, 0]", 31,
+     "record.keel.point = [3, 0]", "lies outside the tank"},
+    {"probe_inside_its_body", "point = [0, 0]", "point = [0, 0.1]", 32, "record.keel.point = [0, 0.1]",
+     "inside the body 'wedge'"},
+    {"gauge_outside_tank", "kind = \"pressure\"\nname = \"keel\"\nbody = \"wedge\"\npoint = [0, 0]",
+     "kind = \"surface_elevation\"\nname = \"g\"\nx = 9", 31, "record.g.x = 9", "lies outside the tank"},
+    {"records_with_the_same_name", "[[record]]",
+     "[[record]]\nkind = \"surface_elevation\"\nname = \"keel\"\nx = 0\n[[record]]", 34,
+     "record[1].name = \"keel\"", "is taken by another record"},
+    {"three_dimensions", "title", "dimension = 3\ntitle", 1, "dimension = 3", "not available yet"},
+    {"four_dimensions", "title", "dimension = 4\ntitle", 1, "dimension = 4", "must lie in [2, 3]"},
+    {"dimension_as_text", "title", "dimension = \"2\"\ntitle", 1, "dimension = \"2\"",
+     "must be a whole number, not a string"},
+};
+
+INSTANTIATE_TEST_SUITE_P(table, BadSceneIsRefused, ::testing::ValuesIn(scenes),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(BadScene, an_empty_file_lacks_an_end_time_and_content) {
+  const auto messages = messages_of("");
+  ASSERT_EQ(messages.size(), 2u) << ::testing::PrintToString(messages);
+  EXPECT_NE(messages[0].find("time.end is missing"), std::string::npos) << messages[0];
+  EXPECT_NE(messages[1].find("neither [fluid] nor [[body]]"), std::string::npos) << messages[1];
+}
+
+TEST(BadScene, all_problems_are_told_at_once_in_the_order_of_the_file) {
+  auto text = testing::wedge_drop_with("density = 1000", "density = -1");
+  text.replace(text.find("end = 0.02"), 10, "end = -1");
+  text.replace(text.find("mass = 241"), 10, "mas = 241 ");
+  const auto messages = messages_of(text);
+  ASSERT_EQ(messages.size(), 4u) << ::testing::PrintToString(messages);
+  EXPECT_TRUE(messages[0].starts_with("scene.toml:3: time.end = -1"));
+  EXPECT_TRUE(messages[1].starts_with("scene.toml:10: fluid.density = -1"));
+  EXPECT_TRUE(messages[2].starts_with("scene.toml:18: body.wedge.mass is missing"));
+  EXPECT_TRUE(
+      messages[3].starts_with("scene.toml:20: body.wedge.mas = 241: unknown key. Did you mean 'mass'?"));
+}
+
+TEST(BadScene, a_missing_file_is_named_with_the_cause) {
+  try {
+    read_scene("/no/such/scene.toml");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_NE(error.messages().at(0).find("/no/such/scene.toml: cannot be read: No such file"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(read_scene("/"), SceneError);
+}
+
+TEST(BadScene, an_absorber_needs_a_tank) {
+  const auto messages = messages_of(testing::wedge_drop_with("[tank]\nmin = [-2, -1]\nmax = [2, 1]\n",
+                                                             "[fluid.absorber]\nwidth = 1\nrate = 1\n"));
+  ASSERT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
+  EXPECT_TRUE(messages[0].starts_with("scene.toml:6: fluid.absorber: needs a [tank]")) << messages[0];
+}
+
+}  // namespace
+}  // namespace splashdown::apps
