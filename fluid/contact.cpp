@@ -18,9 +18,10 @@ double diameter(const Wall<d>& wall) {
 template <int d>
 void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& at) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!(nodes.surface[i] || nodes.spray[i]) || nodes.tie[i].wall >= 0) continue;
+    if (nodes.tie[i].wall >= 0) continue;
     for (std::size_t w = 0; w < at.walls.size(); ++w) {
-      // Drops may cross more than an element in a step, surface nodes may not.
+      if (!at.walls[w].may_touch(at.poses[w], nodes.x[i], 0)) continue;
+      // Drops may cross more than an element in a step, nodes of the liquid may not.
       const double reach = nodes.spray[i] ? diameter(at.walls[w]) : h[i];
       const auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
       if (near.distance > 0) continue;

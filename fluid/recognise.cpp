@@ -7,6 +7,7 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double flat = 1e-7;         // volume over longest edge^d below which a cell is degenerate
+constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, belong to no fluid cell
 constexpr double facet_sag = 0.1;     // wetted facets stay this close to their wall, over their length
 
 template <int d>
@@ -40,11 +41,17 @@ Shape shape(const Mat<d>& J) {
   return {(cofactor(J) * half).norm() / det, false};
 }
 
+// Only cells that touch a wall can lie in it.
 template <int d>
-bool in_solid(const Vec<d>& point, const WallsAt<d>& at) {
-  for (std::size_t w = 0; w < at.walls.size(); ++w) {
+bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double size, const Nodes<d>& nodes,
+              const WallsAt<d>& at) {
+  for (int k = 0; k <= d; ++k) {
+    const int w = nodes.tie[cell[k]].wall;
+    if (w < 0 || (k > 0 && w == nodes.tie[cell[k - 1]].wall)) continue;
     const double reach = at.walls[w].box().diagonal().norm();
-    if (at.walls[w].nearest(at.poses[w], point, reach).distance < 0) return true;
+    if (at.walls[w].may_touch(at.poses[w], centroid, 0) &&
+        at.walls[w].nearest(at.poses[w], centroid, reach).distance < -solid_depth * size)
+      return true;
   }
   return false;
 }
@@ -68,7 +75,7 @@ int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
 template <int d>
 Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
                   const WallsAt<d>& walls, const Alpha& limit) {
-  const Delaunay<d> all = delaunay<d>(nodes.x);
+  const Delaunay<d> all = delaunay<d>(nodes.x, old_boundary);
   const InsideTest<d> inside(nodes.x, old_boundary);
   std::vector<char> inner(nodes.size(), 1);
   for (const auto& f : old_boundary)
@@ -91,8 +98,8 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
     }
     const double alpha = s.radius / size;
     is_fluid[c] = alpha <= limit.never &&
-                  ((has_inner && alpha < limit.inner) || inside(centroid) ||
-                   (!has_inner && alpha < limit.join && !in_solid(centroid, walls)));
+                  ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&
+                  !in_solid<d>(cell, centroid, size, nodes, walls);
   }
 
   Mesh<d> mesh;

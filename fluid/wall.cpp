@@ -36,6 +36,13 @@ Wall<d>::Wall(const WallSpec<d>& spec)
         if (normal_.col(f).dot(normal_.col(g)) < crease) is_sharp_[v] = 1;
     if (is_sharp_[v]) sharp_.push_back(v);
   }
+  double enclosed = 0;
+  for (int f = 0; f < facets.cols(); ++f) {
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = vertices.col(facets(k, f));
+    enclosed += corner[0].dot(area_vector(corner));
+  }
+  turned_inside_out_ = enclosed < 0;
   tiny_ = 1e-9 * box_.diagonal().norm();
 }
 

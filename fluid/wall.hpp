@@ -21,6 +21,10 @@ class Wall {
 
   /// Closest point of the wall in the given pose; distance = +reach where nothing is nearer.
   Near nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
+  /// False only where the point is surely farther than `margin` from the solid; cheap.
+  bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
+    return turned_inside_out_ || box_.squaredExteriorDistance(pose.inverse() * x) <= margin * margin;
+  }
   double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
   Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
   const std::vector<int>& sharp_vertices() const { return sharp_; }
@@ -37,6 +41,7 @@ class Wall {
   std::vector<int> sharp_;
   std::vector<char> is_sharp_;
   Eigen::AlignedBox<double, d> box_;
+  bool turned_inside_out_;  // a tank: the solid is outside the box
   double tiny_;  // length below which points coincide
 };
 
