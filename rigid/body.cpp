@@ -1,0 +1,37 @@
+#include "rigid/body.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "rigid/message.hpp"
+
+namespace splashdown::rigid {
+
+template <int d>
+void check(const BodySpec<d>& spec) {
+  const auto require = [&](bool fine, const auto&... text) {
+    if (!fine) throw std::invalid_argument(message("body \"", spec.name, "\": ", text...));
+  };
+  const double round_off = 1e-9;  // of a rotation or an inertia given with nine digits
+
+  const auto& rotation = spec.pose.linear();
+  require(spec.pose.matrix().allFinite(), "the initial pose is not finite");
+  require((rotation.transpose() * rotation).isIdentity(round_off) && rotation.determinant() > 0,
+          "the initial orientation is not a rotation (determinant ", rotation.determinant(), ")");
+  require(spec.velocity.allFinite(), "the initial velocity is not finite");
+  require(spec.motion != Motion::prescribed || spec.path, "prescribed motion needs a path");
+  if (spec.motion != Motion::free) return;
+
+  require(std::isfinite(spec.mass) && spec.mass > 0, "mass is ", spec.mass,
+          "; a body that moves freely needs a positive mass");
+  require(spec.inertia.allFinite() && spec.inertia.isApprox(spec.inertia.transpose(), round_off),
+          "the moment of inertia is not a finite symmetric tensor");
+  const double smallest = spec.inertia.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+  require(smallest > 0, "the smallest moment of inertia is ", smallest,
+          "; a body that moves freely needs a positive one about every axis");
+}
+
+template void check<2>(const BodySpec<2>&);
+template void check<3>(const BodySpec<3>&);
+
+}  // namespace splashdown::rigid

@@ -1,0 +1,58 @@
+// Small scenes shared by the tests of the rigid-body room.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "rigid/bodies.hpp"
+
+namespace splashdown::rigid {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+
+template <int d>
+BodySpec<d> free_body(double mass, const Inertia<d>& inertia) {
+  BodySpec<d> spec;
+  spec.name = "hull";
+  spec.mass = mass;
+  spec.inertia = inertia;
+  spec.free.fill(true);
+  return spec;
+}
+
+/// 2D body with all freedoms, 3 kg/m and 0.7 kg m.
+inline BodySpec<2> planar_body() { return free_body<2>(3, Inertia<2>(0.7)); }
+
+/// 3D body with three different moments of inertia about axes that are not the body axes.
+inline BodySpec<3> skew_body() {
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  return free_body<3>(2, axes * Eigen::Vector3d(1, 2, 2.6).asDiagonal() * axes.transpose());
+}
+
+template <int d>
+Bodies<d> alone(const BodySpec<d>& spec, std::vector<std::unique_ptr<Force<d>>> forces = {}) {
+  return Bodies<d>({spec}, std::move(forces));
+}
+
+/// One step under a load on the only body.
+template <int d>
+void step(Bodies<d>& bodies, double kick, double dt, const Wrench<d>& load = Wrench<d>::Zero()) {
+  bodies.begin(kick, dt);
+  bodies.solve(std::vector{load});
+  bodies.commit();
+}
+
+/// Same bits, NaN included.
+template <int d>
+bool identical(const BodyState<d>& a, const BodyState<d>& b) {
+  const auto same = [](const auto& x, const auto& y) {
+    return std::equal(x.data(), x.data() + x.size(), y.data(),
+                      [](double s, double t) { return s == t || (s != s && t != t); });
+  };
+  return same(a.pose.matrix(), b.pose.matrix()) && same(a.velocity, b.velocity);
+}
+
+inline double angle(const Isometry<2>& pose) { return std::atan2(pose(1, 0), pose(0, 0)); }
+
+}  // namespace splashdown::rigid
