@@ -49,7 +49,8 @@ class CheckTest : public testing::Test {
 };
 
 void register_example(const std::filesystem::path& folder, const Options& options) {
-  Example example = read_example(std::filesystem::absolute(folder).lexically_normal());
+  // Canonical: a trailing slash would leave the folder without a name.
+  const Example example = read_example(std::filesystem::canonical(folder));
   const bool nightly = options.label == "nightly";
   const auto judge =
       std::make_shared<Judge>(example, Runner(std::filesystem::absolute(options.command),
