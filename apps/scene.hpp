@@ -137,7 +137,7 @@ struct Coupling {
 struct Time {
   double end = 0;     ///< [s]
   double cfl = 0.5;   ///< share of an edge by which its ends may approach in one step
-  double dt_max = 0;  ///< [s]; default: min(end / 100, cfl sqrt(h_min / |g|))
+  double dt_max = 0;  ///< [s]; default: cfl sqrt(h_min / |g|), without gravity or fluid end / 100
 };
 
 struct Output {

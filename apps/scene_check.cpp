@@ -21,12 +21,8 @@ void check_tank(const Scene& scene, Problems& problems) {
 }
 
 void check_times(const Scene& scene, Problems& problems) {
-  const auto& time = scene.time;
-  if (time.dt_max > time.end)
-    problems.add("time.dt_max", fmt::format("must not exceed time.end = {:g} s", time.end),
-                 "Leave it out for a sensible value.");
-  if (scene.output.interval > time.end)
-    problems.add("output.interval", fmt::format("must not exceed time.end = {:g} s", time.end),
+  if (scene.output.interval > scene.time.end)
+    problems.add("output.interval", fmt::format("must not exceed time.end = {:g} s", scene.time.end),
                  "Use 0 for a row every step.");
 }
 

@@ -24,14 +24,11 @@ double finest(const Scene& scene) {
   return h;
 }
 
-/// A hundred steps at least; and surface waves as short as the elements stay stable in an explicit scheme,
-/// which bounds dt by 2 / sqrt(pi |g| / h) = 1.13 sqrt(h / |g|).
+/// Surface waves as short as the elements stay stable in an explicit scheme, which bounds dt by
+/// 2 / sqrt(pi |g| / h) = 1.13 sqrt(h / |g|). Without such waves: a hundred steps at least.
 double default_dt_max(const Scene& scene) {
-  const double share = scene.time.end / 100;
   const double g = scene.gravity ? scene.gravity->acceleration.norm() : 0;
-  return scene.fluid && g > 0 && finest(scene) > 0
-             ? std::min(share, scene.time.cfl * std::sqrt(finest(scene) / g))
-             : share;
+  return scene.fluid && g > 0 ? scene.time.cfl * std::sqrt(finest(scene) / g) : scene.time.end / 100;
 }
 
 bool meets_fluid_freely(const Scene& scene) {

@@ -1,0 +1,37 @@
+// Scene to World: the only place that chooses types.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "apps/recorder_settings.hpp"
+#include "apps/scene.hpp"
+#include "coupling/stepper.hpp"
+#include "fluid/fluid.hpp"
+#include "rigid/bodies.hpp"
+
+namespace splashdown::apps {
+
+/// What a run drives and what its recorder looks at.
+template <int d>
+struct World {
+  std::unique_ptr<coupling::Stepper> stepper;  ///< owns the parts
+  const fluid::Fluid<d>* fluid = nullptr;      ///< null: no liquid in the scene
+  const rigid::Bodies<d>* bodies = nullptr;    ///< null: no bodies in the scene
+  /// Half-step velocities of the bodies after the last attempt.
+  std::function<std::vector<rigid::Twist<d>>()> trial_velocities;
+};
+
+/// Throws std::invalid_argument if the parts refuse what the scene asks for.
+World<2> build_world(const Scene& scene);
+
+/// Walls: one a body, in their order, then the tank if there is one.
+fluid::FluidSpec<2> fluid_spec(const Scene& scene);
+std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms(const Scene& scene);
+rigid::BodySpec<2> body_spec(const Body& body);
+std::vector<std::unique_ptr<rigid::Force<2>>> body_forces(const Scene& scene);
+RecorderSettings<2> recorder_settings(const Scene& scene, const std::filesystem::path& directory);
+
+}  // namespace splashdown::apps

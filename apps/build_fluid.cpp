@@ -1,0 +1,64 @@
+#include <stdexcept>
+
+#include "apps/build.hpp"
+#include "apps/scene_geometry.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+fluid::Surface<2> fluid_surface(const rigid::Surface<2>& surface) {
+  return {surface.vertices, surface.facets};
+}
+
+std::function<fluid::Vec<2>(const fluid::Vec<2>&)> velocity_field(const Region& region) {
+  if (region.velocity.isZero(0) && region.velocity_gradient.isZero(0)) return {};
+  const fluid::Vec<2> velocity = planar(region.velocity), origin = planar(region.velocity_origin);
+  const fluid::Mat<2> gradient = region.velocity_gradient.topLeftCorner<2, 2>();
+  return [=](const fluid::Vec<2>& x) -> fluid::Vec<2> { return velocity + gradient * (x - origin); };
+}
+
+fluid::WallSpec<2> hull(const Body& body) {
+  const auto spec = body_spec(body);
+  return {.name = spec.name,
+          .surface = fluid_surface(spec.surface),
+          .pose = spec.pose,
+          .velocity = spec.velocity,
+          .size = body.size};
+}
+
+}  // namespace
+
+fluid::FluidSpec<2> fluid_spec(const Scene& scene) {
+  const auto& liquid = *scene.fluid;
+  fluid::FluidSpec<2> spec;
+  spec.density = liquid.density;
+  spec.size = {.surface = liquid.size.surface,
+               .far = liquid.size.far,
+               .growth = liquid.size.growth,
+               .wetted_fraction = liquid.size.wetted_fraction};
+  spec.step = {.cfl = scene.time.cfl, .dt_max = scene.time.dt_max};
+  for (const auto& region : liquid.regions)
+    spec.liquids.push_back({fluid_surface(outline(region)), velocity_field(region)});
+  for (const auto& body : scene.bodies) spec.walls.push_back(hull(body));
+  if (scene.tank) {
+    fluid::WallSpec<2> tank;
+    tank.name = "tank";
+    tank.surface = fluid_surface(tank_outline(*scene.tank));
+    tank.size = scene.tank->size;
+    spec.walls.push_back(std::move(tank));
+  }
+  return spec;
+}
+
+std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms(const Scene& scene) {
+  std::vector<std::unique_ptr<fluid::Term<2>>> terms;
+  if (scene.gravity)
+    terms.push_back(std::make_unique<fluid::Gravity<2>>(planar(scene.gravity->acceleration)));
+  if (scene.fluid->viscosity)
+    throw std::invalid_argument("[fluid.viscosity] is not available yet; remove the table");
+  if (scene.fluid->absorber)
+    throw std::invalid_argument("[fluid.absorber] is not available yet; remove the table");
+  return terms;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,45 @@
+// How far a run is: one line that renews itself on a terminal, a plain line now and then elsewhere.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace splashdown::apps {
+
+struct ProgressPoint {
+  double time = 0, stop = 0, dt = 0;
+  long steps = 0;
+  std::optional<std::size_t> nodes;  ///< absent without a fluid
+  std::optional<int> passes;         ///< absent without coupling
+};
+
+/// "0:07", "12:30", "3:05:00"
+std::string clock_text(double seconds);
+/// One line of progress; `left` in wall seconds, negative: not known yet.
+std::string progress_text(const ProgressPoint& point, double left);
+
+class Progress {
+ public:
+  enum class Style { none, plain, terminal };
+  explicit Progress(Style style) : style_(style) {}
+  ~Progress() { clear(); }
+
+  void show(const ProgressPoint& point);
+  /// A line of its own, above the progress line.
+  void say(const std::string& text);
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double time_left(const ProgressPoint& point);
+
+  Style style_;
+  bool shown_ = false;
+  std::optional<Clock::time_point> last_;
+  double rate_ = 0;  // simulated seconds a wall second, of late
+  double rated_time_ = 0;
+  std::optional<Clock::time_point> rated_;
+};
+
+}  // namespace splashdown::apps

@@ -1,0 +1,28 @@
+#include "apps/version.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/scene_echo.hpp"
+#include "apps/version_built.hpp"  // written by apps/version.cmake
+
+namespace splashdown::apps {
+
+std::string version() { return built::version; }
+std::string git_hash() { return built::git_hash; }
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+  return {std::begin(built::libraries), std::end(built::libraries)};
+}
+
+std::string provenance_toml() {
+  auto text = fmt::format("[provenance]\nversion = {}\ngit = {}\nlibraries = {{ ", toml_text(version()),
+                          toml_text(git_hash()));
+  const char* separator = "";
+  for (const auto& [name, number] : library_versions()) {
+    text += fmt::format("{}{} = {}", separator, name, toml_text(number));
+    separator = ", ";
+  }
+  return text + " }\n";
+}
+
+}  // namespace splashdown::apps
