@@ -1,5 +1,6 @@
 #include "fluid/size_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace splashdown::fluid {
@@ -13,6 +14,7 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
     const double length = 0.5 * std::pow(wetted[w], 1.0 / (d - 1));
     wall_size_[w] = std::max(walls.walls[w].spec().size, spec.wetted_fraction * length);
   }
+  if (std::isfinite(spec.hollow)) find_hollows(x, boundary);
   if (spec.surface >= spec.far) return;  // the far size already resolves the surface
   std::vector<const Facet<d>*> free;
   for (const auto& f : boundary)
@@ -28,6 +30,35 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
   surface_ = FacetTree<d>(std::move(vertices), std::move(facets));
 }
 
+// Curvature along a facet's edge from the nodes' normals, (n_j - n_i).(x_j - x_i) / |x_j - x_i|^2, averaged
+// at the nodes; negative where the liquid is hollow. Sources that others already imply are dropped.
+template <int d>
+void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const std::vector<Facet<d>>& boundary) {
+  std::vector<Vec<d>> normal(x.size(), Vec<d>::Zero());
+  std::vector<double> curvature(x.size(), 0.0), edges(x.size(), 0.0);
+  for (const auto& f : boundary)
+    if (f.wall < 0)
+      for (int n : f.nodes) normal[n] += area_vector_of<d>(f, x);
+  for (const auto& f : boundary) {
+    if (f.wall >= 0) continue;
+    for (int k = 0; k < d; ++k) {
+      const int i = f.nodes[k], j = f.nodes[(k + 1) % d];
+      const Vec<d> e = x[j] - x[i];
+      const double along = (normal[j].normalized() - normal[i].normalized()).dot(e) / e.squaredNorm();
+      for (int n : {i, j}) curvature[n] += along, edges[n] += 1;
+    }
+  }
+  std::vector<Source> found;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (edges[i] == 0 || curvature[i] >= 0) continue;
+    const double size = std::max(spec_.hollow_min, -spec_.hollow * edges[i] / curvature[i]);
+    if (size < (*this)(x[i])) found.push_back({x[i], size});
+  }
+  std::sort(found.begin(), found.end(), [](const Source& a, const Source& b) { return a.size < b.size; });
+  for (const Source& s : found)
+    if (s.size < (*this)(s.at)) hollows_.push_back(s);
+}
+
 template <int d>
 double SizeField<d>::operator()(const Vec<d>& point) const {
   double h = spec_.far;
@@ -35,6 +66,11 @@ double SizeField<d>::operator()(const Vec<d>& point) const {
     const double reach = (h - wall_size_[w]) / spec_.growth;
     if (reach <= 0) continue;
     h = wall_size_[w] + spec_.growth * walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach);
+  }
+  for (const Source& s : hollows_) {
+    const double reach = (h - s.size) / spec_.growth;
+    const double squared = (s.at - point).squaredNorm();
+    if (reach > 0 && squared < reach * reach) h = s.size + spec_.growth * std::sqrt(squared);
   }
   const double reach = (h - spec_.surface) / spec_.growth;
   if (!surface_.empty() && reach > 0)

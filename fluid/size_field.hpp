@@ -19,10 +19,17 @@ class SizeField {
   double at_wall(std::size_t wall) const { return wall_size_[wall]; }
 
  private:
+  void find_hollows(std::span<const Vec<d>> x, const std::vector<Facet<d>>& boundary);
+
+  struct Source {
+    Vec<d> at;
+    double size;
+  };
   SizeSpec spec_;
   WallsAt<d> walls_;
   std::vector<double> wall_size_;
   FacetTree<d> surface_;
+  std::vector<Source> hollows_;
 };
 
 extern template class SizeField<2>;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct SizeSpec {
   double far = 0;              ///< largest element [m]
   double growth = 0.15;        ///< dh/dx; 0.1-0.2: wedge study in docs/validation.md
   double wetted_fraction = 0;  ///< at a wall h is at least this fraction of its wetted half length
+  /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
+  double hollow = std::numeric_limits<double>::infinity();
+  double hollow_min = 0;  ///< ... but not below this [m]
 };
 
 /// dt = min(cfl * min over edges of length / |relative velocity along it|, dt_max)
