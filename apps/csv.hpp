@@ -1,7 +1,7 @@
 // Append-only csv file that can be cut back to an earlier length.
 //
-// Numbers are written in the shortest form that reads back to the same bits. Text is quoted only where RFC 4180
-// asks for it. All failures throw std::runtime_error naming the file.
+// Numbers are written in the shortest form that reads back to the same bits. Text is quoted only where RFC
+// 4180 asks for it. All failures throw std::runtime_error naming the file.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ class CsvFile {
   CsvFile(const CsvFile&) = delete;
   CsvFile& operator=(const CsvFile&) = delete;
 
-  void create();                     ///< empty file with the header
-  void reopen(std::uint64_t length); ///< existing file, cut to `length` bytes
+  void create();                      ///< empty file with the header
+  void reopen(std::uint64_t length);  ///< existing file, cut to `length` bytes
   bool is_open() const { return descriptor_ >= 0; }
 
   template <std::integral T>
@@ -36,8 +36,8 @@ class CsvFile {
   CsvFile& operator<<(std::string_view text);
   void end_row();
 
-  void write();               ///< hands all rows to the operating system
-  std::uint64_t sync();       ///< write() and force to disk; the file's length in bytes
+  void write();          ///< hands all rows to the operating system
+  std::uint64_t sync();  ///< write() and force to disk; the file's length in bytes
   const std::filesystem::path& path() const { return path_; }
 
  private:

@@ -10,8 +10,8 @@ namespace splashdown::apps {
 
 namespace {
 
-// Finer sampling than J211 asks for, so that averaging over the interval costs less than 0.1 % at the cut-off:
-// 1 - sinc(pi / 0.6 / 40) = 0.3 % is already too much at 40 samples, 80 give 0.07 %.
+// Finer sampling than J211 asks for, so that averaging over the interval costs less than 0.1 % at the
+// cut-off: 1 - sinc(pi / 0.6 / 40) = 0.3 % is already too much at 40 samples, 80 give 0.07 %.
 constexpr double samples_per_cfc = 80;
 constexpr double required_samples_per_cfc = 10;  // SAE J211-1, section 9.1
 

@@ -3,8 +3,8 @@
 //   two-pole Butterworth, design frequency 2.0775 CFC, run forward and backward (no phase shift):
 //   |H|^2 = 1 / (1 + (f / 2.0775 CFC)^4) in total, -3 dB at CFC / 0.6
 //
-// The histories are averages over consecutive intervals. They are brought to equal intervals by averaging again,
-// which keeps the velocity change exactly. Outside the record the first and last value are held.
+// The histories are averages over consecutive intervals. They are brought to equal intervals by averaging
+// again, which keeps the velocity change exactly. Outside the record the first and last value are held.
 #pragma once
 
 #include <map>

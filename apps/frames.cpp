@@ -72,7 +72,8 @@ template <int d>
 void write_fluid(const Frame<d>& frame, const std::filesystem::path& path) {
   vtkNew<vtkUnstructuredGrid> grid;
   const auto count = static_cast<vtkIdType>(frame.x.size());
-  set_points<d>(*grid, [&](vtkIdType i) { return frame.x[static_cast<std::size_t>(i)]; }, count);
+  set_points<d>(
+      *grid, [&](vtkIdType i) { return frame.x[static_cast<std::size_t>(i)]; }, count);
 
   std::vector<char> used(frame.x.size(), 0);
   grid->AllocateExact(static_cast<vtkIdType>(frame.cells.size()), d + 1);
@@ -104,7 +105,8 @@ template <int d>
 void write_outline(const Outline<d>& outline, double time, const std::filesystem::path& path) {
   vtkNew<vtkUnstructuredGrid> grid;
   const auto& [vertices, facets] = outline.surface;
-  set_points<d>(*grid, [&](vtkIdType i) { return vertices.col(i); }, vertices.cols());
+  set_points<d>(
+      *grid, [&](vtkIdType i) { return vertices.col(i); }, vertices.cols());
   grid->AllocateExact(facets.cols(), d);
   for (Eigen::Index f = 0; f < facets.cols(); ++f) {
     vtkIdType ids[d];
@@ -117,10 +119,14 @@ void write_outline(const Outline<d>& outline, double time, const std::filesystem
 std::string xml_escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
-    if (c == '&') escaped += "&amp;";
-    else if (c == '<') escaped += "&lt;";
-    else if (c == '"') escaped += "&quot;";
-    else escaped += c;
+    if (c == '&')
+      escaped += "&amp;";
+    else if (c == '<')
+      escaped += "&lt;";
+    else if (c == '"')
+      escaped += "&quot;";
+    else
+      escaped += c;
   }
   return escaped;
 }
@@ -136,7 +142,8 @@ std::string file_name_of(const std::string& name) {
 
 template <int d>
 std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesystem::path& directory,
-                                                              const std::string& stem, const Frame<d>& frame) {
+                                                              const std::string& stem,
+                                                              const Frame<d>& frame) {
   std::filesystem::create_directories(directory);
   std::vector<std::pair<std::string, std::string>> pieces;
   if (!frame.x.empty()) {
@@ -164,16 +171,18 @@ void FrameSeries::write_index() const {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
   for (const auto& entry : entries_)
-    xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", entry.time,
-                       entry.index, xml_escaped(entry.part), xml_escaped(entry.file));
+    xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                       entry.time, entry.index, xml_escaped(entry.part), xml_escaped(entry.file));
   xml += "  </Collection>\n</VTKFile>\n";
   write_file_atomically(directory_ / "frames.pvd", xml);
 }
 
 template std::vector<std::pair<std::string, std::string>> write_pieces<2>(const std::filesystem::path&,
-                                                                          const std::string&, const Frame<2>&);
+                                                                          const std::string&,
+                                                                          const Frame<2>&);
 template std::vector<std::pair<std::string, std::string>> write_pieces<3>(const std::filesystem::path&,
-                                                                          const std::string&, const Frame<3>&);
+                                                                          const std::string&,
+                                                                          const Frame<3>&);
 template void FrameSeries::add<2>(const Frame<2>&);
 template void FrameSeries::add<3>(const Frame<3>&);
 

@@ -13,7 +13,14 @@
 
 namespace splashdown::apps {
 
-enum class NodeKind : unsigned char { interior = 0, free_surface = 1, wall = 2, wall_vertex = 3, contact = 4, drop = 5 };
+enum class NodeKind : unsigned char {
+  interior = 0,
+  free_surface = 1,
+  wall = 2,
+  wall_vertex = 3,
+  contact = 4,
+  drop = 5
+};
 
 /// A wall in the world frame.
 template <int d>

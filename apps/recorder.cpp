@@ -75,8 +75,11 @@ struct Recorder<d>::State {
   std::map<std::size_t, SurfaceRuler<d>> rulers;
 
   explicit State(RecorderSettings<d> s)
-      : settings(std::move(s)), rows(settings.interval), frames_due(settings.frames.value_or(0)),
-        frames(settings.directory), equipment(settings.equipment.size()) {
+      : settings(std::move(s)),
+        rows(settings.interval),
+        frames_due(settings.frames.value_or(0)),
+        frames(settings.directory),
+        equipment(settings.equipment.size()) {
     for (const auto& record : settings.surface_pressure) {
       auto times = record.times;
       std::ranges::sort(times);
@@ -86,8 +89,8 @@ struct Recorder<d>::State {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, frames, run, max_speed_peak,
-            bodies, equipment, peak_force, body_names, speed, has_fluid,
+    archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, frames, run,
+            max_speed_peak, bodies, equipment, peak_force, body_names, speed, has_fluid,
             cereal::binary_data(&ledger, sizeof ledger));
   }
 
@@ -196,8 +199,7 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
   }
   for (std::size_t i = 0; i < equipment.size(); ++i) {
     const auto acceleration = equipment_acceleration(input, i);
-    for (int k = 0; k < d; ++k)
-      put(settings.equipment[i].name + ".a" + "xyz"[k], acceleration(k));
+    for (int k = 0; k < d; ++k) put(settings.equipment[i].name + ".a" + "xyz"[k], acceleration(k));
   }
 }
 
@@ -273,7 +275,8 @@ void Recorder<d>::summarise(Summary& summary) const {
     summary.coupling->passes_mean = static_cast<double>(s.run.passes_sum) / static_cast<double>(s.run.steps);
     summary.coupling->passes_max = s.run.passes_max;
   }
-  for (std::size_t b = 0; b < s.body_names.size(); ++b) summary.bodies[s.body_names[b]] = s.bodies[b].summary();
+  for (std::size_t b = 0; b < s.body_names.size(); ++b)
+    summary.bodies[s.body_names[b]] = s.bodies[b].summary();
   for (std::size_t i = 0; i < s.equipment.size(); ++i)
     summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary();
 }

@@ -4,8 +4,8 @@
 // first step at or after each multiple of the interval; the step size is never changed for output.
 // Statistics (peaks, impulses) see every step, whatever the intervals are.
 //
-// save() flushes the files to disk and stores their lengths; load() cuts them back to these lengths, so that a
-// run which was killed at any moment continues to the same bytes as one that never stopped.
+// save() flushes the files to disk and stores their lengths; load() cuts them back to these lengths, so that
+// a run which was killed at any moment continues to the same bytes as one that never stopped.
 #pragma once
 
 #include <iosfwd>
@@ -23,8 +23,8 @@ namespace splashdown::apps {
 /// A scene's state at t_n. Vectors have one entry a body, in the order of `bodies`.
 template <int d>
 struct RecordInput {
-  const fluid::Fluid<d>* fluid = nullptr;   ///< null: a scene without liquid
-  const rigid::Bodies<d>* bodies = nullptr; ///< null: a scene without bodies
+  const fluid::Fluid<d>* fluid = nullptr;            ///< null: a scene without liquid
+  const rigid::Bodies<d>* bodies = nullptr;          ///< null: a scene without bodies
   std::vector<rigid::Twist<d>> body_velocity_n;      ///< mean of the half-step velocities around t_n
   std::vector<rigid::Twist<d>> body_acceleration_n;  ///< their difference over the kick
   std::vector<fluid::WallLoad<d>> body_load;         ///< about the centre of mass; zero where dry

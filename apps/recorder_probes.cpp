@@ -13,8 +13,8 @@ using fluid::Vec;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// Barycentric coordinates of the point of a simplex facet nearest to `point`. For triangles the coordinates of
-/// the projection are clipped and normalised: exact inside, close enough outside for a distance test.
+/// Barycentric coordinates of the point of a simplex facet nearest to `point`. For triangles the coordinates
+/// of the projection are clipped and normalised: exact inside, close enough outside for a distance test.
 template <int d>
 Eigen::Matrix<double, d, 1> nearest_weights(const std::array<Vec<d>, d>& corners, const Vec<d>& point) {
   Eigen::Matrix<double, d, d - 1> edges;
@@ -65,8 +65,7 @@ std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const flui
       edges.col(k - 1) = corners[index(k)].template head<d - 1>() - corners[0].template head<d - 1>();
     const double area = edges.determinant();
     if (area == 0) continue;  // vertical facet: its neighbours hold the same heights
-    const Eigen::Matrix<double, d - 1, 1> local =
-        edges.inverse() * (at - corners[0].template head<d - 1>());
+    const Eigen::Matrix<double, d - 1, 1> local = edges.inverse() * (at - corners[0].template head<d - 1>());
     const double tolerance = 1e-12;  // a line through a node must not slip between two facets
     if (local.minCoeff() < -tolerance || local.sum() > 1 + tolerance) continue;
     double height = corners[0](d - 1);
@@ -149,8 +148,9 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 }
 
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                                      int wall, const SurfaceRuler<d>& ruler,
+std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes,
+                                                      const fluid::Mesh<d>& mesh, int wall,
+                                                      const SurfaceRuler<d>& ruler,
                                                       const fluid::Isometry<d>& pose) {
   std::vector<int> wetted;
   for (const auto& facet : mesh.boundary)
@@ -169,14 +169,15 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nod
   return points;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                         \
-  template std::optional<double> surface_elevation<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,      \
-                                                      const Eigen::Matrix<double, d - 1, 1>&);            \
-  template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,          \
-                                                  const Vec<d>&);                                         \
-  template class SurfaceRuler<d>;                                                                         \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                      \
-      const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const SurfaceRuler<d>&, const fluid::Isometry<d>&);
+#define SPLASHDOWN_INSTANTIATE(d)                                                                    \
+  template std::optional<double> surface_elevation<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, \
+                                                      const Eigen::Matrix<double, d - 1, 1>&);       \
+  template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,     \
+                                                  const Vec<d>&);                                    \
+  template class SurfaceRuler<d>;                                                                    \
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                 \
+      const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const SurfaceRuler<d>&,                    \
+      const fluid::Isometry<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

@@ -14,9 +14,9 @@ template <int d>
 std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
                                         const Eigen::Matrix<double, d - 1, 1>& at);
 
-/// Pressure at the point of the walls' wetted facets that is nearest to `point`, if it is not farther away than
-/// half that facet: walls are faceted finer or coarser than the fluid, so that a sensor on a wall may lie
-/// outside every cell.
+/// Pressure at the point of the walls' wetted facets that is nearest to `point`, if it is not farther away
+/// than half that facet: walls are faceted finer or coarser than the fluid, so that a sensor on a wall may
+/// lie outside every cell.
 template <int d>
 std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
                                     const fluid::Vec<d>& point);
@@ -28,8 +28,8 @@ struct SurfacePressurePoint {
   double p;         ///< [Pa]
 };
 
-/// Measures distances along a wall's surface from its keel: the lowest point, in the middle of the lowest edge
-/// where that is level.
+/// Measures distances along a wall's surface from its keel: the lowest point, in the middle of the lowest
+/// edge where that is level.
 template <int d>
 class SurfaceRuler {
  public:
@@ -49,8 +49,9 @@ class SurfaceRuler {
 
 /// Wetted nodes of a wall, ordered by s.
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                                      int wall, const SurfaceRuler<d>& ruler,
+std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes,
+                                                      const fluid::Mesh<d>& mesh, int wall,
+                                                      const SurfaceRuler<d>& ruler,
                                                       const fluid::Isometry<d>& pose);
 
 }  // namespace splashdown::apps

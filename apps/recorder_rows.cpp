@@ -65,9 +65,9 @@ void write_row(CsvFile& file, const BodyRow<d>& row) {
 void write_row(CsvFile& file, const FluidRow& row) {
   const auto& ledger = row.ledger;
   file << row.time << row.dt << row.nodes << row.elements << ledger.volume << ledger.kinetic_energy
-       << ledger.potential_energy << row.passes << row.residual << row.wall_seconds << row.max_speed << ledger.time_integration
-       << ledger.remesh_created << ledger.remesh_deleted << ledger.spray << ledger.energy_remesh
-       << ledger.energy_repair << ledger.work_on_walls;
+       << ledger.potential_energy << row.passes << row.residual << row.wall_seconds << row.max_speed
+       << ledger.time_integration << ledger.remesh_created << ledger.remesh_deleted << ledger.spray
+       << ledger.energy_remesh << ledger.energy_repair << ledger.work_on_walls;
   for (const double energy : row.effect_energies) file << energy;
   file.end_row();
 }

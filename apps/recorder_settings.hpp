@@ -49,7 +49,7 @@ struct RecorderSettings {
   std::vector<ElevationGauge<d>> gauges;
   std::vector<EquipmentPoint<d>> equipment;
   std::vector<SurfacePressureRecord> surface_pressure;
-  std::optional<double> still_water_level;  ///< [m]; absent: highest free-surface node at the start
+  std::optional<double> still_water_level;  ///< [m]; absent: top of the free surface at the start
 };
 
 }  // namespace splashdown::apps

@@ -118,18 +118,21 @@ template <int d>
 double water_level(const fluid::Fluid<d>& fluid) {
   const auto& nodes = fluid.nodes();
   double level = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes.surface[i]) level = std::fmax(level, nodes.x[i](d - 1));
+  for (const auto& facet : fluid.mesh().boundary) {
+    if (facet.wall >= 0) continue;
+    for (const int node : facet.nodes)
+      level = std::fmax(level, nodes.x[static_cast<std::size_t>(node)](d - 1));
+  }
   return level;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                              \
-  template Frame<d> take_frame<d>(const RecordInput<d>&);                      \
-  template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);      \
+#define SPLASHDOWN_INSTANTIATE(d)                                                  \
+  template Frame<d> take_frame<d>(const RecordInput<d>&);                          \
+  template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);          \
   template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&); \
-  template std::vector<double> effect_energies<d>(const fluid::Fluid<d>&);     \
-  template std::vector<std::string> effect_names<d>(const fluid::Fluid<d>&);   \
-  template double max_speed<d>(const fluid::Fluid<d>&);                        \
+  template std::vector<double> effect_energies<d>(const fluid::Fluid<d>&);         \
+  template std::vector<std::string> effect_names<d>(const fluid::Fluid<d>&);       \
+  template double max_speed<d>(const fluid::Fluid<d>&);                            \
   template double water_level<d>(const fluid::Fluid<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)

@@ -27,7 +27,7 @@ std::vector<std::string> effect_names(const fluid::Fluid<d>& fluid);
 template <int d>
 double max_speed(const fluid::Fluid<d>& fluid);
 
-/// Highest free-surface node; nan without one [m].
+/// Highest point of the free surface, without drops; nan if there is none [m].
 template <int d>
 double water_level(const fluid::Fluid<d>& fluid);
 

@@ -1,7 +1,7 @@
 // Running statistics of a run: peaks, impulses, accelerations. They see every step and survive a resume.
 //
-// Loads and accelerations are averages over the kick around t_n, [t_n - dt_{n-1}/2, t_n + dt_n/2]; impulses and
-// filters use them as such, so that impulse = change of momentum holds to rounding.
+// Loads and accelerations are averages over the kick around t_n, [t_n - dt_{n-1}/2, t_n + dt_n/2]; impulses
+// and filters use them as such, so that impulse = change of momentum holds to rounding.
 #pragma once
 
 #include <span>

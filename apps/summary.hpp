@@ -32,8 +32,8 @@ struct InactiveEffect {
 };
 
 struct AccelerationSummary {
-  Peak raw;                         ///< [g]
-  std::map<int, Peak> cfc;          ///< channel frequency class -> filtered peak [g]
+  Peak raw;                 ///< [g]
+  std::map<int, Peak> cfc;  ///< channel frequency class -> filtered peak [g]
 };
 
 struct BodySummary {
@@ -67,18 +67,18 @@ struct CouplingSummary {
 };
 
 struct Summary {
-  std::string scene;                ///< name of the scene, for headings
-  std::string status;               ///< "done", "failed", "interrupted" or "budget"
-  std::string cause;                ///< why it failed; empty otherwise
+  std::string scene;   ///< name of the scene, for headings
+  std::string status;  ///< "done", "failed", "interrupted" or "budget"
+  std::string cause;   ///< why it failed; empty otherwise
   int dimension = 2;
-  double simulated_time = 0;        ///< [s]
+  double simulated_time = 0;  ///< [s]
   long steps = 0;
   double wall_seconds = 0;
   std::vector<std::pair<std::string, double>> phases;  ///< seconds each
   std::vector<ActiveEffect> effects;
   std::vector<InactiveEffect> inactive_effects;
-  std::optional<RangeCount> nodes, elements;       ///< absent without a fluid
-  std::optional<CouplingSummary> coupling;         ///< absent unless fluid and bodies are coupled
+  std::optional<RangeCount> nodes, elements;  ///< absent without a fluid
+  std::optional<CouplingSummary> coupling;    ///< absent unless fluid and bodies are coupled
   std::optional<LedgerSummary> ledger;
   std::optional<FluidSummary> fluid;
   std::map<std::string, BodySummary> bodies;

@@ -1,0 +1,50 @@
+// Figures by gnuplot: data and script files in a folder, one subprocess for all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace splashdown::apps {
+
+struct Curve {
+  std::string label;  ///< empty: not in the key
+  std::vector<double> x, y;
+  std::string colour;  ///< #rrggbb
+  double width = 1.6;
+  bool right_axis = false;
+  bool steps = false;  ///< constant until the next point
+};
+
+/// A labelled point, e.g. a peak.
+struct Mark {
+  double x, y;
+  std::string text;
+};
+
+struct Figure {
+  std::string name;  ///< of its files
+  std::string x_label, y_label, y2_label;
+  std::vector<Curve> curves;
+  std::vector<Mark> marks;
+  bool zero_line = true;
+  bool counts = false;  ///< the left axis counts something: from zero, whole numbers
+  std::string caption;  ///< HTML below the figure
+};
+
+/// At most about `limit` points that keep every extreme the eye could see.
+void thin(std::vector<double>& x, std::vector<double>& y, std::size_t limit);
+
+/// Writes NAME.dat for each figure; the commands that draw NAME.svg.
+std::string script_of(const std::filesystem::path& folder, const std::vector<Figure>& figures);
+
+enum class GnuplotResult { drawn, missing, failed };
+/// Runs gnuplot on each script (file names in `folder`) with the folder as working directory, output to
+/// SCRIPT.log; as many at a time as there are cores.
+std::vector<GnuplotResult> run_gnuplot(const std::filesystem::path& folder,
+                                       const std::vector<std::string>& scripts);
+
+/// Text for a gnuplot string in double quotes, without markup.
+std::string gnuplot_escaped(const std::string& text);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,40 @@
+// A run's files, read back for its report.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace splashdown::apps {
+
+/// Columns of numbers; text reads as nan.
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+
+  bool empty() const { return columns.empty() || columns.front().empty(); }
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  /// Empty if there is no such column.
+  const std::vector<double>& operator[](const std::string& name) const;
+};
+
+using NamedTables = std::vector<std::pair<std::string, Table>>;  ///< in order of first appearance
+
+/// Reads a csv file, split by the text in `group_column` (empty: one table named ""). No file: no tables.
+NamedTables read_csv(const std::filesystem::path& path, const std::string& group_column = {});
+
+struct RunData {
+  std::filesystem::path directory;
+  nlohmann::ordered_json summary;  ///< null if the run left none
+  NamedTables bodies, probes, surface_pressure;
+  Table fluid;
+
+  int dimension() const;
+  double end_time() const;
+};
+
+RunData read_run(const std::filesystem::path& directory);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "apps/recorder_probes.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+fluid::Surface<2> polygon(const std::vector<fluid::Vec<2>>& points) {
+  fluid::Surface<2> surface;
+  const auto count = static_cast<Eigen::Index>(points.size());
+  surface.vertices.resize(2, count);
+  surface.facets.resize(2, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    surface.vertices.col(i) = points[static_cast<std::size_t>(i)];
+    surface.facets.col(i) << static_cast<int>(i), static_cast<int>((i + 1) % count);
+  }
+  return surface;
+}
+
+const fluid::Isometry<2> at_rest = fluid::Isometry<2>::Identity();
+
+TEST(Elevation, is_the_highest_crossing_of_the_free_surface) {
+  fluid::Nodes<2> nodes;
+  nodes.x = {{0, 1}, {1, 2}, {2, 2}, {0.5, 3}, {1.5, 3}};
+  fluid::Mesh<2> mesh;
+  mesh.boundary = {{{1, 0}, -1}, {{2, 1}, -1}};
+  using At = Eigen::Matrix<double, 1, 1>;
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(0.25)), 1.25);
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(1.0)), 2);  // at a node
+  EXPECT_FALSE(surface_elevation<2>(nodes, mesh, At(2.5)));
+  mesh.boundary.push_back({{4, 3}, -1});  // a jet above
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(1.0)), 3);
+  mesh.boundary.back().wall = 0;  // a hull above
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(1.0)), 2);
+}
+
+TEST(Elevation, of_a_tilted_plane_in_space_is_exact) {
+  fluid::Nodes<3> nodes;
+  nodes.x = {{0, 0, 1}, {1, 0, 3}, {0, 1, 4}};
+  fluid::Mesh<3> mesh;
+  mesh.boundary = {{{0, 1, 2}, -1}};
+  EXPECT_NEAR(*surface_elevation<3>(nodes, mesh, Eigen::Vector2d(0.25, 0.5)), 1 + 2 * 0.25 + 3 * 0.5, 1e-14);
+  EXPECT_FALSE(surface_elevation<3>(nodes, mesh, Eigen::Vector2d(0.75, 0.5)));
+}
+
+TEST(WallPressure, is_interpolated_at_the_nearest_wetted_facet_and_absent_far_away) {
+  fluid::Nodes<2> nodes;
+  nodes.x = {{0, 0}, {1, 0}, {1, 1}};
+  nodes.p = {10, 20, 40};
+  fluid::Mesh<2> mesh;
+  mesh.boundary = {{{0, 1}, 0}, {{1, 2}, 1}, {{2, 0}, -1}};
+  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, {0.3, -0.01}), 13, 1e-12);
+  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, {1.01, 0.5}), 30, 1e-12);
+  EXPECT_FALSE(wall_pressure<2>(nodes, mesh, {0.3, -0.6}));
+}
+
+TEST(Ruler, measures_a_wedge_from_its_keel_with_opposite_signs_on_its_faces) {
+  const SurfaceRuler<2> ruler(polygon({{0, 0}, {3, 4}, {-3, 4}}), at_rest);
+  EXPECT_NEAR(ruler.distance({0, 0}), 0, 1e-14);
+  EXPECT_NEAR(ruler.distance({1.5, 2}), 2.5, 1e-14);
+  EXPECT_NEAR(ruler.distance({-1.5, 2}), -2.5, 1e-14);
+}
+
+TEST(Ruler, begins_in_the_middle_of_a_level_bottom) {
+  const SurfaceRuler<2> ruler(polygon({{-1, 0}, {1, 0}, {1, 1}, {-1, 1}}), at_rest);
+  EXPECT_NEAR(ruler.distance({0, 0}), 0, 1e-14);
+  EXPECT_NEAR(ruler.distance({0.5, 0}), 0.5, 1e-14);
+  EXPECT_NEAR(ruler.distance({-1, 0.25}), -1.25, 1e-14);
+}
+
+TEST(Ruler, the_keel_is_what_is_lowest_in_the_first_pose) {
+  fluid::Isometry<2> upside_down = at_rest;
+  upside_down.rotate(Eigen::Rotation2Dd(std::numbers::pi));
+  const SurfaceRuler<2> ruler(polygon({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}), upside_down);
+  EXPECT_NEAR(ruler.distance({0, 1}), 0, 1e-14);
+}
+
+TEST(SurfacePressure, has_the_wetted_nodes_of_one_wall_in_order) {
+  fluid::Nodes<2> nodes;
+  nodes.x = {{0, 0}, {0.6, 0.8}, {-0.6, 0.8}, {2, 0}};
+  nodes.p = {5, 6, 7, 8};
+  fluid::Mesh<2> mesh;
+  mesh.boundary = {{{0, 1}, 0}, {{2, 0}, 0}, {{1, 3}, -1}};
+  const SurfaceRuler<2> ruler(polygon({{0, 0}, {3, 4}, {-3, 4}}), at_rest);
+  const auto points = surface_pressure<2>(nodes, mesh, 0, ruler, at_rest);
+  ASSERT_EQ(points.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(points[i].s, static_cast<double>(i) - 1, 1e-14);
+  EXPECT_EQ(points[0].p, 7);
+  EXPECT_EQ(points[1].p, 5);
+  EXPECT_EQ(points[2].p, 6);
+}
+
+}  // namespace
+}  // namespace splashdown::apps

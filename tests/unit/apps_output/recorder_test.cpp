@@ -1,0 +1,227 @@
+#include "apps/recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "apps/report_data.hpp"
+#include "scratch_folder.hpp"
+#include "stand_ins.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+constexpr int steps = 60;
+constexpr double dt = drop_end / steps;
+
+RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
+  RecorderSettings<2> settings;
+  settings.directory = directory;
+  settings.frames = 0.005;
+  settings.pressure_probes = {{"keel", {0.02, -0.09}, "wedge"}, {"air", {0.0, 0.4}, ""}};
+  settings.gauges = {{"gauge", Eigen::Matrix<double, 1, 1>(0.4)},
+                     {"outside", Eigen::Matrix<double, 1, 1>(9)}};
+  settings.equipment = {{"seat", "wedge", {0.1, 0}}};
+  settings.surface_pressure = {{"wedge", {}, {0.01, 0.02}}};
+  return settings;
+}
+
+void record_steps(Recorder<2>& recorder, int from, int to, bool last) {
+  StandInDrop drop;
+  for (int n = from; n <= to; ++n) {
+    RecordInput<2> input = drop.at(n * dt, dt);
+    input.last = last && n == to;
+    recorder.record(input);
+  }
+}
+
+std::string summary_of_run(const Recorder<2>& recorder) {
+  Summary summary;
+  summary.coupling = CouplingSummary{};
+  recorder.summarise(summary);
+  return to_json(summary);
+}
+
+constexpr const char* recorded_files[] = {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv",
+                                          "frames.pvd"};
+
+class ResumedAt : public testing::TestWithParam<int> {};
+
+// A run killed `extra` steps after its checkpoint and resumed leaves the same bytes and the same statistics.
+TEST_P(ResumedAt, leaves_what_an_undisturbed_run_leaves) {
+  ScratchFolder whole, broken;
+  Recorder<2> undisturbed(settings_in(whole.path()));
+  record_steps(undisturbed, 0, steps, true);
+  undisturbed.finish();
+
+  std::stringstream checkpoint;
+  {
+    Recorder<2> recorder(settings_in(broken.path()));
+    record_steps(recorder, 0, GetParam(), false);
+    recorder.save(checkpoint);
+    record_steps(recorder, GetParam() + 1, GetParam() + 7, false);
+  }
+  std::ofstream(broken.path() / "bodies.csv", std::ios::app) << "0.1,wedge,0,0";  // a torn last row
+  Recorder<2> recorder(settings_in(broken.path()));
+  recorder.load(checkpoint);
+  record_steps(recorder, GetParam() + 1, steps, true);
+  recorder.finish();
+
+  for (const char* file : recorded_files) EXPECT_EQ(broken.text(file), whole.text(file)) << file;
+  for (const char* picture : {"frames/000003.vtu", "snapshots/start.vtu", "snapshots/peak.vtu"})
+    EXPECT_EQ(broken.text(picture), whole.text(picture)) << picture;
+  EXPECT_EQ(summary_of_run(recorder), summary_of_run(undisturbed));
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, ResumedAt, testing::Values(0, 10, 29, 30, 31, 50));
+
+TEST(Recorder, a_summary_can_be_given_right_after_a_resume) {
+  ScratchFolder folder;
+  std::stringstream checkpoint;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, 20, false);
+  recorder.save(checkpoint);
+  Recorder<2> resumed(settings_in(folder.path()));
+  resumed.load(checkpoint);
+  EXPECT_EQ(summary_of_run(resumed), summary_of_run(recorder));
+}
+
+TEST(Recorder, a_missing_file_stops_a_resume) {
+  ScratchFolder folder;
+  std::stringstream checkpoint;
+  {
+    Recorder<2> recorder(settings_in(folder.path()));
+    record_steps(recorder, 0, 5, false);
+    recorder.save(checkpoint);
+  }
+  std::filesystem::remove(folder.path() / "fluid.csv");
+  Recorder<2> resumed(settings_in(folder.path()));
+  EXPECT_THROW(resumed.load(checkpoint), std::runtime_error);
+}
+
+TEST(Recorder, a_new_run_clears_what_an_earlier_one_left_and_nothing_else) {
+  ScratchFolder folder;
+  {
+    Recorder<2> recorder(settings_in(folder.path()));
+    record_steps(recorder, 0, steps, true);
+    recorder.finish();
+  }
+  std::ofstream(folder.path() / "frames" / "mine.txt") << "notes";
+  std::ofstream(folder.path() / "mine.csv") << "notes";
+  RecorderSettings<2> bare;
+  bare.directory = folder.path();
+  Recorder<2> recorder(bare);
+  record_steps(recorder, 0, 3, true);
+  for (const char* gone : {"probes.csv", "surface_pressure.csv", "frames.pvd", "frames/000000.vtu"})
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / gone)) << gone;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "frames" / "mine.txt"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "mine.csv"));
+}
+
+TEST(Recorder, writes_nothing_before_its_first_step) {
+  ScratchFolder folder;
+  { Recorder<2> recorder(settings_in(folder.path() / "run")); }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "run"));
+}
+
+TEST(Recorder, rows_follow_the_interval_and_the_last_step_has_one) {
+  ScratchFolder folder;
+  auto settings = settings_in(folder.path());
+  settings.interval = 0.004;
+  Recorder<2> recorder(settings);
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  const auto bodies = read_csv(folder.path() / "bodies.csv", "body");
+  ASSERT_EQ(bodies.size(), 1u);
+  const std::vector<double> expected{0, 0.004, 0.008, 0.012, 0.016, 0.02, 0.024, 0.028, 0.03};
+  const auto& times = bodies[0].second["time"];
+  ASSERT_EQ(times.size(), expected.size());
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 1e-12);
+}
+
+// Loads are averages over the kick, so that their sum times the kick is the change of momentum.
+TEST(Recorder, impulse_is_the_sum_over_kicks_whatever_the_interval) {
+  ScratchFolder folder;
+  auto settings = settings_in(folder.path());
+  settings.interval = 1;
+  Recorder<2> recorder(settings);
+  record_steps(recorder, 0, steps, true);
+  StandInDrop drop;
+  double impulse = 0;
+  for (int n = 0; n <= steps; ++n)
+    impulse += drop.at(n * dt, dt).body_load[0].total()(1) * (n == 0 ? 0.5 * dt : dt);
+  Summary summary;
+  recorder.summarise(summary);
+  EXPECT_NEAR(summary.bodies.at("wedge").impulse[1], impulse, 1e-12 * impulse);
+}
+
+TEST(Recorder, probes_have_a_defined_answer_everywhere) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  const auto probes = read_csv(folder.path() / "probes.csv", "probe");
+  ASSERT_EQ(probes.size(), 6u);
+  const auto named = [&](const std::string& name) -> const Table& {
+    return std::ranges::find(probes, name, &NamedTables::value_type::first)->second;
+  };
+  EXPECT_GT(named("keel")["value"].back(), 0);
+  EXPECT_EQ(named("air")["value"].back(), 0);
+  EXPECT_TRUE(std::isfinite(named("gauge")["value"].back()));
+  EXPECT_TRUE(std::isnan(named("outside")["value"].back()));
+  EXPECT_EQ(named("seat.ay")["value"].size(), steps + 1u);
+}
+
+TEST(Recorder, surface_pressure_is_written_at_the_listed_times_only) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  EXPECT_TRUE(folder.text("surface_pressure.csv").starts_with("time,body,x,y,s,p\n"));
+  auto times = read_csv(folder.path() / "surface_pressure.csv", "body").at(0).second["time"];
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_NEAR(times[0], 0.01, 1e-12);
+  EXPECT_NEAR(times[1], 0.02, 1e-12);
+}
+
+TEST(Recorder, an_effect_that_is_present_has_its_column) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, 1, true);
+  const std::string text = folder.text("fluid.csv");
+  EXPECT_TRUE(text.substr(0, text.find('\n')).ends_with(",gravity_energy"));
+}
+
+TEST(Recorder, a_scene_without_liquid_leaves_no_fluid_files) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  StandInDrop drop;
+  RecordInput<2> input = drop.at(0, dt);
+  input.fluid = nullptr;
+  recorder.record(input);
+  recorder.finish();
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "bodies.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "fluid.csv"));
+  Summary summary;
+  recorder.summarise(summary);
+  EXPECT_FALSE(summary.ledger);
+}
+
+TEST(Recorder, a_record_of_an_unknown_body_is_an_error_that_names_it) {
+  ScratchFolder folder;
+  auto settings = settings_in(folder.path());
+  settings.pressure_probes[0].body = "boat";
+  Recorder<2> recorder(settings);
+  StandInDrop drop;
+  try {
+    recorder.record(drop.at(0, dt));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("boat"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace splashdown::apps

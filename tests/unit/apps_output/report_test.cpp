@@ -1,0 +1,151 @@
+#include "apps/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "apps/gnuplot.hpp"
+#include "apps/report_words.hpp"
+#include "scratch_folder.hpp"
+#include "stand_ins.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+void make_run(const std::filesystem::path& directory, const std::string& status = "done") {
+  RecorderSettings<2> settings;
+  settings.directory = directory;
+  settings.frames = 0.01;
+  Recorder<2> recorder(settings);
+  StandInDrop drop;
+  for (int n = 0; n <= 60; ++n) {
+    RecordInput<2> input = drop.at(n * drop_end / 60, drop_end / 60);
+    input.last = n == 60;
+    recorder.record(input);
+    if (input.last) recorder.snapshot("end", input);
+  }
+  recorder.finish();
+  Summary summary;
+  summary.scene = "A <wedge> drop";
+  summary.status = status;
+  summary.simulated_time = drop_end;
+  summary.steps = 61;
+  summary.wall_seconds = 12;
+  summary.phases = {{"remesh", 5}, {"pressure", 6}};
+  summary.coupling = CouplingSummary{};
+  recorder.summarise(summary);
+  write_summary(directory, summary);
+}
+
+/// Sets PATH for the life of a test, so that gnuplot is found or not.
+class PathVariable {
+ public:
+  explicit PathVariable(const std::string& value) : old_(std::getenv("PATH")) {
+    setenv("PATH", value.c_str(), 1);
+  }
+  ~PathVariable() { setenv("PATH", old_.c_str(), 1); }
+  PathVariable(const PathVariable&) = delete;
+  PathVariable& operator=(const PathVariable&) = delete;
+
+ private:
+  std::string old_;
+};
+
+TEST(Report, is_one_page_without_links_to_elsewhere) {
+  ScratchFolder folder;
+  make_run(folder.path());
+  const ReportResult result = write_report(folder.path());
+  const std::string page = folder.text("report.html");
+  EXPECT_EQ(result.page, folder.path() / "report.html");
+  EXPECT_NE(page.find("The run finished"), std::string::npos);
+  EXPECT_NE(page.find("A &lt;wedge&gt; drop"), std::string::npos);
+  for (const char* outside : {"src=\"http", "href=\"http", "<script", "@import", "src=\"//"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  for (const auto& warning : result.warnings)
+    EXPECT_NE(warning.find("gnuplot"), std::string::npos) << warning;
+}
+
+TEST(Report, shows_curves_and_fields_where_gnuplot_is_installed) {
+  ScratchFolder folder;
+  make_run(folder.path());
+  const ReportResult result = write_report(folder.path());
+  if (!result.warnings.empty() && result.warnings[0].find("not installed") != std::string::npos)
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+  const std::string page = folder.text("report.html");
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_NE(page.find("Largest load"), std::string::npos);
+}
+
+TEST(Report, without_gnuplot_it_has_its_words_and_says_what_to_install) {
+  ScratchFolder folder;
+  make_run(folder.path());
+  const PathVariable nowhere("/nonexistent");
+  const ReportResult result = write_report(folder.path());
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("sudo apt install gnuplot-nox"), std::string::npos);
+  const std::string page = folder.text("report.html");
+  EXPECT_NE(page.find("sudo apt install gnuplot-nox"), std::string::npos);
+  EXPECT_NE(page.find("peak load"), std::string::npos);
+  EXPECT_EQ(page.find("<svg"), std::string::npos);
+}
+
+TEST(Report, a_run_without_summary_is_reported_from_its_files) {
+  ScratchFolder folder;
+  make_run(folder.path());
+  std::filesystem::remove(folder.path() / "summary.json");
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  EXPECT_NE(folder.text("report.html").find("No summary yet"), std::string::npos);
+}
+
+TEST(Report, a_failed_run_says_so) {
+  ScratchFolder folder;
+  make_run(folder.path(), "failed");
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  EXPECT_NE(folder.text("report.html").find("The run could not go on"), std::string::npos);
+}
+
+TEST(Report, a_folder_without_a_run_is_an_error_and_stays_as_it_is) {
+  ScratchFolder folder;
+  EXPECT_THROW(write_report(folder.path()), std::runtime_error);
+  EXPECT_THROW(write_report(folder.path() / "absent"), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Thinning, keeps_the_extremes_and_the_ends) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 100000; ++i) {
+    x.push_back(i);
+    y.push_back(std::sin(1e-4 * i));
+  }
+  y[54321] = 7;
+  y[65432] = -7;
+  const double first = x.front(), last = x.back();
+  thin(x, y, 1000);
+  EXPECT_LE(x.size(), 1001u);
+  EXPECT_TRUE(std::ranges::is_sorted(x));
+  EXPECT_EQ(std::ranges::count(y, 7), 1);
+  EXPECT_EQ(std::ranges::count(y, -7), 1);
+  EXPECT_EQ(x.front(), first);
+  EXPECT_EQ(x.back(), last);
+}
+
+TEST(Words, numbers_have_the_digits_asked_for) {
+  EXPECT_EQ(digits(26.7349, 4), "26.73");
+  EXPECT_EQ(digits(9.9999, 3), "10.0");
+  EXPECT_EQ(digits(-0.0123456, 3), "−0.0123");
+  EXPECT_EQ(digits(123456, 3), "123456");
+  EXPECT_EQ(digits(-2e-6, 3), "−2.00·10⁻⁶");
+  EXPECT_EQ(digits(0), "0");
+  EXPECT_EQ(digits(std::nan("")), "–");
+  EXPECT_EQ(with_unit(26734.9, "N/m"), "26.73 kN/m");
+  EXPECT_EQ(seconds_text(0.0149), "14.9 ms");
+  EXPECT_EQ(seconds_text(7500), "2 h 05 min");
+}
+
+}  // namespace
+}  // namespace splashdown::apps

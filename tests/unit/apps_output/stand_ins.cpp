@@ -1,0 +1,268 @@
+#include "stand_ins.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace splashdown::fluid {
+
+template <int d>
+double Term<d>::stable_dt() const {
+  return 1;
+}
+template class Term<2>;
+
+template <int d>
+struct Fluid<d>::State {
+  FluidSpec<d> spec;
+  std::vector<std::unique_ptr<Term<d>>> terms;
+  Nodes<d> nodes;
+  Mesh<d> mesh;
+  Ledger ledger;
+  std::vector<Isometry<d>> poses;
+};
+
+template <int d>
+Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms)
+    : s_(std::make_unique<State>(State{std::move(spec), std::move(terms), {}, {}, {}, {}})) {
+  for (const auto& wall : s_->spec.walls) s_->poses.push_back(wall.pose);
+}
+template <int d>
+Fluid<d>::~Fluid() = default;
+template <int d>
+const FluidSpec<d>& Fluid<d>::spec() const {
+  return s_->spec;
+}
+template <int d>
+const Nodes<d>& Fluid<d>::nodes() const {
+  return s_->nodes;
+}
+template <int d>
+const Mesh<d>& Fluid<d>::mesh() const {
+  return s_->mesh;
+}
+template <int d>
+const Ledger& Fluid<d>::ledger() const {
+  return s_->ledger;
+}
+template <int d>
+std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
+  return s_->poses;
+}
+template <int d>
+Vec<d> Fluid<d>::velocity_n(std::size_t node) const {
+  return s_->nodes.v[node];
+}
+template <int d>
+std::optional<double> Fluid<d>::pressure_at(const Vec<d>& point) const {
+  if (point(d - 1) > 0) return std::nullopt;
+  return -s_->spec.density * 9.81 * point(d - 1);
+}
+template <int d>
+const std::vector<std::unique_ptr<Term<d>>>& Fluid<d>::terms() const {
+  return s_->terms;
+}
+template class Fluid<2>;
+template class Fluid<3>;
+
+}  // namespace splashdown::fluid
+
+namespace splashdown::rigid {
+
+template <int d>
+struct Bodies<d>::World {
+  std::vector<BodySpec<d>> specs;
+  std::vector<BodyState<d>> states;
+};
+
+template <int d>
+Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>>)
+    : world_(std::make_unique<World>()) {
+  for (auto& spec : specs) world_->states.push_back({spec.pose, spec.velocity});
+  world_->specs = std::move(specs);
+}
+template <int d>
+Bodies<d>::~Bodies() = default;
+template <int d>
+std::size_t Bodies<d>::size() const {
+  return world_->specs.size();
+}
+template <int d>
+const BodySpec<d>& Bodies<d>::spec(std::size_t body) const {
+  return world_->specs[body];
+}
+template <int d>
+const BodyState<d>& Bodies<d>::state(std::size_t body) const {
+  return world_->states[body];
+}
+template class Bodies<2>;
+template class Bodies<3>;
+
+}  // namespace splashdown::rigid
+
+namespace splashdown::apps {
+
+namespace {
+
+class StandInGravity final : public fluid::Term<2> {
+ public:
+  std::string name() const override { return "gravity"; }
+  void predict(const fluid::Nodes<2>&, const fluid::Mesh<2>&, std::span<const double>, double,
+               std::span<fluid::Vec<2>>) override {}
+  double potential(const fluid::Vec<2>& x) const override { return 9.81 * x.y(); }
+};
+
+fluid::Surface<2> outline(std::initializer_list<fluid::Vec<2>> points) {
+  fluid::Surface<2> surface;
+  const auto count = static_cast<Eigen::Index>(points.size());
+  surface.vertices.resize(2, count);
+  surface.facets.resize(2, count);
+  Eigen::Index i = 0;
+  for (const auto& point : points) {
+    surface.vertices.col(i) = point;
+    surface.facets.col(i) << static_cast<int>(i), static_cast<int>((i + 1) % count);
+    ++i;
+  }
+  return surface;
+}
+
+// The wedge's frame has its origin two thirds up: the centre of mass.
+fluid::Surface<2> wedge() {
+  const double keel = -2 * wedge_height / 3, top = wedge_height / 3;
+  return outline({{0, keel}, {wedge_half_breadth, top}, {-wedge_half_breadth, top}});
+}
+
+fluid::Surface<2> tank() {  // clockwise
+  const double w = tank_half_width, low = -water_depth, high = 0.5;
+  return outline({{-w, low}, {-w, high}, {w, high}, {w, low}});
+}
+
+struct Motion {
+  double depth, velocity, acceleration, load, repair;
+};
+
+/// A smooth load pulse around 15 ms decelerates the wedge; the depth of the keel is negative above water.
+Motion motion_at(double t) {
+  const double peak = 26.7e3, centre = 0.015, width = 0.005;
+  const double pulse = std::exp(-std::pow((t - centre) / width, 2));
+  const double integral =
+      0.5 * std::sqrt(std::numbers::pi) * width * (std::erf((t - centre) / width) + std::erf(centre / width));
+  const double velocity = 6.15 - peak / 241 * integral;
+  return {6.15 * t - 0.35 * 6.15 * t * t / drop_end, -velocity, peak / 241 * pulse, peak * pulse,
+          40 * std::sin(5e3 * t)};
+}
+
+/// Height of the water's upper side: the wedge where it is wetted, a pile-up beside it, still water far away.
+double top_of_water(double x, double depth) {
+  const double slope = wedge_height / wedge_half_breadth;
+  const double wetted = std::min(wedge_half_breadth, 1.5 * std::max(0.0, depth) / slope);
+  if (std::abs(x) < wetted) return -depth + slope * std::abs(x);
+  const double rise = -depth + slope * wetted;
+  return std::max(0.0, rise) * std::pow(std::max(wetted, 1e-9) / std::max(std::abs(x), 1e-9), 4);
+}
+
+}  // namespace
+
+StandInDrop::StandInDrop(int nodes_across) : nodes_across_(nodes_across) {
+  fluid::FluidSpec<2> spec;
+  spec.walls = {{"wedge", wedge()}, {"tank", tank()}};
+  std::vector<std::unique_ptr<fluid::Term<2>>> terms;
+  terms.push_back(std::make_unique<StandInGravity>());
+  fluid_ = std::make_unique<fluid::Fluid<2>>(std::move(spec), std::move(terms));
+  rigid::BodySpec<2> body;
+  body.name = "wedge";
+  body.surface = {wedge().vertices, wedge().facets};
+  body.mass = 241;
+  std::vector<rigid::BodySpec<2>> bodies{body};
+  bodies_ =
+      std::make_unique<rigid::Bodies<2>>(std::move(bodies), std::vector<std::unique_ptr<rigid::Force<2>>>());
+  input_.fluid = fluid_.get();
+  input_.bodies = bodies_.get();
+}
+
+StandInDrop::~StandInDrop() = default;
+
+const RecordInput<2>& StandInDrop::at(double time, double dt) {
+  const Motion motion = motion_at(time);
+  // The stand-ins own their state; only the accessors are const.
+  auto& nodes = const_cast<fluid::Nodes<2>&>(fluid_->nodes());
+  auto& mesh = const_cast<fluid::Mesh<2>&>(fluid_->mesh());
+  auto& ledger = const_cast<fluid::Ledger&>(fluid_->ledger());
+  auto& pose = const_cast<fluid::Isometry<2>&>(fluid_->wall_poses()[0]);
+  auto& body = const_cast<rigid::BodyState<2>&>(bodies_->state(0));
+  pose = fluid::Isometry<2>::Identity();
+  pose.translation() = fluid::Vec<2>(0, 2 * wedge_height / 3 - motion.depth);
+  body.pose = pose;
+
+  const int across = nodes_across_, down = across / 2;
+  nodes = {};
+  mesh = {};
+  const double wetted = std::min(wedge_half_breadth, 1.5 * motion.depth * wedge_half_breadth / wedge_height);
+  for (int j = 0; j <= down; ++j)
+    for (int i = 0; i <= across; ++i) {
+      const double u = 2.0 * i / across - 1, x = tank_half_width * (0.3 * u + 0.7 * u * u * u);
+      const double top = top_of_water(x, motion.depth), s = static_cast<double>(j) / down;
+      const double y = top - (top + water_depth) * (0.3 * s + 0.7 * s * s);
+      nodes.x.emplace_back(x, y);
+      nodes.v.emplace_back(0.2 * x, motion.velocity * std::exp(-4 * std::hypot(x, y)));
+      const bool x_is_dry = std::abs(x) >= wetted;
+      const double r = std::hypot(std::abs(x) - wetted, 2 * (y - top)) / 0.08;
+      nodes.p.push_back(1000 * 9.81 * (top - y) +
+                        (x_is_dry ? 1 - std::exp(-60 * s) : 1.0) * motion.load *
+                            (3 * std::exp(-r * r) + std::exp(-std::pow(x / 0.3, 2) - 6 * s)));
+      const bool on_wedge = j == 0 && std::abs(x) < wetted, on_tank = j == down || i == 0 || i == across;
+      nodes.tie.push_back({on_wedge ? 0 : on_tank ? 1 : -1, -1});
+      nodes.surface.push_back(j == 0 && !on_wedge);
+    }
+  const auto id = [&](int i, int j) { return j * (across + 1) + i; };
+  for (int j = 0; j < down; ++j)
+    for (int i = 0; i < across; ++i) {
+      const int a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), e = id(i, j + 1);
+      if (i < across / 2) {
+        mesh.cells.push_back({a, e, b});
+        mesh.cells.push_back({b, e, c});
+      } else {
+        mesh.cells.push_back({a, e, c});
+        mesh.cells.push_back({a, c, b});
+      }
+    }
+  const auto tie = [&](int node) { return nodes.tie[static_cast<std::size_t>(node)].wall; };
+  for (int i = 0; i < across; ++i) {
+    const int a = id(i, 0), b = id(i + 1, 0);
+    mesh.boundary.push_back({{b, a}, tie(a) == 0 || tie(b) == 0 ? 0 : -1});
+    mesh.boundary.push_back({{id(i, down), id(i + 1, down)}, 1});
+  }
+  nodes.x.emplace_back(0.5, 0.2 + time);  // a drop
+  nodes.v.emplace_back(0, 1);
+  nodes.p.push_back(0);
+  nodes.tie.push_back({-1, -1});
+  nodes.surface.push_back(1);
+
+  ledger.volume_initial = 2 * tank_half_width * water_depth;
+  ledger.time_integration = -2e-6 * time / drop_end;
+  ledger.remesh_created = 2e-4 * time / drop_end;
+  ledger.remesh_deleted = -1e-4 * std::pow(time / drop_end, 2);
+  ledger.volume =
+      ledger.volume_initial + ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted;
+  const double lost = 0.5 * 241 * (6.15 * 6.15 - motion.velocity * motion.velocity);
+  ledger.kinetic_energy = 0.85 * lost;
+  ledger.potential_energy = -2800 + 0.1 * lost;
+  ledger.work_on_walls = -lost;
+  ledger.energy_repair = -0.01 * lost;
+
+  input_.body_velocity_n = {rigid::Twist<2>(0, motion.velocity, 0)};
+  input_.body_acceleration_n = {rigid::Twist<2>(0, motion.acceleration, 0)};
+  fluid::WallLoad<2> load;
+  load.physical = fluid::Wrench<2>(0, motion.load, 0);
+  load.repair = fluid::Wrench<2>(0, time > 0 ? motion.repair : 0, 0);
+  load.wetted = 2 * std::max(0.0, wetted);
+  input_.body_load = {load};
+  input_.time = time;
+  input_.dt = dt;
+  input_.passes = time > 0.014 && time < 0.016 ? 2 : 1;
+  input_.residual = 1e-9;
+  input_.wall_seconds = 400 * time;
+  input_.last = false;
+  return input_;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,117 @@
+#include "apps/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "scratch_folder.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+Summary full() {
+  Summary summary;
+  summary.status = "done";
+  summary.phases = {{"remesh", 1.0}, {"pressure", 2.0}};
+  summary.wall_seconds = 4;
+  summary.effects = {{"gravity", 1.0}};
+  summary.inactive_effects = {{"viscosity", "the scene has no [fluid.viscosity]"}};
+  summary.nodes = RangeCount{10, 20, 15};
+  summary.elements = RangeCount{12, 24, 18};
+  summary.coupling = CouplingSummary{"iterated", "rigid", 1.5, 3, 2, {{"coupling diverged", 2}}};
+  summary.ledger = LedgerSummary{};
+  summary.fluid = FluidSummary{};
+  BodySummary body;
+  body.acceleration.raw = {12, 0.01};
+  body.acceleration.cfc[600] = {11, 0.011};
+  body.force = {26e3, 0.01};
+  body.impulse = {0, 1};
+  body.impulse_repair = {0, 0.01};
+  body.submergence = {0.2, 0.03};
+  summary.bodies["hull"] = body;
+  return summary;
+}
+
+TEST(Summary, has_the_keys_of_the_contract) {
+  const auto json = nlohmann::json::parse(to_json(full()));
+  for (const char* path : {"/status",
+                           "/simulated_time",
+                           "/steps",
+                           "/wall_seconds",
+                           "/phases/remesh",
+                           "/effects/active/gravity/seconds",
+                           "/effects/active/gravity/share",
+                           "/effects/inactive/viscosity",
+                           "/nodes/initial",
+                           "/nodes/max",
+                           "/nodes/final",
+                           "/elements/initial",
+                           "/elements/max",
+                           "/elements/final",
+                           "/coupling/scheme",
+                           "/coupling/interface_term",
+                           "/coupling/passes_mean",
+                           "/coupling/passes_max",
+                           "/coupling/rejected_steps",
+                           "/ledger/volume_initial",
+                           "/ledger/volume_final",
+                           "/ledger/volume_error",
+                           "/ledger/volume_remesh_created",
+                           "/ledger/volume_remesh_deleted",
+                           "/ledger/kinetic_energy",
+                           "/ledger/potential_energy",
+                           "/ledger/work_on_walls",
+                           "/bodies/hull/peak_acceleration_g/raw/value",
+                           "/bodies/hull/peak_acceleration_g/raw/time",
+                           "/bodies/hull/peak_acceleration_g/cfc600/value",
+                           "/bodies/hull/peak_force/value",
+                           "/bodies/hull/peak_force/time",
+                           "/bodies/hull/impulse/1",
+                           "/bodies/hull/maximum_submergence/value",
+                           "/bodies/hull/maximum_submergence/time"})
+    EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(path))) << path;
+  EXPECT_EQ(json["effects"]["active"]["gravity"]["share"], 0.25);
+}
+
+TEST(Summary, what_a_scene_lacks_its_summary_lacks) {
+  const auto json = nlohmann::json::parse(to_json(Summary{}));
+  for (const char* key : {"nodes", "elements", "coupling", "ledger", "fluid", "equipment", "cause"})
+    EXPECT_FALSE(json.contains(key)) << key;
+}
+
+TEST(Summary, numbers_that_do_not_exist_are_null) {
+  Summary summary = full();
+  summary.ledger->volume_error = std::nan("");
+  summary.bodies["hull"].force = {};
+  const auto json = nlohmann::json::parse(to_json(summary));
+  EXPECT_TRUE(json["ledger"]["volume_error"].is_null());
+  EXPECT_TRUE(json["bodies"]["hull"]["peak_force"].is_null());
+  EXPECT_TRUE(json["bodies"]["hull"]["first_contact_time"].is_null());
+}
+
+TEST(Summary, text_that_is_no_utf8_does_not_stop_it) {
+  Summary summary = full();
+  summary.cause = "node \xff";
+  EXPECT_NO_THROW(nlohmann::json::parse(to_json(summary)));
+}
+
+TEST(Summary, is_written_whole_and_leaves_no_temporary_file) {
+  ScratchFolder folder;
+  write_summary(folder.path() / "run", full());
+  EXPECT_EQ(folder.text("run/summary.json"), to_json(full()));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "run/summary.json.tmp"));
+}
+
+TEST(Peak, keeps_the_first_of_equal_values_and_ignores_nan) {
+  Peak peak;
+  EXPECT_TRUE(peak.offer(-1, 0));
+  EXPECT_FALSE(peak.offer(-1, 1));
+  EXPECT_TRUE(peak.offer(2, 2));
+  EXPECT_FALSE(peak.offer(std::nan(""), 3));
+  EXPECT_EQ(peak.value, 2);
+  EXPECT_EQ(peak.time, 2);
+}
+
+}  // namespace
+}  // namespace splashdown::apps
