@@ -242,7 +242,7 @@ FieldFigures prepare_field_figures(const std::filesystem::path& run, const std::
       "set lmargin screen 0.095\nset rmargin screen 0.855\nset tmargin screen {:.4g}\nset bmargin screen "
       "{:.4g}\n"
       "set border 15 lw 0.8 lc rgb '#8796a5'\nset tics out scale 0.4 nomirror textcolor rgb '#51606e'\n"
-      "set xlabel 'x / m' textcolor rgb '#51606e' offset 0,0.3\nset key off\nset colorbox user origin "
+      "set xlabel 'both axes in m' textcolor rgb '#51606e' offset 0,0.3\nset key off\nset colorbox user origin "
       "0.872,{:.4g} size 0.022,{:.4g}\n"
       "set palette defined (0 '#dcecf5', 0.12 '#a9d3ea', 0.3 '#5fa8d8', 0.5 '#3272b4', 0.68 '#3f3f97', "
       "0.84 '#7a2a86', 1 '#c2185b')\nset format cb '%.4g'\n",
