@@ -1,3 +1,4 @@
+#include <limits>
 #include <stdexcept>
 
 #include "apps/build.hpp"
@@ -35,7 +36,9 @@ fluid::FluidSpec<2> fluid_spec(const Scene& scene) {
   spec.size = {.surface = liquid.size.surface,
                .far = liquid.size.far,
                .growth = liquid.size.growth,
-               .wetted_fraction = liquid.size.wetted_fraction};
+               .wetted_fraction = liquid.size.wetted_fraction,
+               .hollow = liquid.size.hollow.value_or(std::numeric_limits<double>::infinity()),
+               .hollow_min = liquid.size.hollow_min};
   spec.step = {.cfl = scene.time.cfl, .dt_max = scene.time.dt_max};
   for (const auto& region : liquid.regions)
     spec.liquids.push_back({fluid_surface(outline(region)), velocity_field(region)});

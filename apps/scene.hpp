@@ -70,6 +70,9 @@ struct Sizes {
   double far = 0;              ///< largest element [m]; default: `surface`
   double growth = 0.15;        ///< dh/dx; 0.1-0.2 keeps wedge loads within 1 % (docs/validation.md)
   double wetted_fraction = 0;  ///< h at a wall is at least this fraction of its wetted half length
+  /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
+  std::optional<double> hollow;
+  double hollow_min = 0;  ///< ... but not below this [m]; needed with `hollow`
 };
 
 struct Viscosity {

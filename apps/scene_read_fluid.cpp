@@ -68,6 +68,13 @@ void read_sizes(Reader& reader, Sizes& size) {
   reader.number("wetted_fraction", size.wetted_fraction,
                 within(0, 0.5, "",
                        "Use 0 (off) or 0.004 to 0.01: h over the wetted half length, for starting impacts."));
+  reader.number("hollow", size.hollow,
+                positive("", "Use e.g. 0.2, or leave it out: h over the radius of a jet's root."));
+  if (size.hollow)
+    reader.number("hollow_min", size.hollow_min, positive("m", "Use e.g. a quarter of the hull's size."),
+                  Need::required);
+  else
+    reader.skip("hollow_min");
 }
 
 }  // namespace

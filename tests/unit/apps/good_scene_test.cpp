@@ -119,6 +119,8 @@ surface = 0.1
 far = 0.4
 growth = 0.1
 wetted_fraction = 0.005
+hollow = 0.3
+hollow_min = 0.01
 [fluid.viscosity]
 dynamic = 0.1
 walls = "no_slip"

@@ -1,0 +1,98 @@
+#include "apps/closing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/progress.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+std::string row(const std::string& head, const std::string& text) {
+  return fmt::format("  {:<12}{}\n", head, text);
+}
+
+std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
+
+std::string body_text(const BodySummary& body, int dimension) {
+  if (body.first_contact < 0) return "stayed dry";
+  const std::string force = dimension == 2 ? "N/m" : "N";
+  auto text = fmt::format("wet from {}, peak force {}{}, peak acceleration {:.3g} g{}",
+                          with_unit(body.first_contact, "s"), with_unit(body.force.value, force),
+                          at(body.force), body.acceleration.raw.value, at(body.acceleration.raw));
+  double total = 0, repair = 0;
+  for (const double value : body.impulse) total += value * value;
+  for (const double value : body.impulse_repair) repair += value * value;
+  if (total > 0)
+    text += fmt::format(", repair share of the impulse {:.2g} %", 100 * std::sqrt(repair / total));
+  return text;
+}
+
+std::string time_text(const Summary& summary) {
+  auto phases = summary.phases;
+  std::sort(phases.begin(), phases.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [name, seconds] : phases) {
+    const double share = 100 * seconds / summary.wall_seconds;
+    if (share < 1) continue;
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, share);
+  }
+  return text;
+}
+
+std::string coupling_text(const CouplingSummary& coupling) {
+  return fmt::format("{}, {}: {:.3g} passes a step, {} at most", coupling.scheme, coupling.interface_term,
+                     coupling.passes_mean, coupling.passes_max);
+}
+
+std::string refused_text(const CouplingSummary& coupling) {
+  std::string text = fmt::format("{} steps", coupling.rejected_steps);
+  for (const auto& [cause, count] : coupling.rejected_causes) text += fmt::format("; {}: {}", cause, count);
+  return text;
+}
+
+std::string files_text(const std::filesystem::path& directory) {
+  std::string text = directory.string() + "/:";
+  for (const char* name : {"report.html", "summary.json", "bodies.csv", "fluid.csv", "probes.csv",
+                           "surface_pressure.csv", "frames.pvd"})
+    if (std::filesystem::exists(directory / name)) text += fmt::format(" {}", name);
+  return text;
+}
+
+}  // namespace
+
+std::string with_unit(double value, const std::string& unit) {
+  struct Prefix {
+    double factor;
+    const char* name;
+  };
+  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}};
+  if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);
+  // 0.9995 and more round to a thousand of the next smaller prefix.
+  for (const auto& prefix : prefixes)
+    if (std::abs(value) >= 0.9995 * prefix.factor)
+      return fmt::format("{:.4g} {}{}", value / prefix.factor, prefix.name, unit);
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+std::string closing_text(const Summary& summary, const std::filesystem::path& directory) {
+  auto text = fmt::format("{}: {} {} in {} steps, {} of wall time\n", summary.scene, summary.status,
+                          with_unit(summary.simulated_time, "s"), summary.steps,
+                          summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds)
+                                                    : clock_text(summary.wall_seconds));
+  for (const auto& [name, body] : summary.bodies) text += row(name, body_text(body, summary.dimension));
+  if (summary.nodes && summary.ledger)
+    text += row("liquid", fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final,
+                                      summary.nodes->max, 100 * summary.ledger->volume_error));
+  if (summary.coupling) {
+    text += row("coupling", coupling_text(*summary.coupling));
+    if (summary.coupling->rejected_steps > 0) text += row("refused", refused_text(*summary.coupling));
+  }
+  if (summary.wall_seconds > 0) text += row("spent on", time_text(summary));
+  text += row("files", files_text(directory));
+  return text;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,39 @@
+// The subcommands of `splashdown`. Each returns the program's exit code.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splashdown::apps {
+
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int bad_input = 2;      ///< command line or scene; nothing was run or written
+inline constexpr int cannot_go_on = 3;   ///< the last good state is saved
+inline constexpr int interrupted = 130;  ///< by a signal or a spent budget; a checkpoint is saved
+}  // namespace exit_code
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+  std::optional<std::filesystem::path> out;
+  std::optional<double> until;
+  std::optional<double> budget;
+  int threads = 1;
+  bool resume = false;
+  bool quiet = false;
+};
+
+int run_command(const RunOptions& options);
+int check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
+int report_command(const std::filesystem::path& directory);
+
+/// `error: ` and the text on the standard error stream; returns exit_code::bad_input.
+int bad_input(const std::string& text);
+
+/// out/<folder of scene.toml> or out/<name of the file>.
+std::filesystem::path default_directory(const std::filesystem::path& scene);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,19 @@
+// What a scene will cost, judged before it is run.
+#pragma once
+
+#include "apps/scene.hpp"
+
+namespace splashdown::apps {
+
+struct Cost {
+  double nodes = 0;             ///< at t = 0
+  double bytes = 0;             ///< of memory
+  double seconds_per_step = 0;  ///< on one core
+  double dt = 0;                ///< at the characteristic speed [s]
+  double steps = 0;
+};
+
+/// Nodes: the integral of 2/(sqrt(3) h^2) over the liquid, what equilateral triangles of side h have.
+Cost predicted_cost(const Scene& scene);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,91 @@
+// splashdown run | check | report
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/version.hpp"
+
+namespace splashdown::apps {
+
+int bad_input(const std::string& text) {
+  fmt::print(stderr, "error: {}\n", text);
+  return exit_code::bad_input;
+}
+
+namespace {
+
+std::string version_text() {
+  auto text = fmt::format("splashdown {} ({})", version(), git_hash());
+  for (const auto& [name, number] : library_versions()) text += fmt::format("\n  {} {}", name, number);
+  return text;
+}
+
+/// CLI11's own exit codes are not ours: 0 for help and version, 2 for everything it refuses.
+int finish(const CLI::App& app, const CLI::ParseError& error) {
+  return app.exit(error) == 0 ? exit_code::done : exit_code::bad_input;
+}
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
+  app.set_version_flag("--version", version_text);
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+  const char* const scene_help = "scene file (TOML; docs/scene.md)";
+  const char* const set_help = "override a key of the scene, e.g. body.wedge.mass=100 (repeatable)";
+
+  RunOptions run;
+  auto* run_app = app.add_subcommand("run", "Run a scene");
+  run_app->add_option("scene", run.scene, scene_help)->required();
+  run_app->add_option("--out", run.out, "folder for the files (default: out/<scene>)");
+  run_app->add_option("--set", run.overrides, set_help)
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false);
+  run_app->add_option("--threads", run.threads, "threads of the linear algebra")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")
+      ->check(CLI::PositiveNumber);
+  run_app
+      ->add_option("--budget", run.budget,
+                   "wall seconds after which to stop with a checkpoint (exit code 130)")
+      ->check(CLI::PositiveNumber);
+  run_app->add_flag("--resume", run.resume, "continue from the folder's checkpoint");
+  run_app->add_flag("--quiet", run.quiet, "print errors only");
+
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+  auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
+  check_app->add_option("scene", scene, scene_help)->required();
+  check_app->add_option("--set", overrides, set_help)
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false);
+
+  std::filesystem::path directory;
+  auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run");
+  report_app->add_option("directory", directory, "folder of the run")->required();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return finish(app, error);
+  }
+  if (*run_app) return run_command(run);
+  if (*check_app) return check_command(scene, overrides);
+  return report_command(directory);
+}
+
+}  // namespace
+}  // namespace splashdown::apps
+
+int main(int argc, char** argv) {
+  try {
+    return splashdown::apps::command_line(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return splashdown::apps::exit_code::cannot_go_on;
+  }
+}

@@ -1,0 +1,209 @@
+#include "apps/run.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "apps/interrupt.hpp"
+#include "apps/scales.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Charges the time until its end to a sum.
+class Charge {
+ public:
+  explicit Charge(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+  ~Charge() { seconds_ += seconds_since(start_); }
+  Charge(const Charge&) = delete;
+  Charge& operator=(const Charge&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+std::map<std::string, double> as_map(const std::vector<std::pair<std::string, double>>& phases) {
+  std::map<std::string, double> result;
+  for (const auto& [name, seconds] : phases) result[name] += seconds;
+  return result;
+}
+
+double sum(const std::map<std::string, double>& phases) {
+  double total = 0;
+  for (const auto& [name, seconds] : phases) total += seconds;
+  return total;
+}
+
+const char* status_word(const LoopEnd& end) {
+  switch (end.status) {
+    case LoopEnd::Status::done:
+      return "done";
+    case LoopEnd::Status::interrupted:
+      return "interrupted";
+    case LoopEnd::Status::failed:
+      break;
+  }
+  return "failed";
+}
+
+}  // namespace
+
+template <int d>
+Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, RunPlan plan,
+            Progress& progress)
+    : scene_(scene),
+      world_(std::move(world)),
+      recorder_(std::move(settings)),
+      plan_(std::move(plan)),
+      progress_(progress) {
+  setup_seconds_ = seconds_since(plan_.started);
+  phases_at_start_ = as_map(world_.stepper->phase_seconds());
+}
+
+template <int d>
+void Run<d>::resume(const Checkpoint& from) {
+  const Charge charge(setup_seconds_);
+  std::istringstream stepper(from.stepper), recorder(from.recorder);
+  world_.stepper->load(stepper);
+  recorder_.load(recorder);
+  loop_ = from.loop;
+  wall_before_ = from.wall_seconds;
+  phases_before_ = from.phases;
+  phases_at_start_ = as_map(world_.stepper->phase_seconds());
+  last_checkpoint_ = Clock::now();  // the one it came from
+}
+
+template <int d>
+LoopEnd Run<d>::go() {
+  const auto end = run_loop(*world_.stepper, loop_, plan_.stop, scene_.time.dt_max, *this);
+  progress_.clear();
+  const Charge charge(output_seconds_);
+  if (end.status == LoopEnd::Status::done) recorder_.snapshot("end", last_input_);
+  recorder_.finish();
+  return end;
+}
+
+template <int d>
+RecordInput<d> Run<d>::input(const StepMade& step) const {
+  RecordInput<d> in;
+  in.fluid = world_.fluid;
+  in.bodies = world_.bodies;
+  in.time = step.time;
+  in.dt = step.dt;
+  in.passes = step.report.passes;
+  in.residual = step.report.residual;
+  in.wall_seconds = wall_seconds();
+  in.last = step.last;
+  if (!world_.bodies) return in;
+  const auto trial = world_.trial_velocities();
+  const double kick = 0.5 * (step.dt_previous + step.dt);
+  for (std::size_t i = 0; i < world_.bodies->size(); ++i) {
+    // Linear between the half steps: their mean for constant dt, the initial velocity at the first step.
+    const rigid::Twist<d>& before = world_.bodies->state(i).velocity;
+    const rigid::Twist<d> acceleration = (trial[i] - before) / kick;
+    in.body_acceleration_n.push_back(acceleration);
+    in.body_velocity_n.push_back(before + 0.5 * step.dt_previous * acceleration);
+    in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : fluid::WallLoad<d>{});
+  }
+  return in;
+}
+
+template <int d>
+void Run<d>::record(const StepMade& step) {
+  const Charge charge(output_seconds_);
+  last_input_ = input(step);
+  recorder_.record(last_input_);
+  ProgressPoint point{
+      .time = step.time, .stop = plan_.stop, .dt = step.dt, .steps = loop_.steps, .nodes = {}, .passes = {}};
+  if (world_.fluid) point.nodes = world_.fluid->nodes().size();
+  if (scene_.coupling) point.passes = step.report.passes;
+  progress_.show(point);
+}
+
+template <int d>
+void Run<d>::refused(double time, double dt, const std::string& cause) {
+  progress_.say(fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s: {}", time, dt, cause));
+}
+
+template <int d>
+bool Run<d>::checkpoint_due() {
+  return !last_checkpoint_ || seconds_since(*last_checkpoint_) >= scene_.output.checkpoint;
+}
+
+template <int d>
+void Run<d>::checkpoint() {
+  const Charge charge(output_seconds_);
+  std::ostringstream stepper, recorder;
+  world_.stepper->save(stepper);
+  recorder_.save(recorder);
+  write_checkpoint(plan_.directory / "checkpoint", {.scene = plan_.resolved,
+                                                    .loop = loop_,
+                                                    .time = time(),
+                                                    .wall_seconds = wall_seconds(),
+                                                    .phases = phases(),
+                                                    .stepper = stepper.str(),
+                                                    .recorder = recorder.str()});
+  last_checkpoint_ = Clock::now();
+}
+
+template <int d>
+std::optional<std::string> Run<d>::interruption() {
+  if (const char* signal = interrupt_received()) return signal;
+  if (plan_.budget && seconds_since(plan_.started) >= *plan_.budget)
+    return fmt::format("the budget of {:g} s is spent", *plan_.budget);
+  return {};
+}
+
+template <int d>
+double Run<d>::wall_seconds() const {
+  return wall_before_ + seconds_since(plan_.started);
+}
+
+template <int d>
+std::map<std::string, double> Run<d>::phases() const {
+  auto result = phases_before_;
+  for (const auto& [name, seconds] : world_.stepper->phase_seconds()) result[name] += seconds;
+  for (const auto& [name, seconds] : phases_at_start_) result[name] -= seconds;
+  result["setup"] += setup_seconds_;
+  result["output"] += output_seconds_;
+  result["other"] = 0;
+  result["other"] = std::max(0., wall_seconds() - sum(result));
+  return result;
+}
+
+template <int d>
+Summary Run<d>::summary(const LoopEnd& end) const {
+  Summary s;
+  s.status = status_word(end);
+  s.cause = end.cause;
+  s.simulated_time = time();
+  s.steps = loop_.steps;
+  s.wall_seconds = wall_seconds();
+  const auto spent = phases();
+  s.phases.assign(spent.begin(), spent.end());
+  for (const auto& note : effect_notes(scene_)) {
+    const auto found = spent.find(note.name);
+    if (note.active)
+      s.effects.push_back({note.name, found == spent.end() ? 0 : found->second});
+    else
+      s.inactive_effects.push_back({note.name, note.reason});
+  }
+  if (scene_.coupling) {
+    auto& coupling = s.coupling.emplace();
+    coupling.scheme = scene_.coupling->scheme;
+    coupling.interface_term = scene_.coupling->interface_term;
+    coupling.rejected_causes = loop_.rejected;
+    for (const auto& [cause, count] : loop_.rejected) coupling.rejected_steps += count;
+  }
+  recorder_.summarise(s);
+  return s;
+}
+
+template class Run<2>;
+
+}  // namespace splashdown::apps

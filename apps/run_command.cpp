@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "apps/closing.hpp"
+#include "apps/commands.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/report.hpp"
+#include "apps/resume.hpp"
+#include "apps/run.hpp"
+#include "apps/scene_read.hpp"
+#include "apps/threads.hpp"
+#include "apps/version.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+Progress::Style progress_style(bool quiet) {
+  if (quiet) return Progress::Style::none;
+  return ::isatty(STDOUT_FILENO) != 0 ? Progress::Style::terminal : Progress::Style::plain;
+}
+
+/// Throws SceneError for a stop time that the scene has no room for.
+double stop_time(const RunOptions& options, const Scene& scene) {
+  if (!options.until) return scene.time.end;
+  if (*options.until > scene.time.end)
+    throw SceneError({fmt::format(
+        "--until {:g}: must not exceed time.end = {:g} s. Use --set time.end={:g} for a longer run.",
+        *options.until, scene.time.end, *options.until)});
+  return *options.until;
+}
+
+void prepare_directory(const fs::path& directory, const std::string& resolved, bool resumed) {
+  fs::create_directories(directory);
+  if (!resumed) fs::remove_all(directory / "checkpoint");
+  std::ofstream file(directory / "scene.resolved.toml", std::ios::binary);
+  file << resolved << "\n" << provenance_toml();
+  if (!file.flush()) throw std::runtime_error("cannot write " + (directory / "scene.resolved.toml").string());
+}
+
+void say(const RunOptions& options, const std::string& text) {
+  if (!options.quiet) fmt::print("{}\n", text);
+}
+
+/// Where, when and why; what was saved; what might help.
+std::string failure_text(const LoopEnd& end, const Run<2>& run, const fs::path& directory) {
+  return fmt::format(
+      "error: the simulation could not go on at t = {:.9g} s, step {}: {}\n"
+      "The last good state is in {}. Smaller steps (--set time.cfl=0.25) or finer elements may help;\n"
+      "--resume continues from there.",
+      run.time(), run.loop().steps, end.cause, (directory / "checkpoint").string());
+}
+
+/// Writes summary.json and report.html.
+Summary conclude(const Run<2>& run, const LoopEnd& end, const std::string& scene_name,
+                 const RunOptions& options, const fs::path& directory) {
+  auto summary = run.summary(end);
+  summary.scene = scene_name;
+  write_summary(directory, summary);
+  for (const auto& warning : write_report(directory).warnings) say(options, "note: " + warning);
+  return summary;
+}
+
+int exit_code_of(const LoopEnd& end) {
+  switch (end.status) {
+    case LoopEnd::Status::done:
+      return exit_code::done;
+    case LoopEnd::Status::interrupted:
+      return exit_code::interrupted;
+    case LoopEnd::Status::failed:
+      break;
+  }
+  return exit_code::cannot_go_on;
+}
+
+int go(Run<2>& run, const std::string& scene_name, const RunOptions& options, const fs::path& directory) {
+  const auto end = run.go();
+  const auto summary = conclude(run, end, scene_name, options, directory);
+  if (end.status == LoopEnd::Status::failed) fmt::print(stderr, "{}\n", failure_text(end, run, directory));
+  if (options.quiet) return exit_code_of(end);
+  fmt::print("{}", closing_text(summary, directory));
+  if (end.status == LoopEnd::Status::interrupted)
+    fmt::print("stopped: {}; continue with --resume\n", end.cause);
+  if (end.status == LoopEnd::Status::done)
+    fmt::print("next: open {} in a browser, {} in ParaView\n", (directory / "report.html").string(),
+               (directory / "frames.pvd").string());
+  return exit_code_of(end);
+}
+
+/// Throws SceneError for what the scene's parts refuse when they are built.
+World<2> build(const Scene& scene, const fs::path& file) {
+  try {
+    return build_world(scene);
+  } catch (const std::invalid_argument& error) {
+    throw SceneError({fmt::format("{}: {}", file.string(), error.what())});
+  }
+}
+
+}  // namespace
+
+fs::path default_directory(const fs::path& scene) {
+  const auto whole = fs::absolute(scene).lexically_normal();
+  const auto name = whole.filename() == "scene.toml" ? whole.parent_path().filename() : whole.stem();
+  return fs::path("out") / (name.empty() || name == "/" ? fs::path("scene") : name);
+}
+
+int run_command(const RunOptions& options) {
+  RunPlan plan;
+  plan.started = std::chrono::steady_clock::now();
+  plan.budget = options.budget;
+  plan.directory = options.out.value_or(default_directory(options.scene));
+  SceneFile file;
+  World<2> world;
+  std::optional<Checkpoint> from;
+  try {
+    file = read_scene(options.scene, options.overrides);
+    plan.stop = stop_time(options, file.scene);
+    plan.resolved = file.resolved;
+    if (options.resume) from = find_checkpoint(plan.directory, file.resolved);
+    set_threads(options.threads);
+    world = build(file.scene, options.scene);
+  } catch (const SceneError& error) {
+    return bad_input(error.what());
+  }
+
+  const auto directory = plan.directory;
+  Progress progress(progress_style(options.quiet));
+  try {
+    prepare_directory(directory, file.resolved, from.has_value());
+  } catch (const std::exception& error) {
+    return bad_input(error.what());
+  }
+  try {
+    Run<2> run(file.scene, std::move(world), recorder_settings(file.scene, directory), std::move(plan),
+               progress);
+    if (from) run.resume(*from);
+    if (options.resume)
+      say(options, from ? fmt::format("continuing at t = {:.6g} s, step {}", run.time(), run.loop().steps)
+                        : "no checkpoint found: starting from the beginning");
+    catch_interrupts();
+    const auto& title = file.scene.title;
+    return go(run, title.empty() ? directory.filename().string() : title, options, directory);
+  } catch (const std::exception& error) {
+    progress.clear();
+    fmt::print(stderr, "error: {}\nThe last good state is in {}; --resume continues from there.\n",
+               error.what(), (directory / "checkpoint").string());
+    return exit_code::cannot_go_on;
+  }
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,208 @@
+// The step loop with a stepper that needs no fluid: exact end times, refused steps, checkpoints, resumption.
+#include "apps/run_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+namespace splashdown::apps {
+namespace {
+
+/// x' = x^2-like growth of the criterion's speed, so that dt varies from step to step.
+class FakeStepper final : public coupling::Stepper {
+ public:
+  double time() const override { return time_; }
+  double stable_dt() const override { return 0.01 / (1 + state_ * state_); }
+  coupling::StepReport attempt(double dt) override {
+    dt_ = dt;
+    return {.cause = refuse ? refuse(time_, dt) : "", .passes = 1, .residual = 0};
+  }
+  void commit() override {
+    state_ += dt_ * std::cos(7 * time_);
+    time_ += dt_;
+  }
+  std::vector<std::pair<std::string, double>> phase_seconds() const override { return {}; }
+  void save(std::ostream& out) const override {
+    out.write(reinterpret_cast<const char*>(&time_), sizeof time_);
+    out.write(reinterpret_cast<const char*>(&state_), sizeof state_);
+  }
+  void load(std::istream& in) override {
+    in.read(reinterpret_cast<char*>(&time_), sizeof time_);
+    in.read(reinterpret_cast<char*>(&state_), sizeof state_);
+  }
+
+  std::function<std::string(double, double)> refuse;
+
+ private:
+  double time_ = 0, state_ = 0, dt_ = 0;
+};
+
+struct Saved {
+  std::string stepper;
+  LoopState loop;
+  std::size_t rows = 0;
+};
+
+class FakeHost final : public LoopHost {
+ public:
+  FakeHost(const FakeStepper& stepper, const LoopState& loop) : stepper_(stepper), loop_(loop) {}
+  void record(const StepMade& step) override { rows.push_back(step); }
+  void refused(double, double, const std::string&) override {}
+  bool checkpoint_due() override { return checkpoint_every > 0 && rows.size() % checkpoint_every == 0; }
+  void checkpoint() override {
+    std::ostringstream out;
+    stepper_.save(out);
+    saved = {out.str(), loop_, rows.size()};
+    ++checkpoints;
+  }
+  std::optional<std::string> interruption() override {
+    if (rows.size() < interrupt_after) return {};
+    return "SIGINT";
+  }
+
+  std::vector<StepMade> rows;
+  Saved saved;
+  int checkpoints = 0;
+  std::size_t checkpoint_every = 0, interrupt_after = 1000000;
+
+ private:
+  const FakeStepper& stepper_;
+  const LoopState& loop_;
+};
+
+constexpr double dt_max = 1;
+
+struct Story {
+  FakeStepper stepper;
+  LoopState loop;
+  FakeHost host{stepper, loop};
+  LoopEnd end;
+  void run(double stop) { end = run_loop(stepper, loop, stop, dt_max, host); }
+  void resume(const FakeHost& from) {
+    std::istringstream in(from.saved.stepper);
+    stepper.load(in);
+    loop = from.saved.loop;
+    host.rows.assign(from.rows.begin(), from.rows.begin() + static_cast<long>(from.saved.rows));
+  }
+};
+
+std::vector<double> times(const FakeHost& host) {
+  std::vector<double> result;
+  for (const auto& row : host.rows) result.push_back(row.time);
+  return result;
+}
+
+TEST(RunLoop, ends_at_the_stop_time_exactly_with_a_last_row) {
+  for (const double stop : {1e-3, 0.1, 0.3, 1. / 3, 1.0}) {
+    Story story;
+    story.run(stop);
+    EXPECT_EQ(story.end.status, LoopEnd::Status::done);
+    EXPECT_EQ(story.stepper.time(), stop);
+    EXPECT_EQ(story.host.rows.back().time, stop);
+    EXPECT_TRUE(story.host.rows.back().last);
+    EXPECT_EQ(story.loop.steps + 1, static_cast<long>(story.host.rows.size()));
+  }
+}
+
+TEST(RunLoop, leaves_no_sliver_before_the_stop_time) {
+  EXPECT_EQ(fitted_dt(1, 5), 1);
+  EXPECT_EQ(fitted_dt(1, 2), 1);
+  EXPECT_EQ(fitted_dt(1, 1.5), 0.75);
+  EXPECT_EQ(fitted_dt(1, 1.0001), 0.50005);
+  EXPECT_EQ(fitted_dt(1, 1), 1);
+  EXPECT_EQ(fitted_dt(1, 0.3), 0.3);
+}
+
+TEST(RunLoop, starts_gently_and_never_lengthens_a_step_by_more_than_half) {
+  Story story;
+  story.run(0.5);
+  EXPECT_DOUBLE_EQ(story.host.rows[0].dt, 0.2 * 0.01);
+  for (std::size_t i = 1; i < story.host.rows.size(); ++i) {
+    EXPECT_EQ(story.host.rows[i].dt_previous, story.host.rows[i - 1].dt);
+    EXPECT_LE(story.host.rows[i].dt, 1.5 * story.host.rows[i - 1].dt * (1 + 1e-15));
+  }
+}
+
+TEST(RunLoop, halves_a_refused_step_and_counts_the_cause) {
+  Story story;
+  story.stepper.refuse = [](double time, double dt) {
+    return time > 0.1 && time < 0.2 && dt > 0.004 ? "inverted" : "";
+  };
+  story.run(0.5);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::done);
+  EXPECT_GT(story.loop.rejected.at("inverted"), 0);
+  for (const auto& row : story.host.rows) {
+    if (row.time > 0.1 && row.time < 0.2) {
+      EXPECT_LE(row.dt, 0.004);
+    }
+  }
+}
+
+TEST(RunLoop, gives_up_with_the_cause_and_a_checkpoint_of_the_last_good_state) {
+  Story story;
+  story.stepper.refuse = [](double time, double) { return time > 0.1 ? "no fluid" : ""; };
+  story.run(0.5);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::failed);
+  EXPECT_EQ(story.end.cause, "no fluid");
+  EXPECT_EQ(story.host.checkpoints, 1);
+  FakeStepper saved;
+  std::istringstream in(story.host.saved.stepper);
+  saved.load(in);
+  EXPECT_EQ(saved.time(), story.stepper.time());
+  // log2(1e6) halvings and no more
+  EXPECT_EQ(story.loop.rejected.at("no fluid"), 21);
+}
+
+TEST(RunLoop, takes_an_exception_of_an_attempt_for_a_refusal) {
+  Story story;
+  bool once = false;
+  story.stepper.refuse = [&](double time, double) -> std::string {
+    if (time > 0.1 && !std::exchange(once, true)) throw std::runtime_error("out of luck");
+    return "";
+  };
+  story.run(0.2);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::done);
+  EXPECT_EQ(story.loop.rejected.at("out of luck"), 1);
+}
+
+TEST(RunLoop, a_run_continued_from_any_checkpoint_makes_the_same_steps) {
+  Story whole;
+  whole.run(0.5);
+  for (const std::size_t stop_after : {0, 1, 7, 30}) {
+    Story first, second;
+    first.host.interrupt_after = stop_after;
+    first.run(0.5);
+    EXPECT_EQ(first.end.status, LoopEnd::Status::interrupted);
+    EXPECT_EQ(first.end.cause, "SIGINT");
+    second.resume(first.host);
+    second.run(0.5);
+    EXPECT_EQ(times(second.host), times(whole.host));
+  }
+}
+
+TEST(RunLoop, a_run_stopped_at_a_time_and_continued_makes_the_steps_of_one_that_was_not) {
+  Story whole;
+  whole.run(0.5);
+  for (const double until : {1e-4, 0.1, 0.25, 0.4999}) {
+    Story first, second;
+    first.run(until);
+    EXPECT_EQ(first.stepper.time(), until);
+    second.resume(first.host);
+    second.run(0.5);
+    EXPECT_EQ(times(second.host), times(whole.host)) << until;
+  }
+}
+
+TEST(RunLoop, checkpoints_change_nothing) {
+  Story without, with;
+  with.host.checkpoint_every = 3;
+  without.run(0.5);
+  with.run(0.5);
+  EXPECT_GT(with.host.checkpoints, 10);
+  EXPECT_EQ(times(with.host), times(without.host));
+}
+
+}  // namespace
+}  // namespace splashdown::apps

@@ -1,0 +1,87 @@
+// Texts for people: units with sensible digits, progress, characteristic numbers, folder names.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/closing.hpp"
+#include "apps/commands.hpp"
+#include "apps/cost.hpp"
+#include "apps/progress.hpp"
+#include "apps/scales.hpp"
+#include "apps/scene_read.hpp"
+#include "scenes.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+Scene scene_of(const std::string& text) { return read_scene_text(text, "scene.toml").scene; }
+
+TEST(Words, values_carry_a_metric_prefix) {
+  EXPECT_EQ(with_unit(26745.8, "N/m"), "26.75 kN/m");
+  EXPECT_EQ(with_unit(0.014872, "s"), "14.87 ms");
+  EXPECT_EQ(with_unit(-3e6, "Pa"), "-3 MPa");
+  EXPECT_EQ(with_unit(0, "s"), "0 s");
+  EXPECT_EQ(with_unit(0.99999, "s"), "1 s");
+  EXPECT_EQ(with_unit(1e-12, "s"), "1e-12 s");
+}
+
+TEST(Words, progress_says_where_the_run_is) {
+  EXPECT_EQ(clock_text(7.4), "0:07");
+  EXPECT_EQ(clock_text(750), "12:30");
+  EXPECT_EQ(clock_text(11100), "3:05:00");
+  const ProgressPoint point{.time = 0.005, .stop = 0.02, .dt = 1e-4, .steps = 50, .nodes = 1234, .passes = 2};
+  const auto text = progress_text(point, 61);
+  for (const auto* piece :
+       {" 25 %", "t = 0.005 of 0.02 s", "step 50", "dt 0.0001 s", "nodes 1234", "passes 2", "left 1:01"})
+    EXPECT_NE(text.find(piece), std::string::npos) << piece << " is not in: " << text;
+  EXPECT_EQ(
+      progress_text({.time = 0, .stop = 1, .dt = 1, .steps = 0, .nodes = {}, .passes = {}}, -1).find("nodes"),
+      std::string::npos);
+}
+
+TEST(Words, a_run_is_named_after_its_folder_or_its_file) {
+  EXPECT_EQ(default_directory("examples/wedge_drop/scene.toml"), "out/wedge_drop");
+  EXPECT_EQ(default_directory("examples/wedge_drop/light.toml"), "out/light");
+}
+
+TEST(Scales, follow_the_fastest_thing_in_the_scene) {
+  const auto falling = scales(scene_of(testing::wedge_drop));
+  EXPECT_DOUBLE_EQ(falling.length, 0.5);
+  EXPECT_DOUBLE_EQ(falling.speed, std::sqrt(6.15 * 6.15 + 2 * 9.81 * 0.01));
+  const auto resting = scales(scene_of(
+      testing::wedge_drop_with("position = [0, 0.01]\nvelocity = [0, -6.15]", "position = [0, -0.01]")));
+  EXPECT_DOUBLE_EQ(resting.speed, std::sqrt(9.81 * 0.5));
+}
+
+TEST(Scales, every_effect_is_on_or_off_with_a_number) {
+  const auto notes = effect_notes(scene_of(testing::wedge_drop));
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_TRUE(notes[0].active);
+  EXPECT_NE(notes[0].reason.find("Fr = U/sqrt(g L) = 2.78"), std::string::npos) << notes[0].reason;
+  EXPECT_FALSE(notes[1].active);
+  EXPECT_NE(notes[1].reason.find("Re = rho U L/mu = 3.08e+06"), std::string::npos) << notes[1].reason;
+  EXPECT_FALSE(notes[2].active);
+}
+
+TEST(Cost, counts_the_nodes_of_a_uniform_box) {
+  const auto scene = scene_of(testing::wedge_drop_with("far = 0.2\n", ""));  // h = 0.01 up to the walls
+  const auto coarse_body = [&] {
+    auto s = scene;
+    s.bodies.clear();
+    return s;
+  }();
+  // 4 m x 1 m of equilateral triangles of side 0.01 m
+  EXPECT_NEAR(predicted_cost(coarse_body).nodes, 4 * 2 / (std::sqrt(3.) * 1e-4), 1);
+}
+
+TEST(Cost, finer_elements_at_the_body_cost_nodes) {
+  const double coarse = predicted_cost(scene_of(testing::wedge_drop)).nodes;
+  const double fine =
+      predicted_cost(scene_of(testing::wedge_drop_with("size = 0.005", "size = 0.001"))).nodes;
+  EXPECT_GT(fine, coarse);
+  EXPECT_GT(coarse, 400);    // the surface alone: 4 m of elements of 0.01 m
+  EXPECT_LT(coarse, 46000);  // all of it at 0.01 m
+}
+
+}  // namespace
+}  // namespace splashdown::apps
