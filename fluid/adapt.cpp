@@ -127,7 +127,9 @@ class Adapter {
   void attach(int i) {
     const int w = nodes_.tie[i].wall;
     if (w < 0) return;
-    nodes_.x[i] = walls_.walls[w].nearest(walls_.poses[w], nodes_.x[i], walls_.walls[w].box().diagonal().norm()).point;
+    const auto near = walls_.walls[w].nearest(walls_.poses[w], nodes_.x[i], walls_.walls[w].box().diagonal().norm());
+    nodes_.x[i] = near.point;
+    nodes_.tie[i].patch = near.patch;
   }
 
   void split() {

@@ -26,7 +26,7 @@ void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& 
       const auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
       if (near.distance > 0) continue;
       nodes.x[i] = near.point;
-      nodes.tie[i] = {static_cast<int>(w), -1};
+      nodes.tie[i] = {static_cast<int>(w), near.patch, -1};
       break;
     }
   }
@@ -91,7 +91,7 @@ void occupy_sharp_vertices(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mes
       const bool arrived = hit.distance < (touches ? on_facet : 1e-9) * size ||
                            (hit.distance < 2 * size && InsideTest<d>(nodes.x, mesh.boundary)(point));
       if (!arrived) continue;
-      const WallTie tie{static_cast<int>(w), v};
+      const WallTie tie{static_cast<int>(w), -1, v};
       if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
         nodes.x[closest] = point;
         nodes.tie[closest] = tie;
@@ -134,23 +134,23 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
   const std::size_t count = nodes_.size();
   out.x.resize(count);
   out.u.assign(v.begin(), v.end());
-  out.released.assign(count, 0);
+  out.tie = nodes_.tie;
   for (std::size_t i = 0; i < count; ++i) out.x[i] = nodes_.x[i] + dt * v[i];
   for (int i : tied_) {
     const WallTie tie = nodes_.tie[i];
     const Wall<d>& wall = walls_[tie.wall];
-    if (tie.vertex >= 0 && wetted_[i]) {
-      out.x[i] = wall.vertex(poses[tie.wall], tie.vertex);
-    } else {
-      const auto near = wall.nearest(poses[tie.wall], out.x[i], diameter(wall));
-      const bool passes_edge = tie.vertex < 0 && near.vertex >= 0 && near.distance > 0 &&
-                               !attached_vertex_[tie.wall][near.vertex];
-      if (passes_edge || (!wetted_[i] && near.distance > 0)) {
-        out.released[i] = 1;
-        continue;
-      }
-      out.x[i] = tie.vertex >= 0 ? wall.vertex(poses[tie.wall], tie.vertex) : near.point;
+    const Isometry<d>& pose = poses[tie.wall];
+    auto near = tie.vertex >= 0 ? wall.nearest(pose, out.x[i], diameter(wall))
+                                : wall.nearest_on_patch(pose, out.x[i], tie.patch);
+    const bool passes_edge = tie.vertex < 0 && near.vertex >= 0;
+    const bool leaves = passes_edge && !attached_vertex_[tie.wall][near.vertex];
+    if (passes_edge) near = wall.nearest(pose, out.x[i], diameter(wall));
+    if ((leaves || !wetted_[i]) && near.distance > 0) {
+      out.tie[i] = {};
+      continue;
     }
+    out.x[i] = tie.vertex >= 0 ? wall.vertex(pose, tie.vertex) : near.point;
+    if (passes_edge) out.tie[i].patch = near.patch;
     out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
   }
   for (const Separation& s : separations_) out.u[s.at] = out.u[s.upstream];

@@ -24,7 +24,7 @@ class WallMotion {
     std::vector<Vec<d>> x;      ///< at t_{n+1}
     std::vector<Vec<d>> u;      ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
                                 ///< velocity at an edge where the flow separates
-    std::vector<char> released; ///< 1: parts from its wall
+    std::vector<WallTie> tie;   ///< at t_{n+1}: nodes may leave their wall or turn a corner
   };
   /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
   void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;

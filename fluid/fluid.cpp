@@ -3,6 +3,7 @@
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/vector.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -99,7 +100,7 @@ struct Fluid<d>::State {
   }
 
   void size_nodes() {
-    const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh.boundary);
+    const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh);
     work.h.resize(work.nodes.size());
     for (std::size_t i = 0; i < work.h.size(); ++i) work.h[i] = field(work.nodes.x[i]);
   }
@@ -159,7 +160,9 @@ template <int d>
 double Fluid<d>::stable_dt() const {
   const auto& now = s_->now;
   double squared = std::numeric_limits<double>::infinity();
-  for (const auto& cell : now.mesh.cells)
+  for (const auto& cell : now.mesh.cells) {
+    // Sheets and spray carry no pressure: they fly, however much they deform.
+    if (std::all_of(cell.begin(), cell.end(), [&](int n) { return now.nodes.surface[n]; })) continue;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
         const double rate = (now.nodes.v[cell[i]] - now.nodes.v[cell[j]]).squaredNorm();
@@ -168,6 +171,7 @@ double Fluid<d>::stable_dt() const {
                                        short_edge * short_edge);
         if (length < squared * rate) squared = length / rate;
       }
+  }
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
   dt = std::min(dt, now.acceleration_dt);
   for (const auto& t : s_->terms) dt = std::min(dt, t->stable_dt());
@@ -280,7 +284,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
     }
     nodes.x[i] = s.moved.x[i];
     nodes.v[i] = v_next;
-    if (s.moved.released[i]) nodes.tie[i] = {};
+    nodes.tie[i] = s.moved.tie[i];
   }
   ledger.volume = enclosed_volume(s.work.mesh.boundary, s.work.nodes.x);
   ledger.time_integration += ledger.volume - before;

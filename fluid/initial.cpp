@@ -106,7 +106,7 @@ class Filler {
     for (std::size_t w = 0; w < walls_.walls.size(); ++w) {
       const double tiny = on_wall * walls_.walls[w].box().diagonal().norm();
       const auto near = walls_.walls[w].nearest(walls_.poses[w], x, 2 * tiny);
-      if (std::abs(near.distance) < tiny) return {static_cast<int>(w), near.vertex};
+      if (std::abs(near.distance) < tiny) return {static_cast<int>(w), near.patch, near.vertex};
     }
     return {};
   }
@@ -140,8 +140,13 @@ class Filler {
       for (const Vec<2>& x : graded(path)) {
         const int w = wall[from];
         Vec<2> at = x;
-        if (w >= 0) at = walls_.walls[w].nearest(walls_.poses[w], x, walls_.walls[w].box().diagonal().norm()).point;
-        out_.nodes.add(at, Vec<2>::Zero(), 0, {w, -1}, w < 0);
+        WallTie on;
+        if (w >= 0) {
+          const auto near = walls_.walls[w].nearest(walls_.poses[w], x, walls_.walls[w].box().diagonal().norm());
+          at = near.point;
+          on = {w, near.patch, -1};
+        }
+        out_.nodes.add(at, Vec<2>::Zero(), 0, on, w < 0);
         ring_wall.push_back(w);
       }
     }
@@ -184,7 +189,7 @@ class Filler {
   void refine() {
     std::vector<double>& h = out_.h;
     auto sizes = [&] {
-      const SizeField<2> field(spec_.size, walls_, wetted_, out_.nodes.x, out_.mesh.boundary);
+      const SizeField<2> field(spec_.size, walls_, wetted_, out_.nodes.x, out_.mesh);
       h.resize(out_.nodes.size());
       for (std::size_t i = 0; i < h.size(); ++i) h[i] = field(out_.nodes.x[i]);
     };

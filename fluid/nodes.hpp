@@ -7,10 +7,11 @@
 
 namespace splashdown::fluid {
 
-/// A node is free, or slides on a wall (wall >= 0), or sits on one of that wall's sharp vertices.
+/// A node is free, or slides on a smooth patch of a wall, or sits on one of that wall's sharp vertices.
 struct WallTie {
   int wall = -1;    ///< index of the wall, -1: none
-  int vertex = -1;  ///< index of the wall's surface vertex the node is fixed to, -1: slides
+  int patch = -1;   ///< smooth patch of its surface the node slides on
+  int vertex = -1;  ///< vertex of its surface the node is fixed to, -1: slides
   bool operator==(const WallTie&) const = default;
 };
 

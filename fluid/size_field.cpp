@@ -7,17 +7,17 @@ namespace splashdown::fluid {
 
 template <int d>
 SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted,
-                        std::span<const Vec<d>> x, const std::vector<Facet<d>>& boundary)
+                        std::span<const Vec<d>> x, const Mesh<d>& mesh)
     : spec_(spec), walls_(walls), wall_size_(walls.walls.size()) {
   for (std::size_t w = 0; w < wall_size_.size(); ++w) {
     // Half the wetted measure as a length: the half width of a wetted bottom.
     const double length = 0.5 * std::pow(wetted[w], 1.0 / (d - 1));
     wall_size_[w] = std::max(walls.walls[w].spec().size, spec.wetted_fraction * length);
   }
-  if (std::isfinite(spec.hollow)) find_hollows(x, boundary);
+  if (std::isfinite(spec.hollow)) find_hollows(x, mesh);
   if (spec.surface >= spec.far) return;  // the far size already resolves the surface
   std::vector<const Facet<d>*> free;
-  for (const auto& f : boundary)
+  for (const auto& f : mesh.boundary)
     if (f.wall < 0) free.push_back(&f);
   Eigen::Matrix<double, d, Eigen::Dynamic> vertices(d, d * free.size());
   Eigen::Matrix<int, d, Eigen::Dynamic> facets(d, free.size());
@@ -33,7 +33,8 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
 // Curvature along a facet's edge from the nodes' normals, (n_j - n_i).(x_j - x_i) / |x_j - x_i|^2, averaged
 // at the nodes; negative where the liquid is hollow. Sources that others already imply are dropped.
 template <int d>
-void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const std::vector<Facet<d>>& boundary) {
+void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh) {
+  const auto& boundary = mesh.boundary;
   std::vector<Vec<d>> normal(x.size(), Vec<d>::Zero());
   std::vector<double> curvature(x.size(), 0.0), edges(x.size(), 0.0);
   for (const auto& f : boundary)
@@ -48,9 +49,16 @@ void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const std::vector<Fac
       for (int n : {i, j}) curvature[n] += along, edges[n] += 1;
     }
   }
+  // Thin sheets and spray, cells without an inner node, have no root to resolve.
+  std::vector<char> on_boundary(x.size(), 0), bulk(x.size(), 0);
+  for (const auto& f : boundary)
+    for (int n : f.nodes) on_boundary[n] = 1;
+  for (const auto& cell : mesh.cells)
+    if (std::any_of(cell.begin(), cell.end(), [&](int n) { return !on_boundary[n]; }))
+      for (int n : cell) bulk[n] = 1;
   std::vector<Source> found;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (edges[i] == 0 || curvature[i] >= 0) continue;
+    if (!bulk[i] || edges[i] == 0 || curvature[i] >= 0) continue;
     const double size = std::max(spec_.hollow_min, -spec_.hollow * edges[i] / curvature[i]);
     if (size < (*this)(x[i])) found.push_back({x[i], size});
   }

@@ -12,14 +12,14 @@ namespace splashdown::fluid {
 template <int d>
 class SizeField {
  public:
-  /// `wetted`: wetted measure of each wall [m in 2D]; `surface`: the boundary whose free part is a source.
+  /// `wetted`: wetted measure of each wall [m in 2D]; `mesh`: its free boundary is a source.
   SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted,
-            std::span<const Vec<d>> x, const std::vector<Facet<d>>& boundary);
+            std::span<const Vec<d>> x, const Mesh<d>& mesh);
   double operator()(const Vec<d>& point) const;
   double at_wall(std::size_t wall) const { return wall_size_[wall]; }
 
  private:
-  void find_hollows(std::span<const Vec<d>> x, const std::vector<Facet<d>>& boundary);
+  void find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh);
 
   struct Source {
     Vec<d> at;

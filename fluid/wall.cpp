@@ -1,6 +1,7 @@
 #include "fluid/wall.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "fluid/geometry.hpp"
@@ -36,6 +37,7 @@ Wall<d>::Wall(const WallSpec<d>& spec)
         if (normal_.col(f).dot(normal_.col(g)) < crease) is_sharp_[v] = 1;
     if (is_sharp_[v]) sharp_.push_back(v);
   }
+  find_patches(crease);
   double enclosed = 0;
   for (int f = 0; f < facets.cols(); ++f) {
     std::array<Vec<d>, d> corner;
@@ -46,23 +48,63 @@ Wall<d>::Wall(const WallSpec<d>& spec)
   tiny_ = 1e-9 * box_.diagonal().norm();
 }
 
+// Facets that share an edge without a crease belong together.
 template <int d>
-typename Wall<d>::Near Wall<d>::nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const {
-  const Vec<d> local = pose.inverse() * x;
-  const auto hit = tree_.nearest(local, reach);
-  if (hit.facet < 0) return {x, reach, -1};
+void Wall<d>::find_patches(double crease) {
+  const auto& facets = spec_.surface.facets;
+  auto neighbours = [&](int f, int g) {
+    int shared = 0;
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b < d; ++b) shared += facets(a, f) == facets(b, g);
+    return shared == d - 1 && normal_.col(f).dot(normal_.col(g)) >= crease;
+  };
+  patch_of_.assign(facets.cols(), -1);
+  for (int seed = 0; seed < facets.cols(); ++seed) {
+    if (patch_of_[seed] >= 0) continue;
+    const int patch = static_cast<int>(patch_facets_.size());
+    std::vector<int> members{seed};
+    patch_of_[seed] = patch;
+    for (std::size_t i = 0; i < members.size(); ++i)
+      for (int k = 0; k < d; ++k)
+        for (int g : facets_of_[facets(k, members[i])])
+          if (patch_of_[g] < 0 && neighbours(members[i], g)) patch_of_[g] = patch, members.push_back(g);
+    Eigen::Matrix<int, d, Eigen::Dynamic> own(d, members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) own.col(i) = facets.col(members[i]);
+    patch_tree_.emplace_back(spec_.surface.vertices, std::move(own));
+    patch_facets_.push_back(std::move(members));
+  }
+}
+
+template <int d>
+typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& local,
+                                        const typename FacetTree<d>::Hit& hit, int facet) const {
   // The side is taken from the normals of all facets that meet at the closest point.
-  Vec<d> normal = normal_.col(hit.facet);
+  Vec<d> normal = normal_.col(facet);
   int vertex = -1;
   for (int k = 0; k < d; ++k) {
-    const int v = spec_.surface.facets(k, hit.facet);
+    const int v = spec_.surface.facets(k, facet);
     const Vec<d> corner = spec_.surface.vertices.col(v);
     if ((corner - hit.point).norm() > tiny_) continue;
     normal = vertex_normal_.col(v);
     if (is_sharp_[v]) vertex = v;
   }
   const double side = (local - hit.point).dot(normal) < 0 ? -1.0 : 1.0;
-  return {pose * hit.point, side * std::sqrt(hit.squared_distance), vertex};
+  return {pose * hit.point, side * std::sqrt(hit.squared_distance), patch_of_[facet], vertex};
+}
+
+template <int d>
+typename Wall<d>::Near Wall<d>::nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const {
+  const Vec<d> local = pose.inverse() * x;
+  const auto hit = tree_.nearest(local, reach);
+  if (hit.facet < 0) return {x, reach, -1, -1};
+  return near_of(pose, local, hit, hit.facet);
+}
+
+template <int d>
+typename Wall<d>::Near Wall<d>::nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const {
+  const Vec<d> local = pose.inverse() * x;
+  const auto hit = patch_tree_[patch].nearest(local, std::numeric_limits<double>::max());
+  return near_of(pose, local, hit, patch_facets_[patch][hit.facet]);
 }
 
 template <int d>

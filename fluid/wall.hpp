@@ -16,11 +16,14 @@ class Wall {
   struct Near {
     Vec<d> point;      ///< closest point of the wall, world frame
     double distance;   ///< signed: negative inside the solid
+    int patch;         ///< smooth patch the point lies on
     int vertex;        ///< sharp vertex that is the closest point, -1: none
   };
 
   /// Closest point of the wall in the given pose; distance = +reach where nothing is nearer.
   Near nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
+  /// The same on one smooth patch alone, wherever x is.
+  Near nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const;
   /// False only where the point is surely farther than `margin` from the solid; cheap.
   bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
     return turned_inside_out_ || box_.squaredExteriorDistance(pose.inverse() * x) <= margin * margin;
@@ -33,8 +36,14 @@ class Wall {
   const Eigen::AlignedBox<double, d>& box() const { return box_; }
 
  private:
+  void find_patches(double crease);
+  Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
+
   WallSpec<d> spec_;
   FacetTree<d> tree_;
+  std::vector<FacetTree<d>> patch_tree_;
+  std::vector<std::vector<int>> patch_facets_;
+  std::vector<int> patch_of_;
   Eigen::Matrix<double, d, Eigen::Dynamic> normal_;         // of facets, unit
   Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // sum over the facets around a vertex
   std::vector<std::vector<int>> facets_of_;
