@@ -17,7 +17,9 @@ std::string row(const std::string& head, const std::string& text) {
 std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
 
 std::string body_text(const BodySummary& body, int dimension) {
-  if (body.first_contact < 0) return "stayed dry";
+  if (body.first_contact < 0)
+    return fmt::format("stayed dry, peak acceleration {:.3g} g{}", body.acceleration.raw.value,
+                       at(body.acceleration.raw));
   const std::string force = dimension == 2 ? "N/m" : "N";
   auto text = fmt::format("wet from {}, peak force {}{}, peak acceleration {:.3g} g{}",
                           with_unit(body.first_contact, "s"), with_unit(body.force.value, force),

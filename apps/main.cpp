@@ -9,11 +9,6 @@
 
 namespace splashdown::apps {
 
-int bad_input(const std::string& text) {
-  fmt::print(stderr, "error: {}\n", text);
-  return exit_code::bad_input;
-}
-
 namespace {
 
 std::string version_text() {
@@ -24,14 +19,14 @@ std::string version_text() {
 
 /// CLI11's own exit codes are not ours: 0 for help and version, 2 for everything it refuses.
 int finish(const CLI::App& app, const CLI::ParseError& error) {
-  return app.exit(error) == 0 ? exit_code::done : exit_code::bad_input;
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  return bad_input(fmt::format("{}. See splashdown --help.", error.what()));
 }
 
 int command_line(int argc, char** argv) {
   CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
   app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::help);
   const char* const scene_help = "scene file (TOML; docs/scene.md)";
   const char* const set_help = "override a key of the scene, e.g. body.wedge.mass=100 (repeatable)";
 
@@ -39,10 +34,7 @@ int command_line(int argc, char** argv) {
   auto* run_app = app.add_subcommand("run", "Run a scene");
   run_app->add_option("scene", run.scene, scene_help)->required();
   run_app->add_option("--out", run.out, "folder for the files (default: out/<scene>)");
-  run_app->add_option("--set", run.overrides, set_help)
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->allow_extra_args(false);
+  run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
   run_app->add_option("--threads", run.threads, "threads of the linear algebra")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -59,10 +51,7 @@ int command_line(int argc, char** argv) {
   std::vector<std::string> overrides;
   auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
   check_app->add_option("scene", scene, scene_help)->required();
-  check_app->add_option("--set", overrides, set_help)
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->allow_extra_args(false);
+  check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
 
   std::filesystem::path directory;
   auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run");

@@ -6,6 +6,7 @@
 
 #include "apps/closing.hpp"
 #include "apps/commands.hpp"
+#include "apps/folder_lock.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/report.hpp"
 #include "apps/resume.hpp"
@@ -35,7 +36,6 @@ double stop_time(const RunOptions& options, const Scene& scene) {
 }
 
 void prepare_directory(const fs::path& directory, const std::string& resolved, bool resumed) {
-  fs::create_directories(directory);
   if (!resumed) fs::remove_all(directory / "checkpoint");
   std::ofstream file(directory / "scene.resolved.toml", std::ios::binary);
   file << resolved << "\n" << provenance_toml();
@@ -86,8 +86,8 @@ int go(Run<2>& run, const std::string& scene_name, const RunOptions& options, co
   if (end.status == LoopEnd::Status::interrupted)
     fmt::print("stopped: {}; continue with --resume\n", end.cause);
   if (end.status == LoopEnd::Status::done)
-    fmt::print("next: open {} in a browser, {} in ParaView\n", (directory / "report.html").string(),
-               (directory / "frames.pvd").string());
+    fmt::print("next: open {} in a browser{}\n", (directory / "report.html").string(),
+               fs::exists(directory / "frames.pvd") ? ", frames.pvd in ParaView" : "");
   return exit_code_of(end);
 }
 
@@ -101,12 +101,6 @@ World<2> build(const Scene& scene, const fs::path& file) {
 }
 
 }  // namespace
-
-fs::path default_directory(const fs::path& scene) {
-  const auto whole = fs::absolute(scene).lexically_normal();
-  const auto name = whole.filename() == "scene.toml" ? whole.parent_path().filename() : whole.stem();
-  return fs::path("out") / (name.empty() || name == "/" ? fs::path("scene") : name);
-}
 
 int run_command(const RunOptions& options) {
   RunPlan plan;
@@ -129,7 +123,10 @@ int run_command(const RunOptions& options) {
 
   const auto directory = plan.directory;
   Progress progress(progress_style(options.quiet));
+  std::optional<FolderLock> lock;
   try {
+    fs::create_directories(directory);
+    lock.emplace(directory);
     prepare_directory(directory, file.resolved, from.has_value());
   } catch (const std::exception& error) {
     return bad_input(error.what());

@@ -1,0 +1,21 @@
+#include "apps/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+namespace splashdown::apps {
+
+int bad_input(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) fmt::print(stderr, "error: {}\n", line);
+  return exit_code::bad_input;
+}
+
+std::filesystem::path default_directory(const std::filesystem::path& scene) {
+  const auto whole = std::filesystem::absolute(scene).lexically_normal();
+  const auto name = whole.filename() == "scene.toml" ? whole.parent_path().filename() : whole.stem();
+  return std::filesystem::path("out") / (name.empty() ? std::filesystem::path("scene") : name);
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# The command as scripts use it: exit codes, files, and resumption with the same bits.
+#   command_test.sh PATH_OF_SPLASHDOWN
+set -uo pipefail
+splashdown=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+cat >scene.toml <<'SCENE'
+title = "coarse wedge"
+[time]
+end = 0.06
+[gravity]
+[tank]
+min = [-1, -0.6]
+max = [1, 0.6]
+[fluid]
+density = 1000
+[fluid.size]
+surface = 0.04
+far = 0.1
+[[fluid.region]]
+shape = "box"
+min = [-1, -0.6]
+max = [1, 0]
+[[body]]
+name = "wedge"
+mass = 60
+position = [0, 0.02]
+velocity = [0, -3]
+pitch_deg = 5
+size = 0.02
+shape = { type = "wedge", deadrise_deg = 30, breadth = 0.4, height = 0.2 }
+[output]
+frames = 0.02
+checkpoint = 0.02
+[[record]]
+kind = "pressure"
+name = "keel"
+body = "wedge"
+point = [0, 0]
+SCENE
+
+check() {  # check DESCRIPTION COMMAND...
+  local what=$1
+  shift
+  if "$@"; then
+    echo "ok    $what"
+  else
+    echo "FAIL  $what"
+    failures=$((failures + 1))
+  fi
+}
+
+exits() {  # exits CODE COMMAND...: the command ends with this code
+  local expected=$1
+  shift
+  "$@" >stdout 2>stderr
+  local code=$?
+  ((code == expected)) && return 0
+  echo "exit code $code instead of $expected: $*"
+  cat stderr
+  return 1
+}
+
+# Rows without the column of wall-clock seconds.
+simulated() { awk -F, 'NR == 1 {for (i = 1; i <= NF; ++i) if ($i == "wall_seconds") w = i} {$w = ""; print}' "$1"; }
+
+same_run() {  # same_run DIR DIR
+  cmp "$1/bodies.csv" "$2/bodies.csv" && cmp "$1/probes.csv" "$2/probes.csv" && cmp "$1/frames.pvd" "$2/frames.pvd" &&
+    cmp <(simulated "$1/fluid.csv") <(simulated "$2/fluid.csv")
+}
+
+run() { "$splashdown" run scene.toml --quiet "$@"; }
+
+# Exit codes
+check "help is no error" exits 0 "$splashdown" --help
+check "version is no error" exits 0 "$splashdown" --version
+check "an unknown option is refused" exits 2 "$splashdown" run scene.toml --bogus
+check "a missing subcommand is refused" exits 2 "$splashdown"
+check "a missing scene file is refused" exits 2 "$splashdown" run missing.toml
+check "a bad scene is refused" exits 2 "$splashdown" run scene.toml --set fluid.density=-3 --out never
+check "with its key, value, rule and cure" grep -q 'fluid.density = -3: must be positive (kg/m^3). Use' stderr
+check "and nothing is written" test ! -e never
+check "a stop after the end is refused" exits 2 "$splashdown" run scene.toml --until 1 --out never
+check "check accepts the scene" exits 0 "$splashdown" check scene.toml
+check "check refuses a bad one" exits 2 "$splashdown" check scene.toml --set time.end=0
+check "report needs a run" exits 2 "$splashdown" report nowhere
+
+# A whole run
+check "a run ends well" exits 0 run --out whole
+for file in scene.resolved.toml summary.json bodies.csv fluid.csv probes.csv frames.pvd report.html; do
+  check "it leaves $file" test -s "whole/$file"
+done
+check "its last row is at the end time" grep -q '^0.06,wedge,' <(tail -n 1 whole/bodies.csv)
+check "the resolved scene is a scene" exits 0 "$splashdown" check whole/scene.resolved.toml
+check "the resolved scene makes the same run" exits 0 "$splashdown" run whole/scene.resolved.toml --quiet --out again
+check "bit for bit" same_run whole again
+check "a finished run may be resumed" exits 0 run --out again --resume
+check "and stays what it was" same_run whole again
+
+# Stops and resumption
+for until in 0.007 0.018 0.036; do
+  check "a run stops at $until s" exits 0 run --out "stopped_$until" --until $until
+  check "exactly" grep -q "^$until,wedge," <(tail -n 1 "stopped_$until/bodies.csv")
+  check "and continues" exits 0 run --out "stopped_$until" --resume
+  check "bit for bit" same_run whole "stopped_$until"
+done
+
+check "a spent budget interrupts" exits 130 run --out budget --budget 0.001
+check "what is left is a checkpoint" exits 0 run --out budget --resume
+check "that continues bit for bit" same_run whole budget
+check "another scene is not continued" exits 2 run --out budget --resume --set body.wedge.mass=61
+check "the message names what differs" grep -q 'body\[0\].mass = 61.0, in the checkpoint 60.0' stderr
+
+for signal in INT TERM; do
+  "$splashdown" run scene.toml --quiet --out "signal_$signal" --set time.end=10 &
+  pid=$!
+  sleep 0.5
+  check "a second run in its folder is refused" exits 2 run --out "signal_$signal"
+  kill -s $signal $pid
+  wait $pid
+  check "SIG$signal ends a run with 130" test $? -eq 130
+  check "a checkpoint is there" test -s "signal_$signal/checkpoint/state"
+done
+
+# Killed at any time, many times
+for pause in 0.05 0.3 0.11 0.17 0.23 0.08 0.29 0.41 0.13 0.19 0.37 0.07 0.31 0.21 0.15 0.45 0.09 0.27 0.33 0.25; do
+  "$splashdown" run scene.toml --quiet --out killed --resume &
+  pid=$!
+  sleep $pause
+  kill -s KILL $pid 2>/dev/null
+  wait $pid 2>/dev/null
+done
+check "a run killed twenty times is finished" exits 0 run --out killed --resume
+check "bit for bit" same_run whole killed
+
+echo "$failures failures"
+((failures == 0))
