@@ -95,7 +95,7 @@ int go(Run<2>& run, const std::string& scene_name, const RunOptions& options, co
 World<2> build(const Scene& scene, const fs::path& file) {
   try {
     return build_world(scene);
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     throw SceneError({fmt::format("{}: {}", file.string(), error.what())});
   }
 }
@@ -115,6 +115,12 @@ int run_command(const RunOptions& options) {
     plan.stop = stop_time(options, file.scene);
     plan.resolved = file.resolved;
     if (options.resume) from = find_checkpoint(plan.directory, file.resolved);
+    if (from && from->time > plan.stop)
+      throw SceneError(
+          {fmt::format("--resume: the run is at t = {:g} s already and cannot stop at {:g} s. Use a later "
+                       "stop, or start anew "
+                       "without --resume.",
+                       from->time, plan.stop)});
     set_threads(options.threads);
     world = build(file.scene, options.scene);
   } catch (const SceneError& error) {

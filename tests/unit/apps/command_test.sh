@@ -112,6 +112,7 @@ done
 check "a spent budget interrupts" exits 130 run --out budget --budget 0.001
 check "what is left is a checkpoint" exits 0 run --out budget --resume
 check "that continues bit for bit" same_run whole budget
+check "a run does not go back" exits 2 run --out budget --resume --until 0.001
 check "another scene is not continued" exits 2 run --out budget --resume --set body.wedge.mass=61
 check "the message names what differs" grep -q 'body\[0\].mass = 61.0, in the checkpoint 60.0' stderr
 
