@@ -1,5 +1,6 @@
 #include "fluid/contact.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "fluid/inside.hpp"
@@ -8,6 +9,7 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double on_facet = 0.02;  // a sharp vertex this close to a wetted facet (over h) lies on it
+constexpr double suction = 0.1;    // over the dynamic pressure: above what noise in a jet reaches
 constexpr double snap = 0.3;       // a boundary node this close to a sharp vertex (over h) moves onto it
 
 template <int d>
@@ -16,7 +18,8 @@ double diameter(const Wall<d>& wall) {
 }
 
 template <int d>
-void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& at) {
+void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& at,
+                  std::span<const Twist<d>> velocities) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes.tie[i].wall >= 0) continue;
     for (std::size_t w = 0; w < at.walls.size(); ++w) {
@@ -24,7 +27,9 @@ void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& 
       // Drops may cross more than an element in a step, nodes of the liquid may not.
       const double reach = nodes.spray[i] ? diameter(at.walls[w]) : h[i];
       const auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
-      if (near.distance > 0) continue;
+      const Vec<d> arm = nodes.x[i] - at.poses[w].translation();
+      // A node that a neighbouring edge let go may touch the wall behind the edge while it flies away.
+      if (near.distance > 0 || (nodes.v[i] - rigid_velocity<d>(velocities[w], arm)).dot(near.normal) > 0) continue;
       nodes.x[i] = near.point;
       nodes.tie[i] = {static_cast<int>(w), near.patch, -1};
       break;
@@ -105,9 +110,28 @@ void occupy_sharp_vertices(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mes
 }  // namespace
 
 template <int d>
-void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls) {
-  tie_arrivals<d>(nodes, h, walls);
+void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
+         std::span<const Twist<d>> velocities) {
+  tie_arrivals<d>(nodes, h, walls, velocities);
   occupy_sharp_vertices(nodes, h, mesh, walls);
+}
+
+template <int d>
+void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Twist<d>> velocities,
+               std::span<const Isometry<d>> poses) {
+  std::vector<int> leaving;
+  for (const auto& f : mesh.boundary) {
+    if (f.wall < 0) continue;
+    const bool at_air = std::any_of(f.nodes.begin(), f.nodes.end(), [&](int n) { return nodes.surface[n]; });
+    if (!at_air) continue;
+    for (int n : f.nodes) {
+      if (nodes.surface[n] || nodes.tie[n].wall != f.wall) continue;
+      const Vec<d> arm = nodes.x[n] - poses[f.wall].translation();
+      const double speed = (nodes.v[n] - rigid_velocity<d>(velocities[f.wall], arm)).squaredNorm();
+      if (nodes.p[n] < -suction * 0.5 * density * speed) leaving.push_back(n);
+    }
+  }
+  for (int n : leaving) nodes.tie[n] = {};
 }
 
 template <int d>
@@ -156,8 +180,10 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
   for (const Separation& s : separations_) out.u[s.at] = out.u[s.upstream];
 }
 
-template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&);
-template void wet(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&);
+template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
+template void wet(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
+template void ventilate(Nodes<2>&, const Mesh<2>&, double, std::span<const Twist<2>>, std::span<const Isometry<2>>);
+template void ventilate(Nodes<3>&, const Mesh<3>&, double, std::span<const Twist<3>>, std::span<const Isometry<3>>);
 template class WallMotion<2>;
 template class WallMotion<3>;
 

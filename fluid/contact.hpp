@@ -10,9 +10,16 @@
 
 namespace splashdown::fluid {
 
-/// Ties surface and spray nodes that have reached a wall; puts nodes at wetted sharp vertices.
+/// Ties nodes that have reached a wall; puts nodes at wetted sharp vertices. `velocities`: of the walls.
 template <int d>
-void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls);
+void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
+         std::span<const Twist<d>> velocities);
+
+/// Lets air in: a wetted node beside the contact line or beside an edge leaves its wall under suction,
+/// p < -0.1 rho |v - w|^2 / 2. Inviscid flow would otherwise cling to a sharp edge with any suction.
+template <int d>
+void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Twist<d>> velocities,
+               std::span<const Isometry<d>> poses);
 
 /// What ties nodes to walls on one mesh.
 template <int d>

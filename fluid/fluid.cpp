@@ -109,7 +109,7 @@ struct Fluid<d>::State {
     const auto scope = timer.scope(remesh);
     work = now;
     size_nodes();
-    wet(work.nodes, work.h, work.mesh, walls_at(work.poses));
+    wet<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
     if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
     const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
     work.mesh = recognise<d>(work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
@@ -286,6 +286,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
     nodes.v[i] = v_next;
     nodes.tie[i] = s.moved.tie[i];
   }
+  ventilate<d>(s.work.nodes, s.work.mesh, s.spec.density, s.s_after, poses);
   ledger.volume = enclosed_volume(s.work.mesh.boundary, s.work.nodes.x);
   ledger.time_integration += ledger.volume - before;
   ledger.energy_repair += s.energy_repaired - s.energy_before;

@@ -194,7 +194,8 @@ class Filler {
       for (std::size_t i = 0; i < h.size(); ++i) h[i] = field(out_.nodes.x[i]);
     };
     sizes();
-    wet(out_.nodes, h, out_.mesh, walls_);
+    const std::vector<Twist<2>> at_rest(walls_.walls.size(), Twist<2>::Zero());
+    wet<2>(out_.nodes, h, out_.mesh, walls_, at_rest);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps; ++sweep) {
       out_.mesh = recognise<2>(out_.nodes, h, out_.mesh.boundary, walls_, outline_decides);

@@ -89,14 +89,14 @@ typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& l
     if (is_sharp_[v]) vertex = v;
   }
   const double side = (local - hit.point).dot(normal) < 0 ? -1.0 : 1.0;
-  return {pose * hit.point, side * std::sqrt(hit.squared_distance), patch_of_[facet], vertex};
+  return {pose * hit.point, pose.linear() * Vec<d>(normal_.col(facet)), side * std::sqrt(hit.squared_distance), patch_of_[facet], vertex};
 }
 
 template <int d>
 typename Wall<d>::Near Wall<d>::nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const {
   const Vec<d> local = pose.inverse() * x;
   const auto hit = tree_.nearest(local, reach);
-  if (hit.facet < 0) return {x, reach, -1, -1};
+  if (hit.facet < 0) return {x, Vec<d>::Zero(), reach, -1, -1};
   return near_of(pose, local, hit, hit.facet);
 }
 

@@ -15,6 +15,7 @@ class Wall {
 
   struct Near {
     Vec<d> point;      ///< closest point of the wall, world frame
+    Vec<d> normal;     ///< of the facet it lies on, out of the solid
     double distance;   ///< signed: negative inside the solid
     int patch;         ///< smooth patch the point lies on
     int vertex;        ///< sharp vertex that is the closest point, -1: none

@@ -1,0 +1,61 @@
+// What the fluid's pressure equation knows about a body: the interface term.
+//
+// The body answers a pressure impulse phi on its hull with s = s~ + C B phi, C = M_b^-1. Seen from the
+// fluid this adds B^T C B phi to the pressure equation (derivation, scaling and signs: docs/theory.md).
+//
+//   rigid      B^T C B itself: exact, symmetric positive semidefinite, rank 3 (2D) or 6 (3D)
+//   laplacian  a local stand-in, lambda int_hull grad_s q . grad_s phi (Idelsohn, Del Pin, Rossi,
+//              Onate 2009; Ryzhakov, Rossi, Vina, Onate 2013); needs passes
+//   none       plain Dirichlet-Neumann: a pass amplifies the error by about M_a / m
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fluid/pressure.hpp"
+#include "rigid/bodies.hpp"
+
+namespace splashdown::coupling {
+
+template <int d>
+class InterfaceTerm {
+ public:
+  virtual ~InterfaceTerm() = default;
+  virtual std::string name() const = 0;
+  virtual fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const = 0;
+};
+
+template <int d>
+class NoTerm final : public InterfaceTerm<d> {
+ public:
+  std::string name() const override { return "none"; }
+  fluid::WallResponse<d> response(const rigid::Bodies<d>&, std::size_t) const override { return {}; }
+};
+
+template <int d>
+class RigidTerm final : public InterfaceTerm<d> {
+ public:
+  std::string name() const override { return "rigid"; }
+  fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const override {
+    return {.rigid = bodies.compliance(body)};
+  }
+};
+
+/// lambda = strength * pi a^3 / m in 2D (a: radius of the circle of equal area, m per metre of depth).
+/// On a circle with phi ~ cos(theta) the surface Laplacian then equals B^T C B:
+/// B^T C B phi = pi a cos(theta) / m and -lap_s phi = cos(theta) / a^2.
+template <int d>
+class LaplacianTerm final : public InterfaceTerm<d> {
+ public:
+  explicit LaplacianTerm(double strength = 1) : strength_(strength) {}
+  std::string name() const override { return "laplacian"; }
+  fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const override;
+
+ private:
+  double strength_;  ///< 1: exact for a circle in heave or sway
+};
+
+extern template class LaplacianTerm<2>;
+extern template class LaplacianTerm<3>;
+
+}  // namespace splashdown::coupling

@@ -1,0 +1,186 @@
+#include <chrono>
+#include <cmath>
+#include <istream>
+#include <ostream>
+#include <sstream>
+
+#include "coupling/steppers.hpp"
+
+namespace splashdown::coupling {
+namespace {
+
+// A residual this many times the first one has no way back.
+constexpr double diverged = 1e6;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string no_agreement(const char* what, int passes, double residual, const std::string& term) {
+  std::ostringstream text;
+  text << "the coupling " << what << ": residual " << residual << " after " << passes << " passes with interface_term = \""
+       << term << "\"";
+  if (term != "rigid") text << "; use interface_term = \"rigid\", or a smaller relaxation";
+  return text.str();
+}
+
+}  // namespace
+
+template <int d>
+Partitioned<d>::Partitioned(std::unique_ptr<fluid::Fluid<d>> fluid, std::unique_ptr<rigid::Bodies<d>> bodies,
+                            std::unique_ptr<InterfaceTerm<d>> term, std::unique_ptr<Accelerator> accelerator,
+                            CouplingLimits limits)
+    : fluid_(std::move(fluid)),
+      bodies_(std::move(bodies)),
+      term_(std::move(term)),
+      accelerator_(std::move(accelerator)),
+      limits_(limits),
+      acceleration_(bodies_->size(), fluid::Twist<d>::Zero()) {}
+
+template <int d>
+void Partitioned<d>::move_bodies(const std::vector<rigid::Wrench<d>>& loads) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto trial = bodies_->solve(loads);
+  trial_.assign(trial.begin(), trial.end());
+  rigid_seconds_ += seconds_since(start);
+}
+
+template <int d>
+std::vector<fluid::Twist<d>> Partitioned<d>::trial_velocities() const {
+  std::vector<fluid::Twist<d>> s;
+  for (const auto& t : trial_) s.push_back(t.velocity);
+  return s;
+}
+
+template <int d>
+Eigen::VectorXd Partitioned<d>::scaled(const std::vector<fluid::Twist<d>>& twists) const {
+  constexpr int m = fluid::freedoms<d>;
+  Eigen::VectorXd out(m * static_cast<int>(twists.size()));
+  for (std::size_t b = 0; b < twists.size(); ++b) {
+    const auto& spec = bodies_->spec(b);
+    const bool moves = spec.motion == rigid::Motion::free;
+    const double gyration = moves ? std::sqrt(spec.inertia.trace() / fluid::rotations<d> / spec.mass) : 1.0;
+    out.segment(m * static_cast<int>(b), m) = twists[b];
+    out.segment(m * static_cast<int>(b) + d, fluid::rotations<d>) *= gyration;
+  }
+  return out;
+}
+
+template <int d>
+StepReport Partitioned<d>::attempt(double dt) {
+  clock_.start(dt);
+  kick_ = clock_.kick(dt);
+  const std::size_t count = bodies_->size(), walls = fluid_->spec().walls.size();
+  bodies_->begin(kick_, dt);
+  std::vector<fluid::WallResponse<d>> responses(walls);
+  bool inside = false, outside = false;  // bodies solved inside the pressure equation, and outside it
+  for (std::size_t b = 0; b < count; ++b) {
+    if (bodies_->spec(b).motion != rigid::Motion::free) continue;
+    responses[b] = term_->response(*bodies_, b);
+    (responses[b].rigid.isZero(0) ? outside : inside) = true;
+  }
+  if (const auto status = fluid_->begin(kick_, dt, responses); !status.ok()) return {.cause = status.cause};
+
+  const auto start = std::chrono::steady_clock::now();
+  accelerator_->begin_step();
+  std::vector<rigid::Wrench<d>> loads(count, rigid::Wrench<d>::Zero());
+  move_bodies(loads);
+  std::vector<fluid::Twist<d>> x = trial_velocities();  // free flight
+  const double flight = scaled(x).norm();
+  double scale = flight;
+  for (std::size_t b = 0; b < count; ++b) {
+    scale = std::max(scale, scaled({bodies_->state(b).velocity - x[b]}).norm());
+    const bool guess = bodies_->spec(b).motion == rigid::Motion::free && responses[b].rigid.isZero(0);
+    if (guess) x[b] = bodies_->state(b).velocity + kick_ * acceleration_[b];
+  }
+  StepReport report;
+  std::vector<double> impulse;  // of the previous pass
+  double first = 0;
+  const double fluid_seconds = [&] {
+    double sum = 0;
+    for (const auto& p : fluid_->phase_seconds()) sum += p.second;
+    return sum;
+  }();
+  for (report.passes = 1;; ++report.passes) {
+    std::vector<fluid::Twist<d>> all(walls, fluid::Twist<d>::Zero());
+    std::copy(x.begin(), x.end(), all.begin());
+    if (const auto status = fluid_->solve(all, impulse); !status.ok()) {
+      report.cause = status.cause;
+      return report;
+    }
+    for (std::size_t b = 0; b < count; ++b) loads[b] = fluid_->loads()[b].total();
+    move_bodies(loads);
+    std::vector<fluid::Twist<d>> used(fluid_->wall_velocities().begin(),
+                                      fluid_->wall_velocities().begin() + static_cast<std::ptrdiff_t>(count));
+    const Eigen::VectorXd image = scaled(trial_velocities()), now = scaled(used);
+    report.residual = (image - now).norm() / std::max({scale, image.norm(), 1e-300});
+    if (!std::isfinite(report.residual)) {
+      report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
+      return report;
+    }
+    if (report.residual <= limits_.tolerance || limits_.max_passes == 1) break;
+    if (report.passes == 1) first = report.residual;
+    if (report.residual > diverged * first) {
+      report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
+      return report;
+    }
+    if (report.passes == limits_.max_passes) {
+      report.cause = no_agreement("did not converge", report.passes, report.residual, term_->name());
+      return report;
+    }
+    if (outside) {
+      // Accelerate in scaled coordinates, then return to twists.
+      const Eigen::VectorXd next = accelerator_->next(now, image) - now;
+      const Eigen::VectorXd unit = scaled(std::vector<fluid::Twist<d>>(count, fluid::Twist<d>::Ones()));
+      for (std::size_t b = 0; b < count; ++b)
+        if (bodies_->spec(b).motion == rigid::Motion::free)
+          x[b] += next.cwiseQuotient(unit).segment(static_cast<int>(b) * fluid::freedoms<d>, fluid::freedoms<d>);
+    }
+    impulse.assign(fluid_->interface_impulse().begin(), fluid_->interface_impulse().end());
+    if (inside && !outside) break;  // both sides agree to roundoff; more passes change nothing
+  }
+  double fluid_after = 0;
+  for (const auto& p : fluid_->phase_seconds()) fluid_after += p.second;
+  coupling_seconds_ += seconds_since(start) - (fluid_after - fluid_seconds);
+  return report;
+}
+
+template <int d>
+void Partitioned<d>::commit() {
+  std::vector<fluid::Isometry<d>> poses(fluid_->wall_poses().begin(), fluid_->wall_poses().end());
+  for (std::size_t b = 0; b < trial_.size(); ++b) {
+    acceleration_[b] = (trial_[b].velocity - bodies_->state(b).velocity) / kick_;
+    poses[b] = trial_[b].pose;
+  }
+  fluid_->commit(poses);
+  bodies_->commit();
+  clock_.commit();
+}
+
+template <int d>
+std::vector<std::pair<std::string, double>> Partitioned<d>::phase_seconds() const {
+  auto phases = fluid_->phase_seconds();
+  phases.emplace_back("rigid", rigid_seconds_);
+  phases.emplace_back("coupling", std::max(0.0, coupling_seconds_ - rigid_seconds_));
+  return phases;
+}
+
+template <int d>
+void Partitioned<d>::save(std::ostream& out) const {
+  clock_.save(out);
+  for (const auto& a : acceleration_) out.write(reinterpret_cast<const char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
+  fluid_->save(out);
+  bodies_->save(out);
+}
+template <int d>
+void Partitioned<d>::load(std::istream& in) {
+  clock_.load(in);
+  for (auto& a : acceleration_) in.read(reinterpret_cast<char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
+  fluid_->load(in);
+  bodies_->load(in);
+}
+
+template class Partitioned<2>;
+template class Partitioned<3>;
+
+}  // namespace splashdown::coupling
