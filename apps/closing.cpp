@@ -49,9 +49,9 @@ std::string coupling_text(const CouplingSummary& coupling) {
                      coupling.passes_mean, coupling.passes_max);
 }
 
-std::string refused_text(const CouplingSummary& coupling) {
-  std::string text = fmt::format("{} steps", coupling.rejected_steps);
-  for (const auto& [cause, count] : coupling.rejected_causes) text += fmt::format("; {}: {}", cause, count);
+std::string refused_text(const Summary& summary) {
+  std::string text = fmt::format("{} steps", summary.rejected_steps);
+  for (const auto& [cause, count] : summary.rejected_causes) text += fmt::format("; {}: {}", cause, count);
   return text;
 }
 
@@ -88,10 +88,8 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
   if (summary.nodes && summary.ledger)
     text += row("liquid", fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final,
                                       summary.nodes->max, 100 * summary.ledger->volume_error));
-  if (summary.coupling) {
-    text += row("coupling", coupling_text(*summary.coupling));
-    if (summary.coupling->rejected_steps > 0) text += row("refused", refused_text(*summary.coupling));
-  }
+  if (summary.coupling) text += row("coupling", coupling_text(*summary.coupling));
+  if (summary.rejected_steps > 0) text += row("refused", refused_text(summary));
   if (summary.wall_seconds > 0) text += row("spent on", time_text(summary));
   text += row("files", files_text(directory));
   return text;

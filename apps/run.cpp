@@ -184,6 +184,8 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   s.simulated_time = time();
   s.steps = loop_.steps;
   s.wall_seconds = wall_seconds();
+  s.rejected_causes = loop_.rejected;
+  for (const auto& [cause, count] : loop_.rejected) s.rejected_steps += count;
   const auto spent = phases();
   s.phases.assign(spent.begin(), spent.end());
   for (const auto& note : effect_notes(scene_)) {
@@ -197,8 +199,8 @@ Summary Run<d>::summary(const LoopEnd& end) const {
     auto& coupling = s.coupling.emplace();
     coupling.scheme = scene_.coupling->scheme;
     coupling.interface_term = scene_.coupling->interface_term;
-    coupling.rejected_causes = loop_.rejected;
-    for (const auto& [cause, count] : loop_.rejected) coupling.rejected_steps += count;
+    coupling.rejected_causes = s.rejected_causes;
+    coupling.rejected_steps = s.rejected_steps;
   }
   recorder_.summarise(s);
   return s;

@@ -20,6 +20,9 @@ struct Attempt {
   double dt = 0;
 };
 
+/// What kind of refusal it is: causes carry their numbers behind a colon.
+std::string kind_of(const std::string& cause) { return cause.substr(0, cause.find(": ")); }
+
 coupling::StepReport attempt(coupling::Stepper& stepper, double dt) {
   try {
     return stepper.attempt(dt);
@@ -34,7 +37,7 @@ Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterio
   for (;; dt *= 0.5) {
     auto report = attempt(stepper, dt);
     if (report.ok()) return {std::move(report), dt};
-    ++state.rejected[report.cause];
+    ++state.rejected[kind_of(report.cause)];
     host.refused(stepper.time(), dt, report.cause);
     if (dt < smallest_share * criterion) return {std::move(report), dt};
   }

@@ -63,15 +63,19 @@ Json json_of(const LedgerSummary& ledger) {
           {"work_on_walls", number(ledger.work_on_walls)}};
 }
 
+Json json_of(const std::map<std::string, long>& counts) {
+  Json json = Json::object();
+  for (const auto& [name, count] : counts) json[name] = count;
+  return json;
+}
+
 Json json_of(const CouplingSummary& coupling) {
-  Json causes = Json::object();
-  for (const auto& [cause, count] : coupling.rejected_causes) causes[cause] = count;
   return {{"scheme", coupling.scheme},
           {"interface_term", coupling.interface_term},
           {"passes_mean", number(coupling.passes_mean)},
           {"passes_max", coupling.passes_max},
           {"rejected_steps", coupling.rejected_steps},
-          {"rejected_causes", causes}};
+          {"rejected_causes", json_of(coupling.rejected_causes)}};
 }
 
 Json json_of_effects(const Summary& summary) {
@@ -102,6 +106,8 @@ std::string to_json(const Summary& summary) {
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);
+  json["rejected_steps"] = summary.rejected_steps;
+  json["rejected_causes"] = json_of(summary.rejected_causes);
   json["phases"] = Json::object();
   for (const auto& [name, seconds] : summary.phases) json["phases"][name] = number(seconds);
   json["effects"] = json_of_effects(summary);

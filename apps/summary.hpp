@@ -74,6 +74,8 @@ struct Summary {
   double simulated_time = 0;  ///< [s]
   long steps = 0;
   double wall_seconds = 0;
+  long rejected_steps = 0;  ///< attempts that were refused and repeated with half of dt
+  std::map<std::string, long> rejected_causes;
   std::vector<std::pair<std::string, double>> phases;  ///< seconds each
   std::vector<ActiveEffect> effects;
   std::vector<InactiveEffect> inactive_effects;

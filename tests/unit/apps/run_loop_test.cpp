@@ -128,7 +128,7 @@ TEST(RunLoop, starts_gently_and_never_lengthens_a_step_by_more_than_half) {
 TEST(RunLoop, halves_a_refused_step_and_counts_the_cause) {
   Story story;
   story.stepper.refuse = [](double time, double dt) {
-    return time > 0.1 && time < 0.2 && dt > 0.004 ? "inverted" : "";
+    return time > 0.1 && time < 0.2 && dt > 0.004 ? "inverted: cell " + std::to_string(time) : "";
   };
   story.run(0.5);
   EXPECT_EQ(story.end.status, LoopEnd::Status::done);

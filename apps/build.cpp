@@ -1,0 +1,88 @@
+#include "apps/build.hpp"
+
+#include <algorithm>
+
+#include "coupling/steppers.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using coupling::CouplingLimits;
+
+std::unique_ptr<coupling::InterfaceTerm<2>> interface_term(const Coupling& coupling) {
+  if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm<2>>();
+  if (coupling.interface_term == "none") return std::make_unique<coupling::NoTerm<2>>();
+  return std::make_unique<coupling::RigidTerm<2>>();
+}
+
+std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
+  if (coupling.accelerator == "aitken") return std::make_unique<coupling::Aitken>(coupling.relaxation);
+  return std::make_unique<coupling::ConstantRelaxation>(coupling.relaxation);
+}
+
+CouplingLimits limits(const Coupling& coupling) {
+  return {.tolerance = coupling.tolerance,
+          .max_passes = coupling.scheme == "staggered" ? 1 : coupling.max_passes};
+}
+
+/// Bodies that the fluid cannot move have nothing to agree about: one pass without a term.
+Coupling one_way() { return {.scheme = "staggered", .interface_term = "none"}; }
+
+std::unique_ptr<fluid::Fluid<2>> build_fluid(const Scene& scene) {
+  return std::make_unique<fluid::Fluid<2>>(fluid_spec(scene), fluid_terms(scene));
+}
+
+std::unique_ptr<rigid::Bodies<2>> build_bodies(const Scene& scene) {
+  std::vector<rigid::BodySpec<2>> specs;
+  for (const auto& body : scene.bodies) specs.push_back(body_spec(body));
+  return std::make_unique<rigid::Bodies<2>>(std::move(specs), body_forces(scene));
+}
+
+/// `Stepper` keeps its trial states.
+template <class Stepper>
+std::function<std::vector<rigid::Twist<2>>()> trial_velocities_of(const Stepper* stepper) {
+  return [stepper] {
+    std::vector<rigid::Twist<2>> velocities;
+    for (const auto& state : stepper->trial()) velocities.push_back(state.velocity);
+    return velocities;
+  };
+}
+
+World<2> fluid_world(const Scene& scene) {
+  World<2> world;
+  auto stepper = std::make_unique<coupling::FluidOnly<2>>(build_fluid(scene));
+  world.fluid = &stepper->fluid();
+  world.stepper = std::move(stepper);
+  return world;
+}
+
+World<2> bodies_world(const Scene& scene) {
+  World<2> world;
+  auto stepper = std::make_unique<coupling::BodiesOnly<2>>(build_bodies(scene), scene.time.dt_max);
+  world.bodies = &stepper->bodies();
+  world.trial_velocities = trial_velocities_of(stepper.get());
+  world.stepper = std::move(stepper);
+  return world;
+}
+
+World<2> coupled_world(const Scene& scene) {
+  const Coupling coupling = scene.coupling.value_or(one_way());
+  World<2> world;
+  auto stepper = std::make_unique<coupling::Partitioned<2>>(build_fluid(scene), build_bodies(scene),
+                                                            interface_term(coupling), accelerator(coupling),
+                                                            limits(coupling));
+  world.fluid = &stepper->fluid();
+  world.bodies = &stepper->bodies();
+  world.trial_velocities = trial_velocities_of(stepper.get());
+  world.stepper = std::move(stepper);
+  return world;
+}
+
+}  // namespace
+
+World<2> build_world(const Scene& scene) {
+  if (!scene.fluid) return bodies_world(scene);
+  return scene.bodies.empty() ? fluid_world(scene) : coupled_world(scene);
+}
+
+}  // namespace splashdown::apps
