@@ -47,7 +47,7 @@ StepReport BodiesOnly<d>::attempt(double dt) {
   const std::vector<rigid::Wrench<d>> no_load(bodies_->size(), rigid::Wrench<d>::Zero());
   const auto trial = bodies_->solve(no_load);
   trial_.assign(trial.begin(), trial.end());
-  return {.passes = 1};
+  return {.cause = {}, .passes = 1};
 }
 
 template <int d>
