@@ -74,7 +74,8 @@ void apply_override(toml::table& root, const std::string& argument, Problems& pr
   const auto words = words_of(argument.substr(0, equals));
   if (std::any_of(words.begin(), words.end(), [](const auto& word) { return word.empty(); }))
     return refuse("a word of the key is empty. Use e.g. --set fluid.density=1025.");
-  auto value = parsed(argument.substr(equals + 1), source);
+  const bool removes = equals + 1 == argument.size();
+  auto value = parsed(removes ? "{}" : argument.substr(equals + 1), source);
   if (!value)
     return refuse(
         "the value is not TOML. Use a number, a word, true, [1, 2] or \"a text\" (mind the shell's quotes).");
@@ -85,6 +86,11 @@ void apply_override(toml::table& root, const std::string& argument, Problems& pr
     const auto& word = words[i];
     const bool last = i + 1 == words.size();
     if (auto* table = node->as_table()) {
+      if (last && removes) {
+        if (table->erase(word) == 0)
+          refuse("there is no such key to remove. Give a value behind the equals sign.");
+        return;
+      }
       if (last) return put(*table, word, std::move(*value));
       if (!table->contains(word)) put(*table, word, *parsed("{}", source));
       node = table->get(word);

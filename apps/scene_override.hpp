@@ -10,7 +10,8 @@
 namespace splashdown::apps {
 
 /// Elements of arrays of tables are chosen by name or by index: body.wedge.mass, body.0.mass. Tables that
-/// are absent are created, so an effect can be added. The value is TOML; a bare word is a string.
+/// are absent are created, so an effect can be added; an empty value removes a key or a table. The value is
+/// TOML; a bare word is a string.
 void apply_override(toml::table& root, const std::string& argument, Problems& problems);
 
 }  // namespace splashdown::apps

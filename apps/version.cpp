@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/scene_echo.hpp"
-#include "apps/version_built.hpp"  // written by apps/version.cmake
+#include "apps/version_built.hpp"  // from version_built.hpp.in
 
 namespace splashdown::apps {
 

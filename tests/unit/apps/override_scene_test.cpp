@@ -46,6 +46,14 @@ TEST(Override, adds_keys_and_tables) {
   EXPECT_EQ(with({"coupling.scheme=staggered"}).coupling->scheme, "staggered");
 }
 
+TEST(Override, with_an_empty_value_removes) {
+  EXPECT_FALSE(with({"gravity="}).gravity);
+  EXPECT_FALSE(with({"fluid.viscosity={}", "fluid.viscosity="}).fluid->viscosity);
+  EXPECT_EQ(with({"body.wedge.size="}).bodies[0].size, 0.01);
+  EXPECT_EQ(refusal("fluid.viscosity="),
+            "--set fluid.viscosity=: there is no such key to remove. Give a value behind the equals sign.");
+}
+
 TEST(Override, later_ones_win) { EXPECT_EQ(with({"fluid.density=1", "fluid.density=2"}).fluid->density, 2); }
 
 TEST(Override, is_checked_like_the_file_and_named_in_the_message) {
