@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
+#include "apps/approach.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/scales.hpp"
 
@@ -80,12 +82,19 @@ void Run<d>::resume(const Checkpoint& from) {
 
 template <int d>
 LoopEnd Run<d>::go() {
-  const auto end = run_loop(*world_.stepper, loop_, plan_.stop, scene_.time.dt_max, *this);
+  const auto end = run_loop(*world_.stepper, loop_, plan_.stop, *this);
   progress_.clear();
   const Charge charge(output_seconds_);
   if (end.status == LoopEnd::Status::done) recorder_.snapshot("end", last_input_);
   recorder_.finish();
   return end;
+}
+
+template <int d>
+double Run<d>::dt_bound() const {
+  const double dt_max = scene_.time.dt_max;
+  return world_.fluid && world_.bodies ? std::min(dt_max, approach_dt(*world_.fluid, *world_.bodies))
+                                       : dt_max;
 }
 
 template <int d>
@@ -127,7 +136,10 @@ void Run<d>::record(const StepMade& step) {
 
 template <int d>
 void Run<d>::refused(double time, double dt, const std::string& cause) {
-  progress_.say(fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s: {}", time, dt, cause));
+  if (refused_at_ == time) return;  // the same step, halved once more
+  refused_at_ = time;
+  progress_.say(
+      fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s, tried again with half: {}", time, dt, cause));
 }
 
 template <int d>

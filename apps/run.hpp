@@ -42,6 +42,7 @@ class Run final : private LoopHost {
  private:
   using Clock = std::chrono::steady_clock;
 
+  double dt_bound() const override;
   void record(const StepMade& step) override;
   void refused(double time, double dt, const std::string& cause) override;
   bool checkpoint_due() override;
@@ -63,6 +64,7 @@ class Run final : private LoopHost {
   std::map<std::string, double> phases_before_, phases_at_start_;
   double setup_seconds_ = 0, output_seconds_ = 0;
   std::optional<Clock::time_point> last_checkpoint_;
+  std::optional<double> refused_at_;  // time of the last refusal that was told
 };
 
 extern template class Run<2>;

@@ -50,7 +50,7 @@ double fitted_dt(double dt, double remaining) {
   return remaining < 2 * dt ? 0.5 * remaining : dt;
 }
 
-LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, double dt_max, LoopHost& host) {
+LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, LoopHost& host) {
   using enum LoopEnd::Status;
   bool undisturbed = true;  // no step has been shortened for the stop time
   for (;;) {
@@ -65,7 +65,7 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, doub
       if (last || host.checkpoint_due()) host.checkpoint();
     }
 
-    const double criterion = std::min(stepper.stable_dt(), dt_max);
+    const double criterion = std::min(stepper.stable_dt(), host.dt_bound());
     if (!(criterion > 0 && std::isfinite(criterion)))
       return {failed, fmt::format("the time-step criterion gives dt = {} s", criterion)};
     if (state.dt_cap == 0) state.dt_cap = first_share * criterion;

@@ -1,6 +1,6 @@
 // The step loop: chooses dt, refuses steps, ends at the stop time exactly.
 //
-//   dt = min(criterion, dt_max, growth dt_{n-1});  a refused step is tried again with half of it.
+//   dt = min(criterion, growth dt_{n-1});  a refused step is tried again with half of it.
 //
 // Nothing here depends on the wall clock except when checkpoints are taken and when a budget ends, neither
 // of which changes a step. The steps that the stop time shortens are taken after a last checkpoint, so a run
@@ -34,6 +34,8 @@ struct StepMade {
 class LoopHost {
  public:
   virtual ~LoopHost() = default;
+  /// Bound on the next step besides the stepper's own criterion [s].
+  virtual double dt_bound() const = 0;
   virtual void record(const StepMade& step) = 0;
   virtual void refused(double time, double dt, const std::string& cause) = 0;
   virtual bool checkpoint_due() = 0;
@@ -48,7 +50,7 @@ struct LoopEnd {
   std::string cause;  ///< empty when done
 };
 
-LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, double dt_max, LoopHost& host);
+LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, LoopHost& host);
 
 /// The next dt towards an instant `remaining` away: dt itself, or equal parts when two steps or fewer are
 /// left, so that no sliver of a step remains.

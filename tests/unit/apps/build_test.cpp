@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
+#include "apps/approach.hpp"
 #include "apps/scene_read.hpp"
 #include "scenes.hpp"
 
@@ -148,6 +150,18 @@ TEST(World, has_the_parts_its_scene_has) {
                            "0]\nradius = 1\n"));
   EXPECT_TRUE(drop.fluid);
   EXPECT_FALSE(drop.bodies);
+}
+
+TEST(Approach, a_dry_hull_moves_by_a_share_of_its_elements_or_half_the_gap) {
+  // Keel 0.01 m above the water, h = 0.005 m, cfl = 0.5: half the gap is more.
+  const auto near = build_world(scene_of(testing::wedge_drop));
+  EXPECT_NEAR(approach_dt(*near.fluid, *near.bodies), 0.005 / 6.15, 1e-12);
+  const auto touching =
+      build_world(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, 0]")));
+  EXPECT_NEAR(approach_dt(*touching.fluid, *touching.bodies), 0.5 * 0.005 / 6.15, 1e-12);
+  const auto wet =
+      build_world(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, -0.05]")));
+  EXPECT_EQ(approach_dt(*wet.fluid, *wet.bodies), std::numeric_limits<double>::infinity());
 }
 
 /// A step made by hand, with what a recorder is told of the body.

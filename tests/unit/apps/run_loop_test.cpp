@@ -48,6 +48,7 @@ struct Saved {
 class FakeHost final : public LoopHost {
  public:
   FakeHost(const FakeStepper& stepper, const LoopState& loop) : stepper_(stepper), loop_(loop) {}
+  double dt_bound() const override { return bound; }
   void record(const StepMade& step) override { rows.push_back(step); }
   void refused(double, double, const std::string&) override {}
   bool checkpoint_due() override { return checkpoint_every > 0 && rows.size() % checkpoint_every == 0; }
@@ -65,6 +66,7 @@ class FakeHost final : public LoopHost {
   std::vector<StepMade> rows;
   Saved saved;
   int checkpoints = 0;
+  double bound = 1;
   std::size_t checkpoint_every = 0, interrupt_after = 1000000;
 
  private:
@@ -72,14 +74,12 @@ class FakeHost final : public LoopHost {
   const LoopState& loop_;
 };
 
-constexpr double dt_max = 1;
-
 struct Story {
   FakeStepper stepper;
   LoopState loop;
   FakeHost host{stepper, loop};
   LoopEnd end;
-  void run(double stop) { end = run_loop(stepper, loop, stop, dt_max, host); }
+  void run(double stop) { end = run_loop(stepper, loop, stop, host); }
   void resume(const FakeHost& from) {
     std::istringstream in(from.saved.stepper);
     stepper.load(in);
@@ -123,6 +123,13 @@ TEST(RunLoop, starts_gently_and_never_lengthens_a_step_by_more_than_half) {
     EXPECT_EQ(story.host.rows[i].dt_previous, story.host.rows[i - 1].dt);
     EXPECT_LE(story.host.rows[i].dt, 1.5 * story.host.rows[i - 1].dt * (1 + 1e-15));
   }
+}
+
+TEST(RunLoop, keeps_to_the_bound_of_its_host) {
+  Story story;
+  story.host.bound = 0.003;
+  story.run(0.5);
+  for (const auto& row : story.host.rows) EXPECT_LE(row.dt, 0.003);
 }
 
 TEST(RunLoop, halves_a_refused_step_and_counts_the_cause) {
