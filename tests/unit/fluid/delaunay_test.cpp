@@ -1,0 +1,156 @@
+#include "fluid/delaunay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+using scenes::eps;
+
+template <int d>
+std::vector<Vec<d>> cloud(int count, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::vector<Vec<d>> x(count);
+  for (auto& p : x) p = scenes::random_vector<Vec<d>>(random, {});
+  return x;
+}
+
+std::set<std::pair<int, int>> edges_of(const Delaunay<2>& t) {
+  std::set<std::pair<int, int>> edges;
+  for (const auto& c : t.cells)
+    for (int k = 0; k < 3; ++k) edges.insert(std::minmax(c[k], c[(k + 1) % 3]));
+  return edges;
+}
+
+template <class Dimension>
+struct DelaunayIn : testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(DelaunayIn, Dimensions);
+
+TYPED_TEST(DelaunayIn, cells_are_positive_and_neighbours_mutual) {
+  constexpr int d = TypeParam::value;
+  const auto x = cloud<d>(300);
+  const auto t = delaunay<d>(std::span<const Vec<d>>(x), {});
+  ASSERT_FALSE(t.cells.empty());
+  for (std::size_t c = 0; c < t.cells.size(); ++c) {
+    EXPECT_GT(volume<d>(corners(x, t.cells[c])), 0);
+    for (int k = 0; k <= d; ++k) {
+      const int other = t.neighbours[c][k];
+      if (other < 0) continue;
+      const auto& back = t.neighbours[other];
+      EXPECT_NE(std::find(back.begin(), back.end(), static_cast<int>(c)), back.end());
+      // All corners but k are shared.
+      for (int j = 0; j <= d; ++j) {
+        const auto& n = t.cells[other];
+        EXPECT_EQ(std::find(n.begin(), n.end(), t.cells[c][j]) == n.end(), j == k);
+      }
+    }
+  }
+}
+
+TYPED_TEST(DelaunayIn, circumspheres_are_empty) {
+  constexpr int d = TypeParam::value;
+  const auto x = cloud<d>(120, 2);
+  const auto t = delaunay<d>(std::span<const Vec<d>>(x), {});
+  for (const auto& cell : t.cells) {
+    // |x_k - c| equal for all corners: 2 (x_k - x_0) . c = |x_k|^2 - |x_0|^2
+    Mat<d> A;
+    Vec<d> b;
+    for (int k = 0; k < d; ++k) {
+      A.row(k) = 2 * (x[cell[k + 1]] - x[cell[0]]).transpose();
+      b[k] = x[cell[k + 1]].squaredNorm() - x[cell[0]].squaredNorm();
+    }
+    const Vec<d> centre = A.fullPivLu().solve(b);
+    const double radius = (x[cell[0]] - centre).norm();
+    for (const auto& p : x) EXPECT_GE((p - centre).norm(), radius * (1 - 1e-6));
+  }
+}
+
+TYPED_TEST(DelaunayIn, equal_points_belong_to_no_cell_but_the_first) {
+  constexpr int d = TypeParam::value;
+  auto x = cloud<d>(40);
+  const auto once = delaunay<d>(std::span<const Vec<d>>(x), {});
+  const auto all = x;
+  x.insert(x.end(), all.begin(), all.end());
+  const auto twice = delaunay<d>(std::span<const Vec<d>>(x), {});
+  EXPECT_EQ(once.cells.size(), twice.cells.size());
+  std::set<int> used;
+  for (const auto& c : twice.cells)
+    for (int n : c) {
+      EXPECT_FALSE(used.contains((n + 40) % 80)) << "both copies are used";
+      used.insert(n);
+    }
+  EXPECT_EQ(used.size(), 40u);
+}
+
+TYPED_TEST(DelaunayIn, too_few_or_flat_points_make_no_cells) {
+  constexpr int d = TypeParam::value;
+  std::vector<Vec<d>> x;
+  EXPECT_TRUE(delaunay<d>(std::span<const Vec<d>>(x), {}).cells.empty());
+  for (int i = 0; i < 20; ++i) {
+    x.push_back(Vec<d>::Unit(0) * i);
+    EXPECT_TRUE(delaunay<d>(std::span<const Vec<d>>(x), {}).cells.empty());
+  }
+}
+
+TYPED_TEST(DelaunayIn, spatial_order_is_a_permutation_of_short_hops) {
+  constexpr int d = TypeParam::value;
+  const auto x = cloud<d>(4096);
+  const auto order = spatial_order<d>(std::span<const Vec<d>>(x));
+  EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), x.size());
+  double hops = 0, unsorted = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    hops += (x[order[i]] - x[order[i - 1]]).norm();
+    unsorted += (x[i] - x[i - 1]).norm();
+  }
+  EXPECT_LT(hops, 0.2 * unsorted);
+}
+
+// A thin wedge of liquid, its lower side coarse and its upper one fine: the nodes above stand inside the
+// circles around the coarse facets.
+TEST(Delaunay2, keeps_the_facets_of_a_thin_wedge) {
+  std::vector<Vec<2>> x;
+  for (int i = 0; i <= 8; ++i) x.push_back({i / 8.0, 0});
+  for (int i = 79; i > 0; --i) x.push_back({i / 80.0 + 1e-4, 0.02 * i / 80.0});
+  std::vector<Facet<2>> ring;
+  const int n = static_cast<int>(x.size());
+  for (int i = 0; i < n; ++i) ring.push_back({{i, (i + 1) % n}, -1});
+  // Somewhere below, so that the facets are no hull.
+  for (int i = 0; i <= 10; ++i) x.push_back({i / 10.0, -1});
+  const auto missing = [&](const std::vector<Facet<2>>& kept) {
+    const auto edges = edges_of(delaunay<2>(x, kept));
+    return std::count_if(ring.begin(), ring.end(), [&](const Facet<2>& f) {
+      return !edges.contains(std::minmax(f.nodes[0], f.nodes[1]));
+    });
+  };
+  EXPECT_GT(missing({}), 0) << "the wedge is no test";
+  EXPECT_EQ(missing(ring), 0);
+}
+
+TEST(Delaunay2, keeping_facets_covers_the_same_hull) {
+  const auto x = cloud<2>(200, 5);
+  std::vector<Facet<2>> far_apart;  // none of them crosses another
+  for (int i = 0; i + 1 < 200; i += 40) far_apart.push_back({{i, i}, -1});
+  far_apart.push_back({{0, 199}, -1});
+  const auto hull = [&](const Delaunay<2>& t) {
+    double area = 0;
+    for (const auto& c : t.cells) area += volume<2>(corners(x, c));
+    return area;
+  };
+  EXPECT_NEAR(hull(delaunay<2>(x, far_apart)), hull(delaunay<2>(x, {})), 1000 * eps);
+  EXPECT_TRUE(edges_of(delaunay<2>(x, far_apart)).contains({0, 199}));
+}
+
+TEST(Delaunay2, facets_that_cross_are_left_out) {
+  const std::vector<Vec<2>> x{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const auto t = delaunay<2>(x, {{{0, 2}, -1}, {{1, 3}, -1}});
+  EXPECT_EQ(t.cells.size(), 2u);
+  EXPECT_TRUE(edges_of(t).contains({0, 2})) << "the first one is kept";
+}
+
+}  // namespace
+}  // namespace splashdown::fluid

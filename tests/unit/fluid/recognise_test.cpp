@@ -1,0 +1,186 @@
+#include "fluid/recognise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+using scenes::eps;
+
+struct Liquid {
+  Nodes<2> nodes;
+  std::vector<Facet<2>> boundary;
+  double h = 0.1;
+
+  int add(const Vec<2>& x) { return nodes.add(x, Vec<2>::Zero(), 0, {}, false); }
+  void add_ring(const std::vector<Vec<2>>& points) {
+    const int first = static_cast<int>(nodes.size()), n = static_cast<int>(points.size());
+    for (int i = 0; i < n; ++i) {
+      add(points[i]);
+      boundary.push_back({{first + i, first + (i + 1) % n}, -1});
+    }
+  }
+  Mesh<2> recognised() {
+    const std::vector<double> sizes(nodes.size(), h);
+    return recognise<2>(nodes, sizes, boundary, WallsAt<2>{});
+  }
+};
+
+// Corners of a rectangle's outline, n per unit length, counter-clockwise.
+std::vector<Vec<2>> ring(double x0, double y0, double x1, double y1, int n) {
+  std::vector<Vec<2>> p;
+  const int across = static_cast<int>(std::lround((x1 - x0) * n)), up = static_cast<int>(std::lround((y1 - y0) * n));
+  for (int i = 0; i < across; ++i) p.push_back({x0 + (x1 - x0) * i / across, y0});
+  for (int i = 0; i < up; ++i) p.push_back({x1, y0 + (y1 - y0) * i / up});
+  for (int i = 0; i < across; ++i) p.push_back({x1 - (x1 - x0) * i / across, y1});
+  for (int i = 0; i < up; ++i) p.push_back({x0, y1 - (y1 - y0) * i / up});
+  return p;
+}
+
+double area(const Mesh<2>& mesh, const Nodes<2>& nodes) {
+  double sum = 0;
+  for (const auto& c : mesh.cells) sum += volume<2>(corners(nodes.x, c));
+  return sum;
+}
+
+std::set<std::pair<int, int>> facets(const std::vector<Facet<2>>& boundary) {
+  std::set<std::pair<int, int>> out;
+  for (const auto& f : boundary) out.insert({f.nodes[0], f.nodes[1]});
+  return out;
+}
+
+// A square of cocircular lattice nodes: each four of them have two Delaunay triangulations.
+Liquid lattice_square() {
+  Liquid l;
+  l.add_ring(ring(0, 0, 1, 1, 10));
+  for (int i = 1; i < 10; ++i)
+    for (int j = 1; j < 10; ++j) l.add({i / 10.0, j / 10.0});
+  return l;
+}
+
+TEST(Recognise, a_cocircular_lattice_keeps_its_boundary_and_volume) {
+  Liquid l = lattice_square();
+  const auto mesh = l.recognised();
+  EXPECT_EQ(facets(mesh.boundary), facets(l.boundary));
+  EXPECT_EQ(mesh.cells.size(), 200u);
+  EXPECT_NEAR(area(mesh, l.nodes), 1, 200 * eps);
+  EXPECT_NEAR(enclosed_volume(mesh.boundary, l.nodes.x), 1, 200 * eps);
+  for (std::size_t i = 0; i < l.nodes.size(); ++i) EXPECT_EQ(l.nodes.spray[i], 0);
+}
+
+TEST(Recognise, a_hole_is_not_bridged) {
+  // A cavity much narrower than an element is long: any single circumradius threshold would fill it.
+  Liquid l;
+  l.add_ring(ring(0, 0, 1, 1, 10));
+  auto slit = ring(0.3, 0.47, 0.7, 0.53, 10);
+  slit.erase(std::unique(slit.begin(), slit.end()), slit.end());
+  std::reverse(slit.begin(), slit.end());
+  l.add_ring(slit);
+  for (int i = 1; i < 10; ++i)
+    for (int j = 1; j < 10; ++j)
+      if (i < 2 || i > 8 || j < 4 || j > 6) l.add({i / 10.0, j / 10.0});
+  const auto mesh = l.recognised();
+  EXPECT_EQ(facets(mesh.boundary), facets(l.boundary));
+  EXPECT_NEAR(area(mesh, l.nodes), 1 - 0.4 * 0.06, 300 * eps);
+}
+
+TEST(Recognise, fluid_under_the_peak_is_not_dropped) {
+  // Fine and coarse nodes side by side: cells have circumradii of many h of the fine side.
+  Liquid l;
+  l.add_ring(ring(0, 0, 1, 1, 20));
+  l.h = 0.03;  // the size field asks for more than the mesh has: 0.8 h < R < 8 h
+  for (int i = 1; i < 4; ++i)
+    for (int j = 1; j < 4; ++j) l.add({i / 4.0, j / 4.0});
+  const auto mesh = l.recognised();
+  EXPECT_EQ(facets(mesh.boundary), facets(l.boundary));
+  EXPECT_NEAR(area(mesh, l.nodes), 1, 300 * eps);
+}
+
+TEST(Recognise, duplicate_nodes_fly_and_take_no_volume) {
+  Liquid l = lattice_square();
+  const std::size_t count = l.nodes.size();
+  for (int n : {45, 60, 77, 100, 120}) l.add(l.nodes.x[n]);
+  const auto mesh = l.recognised();
+  EXPECT_NEAR(area(mesh, l.nodes), 1, 200 * eps);
+  int spray = 0;
+  for (char s : l.nodes.spray) spray += s;
+  EXPECT_EQ(spray, 5);
+  EXPECT_EQ(l.nodes.size(), count + 5);
+}
+
+TEST(Recognise, a_droplet_of_one_element_is_fluid_with_a_free_surface) {
+  Liquid l;
+  l.add_ring({{0, 0}, {0.1, 0}, {0.05, 0.08}});
+  const auto mesh = l.recognised();
+  ASSERT_EQ(mesh.cells.size(), 1u);
+  EXPECT_EQ(facets(mesh.boundary), facets(l.boundary));
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_EQ(l.nodes.surface[n], 1);
+    EXPECT_EQ(l.nodes.spray[n], 0);
+  }
+}
+
+TEST(Recognise, nodes_that_span_no_volume_are_spray) {
+  for (int count : {0, 1, 2, 5}) {
+    Liquid l;
+    for (int i = 0; i < count; ++i) l.add({0.01 * i, 0.01 * i});
+    const auto mesh = l.recognised();
+    EXPECT_TRUE(mesh.cells.empty());
+    EXPECT_TRUE(mesh.boundary.empty());
+    for (char s : l.nodes.spray) EXPECT_EQ(s, 1);
+  }
+}
+
+TEST(Recognise, drops_that_overlap_join) {
+  Liquid l;
+  l.add_ring(ring(0, 0, 0.5, 0.5, 20));
+  auto second = ring(0, 0, 0.5, 0.5, 20);
+  for (auto& p : second) p += Vec<2>(0.487, 0.013);
+  l.add_ring(second);
+  l.h = 0.05;
+  const auto mesh = l.recognised();
+  // Their union, but for cells across the ends of the overlap: two of at most R = 0.3 h, pi R^2 each.
+  EXPECT_NEAR(area(mesh, l.nodes), 0.5 - 0.013 * (0.5 - 0.013), 2 * std::numbers::pi * std::pow(0.3 * 0.05, 2));
+  EXPECT_TRUE(scenes::closed(mesh.boundary, l.nodes.size()));
+}
+
+TEST(Recognise, drops_a_spacing_apart_stay_apart) {
+  Liquid l;
+  l.add_ring(ring(0, 0, 0.5, 0.5, 10));
+  auto second = ring(0, 0, 0.5, 0.5, 10);
+  for (auto& p : second) p += Vec<2>(0.6, 0);
+  l.add_ring(second);
+  const auto mesh = l.recognised();
+  EXPECT_NEAR(area(mesh, l.nodes), 0.5, 200 * eps);
+  EXPECT_EQ(facets(mesh.boundary), facets(l.boundary));
+}
+
+TEST(Recognise, facets_are_wetted_where_both_ends_lie_on_the_wall_and_the_wall_between) {
+  auto spec = scenes::still_water(1, 0.5, 0.1);
+  const scenes::Placed placed(spec);
+  auto liquid = fill<2>(spec, placed.at());
+  const auto mesh = recognise<2>(liquid.nodes, liquid.h, liquid.mesh.boundary, placed.at());
+  double wetted = 0, free = 0;
+  for (const auto& f : mesh.boundary) (f.wall == 0 ? wetted : free) += area_vector_of<2>(f, liquid.nodes.x).norm();
+  EXPECT_NEAR(wetted, 2, 100 * eps);
+  EXPECT_NEAR(free, 1, 100 * eps);
+  EXPECT_NEAR(enclosed_volume(mesh.boundary, liquid.nodes.x), 0.5, 100 * eps);
+}
+
+TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
+  scenes::Lattice<3> cube(5, 0.0);
+  for (auto& t : cube.nodes.tie) t = {};
+  const std::vector<double> h(cube.nodes.size(), 0.2);
+  const auto mesh = recognise<3>(cube.nodes, h, cube.mesh.boundary, WallsAt<3>{});
+  double sum = 0;
+  for (const auto& c : mesh.cells) sum += volume<3>(corners(cube.nodes.x, c));
+  EXPECT_NEAR(sum, 1, 1e-3) << "slivers aside";
+  EXPECT_NEAR(enclosed_volume(mesh.boundary, cube.nodes.x), sum, 1e4 * eps);
+}
+
+}  // namespace
+}  // namespace splashdown::fluid

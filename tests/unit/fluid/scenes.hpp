@@ -1,0 +1,143 @@
+// Outlines, liquids and lattices that the tests of the fluid share.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "fluid/delaunay.hpp"
+#include "fluid/fluid.hpp"
+#include "fluid/initial.hpp"
+
+namespace splashdown::fluid::scenes {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// Closed outline through the points, in their order.
+inline Surface<2> outline(const std::vector<Vec<2>>& points) {
+  const int n = static_cast<int>(points.size());
+  Surface<2> s{Eigen::Matrix2Xd(2, n), Eigen::Matrix2Xi(2, n)};
+  for (int i = 0; i < n; ++i) {
+    s.vertices.col(i) = points[i];
+    s.facets.col(i) << i, (i + 1) % n;
+  }
+  return s;
+}
+inline Surface<2> rectangle(const Vec<2>& min, const Vec<2>& max) {
+  return outline({min, {max.x(), min.y()}, max, {min.x(), max.y()}});
+}
+inline Surface<2> ellipse(double a, double b, int segments, const Vec<2>& centre = {0, 0}) {
+  std::vector<Vec<2>> p;
+  for (int i = 0; i < segments; ++i) {
+    const double angle = 2 * std::numbers::pi * i / segments;
+    p.push_back(centre + Vec<2>(a * std::cos(angle), b * std::sin(angle)));
+  }
+  return outline(p);
+}
+inline Surface<2> turned_inside_out(Surface<2> s) {
+  s.facets.row(0).swap(s.facets.row(1));
+  return s;
+}
+
+inline WallSpec<2> wall(const std::string& name, Surface<2> surface, double size) {
+  WallSpec<2> w;
+  w.name = name;
+  w.surface = std::move(surface);
+  w.size = size;
+  return w;
+}
+
+inline std::vector<std::unique_ptr<Term<2>>> no_terms() { return {}; }
+inline std::vector<std::unique_ptr<Term<2>>> gravity(const Vec<2>& g) {
+  std::vector<std::unique_ptr<Term<2>>> terms;
+  terms.push_back(std::make_unique<Gravity<2>>(g));
+  return terms;
+}
+
+/// Water of the given width and depth under y = 0 in an open tank.
+inline FluidSpec<2> still_water(double width, double depth, double h) {
+  FluidSpec<2> spec;
+  spec.size = {.surface = h, .far = h};
+  spec.liquids.push_back({rectangle({-0.5 * width, -depth}, {0.5 * width, 0}), {}});
+  const double freeboard = depth;
+  spec.walls.push_back(
+      wall("tank", turned_inside_out(rectangle({-0.5 * width, -depth}, {0.5 * width, freeboard})), h));
+  return spec;
+}
+
+/// Walls of a spec in their initial poses.
+struct Placed {
+  explicit Placed(const FluidSpec<2>& spec) {
+    for (const auto& w : spec.walls) walls.emplace_back(w), poses.push_back(w.pose);
+  }
+  WallsAt<2> at() const { return {walls, poses}; }
+  std::vector<Wall<2>> walls;
+  std::vector<Isometry<2>> poses;
+};
+
+/// Each node begins as many facets as it ends: the boundary is closed.
+inline bool closed(const std::vector<Facet<2>>& boundary, std::size_t nodes) {
+  std::vector<int> balance(nodes, 0);
+  for (const auto& f : boundary) ++balance[f.nodes[0]], --balance[f.nodes[1]];
+  for (int b : balance)
+    if (b != 0) return false;
+  return true;
+}
+
+/// Unit cube of lattice nodes, the inner ones shaken, wetting wall 0 everywhere but at the top, where p = 0.
+template <int d>
+struct Lattice {
+  explicit Lattice(int n, double shake = 0.3, unsigned seed = 1) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(-shake / n, shake / n);
+    const int count = static_cast<int>(std::lround(std::pow(n + 1, d)));
+    for (int i = 0; i < count; ++i) {
+      Vec<d> x;
+      bool inner = true;
+      for (int k = 0, rest = i; k < d; ++k, rest /= n + 1) {
+        const int at = rest % (n + 1);
+        x[k] = static_cast<double>(at) / n;
+        inner = inner && at > 0 && at < n;
+      }
+      const bool top = x[d - 1] == 1;
+      if (inner)
+        for (int k = 0; k < d; ++k) x[k] += any(random);
+      WallTie tie;
+      if (!inner && !top) tie.wall = 0;
+      nodes.add(x, Vec<d>::Zero(), 0, tie, top);
+    }
+    const auto all = delaunay<d>(std::span<const Vec<d>>(nodes.x), {});
+    mesh.cells = all.cells;
+    for (std::size_t c = 0; c < all.cells.size(); ++c)
+      for (int k = 0; k <= d; ++k)
+        if (all.neighbours[c][k] < 0) add_facet(all.cells[c], k);
+  }
+
+  void add_facet(const std::array<int, d + 1>& cell, int opposite) {
+    Facet<d> f;
+    for (int k = 0, j = 0; k <= d; ++k)
+      if (k != opposite) f.nodes[j++] = cell[k];
+    Vec<d> out = Vec<d>::Zero();
+    for (int n : f.nodes) out += (nodes.x[n] - nodes.x[cell[opposite]]) / d;
+    if (out.dot(area_vector_of<d>(f, nodes.x)) < 0) std::swap(f.nodes[0], f.nodes[1]);
+    bool top = true;
+    for (int n : f.nodes) top = top && nodes.surface[n];
+    f.wall = top ? -1 : 0;
+    mesh.boundary.push_back(f);
+  }
+
+  Nodes<d> nodes;
+  Mesh<d> mesh;
+};
+
+/// Independent random numbers in (-1, 1).
+template <class Vector>
+Vector random_vector(std::mt19937& random, Vector out) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (auto& v : out.reshaped()) v = any(random);
+  return out;
+}
+
+}  // namespace splashdown::fluid::scenes
