@@ -127,6 +127,13 @@ for signal in INT TERM; do
   check "a checkpoint is there" test -s "signal_$signal/checkpoint/state"
 done
 
+# A light body that the pressure equation does not know, and no pass to spare for it
+check "a run that cannot go on ends with 3" exits 3 run --out failed --set body.wedge.mass=1 \
+  --set coupling.interface_term=none --set coupling.max_passes=2
+check "it names time and cause" grep -q 'could not go on at t = .* the coupling' stderr
+check "the last good state is saved" test -s failed/checkpoint/state
+check "the summary says so" grep -q '"status": "failed"' failed/summary.json
+
 # Killed at any time, many times
 for pause in 0.05 0.3 0.11 0.17 0.23 0.08 0.29 0.41 0.13 0.19 0.37 0.07 0.31 0.21 0.15 0.45 0.09 0.27 0.33 0.25; do
   "$splashdown" run scene.toml --quiet --out killed --resume &
