@@ -1,8 +1,9 @@
 #include <limits>
-#include <stdexcept>
 
 #include "apps/build.hpp"
 #include "apps/scene_geometry.hpp"
+#include "fluid/absorber.hpp"
+#include "fluid/viscosity.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -50,6 +51,8 @@ fluid::FluidSpec<2> fluid_spec(const Scene& scene) {
     tank.size = scene.tank->size;
     spec.walls.push_back(std::move(tank));
   }
+  const bool no_slip = liquid.viscosity && liquid.viscosity->walls == "no_slip";
+  for (auto& wall : spec.walls) wall.sticks = no_slip;
   return spec;
 }
 
@@ -58,9 +61,11 @@ std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms(const Scene& scene) {
   if (scene.gravity)
     terms.push_back(std::make_unique<fluid::Gravity<2>>(planar(scene.gravity->acceleration)));
   if (scene.fluid->viscosity)
-    throw std::invalid_argument("[fluid.viscosity] is not available yet; remove the table");
+    terms.push_back(std::make_unique<fluid::Viscosity<2>>(scene.fluid->viscosity->dynamic));
   if (scene.fluid->absorber)
-    throw std::invalid_argument("[fluid.absorber] is not available yet; remove the table");
+    terms.push_back(std::make_unique<fluid::Absorber<2>>(
+        fluid::AbsorberSpec{.from = scene.tank->min.x(), .to = scene.tank->max.x(),
+                            .width = scene.fluid->absorber->width, .rate = scene.fluid->absorber->rate}));
   return terms;
 }
 

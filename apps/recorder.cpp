@@ -168,9 +168,10 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
                          input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b]});
   if (input.fluid) {
     const auto& fluid = *input.fluid;
-    write_row(file("fluid.csv", fluid_header(effect_names(fluid))),
+    auto effects = effect_columns(fluid);
+    write_row(file("fluid.csv", fluid_header(effects.names)),
               FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(),
-                       input.passes, input.residual, input.wall_seconds, speed, effect_energies(fluid)});
+                       input.passes, input.residual, input.wall_seconds, speed, std::move(effects.values)});
   }
   write_probes(input);
 }

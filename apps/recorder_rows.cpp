@@ -34,12 +34,12 @@ void put(CsvFile& file, const std::array<double, n>& values) {
 
 }  // namespace
 
-std::string fluid_header(const std::vector<std::string>& effects) {
+std::string fluid_header(const std::vector<std::string>& effect_columns) {
   std::string header =
       "time,dt,nodes,elements,volume,kinetic_energy,potential_energy,passes,residual,wall_seconds,"
       "max_speed,volume_time_integration,volume_remesh_created,volume_remesh_deleted,volume_spray,"
       "energy_remesh,energy_repair,work_on_walls";
-  for (const auto& effect : effects) header += "," + effect + "_energy";
+  for (const auto& column : effect_columns) header += "," + column;
   return header;
 }
 
@@ -68,7 +68,7 @@ void write_row(CsvFile& file, const FluidRow& row) {
        << ledger.potential_energy << row.passes << row.residual << row.wall_seconds << row.max_speed
        << ledger.time_integration << ledger.remesh_created << ledger.remesh_deleted << ledger.spray
        << ledger.energy_remesh << ledger.energy_repair << ledger.work_on_walls;
-  for (const double energy : row.effect_energies) file << energy;
+  for (const double value : row.effect_values) file << value;
   file.end_row();
 }
 

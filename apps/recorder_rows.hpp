@@ -17,8 +17,8 @@ inline constexpr const char* bodies_header =
     "fx_repair,fy_repair,fz_repair,mx_repair,my_repair,mz_repair";
 inline constexpr const char* probes_header = "time,probe,value";
 
-/// `effects`: one column group each, behind all others.
-std::string fluid_header(const std::vector<std::string>& effects);
+/// `effect_columns`: behind all others.
+std::string fluid_header(const std::vector<std::string>& effect_columns);
 std::string surface_pressure_header(int dimension);
 
 template <int d>
@@ -37,7 +37,7 @@ struct FluidRow {
   int passes;
   double residual, wall_seconds;
   double max_speed;
-  std::vector<double> effect_energies;  ///< [J], in the order of the header's effects
+  std::vector<double> effect_values;  ///< in the order of the header's effect columns
 };
 
 template <int d>

@@ -77,7 +77,7 @@ std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name) 
 }
 
 template <int d>
-std::vector<double> effect_energies(const fluid::Fluid<d>& fluid) {
+EffectColumns effect_columns(const fluid::Fluid<d>& fluid) {
   const auto& nodes = fluid.nodes();
   std::vector<double> lumped_mass(nodes.size(), 0);
   double factorial = 1;
@@ -90,20 +90,13 @@ std::vector<double> effect_energies(const fluid::Fluid<d>& fluid) {
     const double share = fluid.spec().density * edges.determinant() / factorial / (d + 1);
     for (const int node : cell) lumped_mass[static_cast<std::size_t>(node)] += share;
   }
-  std::vector<double> energies;
-  for (const auto& term : fluid.terms()) {
-    double energy = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i) energy += lumped_mass[i] * term->potential(nodes.x[i]);
-    energies.push_back(energy);
-  }
-  return energies;
-}
-
-template <int d>
-std::vector<std::string> effect_names(const fluid::Fluid<d>& fluid) {
-  std::vector<std::string> names;
-  for (const auto& term : fluid.terms()) names.push_back(term->name());
-  return names;
+  EffectColumns columns;
+  for (const auto& term : fluid.terms())
+    for (const auto& [name, value] : term->diagnostics(nodes, lumped_mass)) {
+      columns.names.push_back(term->name() + "_" + name);
+      columns.values.push_back(value);
+    }
+  return columns;
 }
 
 template <int d>
@@ -130,8 +123,7 @@ double water_level(const fluid::Fluid<d>& fluid) {
   template Frame<d> take_frame<d>(const RecordInput<d>&);                          \
   template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);          \
   template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&); \
-  template std::vector<double> effect_energies<d>(const fluid::Fluid<d>&);         \
-  template std::vector<std::string> effect_names<d>(const fluid::Fluid<d>&);       \
+  template EffectColumns effect_columns<d>(const fluid::Fluid<d>&);                \
   template double max_speed<d>(const fluid::Fluid<d>&);                            \
   template double water_level<d>(const fluid::Fluid<d>&);
 SPLASHDOWN_INSTANTIATE(2)

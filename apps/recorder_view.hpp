@@ -17,12 +17,13 @@ int wall_index(const fluid::Fluid<d>& fluid, const std::string& name);
 template <int d>
 std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name);
 
-/// Potential energy of each effect on the fluid [J, J/m].
+/// What the effects on the fluid say about themselves; columns are called <effect>_<name>.
+struct EffectColumns {
+  std::vector<std::string> names;
+  std::vector<double> values;
+};
 template <int d>
-std::vector<double> effect_energies(const fluid::Fluid<d>& fluid);
-
-template <int d>
-std::vector<std::string> effect_names(const fluid::Fluid<d>& fluid);
+EffectColumns effect_columns(const fluid::Fluid<d>& fluid);
 
 template <int d>
 double max_speed(const fluid::Fluid<d>& fluid);

@@ -151,6 +151,41 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
     attached_vertex_[w].assign(walls_[w].spec().surface.vertices.cols(), 0);
   for (int i : tied_)
     if (nodes.tie[i].vertex >= 0 && !nodes.surface[i]) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = 1;
+  if (std::any_of(walls_.begin(), walls_.end(), [](const Wall<d>& w) { return w.spec().sticks; }))
+    find_stuck(mesh, walls);
+}
+
+template <int d>
+void WallMotion<d>::find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls) {
+  std::vector<int> slides;
+  std::vector<int> stuck_at(nodes_.size(), -1);
+  for (int i : tied_) {
+    const int w = nodes_.tie[i].wall;
+    if (!walls_[w].spec().sticks || nodes_.tie[i].vertex >= 0 || nodes_.surface[i] || !wetted_[i]) {
+      slides.push_back(i);
+      continue;
+    }
+    const Isometry<d>& pose = walls.poses[w];
+    stuck_at[i] = static_cast<int>(stuck_.size());
+    stuck_.push_back({i, pose.inverse() * nodes_.x[i], nodes_.x[i] - pose.translation(), Vec<d>::Zero()});
+  }
+  tied_ = std::move(slides);
+  for (const auto& f : mesh.boundary) {
+    if (f.wall < 0) continue;
+    for (int n : f.nodes)
+      if (stuck_at[n] >= 0) stuck_[stuck_at[n]].normal += area_vector_of<d>(f, nodes_.x);
+  }
+  for (Stuck& s : stuck_) s.normal.normalize();
+}
+
+template <int d>
+void WallMotion<d>::drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, std::span<const double> mass,
+                         std::vector<Wrench<d>>& on_walls) const {
+  on_walls.assign(walls_.size(), Wrench<d>::Zero());
+  for (const Stuck& s : stuck_) {
+    const Vec<d> lost = mass[s.node] * (v[s.node] - u[s.node]);
+    on_walls[nodes_.tie[s.node].wall] += wrench_of<d>(s.arm, lost - lost.dot(s.normal) * s.normal);
+  }
 }
 
 template <int d>
@@ -176,6 +211,10 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     out.x[i] = tie.vertex >= 0 ? wall.vertex(pose, tie.vertex) : near.point;
     if (passes_edge) out.tie[i].patch = near.patch;
     out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
+  }
+  for (const Stuck& s : stuck_) {
+    out.x[s.node] = poses[nodes_.tie[s.node].wall] * s.place;
+    out.u[s.node] = (out.x[s.node] - nodes_.x[s.node]) / dt;
   }
   for (const Separation& s : separations_) out.u[s.at] = out.u[s.upstream];
 }

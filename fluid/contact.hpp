@@ -36,10 +36,26 @@ class WallMotion {
   /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
   void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
 
+  /// Some nodes keep their place on a wall: WallSpec::sticks, away from the contact line.
+  bool sticks() const { return !stuck_.empty(); }
+  /// Impulses on the walls, about their origins, of what sticking takes from the velocities v along the walls:
+  /// u is the motion that `move` made of v, `mass` that of the nodes.
+  void drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, std::span<const double> mass,
+            std::vector<Wrench<d>>& on_walls) const;
+
  private:
   const Nodes<d>& nodes_;
   std::span<const Wall<d>> walls_;
-  std::vector<int> tied_;
+  void find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls);
+
+  std::vector<int> tied_;    // and free to slide, but for vertices
+  struct Stuck {
+    int node;
+    Vec<d> place;   // in the wall's frame
+    Vec<d> arm;     // from the wall's origin, at t_n
+    Vec<d> normal;  // of its wetted facets, unit
+  };
+  std::vector<Stuck> stuck_;
   std::vector<char> wetted_;  // node has a wetted facet
   struct Separation {
     int at, upstream;  // node on a sharp vertex, wetted neighbour it takes its velocity from

@@ -16,7 +16,7 @@
 namespace splashdown::fluid {
 namespace {
 
-enum Phase { remesh, assemble, momentum, pressure, motion };
+enum Phase : std::size_t { remesh, assemble, momentum, pressure, motion, effects };  // effects: the first term
 
 // What a checkpoint holds: everything at t_n that the next step is computed from.
 template <int d>
@@ -69,6 +69,7 @@ struct Fluid<d>::State {
   bool prepared = false;   // work belongs to now
 
   double kick = 0, dt = 0;
+  std::vector<WallResponse<d>> responses;
   PressureEquation<d> equation;
   std::optional<WallMotion<d>> wall_motion;
   typename WallMotion<d>::Moved moved;
@@ -91,6 +92,23 @@ struct Fluid<d>::State {
     std::vector<Isometry<d>> out;
     for (std::size_t w = 0; w < walls.size(); ++w) out.push_back(fluid::moved<d>(work.poses[w], s[w], by));
     return out;
+  }
+
+  StepView<d> view() const {
+    return {work.nodes, work.mesh, spec.density, kick, equation.lumped_volume(), spec.walls, work.poses};
+  }
+
+  // Nodes that stick hand what the pressure and the forces left along their wall over to it. Part of the
+  // corrections: bodies that respond get the new part of it. Returns the impulses on all walls.
+  void stick(std::vector<Wrench<d>>& impulses) {
+    std::vector<double> mass(equation.lumped_volume().begin(), equation.lumped_volume().end());
+    for (double& m : mass) m *= spec.density;
+    std::vector<Wrench<d>> now_on_walls;
+    wall_motion->drag(v_after, moved.u, mass, now_on_walls);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      s_after[w] += responses[w].rigid * (now_on_walls[w] - impulses[w]);
+      impulses[w] = now_on_walls[w];
+    }
   }
 
   double kinetic_energy(std::span<const Vec<d>> v) const {
@@ -132,6 +150,7 @@ template <int d>
 Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms) : s_(std::make_unique<State>()) {
   s_->spec = std::move(spec);
   s_->terms = std::move(terms);
+  for (const auto& term : s_->terms) s_->timer.add(term->name());
   Present<d>& now = s_->now;
   for (const auto& w : s_->spec.walls) {
     s_->walls.emplace_back(w);
@@ -184,10 +203,17 @@ Status Fluid<d>::begin(double kick, double dt, std::span<const WallResponse<d>> 
   s.kick = kick;
   s.dt = dt;
   if (!s.prepared) s.prepare();
-  const auto scope = s.timer.scope(assemble);
-  if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), responses))
-    return {"the pressure matrix could not be factored"};
-  s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses));
+  s.responses.assign(responses.begin(), responses.end());
+  {
+    const auto scope = s.timer.scope(assemble);
+    if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), responses))
+      return {"the pressure matrix could not be factored"};
+    s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses));
+  }
+  for (std::size_t t = 0; t < s.terms.size(); ++t) {
+    const auto scope = s.timer.scope(effects + t);
+    if (auto status = s.terms[t]->begin(s.view()); !status.ok()) return status;
+  }
   return {};
 }
 
@@ -216,14 +242,21 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     }
     energy_repaired = kinetic_energy(v);
   }
-  {
+  std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero()), dragged = on_walls;  // impulses
+  std::vector<Vec<d>> carried;
+  if (!terms.empty()) {
     const auto scope = timer.scope(momentum);
-    for (auto& term : terms) term->predict(work.nodes, work.mesh, equation.lumped_volume(), kick, v);
+    carried = v;
+  }
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const auto scope = timer.scope(effects + t);
+    if (auto status = terms[t]->predict(view(), {carried, s_before}, {v, on_walls}); !status.ok()) return status;
   }
   // Pressure: the motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
   const auto scope = timer.scope(pressure);
   s_after.assign(given.begin(), given.end());
-  for (std::size_t w = 0; w < walls.size(); ++w) s_after[w] += s_before[w] - work.velocity[w];
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    s_after[w] += s_before[w] - work.velocity[w] + responses[w].rigid * on_walls[w];
   middle(v, 0.5 * dt);
   equation.flux_residual(x_mid, v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
   if (!previous.empty()) equation.add_laplacian(previous, phi);
@@ -234,6 +267,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     equation.accelerate(total, v_after);
     wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
     if (k == corrections) break;
+    if (wall_motion->sticks()) stick(dragged);
     for (std::size_t i = 0; i < count; ++i) x_mid[i] = 0.5 * (x[i] + moved.x[i]);
     equation.motion_residual(x_mid, moved.u, r);
     if (!equation.solve(r, s_after)) return {"the pressure solve failed"};
@@ -245,7 +279,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
 
   loads.assign(walls.size(), {});
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    loads[w].physical = equation.impulse(w, phi) / kick;
+    loads[w].physical = (equation.impulse(w, phi) + on_walls[w] + dragged[w]) / kick;
     loads[w].repair = equation.impulse(w, repair) / kick;
     loads[w].wetted = work.wetted[w];
   }

@@ -23,22 +23,17 @@
 #include "fluid/nodes.hpp"
 #include "fluid/pressure.hpp"
 #include "fluid/spec.hpp"
+#include "fluid/status.hpp"
 #include "fluid/term.hpp"
 
 namespace splashdown::fluid {
 
 template <int d>
 struct WallLoad {
-  Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick, from the acceleration pressure
+  Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick: acceleration pressure, stresses of effects
   Wrench<d> repair = Wrench<d>::Zero();    ///< mean over the kick, from the repair impulse
   double wetted = 0;                       ///< wetted length (2D) or area (3D) [m, m^2]
   Wrench<d> total() const { return physical + repair; }
-};
-
-/// Why a step may be refused. `cause` is empty when all is well.
-struct Status {
-  std::string cause;
-  bool ok() const { return cause.empty(); }
 };
 
 /// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D].
@@ -85,7 +80,7 @@ class Fluid {
   /// Pressure at a point at t_n; nothing where there is no fluid.
   std::optional<double> pressure_at(const Vec<d>& point) const;
   const std::vector<std::unique_ptr<Term<d>>>& terms() const;
-  /// Seconds spent so far per phase: remesh, assemble, momentum, pressure, move.
+  /// Seconds spent so far per phase (mesh, assemble, momentum, pressure, move) and, by its name, per effect.
   std::vector<std::pair<std::string, double>> phase_seconds() const;
 
   void save(std::ostream& out) const;  ///< bit-exact state at t_n

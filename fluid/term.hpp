@@ -1,26 +1,68 @@
 // An effect on the fluid's momentum: present in a scene or absent, never switched.
+//
+// All effects act on the same carried velocity, which belongs to t_{n-1/2} and creates no volume on the mesh
+// of t_n, and add their changes to the predicted one. So their order does not matter, and what vanishes for
+// a fluid at rest (viscosity, damping) leaves it at rest beside gravity.
 #pragma once
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fluid/mesh.hpp"
 #include "fluid/nodes.hpp"
+#include "fluid/spec.hpp"
+#include "fluid/status.hpp"
 #include "fluid/types.hpp"
 
 namespace splashdown::fluid {
+
+/// What an effect sees of the fluid during a step.
+template <int d>
+struct StepView {
+  const Nodes<d>& nodes;
+  const Mesh<d>& mesh;
+  double density;                         ///< [kg/m^3]
+  double kick;                            ///< [s]
+  std::span<const double> lumped_volume;  ///< of nodes [m^d]
+  std::span<const WallSpec<d>> walls;
+  std::span<const Isometry<d>> poses;     ///< of walls, at t_n
+};
+
+/// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
+template <int d>
+struct Carried {
+  std::span<const Vec<d>> v;
+  std::span<const Twist<d>> walls;
+};
+
+/// What effects add to.
+template <int d>
+struct Predicted {
+  std::span<Vec<d>> v;               ///< of nodes [m/s]
+  std::span<Wrench<d>> on_walls;     ///< impulse on each wall about its origin [N s]
+};
+
+/// Name and value of a number worth recording.
+using Diagnostic = std::pair<std::string, double>;
 
 template <int d>
 class Term {
  public:
   virtual ~Term() = default;
   virtual std::string name() const = 0;
-  /// Adds the effect of one kick to the predicted velocities v [m/s] of all nodes.
-  virtual void predict(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> lumped_volume,
-                       double kick, std::span<Vec<d>> v) = 0;
+  /// Once a step, before any `predict` of it.
+  virtual Status begin(const StepView<d>& /*step*/) { return {}; }
+  /// Adds the effect of one kick; repeatable.
+  virtual Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) = 0;
   /// Potential energy per unit mass at a point [J/kg]; 0 for effects that have none.
   virtual double potential(const Vec<d>& /*x*/) const { return 0; }
+  /// Numbers at t_n, after `predict`; always of the same names. `lumped_mass`: of nodes [kg].
+  virtual std::vector<Diagnostic> diagnostics(const Nodes<d>& /*nodes*/,
+                                              std::span<const double> /*lumped_mass*/) const {
+    return {};
+  }
   /// Largest stable dt [s]; infinity for effects that set none.
   virtual double stable_dt() const;
 };
@@ -30,9 +72,10 @@ class Gravity final : public Term<d> {
  public:
   explicit Gravity(const Vec<d>& acceleration) : g_(acceleration) {}
   std::string name() const override { return "gravity"; }
-  void predict(const Nodes<d>&, const Mesh<d>&, std::span<const double>, double kick,
-               std::span<Vec<d>> v) override;
+  Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
   double potential(const Vec<d>& x) const override { return -g_.dot(x); }
+  /// energy [J]
+  std::vector<Diagnostic> diagnostics(const Nodes<d>& nodes, std::span<const double> lumped_mass) const override;
 
  private:
   Vec<d> g_;  ///< [m/s^2]

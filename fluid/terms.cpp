@@ -10,9 +10,16 @@ double Term<d>::stable_dt() const {
 }
 
 template <int d>
-void Gravity<d>::predict(const Nodes<d>&, const Mesh<d>&, std::span<const double>, double kick,
-                         std::span<Vec<d>> v) {
-  for (auto& u : v) u += kick * g_;
+Status Gravity<d>::predict(const StepView<d>& step, const Carried<d>&, const Predicted<d>& predicted) {
+  for (auto& u : predicted.v) u += step.kick * g_;
+  return {};
+}
+
+template <int d>
+std::vector<Diagnostic> Gravity<d>::diagnostics(const Nodes<d>& nodes, std::span<const double> lumped_mass) const {
+  double energy = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) energy += lumped_mass[i] * potential(nodes.x[i]);
+  return {{"energy", energy}};
 }
 
 template class Term<2>;

@@ -13,6 +13,8 @@ class PhaseTimer {
   explicit PhaseTimer(std::vector<std::string> phases) {
     for (auto& p : phases) seconds_.emplace_back(std::move(p), 0.0);
   }
+  /// Its number is that of the phases before it.
+  void add(std::string phase) { seconds_.emplace_back(std::move(phase), 0.0); }
   /// Charges the time until the scope's end to a phase.
   class Scope {
    public:

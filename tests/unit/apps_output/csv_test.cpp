@@ -99,7 +99,7 @@ TEST(Columns, fluid_begins_with_the_contract_and_has_a_group_for_each_effect_pre
       bare.starts_with("time,dt,nodes,elements,volume,kinetic_energy,potential_energy,passes,residual,"
                        "wall_seconds"));
   EXPECT_EQ(bare.find("gravity"), std::string::npos);
-  EXPECT_EQ(fluid_header({"gravity", "viscosity"}), bare + ",gravity_energy,viscosity_energy");
+  EXPECT_EQ(fluid_header({"gravity_energy", "viscosity_power"}), bare + ",gravity_energy,viscosity_power");
 }
 
 TEST(Columns, probes_are_the_contract) { EXPECT_STREQ(probes_header, "time,probe,value"); }

@@ -106,9 +106,16 @@ namespace {
 class StandInGravity final : public fluid::Term<2> {
  public:
   std::string name() const override { return "gravity"; }
-  void predict(const fluid::Nodes<2>&, const fluid::Mesh<2>&, std::span<const double>, double,
-               std::span<fluid::Vec<2>>) override {}
+  fluid::Status predict(const fluid::StepView<2>&, const fluid::Carried<2>&, const fluid::Predicted<2>&) override {
+    return {};
+  }
   double potential(const fluid::Vec<2>& x) const override { return 9.81 * x.y(); }
+  std::vector<fluid::Diagnostic> diagnostics(const fluid::Nodes<2>& nodes,
+                                             std::span<const double> lumped_mass) const override {
+    double energy = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) energy += lumped_mass[i] * potential(nodes.x[i]);
+    return {{"energy", energy}};
+  }
 };
 
 fluid::Surface<2> outline(std::initializer_list<fluid::Vec<2>> points) {

@@ -1,0 +1,14 @@
+// Numerical trouble is reported, not thrown: the step is refused and the caller decides.
+#pragma once
+
+#include <string>
+
+namespace splashdown::fluid {
+
+/// Why a step may be refused. `cause` is empty when all is well.
+struct Status {
+  std::string cause;
+  bool ok() const { return cause.empty(); }
+};
+
+}  // namespace splashdown::fluid

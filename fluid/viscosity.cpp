@@ -1,0 +1,172 @@
+#include "fluid/viscosity.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+// Sine of half the angle at which Wall calls an edge sharp: facets of a smooth wall differ less from the
+// mean normal at a node.
+constexpr double same_normal = 0.26;
+
+template <int d>
+void hold(Mat<d>& free, const Vec<d>& direction) {
+  const Vec<d> rest = free * direction;
+  if (rest.norm() > same_normal * direction.norm()) free -= rest * rest.transpose() / rest.squaredNorm();
+}
+
+}  // namespace
+
+template <int d>
+Status Viscosity<d>::begin(const StepView<d>& step) {
+  number_nodes(step);
+  find_held(step);
+  assemble(step);
+  if (!node_.empty() && !solver_.factor(matrix_)) return {"the viscous matrix could not be factored"};
+  return {};
+}
+
+template <int d>
+void Viscosity<d>::number_nodes(const StepView<d>& step) {
+  unknown_.assign(step.nodes.size(), -1);
+  node_.clear();
+  for (std::size_t i = 0; i < step.nodes.size(); ++i)
+    if (!step.nodes.spray[i]) {
+      unknown_[i] = static_cast<int>(node_.size());
+      node_.push_back(static_cast<int>(i));
+    }
+}
+
+template <int d>
+void Viscosity<d>::find_held(const StepView<d>& step) {
+  held_.clear();
+  held_at_.assign(step.nodes.size(), -1);
+  std::vector<Vec<d>> normal;  // of held nodes: mean over their wetted facets
+  for (const auto& f : step.mesh.boundary) {
+    if (f.wall < 0) continue;
+    const Vec<d> area = area_vector_of<d>(f, step.nodes.x);
+    for (int n : f.nodes) {
+      if (held_at_[n] < 0) {
+        held_at_[n] = static_cast<int>(held_.size());
+        held_.push_back({n, step.walls[f.wall].sticks && !step.nodes.surface[n], Mat<d>::Identity()});
+        normal.push_back(Vec<d>::Zero());
+      }
+      normal[held_at_[n]] += area;
+    }
+  }
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (held_[k].sticks)
+      held_[k].free.setZero();
+    else
+      hold<d>(held_[k].free, normal[k]);
+  }
+  // In corners and along edges a second and a third normal remain.
+  for (const auto& f : step.mesh.boundary) {
+    if (f.wall < 0) continue;
+    for (int n : f.nodes) hold<d>(held_[held_at_[n]].free, area_vector_of<d>(f, step.nodes.x));
+  }
+}
+
+template <int d>
+void Viscosity<d>::assemble(const StepView<d>& step) {
+  const auto& cells = step.mesh.cells;
+  gradients_.resize(cells.size());
+  volume_.resize(cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto at = corners(step.nodes.x, cells[c]);
+    gradients_[c] = volume_gradients<d>(at);
+    volume_[c] = (at(d) - at(0)).dot(gradients_[c].col(d));
+  }
+  const int n = static_cast<int>(node_.size());
+  blocks_.build(cells, unknown_, n, [&](int c, int a, int b) -> Mat<d> {
+    const auto& g = gradients_[c];
+    const double scale = mu_ * step.kick / volume_[c];
+    return scale * (g.col(a).dot(g.col(b)) * Mat<d>::Identity() + g.col(b) * g.col(a).transpose());
+  });
+
+  // P (M + kick K) P + (1 - P) M; P = free directions of a node
+  matrix_.column_start.assign(1, 0);
+  matrix_.row.clear();
+  matrix_.value.clear();
+  std::vector<Mat<d>> column;
+  for (int j = 0; j < n; ++j) {
+    const int first = blocks_.column_start[j], last = blocks_.column_start[j + 1];
+    const double mass = step.density * step.lumped_volume[node_[j]];
+    const int held_j = held_at_[node_[j]];
+    column.assign(blocks_.value.begin() + first, blocks_.value.begin() + last);
+    for (int k = first; k < last; ++k) {
+      Mat<d>& block = column[k - first];
+      if (const int held_i = held_at_[node_[blocks_.row[k]]]; held_i >= 0) block = held_[held_i].free * block;
+      if (held_j >= 0) block = block * held_[held_j].free;
+    }
+    column.front() += mass * Mat<d>::Identity();
+    for (int b = 0; b < d; ++b) {
+      for (int k = first; k < last; ++k)
+        for (int a = k == first ? b : 0; a < d; ++a) {
+          matrix_.row.push_back(d * blocks_.row[k] + a);
+          matrix_.value.push_back(column[k - first](a, b));
+        }
+      matrix_.column_start.push_back(static_cast<int>(matrix_.row.size()));
+    }
+  }
+}
+
+template <int d>
+void Viscosity<d>::stress(const StepView<d>& step, std::span<const Vec<d>> v, std::vector<Vec<d>>& force) const {
+  force.assign(v.size(), Vec<d>::Zero());
+  for (std::size_t c = 0; c < step.mesh.cells.size(); ++c) {
+    const auto& cell = step.mesh.cells[c];
+    Mat<d> gradient = Mat<d>::Zero();
+    for (int k = 0; k <= d; ++k) gradient += v[cell[k]] * gradients_[c].col(k).transpose();
+    const Mat<d> sigma = mu_ / volume_[c] * (gradient + gradient.transpose());
+    for (int k = 0; k <= d; ++k) force[cell[k]] += sigma * gradients_[c].col(k);
+  }
+}
+
+// dv = c + P y: c is given by sticking walls, y solves what P leaves of the equation.
+template <int d>
+Status Viscosity<d>::predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) {
+  power_ = 0;
+  if (node_.empty()) return {};
+  const auto& nodes = step.nodes;
+  change_.assign(nodes.size(), Vec<d>::Zero());
+  for (const Held& h : held_) {
+    if (!h.sticks) continue;
+    const int wall = nodes.tie[h.node].wall;
+    change_[h.node] =
+        rigid_velocity<d>(carried.walls[wall], nodes.x[h.node] - step.poses[wall].translation()) - carried.v[h.node];
+  }
+  auto move = [&] {
+    moved_.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) moved_[i] = carried.v[i] + change_[i];
+  };
+  move();
+  stress(step, moved_, force_);
+  rhs_.resize(d * node_.size());
+  for (std::size_t i = 0; i < node_.size(); ++i) {
+    Vec<d> f = -step.kick * force_[node_[i]];
+    if (const int held = held_at_[node_[i]]; held >= 0) f = held_[held].free * f;
+    std::copy(f.begin(), f.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(d * i));
+  }
+  if (!solver_.solve(rhs_)) return {"the viscous solve failed"};
+  for (std::size_t i = 0; i < node_.size(); ++i) change_[node_[i]] += Eigen::Map<const Vec<d>>(&rhs_[d * i]);
+  move();
+  stress(step, moved_, force_);
+
+  for (int i : node_) {
+    predicted.v[i] += change_[i];
+    const double mass = step.density * step.lumped_volume[i];
+    power_ += 0.5 * mass * change_[i].dot(carried.v[i] + moved_[i]) / step.kick;
+  }
+  for (const Held& h : held_) {
+    const double mass = step.density * step.lumped_volume[h.node];
+    const Vec<d> impulse = mass * change_[h.node] + step.kick * force_[h.node];
+    const int wall = nodes.tie[h.node].wall;
+    const Vec<d> arm = nodes.x[h.node] - step.poses[wall].translation();
+    predicted.on_walls[wall] -= wrench_of<d>(arm, impulse - h.free * impulse);
+  }
+  return {};
+}
+
+template class Viscosity<2>;
+template class Viscosity<3>;
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,66 @@
+// Newtonian viscosity, implicit over one kick on the mesh of t_n:
+//
+//   (M + kick K) (v + dv) = M v,   v . K w = int 2 mu eps(v) : eps(w),   eps(v) = (grad v + grad v^T) / 2
+//
+// with lumped mass M. The full strain keeps rigid rotations free of stress, and makes "no viscous traction"
+// the natural condition of the free surface. Walls (WallSpec::sticks):
+//
+//   slip     the change has no component along the wall's normal: dv . n = 0; no shear stress. Not v . n = w . n:
+//            the pressure sees to that, and mu -> 0 then leads back to the inviscid fluid exactly
+//   no slip  v + dv = the wall's velocity, except where the free surface meets the wall: a contact line that
+//            sticks cannot move (Huh, Scriven, J. Colloid Interface Sci. 35, 1971), so its nodes slip
+//
+// Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any
+// kick; one Cholesky factor of d unknowns a node per step. A free body feels the reaction of its velocity
+// before the kick: its mass has to exceed that of the water the kick drags along.
+#pragma once
+
+#include "fluid/assembly.hpp"
+#include "fluid/linear_solver.hpp"
+#include "fluid/term.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+class Viscosity final : public Term<d> {
+ public:
+  /// `dynamic`: mu [Pa s].
+  explicit Viscosity(double dynamic) : mu_(dynamic) {}
+  std::string name() const override { return "viscosity"; }
+  Status begin(const StepView<d>& step) override;
+  Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
+  /// power: rate of change of the kinetic energy [W]
+  std::vector<Diagnostic> diagnostics(const Nodes<d>&, std::span<const double>) const override {
+    return {{"power", power_}};
+  }
+
+ private:
+  struct Held {
+    int node;
+    bool sticks;
+    Mat<d> free;  // projects on the directions in which the wall leaves the change free
+  };
+  void number_nodes(const StepView<d>& step);
+  void find_held(const StepView<d>& step);
+  void assemble(const StepView<d>& step);
+  /// force = K v at all nodes.
+  void stress(const StepView<d>& step, std::span<const Vec<d>> v, std::vector<Vec<d>>& force) const;
+
+  double mu_;
+  std::vector<int> unknown_, node_;  // unknown of a node, node of an unknown
+  std::vector<VolumeGradients<d>> gradients_;
+  std::vector<double> volume_;  // of cells
+  std::vector<Held> held_;
+  std::vector<int> held_at_;    // of a node, -1: free
+  Assembly<d, Mat<d>> blocks_;
+  SymmetricMatrix matrix_;
+  LinearSolver solver_;
+  std::vector<Vec<d>> change_, moved_, force_;
+  std::vector<double> rhs_;
+  double power_ = 0;
+};
+
+extern template class Viscosity<2>;
+extern template class Viscosity<3>;
+
+}  // namespace splashdown::fluid
