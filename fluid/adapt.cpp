@@ -106,6 +106,7 @@ class Adapter {
         nodes_.x[e.a] = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);
         nodes_.v[e.a] = 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]);
         nodes_.p[e.a] = 0.5 * (nodes_.p[e.a] + nodes_.p[e.b]);
+        nodes_.q[e.a] = 0.5 * (nodes_.q[e.a] + nodes_.q[e.b]);
         attach(e.a);
         remove(e.b, e.a);
       } else if (rank_a > rank_b) {
@@ -149,6 +150,7 @@ class Adapter {
       }
       const int m = nodes_.add(0.5 * (nodes_.x[e.a] + nodes_.x[e.b]), 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]),
                                0.5 * (nodes_.p[e.a] + nodes_.p[e.b]), tie, surface);
+      nodes_.q[m] = 0.5 * (nodes_.q[e.a] + nodes_.q[e.b]);
       h_.push_back(0.5 * (h_[e.a] + h_[e.b]));
       into_.push_back(m);
       attach(m);

@@ -43,16 +43,26 @@ void raw(Archive& archive, std::vector<T>& values) {
 template <class Archive, int d>
 void archive_present(Archive& archive, Present<d>& s) {
   archive(s.time, s.dt, s.acceleration_dt, cereal::binary_data(&s.ledger, sizeof(Ledger)));
-  raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p), raw(archive, s.nodes.tie);
-  raw(archive, s.nodes.surface), raw(archive, s.nodes.spray), raw(archive, s.h);
+  raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p), raw(archive, s.nodes.q), raw(archive, s.nodes.tie);
+  raw(archive, s.nodes.surface), raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
   raw(archive, s.mesh.cells), raw(archive, s.mesh.boundary);
   raw(archive, s.poses), raw(archive, s.velocity), raw(archive, s.wetted);
 }
 
-// Measured on wedges: two corrections leave the volume error of a step below the mesh's own noise.
+// Measured on a standing wave: with fewer its amplitude drifts by more than 0.5 % a period.
+template <int d>
+void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh) {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!nodes.spray[i]) nodes.volume[i] = 0;
+  for (const auto& cell : mesh.cells) {
+    const double share = volume<d>(corners(nodes.x, cell)) / (d + 1);
+    for (int n : cell) nodes.volume[n] += share;
+  }
+}
+
 // Shorter edges are merged or lie across a film, and limit no time step.
 constexpr double merged_below = 0.45;
-constexpr int corrections = 2;
+constexpr int corrections = 3;
 constexpr int repairs = 2;
 
 }  // namespace
@@ -75,7 +85,8 @@ struct Fluid<d>::State {
   typename WallMotion<d>::Moved moved;
   std::vector<Vec<d>> v_before, v_after;
   std::vector<Twist<d>> s_after;
-  std::vector<double> phi;  // physical impulse
+  std::vector<double> found_by_corrections;  // nodes' next q
+  std::vector<double> phi;                   // physical impulse
   std::vector<double> phi_total;
   std::vector<WallLoad<d>> loads;
   double energy_before = 0, energy_repaired = 0;
@@ -123,6 +134,12 @@ struct Fluid<d>::State {
     for (std::size_t i = 0; i < work.h.size(); ++i) work.h[i] = field(work.nodes.x[i]);
   }
 
+  // A node that leaves the mesh carries its share of volume; one that comes back brings it.
+  void book_spray(const std::vector<char>& was_spray) {
+    for (std::size_t i = 0; i < was_spray.size(); ++i)
+      work.ledger.spray += (work.nodes.spray[i] - was_spray[i]) * work.nodes.volume[i];
+  }
+
   void prepare() {
     const auto scope = timer.scope(remesh);
     work = now;
@@ -130,7 +147,9 @@ struct Fluid<d>::State {
     wet<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
     if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
     const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
+    const std::vector<char> was_spray = work.nodes.spray;
     work.mesh = recognise<d>(work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
+    book_spray(was_spray);
     const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
     const double adapted = before - now.ledger.volume;
     (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
@@ -221,6 +240,7 @@ template <int d>
 Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const double> previous) {
   const auto& x = work.nodes.x;
   const std::size_t count = x.size();
+  found_by_corrections.resize(count);
   std::vector<Vec<d>> v = work.nodes.v;
   std::vector<Twist<d>> s_before = work.velocity;
   std::vector<double> r, repair(equation.size(), 0.0);
@@ -261,7 +281,12 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   equation.flux_residual(x_mid, v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
   if (!previous.empty()) equation.add_laplacian(previous, phi);
   if (!equation.solve(phi, s_after)) return {"the pressure solve failed"};
+  // The corrections start from what they found in the last step, so that they converge over the steps.
   std::vector<double> total = phi;
+  for (std::size_t i = 0; i < count; ++i)
+    if (equation.unknown()[i] >= 0) r[equation.unknown()[i]] = kick * work.nodes.q[i];
+  equation.respond(r, s_after);
+  for (int i = 0; i < equation.size(); ++i) total[i] += r[i];
   for (int k = 0;; ++k) {
     v_after = v;
     equation.accelerate(total, v_after);
@@ -272,6 +297,10 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     equation.motion_residual(x_mid, moved.u, r);
     if (!equation.solve(r, s_after)) return {"the pressure solve failed"};
     for (int i = 0; i < equation.size(); ++i) total[i] += r[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const int k = equation.unknown()[i];
+    found_by_corrections[i] = k < 0 ? 0.0 : (total[k] - phi[k]) / kick;
   }
   phi = total;
   phi_total = total;
@@ -319,7 +348,9 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
     nodes.x[i] = s.moved.x[i];
     nodes.v[i] = v_next;
     nodes.tie[i] = s.moved.tie[i];
+    nodes.q[i] = s.found_by_corrections[i];
   }
+  share_volumes(s.work.nodes, s.work.mesh);
   ventilate<d>(s.work.nodes, s.work.mesh, s.spec.density, s.s_after, poses);
   ledger.volume = enclosed_volume(s.work.mesh.boundary, s.work.nodes.x);
   ledger.time_integration += ledger.volume - before;

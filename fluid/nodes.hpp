@@ -20,9 +20,11 @@ struct Nodes {
   std::vector<Vec<d>> x;       ///< position at t_n [m]
   std::vector<Vec<d>> v;       ///< velocity at t_{n-1/2} [m/s]
   std::vector<double> p;       ///< pressure at t_n [Pa]
+  std::vector<double> q;       ///< part of p that the corrections found [Pa]; the next step starts from it
   std::vector<WallTie> tie;    ///< wall contact
   std::vector<char> surface;   ///< 1: on the free surface (p = 0)
   std::vector<char> spray;     ///< 1: belongs to no cell, flies ballistically
+  std::vector<double> volume;  ///< share of the cells around it after the last move; spray keeps its own [m^d]
 
   std::size_t size() const { return x.size(); }
 
@@ -30,9 +32,11 @@ struct Nodes {
     x.push_back(position);
     v.push_back(velocity);
     p.push_back(pressure);
+    q.push_back(0);
     tie.push_back(t);
     surface.push_back(on_surface);
     spray.push_back(0);
+    volume.push_back(0);
     return static_cast<int>(x.size()) - 1;
   }
 
@@ -43,7 +47,7 @@ struct Nodes {
       for (std::size_t i = 0; i < order.size(); ++i) picked[i] = values[order[i]];
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(spray);
+    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(spray), pick(volume);
   }
 };
 

@@ -216,6 +216,13 @@ bool PressureEquation<d>::solve(std::vector<double>& r, std::span<Twist<d>> s) {
 }
 
 template <int d>
+void PressureEquation<d>::respond(std::span<const double> phi, std::span<Twist<d>> s) const {
+  constexpr int m = freedoms<d>;
+  for (std::size_t k = 0; k < responding_.size(); ++k)
+    s[responding_[k]] += C_.template block<m, m>(k * m, k * m) * impulse(responding_[k], phi);
+}
+
+template <int d>
 void PressureEquation<d>::add_laplacian(std::span<const double> phi, std::vector<double>& r) const {
   for (const auto& f : mesh_->boundary) {
     if (f.wall < 0 || laplacian_[f.wall] == 0) continue;

@@ -47,6 +47,8 @@ class PressureEquation {
 
   /// Solves in place; adds C B phi to the twists of walls that respond.
   bool solve(std::vector<double>& r, std::span<Twist<d>> s);
+  /// Adds C B phi to the twists of walls that respond.
+  void respond(std::span<const double> phi, std::span<Twist<d>> s) const;
   /// Adds lambda int_wall grad_s q . grad_s phi to r: the interface Laplacian's previous pass.
   void add_laplacian(std::span<const double> phi, std::vector<double>& r) const;
 
