@@ -49,7 +49,6 @@ void archive_present(Archive& archive, Present<d>& s) {
   raw(archive, s.poses), raw(archive, s.velocity), raw(archive, s.wetted);
 }
 
-// Measured on a standing wave: with fewer its amplitude drifts by more than 0.5 % a period.
 template <int d>
 void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -62,6 +61,7 @@ void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh) {
 
 // Shorter edges are merged or lie across a film, and limit no time step.
 constexpr double merged_below = 0.45;
+// Measured on a standing wave: with fewer its amplitude drifts by more than 0.5 % a period.
 constexpr int corrections = 3;
 constexpr int repairs = 2;
 
@@ -87,9 +87,10 @@ struct Fluid<d>::State {
   std::vector<Twist<d>> s_after;
   std::vector<double> found_by_corrections;  // nodes' next q
   std::vector<double> phi;                   // physical impulse
-  std::vector<double> phi_total;
+  std::vector<double> interface;             // repair impulse, then physical impulse
+  std::vector<double> carried_p;             // pressure at the nodes before the step
   std::vector<WallLoad<d>> loads;
-  double energy_before = 0, energy_repaired = 0;
+  double energy_carried = 0, energy_before = 0, energy_repaired = 0;  // before remeshing, after, repaired
 
   WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
 
@@ -124,7 +125,8 @@ struct Fluid<d>::State {
 
   double kinetic_energy(std::span<const Vec<d>> v) const {
     double e = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) e += equation.lumped_volume()[i] * v[i].squaredNorm();
+    for (std::size_t i = 0; i < v.size(); ++i)
+      e += (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]) * v[i].squaredNorm();
     return 0.5 * spec.density * e;
   }
 
@@ -143,6 +145,9 @@ struct Fluid<d>::State {
   void prepare() {
     const auto scope = timer.scope(remesh);
     work = now;
+    energy_carried = 0;
+    for (std::size_t i = 0; i < now.nodes.size(); ++i)
+      energy_carried += 0.5 * spec.density * now.nodes.volume[i] * now.nodes.v[i].squaredNorm();
     size_nodes();
     wet<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
     if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
@@ -150,6 +155,7 @@ struct Fluid<d>::State {
     const std::vector<char> was_spray = work.nodes.spray;
     work.mesh = recognise<d>(work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
     book_spray(was_spray);
+    carried_p = work.nodes.p;
     const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
     const double adapted = before - now.ledger.volume;
     (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
@@ -181,6 +187,7 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms) 
   now.nodes = std::move(liquid.nodes);
   now.mesh = std::move(liquid.mesh);
   now.h = std::move(liquid.h);
+  share_volumes(now.nodes, now.mesh);
   for (const auto& f : now.mesh.boundary)
     if (f.wall >= 0) now.wetted[f.wall] += area_vector_of<d>(f, now.nodes.x).norm();
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
@@ -245,6 +252,26 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   std::vector<Twist<d>> s_before = work.velocity;
   std::vector<double> r, repair(equation.size(), 0.0);
   std::vector<Vec<d>> x_mid(count);
+  // Both impulses of the previous pass, for interface Laplacians; the first pass starts from the last step's.
+  const std::size_t unknowns = static_cast<std::size_t>(equation.size());
+  std::vector<double> previous_phi, previous_repair;
+  if (equation.has_laplacian()) {
+    previous_repair.assign(unknowns, 0.0);
+    previous_phi.resize(unknowns);
+    for (std::size_t i = 0; i < count; ++i)
+      if (equation.unknown()[i] >= 0) previous_phi[equation.unknown()[i]] = kick * carried_p[i];
+    if (!previous.empty()) {
+      std::copy_n(previous.begin(), unknowns, previous_repair.begin());
+      std::copy_n(previous.begin() + equation.size(), unknowns, previous_phi.begin());
+    }
+  }
+  // The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree.
+  auto lag = [&](std::vector<double>& residual, const std::vector<double>& before, const std::vector<double>& present) {
+    if (!equation.has_laplacian()) return;
+    std::vector<double> change = before;
+    for (std::size_t i = 0; i < unknowns; ++i) change[i] -= present[i];
+    equation.add_laplacian(change, residual);
+  };
   auto middle = [&](std::span<const Vec<d>> u, double by) {
     for (std::size_t i = 0; i < count; ++i) x_mid[i] = x[i] + by * u[i];
   };
@@ -256,6 +283,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     for (int k = 0; k < repairs; ++k) {
       middle(v, -0.5 * work.dt);
       equation.flux_residual(x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
+      lag(r, previous_repair, repair);
       if (!equation.solve(r, s_before)) return {"the pressure solve failed"};
       equation.accelerate(r, v);
       for (int i = 0; i < equation.size(); ++i) repair[i] += r[i];
@@ -279,7 +307,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     s_after[w] += s_before[w] - work.velocity[w] + responses[w].rigid * on_walls[w];
   middle(v, 0.5 * dt);
   equation.flux_residual(x_mid, v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
-  if (!previous.empty()) equation.add_laplacian(previous, phi);
+  lag(phi, previous_phi, std::vector<double>(unknowns, 0.0));
   if (!equation.solve(phi, s_after)) return {"the pressure solve failed"};
   // The corrections start from what they found in the last step, so that they converge over the steps.
   std::vector<double> total = phi;
@@ -295,6 +323,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     if (wall_motion->sticks()) stick(dragged);
     for (std::size_t i = 0; i < count; ++i) x_mid[i] = 0.5 * (x[i] + moved.x[i]);
     equation.motion_residual(x_mid, moved.u, r);
+    lag(r, previous_phi, total);
     if (!equation.solve(r, s_after)) return {"the pressure solve failed"};
     for (int i = 0; i < equation.size(); ++i) total[i] += r[i];
   }
@@ -303,8 +332,8 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     found_by_corrections[i] = k < 0 ? 0.0 : (total[k] - phi[k]) / kick;
   }
   phi = total;
-  phi_total = total;
-  for (int i = 0; i < equation.size(); ++i) phi_total[i] += repair[i];
+  interface = repair;
+  interface.insert(interface.end(), phi.begin(), phi.end());
 
   loads.assign(walls.size(), {});
   for (std::size_t w = 0; w < walls.size(); ++w) {
@@ -314,6 +343,13 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   }
   for (std::size_t i = 0; i < count; ++i)
     work.nodes.p[i] = equation.unknown()[i] < 0 ? 0.0 : phi[equation.unknown()[i]] / kick;
+  Ledger& ledger = work.ledger;
+  ledger.kinetic_energy = ledger.potential_energy = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double mass = spec.density * (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]);
+    ledger.kinetic_energy += 0.5 * mass * (0.5 * (work.nodes.v[i] + moved.u[i])).squaredNorm();
+    for (const auto& term : terms) ledger.potential_energy += mass * term->potential(x[i]);
+  }
   return finite() ? Status{} : Status{"the solution is not finite"};
 }
 
@@ -355,6 +391,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   ledger.volume = enclosed_volume(s.work.mesh.boundary, s.work.nodes.x);
   ledger.time_integration += ledger.volume - before;
   ledger.energy_repair += s.energy_repaired - s.energy_before;
+  ledger.energy_remesh += s.energy_before - s.energy_carried;
   for (std::size_t w = 0; w < s.walls.size(); ++w)
     ledger.work_on_walls += s.kick * s.loads[w].total().dot(0.5 * (s.s_after[w] + s.work.velocity[w]));
   s.work.acceleration_dt = acceleration_dt;
@@ -376,7 +413,7 @@ std::span<const Twist<d>> Fluid<d>::wall_velocities() const {
 }
 template <int d>
 std::span<const double> Fluid<d>::interface_impulse() const {
-  return s_->phi_total;
+  return s_->interface;
 }
 template <int d>
 const FluidSpec<d>& Fluid<d>::spec() const {

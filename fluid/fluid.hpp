@@ -63,7 +63,8 @@ class Fluid {
   /// is given, with it where it is not. `previous`: interface_impulse() of the previous pass, for walls
   /// with an interface Laplacian; empty in the first pass.
   Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {});
-  /// Pressure impulse of the last solve, one entry an unknown of the pressure equation [Pa s].
+  /// Pressure impulses of the last solve [Pa s]: repair, then physical, one entry each an unknown of the
+  /// pressure equation.
   std::span<const double> interface_impulse() const;
   std::span<const WallLoad<d>> loads() const;          ///< of the last solve
   std::span<const Twist<d>> wall_velocities() const;   ///< half-step velocities the last solve ended with

@@ -13,7 +13,8 @@ int crossing(const std::array<Vec<2>, 2>& f, const Vec<2>& c) {
 }
 
 int crossing(const std::array<Vec<3>, 3>& f, const Vec<3>& c) {
-  // Edge functions in the (y, z) plane; the half-open rule below counts a shared edge once.
+  // Edge functions in the (y, z) plane. A point on an edge belongs to the facet on one side of it alone,
+  // told by the edge's direction around the facet.
   std::array<double, 3> e;
   for (int k = 0; k < 3; ++k) {
     const Vec<3> a = f[(k + 1) % 3] - c, b = f[(k + 2) % 3] - c;
@@ -21,8 +22,12 @@ int crossing(const std::array<Vec<3>, 3>& f, const Vec<3>& c) {
   }
   const double area = e[0] + e[1] + e[2];
   if (area == 0) return 0;
-  for (double v : e)
-    if ((area > 0) ? v < 0 : v >= 0) return 0;
+  const double turn = area > 0 ? 1.0 : -1.0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec<3> along = turn * (f[(k + 2) % 3] - f[(k + 1) % 3]);
+    const bool owns = along.z() > 0 || (along.z() == 0 && along.y() < 0);
+    if (turn * e[k] < 0 || (e[k] == 0 && !owns)) return 0;
+  }
   const double x = (e[0] * f[0].x() + e[1] * f[1].x() + e[2] * f[2].x()) / area;
   if (x <= c.x()) return 0;
   return area > 0 ? 1 : -1;

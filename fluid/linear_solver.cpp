@@ -19,6 +19,7 @@ struct LinearSolver::Cholmod {
     common.method[0].ordering = CHOLMOD_AMD;
     common.postorder = 1;
     common.print = 0;
+    common.final_ll = 1;  // LDL' would accept indefinite matrices
   }
   ~Cholmod() {
     cholmod_free_factor(&factor, &common);

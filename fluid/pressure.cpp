@@ -223,6 +223,11 @@ void PressureEquation<d>::respond(std::span<const double> phi, std::span<Twist<d
 }
 
 template <int d>
+bool PressureEquation<d>::has_laplacian() const {
+  return std::any_of(laplacian_.begin(), laplacian_.end(), [](double lambda) { return lambda != 0; });
+}
+
+template <int d>
 void PressureEquation<d>::add_laplacian(std::span<const double> phi, std::vector<double>& r) const {
   for (const auto& f : mesh_->boundary) {
     if (f.wall < 0 || laplacian_[f.wall] == 0) continue;

@@ -49,7 +49,8 @@ class PressureEquation {
   bool solve(std::vector<double>& r, std::span<Twist<d>> s);
   /// Adds C B phi to the twists of walls that respond.
   void respond(std::span<const double> phi, std::span<Twist<d>> s) const;
-  /// Adds lambda int_wall grad_s q . grad_s phi to r: the interface Laplacian's previous pass.
+  bool has_laplacian() const;
+  /// Adds lambda int_wall grad_s q . grad_s phi to r.
   void add_laplacian(std::span<const double> phi, std::vector<double>& r) const;
 
   /// v -= grad phi / rho, lumped.

@@ -104,6 +104,7 @@ template <int d>
 typename Wall<d>::Near Wall<d>::nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const {
   const Vec<d> local = pose.inverse() * x;
   const auto hit = patch_tree_[patch].nearest(local, std::numeric_limits<double>::max());
+  if (hit.facet < 0) return {x, Vec<d>::Zero(), std::numeric_limits<double>::quiet_NaN(), patch, -1};  // x not finite
   return near_of(pose, local, hit, patch_facets_[patch][hit.facet]);
 }
 
