@@ -1,10 +1,27 @@
 #include "fluid/linear_solver.hpp"
 
+#include <omp.h>
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
 
 namespace splashdown::fluid {
+namespace {
+
+// CHOLMOD opens parallel regions of four threads for loops of a few rows, whatever number of threads was asked
+// for: they wait longer than they work, and on one core they double the time of a solve.
+class OneThread {
+ public:
+  OneThread() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  ~OneThread() { omp_set_max_active_levels(levels_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int levels_;
+};
+
+}  // namespace
 
 struct LinearSolver::Cholmod {
   cholmod_common common;
@@ -51,6 +68,7 @@ bool LinearSolver::factor(const SymmetricMatrix& matrix) {
   a.dtype = CHOLMOD_DOUBLE;
   a.sorted = 1;
   a.packed = 1;
+  const OneThread here;
   cholmod_free_factor(&c_->factor, &c_->common);
   c_->common.status = CHOLMOD_OK;
   c_->factor = cholmod_analyze(&a, &c_->common);
@@ -61,6 +79,7 @@ bool LinearSolver::factor(const SymmetricMatrix& matrix) {
 
 bool LinearSolver::solve(std::span<double> rhs, int columns) {
   if (c_->factor == nullptr) return false;
+  const OneThread here;
   cholmod_dense b{};
   b.nrow = b.d = c_->factor->n;
   b.ncol = static_cast<std::size_t>(columns);
