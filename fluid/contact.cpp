@@ -202,9 +202,18 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     auto near = tie.vertex >= 0 ? wall.nearest(pose, out.x[i], diameter(wall))
                                 : wall.nearest_on_patch(pose, out.x[i], tie.patch);
     const bool passes_edge = tie.vertex < 0 && near.vertex >= 0;
-    const bool leaves = passes_edge && !attached_vertex_[tie.wall][near.vertex];
-    if (passes_edge) near = wall.nearest(pose, out.x[i], diameter(wall));
-    if ((leaves || !wetted_[i]) && near.distance > 0) {
+    if (passes_edge) {
+      // The wall guides the node up to its edge: what flies off does not turn into the wall behind it.
+      const Vec<d> guided = out.x[i] - (out.x[i] - near.point).dot(near.normal) * near.normal;
+      const bool attached = attached_vertex_[tie.wall][near.vertex];
+      near = wall.nearest(pose, out.x[i], diameter(wall));
+      if (!attached && wall.nearest(pose, guided, diameter(wall)).distance > 0) {
+        out.x[i] = guided;
+        out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
+        out.tie[i] = {};
+        continue;
+      }
+    } else if (!wetted_[i] && near.distance > 0) {
       out.tie[i] = {};
       continue;
     }
