@@ -150,7 +150,7 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
   for (std::size_t w = 0; w < walls_.size(); ++w)
     attached_vertex_[w].assign(walls_[w].spec().surface.vertices.cols(), 0);
   for (int i : tied_)
-    if (nodes.tie[i].vertex >= 0 && !nodes.surface[i]) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = 1;
+    if (nodes.tie[i].vertex >= 0 && wetted_[i] && !nodes.surface[i]) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = 1;
   if (std::any_of(walls_.begin(), walls_.end(), [](const Wall<d>& w) { return w.spec().sticks; }))
     find_stuck(mesh, walls);
 }

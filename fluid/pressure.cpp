@@ -24,7 +24,6 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
                                 std::span<const Vec<d>> centres, std::span<const WallResponse<d>> responses) {
   nodes_ = &nodes;
   mesh_ = &mesh;
-  density_ = density;
   unknown_.assign(nodes.size(), -1);
   node_.clear();
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -34,17 +33,20 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
     }
   lumped_.assign(nodes.size(), 0.0);
   gradients_.resize(mesh.cells.size());
+  per_mass_.resize(mesh.cells.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto at = corners(nodes.x, mesh.cells[c]);
     gradients_[c] = volume_gradients<d>(at);
-    const double share = (at(d) - at(0)).dot(gradients_[c].col(d)) / (d + 1);
-    for (int n : mesh.cells[c]) lumped_[n] += share;
+    const double volume = (at(d) - at(0)).dot(gradients_[c].col(d));
+    per_mass_[c] = 1 / (density * volume);
+    for (int n : mesh.cells[c]) lumped_[n] += volume / (d + 1);
   }
+  per_nodal_mass_.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) per_nodal_mass_[i] = 1 / (density * (d + 1) * lumped_[i]);
   wall_modes(centres);
   laplacian_.resize(responses.size());
   for (std::size_t w = 0; w < responses.size(); ++w) laplacian_[w] = responses[w].laplacian;
-  fill_pattern();
-  assemble(density, responses);
+  assemble(responses);
   if (size() == 0) return true;
   if (!solver_.factor(matrix_)) return false;
 
@@ -87,41 +89,6 @@ void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
   }
 }
 
-// Sparsity from the cells around each node; columns come out sorted because unknowns are visited in order.
-template <int d>
-void PressureEquation<d>::fill_pattern() {
-  const auto& cells = mesh_->cells;
-  cells_start_.assign(size() + 1, 0);
-  for (const auto& cell : cells)
-    for (int n : cell)
-      if (unknown_[n] >= 0) ++cells_start_[unknown_[n] + 1];
-  for (int i = 0; i < size(); ++i) cells_start_[i + 1] += cells_start_[i];
-  cells_of_.resize(cells_start_.back());
-  marker_.assign(cells_start_.begin(), cells_start_.end());
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    for (int n : cells[c])
-      if (unknown_[n] >= 0) cells_of_[marker_[unknown_[n]]++] = static_cast<int>(c);
-
-  matrix_.column_start.assign(size() + 1, 0);
-  matrix_.row.clear();
-  marker_.assign(size(), -1);
-  for (int i = 0; i < size(); ++i) {
-    const std::size_t first = matrix_.row.size();
-    matrix_.row.push_back(i);
-    marker_[i] = i;
-    for (int k = cells_start_[i]; k < cells_start_[i + 1]; ++k)
-      for (int n : cells[cells_of_[k]]) {
-        const int j = unknown_[n];
-        if (j <= i || marker_[j] == i) continue;
-        marker_[j] = i;
-        matrix_.row.push_back(j);
-      }
-    std::sort(matrix_.row.begin() + static_cast<std::ptrdiff_t>(first), matrix_.row.end());
-    matrix_.column_start[i + 1] = static_cast<int>(matrix_.row.size());
-  }
-  matrix_.value.assign(matrix_.row.size(), 0.0);
-}
-
 template <int d>
 double& PressureEquation<d>::entry(int i, int j) {
   if (i < j) std::swap(i, j);
@@ -131,21 +98,13 @@ double& PressureEquation<d>::entry(int i, int j) {
 }
 
 template <int d>
-void PressureEquation<d>::assemble(double density, std::span<const WallResponse<d>> responses) {
-  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
-    const auto& cell = mesh_->cells[c];
-    const auto& g = gradients_[c];
-    const auto at = corners(nodes_->x, cell);
-    const double scale = 1.0 / (density * (at(d) - at(0)).dot(g.col(d)));
-    for (int a = 0; a <= d; ++a) {
-      const int i = unknown_[cell[a]];
-      if (i < 0) continue;
-      for (int b = 0; b <= a; ++b) {
-        const int j = unknown_[cell[b]];
-        if (j >= 0) entry(i, j) += scale * g.col(a).dot(g.col(b));
-      }
-    }
-  }
+void PressureEquation<d>::assemble(std::span<const WallResponse<d>> responses) {
+  assembly_.build(mesh_->cells, unknown_, size(), [&](int c, int a, int b) {
+    return gradients_[c].col(a).dot(gradients_[c].col(b)) * per_mass_[c];
+  });
+  matrix_.column_start.swap(assembly_.column_start);
+  matrix_.row.swap(assembly_.row);
+  matrix_.value.swap(assembly_.value);
   for (const auto& f : mesh_->boundary) {
     if (f.wall < 0 || responses[f.wall].laplacian == 0) continue;
     std::array<Vec<d>, d> corner;
@@ -249,8 +208,7 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     Vec<d> gradient = Vec<d>::Zero();
     for (int k = 0; k <= d; ++k)
       if (unknown_[cell[k]] >= 0) gradient += gradients_[c].col(k) * phi[unknown_[cell[k]]];
-    gradient /= density_ * (d + 1);
-    for (int n : cell) v[n] -= gradient / lumped_[n];
+    for (int n : cell) v[n] -= per_nodal_mass_[n] * gradient;
   }
 }
 

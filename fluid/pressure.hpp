@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "fluid/assembly.hpp"
 #include "fluid/linear_solver.hpp"
 #include "fluid/mesh.hpp"
 #include "fluid/nodes.hpp"
@@ -66,17 +67,18 @@ class PressureEquation {
   const SymmetricMatrix& matrix() const { return matrix_; }
 
  private:
-  void assemble(double density, std::span<const WallResponse<d>> responses);
-  void fill_pattern();
+  void assemble(std::span<const WallResponse<d>> responses);
   double& entry(int i, int j);
   void wall_modes(std::span<const Vec<d>> centres);
 
   const Nodes<d>* nodes_ = nullptr;
   const Mesh<d>* mesh_ = nullptr;
-  double density_ = 0;
   std::vector<VolumeGradients<d>> gradients_;  // at t_n
   std::vector<double> lumped_;
+  std::vector<double> per_mass_;        // of cells: 1 / mass
+  std::vector<double> per_nodal_mass_;  // of nodes: 1 / ((d + 1) lumped mass)
   std::vector<int> unknown_, node_;
+  Assembly<d, double> assembly_;
   SymmetricMatrix matrix_;
   LinearSolver solver_;
   struct Mode {
@@ -87,7 +89,6 @@ class PressureEquation {
   std::vector<double> laplacian_;         // of each wall
   std::vector<std::size_t> responding_;
   Eigen::MatrixXd Y_, C_, added_mass_, elimination_;
-  std::vector<int> cells_start_, cells_of_, marker_;
 };
 
 extern template class PressureEquation<2>;
