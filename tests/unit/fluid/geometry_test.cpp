@@ -84,7 +84,8 @@ TYPED_TEST(Geometry, rotation_is_the_exponential) {
   // exp(hw) r = r + h w x r + rest, |rest| <= (h |w|)^2 |r| / 2.
   const auto r = scenes::random_vector<Vec<d>>(random, {});
   const double h = 1e-4;
-  EXPECT_LE((rotation(Rotation(h * w)) * r - r - h * cross(w, r)).norm(), 0.5 * std::pow(h * w.norm(), 2) * r.norm() + 10 * eps);
+  EXPECT_LE((rotation(Rotation(h * w)) * r - r - h * cross(w, r)).norm(),
+            0.5 * std::pow(h * w.norm(), 2) * r.norm() + 10 * eps);
 }
 
 TYPED_TEST(Geometry, moving_back_returns_to_the_pose) {

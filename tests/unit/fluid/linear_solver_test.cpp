@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-
 #include <limits>
 #include <random>
 
@@ -72,7 +71,6 @@ TEST(LinearSolver, gives_the_same_bits_again) {
 }
 
 TEST(LinearSolver, says_so_if_the_matrix_is_not_positive_definite) {
-  GTEST_SKIP() << "CHOLMOD's simplicial LDL' factors any matrix without a zero pivot";
   LinearSolver solver;
   EXPECT_FALSE(solver.factor(lower(-laplacian(50, 1))));
   auto indefinite = laplacian(50, 1);
@@ -90,7 +88,6 @@ TEST(LinearSolver, a_matrix_that_is_not_finite_does_not_pass_unnoticed) {
 }
 
 TEST(LinearSolver, works_again_after_a_failure) {
-  GTEST_SKIP() << "CHOLMOD's simplicial LDL' factors any matrix without a zero pivot";
   const auto A = laplacian(50, 1);
   LinearSolver solver;
   EXPECT_FALSE(solver.factor(lower(-A)));

@@ -41,7 +41,8 @@ struct Problem {
     Eigen::MatrixXd A(a.size(), a.size());
     A.setZero();
     for (int j = 0; j < a.size(); ++j)
-      for (int k = a.column_start[j]; k < a.column_start[j + 1]; ++k) A(a.row[k], j) = A(j, a.row[k]) = a.value[k];
+      for (int k = a.column_start[j]; k < a.column_start[j + 1]; ++k)
+        A(a.row[k], j) = A(j, a.row[k]) = a.value[k];
     return A;
   }
   Eigen::MatrixXd B() const {
@@ -180,7 +181,8 @@ TYPED_TEST(Pressure, motion_form_is_the_change_of_volume) {
   for (std::size_t i = 0; i < u.size(); ++i) middle[i] += 0.5 * dt * u[i], after[i] += dt * u[i];
   std::vector<double> r;
   p.equation.motion_residual(middle, u, r);
-  const double change = enclosed_volume(p.cube.mesh.boundary, after) - enclosed_volume(p.cube.mesh.boundary, p.cube.nodes.x);
+  const double change =
+      enclosed_volume(p.cube.mesh.boundary, after) - enclosed_volume(p.cube.mesh.boundary, p.cube.nodes.x);
   EXPECT_NEAR(-dt * eigen(r).sum(), change, d == 2 ? 1e3 * eps : 1e-12);
 }
 

@@ -25,7 +25,8 @@ Isometry<2> somewhere() {
 bool encloses(const Surface<2>& s, const Vec<2>& x) {
   double angle = 0;
   for (int f = 0; f < s.facets.cols(); ++f) {
-    const Vec<2> a = Vec<2>(s.vertices.col(s.facets(0, f))) - x, b = Vec<2>(s.vertices.col(s.facets(1, f))) - x;
+    const Vec<2> a = Vec<2>(s.vertices.col(s.facets(0, f))) - x,
+                 b = Vec<2>(s.vertices.col(s.facets(1, f))) - x;
     angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
   }
   return std::abs(angle) > std::numbers::pi;
@@ -34,7 +35,10 @@ bool encloses(const Surface<2>& s, const Vec<2>& x) {
 double distance_by_all(const Surface<2>& s, const Vec<2>& x) {
   double best = 1e300;
   for (int f = 0; f < s.facets.cols(); ++f)
-    best = std::min(best, (closest_on({Vec<2>(s.vertices.col(s.facets(0, f))), Vec<2>(s.vertices.col(s.facets(1, f)))}, x) - x).norm());
+    best = std::min(
+        best,
+        (closest_on({Vec<2>(s.vertices.col(s.facets(0, f))), Vec<2>(s.vertices.col(s.facets(1, f)))}, x) - x)
+            .norm());
   return best;
 }
 
@@ -88,7 +92,8 @@ TEST(WallNearest, beyond_reach_is_reach) {
 }
 
 TEST(WallCreases, above_thirty_degrees_are_sharp) {
-  EXPECT_EQ(Wall<2>(scenes::wall("square", scenes::rectangle({0, 0}, {1, 1}), 1)).sharp_vertices().size(), 4u);
+  EXPECT_EQ(Wall<2>(scenes::wall("square", scenes::rectangle({0, 0}, {1, 1}), 1)).sharp_vertices().size(),
+            4u);
   EXPECT_EQ(Wall<2>(scenes::wall("circle", scenes::ellipse(1, 1, 64), 1)).sharp_vertices().size(), 0u);
   EXPECT_EQ(Wall<2>(scenes::wall("dodecagon+", scenes::ellipse(1, 1, 13), 1)).sharp_vertices().size(), 0u);
   EXPECT_EQ(Wall<2>(scenes::wall("hendecagon", scenes::ellipse(1, 1, 11), 1)).sharp_vertices().size(), 11u);
