@@ -1,6 +1,5 @@
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <istream>
 #include <ostream>
 #include <sstream>
@@ -12,6 +11,8 @@ namespace {
 
 // A residual this many times the first one has no way back.
 constexpr double diverged = 1e6;
+// Velocities below this many body lengths a step are roundoff of positions: a body at rest.
+constexpr double still = 1e-9;
 // Both sides of the exact term agree to roundoff times the condition of the pressure equation.
 constexpr double roundoff = 1e-6;
 
@@ -96,6 +97,11 @@ StepReport Partitioned<d>::attempt(double dt) {
     const bool guess = bodies_->spec(b).motion == rigid::Motion::free && responses[b].rigid.isZero(0);
     if (guess) x[b] = bodies_->state(b).velocity + kick_ * acceleration_[b];
   }
+  double length = 0;  // largest body
+  for (std::size_t b = 0; b < count; ++b) {
+    const auto& vertices = bodies_->spec(b).surface.vertices;
+    length = std::max(length, (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm());
+  }
   StepReport report;
   std::vector<double> impulse;  // of the previous pass
   double first = 0;
@@ -116,7 +122,7 @@ StepReport Partitioned<d>::attempt(double dt) {
     std::vector<fluid::Twist<d>> used(fluid_->wall_velocities().begin(),
                                       fluid_->wall_velocities().begin() + static_cast<std::ptrdiff_t>(count));
     const Eigen::VectorXd image = scaled(trial_velocities()), now = scaled(used);
-    if (report.passes == 1) scale = std::max({scale, image.norm(), std::numeric_limits<double>::min()});
+    if (report.passes == 1) scale = std::max({scale, image.norm(), still * length / dt});
     report.residual = (image - now).norm() / scale;
     if (!std::isfinite(report.residual)) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());

@@ -49,6 +49,15 @@ void archive_present(Archive& archive, Present<d>& s) {
   raw(archive, s.poses), raw(archive, s.velocity), raw(archive, s.wetted);
 }
 
+// Impulse that explains the answer of a wall in its free directions; held ones keep what the pressure
+// gives. For very light bodies B phi is a small difference of large numbers, C^-1 s is not.
+template <int d>
+Wrench<d> consistent(const Compliance<d>& rigid, const Twist<d>& answer, const Wrench<d>& impulse) {
+  if (rigid.isZero(0)) return impulse;
+  const auto inverse = rigid.completeOrthogonalDecomposition();
+  return inverse.solve(answer) + impulse - inverse.solve(rigid * impulse);
+}
+
 template <int d>
 void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -337,8 +346,10 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
 
   loads.assign(walls.size(), {});
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    loads[w].physical = (equation.impulse(w, phi) + on_walls[w] + dragged[w]) / kick;
-    loads[w].repair = equation.impulse(w, repair) / kick;
+    const Twist<d> pushed = s_before[w] - work.velocity[w];
+    const Twist<d> answered = s_after[w] - given[w] - pushed - responses[w].rigid * on_walls[w];
+    loads[w].physical = (consistent<d>(responses[w].rigid, answered, equation.impulse(w, phi)) + on_walls[w] + dragged[w]) / kick;
+    loads[w].repair = consistent<d>(responses[w].rigid, pushed, equation.impulse(w, repair)) / kick;
     loads[w].wetted = work.wetted[w];
   }
   for (std::size_t i = 0; i < count; ++i)
