@@ -30,6 +30,7 @@ fluid::WallResponse<d> LaplacianTerm<d>::response(const rigid::Bodies<d>& bodies
   const std::integral_constant<int, d> dimension;
   const double a = equal_radius(rigid::mass_properties<d>(spec.surface).mass, dimension);
   fluid::WallResponse<d> response;
+  response.radius = a;
   response.laplacian = strength_ * matched(a, spec.mass, dimension);
   return response;
 }

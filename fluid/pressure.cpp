@@ -1,6 +1,8 @@
 #include "fluid/pressure.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace splashdown::fluid {
 namespace {
@@ -45,8 +47,8 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   for (std::size_t i = 0; i < nodes.size(); ++i) per_nodal_mass_[i] = 1 / (density * (d + 1) * lumped_[i]);
   wall_modes(centres);
   laplacian_.resize(responses.size());
-  for (std::size_t w = 0; w < responses.size(); ++w) laplacian_[w] = responses[w].laplacian;
-  assemble(responses);
+  scale_laplacians(responses);
+  assemble();
   if (size() == 0) return true;
   if (!solver_.factor(matrix_)) return false;
 
@@ -98,7 +100,19 @@ double& PressureEquation<d>::entry(int i, int j) {
 }
 
 template <int d>
-void PressureEquation<d>::assemble(std::span<const WallResponse<d>> responses) {
+void PressureEquation<d>::scale_laplacians(std::span<const WallResponse<d>> responses) {
+  std::vector<double> wetted(responses.size(), 0.0);
+  for (const auto& f : mesh_->boundary)
+    if (f.wall >= 0) wetted[f.wall] += area_vector_of<d>(f, nodes_->x).norm();
+  for (std::size_t w = 0; w < responses.size(); ++w) {
+    const double width = std::pow(wetted[w], 1.0 / (d - 1));
+    const double share = std::min(1.0, width / (std::numbers::pi * responses[w].radius));
+    laplacian_[w] = responses[w].laplacian * share * share * share;
+  }
+}
+
+template <int d>
+void PressureEquation<d>::assemble() {
   assembly_.build(mesh_->cells, unknown_, size(), [&](int c, int a, int b) {
     return gradients_[c].col(a).dot(gradients_[c].col(b)) * per_mass_[c];
   });
@@ -106,10 +120,10 @@ void PressureEquation<d>::assemble(std::span<const WallResponse<d>> responses) {
   matrix_.row.swap(assembly_.row);
   matrix_.value.swap(assembly_.value);
   for (const auto& f : mesh_->boundary) {
-    if (f.wall < 0 || responses[f.wall].laplacian == 0) continue;
+    if (f.wall < 0 || laplacian_[f.wall] == 0) continue;
     std::array<Vec<d>, d> corner;
     for (int k = 0; k < d; ++k) corner[k] = nodes_->x[f.nodes[k]];
-    const Mat<d> K = responses[f.wall].laplacian * facet_laplacian<d>(corner);
+    const Mat<d> K = laplacian_[f.wall] * facet_laplacian<d>(corner);
     for (int a = 0; a < d; ++a)
       for (int b = 0; b <= a; ++b) {
         const int i = unknown_[f.nodes[a]], j = unknown_[f.nodes[b]];

@@ -29,8 +29,10 @@ template <int d>
 struct WallResponse {
   /// Exact rigid response: velocity change per unit impulse [1/kg ...]. Zero: none.
   Compliance<d> rigid = Compliance<d>::Zero();
-  /// Weight lambda of the interface Laplacian [m^4/kg]; 0: none. See docs/theory.md.
+  /// Weight lambda of the interface Laplacian for a body wetted all around [m^4/kg]; 0: none. Where only a
+  /// patch of width w is wetted, modes are shorter: lambda scales with min(1, w / (pi a))^3.
   double laplacian = 0;
+  double radius = 1;  ///< a: of the circle or sphere of the body's volume [m]
 };
 
 template <int d>
@@ -67,7 +69,8 @@ class PressureEquation {
   const SymmetricMatrix& matrix() const { return matrix_; }
 
  private:
-  void assemble(std::span<const WallResponse<d>> responses);
+  void scale_laplacians(std::span<const WallResponse<d>> responses);
+  void assemble();
   double& entry(int i, int j);
   void wall_modes(std::span<const Vec<d>> centres);
 
