@@ -347,7 +347,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   loads.assign(walls.size(), {});
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const Twist<d> pushed = s_before[w] - work.velocity[w];
-    const Twist<d> answered = s_after[w] - given[w] - pushed - responses[w].rigid * on_walls[w];
+    const Twist<d> answered = s_after[w] - given[w] - pushed - responses[w].rigid * (on_walls[w] + dragged[w]);
     loads[w].physical = (consistent<d>(responses[w].rigid, answered, equation.impulse(w, phi)) + on_walls[w] + dragged[w]) / kick;
     loads[w].repair = consistent<d>(responses[w].rigid, pushed, equation.impulse(w, repair)) / kick;
     loads[w].wetted = work.wetted[w];
