@@ -199,7 +199,7 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     const WallTie tie = nodes_.tie[i];
     const Wall<d>& wall = walls_[tie.wall];
     const Isometry<d>& pose = poses[tie.wall];
-    auto near = tie.vertex >= 0 ? wall.nearest(pose, out.x[i], diameter(wall))
+    auto near = tie.vertex >= 0 || tie.patch < 0 ? wall.nearest(pose, out.x[i], diameter(wall))
                                 : wall.nearest_on_patch(pose, out.x[i], tie.patch);
     const bool passes_edge = tie.vertex < 0 && near.vertex >= 0;
     if (passes_edge) {
