@@ -50,7 +50,7 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   scale_laplacians(responses);
   assemble();
   if (size() == 0) return true;
-  if (!solver_.factor(matrix_)) return false;
+  if (!factored()) return false;
 
   responding_.clear();
   for (std::size_t w = 0; w < responses.size(); ++w)
@@ -97,6 +97,16 @@ double& PressureEquation<d>::entry(int i, int j) {
   int k = matrix_.column_start[j];
   while (matrix_.row[k] != i) ++k;
   return matrix_.value[k];
+}
+
+// Liquid that walls enclose on all sides has no free surface to fix its pressure: its block is singular, and
+// a shift far below the discretisation error makes it definite.
+template <int d>
+bool PressureEquation<d>::factored() {
+  if (solver_.factor(matrix_)) return true;
+  constexpr double shift = 1e-9;
+  for (int i = 0; i < size(); ++i) matrix_.value[matrix_.column_start[i]] *= 1 + shift;
+  return solver_.factor(matrix_);
 }
 
 template <int d>

@@ -71,6 +71,7 @@ class PressureEquation {
  private:
   void scale_laplacians(std::span<const WallResponse<d>> responses);
   void assemble();
+  bool factored();
   double& entry(int i, int j);
   void wall_modes(std::span<const Vec<d>> centres);
 
