@@ -19,6 +19,18 @@ Mat<d> facet_laplacian(const std::array<Vec<d>, d>& corner) {
   return g.transpose() * g * area_vector(corner).norm();
 }
 
+/// Calls visit(facet, K) with the weighted surface Laplacian K of each facet on a wall that has one.
+template <int d, class Visit>
+void for_laplacian_facets(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, const std::vector<double>& weight,
+                          const Visit& visit) {
+  for (const auto& f : mesh.boundary) {
+    if (f.wall < 0 || weight[f.wall] == 0) continue;
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = x[f.nodes[k]];
+    visit(f, Mat<d>(weight[f.wall] * facet_laplacian<d>(corner)));
+  }
+}
+
 }  // namespace
 
 template <int d>
@@ -129,17 +141,13 @@ void PressureEquation<d>::assemble() {
   matrix_.column_start.swap(assembly_.column_start);
   matrix_.row.swap(assembly_.row);
   matrix_.value.swap(assembly_.value);
-  for (const auto& f : mesh_->boundary) {
-    if (f.wall < 0 || laplacian_[f.wall] == 0) continue;
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = nodes_->x[f.nodes[k]];
-    const Mat<d> K = laplacian_[f.wall] * facet_laplacian<d>(corner);
+  for_laplacian_facets<d>(*mesh_, nodes_->x, laplacian_, [&](const Facet<d>& f, const Mat<d>& K) {
     for (int a = 0; a < d; ++a)
       for (int b = 0; b <= a; ++b) {
         const int i = unknown_[f.nodes[a]], j = unknown_[f.nodes[b]];
         if (i >= 0 && j >= 0) entry(i, j) += K(a, b);
       }
-  }
+  });
 }
 
 template <int d>
@@ -212,17 +220,13 @@ bool PressureEquation<d>::has_laplacian() const {
 
 template <int d>
 void PressureEquation<d>::add_laplacian(std::span<const double> phi, std::vector<double>& r) const {
-  for (const auto& f : mesh_->boundary) {
-    if (f.wall < 0 || laplacian_[f.wall] == 0) continue;
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = nodes_->x[f.nodes[k]];
-    const Mat<d> K = laplacian_[f.wall] * facet_laplacian<d>(corner);
+  for_laplacian_facets<d>(*mesh_, nodes_->x, laplacian_, [&](const Facet<d>& f, const Mat<d>& K) {
     for (int a = 0; a < d; ++a)
       for (int b = 0; b < d; ++b) {
         const int i = unknown_[f.nodes[a]], j = unknown_[f.nodes[b]];
         if (i >= 0 && j >= 0) r[i] += K(a, b) * phi[j];
       }
-  }
+  });
 }
 
 template <int d>
