@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coupling/quasi_newton.hpp"
 #include "coupling/steppers.hpp"
 
 namespace splashdown::apps {
@@ -17,6 +18,11 @@ std::unique_ptr<coupling::InterfaceTerm<2>> interface_term(const Coupling& coupl
 
 std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
   if (coupling.accelerator == "aitken") return std::make_unique<coupling::Aitken>(coupling.relaxation);
+  if (coupling.accelerator == "anderson")
+    return std::make_unique<coupling::Anderson>(coupling.relaxation, static_cast<std::size_t>(coupling.depth));
+  if (coupling.accelerator == "broyden") return std::make_unique<coupling::Broyden>(coupling.relaxation);
+  if (coupling.accelerator == "iqn_ils")
+    return std::make_unique<coupling::IqnIls>(coupling.relaxation, static_cast<std::size_t>(coupling.reuse));
   return std::make_unique<coupling::ConstantRelaxation>(coupling.relaxation);
 }
 

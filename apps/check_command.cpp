@@ -128,9 +128,11 @@ void print_effects(const Scene& scene) {
   for (const auto& note : neglected(scene)) row("-    " + note.name, note.reason);
   if (!scene.coupling) return;
   const auto& c = *scene.coupling;
-  row("coupling",
-      fmt::format("{}, interface term {}, {} relaxation from {:g}, tolerance {:g}, at most {} passes",
-                  c.scheme, c.interface_term, c.accelerator, c.relaxation, c.tolerance, c.max_passes));
+  std::string accelerator = fmt::format("accelerator {} from relaxation {:g}", c.accelerator, c.relaxation);
+  if (c.accelerator == "anderson") accelerator += fmt::format(", depth {}", c.depth);
+  if (c.accelerator == "iqn_ils") accelerator += fmt::format(", reuse {}", c.reuse);
+  row("coupling", fmt::format("{}, interface term {}, {}, tolerance {:g}, at most {} passes", c.scheme,
+                              c.interface_term, accelerator, c.tolerance, c.max_passes));
 }
 
 void print_cost(const Scene& scene) {

@@ -1,7 +1,11 @@
 // Fixed-point accelerators for x = G(x): one scheme a file behind one small interface.
+//
+// They see a vector and its image, both in m/s, and know neither fluid nor bodies. Symbols: r = G(x) - x,
+// w the relaxation factor. A pass is one evaluation of G. Sources and derivations: docs/theory.md.
 #pragma once
 
 #include <Eigen/Core>
+#include <iosfwd>
 #include <string>
 
 namespace splashdown::coupling {
@@ -10,12 +14,20 @@ class Accelerator {
  public:
   virtual ~Accelerator() = default;
   virtual std::string name() const = 0;
+  /// Before the first pass of an attempt: forgets what attempts that were not committed have learnt.
   virtual void begin_step() = 0;
   /// Next iterate from x and its image G(x).
   virtual Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) = 0;
+  /// The attempt became a step: what it has learnt may serve the next one.
+  virtual void commit_step() {}
+  /// The entries of x mean something else from now on: drops what was learnt in past steps.
+  virtual void forget() {}
+  /// What lives across steps, bit exact.
+  virtual void save(std::ostream&) const {}
+  virtual void load(std::istream&) {}
 };
 
-/// x + w (G(x) - x) with a constant w in (0, 1].
+/// x + w r with a constant w in (0, 1].
 class ConstantRelaxation final : public Accelerator {
  public:
   explicit ConstantRelaxation(double factor) : factor_(factor) {}
@@ -30,8 +42,8 @@ class ConstantRelaxation final : public Accelerator {
 };
 
 /// Aitken's dynamic relaxation (Irons, Tuck 1969; Kuettler, Wall 2008):
-///   w_{k+1} = -w_k r_k . (r_{k+1} - r_k) / |r_{k+1} - r_k|^2,  r = G(x) - x
-/// The factor of a step's first pass is the last one used, bounded by the given first factor.
+///   w_{k+1} = -w_k r_k . (r_{k+1} - r_k) / |r_{k+1} - r_k|^2
+/// Every step begins with the given first factor; equal residuals keep the factor.
 class Aitken final : public Accelerator {
  public:
   explicit Aitken(double first) : first_(first), factor_(first) {}

@@ -4,7 +4,7 @@
 // fluid this adds B^T C B phi to the pressure equation (derivation, scaling and signs: docs/theory.md).
 //
 //   rigid      B^T C B itself: exact, symmetric positive semidefinite, rank 3 (2D) or 6 (3D)
-//   laplacian  a local stand-in, lambda int_hull grad_s q . grad_s phi (Idelsohn, Del Pin, Rossi,
+//   laplacian  a local stand-in, a Laplacian of the long modes of phi on the hull (Idelsohn, Del Pin, Rossi,
 //              Onate 2009; Ryzhakov, Rossi, Vina, Onate 2013); needs passes
 //   none       plain Dirichlet-Neumann: a pass amplifies the error by about M_a / m
 #pragma once
@@ -41,9 +41,7 @@ class RigidTerm final : public InterfaceTerm<d> {
   }
 };
 
-/// lambda = strength * pi a^3 / m in 2D (a: radius of the circle of equal area, m per metre of depth).
-/// On a circle with phi ~ cos(theta) the surface Laplacian then equals B^T C B:
-/// B^T C B phi = pi a cos(theta) / m and -lap_s phi = cos(theta) / a^2.
+/// Scaling and pieces: fluid/interface_laplacian.hpp.
 template <int d>
 class LaplacianTerm final : public InterfaceTerm<d> {
  public:
@@ -52,7 +50,7 @@ class LaplacianTerm final : public InterfaceTerm<d> {
   fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const override;
 
  private:
-  double strength_;  ///< 1: exact for a circle in heave or sway
+  double strength_;  ///< 1: the energy of a translation is exact
 };
 
 extern template class LaplacianTerm<2>;

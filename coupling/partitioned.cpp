@@ -4,6 +4,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "coupling/interface_space.hpp"
 #include "coupling/steppers.hpp"
 
 namespace splashdown::coupling {
@@ -24,7 +25,7 @@ std::string no_agreement(const char* what, int passes, double residual, const st
   std::ostringstream text;
   text << "the coupling " << what << ": residual " << residual << " after " << passes << " passes with interface_term = \""
        << term << "\"";
-  if (term != "rigid") text << "; use interface_term = \"rigid\", or a smaller relaxation";
+  if (term != "rigid") text << "; use interface_term = \"rigid\", or accelerator = \"iqn_ils\"";
   return text.str();
 }
 
@@ -57,20 +58,6 @@ std::vector<fluid::Twist<d>> Partitioned<d>::trial_velocities() const {
 }
 
 template <int d>
-Eigen::VectorXd Partitioned<d>::scaled(const std::vector<fluid::Twist<d>>& twists) const {
-  constexpr int m = fluid::freedoms<d>;
-  Eigen::VectorXd out(m * static_cast<int>(twists.size()));
-  for (std::size_t b = 0; b < twists.size(); ++b) {
-    const auto& spec = bodies_->spec(b);
-    const bool moves = spec.motion == rigid::Motion::free;
-    const double gyration = moves ? std::sqrt(spec.inertia.trace() / fluid::rotations<d> / spec.mass) : 1.0;
-    out.segment(m * static_cast<int>(b), m) = twists[b];
-    out.segment(m * static_cast<int>(b) + d, fluid::rotations<d>) *= gyration;
-  }
-  return out;
-}
-
-template <int d>
 StepReport Partitioned<d>::attempt(double dt) {
   clock_.start(dt);
   kick_ = clock_.kick(dt);
@@ -87,23 +74,25 @@ StepReport Partitioned<d>::attempt(double dt) {
 
   const auto start = std::chrono::steady_clock::now();
   accelerator_->begin_step();
+  if (!fluid_->interface_pieces().empty()) accelerator_->forget();  // remeshed: other nodes
   std::vector<rigid::Wrench<d>> loads(count, rigid::Wrench<d>::Zero());
   move_bodies(loads);
-  std::vector<fluid::Twist<d>> x = trial_velocities();  // free flight
-  const double flight = scaled(x).norm();
-  double scale = flight;
+  const InterfaceSpace<d> space(*bodies_, fluid_->interface_pieces(), fluid_->spec().density);
+  Interface<d> x{trial_velocities(), {fluid_->interface_impulse().begin(), fluid_->interface_impulse().end()}};
+  double scale = space.velocities(x.twists).norm();  // of free flight
+  std::vector<fluid::Twist<d>> change;
   for (std::size_t b = 0; b < count; ++b) {
-    scale = std::max(scale, scaled({bodies_->state(b).velocity - x[b]}).norm());
+    change.push_back(bodies_->state(b).velocity - x.twists[b]);
     const bool guess = bodies_->spec(b).motion == rigid::Motion::free && responses[b].rigid.isZero(0);
-    if (guess) x[b] = bodies_->state(b).velocity + kick_ * acceleration_[b];
+    if (guess) x.twists[b] = bodies_->state(b).velocity + kick_ * acceleration_[b];
   }
+  scale = std::max(scale, space.velocities(change).norm());
   double length = 0;  // largest body
   for (std::size_t b = 0; b < count; ++b) {
     const auto& vertices = bodies_->spec(b).surface.vertices;
     length = std::max(length, (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm());
   }
   StepReport report;
-  std::vector<double> impulse;  // of the previous pass
   double first = 0;
   const double fluid_seconds = [&] {
     double sum = 0;
@@ -112,17 +101,19 @@ StepReport Partitioned<d>::attempt(double dt) {
   }();
   for (report.passes = 1;; ++report.passes) {
     std::vector<fluid::Twist<d>> all(walls, fluid::Twist<d>::Zero());
-    std::copy(x.begin(), x.end(), all.begin());
-    if (const auto status = fluid_->solve(all, impulse); !status.ok()) {
+    std::copy(x.twists.begin(), x.twists.end(), all.begin());
+    if (const auto status = fluid_->solve(all, x.impulses); !status.ok()) {
       report.cause = status.cause;
       return report;
     }
     for (std::size_t b = 0; b < count; ++b) loads[b] = fluid_->loads()[b].total();
     move_bodies(loads);
-    std::vector<fluid::Twist<d>> used(fluid_->wall_velocities().begin(),
-                                      fluid_->wall_velocities().begin() + static_cast<std::ptrdiff_t>(count));
-    const Eigen::VectorXd image = scaled(trial_velocities()), now = scaled(used);
-    if (report.passes == 1) scale = std::max({scale, image.norm(), still * length / dt});
+    const auto walls_used = fluid_->wall_velocities().first(count);
+    const auto found = fluid_->interface_impulse();
+    const Eigen::VectorXd now = space.vector({{walls_used.begin(), walls_used.end()}, x.impulses});
+    const Eigen::VectorXd image = space.vector({trial_velocities(), {found.begin(), found.end()}});
+    if (report.passes == 1)
+      scale = std::max({scale, space.velocities(trial_velocities()).norm(), still * length / dt});
     report.residual = (image - now).norm() / scale;
     if (!std::isfinite(report.residual)) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
@@ -138,17 +129,10 @@ StepReport Partitioned<d>::attempt(double dt) {
       report.cause = no_agreement("did not converge", report.passes, report.residual, term_->name());
       return report;
     }
-    if (outside) {
-      // Accelerate in scaled coordinates, then return to twists.
-      const Eigen::VectorXd next = accelerator_->next(now, image) - now;
-      const Eigen::VectorXd unit = scaled(std::vector<fluid::Twist<d>>(count, fluid::Twist<d>::Ones()));
-      for (std::size_t b = 0; b < count; ++b)
-        if (bodies_->spec(b).motion == rigid::Motion::free)
-          x[b] += next.cwiseQuotient(unit).segment(static_cast<int>(b) * fluid::freedoms<d>, fluid::freedoms<d>);
-    }
-    impulse.assign(fluid_->interface_impulse().begin(), fluid_->interface_impulse().end());
+    if (outside) space.add(accelerator_->next(now, image) - now, x);
     if (inside && !outside) {  // solved exactly: another pass would repeat this one
-      if (report.residual > roundoff) report.cause = no_agreement("did not converge", report.passes, report.residual, term_->name());
+      if (report.residual > roundoff)
+        report.cause = no_agreement("did not converge", report.passes, report.residual, term_->name());
       break;
     }
   }
@@ -168,6 +152,7 @@ void Partitioned<d>::commit() {
   fluid_->commit(poses);
   bodies_->commit();
   clock_.commit();
+  accelerator_->commit_step();
 }
 
 template <int d>
@@ -184,6 +169,7 @@ void Partitioned<d>::save(std::ostream& out) const {
   for (const auto& a : acceleration_) out.write(reinterpret_cast<const char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
   fluid_->save(out);
   bodies_->save(out);
+  accelerator_->save(out);
 }
 template <int d>
 void Partitioned<d>::load(std::istream& in) {
@@ -191,6 +177,7 @@ void Partitioned<d>::load(std::istream& in) {
   for (auto& a : acceleration_) in.read(reinterpret_cast<char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
   fluid_->load(in);
   bodies_->load(in);
+  accelerator_->load(in);
 }
 
 template class Partitioned<2>;

@@ -96,7 +96,6 @@ class Partitioned final : public Stepper {
 
  private:
   void move_bodies(const std::vector<rigid::Wrench<d>>& loads);
-  Eigen::VectorXd scaled(const std::vector<fluid::Twist<d>>& twists) const;
   std::vector<fluid::Twist<d>> trial_velocities() const;
 
   std::unique_ptr<fluid::Fluid<d>> fluid_;

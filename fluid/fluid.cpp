@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "fluid/adapt.hpp"
 #include "fluid/contact.hpp"
@@ -96,7 +97,7 @@ struct Fluid<d>::State {
   std::vector<Twist<d>> s_after;
   std::vector<double> found_by_corrections;  // nodes' next q
   std::vector<double> phi;                   // physical impulse
-  std::vector<double> interface;             // repair impulse, then physical impulse
+  std::vector<double> interface;             // physical impulse on the pieces of walls with a Laplacian
   std::vector<double> carried_p;             // pressure at the nodes before the step
   std::vector<WallLoad<d>> loads;
   double energy_carried = 0, energy_before = 0, energy_repaired = 0;  // before remeshing, after, repaired
@@ -176,6 +177,14 @@ struct Fluid<d>::State {
     prepared = true;
   }
 
+  // The first guess of the interface impulses is the pressure of the last step.
+  void guess_interface() {
+    std::vector<double> carried(equation.size());
+    for (std::size_t i = 0; i < carried_p.size(); ++i)
+      if (equation.unknown()[i] >= 0) carried[equation.unknown()[i]] = kick * carried_p[i];
+    interface = equation.laplacian().means(carried);
+  }
+
   Status solve(std::span<const Twist<d>> given, std::span<const double> previous);
   bool finite() const;
 };
@@ -244,6 +253,7 @@ Status Fluid<d>::begin(double kick, double dt, std::span<const WallResponse<d>> 
     if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), responses))
       return {"the pressure matrix could not be factored"};
     s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses));
+    s.guess_interface();
   }
   for (std::size_t t = 0; t < s.terms.size(); ++t) {
     const auto scope = s.timer.scope(effects + t);
@@ -261,25 +271,15 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   std::vector<Twist<d>> s_before = work.velocity;
   std::vector<double> r, repair(equation.size(), 0.0);
   std::vector<Vec<d>> x_mid(count);
-  // Both impulses of the previous pass, for interface Laplacians; the first pass starts from the last step's.
-  const std::size_t unknowns = static_cast<std::size_t>(equation.size());
-  std::vector<double> previous_phi, previous_repair;
-  if (equation.has_laplacian()) {
-    previous_repair.assign(unknowns, 0.0);
-    previous_phi.resize(unknowns);
-    for (std::size_t i = 0; i < count; ++i)
-      if (equation.unknown()[i] >= 0) previous_phi[equation.unknown()[i]] = kick * carried_p[i];
-    if (!previous.empty()) {
-      std::copy_n(previous.begin(), unknowns, previous_repair.begin());
-      std::copy_n(previous.begin() + equation.size(), unknowns, previous_phi.begin());
-    }
-  }
-  // The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree.
-  auto lag = [&](std::vector<double>& residual, const std::vector<double>& before, const std::vector<double>& present) {
-    if (!equation.has_laplacian()) return;
-    std::vector<double> change = before;
-    for (std::size_t i = 0; i < unknowns; ++i) change[i] -= present[i];
-    equation.add_laplacian(change, residual);
+  if (previous.size() != equation.laplacian().pieces().size())
+    throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
+  // The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree. The repair
+  // keeps it: it stands for the body's answer, and what it leaves of the flux the pressure finds.
+  auto lag = [&](std::vector<double>& residual, std::span<const double> present) {
+    if (previous.empty()) return;
+    std::vector<double> change = equation.laplacian().means(present);
+    for (std::size_t k = 0; k < change.size(); ++k) change[k] = previous[k] - change[k];
+    equation.laplacian().add(change, residual);
   };
   auto middle = [&](std::span<const Vec<d>> u, double by) {
     for (std::size_t i = 0; i < count; ++i) x_mid[i] = x[i] + by * u[i];
@@ -292,7 +292,6 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     for (int k = 0; k < repairs; ++k) {
       middle(v, -0.5 * work.dt);
       equation.flux_residual(x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
-      lag(r, previous_repair, repair);
       if (!equation.solve(r, s_before)) return {"the pressure solve failed"};
       equation.accelerate(r, v);
       for (int i = 0; i < equation.size(); ++i) repair[i] += r[i];
@@ -316,7 +315,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     s_after[w] += s_before[w] - work.velocity[w] + responses[w].rigid * on_walls[w];
   middle(v, 0.5 * dt);
   equation.flux_residual(x_mid, v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
-  lag(phi, previous_phi, std::vector<double>(unknowns, 0.0));
+  lag(phi, std::vector<double>(phi.size(), 0.0));
   if (!equation.solve(phi, s_after)) return {"the pressure solve failed"};
   // The corrections start from what they found in the last step, so that they converge over the steps.
   std::vector<double> total = phi;
@@ -332,7 +331,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     if (wall_motion->sticks()) stick(dragged);
     for (std::size_t i = 0; i < count; ++i) x_mid[i] = 0.5 * (x[i] + moved.x[i]);
     equation.motion_residual(x_mid, moved.u, r);
-    lag(r, previous_phi, total);
+    lag(r, total);
     if (!equation.solve(r, s_after)) return {"the pressure solve failed"};
     for (int i = 0; i < equation.size(); ++i) total[i] += r[i];
   }
@@ -341,8 +340,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
     found_by_corrections[i] = k < 0 ? 0.0 : (total[k] - phi[k]) / kick;
   }
   phi = total;
-  interface = repair;
-  interface.insert(interface.end(), phi.begin(), phi.end());
+  interface = equation.laplacian().means(phi);
 
   loads.assign(walls.size(), {});
   for (std::size_t w = 0; w < walls.size(); ++w) {
@@ -425,6 +423,10 @@ std::span<const Twist<d>> Fluid<d>::wall_velocities() const {
 template <int d>
 std::span<const double> Fluid<d>::interface_impulse() const {
   return s_->interface;
+}
+template <int d>
+std::span<const InterfacePiece> Fluid<d>::interface_pieces() const {
+  return s_->equation.laplacian().pieces();
 }
 template <int d>
 const FluidSpec<d>& Fluid<d>::spec() const {

@@ -60,12 +60,13 @@ class Fluid {
 
   Status begin(double kick, double dt, std::span<const WallResponse<d>> responses);
   /// `walls`: half-step velocity each wall would have without the fluid's load where its rigid response
-  /// is given, with it where it is not. `previous`: interface_impulse() of the previous pass, for walls
-  /// with an interface Laplacian; empty in the first pass.
+  /// is given, with it where it is not. `previous`: the interface impulses on which the interface Laplacians
+  /// lag; one that equals interface_impulse() afterwards makes them vanish. Needed with such walls only.
   Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {});
-  /// Pressure impulses of the last solve [Pa s]: repair, then physical, one entry each an unknown of the
-  /// pressure equation.
+  /// Mean physical pressure impulses on the pieces of walls with an interface Laplacian [Pa s]. After `begin` the
+  /// first guess, after `solve` its result.
   std::span<const double> interface_impulse() const;
+  std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
   std::span<const WallLoad<d>> loads() const;          ///< of the last solve
   std::span<const Twist<d>> wall_velocities() const;   ///< half-step velocities the last solve ended with
   /// Accepts the last solve. `poses`: of the walls at t_{n+1}.

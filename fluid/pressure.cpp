@@ -1,38 +1,10 @@
 #include "fluid/pressure.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace splashdown::fluid {
-namespace {
-
-/// |f| grad_s N_a . grad_s N_b on a facet.
-template <int d>
-Mat<d> facet_laplacian(const std::array<Vec<d>, d>& corner) {
-  Eigen::Matrix<double, d, d - 1> E;
-  for (int k = 0; k + 1 < d; ++k) E.col(k) = corner[k + 1] - corner[0];
-  const Eigen::Matrix<double, d - 1, d - 1> gram = E.transpose() * E;
-  Eigen::Matrix<double, d, d> g;  // columns: surface gradients of N
-  g.template rightCols<d - 1>() = E * gram.inverse();
-  g.col(0) = -g.template rightCols<d - 1>().rowwise().sum();
-  return g.transpose() * g * area_vector(corner).norm();
-}
-
-/// Calls visit(facet, K) with the weighted surface Laplacian K of each facet on a wall that has one.
-template <int d, class Visit>
-void for_laplacian_facets(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, const std::vector<double>& weight,
-                          const Visit& visit) {
-  for (const auto& f : mesh.boundary) {
-    if (f.wall < 0 || weight[f.wall] == 0) continue;
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = x[f.nodes[k]];
-    visit(f, Mat<d>(weight[f.wall] * facet_laplacian<d>(corner)));
-  }
-}
-
-}  // namespace
-
 template <int d>
 bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density,
                                 std::span<const Vec<d>> centres, std::span<const WallResponse<d>> responses) {
@@ -58,8 +30,9 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   per_nodal_mass_.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) per_nodal_mass_[i] = 1 / (density * (d + 1) * lumped_[i]);
   wall_modes(centres);
-  laplacian_.resize(responses.size());
-  scale_laplacians(responses);
+  std::vector<double> inverse_mass;
+  for (const auto& response : responses) inverse_mass.push_back(response.laplacian);
+  laplacian_.build(nodes, mesh, unknown_, inverse_mass);
   assemble();
   if (size() == 0) return true;
   if (!factored()) return false;
@@ -81,7 +54,12 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   for (std::size_t k = 0; k < responding_.size(); ++k)
     for (const Mode& mode : modes_[responding_[k]])
       added_mass_.middleRows(k * m, m) += mode.row * Y_.row(mode.unknown);
-  elimination_ = (Eigen::MatrixXd::Identity(columns, columns) + C_ * added_mass_).inverse() * C_;
+  // (1 + C G)^-1 C = R (1 + R^T G R)^-1 R^T with C = R R^T: symmetric, and exact to roundoff for bodies of no mass.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(C_);
+  const Eigen::MatrixXd R =
+      spectrum.eigenvectors() * spectrum.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd inner = Eigen::MatrixXd::Identity(columns, columns) + R.transpose() * added_mass_ * R;
+  elimination_ = R * inner.selfadjointView<Eigen::Lower>().ldlt().solve(R.transpose());
   return true;
 }
 
@@ -103,14 +81,6 @@ void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
   }
 }
 
-template <int d>
-double& PressureEquation<d>::entry(int i, int j) {
-  if (i < j) std::swap(i, j);
-  int k = matrix_.column_start[j];
-  while (matrix_.row[k] != i) ++k;
-  return matrix_.value[k];
-}
-
 // Liquid that walls enclose on all sides has no free surface to fix its pressure: its block is singular, and
 // a shift far below the discretisation error makes it definite.
 template <int d>
@@ -122,18 +92,6 @@ bool PressureEquation<d>::factored() {
 }
 
 template <int d>
-void PressureEquation<d>::scale_laplacians(std::span<const WallResponse<d>> responses) {
-  std::vector<double> wetted(responses.size(), 0.0);
-  for (const auto& f : mesh_->boundary)
-    if (f.wall >= 0) wetted[f.wall] += area_vector_of<d>(f, nodes_->x).norm();
-  for (std::size_t w = 0; w < responses.size(); ++w) {
-    const double width = std::pow(wetted[w], 1.0 / (d - 1));
-    const double share = std::min(1.0, width / (std::numbers::pi * responses[w].radius));
-    laplacian_[w] = responses[w].laplacian * share * share * share;
-  }
-}
-
-template <int d>
 void PressureEquation<d>::assemble() {
   assembly_.build(mesh_->cells, unknown_, size(), [&](int c, int a, int b) {
     return gradients_[c].col(a).dot(gradients_[c].col(b)) * per_mass_[c];
@@ -141,13 +99,7 @@ void PressureEquation<d>::assemble() {
   matrix_.column_start.swap(assembly_.column_start);
   matrix_.row.swap(assembly_.row);
   matrix_.value.swap(assembly_.value);
-  for_laplacian_facets<d>(*mesh_, nodes_->x, laplacian_, [&](const Facet<d>& f, const Mat<d>& K) {
-    for (int a = 0; a < d; ++a)
-      for (int b = 0; b <= a; ++b) {
-        const int i = unknown_[f.nodes[a]], j = unknown_[f.nodes[b]];
-        if (i >= 0 && j >= 0) entry(i, j) += K(a, b);
-      }
-  });
+  laplacian_.add_to(matrix_);
 }
 
 template <int d>
@@ -192,41 +144,19 @@ template <int d>
 bool PressureEquation<d>::solve(std::vector<double>& r, std::span<Twist<d>> s) {
   if (size() == 0) return true;
   if (!solver_.solve(r)) return false;
-  if (responding_.empty()) return true;
-  constexpr int m = freedoms<d>;
-  Eigen::VectorXd load(Y_.cols());
-  for (std::size_t k = 0; k < responding_.size(); ++k) {
-    Wrench<d> b = Wrench<d>::Zero();
-    for (const Mode& mode : modes_[responding_[k]]) b += mode.row * r[mode.unknown];
-    load.segment(k * m, m) = b;
-  }
-  const Eigen::VectorXd change = elimination_ * load;
-  Eigen::Map<Eigen::VectorXd>(r.data(), size()) -= Y_ * change;
-  for (std::size_t k = 0; k < responding_.size(); ++k) s[responding_[k]] += change.segment(k * m, m);
+  respond(r, s);
   return true;
 }
 
 template <int d>
-void PressureEquation<d>::respond(std::span<const double> phi, std::span<Twist<d>> s) const {
+void PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s) const {
+  if (responding_.empty()) return;
   constexpr int m = freedoms<d>;
-  for (std::size_t k = 0; k < responding_.size(); ++k)
-    s[responding_[k]] += C_.template block<m, m>(k * m, k * m) * impulse(responding_[k], phi);
-}
-
-template <int d>
-bool PressureEquation<d>::has_laplacian() const {
-  return std::any_of(laplacian_.begin(), laplacian_.end(), [](double lambda) { return lambda != 0; });
-}
-
-template <int d>
-void PressureEquation<d>::add_laplacian(std::span<const double> phi, std::vector<double>& r) const {
-  for_laplacian_facets<d>(*mesh_, nodes_->x, laplacian_, [&](const Facet<d>& f, const Mat<d>& K) {
-    for (int a = 0; a < d; ++a)
-      for (int b = 0; b < d; ++b) {
-        const int i = unknown_[f.nodes[a]], j = unknown_[f.nodes[b]];
-        if (i >= 0 && j >= 0) r[i] += K(a, b) * phi[j];
-      }
-  });
+  Eigen::VectorXd load(Y_.cols());
+  for (std::size_t k = 0; k < responding_.size(); ++k) load.segment(k * m, m) = impulse(responding_[k], phi);
+  const Eigen::VectorXd change = elimination_ * load;
+  Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * change;
+  for (std::size_t k = 0; k < responding_.size(); ++k) s[responding_[k]] += change.segment(k * m, m);
 }
 
 template <int d>

@@ -1,6 +1,6 @@
 // The pressure equation on the mesh of t_n, for impulses phi = kick * p [Pa s]:
 //
-//   int grad q . grad phi / rho  [+ q B^T C B phi]  [+ lambda int_wall grad_s q . grad_s phi]  =  r(q)
+//   int grad q . grad phi / rho  [+ q B^T C B phi]  [+ q K phi]  =  r(q)
 //
 // q and phi linear, zero on the free surface. r is the volume that a motion would create (per time):
 //
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "fluid/assembly.hpp"
+#include "fluid/interface_laplacian.hpp"
 #include "fluid/linear_solver.hpp"
 #include "fluid/mesh.hpp"
 #include "fluid/nodes.hpp"
@@ -29,10 +30,8 @@ template <int d>
 struct WallResponse {
   /// Exact rigid response: velocity change per unit impulse [1/kg ...]. Zero: none.
   Compliance<d> rigid = Compliance<d>::Zero();
-  /// Weight lambda of the interface Laplacian for a body wetted all around [m^4/kg]; 0: none. Where only a
-  /// patch of width w is wetted, modes are shorter: lambda scales with min(1, w / (pi a))^3.
+  /// Inverse mass for which an interface Laplacian stands in [m/kg, 1/kg]; 0: none.
   double laplacian = 0;
-  double radius = 1;  ///< a: of the circle or sphere of the body's volume [m]
 };
 
 template <int d>
@@ -50,11 +49,10 @@ class PressureEquation {
 
   /// Solves in place; adds C B phi to the twists of walls that respond.
   bool solve(std::vector<double>& r, std::span<Twist<d>> s);
-  /// Adds C B phi to the twists of walls that respond.
-  void respond(std::span<const double> phi, std::span<Twist<d>> s) const;
-  bool has_laplacian() const;
-  /// Adds lambda int_wall grad_s q . grad_s phi to r.
-  void add_laplacian(std::span<const double> phi, std::vector<double>& r) const;
+  /// Turns an impulse that held bodies would get into the one with their answer, (1 + A^-1 B^T C B)^-1 phi, and
+  /// adds that answer to the twists. A body of no mass yields, and is not thrown.
+  void respond(std::vector<double>& phi, std::span<Twist<d>> s) const;
+  const InterfaceLaplacian<d>& laplacian() const { return laplacian_; }
 
   /// v -= grad phi / rho, lumped.
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
@@ -69,10 +67,8 @@ class PressureEquation {
   const SymmetricMatrix& matrix() const { return matrix_; }
 
  private:
-  void scale_laplacians(std::span<const WallResponse<d>> responses);
   void assemble();
   bool factored();
-  double& entry(int i, int j);
   void wall_modes(std::span<const Vec<d>> centres);
 
   const Nodes<d>* nodes_ = nullptr;
@@ -90,7 +86,7 @@ class PressureEquation {
     Wrench<d> row;  // column of B
   };
   std::vector<std::vector<Mode>> modes_;  // of each wall
-  std::vector<double> laplacian_;         // of each wall
+  InterfaceLaplacian<d> laplacian_;
   std::vector<std::size_t> responding_;
   Eigen::MatrixXd Y_, C_, added_mass_, elimination_;
 };

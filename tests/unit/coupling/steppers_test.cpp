@@ -1,3 +1,4 @@
+#include "coupling/quasi_newton.hpp"
 #include "coupling/steppers.hpp"
 
 #include <gtest/gtest.h>
@@ -146,6 +147,20 @@ TEST(Partitioned, refuses_a_step_without_agreement_and_leaves_the_present_alone)
   EXPECT_EQ(report.passes, 5);
   EXPECT_NE(report.cause.find("did not converge"), std::string::npos) << report.cause;
   EXPECT_NE(report.cause.find("none"), std::string::npos) << "the cure is named: " << report.cause;
+}
+
+TEST(Partitioned, continues_bit_for_bit_with_what_its_accelerator_has_learnt) {
+  const auto scene = scenes::submerged_circle(0.3);
+  const auto fresh = [&] {
+    return scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<IqnIls>(1.0, 2));
+  };
+  const auto straight = fresh(), resumed = fresh();
+  ASSERT_GT(scenes::run(*straight, 3), 0);
+  std::stringstream file(saved(*straight));
+  resumed->load(file);
+  ASSERT_TRUE(straight->attempt(2e-4).ok());  // and not committed: leaves no trace
+  for (auto* stepper : {straight.get(), resumed.get()}) ASSERT_GT(scenes::run(*stepper, 2, 1e-3), 0);
+  EXPECT_EQ(saved(*straight), saved(*resumed));
 }
 
 TEST(Partitioned, says_that_the_coupling_diverged) {

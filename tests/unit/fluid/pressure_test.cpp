@@ -268,10 +268,30 @@ TYPED_TEST(Pressure, interface_laplacian_is_the_difference_it_makes_in_the_matri
   const Eigen::MatrixXd K = p.dense() - without;
   const auto phi = p.any_phi();
   std::vector<double> r(p.equation.size(), 0.0);
-  p.equation.add_laplacian(phi, r);
+  p.equation.laplacian().add(p.equation.laplacian().means(phi), r);
   EXPECT_LE((eigen(r) - K * eigen(phi)).norm(), 1e3 * eps * K.norm());
   EXPECT_GE(smallest_eigenvalue(K), -1e3 * eps * K.norm());
   EXPECT_GT(K.norm(), 0);
+}
+
+TYPED_TEST(Pressure, interface_laplacian_has_two_pieces_a_freedom) {
+  // Its rank bounds the passes of the coupling: short waves along the wall are left alone.
+  constexpr int d = TypeParam::value;
+  Problem<d> p;
+  ASSERT_TRUE(p.build());
+  const Eigen::MatrixXd without = p.dense();
+  ASSERT_TRUE(p.build({.laplacian = 0.7}));
+  const auto pieces = p.equation.laplacian().pieces();
+  EXPECT_EQ(pieces.size(), static_cast<std::size_t>(2 * freedoms<d>));
+  Eigen::FullPivLU<Eigen::MatrixXd> K(p.dense() - without);
+  K.setThreshold(1e-9);
+  EXPECT_LE(K.rank(), 2 * freedoms<d>);
+  EXPECT_GE(K.rank(), freedoms<d>);
+  double hull = 0, wetted = 0;
+  for (const auto& piece : pieces) hull += piece.measure;
+  for (const auto& f : p.cube.mesh.boundary)
+    if (f.wall == 0) wetted += area_vector_of<d>(f, p.cube.nodes.x).norm();
+  EXPECT_NEAR(hull, wetted, 1e3 * eps * wetted) << "the pieces are the hull";
 }
 
 TYPED_TEST(Pressure, a_passed_interface_laplacian_changes_nothing) {
@@ -285,7 +305,7 @@ TYPED_TEST(Pressure, a_passed_interface_laplacian_changes_nothing) {
   ASSERT_TRUE(p.equation.solve(phi, s));
   ASSERT_TRUE(p.build({.laplacian = 0.7}));
   auto again = r;
-  p.equation.add_laplacian(phi, again);
+  p.equation.laplacian().add(p.equation.laplacian().means(phi), again);
   ASSERT_TRUE(p.equation.solve(again, s));
   EXPECT_LE((eigen(again) - eigen(phi)).norm(), 1e5 * eps * eigen(phi).norm());
 }

@@ -1,0 +1,42 @@
+// Pairs of differences between passes, from which quasi-Newton schemes learn the map's slope:
+//
+//   V = [r_j - r_{j-1}],   W = [G(x_j) - G(x_{j-1})],   newest first
+//
+// and the least-squares problem min |r - V c| on those columns of V that are independent. Columns are
+// orthogonalised newest first; one that keeps less than a given share of its length is dropped (QR2 filter:
+// Haelterman, Bogaers, Scheufele, Uekermann, Mehl 2016), so old and equal columns cannot spoil new ones.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <iosfwd>
+#include <optional>
+
+namespace splashdown::coupling {
+
+struct Secant {
+  Eigen::VectorXd residual, image;  ///< differences
+  double kept = 1e-8;  ///< share of its length that must be left of the residual, otherwise it is dependent
+};
+
+class Secants {
+ public:
+  /// Newest first. Returns false and drops a pair that carries no information: not finite, or no change.
+  bool add(Secant pair);
+  /// Appends older ones behind those that are there, under a stricter filter.
+  void append(const Secants& older, double kept);
+  void keep_newest(std::size_t count);
+  void clear() { pairs_.clear(); }
+  std::size_t size() const { return pairs_.size(); }
+
+  /// V c and W c for c = argmin |r - V c|. Drops dependent columns for good. Nothing if no column is left.
+  std::optional<Secant> explain(const Eigen::VectorXd& residual);
+
+  void save(std::ostream& out) const;
+  void load(std::istream& in);
+
+ private:
+  std::deque<Secant> pairs_;
+};
+
+}  // namespace splashdown::coupling
