@@ -10,25 +10,8 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
                                 std::span<const Vec<d>> centres, std::span<const WallResponse<d>> responses) {
   nodes_ = &nodes;
   mesh_ = &mesh;
-  unknown_.assign(nodes.size(), -1);
-  node_.clear();
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (!nodes.surface[i] && !nodes.spray[i]) {
-      unknown_[i] = static_cast<int>(node_.size());
-      node_.push_back(static_cast<int>(i));
-    }
-  lumped_.assign(nodes.size(), 0.0);
-  gradients_.resize(mesh.cells.size());
-  per_mass_.resize(mesh.cells.size());
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto at = corners(nodes.x, mesh.cells[c]);
-    gradients_[c] = volume_gradients<d>(at);
-    const double volume = (at(d) - at(0)).dot(gradients_[c].col(d));
-    per_mass_[c] = 1 / (density * volume);
-    for (int n : mesh.cells[c]) lumped_[n] += volume / (d + 1);
-  }
-  per_nodal_mass_.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) per_nodal_mass_[i] = 1 / (density * (d + 1) * lumped_[i]);
+  measure(density);
+  choose_unknowns();
   wall_modes(centres);
   std::vector<double> inverse_mass;
   for (const auto& response : responses) inverse_mass.push_back(response.laplacian);
@@ -64,6 +47,62 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
 }
 
 template <int d>
+void PressureEquation<d>::measure(double density) {
+  const std::size_t count = nodes_->size();
+  lumped_.assign(count, 0.0);
+  gradients_.resize(mesh_->cells.size());
+  per_mass_.resize(mesh_->cells.size());
+  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
+    const auto at = corners(nodes_->x, mesh_->cells[c]);
+    gradients_[c] = volume_gradients<d>(at);
+    const double volume = (at(d) - at(0)).dot(gradients_[c].col(d));
+    per_mass_[c] = 1 / (density * volume);
+    for (int n : mesh_->cells[c]) lumped_[n] += volume / (d + 1);
+  }
+  per_nodal_mass_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) per_nodal_mass_[i] = 1 / (density * (d + 1) * lumped_[i]);
+  free_area_.assign(count, Vec<d>::Zero());
+  free_measure_.assign(count, 0.0);
+  free_spread_.assign(count, 0.0);
+  std::vector<int> facets(count, 0);
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall >= 0) continue;
+    const Vec<d> share = area_vector_of<d>(f, nodes_->x) / d;
+    for (int n : f.nodes) {
+      free_area_[n] += share;
+      free_measure_[n] += share.norm();
+      free_spread_[n] += share.squaredNorm();
+      ++facets[n];
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) free_spread_[i] *= facets[i];
+}
+
+template <int d>
+void PressureEquation<d>::choose_unknowns() {
+  // Surface nodes of the bulk, unless they sit on a spike: a volume this small for its surface, 0.43 on a flat
+  // one in 2D, would be thrown by what little is left of the volume's error. Cells of sheets deform freely and
+  // may turn over within a step: their volume is nobody's constraint.
+  constexpr double spike = 0.1;
+  std::vector<char> bulk(nodes_->size(), 1);
+  for (const auto& cell : mesh_->cells)
+    if (std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes_->surface[n]; }))
+      for (int n : cell) bulk[n] = 0;
+  unknown_.assign(nodes_->size(), -1);
+  node_.clear();
+  for (std::size_t i = 0; i < nodes_->size(); ++i) {
+    const bool held = nodes_->surface[i] &&
+                      (!bulk[i] || lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0)));
+    if (held || nodes_->spray[i]) {
+      free_area_[i].setZero();
+      continue;
+    }
+    unknown_[i] = static_cast<int>(node_.size());
+    node_.push_back(static_cast<int>(i));
+  }
+}
+
+template <int d>
 void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
   modes_.resize(centres.size());
   for (auto& m : modes_) m.clear();
@@ -94,11 +133,16 @@ bool PressureEquation<d>::factored() {
 template <int d>
 void PressureEquation<d>::assemble() {
   assembly_.build(mesh_->cells, unknown_, size(), [&](int c, int a, int b) {
-    return gradients_[c].col(a).dot(gradients_[c].col(b)) * per_mass_[c];
+    const int i = mesh_->cells[c][a], j = mesh_->cells[c][b];
+    const auto of_a = gradients_[c].col(a), of_b = gradients_[c].col(b);
+    return of_a.dot(of_b) * per_mass_[c] - free_area_[i].dot(of_b) * per_nodal_mass_[i] -
+           free_area_[j].dot(of_a) * per_nodal_mass_[j];
   });
   matrix_.column_start.swap(assembly_.column_start);
   matrix_.row.swap(assembly_.row);
   matrix_.value.swap(assembly_.value);
+  for (int k = 0; k < size(); ++k)
+    matrix_.value[matrix_.column_start[k]] += 2 * free_spread_[node_[k]] * (d + 1) * per_nodal_mass_[node_[k]];
   laplacian_.add_to(matrix_);
 }
 
@@ -116,11 +160,14 @@ void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<con
       if (unknown_[cell[k]] >= 0) r[unknown_[cell[k]]] += g.col(k).dot(mean);
   }
   for (const auto& f : mesh_->boundary) {
-    if (f.wall < 0) continue;
     const Vec<d> area = area_vector_of<d>(f, x) / (d * (d + 1));
     Vec<d> sum = Vec<d>::Zero();
     std::array<Vec<d>, d> w;
-    for (int k = 0; k < d; ++k) sum += w[k] = rigid_velocity<d>(s[f.wall], x[f.nodes[k]] - centres[f.wall]);
+    for (int k = 0; k < d; ++k) {
+      const int n = f.nodes[k];
+      w[k] = f.wall < 0 ? v[n] : rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]);
+      sum += w[k];
+    }
     for (int k = 0; k < d; ++k)
       if (unknown_[f.nodes[k]] >= 0) r[unknown_[f.nodes[k]]] -= area.dot(sum + w[k]);
   }
@@ -161,13 +208,30 @@ void PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> 
 
 template <int d>
 void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<d>> v) const {
+  auto impulse_at = [&](int n) { return unknown_[n] < 0 ? 0.0 : phi[unknown_[n]]; };
+  change_.assign(v.size(), Vec<d>::Zero());
   for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
     const auto& cell = mesh_->cells[c];
     Vec<d> gradient = Vec<d>::Zero();
-    for (int k = 0; k <= d; ++k)
-      if (unknown_[cell[k]] >= 0) gradient += gradients_[c].col(k) * phi[unknown_[cell[k]]];
-    for (int n : cell) v[n] -= per_nodal_mass_[n] * gradient;
+    for (int k = 0; k <= d; ++k) gradient += gradients_[c].col(k) * impulse_at(cell[k]);
+    for (int n : cell) change_[n] -= per_nodal_mass_[n] * gradient;
   }
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall >= 0) continue;
+    const Vec<d> share = area_vector_of<d>(f, nodes_->x) / d;
+    double sum = 0;
+    for (int n : f.nodes) sum += impulse_at(n);
+    for (int n : f.nodes) change_[n] += per_nodal_mass_[n] * (sum + impulse_at(n)) * share;
+  }
+  weighted_.assign(v.size(), Vec<d>::Zero());  // M_L^-1 M_C change
+  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
+    const auto& cell = mesh_->cells[c];
+    Vec<d> sum = Vec<d>::Zero();
+    for (int n : cell) sum += change_[n];
+    const double share = 1 / ((d + 2) * per_mass_[c]);
+    for (int n : cell) weighted_[n] += share * per_nodal_mass_[n] * (sum + change_[n]);
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 2 * change_[i] - weighted_[i];
 }
 
 template <int d>

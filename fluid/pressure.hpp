@@ -1,13 +1,23 @@
 // The pressure equation on the mesh of t_n, for impulses phi = kick * p [Pa s]:
 //
-//   int grad q . grad phi / rho  [+ q B^T C B phi]  [+ q K phi]  =  r(q)
+//   int grad q . grad phi / rho  + surface(q, phi)  [+ q B^T C B phi]  [+ q K phi]  =  r(q)
 //
-// q and phi linear, zero on the free surface. r is the volume that a motion would create (per time):
+// r is the volume that a motion would create (per time):
 //
-//   flux form    r(q) = int grad q . v - int_wall q w.n     velocities free, walls through their flux
+//   flux form    r(q) = int grad q . v - int_wall q w.n - int_surface q v.n   walls through their flux
 //   motion form  r(q) = - int q div u                       u = actual displacement / dt, walls included
 //
 // Both are evaluated at the middle of the motion, where they are the exact change of volume in 2D.
+//
+// q and phi are linear. On the free surface p = 0 is the natural condition of the momentum equation: impulses
+// there push on the surface, and the volume around a surface node is kept like any other's. Held to zero,
+// surface nodes change their volume, hence their weight, and waves get an error of first order (docs/theory.md).
+// With A_i the free area vector of node i, m_i its lumped mass and g_i(phi) its averaged gradient:
+//
+//   surface(q, phi) = sum_i - q_i A_i . g_i(phi) - phi_i A_i . g_i(q) + 2 n_i q_i phi_i sum_f |A_f / d|^2 / m_i
+//
+// n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Nodes of
+// thin sheets and of spikes keep phi = 0: they fly.
 // B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
 // The exact rigid response C = M_b^-1 has low rank, so it is eliminated on the factor (Woodbury):
 //
@@ -54,7 +64,8 @@ class PressureEquation {
   void respond(std::vector<double>& phi, std::span<Twist<d>> s) const;
   const InterfaceLaplacian<d>& laplacian() const { return laplacian_; }
 
-  /// v -= grad phi / rho, lumped.
+  /// v -= M^-1 (int N grad phi - int_surface N phi n), M^-1 = (2 - M_L^-1 M_C) M_L^-1: lumped mass M_L and one
+  /// sweep towards the consistent one M_C, which removes the second-order error of lumping.
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
   /// B phi of a wall: impulse on the body about its reference point.
   Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
@@ -62,11 +73,13 @@ class PressureEquation {
   const Eigen::MatrixXd& added_mass() const { return added_mass_; }
 
   int size() const { return static_cast<int>(node_.size()); }
-  const std::vector<int>& unknown() const { return unknown_; }  ///< of a node, -1: p = 0
+  const std::vector<int>& unknown() const { return unknown_; }  ///< of a node, -1: phi = 0
   std::span<const double> lumped_volume() const { return lumped_; }
   const SymmetricMatrix& matrix() const { return matrix_; }
 
  private:
+  void measure(double density);
+  void choose_unknowns();
   void assemble();
   bool factored();
   void wall_modes(std::span<const Vec<d>> centres);
@@ -77,6 +90,10 @@ class PressureEquation {
   std::vector<double> lumped_;
   std::vector<double> per_mass_;        // of cells: 1 / mass
   std::vector<double> per_nodal_mass_;  // of nodes: 1 / ((d + 1) lumped mass)
+  std::vector<Vec<d>> free_area_;       // of nodes: area vector of the free surface around them
+  std::vector<double> free_spread_;     // of nodes: n_i sum_f |A_f / d|^2
+  std::vector<double> free_measure_;    // of nodes: sum_f |A_f| / d
+  mutable std::vector<Vec<d>> change_, weighted_;  // scratch of accelerate()
   std::vector<int> unknown_, node_;
   Assembly<d, double> assembly_;
   SymmetricMatrix matrix_;
