@@ -136,6 +136,7 @@ StepReport Partitioned<d>::attempt(double dt) {
       break;
     }
   }
+  if (report.ok()) report.cause = fluid_->verdict().cause;
   double fluid_after = 0;
   for (const auto& p : fluid_->phase_seconds()) fluid_after += p.second;
   coupling_seconds_ += seconds_since(start) - (fluid_after - fluid_seconds);

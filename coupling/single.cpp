@@ -19,6 +19,7 @@ StepReport FluidOnly<d>::attempt(double dt) {
   const std::vector<fluid::Twist<d>> still(walls, fluid::Twist<d>::Zero());
   auto status = fluid_->begin(clock_.kick(dt), dt, held);
   if (status.ok()) status = fluid_->solve(still);
+  if (status.ok()) status = fluid_->verdict();
   return {.cause = status.cause, .passes = 1};
 }
 

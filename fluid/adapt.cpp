@@ -100,7 +100,9 @@ class Adapter {
       if (touched_[e.a] || touched_[e.b]) continue;
       const int rank_a = rank(e.a), rank_b = rank(e.b);
       const bool both_boundary = rank_a > 0 && rank_b > 0;
-      if (both_boundary && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
+      const WallTie &a = nodes_.tie[e.a], &b = nodes_.tie[e.b];
+      const bool same_patch = a.wall >= 0 && a.wall == b.wall && a.patch == b.patch;
+      if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
       if (rank_a == rank_b) {
         if (rank_a > 2 || !(nodes_.tie[e.a] == nodes_.tie[e.b])) continue;
         nodes_.x[e.a] = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);

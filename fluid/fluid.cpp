@@ -91,7 +91,7 @@ void land(Nodes<d>& nodes, const Mesh<d>& mesh) {
         if (!lands(other)) momentum[n] += volume_now[other] * nodes.v[other], weight[n] += volume_now[other];
     }
   for (int n : who)
-    if (weight[n] > 0) nodes.v[n] = momentum[n] / weight[n] +
+    if (weight[n] > 0) nodes.q[n] = 0, nodes.v[n] = momentum[n] / weight[n] +
                                     nodes.volume[n] / volume_now[n] * (nodes.v[n] - momentum[n] / weight[n]);
 }
 
@@ -214,6 +214,7 @@ struct Fluid<d>::State {
 
   Status solve(std::span<const Twist<d>> given, std::span<const double> previous);
   bool finite() const;
+  bool orderly() const;
 };
 
 template <int d>
@@ -397,9 +398,31 @@ bool Fluid<d>::State::finite() const {
   return std::isfinite(sum);
 }
 
+// Elements that carry pressure deform by a fraction of themselves; `stable_dt` sees to it but for what remeshing
+// and contact bring.
+template <int d>
+bool Fluid<d>::State::orderly() const {
+  constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
+  for (const auto& cell : work.mesh.cells) {
+    if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) continue;
+    for (int i = 0; i < d; ++i)
+      for (int j = i + 1; j <= d; ++j) {
+        const double length = std::max((work.nodes.x[cell[i]] - work.nodes.x[cell[j]]).norm(),
+                                       merged_below * std::min(work.h[cell[i]], work.h[cell[j]]));
+        if ((moved.u[cell[i]] - moved.u[cell[j]]).norm() * dt > most * length) return false;
+      }
+  }
+  return true;
+}
+
 template <int d>
 Status Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous) {
   return s_->solve(walls, previous);
+}
+
+template <int d>
+Status Fluid<d>::verdict() const {
+  return s_->orderly() ? Status{} : Status{"an element turns over within the step"};
 }
 
 template <int d>

@@ -63,6 +63,8 @@ class Fluid {
   /// is given, with it where it is not. `previous`: the interface impulses on which the interface Laplacians
   /// lag; one that equals interface_impulse() afterwards makes them vanish. Needed with such walls only.
   Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {});
+  /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
+  Status verdict() const;
   /// Mean physical pressure impulses on the pieces of walls with an interface Laplacian [Pa s]. After `begin` the
   /// first guess, after `solve` its result.
   std::span<const double> interface_impulse() const;

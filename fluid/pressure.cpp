@@ -59,8 +59,17 @@ void PressureEquation<d>::measure(double density) {
     per_mass_[c] = 1 / (density * volume);
     for (int n : mesh_->cells[c]) lumped_[n] += volume / (d + 1);
   }
+  // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour.
+  constexpr double lightest = 0.02;
+  std::vector<double> heaviest(count, 0.0);
+  for (const auto& cell : mesh_->cells) {
+    double largest = 0;
+    for (int n : cell) largest = std::max(largest, lumped_[n]);
+    for (int n : cell) heaviest[n] = std::max(heaviest[n], largest);
+  }
   per_nodal_mass_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) per_nodal_mass_[i] = 1 / (density * (d + 1) * lumped_[i]);
+  for (std::size_t i = 0; i < count; ++i)
+    per_nodal_mass_[i] = 1 / (density * (d + 1) * std::max(lumped_[i], lightest * heaviest[i]));
   free_area_.assign(count, Vec<d>::Zero());
   free_measure_.assign(count, 0.0);
   free_spread_.assign(count, 0.0);
@@ -91,8 +100,8 @@ void PressureEquation<d>::choose_unknowns() {
   unknown_.assign(nodes_->size(), -1);
   node_.clear();
   for (std::size_t i = 0; i < nodes_->size(); ++i) {
-    const bool held = nodes_->surface[i] &&
-                      (!bulk[i] || lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0)));
+    const bool held = nodes_->surface[i] && (nodes_->tie[i].wall >= 0 ||
+                      !bulk[i] || lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0)));
     if (held || nodes_->spray[i]) {
       free_area_[i].setZero();
       continue;

@@ -61,10 +61,14 @@ int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
   const int wall = nodes.tie[f.nodes[0]].wall;
   if (wall < 0) return -1;
   Vec<d> centre = Vec<d>::Zero();
+  bool one_patch = true, at_vertex = false;
   for (int n : f.nodes) {
     if (nodes.tie[n].wall != wall) return -1;
     centre += nodes.x[n] / d;
+    one_patch = one_patch && nodes.tie[n].patch == nodes.tie[f.nodes[0]].patch;
+    at_vertex = at_vertex || nodes.tie[n].vertex >= 0;
   }
+  if (d == 2 && !one_patch && !at_vertex) return -1;  // cuts a corner
   const double length = (nodes.x[f.nodes[1]] - nodes.x[f.nodes[0]]).norm();
   const double gap = at.walls[wall].distance_unsigned(at.poses[wall], centre, length);
   return gap < facet_sag * length ? wall : -1;

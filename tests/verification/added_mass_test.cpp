@@ -48,9 +48,10 @@ TEST(AddedMass, of_a_circle_converges_with_second_order) {
 
 TEST(AddedMass, does_not_depend_on_the_body_that_feels_it) {
   const double reference = added_mass(0.1, 1000, 0);
-  // Motion during the step: 1e-6 m. Light bodies move with mass / M_a only, against a roundoff of 1e-10.
+  // The corrections are cut off, and what they leave depends on what the body does: a hundredth of the error of
+  // the mesh itself.
   for (double mass : {1e5, 10.0, 1e-1})
-    EXPECT_NEAR(added_mass(0.1, mass, 0), reference, 1e-5 * reference) << mass;
+    EXPECT_NEAR(added_mass(0.1, mass, 0), reference, 0.01 * std::abs(reference - exact)) << mass;
 }
 
 TEST(AddedMass, of_a_circle_is_the_same_in_heave_and_sway_and_none_in_roll) {
