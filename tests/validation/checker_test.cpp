@@ -11,7 +11,7 @@
 #include "tests/validation/judge.hpp"
 #include "tests/validation/report.hpp"
 #include "tests/validation/runner.hpp"
-#include "tests/validation/table.hpp"
+#include "apps/quantity/table.hpp"
 
 namespace splashdown::validation {
 namespace {
@@ -183,12 +183,12 @@ TEST_F(Checker, page_shows_the_newest_row_of_each_check_and_keeps_its_text) {
 TEST_F(Checker, torn_tables_are_refused_with_file_and_line) {
   write(folder_ / "torn.csv", "# note\na,b\n1,2\n3\n");
   try {
-    read_table(folder_, "torn.csv");
+    quantity::read_table(folder_, "torn.csv");
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("torn.csv:4: 1 cells under 2"), std::string::npos);
   }
-  EXPECT_THROW(read_table(folder_, "none.csv"), std::runtime_error);
+  EXPECT_THROW(quantity::read_table(folder_, "none.csv"), std::runtime_error);
 }
 
 }  // namespace

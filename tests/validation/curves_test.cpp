@@ -1,4 +1,4 @@
-#include "tests/validation/curves.hpp"
+#include "apps/quantity/curves.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 namespace {
 
 using Column = std::vector<double>;
@@ -94,4 +94,4 @@ TEST(Curves, empty_bins_are_nan_and_others_are_means) {
 }
 
 }  // namespace
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

@@ -1,11 +1,11 @@
-#include "tests/validation/expression.hpp"
+#include "apps/quantity/expression.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 namespace {
 
 std::optional<Value> lookup(const std::string& name) {
@@ -72,4 +72,4 @@ TEST(Expression, message_quotes_expression_and_place) {
 }
 
 }  // namespace
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

@@ -2,48 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "tests/validation/expression.hpp"
-#include "tests/validation/table.hpp"
+#include "apps/quantity/expression.hpp"
+#include "apps/quantity/names.hpp"
 
 namespace splashdown::validation {
 
+using namespace quantity;
+
 namespace {
-
-std::optional<Value> find_column(const Table& table, const std::string& name) {
-  const auto* column = table.find(name);
-  if (column == nullptr) return std::nullopt;
-  return Value::column(*column);
-}
-
-/// What follows "prefix." in a name that starts so.
-std::optional<std::string> after(const std::string& prefix, const std::string& name) {
-  if (name.rfind(prefix + ".", 0) != 0) return std::nullopt;
-  return name.substr(prefix.size() + 1);
-}
-
-/// An entry by its path with dots, lists by position; numbers and booleans only.
-std::optional<Value> find_entry(const nlohmann::json& root, const std::string& path) {
-  std::string pointer = "/" + path;
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
-  const nlohmann::json::json_pointer place(pointer);
-  if (!root.contains(place)) return std::nullopt;
-  const nlohmann::json& node = root.at(place);
-  if (node.is_boolean()) return Value::number(node.get<bool>() ? 1 : 0);
-  if (!node.is_number()) return std::nullopt;
-  return Value::number(node.get<double>());
-}
-
-nlohmann::json read_summary(const std::filesystem::path& folder) {
-  std::ifstream in(folder / "summary.json");
-  return in ? nlohmann::json::parse(in) : nlohmann::json::object();
-}
 
 std::string in_words(double expected, const Bound& bound) {
   if (bound.expected) return fmt::format("{:.6g}", expected);
@@ -84,12 +55,7 @@ double Judge::measure(const CheckSpec& check, Verdict& verdict) {
   };
   if (!check.reference.empty()) reference = read_table(example_.folder, check.reference);
   if (!check.table.empty()) table = read_table(outcome.folder, check.table);
-  if (!check.where.empty()) {
-    const Value mask = evaluate(check.where, lookup);
-    if (mask.numbers.size() != table.rows())
-      throw std::runtime_error(fmt::format("where = \"{}\" is not one value a row", check.where));
-    table = select_rows(table, mask.numbers);
-  }
+  if (!check.where.empty()) table = rows_where(table, check.where, lookup);
   const double expected = check.bound.expected ? evaluate_number(*check.bound.expected, lookup) : 0;
   verdict.expected = in_words(expected, check.bound);
   const double measured = evaluate_number(check.quantity, lookup);

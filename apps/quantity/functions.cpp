@@ -1,4 +1,4 @@
-#include "tests/validation/functions.hpp"
+#include "apps/quantity/functions.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "tests/validation/curves.hpp"
+#include "apps/quantity/curves.hpp"
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 namespace {
 
@@ -197,4 +197,4 @@ Value call_function(const std::string& name, const std::vector<Value>& arguments
   return function.body(arguments);
 }
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 double integral(const std::vector<double>& y, const std::vector<double>& x);  ///< trapezoidal
 double slope(const std::vector<double>& y, const std::vector<double>& x);     ///< least squares
@@ -29,4 +29,4 @@ std::vector<double> bin_centres(double low, double high, std::size_t count);
 std::vector<double> bin_means(const std::vector<double>& y, const std::vector<double>& x, double low,
                               double high, std::size_t count);
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

@@ -1,4 +1,4 @@
-#include "tests/validation/expression.hpp"
+#include "apps/quantity/expression.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/validation/functions.hpp"
+#include "apps/quantity/functions.hpp"
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 namespace {
 
@@ -37,7 +37,8 @@ const std::vector<std::vector<Operator>> levels = {
 
 class Parser {
  public:
-  Parser(std::string_view text, const Lookup& lookup) : text_(text), lookup_(lookup) {}
+  /// Without a lookup only the syntax counts: names and calls are worth zero.
+  Parser(std::string_view text, const Lookup* lookup) : text_(text), lookup_(lookup) {}
 
   Value parse() {
     Value value = binary(0);
@@ -127,7 +128,8 @@ class Parser {
     while (word_at(at_) || (at_ < text_.size() && text_[at_] == '.')) ++at_;
     const std::string name(text_.substr(start, at_ - start));
     if (take("(")) return call(name);
-    if (auto value = lookup_(name)) return *value;
+    if (!lookup_) return Value::number(0);
+    if (auto value = (*lookup_)(name)) return *value;
     fail(fmt::format("unknown name '{}'", name));
   }
 
@@ -138,6 +140,7 @@ class Parser {
       while (take(","));
       if (!take(")")) fail("expected ')'");
     }
+    if (!lookup_) return Value::number(0);
     try {
       return call_function(name, arguments);
     } catch (const std::runtime_error& error) {
@@ -146,15 +149,17 @@ class Parser {
   }
 
   std::string_view text_;
-  const Lookup& lookup_;
+  const Lookup* lookup_;
   std::size_t at_ = 0;
 };
 
 }  // namespace
 
 Value evaluate(const std::string& expression, const Lookup& lookup) {
-  return Parser(expression, lookup).parse();
+  return Parser(expression, &lookup).parse();
 }
+
+void check_syntax(const std::string& expression) { Parser(expression, nullptr).parse(); }
 
 double evaluate_number(const std::string& expression, const Lookup& lookup) {
   const Value value = evaluate(expression, lookup);
@@ -164,4 +169,4 @@ double evaluate_number(const std::string& expression, const Lookup& lookup) {
   return value.numbers.front();
 }
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

@@ -21,11 +21,11 @@
 #include <string>
 #include <vector>
 
-#include "tests/validation/value.hpp"
+#include "apps/quantity/value.hpp"
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 /// Throws std::runtime_error for an unknown name, a wrong number of arguments, columns that do not fit.
 Value call_function(const std::string& name, const std::vector<Value>& arguments);
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

@@ -1,4 +1,4 @@
-#include "tests/validation/curves.hpp"
+#include "apps/quantity/curves.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 namespace {
 
@@ -152,4 +152,4 @@ Column bin_means(const Column& y, const Column& x, double low, double high, std:
   return sums;
 }
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

@@ -1,4 +1,4 @@
-#include "tests/validation/table.hpp"
+#include "apps/quantity/table.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 namespace {
 
@@ -82,4 +82,4 @@ Table select_rows(const Table& table, const std::vector<double>& mask) {
   return selected;
 }
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

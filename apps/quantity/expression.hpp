@@ -1,19 +1,19 @@
-// The language in which check.toml states what is measured, e.g. "mean(fy / (density*speed^3*time), time)".
+// The language in which check.toml and studies state what is measured, e.g. "mean(fy / (density*speed^3*time), time)".
 //
 //   or, and, < <= > >= ==, + -, * /, unary -, ^ (right to left), calls, names with dots, numbers
 //
 // Columns combine element by element, a single number with every element; comparisons give 1 and 0.
 // functions.hpp lists the functions. A name means what the `lookup` says: a column of the run's table, of
-// the reference (ref.x), an entry of summary.json (summary.wall_seconds), a constant, an earlier check.
+// the reference (ref.x), an entry of summary.json (summary.wall_seconds), a constant, an earlier quantity.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "tests/validation/value.hpp"
+#include "apps/quantity/value.hpp"
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 using Lookup = std::function<std::optional<Value>(const std::string&)>;
 
@@ -23,4 +23,7 @@ Value evaluate(const std::string& expression, const Lookup& lookup);
 /// The same for an expression that has to come out as one number.
 double evaluate_number(const std::string& expression, const Lookup& lookup);
 
-}  // namespace splashdown::validation
+/// Throws like evaluate() where the text is not an expression, whatever its names stand for.
+void check_syntax(const std::string& expression);
+
+}  // namespace splashdown::quantity

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 struct Value {
   std::vector<double> numbers;
@@ -13,4 +13,4 @@ struct Value {
   static Value column(std::vector<double> numbers) { return {std::move(numbers), false}; }
 };
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity

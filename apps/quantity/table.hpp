@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace splashdown::validation {
+namespace splashdown::quantity {
 
 struct Table {
   std::vector<std::string> names;
@@ -25,4 +25,4 @@ Table read_table(const std::filesystem::path& folder, const std::string& file_an
 /// The rows for which `mask` is not zero.
 Table select_rows(const Table& table, const std::vector<double>& mask);
 
-}  // namespace splashdown::validation
+}  // namespace splashdown::quantity
