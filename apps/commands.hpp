@@ -26,14 +26,24 @@ struct RunOptions {
   bool quiet = false;
 };
 
+struct StudyOptions {
+  std::filesystem::path study;
+  std::optional<std::filesystem::path> out;
+  int jobs = 1;              ///< runs at a time
+  std::string on = "local";  ///< "local" or "slurm"
+  bool collect = false;      ///< tables and chart of what is there, no runs
+  bool quiet = false;
+};
+
 int run_command(const RunOptions& options);
 int check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
+int study_command(const StudyOptions& options);
 int report_command(const std::filesystem::path& directory);
 
 /// `error: ` and the text on the standard error stream; returns exit_code::bad_input.
 int bad_input(const std::string& text);
 
-/// out/<folder of scene.toml> or out/<name of the file>.
+/// out/<folder of scene.toml or study.toml> or out/<name of the file>.
 std::filesystem::path default_directory(const std::filesystem::path& scene);
 
 }  // namespace splashdown::apps

@@ -1,4 +1,4 @@
-// splashdown run | check | report
+// splashdown run | check | study | report
 
 #include <fmt/format.h>
 
@@ -53,6 +53,19 @@ int command_line(int argc, char** argv) {
   check_app->add_option("scene", scene, scene_help)->required();
   check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
 
+  StudyOptions study;
+  auto* study_app = app.add_subcommand("study", "Run every combination of a scene's values");
+  study_app->add_option("study", study.study, "study file (TOML; docs/study.md)")->required();
+  study_app->add_option("--out", study.out, "folder for the runs and tables (default: out/<study>)");
+  study_app->add_option("--jobs", study.jobs, "runs at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  study_app->add_option("--on", study.on, "where the runs are made")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  study_app->add_flag("--collect", study.collect, "make no runs: tables and chart of those that are there");
+  study_app->add_flag("--quiet", study.quiet, "print errors only");
+
   std::filesystem::path directory;
   auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run");
   report_app->add_option("directory", directory, "folder of the run")->required();
@@ -64,6 +77,7 @@ int command_line(int argc, char** argv) {
   }
   if (*run_app) return run_command(run);
   if (*check_app) return check_command(scene, overrides);
+  if (*study_app) return study_command(study);
   return report_command(directory);
 }
 

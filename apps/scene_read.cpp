@@ -116,34 +116,39 @@ SceneFile read_root(const toml::table& table, Problems& problems) {
 
 }  // namespace
 
+toml::table read_toml(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    const auto& place = error.source().begin;
+    throw SceneError({fmt::format("{}:{}: not TOML: {} (column {}). See https://toml.io for the syntax.",
+                                  name, place.line, error.description(), place.column)});
+  }
+}
+
 SceneFile read_scene_text(const std::string& text, const std::string& name,
                           std::span<const std::string> overrides) {
   Problems problems(name);
-  toml::table table;
-  try {
-    table = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    problems.add_at({name, static_cast<long>(error.source().begin.line)},
-                    fmt::format("not TOML: {} (column {}). See https://toml.io for the syntax.",
-                                error.description(), error.source().begin.column));
-    problems.throw_if_any();
-  }
+  auto table = read_toml(text, name);
   for (const auto& argument : overrides) apply_override(table, argument, problems);
   return read_root(table, problems);
 }
 
-SceneFile read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+std::string read_text(const std::filesystem::path& path, const std::string& example) {
   const auto refuse = [&](const std::string& why) -> SceneError {
-    return SceneError(
-        {fmt::format("{}: cannot be read: {}. Name a scene file, e.g. examples/wedge_drop/scene.toml.",
-                     path.string(), why)});
+    return SceneError({fmt::format("{}: cannot be read: {}. Name {}.", path.string(), why, example)});
   };
   if (std::filesystem::is_directory(path)) throw refuse("it is a folder");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw refuse(std::strerror(errno));
   std::ostringstream text;
   text << stream.rdbuf();
-  return read_scene_text(text.str(), path.string(), overrides);
+  return text.str();
+}
+
+SceneFile read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  const auto text = read_text(path, "a scene file, e.g. examples/wedge_drop/scene.toml");
+  return read_scene_text(text, path.string(), overrides);
 }
 
 }  // namespace splashdown::apps

@@ -1,6 +1,8 @@
 // scene.toml and --set arguments to a checked Scene.
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <filesystem>
 #include <span>
 #include <string>
@@ -14,6 +16,11 @@ struct SceneFile {
   Scene scene;
   std::string resolved;  ///< TOML with every value in force; reads to the same scene
 };
+
+/// What a file holds. Throws SceneError; `example` is named as a cure.
+std::string read_text(const std::filesystem::path& file, const std::string& example);
+/// Throws SceneError with place and reason if the text is not TOML.
+toml::table read_toml(const std::string& text, const std::string& name);
 
 /// `overrides`: texts `key.path=value`. Throws SceneError with every problem found.
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});

@@ -28,7 +28,16 @@ const char* type_name(const toml::node& node) {
   }
 }
 
-/// As the user wrote it, near enough; nothing for tables.
+/// Short enough for a message; nothing for tables.
+std::string value_text(const toml::node& node) {
+  if (node.is_table() || node.is_array_of_tables()) return {};
+  constexpr std::size_t longest = 60;
+  const auto text = written(node);
+  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+}
+
+}  // namespace
+
 std::string written(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   if (const auto* text = node.as_string()) return toml_text(text->get());
@@ -42,16 +51,6 @@ std::string written(const toml::node& node) {
   node.visit([&](const auto& value) { stream << value; });
   return stream.str();
 }
-
-/// Short enough for a message; nothing for tables.
-std::string value_text(const toml::node& node) {
-  if (node.is_table() || node.is_array_of_tables()) return {};
-  constexpr std::size_t longest = 60;
-  const auto text = written(node);
-  return text.size() <= longest ? text : text.substr(0, longest) + "...";
-}
-
-}  // namespace
 
 Place place_of(const toml::node& node) {
   const auto& source = node.source();
@@ -236,6 +235,17 @@ void Reader::choices(std::string_view name, Names& target, const Names& valid) {
       target = words;
     else
       context_->problems.add(key(name), "must be a list of " + listing(valid) + ", each once", cure);
+  }
+  context_->echo.add(section_, name, toml_list(target));
+}
+
+void Reader::texts(std::string_view name, Names& target, const std::string& cure, Need need) {
+  if (const auto* node = find(name, need, "a list of strings", cure)) {
+    const auto* array = node->as_array();
+    if (array && std::all_of(array->begin(), array->end(), [](const auto& n) { return n.is_string(); }))
+      for (const auto& element : *array) target.push_back(*element.template value<std::string>());
+    else
+      context_->problems.add(key(name), "must be a list of strings", cure);
   }
   context_->echo.add(section_, name, toml_list(target));
 }

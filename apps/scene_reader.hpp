@@ -30,6 +30,8 @@ struct ReadContext {
 };
 
 Place place_of(const toml::node& node);
+/// A value as the user wrote it, near enough.
+std::string written(const toml::node& node);
 
 class Reader {
  public:
@@ -69,6 +71,14 @@ class Reader {
   /// A list of lists, each with `columns` numbers.
   void rows(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns,
             const Rule& rule, Need need = Need::optional);
+
+  /// A list of strings.
+  void texts(std::string_view name, Names& target, const std::string& cure, Need need = Need::optional);
+  /// The node itself, for values that only the caller can judge; null when absent.
+  const toml::node* node(std::string_view name, Need need, const std::string& meaning,
+                         const std::string& cure) {
+    return find(name, need, meaning, cure);
+  }
 
   std::optional<Reader> table(std::string_view name, Need need = Need::optional);
   /// The table, or one that is empty, so that its defaults are read and echoed.

@@ -24,7 +24,6 @@ std::optional<Value> find_entry(const nlohmann::json& root, const std::string& p
 nlohmann::json read_summary(const std::filesystem::path& folder);
 
 /// The rows of the table for which the expression `where` is not zero.
-Table rows_where(const Table& table, const std::string& where,
-                 const Lookup& lookup);
+Table rows_where(const Table& table, const std::string& where, const Lookup& lookup);
 
 }  // namespace splashdown::quantity

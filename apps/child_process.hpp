@@ -1,0 +1,38 @@
+// A program started without a shell, in a process group of its own, that ends with its parent.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splashdown::apps {
+
+class ChildProcess {
+ public:
+  /// Both outputs go to the end of `log`. The child gets SIGTERM when this process dies, even of SIGKILL.
+  /// Throws std::runtime_error if no process can be made.
+  ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log);
+
+  struct End {
+    int code = -1;   ///< exit code; -1: ended by a signal
+    int signal = 0;  ///< which one
+  };
+  /// Nothing while it runs.
+  std::optional<End> end();
+  End wait();
+  void ask_to_stop() const;  ///< SIGTERM
+
+ private:
+  pid_t id_ = 0;
+};
+
+/// A program of this name on the PATH.
+std::optional<std::filesystem::path> find_program(const std::string& name);
+
+/// The path of the program that runs.
+std::filesystem::path own_program();
+
+}  // namespace splashdown::apps

@@ -1,0 +1,89 @@
+// A study: one scene, axes of values, and every combination of them as a run of its own. docs/study.md.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/scene_problems.hpp"
+
+namespace splashdown::apps {
+
+/// One value of an axis, or one of its named cases.
+struct AxisValue {
+  std::string text;              ///< in tables and folder names
+  std::optional<double> number;  ///< what expressions and the chart see; absent for words
+  std::vector<std::string> set;  ///< key.path=value, for --set
+  Place place;                   ///< in the study file
+};
+
+struct Axis {
+  std::string name;   ///< column; name in expressions
+  std::string label;  ///< in the chart, with its unit
+  std::vector<AxisValue> values;
+
+  /// Index of the value with this text; nothing if there is none.
+  std::optional<std::size_t> find(const std::string& text) const;
+};
+
+struct StudyQuantity {
+  std::string name;   ///< column; later quantities may use it
+  std::string label;  ///< in the chart
+  std::string unit = "-";
+  std::string table;                 ///< "file.csv" or "file.csv:key" in the run's folder; may be empty
+  std::string where;                 ///< expression: rows of the table that count
+  std::string quantity;              ///< expression
+  std::optional<std::string> exact;  ///< expression that the error refers to
+  /// Axis -> index of the value at which the reference run stands, the other axes being equal.
+  std::map<std::size_t, std::size_t> reference;
+
+  std::string scale;  ///< expression that a deviation is divided by; empty: the reference's magnitude
+
+  bool has_error() const { return exact || !reference.empty(); }
+  std::string error_name() const { return name + "_error"; }
+};
+
+/// Rows of panels, one a quantity; columns of panels, one a value of `panels`; in each a curve a value of
+/// `series`. Axes by index.
+struct StudyChart {
+  std::size_t x = 0;
+  std::optional<std::size_t> series, panels;
+  std::vector<std::string> y;  ///< columns of study.csv
+  bool log_x = true, log_y = true;
+};
+
+struct Study {
+  std::filesystem::path file, scene;
+  std::string title;
+  std::vector<std::string> set;  ///< for all runs
+  std::optional<double> budget;  ///< wall seconds after which a run has stalled
+  std::vector<Axis> axes;
+  std::vector<StudyQuantity> quantities;
+  std::map<std::string, double> constants;
+  std::optional<StudyChart> chart;
+};
+
+/// One combination. The last axis varies fastest.
+struct StudyRun {
+  std::string name;                ///< of its folder
+  std::vector<std::size_t> value;  ///< of each axis, by index
+  std::vector<std::string> set;    ///< all --set arguments
+  std::string resolved;            ///< the scene with all values in force
+};
+
+/// Throws SceneError with every problem found, the scenes' included.
+Study read_study(const std::filesystem::path& file);
+
+/// Names and --set arguments of all combinations, without reading a scene.
+std::vector<StudyRun> expand(const Study& study);
+
+/// Reads the scene of each run into `resolved`. Throws SceneError; what a value of an axis did wrong is told
+/// at its place in the study file.
+void resolve(const Study& study, std::vector<StudyRun>& runs);
+
+/// Index of the run that serves as reference for `quantity` at `run`.
+std::size_t reference_run(const Study& study, const StudyQuantity& quantity, const StudyRun& run);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,247 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "apps/quantity/expression.hpp"
+#include "apps/scene_read.hpp"
+#include "apps/scene_reader.hpp"
+#include "apps/study.hpp"
+#include "apps/study_table.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+const char* const set_cure = "Write --set texts, e.g. set = [\"time.end=0.1\"].";
+
+/// Letters, digits and _, so that expressions can use it.
+bool is_name(const std::string& text) {
+  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+/// Names of columns and constants, each of which may stand once.
+class Columns {
+ public:
+  explicit Columns(Problems& problems) : problems_(problems), taken_(outcome_columns()) {}
+
+  void take(const Reader& reader, const std::string& name) {
+    const auto key = reader.key("name");
+    const char* const cure = "Use another name of letters, digits and _, e.g. density_ratio.";
+    if (name.empty()) return;  // missing, and told
+    if (!is_name(name))
+      problems_.add(key, "must be a name that expressions can use", cure);
+    else if (std::ranges::find(taken_, name) != taken_.end())
+      problems_.add(key, "there is a column of this name already", cure);
+    taken_.push_back(name);
+  }
+  const std::vector<std::string>& taken() const { return taken_; }
+
+ private:
+  Problems& problems_;
+  std::vector<std::string> taken_;
+};
+
+void read_values(Reader& reader, Axis& axis, const std::string& key) {
+  Problems& problems = reader.context().problems;
+  double scale = 1;
+  const bool scaled = reader.holds("scale");
+  reader.number("scale", scale, any("", "Use the factor from these values to the scene's key."));
+  const std::string cure = "Use a list, e.g. values = [1000, 100, 10].";
+  const auto* node = reader.node("values", Need::required, "the values that the key takes", cure);
+  if (!node) return;
+  const auto* array = node->as_array();
+  if (!array || array->empty())
+    return problems.add(reader.key("values"), "must be a list of at least one value", cure);
+  for (const auto& entry : *array) {
+    if (entry.is_table())
+      return problems.add(reader.key("values"), "holds a table", "Use [[axis.case]] with set instead.");
+    if (scaled && !entry.is_number())
+      return problems.add(reader.key("values"), "must be numbers, since there is a scale", "Drop the scale.");
+    AxisValue value{.text = written(entry), .number = {}, .set = {}, .place = place_of(entry)};
+    if (entry.is_number()) value.number = *entry.value<double>();
+    value.set = {key + "=" + (scaled ? toml_text(*value.number * scale) : value.text)};
+    if (entry.is_string()) value.text = *entry.value<std::string>();
+    if (axis.find(value.text))
+      return problems.add(reader.key("values"), "holds " + value.text + " twice", "Name each value once.");
+    axis.values.push_back(std::move(value));
+  }
+}
+
+void read_case(Reader& reader, Axis& axis) {
+  AxisValue value;
+  reader.text("name", value.text, "Use a short word, e.g. \"aitken\".", Need::required);
+  reader.texts("set", value.set, set_cure, Need::required);
+  value.place = {reader.place("name").source, reader.place("name").line};
+  if (!value.text.empty() && axis.find(value.text))
+    reader.context().problems.add(reader.key("name"), "there is a case of this name already",
+                                  "Use another name.");
+  axis.values.push_back(std::move(value));
+}
+
+void read_axis(Reader& reader, Study& study, Columns& columns) {
+  auto& axis = study.axes.emplace_back();
+  Problems& problems = reader.context().problems;
+  const bool cases = reader.holds("case"), listed = reader.holds("key") || reader.holds("values");
+  std::string key;
+  reader.text("name", axis.name, "Use a short word; it becomes a column.", Need::required);
+  if (listed || !cases) {
+    reader.text("key", key, "Name a key of the scene as for --set, e.g. body.wedge.mass.", Need::required);
+    read_values(reader, axis, key);
+  }
+  if (listed && cases)
+    problems.add(reader.path(), "has both a key with values and cases", "Use one of the two.");
+  reader.each_table("case", [&](Reader& one) { read_case(one, axis); });
+  axis.label = axis.name;
+  reader.text("label", axis.label, "Use a short text with the unit, e.g. \"body density (kg/m^3)\".");
+  columns.take(reader, axis.name);
+}
+
+void check_expression(Reader& reader, std::string_view key, const std::string& text) {
+  try {
+    if (!text.empty()) quantity::check_syntax(text);
+  } catch (const std::runtime_error& error) {
+    reader.context().problems.add(reader.key(key), error.what(),
+                                  "Use columns, summary.PATH and functions, e.g. \"max(fy)\".");
+  }
+}
+
+/// Axis name -> text of the value where the reference run stands.
+void read_reference(Reader& reader, const Study& study, StudyQuantity& quantity) {
+  auto table = reader.table("reference");
+  if (!table) return;
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const auto& axis = study.axes[a];
+    const auto* node = table->node(axis.name, Need::optional, {}, {});
+    if (!node) continue;
+    const auto text = node->is_string() ? *node->value<std::string>() : written(*node);
+    std::vector<std::string> valid;
+    for (const auto& value : axis.values) valid.push_back(value.text);
+    if (const auto found = axis.find(text))
+      quantity.reference[a] = *found;
+    else
+      reader.context().problems.add(table->key(axis.name), "is no value of this axis",
+                                    "Use " + listing(valid) + ".");
+  }
+}
+
+void read_quantity(Reader& reader, Study& study, Columns& columns) {
+  StudyQuantity quantity;
+  reader.text("name", quantity.name, "Use a short word; it becomes a column.", Need::required);
+  reader.text("quantity", quantity.quantity, "Write an expression, e.g. \"summary.coupling.passes_mean\".",
+              Need::required);
+  reader.text("table", quantity.table, "Name a file of the run's folder, e.g. \"bodies.csv:wedge\".");
+  reader.text("where", quantity.where, "Write an expression of columns, e.g. \"time > 0.01\".");
+  reader.text("unit", quantity.unit, "Use a short text, e.g. \"m/s^2\".");
+  quantity.label = quantity.name;
+  reader.text("label", quantity.label, "Use a few words.");
+  check_expression(reader, "quantity", quantity.quantity);
+  check_expression(reader, "where", quantity.where);
+  const std::string cure = "Use a number or an expression of axes and constants.";
+  if (const auto* node = reader.node("exact", Need::optional, {}, {})) {
+    if (node->is_string() || node->is_number())
+      quantity.exact = node->is_string() ? *node->value<std::string>() : written(*node);
+    else
+      reader.context().problems.add(reader.key("exact"), "must be a number or an expression", cure);
+    check_expression(reader, "exact", quantity.exact.value_or(""));
+  }
+  read_reference(reader, study, quantity);
+  reader.text("scale", quantity.scale, "Use what deviations are to be divided by, e.g. \"9.81\".");
+  check_expression(reader, "scale", quantity.scale);
+  if (!quantity.scale.empty() && !reader.holds("exact") && !reader.holds("reference"))
+    reader.context().problems.add(reader.key("scale"), "has nothing to scale", "Add exact or reference.");
+  if (quantity.exact && reader.holds("reference"))
+    reader.context().problems.add(reader.key("reference"), "must not stand beside exact",
+                                  "An error refers to one of the two.");
+  columns.take(reader, quantity.name);
+  study.quantities.push_back(std::move(quantity));
+}
+
+void read_constants(Reader& reader, Study& study) {
+  // A table of the user's own names: nothing in it is unknown.
+  if (!reader.holds("constants")) return;
+  const auto* node = reader.node("constants", Need::optional, {}, {});
+  const auto* table = node->as_table();
+  Problems& problems = reader.context().problems;
+  if (!table) return problems.add("constants", "must be a table", "Write [constants] with NAME = NUMBER.");
+  for (const auto& [name, entry] : *table) {
+    const auto key = fmt::format("constants.{}", name.str());
+    problems.note(key, place_of(entry), written(entry));
+    if (!entry.is_number()) problems.add(key, "must be a number", "Use e.g. g = 9.81.");
+    study.constants.emplace(name.str(), entry.value<double>().value_or(0));
+  }
+}
+
+/// The axis of a name, or a problem.
+std::optional<std::size_t> read_axis_name(Reader& reader, std::string_view key, const Study& study,
+                                          Need need) {
+  std::vector<std::string> valid;
+  for (const auto& axis : study.axes) valid.push_back(axis.name);
+  std::string name;
+  if (!reader.choice(key, name, valid, need) || name.empty()) return {};
+  return static_cast<std::size_t>(std::ranges::find(valid, name) - valid.begin());
+}
+
+void read_chart(Reader& reader, Study& study) {
+  auto& chart = study.chart.emplace();
+  Problems& problems = reader.context().problems;
+  if (const auto x = read_axis_name(reader, "x", study, Need::required)) {
+    chart.x = *x;
+    if (!std::ranges::all_of(study.axes[*x].values, [](const auto& v) { return v.number.has_value(); }))
+      problems.add(reader.key("x"), "must be an axis of numbers", "Use [[axis]] with numbers as values.");
+  }
+  chart.series = read_axis_name(reader, "series", study, Need::optional);
+  chart.panels = read_axis_name(reader, "panels", study, Need::optional);
+  auto valid = number_columns();
+  for (const auto& quantity : study.quantities) {
+    valid.push_back(quantity.name);
+    if (quantity.has_error()) valid.push_back(quantity.error_name());
+  }
+  chart.y = {"passes_mean", "wall_seconds"};
+  reader.choices("y", chart.y, valid);
+  std::string scale_x = "log", scale_y = "log";
+  reader.choice("scale_x", scale_x, {"log", "linear"});
+  reader.choice("scale_y", scale_y, {"log", "linear"});
+  chart.log_x = scale_x == "log";
+  chart.log_y = scale_y == "log";
+  if (chart.log_x &&
+      std::ranges::any_of(study.axes.empty() ? std::vector<AxisValue>{} : study.axes[chart.x].values,
+                          [](const auto& v) { return v.number && *v.number <= 0; }))
+    problems.add(reader.key("x"), "has values that a logarithmic scale cannot show",
+                 "Use scale_x = \"linear\".");
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& file) {
+  const auto root_table =
+      read_toml(read_text(file, "a study file, e.g. examples/coupling_schemes/study.toml"), file.string());
+  Study study;
+  study.file = file;
+  Problems problems(file.string());
+  {
+    Echo echo;
+    ReadContext context{problems, echo};
+    Reader root(context, root_table, "", "");
+    Columns columns(problems);
+    std::string scene;
+    root.text("title", study.title, "Use a short text in quotes.");
+    root.text("scene", scene, "Name the scene file, relative to this file.", Need::required);
+    study.scene = (file.parent_path() / scene).lexically_normal();
+    if (!scene.empty() && !std::filesystem::is_regular_file(study.scene))
+      problems.add("scene", "there is no such file: " + study.scene.string(),
+                   "Name the scene file, relative to this file.");
+    root.texts("set", study.set, set_cure);
+    root.number("budget", study.budget, positive("s", "Use wall seconds for a run, e.g. 60."));
+    read_constants(root, study);
+    root.each_table("axis", [&](Reader& reader) { read_axis(reader, study, columns); });
+    if (study.axes.empty() && !problems.noted("axis"))
+      problems.add_missing("axis", "what varies", "Write [[axis]] with name, key and values.");
+    root.each_table("quantity", [&](Reader& reader) { read_quantity(reader, study, columns); });
+    if (auto chart = root.table("chart")) read_chart(*chart, study);
+  }
+  problems.throw_if_any();
+  return study;
+}
+
+}  // namespace splashdown::apps

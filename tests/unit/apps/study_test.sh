@@ -1,0 +1,187 @@
+#!/usr/bin/env bash
+# `splashdown study` as scripts use it: what it leaves behind, killed in the middle and resumed, on Slurm.
+#   study_test.sh PATH_OF_SPLASHDOWN
+set -uo pipefail
+splashdown=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+check() {  # check DESCRIPTION COMMAND...
+  local what=$1
+  shift
+  if "$@"; then
+    echo "ok    $what"
+  else
+    echo "FAIL  $what"
+    failures=$((failures + 1))
+  fi
+}
+
+exits() {  # exits CODE COMMAND...: the command ends with this code
+  local expected=$1
+  shift
+  "$@" >stdout 2>stderr
+  local code=$?
+  ((code == expected)) && return 0
+  echo "exit code $code instead of $expected: $*"
+  cat stdout stderr
+  return 1
+}
+
+cat >scene.toml <<'SCENE'
+[time]
+end = 0.06
+[gravity]
+[tank]
+min = [-1, -0.6]
+max = [1, 0.6]
+[fluid]
+density = 1000
+[fluid.size]
+surface = 0.04
+far = 0.1
+[[fluid.region]]
+shape = "box"
+min = [-1, -0.6]
+max = [1, 0]
+[[body]]
+name = "wedge"
+mass = 60
+position = [0, 0.02]
+velocity = [0, -3]
+size = 0.02
+shape = { type = "wedge", deadrise_deg = 30, breadth = 0.4, height = 0.2 }
+[output]
+checkpoint = 0.02
+SCENE
+
+cat >study.toml <<'STUDY'
+scene = "scene.toml"
+[[axis]]
+name = "mass"
+key = "body.wedge.mass"
+values = [60, 1]
+[[axis]]
+name = "scheme"
+[[axis.case]]
+name = "exact"
+set = ["coupling.interface_term=rigid"]
+[[axis.case]]
+name = "plain"
+set = ["coupling.interface_term=none", "coupling.max_passes=3"]
+[[quantity]]
+name = "speed"
+table = "bodies.csv:wedge"
+quantity = "last(vy)"
+reference = {scheme = "exact"}
+unit = "m/s"
+[chart]
+x = "mass"
+series = "scheme"
+STUDY
+
+study() { "$splashdown" study study.toml --quiet "$@"; }
+
+# Everything but wall seconds, which no two runs share.
+results() { awk -F, 'NR == 1 {for (i = 1; i <= NF; ++i) if ($i == "wall_seconds") w = i} {$w = ""; print}' "$1/study.csv"; }
+same_results() {
+  cmp <(results "$1") <(results "$2") || return 1
+  for run in "$1"/*/bodies.csv; do
+    cmp "$run" "$2/${run#"$1"/}" || return 1
+  done
+}
+# Inode and time of last change of all files of the runs that are finished.
+prints_of_finished() {
+  for summary in "$1"/*/summary.json; do
+    grep -q '"status": "\(done\|failed\)"' "$summary" && find "$(dirname "$summary")" -type f -printf '%p %i %T@\n'
+  done 2>/dev/null | sort
+}
+
+check "a study needs a file" exits 2 "$splashdown" study missing.toml
+sed 's/wedge.mass/wegde.mass/' study.toml >bad.toml
+check "a bad study is refused" exits 2 "$splashdown" study bad.toml --out never
+check "with place, key and rule" grep -q 'bad.toml:5: axis.mass: body.wegde.mass=60: no body .*Did you mean' stderr
+check "and nothing is written" test ! -e never
+
+check "a study ends well although a scheme breaks down" exits 0 study --out whole
+for file in study.csv study.json; do check "it leaves $file" test -s "whole/$file"; done
+if command -v gnuplot >/dev/null; then check "and a chart" test -s whole/study.svg -a -s whole/study.png; fi
+check "all runs have ended" test "$(grep -c -E 'converged|diverged|stalled' whole/study.csv)" = 4
+check "the scheme without a term breaks down for the light body" grep -qE '^mass-1_plain,1,plain,(diverged|stalled),' whole/study.csv
+check "the exact one does not" grep -q '^mass-1_exact,1,exact,converged,' whole/study.csv
+
+prints_of_finished whole >before
+check "a finished study is made in no time" exits 0 study --out whole
+check "and nothing in its runs is touched" cmp before <(prints_of_finished whole)
+
+# Killed in the middle, with every child dead or dying, until it gets no further
+for pause in 0.2 0.4 0.6 0.3 0.8; do
+  "$splashdown" study study.toml --quiet --out killed --jobs 2 &
+  pid=$!
+  sleep $pause
+  kill -s KILL $pid 2>/dev/null
+  wait $pid 2>/dev/null
+done
+"$splashdown" study study.toml --quiet --out killed &
+pid=$!
+for ((i = 0; i < 600; ++i)); do
+  prints_of_finished killed >before
+  (($(grep -c summary.json before) >= 2)) && break
+  sleep 0.05
+done
+kill -s KILL $pid 2>/dev/null
+wait $pid 2>/dev/null
+# The runs of a killed study save a checkpoint or end their report; from then on nothing may change.
+for ((i = 0; i < 600; ++i)); do
+  pgrep -f -- "--out $work/killed/" >/dev/null || break
+  sleep 0.05
+done
+check "the runs of a killed study end by themselves" test $i -lt 600
+prints_of_finished killed >before
+check "some runs were finished before the kill" test -s before
+check "the rest is finished by the same command" exits 0 study --out killed --jobs 2
+check "what was finished is untouched" cmp before <(grep -F -f <(cut -d' ' -f1 before) <(prints_of_finished killed))
+check "results are those of an undisturbed study" same_results whole killed
+
+"$splashdown" study study.toml --quiet --out stopped &
+pid=$!
+sleep 0.3
+kill -s TERM $pid
+wait $pid
+check "SIGTERM ends a study with 130" test $? -eq 130
+check "and it goes on" exits 0 study --out stopped
+check "to the same results" same_results whole stopped
+
+# Another value: only what is new is made.
+prints_of_finished whole >before
+sed 's/60, 1/60, 1, 30/' study.toml >more.toml
+check "a longer axis" exits 0 "$splashdown" study more.toml --quiet --out whole
+check "makes its new runs only" cmp before <(grep -F -f <(cut -d' ' -f1 before) <(prints_of_finished whole))
+check "which are there" test "$(grep -c '^mass-30_' whole/study.csv)" = 2
+
+# A stand-in for sbatch that works the array off at once
+mkdir bin
+cat >bin/sbatch <<'SBATCH'
+#!/usr/bin/env bash
+echo "$@" >>sbatch.calls
+for script in "$@"; do :; done
+case "$*" in
+*--wrap*) bash -c "$script" >&2 && echo '8;cluster' ;;
+*)
+  last=$(sed -n 's/^#SBATCH --array=0-\([0-9]*\)%.*/\1/p' "$script")
+  for ((task = 0; task <= last; ++task)); do SLURM_ARRAY_TASK_ID=$task bash "$script" >&2; done
+  echo '7;cluster' ;;
+esac
+SBATCH
+chmod +x bin/sbatch
+check "without sbatch --on slurm is refused" exits 2 env PATH=/nowhere "$splashdown" study study.toml --on slurm --out never
+check "and nothing is written" test ! -e never
+check "with it the study is handed over" exits 0 env PATH="$work/bin:$PATH" "$splashdown" study study.toml --on slurm --out array
+check "the gathering job waits for the array" grep -q -- '--dependency=afterany:7' sbatch.calls
+"$splashdown" study study.toml --quiet --out local_again
+check "the array's results are those of a study without Slurm" same_results local_again array
+
+echo "$failures failures"
+((failures == 0))
