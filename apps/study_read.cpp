@@ -150,6 +150,10 @@ void read_quantity(Reader& reader, Study& study, Columns& columns) {
   check_expression(reader, "scale", quantity.scale);
   if (!quantity.scale.empty() && !reader.holds("exact") && !reader.holds("reference"))
     reader.context().problems.add(reader.key("scale"), "has nothing to scale", "Add exact or reference.");
+  reader.number("limit", quantity.limit,
+                positive("", "Use the largest error that is still a solution, e.g. 1."));
+  if (quantity.limit && !reader.holds("exact") && !reader.holds("reference"))
+    reader.context().problems.add(reader.key("limit"), "has nothing to limit", "Add exact or reference.");
   if (quantity.exact && reader.holds("reference"))
     reader.context().problems.add(reader.key("reference"), "must not stand beside exact",
                                   "An error refers to one of the two.");

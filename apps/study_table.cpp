@@ -89,6 +89,17 @@ void compare_one(const Study& study, const StudyQuantity& quantity, const StudyR
   outcome.numbers[quantity.error_name()] = error_of(quantity, mine->second, other->second, names);
 }
 
+/// Coupling passes can agree on velocities that have nothing to do with the motion.
+void judge(const StudyQuantity& quantity, Outcome& outcome) {
+  const auto error = outcome.numbers.find(quantity.error_name());
+  if (outcome.status != Outcome::Status::converged || !quantity.limit || error == outcome.numbers.end())
+    return;
+  if (error->second <= *quantity.limit) return;  // nan is not
+  outcome.status = Outcome::Status::diverged;
+  outcome.cause =
+      fmt::format("{} = {:.3g} exceeds {:g}", quantity.error_name(), error->second, *quantity.limit);
+}
+
 std::vector<std::string> measured_columns(const Study& study) {
   std::vector<std::string> columns;
   for (const auto& quantity : study.quantities) {
@@ -238,6 +249,8 @@ std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>
       compare_one(study, quantity, runs[i], outcomes[reference_run(study, quantity, runs[i])], outcomes[i]);
     });
   }
+  for (const auto& quantity : study.quantities)
+    for (auto& outcome : outcomes) judge(quantity, outcome);
   return notes;
 }
 

@@ -196,6 +196,21 @@ TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions)
   EXPECT_TRUE(first.starts_with("ratio-1_plain,1,plain,converged,3.5,,,,,31,5,0.25,")) << first;
 }
 
+TEST_F(StudyTest, a_run_whose_error_exceeds_its_limit_has_diverged) {
+  auto text = good_study;
+  text.replace(text.find("scale = \"2*g\""), 13, "limit = 0.6");
+  const auto study = read(text);
+  const auto runs = resolved(study);
+  leave(runs[0], "done", "", 3.9);  // ratio 1: |3.9/9.81 - 1| = 0.602
+  leave(runs[1], "done", "", 4);    // 0.592
+  std::vector<Outcome> outcomes;
+  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder_ / run.name));
+  EXPECT_TRUE(measure(study, runs, folder_, outcomes).empty());
+  EXPECT_EQ(outcomes[0].status, Outcome::Status::diverged);
+  EXPECT_EQ(outcomes[0].cause, "fall_error = 0.602 exceeds 0.6");
+  EXPECT_EQ(outcomes[1].status, Outcome::Status::converged);
+}
+
 TEST_F(StudyTest, a_quantity_without_a_value_is_told_once) {
   auto text = good_study;
   text.replace(text.find("last(vy)"), 8, "last(vz)");
@@ -281,6 +296,9 @@ const std::vector<BadStudy> studies = {
     {"exact_beside_a_reference", "exact = \"ratio\"", "exact = 1\nreference = {scheme = \"exact\"}", 29,
      "quantity.fall.reference", "must not stand beside exact"},
     {"scale_of_nothing", "exact = \"ratio\"\n", "", 28, "quantity.fall.scale", "nothing to scale"},
+    {"limit_of_nothing",
+     "quantity = \"last(vy)\"\ntable = \"bodies.csv:wedge\"\nreference = {scheme = \"exact\"}",
+     "quantity = \"last(vy)\"\nlimit = 1", 23, "quantity.speed.limit", "nothing to limit"},
     {"chart_of_no_axis", "x = \"ratio\"", "x = \"rato\"", 31, "chart.x = \"rato\"", "Did you mean 'ratio'?"},
     {"chart_over_words", "x = \"ratio\"", "x = \"scheme\"", 31, "chart.x = \"scheme\"", "axis of numbers"},
     {"chart_of_no_column", "\"passes_mean\"", "\"passes\"", 33, "chart.y", "'passes_mean'"},
