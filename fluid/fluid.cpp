@@ -11,6 +11,7 @@
 #include "fluid/adapt.hpp"
 #include "fluid/contact.hpp"
 #include "fluid/initial.hpp"
+#include "fluid/landing.hpp"
 #include "fluid/size_field.hpp"
 #include "fluid/timer.hpp"
 
@@ -31,6 +32,16 @@ struct Present {
   std::vector<double> wetted;
   double acceleration_dt = std::numeric_limits<double>::infinity();
   Ledger ledger;
+};
+
+// What one solve works with.
+template <int d>
+struct Trial {
+  std::vector<Vec<d>> v;                    // of nodes, before the pressure
+  std::vector<Twist<d>> s_before;           // of walls, repaired
+  std::vector<Vec<d>> x_mid;                // where a motion is judged
+  std::vector<double> r, repaired;          // residual, repair impulse
+  std::vector<Wrench<d>> on_walls, dragged;  // impulses of effects and of sticking
 };
 
 template <class Archive, class T>
@@ -69,32 +80,6 @@ void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh) {
   }
 }
 
-// Drops that land become part of much larger cells. They bring their own momentum and no more: the liquid that
-// now counts to their nodes too keeps its velocity.
-template <int d>
-void land(Nodes<d>& nodes, const Mesh<d>& mesh) {
-  constexpr double landed = 3;  // volume around a node over the one it had; by remeshing alone it hardly doubles
-  std::vector<double> volume_now(nodes.size(), 0.0);
-  for (const auto& cell : mesh.cells)
-    for (int n : cell) volume_now[n] += volume<d>(corners(nodes.x, cell)) / (d + 1);
-  auto lands = [&](int n) { return nodes.volume[n] > 0 && volume_now[n] > landed * nodes.volume[n]; };
-  std::vector<int> who;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (lands(static_cast<int>(i))) who.push_back(static_cast<int>(i));
-  if (who.empty()) return;
-  std::vector<Vec<d>> momentum(nodes.size(), Vec<d>::Zero());
-  std::vector<double> weight(nodes.size(), 0.0);
-  for (const auto& cell : mesh.cells)
-    for (int n : cell) {
-      if (!lands(n)) continue;
-      for (int other : cell)
-        if (!lands(other)) momentum[n] += volume_now[other] * nodes.v[other], weight[n] += volume_now[other];
-    }
-  for (int n : who)
-    if (weight[n] > 0) nodes.q[n] = 0, nodes.v[n] = momentum[n] / weight[n] +
-                                    nodes.volume[n] / volume_now[n] * (nodes.v[n] - momentum[n] / weight[n]);
-}
-
 // Shorter edges are merged or lie across a film, and limit no time step.
 constexpr double merged_below = 0.45;
 // Measured on a standing wave: with fewer its amplitude drifts by more than 0.5 % a period.
@@ -119,7 +104,8 @@ struct Fluid<d>::State {
   PressureEquation<d> equation;
   std::optional<WallMotion<d>> wall_motion;
   typename WallMotion<d>::Moved moved;
-  std::vector<Vec<d>> v_before, v_after;
+  Trial<d> trial;
+  std::vector<Vec<d>> v_after;
   std::vector<Twist<d>> s_after;
   std::vector<double> found_by_corrections;  // nodes' next q
   std::vector<double> phi;                   // physical impulse
@@ -213,6 +199,15 @@ struct Fluid<d>::State {
   }
 
   Status solve(std::span<const Twist<d>> given, std::span<const double> previous);
+  Status repair();
+  Status predict();
+  Status press(std::span<const Twist<d>> given, std::span<const double> previous);
+  Status correct(std::span<const double> previous);
+  void weigh(std::span<const Twist<d>> given);
+  void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
+  void middle(std::span<const Vec<d>> u, double by) {
+    for (std::size_t i = 0; i < u.size(); ++i) trial.x_mid[i] = work.nodes.x[i] + by * u[i];
+  }
   bool finite() const;
   bool orderly() const;
 };
@@ -292,102 +287,131 @@ Status Fluid<d>::begin(double kick, double dt, std::span<const WallResponse<d>> 
 
 template <int d>
 Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const double> previous) {
-  const auto& x = work.nodes.x;
-  const std::size_t count = x.size();
-  found_by_corrections.resize(count);
-  std::vector<Vec<d>> v = work.nodes.v;
-  std::vector<Twist<d>> s_before = work.velocity;
-  std::vector<double> r, repair(equation.size(), 0.0);
-  std::vector<Vec<d>> x_mid(count);
   if (previous.size() != equation.laplacian().pieces().size())
     throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
-  // The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree. The repair
-  // keeps it: it stands for the body's answer, and what it leaves of the flux the pressure finds.
-  auto lag = [&](std::vector<double>& residual, std::span<const double> present) {
-    if (previous.empty()) return;
-    std::vector<double> change = equation.laplacian().means(present);
-    for (std::size_t k = 0; k < change.size(); ++k) change[k] = previous[k] - change[k];
-    equation.laplacian().add(change, residual);
-  };
-  auto middle = [&](std::span<const Vec<d>> u, double by) {
-    for (std::size_t i = 0; i < count; ++i) x_mid[i] = x[i] + by * u[i];
-  };
-
-  // Repair: the carried velocity, seen at t_{n-1/2} on the new mesh, creates no volume.
+  trial.v = work.nodes.v;
+  trial.s_before = work.velocity;
+  trial.x_mid.resize(trial.v.size());
+  trial.on_walls.assign(walls.size(), Wrench<d>::Zero());
+  trial.dragged = trial.on_walls;
+  if (auto status = repair(); !status.ok()) return status;
+  if (auto status = predict(); !status.ok()) return status;
   {
     const auto scope = timer.scope(pressure);
-    energy_before = kinetic_energy(v);
-    for (int k = 0; k < repairs; ++k) {
-      middle(v, -0.5 * work.dt);
-      equation.flux_residual(x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
-      if (!equation.solve(r, s_before)) return {"the pressure solve failed"};
-      equation.accelerate(r, v);
-      for (int i = 0; i < equation.size(); ++i) repair[i] += r[i];
-    }
-    energy_repaired = kinetic_energy(v);
+    if (auto status = press(given, previous); !status.ok()) return status;
+    if (auto status = correct(previous); !status.ok()) return status;
+    weigh(given);
   }
-  std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero()), dragged = on_walls;  // impulses
+  return finite() ? Status{} : Status{"the solution is not finite"};
+}
+
+// The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree. The repair
+// keeps it: it stands for the body's answer, and what it leaves of the flux the pressure finds.
+template <int d>
+void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double> previous,
+                          std::span<const double> present) const {
+  if (previous.empty()) return;
+  std::vector<double> change = equation.laplacian().means(present);
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] = previous[k] - change[k];
+  equation.laplacian().add(change, residual);
+}
+
+// The carried velocity, seen at t_{n-1/2} on the new mesh, creates no volume.
+template <int d>
+Status Fluid<d>::State::repair() {
+  const auto scope = timer.scope(pressure);
+  auto& [v, s_before, x_mid, r, repaired, on_walls, dragged] = trial;
+  repaired.assign(equation.size(), 0.0);
+  energy_before = kinetic_energy(v);
+  for (int k = 0; k < repairs; ++k) {
+    middle(v, -0.5 * work.dt);
+    equation.flux_residual(x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
+    if (!equation.solve(r, s_before)) return {"the pressure solve failed"};
+    equation.accelerate(r, v);
+    for (int i = 0; i < equation.size(); ++i) repaired[i] += r[i];
+  }
+  energy_repaired = kinetic_energy(v);
+  return {};
+}
+
+template <int d>
+Status Fluid<d>::State::predict() {
   std::vector<Vec<d>> carried;
   if (!terms.empty()) {
     const auto scope = timer.scope(momentum);
-    carried = v;
+    carried = trial.v;
   }
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const auto scope = timer.scope(effects + t);
-    if (auto status = terms[t]->predict(view(), {carried, s_before}, {v, on_walls}); !status.ok()) return status;
+    if (auto status = terms[t]->predict(view(), {carried, trial.s_before}, {trial.v, trial.on_walls}); !status.ok())
+      return status;
   }
-  // Pressure: the motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
-  const auto scope = timer.scope(pressure);
+  return {};
+}
+
+// The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
+template <int d>
+Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const double> previous) {
   s_after.assign(given.begin(), given.end());
   for (std::size_t w = 0; w < walls.size(); ++w)
-    s_after[w] += s_before[w] - work.velocity[w] + responses[w].rigid * on_walls[w];
-  middle(v, 0.5 * dt);
-  equation.flux_residual(x_mid, v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
-  lag(phi, std::vector<double>(phi.size(), 0.0));
-  if (!equation.solve(phi, s_after)) return {"the pressure solve failed"};
-  // The corrections start from what they found in the last step, so that they converge over the steps.
-  std::vector<double> total = phi;
+    s_after[w] += trial.s_before[w] - work.velocity[w] + responses[w].rigid * trial.on_walls[w];
+  middle(trial.v, 0.5 * dt);
+  equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
+  lag(phi, previous, std::vector<double>(phi.size(), 0.0));
+  return equation.solve(phi, s_after) ? Status{} : Status{"the pressure solve failed"};
+}
+
+template <int d>
+Status Fluid<d>::State::correct(std::span<const double> previous) {
+  auto& [v, s_before, x_mid, r, repaired, on_walls, dragged] = trial;
+  const auto& unknown = equation.unknown();
+  const std::size_t count = v.size();
+  // They start from what they found in the last step, so that they converge over the steps.
+  const std::vector<double> uncorrected = phi;
   for (std::size_t i = 0; i < count; ++i)
-    if (equation.unknown()[i] >= 0) r[equation.unknown()[i]] = kick * work.nodes.q[i];
+    if (unknown[i] >= 0) r[unknown[i]] = kick * work.nodes.q[i];
   equation.respond(r, s_after);
-  for (int i = 0; i < equation.size(); ++i) total[i] += r[i];
+  for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
   for (int k = 0;; ++k) {
     v_after = v;
-    equation.accelerate(total, v_after);
+    equation.accelerate(phi, v_after);
     wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
     if (k == corrections) break;
     if (wall_motion->sticks()) stick(dragged);
-    for (std::size_t i = 0; i < count; ++i) x_mid[i] = 0.5 * (x[i] + moved.x[i]);
+    for (std::size_t i = 0; i < count; ++i) x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]);
     equation.motion_residual(x_mid, moved.u, r);
-    lag(r, total);
+    lag(r, previous, phi);
     if (!equation.solve(r, s_after)) return {"the pressure solve failed"};
-    for (int i = 0; i < equation.size(); ++i) total[i] += r[i];
+    for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const int k = equation.unknown()[i];
-    found_by_corrections[i] = k < 0 ? 0.0 : (total[k] - phi[k]) / kick;
-  }
-  phi = total;
-  interface = equation.laplacian().means(phi);
+  found_by_corrections.assign(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i)
+    if (unknown[i] >= 0) found_by_corrections[i] = (phi[unknown[i]] - uncorrected[unknown[i]]) / kick;
+  return {};
+}
 
+// Loads, pressures and energies of the solution.
+template <int d>
+void Fluid<d>::State::weigh(std::span<const Twist<d>> given) {
+  interface = equation.laplacian().means(phi);
   loads.assign(walls.size(), {});
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const Twist<d> pushed = s_before[w] - work.velocity[w];
-    const Twist<d> answered = s_after[w] - given[w] - pushed - responses[w].rigid * (on_walls[w] + dragged[w]);
-    loads[w].physical = (consistent<d>(responses[w].rigid, answered, equation.impulse(w, phi)) + on_walls[w] + dragged[w]) / kick;
-    loads[w].repair = consistent<d>(responses[w].rigid, pushed, equation.impulse(w, repair)) / kick;
+    const Wrench<d> effects_on_wall = trial.on_walls[w] + trial.dragged[w];
+    const Twist<d> pushed = trial.s_before[w] - work.velocity[w];
+    const Twist<d> answered = s_after[w] - given[w] - pushed - responses[w].rigid * effects_on_wall;
+    loads[w].physical =
+        (consistent<d>(responses[w].rigid, answered, equation.impulse(w, phi)) + effects_on_wall) / kick;
+    loads[w].repair = consistent<d>(responses[w].rigid, pushed, equation.impulse(w, trial.repaired)) / kick;
     loads[w].wetted = work.wetted[w];
   }
-  for (std::size_t i = 0; i < count; ++i)
-    work.nodes.p[i] = equation.unknown()[i] < 0 ? 0.0 : phi[equation.unknown()[i]] / kick;
   Ledger& ledger = work.ledger;
   ledger.kinetic_energy = ledger.potential_energy = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < trial.v.size(); ++i) {
+    work.nodes.p[i] = equation.unknown()[i] < 0 ? 0.0 : phi[equation.unknown()[i]] / kick;
     const double mass = spec.density * (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]);
     ledger.kinetic_energy += 0.5 * mass * (0.5 * (work.nodes.v[i] + moved.u[i])).squaredNorm();
-    for (const auto& term : terms) ledger.potential_energy += mass * term->potential(x[i]);
+    for (const auto& term : terms) ledger.potential_energy += mass * term->potential(work.nodes.x[i]);
   }
-  return finite() ? Status{} : Status{"the solution is not finite"};
 }
 
 template <int d>
