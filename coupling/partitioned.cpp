@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cmath>
 #include <istream>
+#include <limits>
 #include <ostream>
 #include <sstream>
 
@@ -93,7 +94,7 @@ StepReport Partitioned<d>::attempt(double dt) {
     length = std::max(length, (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm());
   }
   StepReport report;
-  double first = 0;
+  double first = 0, calmest = std::numeric_limits<double>::infinity();
   const double fluid_seconds = [&] {
     double sum = 0;
     for (const auto& p : fluid_->phase_seconds()) sum += p.second;
@@ -112,9 +113,9 @@ StepReport Partitioned<d>::attempt(double dt) {
     const auto found = fluid_->interface_impulse();
     const Eigen::VectorXd now = space.vector({{walls_used.begin(), walls_used.end()}, x.impulses});
     const Eigen::VectorXd image = space.vector({trial_velocities(), {found.begin(), found.end()}});
-    if (report.passes == 1)
-      scale = std::max({scale, space.velocities(trial_velocities()).norm(), still * length / dt});
-    report.residual = (image - now).norm() / scale;
+    // Relative to the calmest pass so far: a wild one would excuse errors of its own size.
+    calmest = std::min(calmest, space.velocities(trial_velocities()).norm());
+    report.residual = (image - now).norm() / std::max({scale, calmest, still * length / dt});
     if (!std::isfinite(report.residual)) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
       return report;
