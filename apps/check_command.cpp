@@ -145,6 +145,10 @@ void print_cost(const Scene& scene) {
   row("memory", fmt::format("about {}", with_unit(cost.bytes, "B")));
   row("a step", fmt::format("about {} on one core", with_unit(cost.seconds_per_step, "s")));
   row("the run", "about " + clock_text(cost.steps * cost.seconds_per_step));
+  if (scene.fluid->size.hollow)
+    row("not counted", "finer elements at hollows (hollow): more nodes, shorter steps and a longer run than said");
+  if (scene.fluid->size.wetted_fraction > 0)
+    row("not counted", "larger elements at wetted walls (wetted_fraction): fewer nodes and longer steps than said");
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ struct Cost {
   double steps = 0;
 };
 
-/// Nodes: the integral of 2/(sqrt(3) h^2) over the liquid, what equilateral triangles of side h have.
+/// Nodes: the integral of 2/(sqrt(3) h^2) over the liquid, what equilateral triangles of side h have. Sizes are those
+/// of t = 0: what `hollow` adds and `wetted_fraction` saves later is not in it.
 Cost predicted_cost(const Scene& scene);
 
 }  // namespace splashdown::apps

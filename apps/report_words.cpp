@@ -25,7 +25,6 @@ std::string status_sentence(const nlohmann::ordered_json& summary) {
   const std::string status = summary.value("status", "");
   if (status == "done") return "The run finished";
   if (status == "interrupted") return "The run was interrupted and can be resumed";
-  if (status == "budget") return "The run used up its time budget and can be resumed";
   if (status == "failed") return "The run could not go on";
   return "The run stopped";
 }

@@ -68,7 +68,7 @@ struct CouplingSummary {
 
 struct Summary {
   std::string scene;   ///< name of the scene, for headings
-  std::string status;  ///< "done", "failed", "interrupted" or "budget"
+  std::string status;  ///< "done", "failed" or "interrupted" (by a signal or a spent budget)
   std::string cause;   ///< why it failed; empty otherwise
   int dimension = 2;
   double simulated_time = 0;  ///< [s]

@@ -184,9 +184,7 @@ struct Fluid<d>::State {
     (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
     (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
     work.ledger.volume = after;
-    work.wetted.assign(walls.size(), 0.0);
-    for (const auto& f : work.mesh.boundary)
-      if (f.wall >= 0) work.wetted[f.wall] += area_vector_of<d>(f, work.nodes.x).norm();
+    work.wetted = wetted_measures(work.mesh, work.nodes.x, walls.size());
     prepared = true;
   }
 
@@ -223,14 +221,12 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms) 
     now.poses.push_back(w.pose);
     now.velocity.push_back(w.velocity);
   }
-  now.wetted.assign(s_->walls.size(), 0.0);
   auto liquid = fill<d>(s_->spec, s_->walls_at(now.poses));
   now.nodes = std::move(liquid.nodes);
   now.mesh = std::move(liquid.mesh);
   now.h = std::move(liquid.h);
   share_volumes(now.nodes, now.mesh);
-  for (const auto& f : now.mesh.boundary)
-    if (f.wall >= 0) now.wetted[f.wall] += area_vector_of<d>(f, now.nodes.x).norm();
+  now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }
 

@@ -4,7 +4,8 @@
 //
 // Linear simplices, lumped mass, fractional step. Leapfrog in time: velocities live at half steps,
 // positions at whole ones; the pressure impulse phi = kick * p makes the motion from x_n to x_{n+1}
-// volume preserving on the mesh of t_n (SHAKE, Ryckaert, Ciccotti, Berendsen 1977, applied to volumes).
+// volume preserving on the mesh of t_n (SHAKE, Ryckaert, Ciccotti, Berendsen 1977, applied to volumes), but for
+// what three corrections leave and for the nodes that fly; both are booked in the ledger as time integration.
 // Second order in time. docs/theory.md derives it; docs/validation.md measures it.
 //
 //   begin    remesh at t_n, fill and factor the pressure matrix

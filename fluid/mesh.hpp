@@ -33,6 +33,15 @@ Vec<d> area_vector_of(const Facet<d>& f, const Positions& x) {
   return area_vector(corner);
 }
 
+/// Wetted measure of each of `walls` walls: length (2D) [m], area (3D) [m^2].
+template <int d, class Positions>
+std::vector<double> wetted_measures(const Mesh<d>& mesh, const Positions& x, std::size_t walls) {
+  std::vector<double> wetted(walls, 0.0);
+  for (const auto& f : mesh.boundary)
+    if (f.wall >= 0) wetted[f.wall] += area_vector_of<d>(f, x).norm();
+  return wetted;
+}
+
 /// Volume enclosed by a closed set of facets: (1/d) sum of x . A.
 template <int d, class Positions>
 double enclosed_volume(const std::vector<Facet<d>>& facets, const Positions& x) {

@@ -33,14 +33,16 @@ struct LiquidSpec {
 struct SizeSpec {
   double surface = 0;          ///< at the free surface [m]
   double far = 0;              ///< largest element [m]
-  double growth = 0.15;        ///< dh/dx; 0.1-0.2: wedge study in docs/validation.md
+  double growth = 0.15;        ///< dh/dx; the wedges of docs/validation.md use 0.1
   double wetted_fraction = 0;  ///< at a wall h is at least this fraction of its wetted half length
   /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
   double hollow = std::numeric_limits<double>::infinity();
   double hollow_min = 0;  ///< ... but not below this [m]
 };
 
-/// dt = min(cfl * min over edges of length / |relative velocity along it|, dt_max)
+/// dt = min(cfl * min over edges of length / |relative velocity|, min over nodes of sqrt(h / |a|) / 2, dt_max): the
+/// norm of the difference of the edge's end velocities, whatever its direction, and a, the acceleration of the
+/// nodes over the last step. Effects may ask for less.
 struct TimeStepSpec {
   double cfl = 0.5;
   double dt_max = 1e-2;
