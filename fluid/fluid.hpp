@@ -2,7 +2,7 @@
 //
 //   rho Dv/Dt + grad p = rho g + ...,   div v = 0,   p = 0 on the free surface,   v.n = w.n on walls
 //
-// Linear simplices, lumped mass, fractional step. Leapfrog in time: velocities live at half steps,
+// Linear simplices, fractional step. Leapfrog in time: velocities live at half steps,
 // positions at whole ones; the pressure impulse phi = kick * p makes the motion from x_n to x_{n+1}
 // volume preserving on the mesh of t_n (SHAKE, Ryckaert, Ciccotti, Berendsen 1977, applied to volumes), but for
 // what three corrections leave and for the nodes that fly; both are booked in the ledger as time integration.

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double flat = 1e-7;         // volume over longest edge^d below which a cell is degenerate
 constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, belong to no fluid cell
+constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
 constexpr double facet_sag = 0.1;     // wetted facets stay this close to their wall, over their length
 
 template <int d>
@@ -56,22 +57,41 @@ bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double
   return false;
 }
 
+// The facet lies on `wall`: its nodes are tied to it, or to another wall and sit where both meet.
 template <int d>
-int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
-  const int wall = nodes.tie[f.nodes[0]].wall;
-  if (wall < 0) return -1;
+bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
+  const double length = (nodes.x[f.nodes[1]] - nodes.x[f.nodes[0]]).norm();
+  auto near = [&](const Vec<d>& x, double most) {
+    return at.walls[wall].distance_unsigned(at.poses[wall], x, length) < most * length;
+  };
   Vec<d> centre = Vec<d>::Zero();
+  int patch = -1;
   bool one_patch = true, at_vertex = false;
   for (int n : f.nodes) {
-    if (nodes.tie[n].wall != wall) return -1;
     centre += nodes.x[n] / d;
-    one_patch = one_patch && nodes.tie[n].patch == nodes.tie[f.nodes[0]].patch;
-    at_vertex = at_vertex || nodes.tie[n].vertex >= 0;
+    const WallTie& tie = nodes.tie[n];
+    if (tie.wall != wall) {
+      if (tie.wall < 0 || !near(nodes.x[n], facet_meet)) return false;
+      at_vertex = true;
+      continue;
+    }
+    one_patch = one_patch && (patch < 0 || patch == tie.patch);
+    patch = tie.patch;
+    at_vertex = at_vertex || tie.vertex >= 0;
   }
-  if (d == 2 && !one_patch && !at_vertex) return -1;  // cuts a corner
-  const double length = (nodes.x[f.nodes[1]] - nodes.x[f.nodes[0]]).norm();
-  const double gap = at.walls[wall].distance_unsigned(at.poses[wall], centre, length);
-  return gap < facet_sag * length ? wall : -1;
+  if (d == 2 && !one_patch && !at_vertex) return false;  // cuts a corner
+  return near(centre, facet_sag);
+}
+
+template <int d>
+int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
+  for (int k = 0; k < d; ++k) {
+    const int wall = nodes.tie[f.nodes[k]].wall;
+    if (wall < 0) return -1;
+    if (k > 0 && wall == nodes.tie[f.nodes[k - 1]].wall) continue;
+    if (lies_on(wall, f, nodes, at)) return wall;
+  }
+  return -1;
 }
 
 }  // namespace

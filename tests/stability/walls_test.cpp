@@ -75,7 +75,7 @@ TEST(Cup, carries_the_weight_of_its_water) {
 }
 
 // Fails: beside the corner a facet has one node of the block and one of the bottom, and counts as free surface.
-TEST(Block, DISABLED_on_the_bottom_feels_the_water_above_it_only) {
+TEST(Block, on_the_bottom_feels_the_water_above_it_only) {
   auto spec = fluid::scenes::still_water(2, 1, 0.1);
   spec.walls.insert(spec.walls.begin(),
                     fluid::scenes::wall("block", fluid::scenes::rectangle({-0.3, -1}, {0.3, -0.6}), 0.1));
