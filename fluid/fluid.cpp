@@ -72,16 +72,19 @@ Wrench<d> consistent(const Compliance<d>& rigid, const Twist<d>& answer, const W
 
 template <int d>
 void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh) {
+  const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (!nodes.spray[i]) nodes.volume[i] = 0;
-  for (const auto& cell : mesh.cells) {
-    const double share = volume<d>(corners(nodes.x, cell)) / (d + 1);
-    for (int n : cell) nodes.volume[n] += share;
-  }
+    if (!nodes.spray[i]) nodes.volume[i] = volumes[i];
 }
 
 // Shorter edges are merged or lie across a film, and limit no time step.
 constexpr double merged_below = 0.45;
+template <int d>
+double squared_length(const Present<d>& at, int i, int j) {
+  const double short_edge = merged_below * std::min(at.h[i], at.h[j]);
+  return std::max((at.nodes.x[i] - at.nodes.x[j]).squaredNorm(), short_edge * short_edge);
+}
+
 // Measured on a standing wave: with fewer its amplitude drifts by more than 0.5 % a period.
 constexpr int corrections = 3;
 constexpr int repairs = 2;
@@ -248,9 +251,7 @@ double Fluid<d>::stable_dt() const {
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
         const double rate = (now.nodes.v[cell[i]] - now.nodes.v[cell[j]]).squaredNorm();
-        const double short_edge = merged_below * std::min(now.h[cell[i]], now.h[cell[j]]);
-        const double length = std::max((now.nodes.x[cell[i]] - now.nodes.x[cell[j]]).squaredNorm(),
-                                       short_edge * short_edge);
+        const double length = squared_length(now, cell[i], cell[j]);
         if (length < squared * rate) squared = length / rate;
       }
   }
@@ -353,7 +354,7 @@ Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const d
     s_after[w] += trial.s_before[w] - work.velocity[w] + responses[w].rigid * trial.on_walls[w];
   middle(trial.v, 0.5 * dt);
   equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
-  lag(phi, previous, std::vector<double>(phi.size(), 0.0));
+  if (!previous.empty()) equation.laplacian().add(previous, phi);
   return equation.solve(phi, s_after) ? Status{} : Status{"the pressure solve failed"};
 }
 
@@ -427,9 +428,8 @@ bool Fluid<d>::State::orderly() const {
     if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) continue;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
-        const double length = std::max((work.nodes.x[cell[i]] - work.nodes.x[cell[j]]).norm(),
-                                       merged_below * std::min(work.h[cell[i]], work.h[cell[j]]));
-        if ((moved.u[cell[i]] - moved.u[cell[j]]).norm() * dt > most * length) return false;
+        const double change = dt / most * (moved.u[cell[i]] - moved.u[cell[j]]).norm();
+        if (change * change > squared_length(work, cell[i], cell[j])) return false;
       }
   }
   return true;

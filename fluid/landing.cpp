@@ -5,11 +5,7 @@ namespace splashdown::fluid {
 template <int d>
 void land(Nodes<d>& nodes, const Mesh<d>& mesh) {
   constexpr double landed = 3;
-  std::vector<double> now(nodes.size(), 0.0);
-  for (const auto& cell : mesh.cells) {
-    const double share = volume<d>(corners(nodes.x, cell)) / (d + 1);
-    for (int n : cell) now[n] += share;
-  }
+  const std::vector<double> now = nodal_volumes(mesh, nodes.x);
   std::vector<int> lands;
   std::vector<char> is_landing(nodes.size(), 0);
   for (std::size_t i = 0; i < nodes.size(); ++i) {

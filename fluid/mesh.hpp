@@ -50,4 +50,15 @@ double enclosed_volume(const std::vector<Facet<d>>& facets, const Positions& x) 
   return volume_sum;
 }
 
+/// Volume of the cells around each node, shared equally among their corners [m^d].
+template <int d, class Positions>
+std::vector<double> nodal_volumes(const Mesh<d>& mesh, const Positions& x) {
+  std::vector<double> volumes(x.size(), 0.0);
+  for (const auto& cell : mesh.cells) {
+    const double share = volume<d>(corners(x, cell)) / (d + 1);
+    for (int n : cell) volumes[n] += share;
+  }
+  return volumes;
+}
+
 }  // namespace splashdown::fluid

@@ -17,7 +17,7 @@
 //   surface(q, phi) = sum_i - q_i A_i . g_i(phi) - phi_i A_i . g_i(q) + 2 n_i q_i phi_i sum_f |A_f / d|^2 / m_i
 //
 // n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Nodes of
-// thin sheets and of spikes keep phi = 0: they fly.
+// thin sheets, of spikes and of contact lines keep phi = 0.
 // B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
 // The exact rigid response C = M_b^-1 has low rank, so it is eliminated on the factor (Woodbury):
 //

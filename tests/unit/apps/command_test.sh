@@ -3,10 +3,10 @@
 #   command_test.sh PATH_OF_SPLASHDOWN
 set -uo pipefail
 splashdown=$1
+. "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failures=0
 
 cat >scene.toml <<'SCENE'
 title = "coarse wedge"
@@ -42,28 +42,6 @@ name = "keel"
 body = "wedge"
 point = [0, 0]
 SCENE
-
-check() {  # check DESCRIPTION COMMAND...
-  local what=$1
-  shift
-  if "$@"; then
-    echo "ok    $what"
-  else
-    echo "FAIL  $what"
-    failures=$((failures + 1))
-  fi
-}
-
-exits() {  # exits CODE COMMAND...: the command ends with this code
-  local expected=$1
-  shift
-  "$@" >stdout 2>stderr
-  local code=$?
-  ((code == expected)) && return 0
-  echo "exit code $code instead of $expected: $*"
-  cat stderr
-  return 1
-}
 
 # Rows without the column of wall-clock seconds.
 simulated() { awk -F, 'NR == 1 {for (i = 1; i <= NF; ++i) if ($i == "wall_seconds") w = i} {$w = ""; print}' "$1"; }

@@ -3,32 +3,10 @@
 #   study_test.sh PATH_OF_SPLASHDOWN
 set -uo pipefail
 splashdown=$1
+. "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failures=0
-
-check() {  # check DESCRIPTION COMMAND...
-  local what=$1
-  shift
-  if "$@"; then
-    echo "ok    $what"
-  else
-    echo "FAIL  $what"
-    failures=$((failures + 1))
-  fi
-}
-
-exits() {  # exits CODE COMMAND...: the command ends with this code
-  local expected=$1
-  shift
-  "$@" >stdout 2>stderr
-  local code=$?
-  ((code == expected)) && return 0
-  echo "exit code $code instead of $expected: $*"
-  cat stdout stderr
-  return 1
-}
 
 cat >scene.toml <<'SCENE'
 [time]

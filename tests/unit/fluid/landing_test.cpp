@@ -15,8 +15,7 @@ TYPED_TEST_SUITE(Landing, Dimensions);
 template <int d>
 scenes::Lattice<d> pool() {
   scenes::Lattice<d> pool(4);
-  for (const auto& cell : pool.mesh.cells)
-    for (int n : cell) pool.nodes.volume[n] += volume<d>(corners(pool.nodes.x, cell)) / (d + 1);
+  pool.nodes.volume = nodal_volumes(pool.mesh, pool.nodes.x);
   for (auto& v : pool.nodes.v) v = Vec<d>::Constant(0.5);
   return pool;
 }
