@@ -67,8 +67,8 @@ int command_line(int argc, char** argv) {
   study_app->add_flag("--quiet", study.quiet, "print errors only");
 
   std::filesystem::path directory;
-  auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run");
-  report_app->add_option("directory", directory, "folder of the run")->required();
+  auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run or a study");
+  report_app->add_option("directory", directory, "folder of the run or the study")->required();
 
   try {
     app.parse(argc, argv);

@@ -20,6 +20,8 @@ add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/report_field.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_figures.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_html.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/report_page.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/report_study.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_words.cpp
   ${CMAKE_CURRENT_LIST_DIR}/statistics.cpp
   ${CMAKE_CURRENT_LIST_DIR}/summary.cpp)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "apps/csv.hpp"
@@ -13,22 +12,12 @@
 #include "apps/report_field.hpp"
 #include "apps/report_figures.hpp"
 #include "apps/report_html.hpp"
+#include "apps/report_page.hpp"
+#include "apps/report_study.hpp"
 
 namespace splashdown::apps {
 
 namespace {
-
-constexpr const char* no_gnuplot =
-    "gnuplot is not installed, so there are no figures. Install it with \"sudo apt install gnuplot-nox\" and "
-    "run "
-    "\"splashdown report\" again.";
-
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return bytes.str();
-}
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
@@ -67,6 +56,7 @@ void draw(const std::filesystem::path& folder, const std::vector<Figure>& curves
 ReportResult write_report(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory))
     throw std::runtime_error(directory.string() + ": is not a folder");
+  if (holds_study(directory)) return write_study_report(directory);
   const RunData data = read_run(directory);
   const auto folder = directory / "report";
   std::filesystem::create_directories(folder);
@@ -84,10 +74,10 @@ ReportResult write_report(const std::filesystem::path& directory) {
 
   for (const auto& figure : curves)
     if (const auto file = folder / (figure.name + ".svg"); std::filesystem::exists(file))
-      page.images[figure.name] = inline_svg(read_bytes(file), figure.name);
+      page.images[figure.name] = inline_svg(read_text(file), figure.name);
   for (const auto& field : fields.figures)
     if (const auto file = folder / (field.name + ".png"); std::filesystem::exists(file))
-      page.images[field.name] = inline_png(read_bytes(file), field.title);
+      page.images[field.name] = inline_png(read_text(file), field.title);
   page.fields = std::move(fields.figures);
   for (const auto& warning : result.warnings) page.warnings.push_back(html_escaped(warning));
   write_file_atomically(result.page, html_of(page));

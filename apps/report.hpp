@@ -1,7 +1,7 @@
-// report.html from the files of a run: one page that needs no network.
+// report.html from the files of a run or of a study: one page that needs no network.
 //
-// Figures are drawn by gnuplot (a subprocess; its scripts stay in DIR/report/). Without gnuplot the page has
-// its words and tables and says how to get the figures.
+// Figures are drawn by gnuplot (a subprocess; a run's scripts stay in DIR/report/). Without gnuplot the page
+// has its words and tables and says how to get the figures.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ struct ReportResult {
   std::vector<std::string> warnings;  ///< e.g. gnuplot missing, a file unreadable
 };
 
-/// Throws std::runtime_error if DIR holds no run, or if the page cannot be written.
+/// Throws std::runtime_error if DIR holds neither a run nor a study, or if the page cannot be written.
 ReportResult write_report(const std::filesystem::path& directory);
 
 }  // namespace splashdown::apps

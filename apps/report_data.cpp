@@ -13,13 +13,6 @@ namespace splashdown::apps {
 
 namespace {
 
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 /// Splits a line at its commas; quotes as in RFC 4180, without line breaks inside.
 void split(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
@@ -52,6 +45,19 @@ double number(std::string_view field) {
 }
 
 }  // namespace
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+nlohmann::ordered_json read_json(const std::filesystem::path& path) {
+  auto json = nlohmann::ordered_json::parse(read_text(path), nullptr, false);
+  if (json.is_discarded()) throw std::runtime_error(path.string() + ": is not JSON");
+  return json;
+}
 
 const std::vector<double>& Table::operator[](const std::string& name) const {
   static const std::vector<double> none;
@@ -99,19 +105,17 @@ double RunData::end_time() const {
 RunData read_run(const std::filesystem::path& directory) {
   RunData run;
   run.directory = directory;
-  if (std::filesystem::exists(directory / "summary.json")) {
-    run.summary = nlohmann::ordered_json::parse(read_text(directory / "summary.json"), nullptr, false);
-    if (run.summary.is_discarded())
-      throw std::runtime_error((directory / "summary.json").string() + ": is not JSON");
-  }
+  if (std::filesystem::exists(directory / "summary.json"))
+    run.summary = read_json(directory / "summary.json");
   run.bodies = read_csv(directory / "bodies.csv", "body");
   run.probes = read_csv(directory / "probes.csv", "probe");
   run.surface_pressure = read_csv(directory / "surface_pressure.csv", "body");
   auto fluid = read_csv(directory / "fluid.csv");
   if (!fluid.empty()) run.fluid = std::move(fluid.front().second);
   if (run.summary.is_null() && run.bodies.empty() && run.fluid.empty())
-    throw std::runtime_error(directory.string() +
-                             ": holds no run (neither summary.json nor bodies.csv nor fluid.csv)");
+    throw std::runtime_error(
+        directory.string() +
+        ": holds neither a run (summary.json, bodies.csv or fluid.csv) nor a study (study.json)");
   return run;
 }
 

@@ -1,4 +1,4 @@
-// The report's page: words, tables and figures in one file without links to elsewhere.
+// The page of a run: words, tables and figures.
 #pragma once
 
 #include <map>
@@ -22,10 +22,5 @@ struct ReportPage {
 };
 
 std::string html_of(const ReportPage& page);
-
-/// An <svg> element made fit for a page with many: no prolog, ids of its own, the page's fonts.
-std::string inline_svg(const std::string& svg, const std::string& name);
-/// An <img> element that holds a PNG file's bytes.
-std::string inline_png(const std::string& bytes, const std::string& alternative_text);
 
 }  // namespace splashdown::apps

@@ -58,20 +58,6 @@ Scale widened(Range range, bool log, double below, double above) {
   return {{scale.at(-below), scale.at(1 + above)}, log};
 }
 
-std::string label_of(const Study& study, const std::string& column) {
-  static const std::map<std::string, std::string> known = {
-      {"passes_mean", "passes a step, mean"},   {"passes_max", "passes a step, most"},
-      {"rejected_steps", "refused steps"},      {"steps", "steps"},
-      {"simulated_time", "simulated time (s)"}, {"wall_seconds", "wall time (s)"}};
-  if (const auto found = known.find(column); found != known.end()) return found->second;
-  for (const auto& quantity : study.quantities) {
-    if (quantity.name == column)
-      return quantity.label + (quantity.unit == "-" ? "" : " (" + quantity.unit + ")");
-    if (quantity.error_name() == column) return "error of " + quantity.label;
-  }
-  return column;
-}
-
 /// 1, 2, 5, 10 ... within few decades, powers of ten within many.
 std::string tics(const char* axis, const Scale& scale) {
   if (!scale.log) return fmt::format("set {0}tics autofreq\nset format {0} '%g'\n", axis);
@@ -177,7 +163,7 @@ class Chart {
     if (!last_row) text += "set format x ''\n";
     if (column > 0) text += "set format y ''\n";
     text += column == 0 ? fmt::format("set ylabel \"{}\" offset 0.5,0 textcolor rgb '#24313d' noenhanced\n",
-                                      gnuplot_escaped(label_of(study_, chart_.y[row])))
+                                      gnuplot_escaped(column_label(study_, chart_.y[row])))
                         : "unset ylabel\n";
     if (row == 0 && chart_.panels) {
       const auto& axis = study_.axes[*chart_.panels];
@@ -290,6 +276,7 @@ std::string chart_script(const Study& study, const std::vector<StudyRun>& runs,
 std::optional<std::string> draw_chart(const Study& study, const std::vector<StudyRun>& runs,
                                       const std::vector<Outcome>& outcomes, const fs::path& folder) {
   write_file_atomically(folder / "study.gnuplot", chart_script(study, runs, outcomes));
+  for (const char* picture : {"study.svg", "study.png"}) fs::remove(folder / picture);  // those of other runs
   switch (run_gnuplot(folder, {"study.gnuplot"}).front()) {
     case GnuplotResult::drawn:
       fs::remove(folder / "study.gnuplot.log");

@@ -7,6 +7,7 @@
 #include "apps/commands.hpp"
 #include "apps/folder_lock.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/report.hpp"
 #include "apps/study_chart.hpp"
 #include "apps/study_run.hpp"
 #include "apps/study_slurm.hpp"
@@ -33,16 +34,17 @@ std::string counts_text(const std::vector<Outcome>& outcomes) {
   return text;
 }
 
-/// Tables and chart of what the runs have left behind.
+/// Tables, chart and report of what the runs have left behind.
 void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
               const fs::path& folder, bool quiet) {
   auto notes = measure(study, runs, folder, outcomes);
   write_tables(study, runs, outcomes, folder);
   if (study.chart)
     if (auto note = draw_chart(study, runs, outcomes, folder)) notes.push_back(std::move(*note));
+  write_report(folder);  // what it warns of, a chart that could not be drawn, is among the notes
   for (const auto& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (quiet) return;
-  fmt::print("{}: {} runs: {}\n  files       {}/: study.csv study.json{}\n",
+  fmt::print("{}: {} runs: {}\n  files       {}/: report.html study.csv study.json{}\n",
              study.title.empty() ? folder.filename().string() : study.title, runs.size(),
              counts_text(outcomes), folder.string(),
              fs::exists(folder / "study.svg") ? " study.svg study.png" : "");

@@ -100,8 +100,9 @@ void judge(const StudyQuantity& quantity, Outcome& outcome) {
       fmt::format("{} = {:.3g} exceeds {:g}", quantity.error_name(), error->second, *quantity.limit);
 }
 
-std::vector<std::string> measured_columns(const Study& study) {
-  std::vector<std::string> columns;
+/// Those of numbers, in the order of study.csv.
+std::vector<std::string> all_number_columns(const Study& study) {
+  auto columns = number_columns();
   for (const auto& quantity : study.quantities) {
     columns.push_back(quantity.name);
     if (quantity.has_error()) columns.push_back(quantity.error_name());
@@ -120,8 +121,7 @@ std::string cell(const std::string& text) {
 
 std::string csv_of(const Study& study, const std::vector<StudyRun>& runs,
                    const std::vector<Outcome>& outcomes) {
-  auto numbers = number_columns();
-  for (const auto& name : measured_columns(study)) numbers.push_back(name);
+  const auto numbers = all_number_columns(study);
   std::string text = "run";
   const auto add = [&](const std::string& entry) { text.append(1, ',').append(cell(entry)); };
   for (const auto& axis : study.axes) add(axis.name);
@@ -153,6 +153,14 @@ nlohmann::ordered_json json_of(const Study& study, const std::vector<StudyRun>& 
   for (const auto& outcome : outcomes) ++counts[word(outcome.status)];
   root["status"] = counts;
   for (const auto& quantity : study.quantities) root["units"][quantity.name] = quantity.unit;
+  for (const auto& axis : study.axes) {
+    auto& entry = root["axes"].emplace_back();
+    entry["name"] = axis.name;
+    entry["label"] = axis.label;
+    for (const auto& value : axis.values) entry["values"].push_back(value.text);
+  }
+  for (const auto& name : all_number_columns(study))
+    root["columns"].push_back({{"name", name}, {"label", column_label(study, name)}});
   for (std::size_t i = 0; i < runs.size(); ++i) {
     auto& entry = root["runs"].emplace_back();
     entry["run"] = runs[i].name;
@@ -196,6 +204,20 @@ std::vector<std::string> number_columns() {
   std::vector<std::string> names;
   for (const auto& [name, path] : from_summary) names.push_back(name);
   return names;
+}
+
+std::string column_label(const Study& study, const std::string& column) {
+  static const std::map<std::string, std::string> known = {
+      {"passes_mean", "passes a step, mean"},   {"passes_max", "passes a step, most"},
+      {"rejected_steps", "refused steps"},      {"steps", "steps"},
+      {"simulated_time", "simulated time (s)"}, {"wall_seconds", "wall time (s)"}};
+  if (const auto found = known.find(column); found != known.end()) return found->second;
+  for (const auto& quantity : study.quantities) {
+    if (quantity.name == column)
+      return quantity.label + (quantity.unit == "-" ? "" : " (" + quantity.unit + ")");
+    if (quantity.error_name() == column) return "error of " + quantity.label;
+  }
+  return column;
 }
 
 std::vector<std::string> outcome_columns() {

@@ -35,6 +35,9 @@ const char* word(Outcome::Status status);
 std::vector<std::string> outcome_columns();
 std::vector<std::string> number_columns();
 
+/// What a column says, in words, with its unit.
+std::string column_label(const Study& study, const std::string& column);
+
 /// Reads a run's folder. A run counts only if it was made with the very scene that the study asks for now.
 Outcome outcome_of(const Study& study, const StudyRun& run, const std::filesystem::path& folder);
 

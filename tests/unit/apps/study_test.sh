@@ -86,6 +86,14 @@ check "and nothing is written" test ! -e never
 check "a study ends well although a scheme breaks down" exits 0 study --out whole
 for file in study.csv study.json; do check "it leaves $file" test -s "whole/$file"; done
 if command -v gnuplot >/dev/null; then check "and a chart" test -s whole/study.svg -a -s whole/study.png; fi
+check "and its report" grep -q 'All 4 runs have ended' whole/report.html
+check "which links the reports of its runs" grep -q 'href="mass-60_exact/report.html"' whole/report.html
+cp whole/report.html before.html
+rm whole/report.html
+check "splashdown report writes it anew" exits 0 "$splashdown" report whole
+check "to the same bytes" cmp before.html whole/report.html
+check "a folder that holds neither a run nor a study is refused" exits 2 "$splashdown" report .
+check "and the reason is told" grep -q 'neither a run .* nor a study' stderr
 check "all runs have ended" test "$(grep -c -E 'converged|diverged|stalled' whole/study.csv)" = 4
 check "the scheme without a term breaks down for the light body" grep -qE '^mass-1_plain,1,plain,(diverged|stalled),' whole/study.csv
 check "the exact one does not" grep -q '^mass-1_exact,1,exact,converged,' whole/study.csv
