@@ -2,20 +2,17 @@
 // Cholesky solve (analyse, factor, solve) of their Laplacian. One thread: medians of processor time over
 // interleaved repetitions.
 //   step_cost [--max_ratio=R] [--benchmark_...]     exit 1 if a step without effects costs more than R of both
-#include <benchmark/benchmark.h>
-#include <cblas.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <memory>
 #include <numbers>
-#include <string>
 
 #include "coupling/steppers.hpp"
 #include "fluid/delaunay.hpp"
 #include "fluid/pressure.hpp"
+#include "tests/benchmark/medians.hpp"
 
 namespace {
 
@@ -96,62 +93,19 @@ void whole_step(benchmark::State& state, int nodes, bool with_gravity) {
   state.counters["nodes"] = static_cast<double>(stepper.fluid().nodes().size());
 }
 
-class Medians : public benchmark::ConsoleReporter {
- public:
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const auto& run : runs)
-      if (run.aggregate_name == "median") seconds_[run.run_name.function_name] = run.GetAdjustedCPUTime();
-  }
-  double of(const std::string& name, int nodes) const {
-    const auto found = seconds_.find(name + "/" + std::to_string(nodes));
-    return found == seconds_.end() ? std::nan("") : found->second;
-  }
-
- private:
-  std::map<std::string, double> seconds_;  // in the benchmarks' unit
-};
-
-double take_max_ratio(int& argc, char** argv) {
-  const std::string key = "--max_ratio=";
-  double value = INFINITY;
-  int kept = 0;
-  for (int i = 0; i < argc; ++i) {
-    if (std::string(argv[i]).starts_with(key))
-      value = std::atof(argv[i] + key.size());
-    else
-      argv[kept++] = argv[i];
-  }
-  argc = kept;
-  return value;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  openblas_set_num_threads(1);
-  const double max_ratio = take_max_ratio(argc, argv);
-  std::vector<char*> arguments(argv, argv + argc);
-  char interleave[] = "--benchmark_enable_random_interleaving=true";
-  arguments.insert(arguments.begin() + 1, interleave);
-  int count = static_cast<int>(arguments.size());
-  benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
-
+  double max_ratio = 0;
+  if (!measured::begin(argc, argv, max_ratio)) return 2;
   const int sizes[] = {10000, 100000};
   for (const int nodes : sizes) {
-    const auto add = [nodes](const std::string& name, auto run) {
-      benchmark::RegisterBenchmark((name + "/" + std::to_string(nodes)).c_str(), run)
-          ->Unit(benchmark::kMillisecond)
-          ->Repetitions(9)
-          ->ReportAggregatesOnly();
-    };
-    add("delaunay", [nodes](benchmark::State& state) { triangulate(state, nodes); });
-    add("cholesky", [nodes](benchmark::State& state) { solve_laplacian(state, nodes); });
-    add("step", [nodes](benchmark::State& state) { whole_step(state, nodes, false); });
-    add("step_with_gravity", [nodes](benchmark::State& state) { whole_step(state, nodes, true); });
+    measured::add("delaunay", nodes, [nodes](benchmark::State& state) { triangulate(state, nodes); });
+    measured::add("cholesky", nodes, [nodes](benchmark::State& state) { solve_laplacian(state, nodes); });
+    measured::add("step", nodes, [nodes](benchmark::State& state) { whole_step(state, nodes, false); });
+    measured::add("step_with_gravity", nodes, [nodes](benchmark::State& state) { whole_step(state, nodes, true); });
   }
-  Medians medians;
+  measured::Medians medians;
   benchmark::RunSpecifiedBenchmarks(&medians);
 
   bool holds = true;
