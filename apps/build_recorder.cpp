@@ -31,6 +31,9 @@ struct AddRecord {
     const auto& body = scene.bodies[entry.body];
     settings.equipment.push_back({entry.name, body.name, in_body(body, entry.point)});
   }
+  void operator()(const AddedMassEntry& entry) const {
+    settings.added_mass.push_back({scene.bodies[entry.body].name, entry.interval, entry.times});
+  }
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ std::string refused_text(const Summary& summary) {
 std::string files_text(const std::filesystem::path& directory) {
   std::string text = directory.string() + "/:";
   for (const char* name : {"report.html", "summary.json", "bodies.csv", "fluid.csv", "probes.csv",
-                           "surface_pressure.csv", "frames.pvd"})
+                           "surface_pressure.csv", "added_mass.csv", "frames.pvd"})
     if (std::filesystem::exists(directory / name)) text += fmt::format(" {}", name);
   return text;
 }

@@ -23,8 +23,8 @@ namespace {
 
 /// Removes what a recorder or a report may have left, and nothing else.
 void clear_earlier_run(const std::filesystem::path& directory) {
-  for (const char* name : {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "frames.pvd",
-                           "summary.json", "report.html"})
+  for (const char* name : {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv",
+                           "frames.pvd", "summary.json", "report.html"})
     std::filesystem::remove(directory / name);
   for (const char* folder : {"frames", "snapshots"}) {
     if (!std::filesystem::is_directory(directory / folder)) continue;
@@ -35,18 +35,12 @@ void clear_earlier_run(const std::filesystem::path& directory) {
   }
 }
 
-/// Acceleration of a point of a rigid body: a + alpha x r + w x (w x r).
-template <int d>
-rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
-                              const rigid::Twist<d>& acceleration) {
-  if constexpr (d == 2) {
-    const double alpha = acceleration(2), w = velocity(2);
-    return rigid::Vec<2>(acceleration(0) - alpha * r.y() - w * w * r.x(),
-                         acceleration(1) + alpha * r.x() - w * w * r.y());
-  } else {
-    const Eigen::Vector3d alpha = acceleration.template tail<3>(), w = velocity.template tail<3>();
-    return acceleration.template head<3>() + alpha.cross(r) + w.cross(w.cross(r));
-  }
+template <class Record>
+Schedule schedule_of(const Record& record) {
+  if (record.every) return Schedule(*record.every);
+  auto times = record.times;
+  std::ranges::sort(times);
+  return Schedule(std::move(times));
 }
 
 }  // namespace
@@ -59,7 +53,7 @@ struct Recorder<d>::State {
   double previous_dt = 0;
   double still_water_level = std::numeric_limits<double>::quiet_NaN();
   Schedule rows, frames_due;
-  std::vector<Schedule> surface_due;
+  std::vector<Schedule> surface_due, added_mass_due;
   FrameSeries frames;
   RunStatistics run;
   double max_speed_peak = 0;
@@ -80,16 +74,13 @@ struct Recorder<d>::State {
         frames_due(settings.frames.value_or(0)),
         frames(settings.directory),
         equipment(settings.equipment.size()) {
-    for (const auto& record : settings.surface_pressure) {
-      auto times = record.times;
-      std::ranges::sort(times);
-      surface_due.push_back(record.every ? Schedule(*record.every) : Schedule(std::move(times)));
-    }
+    for (const auto& record : settings.surface_pressure) surface_due.push_back(schedule_of(record));
+    for (const auto& record : settings.added_mass) added_mass_due.push_back(schedule_of(record));
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, frames, run,
+    archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
             max_speed_peak, bodies, equipment, peak_force, body_names, speed, has_fluid,
             cereal::binary_data(&ledger, sizeof ledger));
   }
@@ -105,6 +96,7 @@ struct Recorder<d>::State {
   void write_rows(const RecordInput<d>& input);
   void write_probes(const RecordInput<d>& input);
   void write_surface_pressure(const RecordInput<d>& input, std::size_t record);
+  void write_added_mass(const RecordInput<d>& input, const std::string& body);
   rigid::Vec<d> equipment_acceleration(const RecordInput<d>& input, std::size_t i) const;
   double probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const;
   void write_peak();
@@ -223,6 +215,13 @@ void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std
 }
 
 template <int d>
+void Recorder<d>::State::write_added_mass(const RecordInput<d>& input, const std::string& body) {
+  const std::size_t wall = body_index(*input.bodies, body);  // body k is wall k
+  write_added_mass_row<d>(file("added_mass.csv", added_mass_header(d)), input.time, body,
+                          input.fluid->added_mass({&wall, 1}), input.fluid->wall_poses()[wall]);
+}
+
+template <int d>
 void Recorder<d>::State::write_peak() {
   if (!peak) return;
   write_pieces(settings.directory / "snapshots", "peak", *peak);
@@ -247,6 +246,8 @@ void Recorder<d>::record(const RecordInput<d>& input) {
   if (s.rows.due(input.time) || input.last) s.write_rows(input);
   for (std::size_t r = 0; input.fluid && r < s.surface_due.size(); ++r)
     if (s.surface_due[r].due(input.time)) s.write_surface_pressure(input, r);
+  for (std::size_t r = 0; input.fluid && r < s.added_mass_due.size(); ++r)
+    if (s.added_mass_due[r].due(input.time)) s.write_added_mass(input, s.settings.added_mass[r].body);
   if (s.settings.frames && (s.frames_due.due(input.time) || input.last)) s.frames.add(take_frame(input));
   for (auto& [name, file] : s.files) file.write();
 }

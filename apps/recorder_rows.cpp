@@ -47,6 +47,14 @@ std::string surface_pressure_header(int dimension) {
   return dimension == 2 ? "time,body,x,y,s,p" : "time,body,x,y,z,s,p";
 }
 
+std::string added_mass_header(int dimension) {
+  const std::string axes = dimension == 2 ? "xyr" : "xyzpqr";
+  std::string header = "time,body";
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    for (std::size_t j = i; j < axes.size(); ++j) header += std::string(",m_") + axes[i] + axes[j];
+  return header;
+}
+
 template <int d>
 void write_row(CsvFile& file, const BodyRow<d>& row) {
   std::array<double, 3> position{};
@@ -72,6 +80,24 @@ void write_row(CsvFile& file, const FluidRow& row) {
   file.end_row();
 }
 
+// Velocities in body axes are s_world = T s_body, T = diag(R, 1) or diag(R, R); the energy s^T G s stays: T^T G T.
+template <int d>
+void write_added_mass_row(CsvFile& file, double time, const std::string& body, const Eigen::MatrixXd& matrix,
+                          const fluid::Isometry<d>& pose) {
+  constexpr int m = fluid::freedoms<d>;
+  Eigen::Matrix<double, m, m> turn = Eigen::Matrix<double, m, m>::Identity();
+  for (int k = 0; k + d <= m; k += d) turn.template block<d, d>(k, k) = pose.linear();
+  const Eigen::Matrix<double, m, m> in_body = turn.transpose() * matrix * turn;
+  file << time << body;
+  for (int i = 0; i < m; ++i)
+    for (int j = i; j < m; ++j) file << 0.5 * (in_body(i, j) + in_body(j, i));  // symmetric but for roundoff
+  file.end_row();
+}
+
+template void write_added_mass_row<2>(CsvFile&, double, const std::string&, const Eigen::MatrixXd&,
+                                      const fluid::Isometry<2>&);
+template void write_added_mass_row<3>(CsvFile&, double, const std::string&, const Eigen::MatrixXd&,
+                                      const fluid::Isometry<3>&);
 template void write_row<2>(CsvFile&, const BodyRow<2>&);
 template void write_row<3>(CsvFile&, const BodyRow<3>&);
 

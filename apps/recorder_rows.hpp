@@ -20,6 +20,8 @@ inline constexpr const char* probes_header = "time,probe,value";
 /// `effect_columns`: behind all others.
 std::string fluid_header(const std::vector<std::string>& effect_columns);
 std::string surface_pressure_header(int dimension);
+/// The upper triangle by rows. Indices: x, y, z for translations, p, q, r for rotations about them (2D: x, y, r).
+std::string added_mass_header(int dimension);
 
 template <int d>
 struct BodyRow {
@@ -43,5 +45,9 @@ struct FluidRow {
 template <int d>
 void write_row(CsvFile& file, const BodyRow<d>& row);
 void write_row(CsvFile& file, const FluidRow& row);
+/// `matrix`: as Fluid::added_mass of one wall, in the world frame; `pose` of the wall.
+template <int d>
+void write_added_mass_row(CsvFile& file, double time, const std::string& body, const Eigen::MatrixXd& matrix,
+                          const fluid::Isometry<d>& pose);
 
 }  // namespace splashdown::apps

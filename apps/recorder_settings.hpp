@@ -40,6 +40,13 @@ struct SurfacePressureRecord {
   std::vector<double> times;    ///< [s]: first step at or after each
 };
 
+/// Instantaneous added mass of a body, written to added_mass.csv.
+struct AddedMassRecord {
+  std::string body;
+  std::optional<double> every;  ///< [s]; 0: each step
+  std::vector<double> times;    ///< [s]: first step at or after each
+};
+
 template <int d>
 struct RecorderSettings {
   std::filesystem::path directory;
@@ -49,6 +56,7 @@ struct RecorderSettings {
   std::vector<ElevationGauge<d>> gauges;
   std::vector<EquipmentPoint<d>> equipment;
   std::vector<SurfacePressureRecord> surface_pressure;
+  std::vector<AddedMassRecord> added_mass;
   std::optional<double> still_water_level;  ///< [m]; absent: top of the free surface at the start
 };
 

@@ -77,6 +77,19 @@ std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name) 
 }
 
 template <int d>
+rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
+                              const rigid::Twist<d>& acceleration) {
+  if constexpr (d == 2) {
+    const double alpha = acceleration(2), w = velocity(2);
+    return rigid::Vec<2>(acceleration(0) - alpha * r.y() - w * w * r.x(),
+                         acceleration(1) + alpha * r.x() - w * w * r.y());
+  } else {
+    const Eigen::Vector3d alpha = acceleration.template tail<3>(), w = velocity.template tail<3>();
+    return acceleration.template head<3>() + alpha.cross(r) + w.cross(w.cross(r));
+  }
+}
+
+template <int d>
 EffectColumns effect_columns(const fluid::Fluid<d>& fluid) {
   const auto& nodes = fluid.nodes();
   std::vector<double> lumped_mass(nodes.size(), 0);
@@ -123,6 +136,7 @@ double water_level(const fluid::Fluid<d>& fluid) {
   template Frame<d> take_frame<d>(const RecordInput<d>&);                          \
   template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);          \
   template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&); \
+  template rigid::Vec<d> acceleration_at<d>(const rigid::Vec<d>&, const rigid::Twist<d>&, const rigid::Twist<d>&); \
   template EffectColumns effect_columns<d>(const fluid::Fluid<d>&);                \
   template double max_speed<d>(const fluid::Fluid<d>&);                            \
   template double water_level<d>(const fluid::Fluid<d>&);

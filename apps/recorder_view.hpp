@@ -17,6 +17,11 @@ int wall_index(const fluid::Fluid<d>& fluid, const std::string& name);
 template <int d>
 std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name);
 
+/// Acceleration of a point of a rigid body: a + alpha x r + w x (w x r), r from its centre of mass.
+template <int d>
+rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
+                              const rigid::Twist<d>& acceleration);
+
 /// What the effects on the fluid say about themselves; columns are called <effect>_<name>.
 struct EffectColumns {
   std::vector<std::string> names;

@@ -172,7 +172,13 @@ struct AccelerationEntry {
   std::size_t body = 0;
   Point point = Point::Zero();  ///< in the shape's frame
 };
-using RecordEntry = std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry>;
+struct AddedMassEntry {
+  std::size_t body = 0;
+  std::optional<double> interval;  ///< [s]; 0: every step
+  std::vector<double> times;       ///< first step at or after each [s]
+};
+using RecordEntry =
+    std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry, AddedMassEntry>;
 
 struct Scene {
   int dimension = 2;

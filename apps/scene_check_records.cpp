@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "apps/scene_check.hpp"
@@ -39,11 +40,7 @@ class RecordChecker {
   }
   void operator()(const SurfacePressureEntry& entry) {
     needs_fluid();
-    for (const double time : entry.times)
-      if (time > scene_.time.end)
-        return problems_.add(label_ + ".times",
-                             fmt::format("must not exceed time.end = {:g} s", scene_.time.end),
-                             "Remove the later ones.");
+    within_run(entry.times);
   }
   void operator()(const ElevationEntry& entry) {
     needs_fluid();
@@ -52,6 +49,12 @@ class RecordChecker {
       inside_tank({entry.x, 0.5 * (scene_.tank->min.y() + scene_.tank->max.y())}, ".x");
   }
   void operator()(const AccelerationEntry& entry) { unique(entry.name); }
+  void operator()(const AddedMassEntry& entry) {
+    needs_fluid();
+    within_run(entry.times);
+    if (!problems_.found_in(label_) && !added_mass_of_.insert(entry.body).second)
+      problems_.add(label_ + ".body", "has an added_mass record already", "Remove one of them.");
+  }
 
  private:
   void needs_fluid() {
@@ -60,6 +63,11 @@ class RecordChecker {
   void unique(const std::string& name) {
     if (!name.empty() && !names_.insert(name).second)
       problems_.add(label_ + ".name", "is taken by another record", "Give every record its own name.");
+  }
+  void within_run(const std::vector<double>& times) {
+    if (std::ranges::any_of(times, [&](double time) { return time > scene_.time.end; }))
+      problems_.add(label_ + ".times", fmt::format("must not exceed time.end = {:g} s", scene_.time.end),
+                    "Remove the later ones.");
   }
   void inside_tank(const rigid::Vec<2>& point, const std::string& key) {
     if (!scene_.tank) return;
@@ -76,6 +84,7 @@ class RecordChecker {
   Problems& problems_;
   std::string label_;
   std::set<std::string> names_;
+  std::set<std::size_t> added_mass_of_;
 };
 
 }  // namespace

@@ -38,17 +38,23 @@ std::optional<std::size_t> read_body_name(Reader& reader, const Scene& scene, Ne
   return static_cast<std::size_t>(found - names.begin());
 }
 
-void read_surface_pressure(Reader& reader, Scene& scene) {
-  SurfacePressureEntry entry;
-  auto walls = body_names(scene);
-  if (scene.tank) walls.push_back("tank");
-  reader.choice("wall", entry.wall, walls, Need::required);
+/// When rows of a file of its own are due: an interval or a list, each step without both.
+template <class Entry>
+void read_instants(Reader& reader, Entry& entry) {
   reader.number("interval", entry.interval, not_negative("s", "Use e.g. 0.001, or 0 for every step."));
   reader.numbers("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
   if (entry.interval && !entry.times.empty())
     reader.context().problems.add(reader.key("times"), "interval and times exclude each other",
                                   "Remove one of them.");
   if (!entry.interval && entry.times.empty()) entry.interval = 0;
+}
+
+void read_surface_pressure(Reader& reader, Scene& scene) {
+  SurfacePressureEntry entry;
+  auto walls = body_names(scene);
+  if (scene.tank) walls.push_back("tank");
+  reader.choice("wall", entry.wall, walls, Need::required);
+  read_instants(reader, entry);
   scene.records.emplace_back(std::move(entry));
 }
 
@@ -56,7 +62,8 @@ void read_surface_pressure(Reader& reader, Scene& scene) {
 
 void read_record(Reader& reader, Scene& scene) {
   std::string kind;
-  if (!reader.choice("kind", kind, {"pressure", "surface_pressure", "surface_elevation", "acceleration"},
+  if (!reader.choice("kind", kind,
+                     {"pressure", "surface_pressure", "surface_elevation", "acceleration", "added_mass"},
                      Need::required))
     return reader.skip_all();
   if (kind == "surface_pressure") return read_surface_pressure(reader, scene);
@@ -76,6 +83,11 @@ void read_record(Reader& reader, Scene& scene) {
     reader.text("name", entry.name, name_cure, Need::required);
     entry.body = read_body_name(reader, scene, Need::required).value_or(0);
     reader.point("point", entry.point, coordinate, Need::required);
+    scene.records.emplace_back(std::move(entry));
+  } else if (kind == "added_mass") {
+    AddedMassEntry entry;
+    entry.body = read_body_name(reader, scene, Need::required).value_or(0);
+    read_instants(reader, entry);
     scene.records.emplace_back(std::move(entry));
   }
 }

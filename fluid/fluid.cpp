@@ -491,6 +491,11 @@ std::span<const Twist<d>> Fluid<d>::wall_velocities() const {
   return s_->s_after;
 }
 template <int d>
+Eigen::MatrixXd Fluid<d>::added_mass(std::span<const std::size_t> walls) const {
+  if (!s_->prepared) throw std::logic_error("fluid: the added mass is known from begin to commit");
+  return s_->equation.added_mass_of(walls);
+}
+template <int d>
 std::span<const double> Fluid<d>::interface_impulse() const {
   return s_->interface;
 }

@@ -72,6 +72,9 @@ class Fluid {
   std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
   std::span<const WallLoad<d>> loads() const;          ///< of the last solve
   std::span<const Twist<d>> wall_velocities() const;   ///< half-step velocities the last solve ended with
+  /// Instantaneous added mass G = B A^-1 B^T of some walls together at t_n [kg, kg m, kg m^2; 2D: per metre]: world
+  /// frame, about the walls' reference points, d(d+1)/2 rows a wall. From `begin` to `commit`.
+  Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const;
   /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<d>> poses);
 

@@ -71,6 +71,10 @@ class PressureEquation {
   Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
   /// G = B A^-1 B^T of a responding wall: its added mass.
   const Eigen::MatrixXd& added_mass() const { return added_mass_; }
+  /// G = B A^-1 B^T [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the
+  /// world frame: whatever answers they have in this equation. One right-hand side a freedom on the factor that is
+  /// there; what an interface Laplacian adds to it is taken out again. NaN if a solve fails.
+  Eigen::MatrixXd added_mass_of(std::span<const std::size_t> walls);
 
   int size() const { return static_cast<int>(node_.size()); }
   const std::vector<int>& unknown() const { return unknown_; }  ///< of a node, -1: phi = 0
@@ -83,6 +87,7 @@ class PressureEquation {
   void assemble();
   bool factored();
   void wall_modes(std::span<const Vec<d>> centres);
+  bool solve_without_laplacian(Eigen::MatrixXd& columns);
 
   const Nodes<d>* nodes_ = nullptr;
   const Mesh<d>* mesh_ = nullptr;

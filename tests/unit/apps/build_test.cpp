@@ -124,7 +124,12 @@ TEST(RecorderSettings, points_move_from_the_shapes_frame_to_the_bodys) {
   scene.records.push_back(AccelerationEntry{"seat", 0, {0.1, 0.1, 0}});
   scene.records.push_back(PressureEntry{"fixed", {1, -0.5, 0}, {}});
   scene.records.push_back(ElevationEntry{"gauge", 0.7});
+  scene.records.push_back(AddedMassEntry{0, 0.5, {}});
   const auto settings = recorder_settings(scene, "folder");
+  ASSERT_EQ(settings.added_mass.size(), 1u);
+  EXPECT_EQ(settings.added_mass[0].body, "wedge");
+  EXPECT_EQ(settings.added_mass[0].every, 0.5);
+  EXPECT_TRUE(recorder_settings(scene_of(testing::wedge_drop), "folder").added_mass.empty());
   ASSERT_EQ(settings.pressure_probes.size(), 2u);
   EXPECT_EQ(settings.pressure_probes[0].body, "wedge");
   EXPECT_NEAR((settings.pressure_probes[0].point - fluid::Vec<2>(0, -0.1)).norm(), 0, eps);

@@ -204,6 +204,14 @@ kind = "acceleration"
 name = "seat"
 body = "b"
 point = [0.1, 0]
+[[record]]
+kind = "added_mass"
+body = "b"
+interval = 0.1
+[[record]]
+kind = "added_mass"
+body = "d"
+times = [0.5, 1]
 )";
 
 TEST(ResolvedScene, reads_to_itself) {

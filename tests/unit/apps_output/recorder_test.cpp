@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/recorder_rows.hpp"
 #include "apps/report_data.hpp"
 #include "scratch_folder.hpp"
 #include "stand_ins.hpp"
@@ -24,6 +25,7 @@ RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
                      {"outside", Eigen::Matrix<double, 1, 1>(9)}};
   settings.equipment = {{"seat", "wedge", {0.1, 0}}};
   settings.surface_pressure = {{"wedge", {}, {0.01, 0.02}}};
+  settings.added_mass = {{"wedge", 0.004, {}}};
   return settings;
 }
 
@@ -44,7 +46,7 @@ std::string summary_of_run(const Recorder<2>& recorder) {
 }
 
 constexpr const char* recorded_files[] = {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv",
-                                          "frames.pvd"};
+                                          "added_mass.csv", "frames.pvd"};
 
 class ResumedAt : public testing::TestWithParam<int> {};
 
@@ -113,7 +115,8 @@ TEST(Recorder, a_new_run_clears_what_an_earlier_one_left_and_nothing_else) {
   bare.directory = folder.path();
   Recorder<2> recorder(bare);
   record_steps(recorder, 0, 3, true);
-  for (const char* gone : {"probes.csv", "surface_pressure.csv", "frames.pvd", "frames/000000.vtu"})
+  for (const char* gone : {"probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
+                           "frames/000000.vtu"})
     EXPECT_FALSE(std::filesystem::exists(folder.path() / gone)) << gone;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "frames" / "mine.txt"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "mine.csv"));
@@ -184,6 +187,57 @@ TEST(Recorder, surface_pressure_is_written_at_the_listed_times_only) {
   ASSERT_EQ(times.size(), 2u);
   EXPECT_NEAR(times[0], 0.01, 1e-12);
   EXPECT_NEAR(times[1], 0.02, 1e-12);
+}
+
+TEST(Recorder, added_mass_is_written_when_asked_for_and_only_then) {
+  ScratchFolder folder, without;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  EXPECT_TRUE(folder.text("added_mass.csv").starts_with("time,body,m_xx,m_xy,m_xr,m_yy,m_yr,m_rr\n"));
+  const auto times = read_csv(folder.path() / "added_mass.csv", "body").at(0).second["time"];
+  const std::vector<double> expected{0, 0.004, 0.008, 0.012, 0.016, 0.02, 0.024, 0.028};
+  ASSERT_EQ(times.size(), expected.size());
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 1e-12);
+  auto bare = settings_in(without.path());
+  bare.added_mass.clear();
+  Recorder<2> quiet(bare);
+  record_steps(quiet, 0, steps, true);
+  EXPECT_FALSE(std::filesystem::exists(without.path() / "added_mass.csv"));
+}
+
+// A body's own matrix M, seen from the world by a body that has turned: G = T M T^T, T = diag(R, 1) or diag(R, R).
+template <int d>
+void turned_matrix_reads_as_its_own() {
+  constexpr int m = fluid::freedoms<d>;
+  ScratchFolder folder;
+  CsvFile file(folder.path() / "m.csv", added_mass_header(d));
+  file.create();
+  const Eigen::Matrix<double, m, m> half = Eigen::Matrix<double, m, m>::Random(), own = half * half.transpose();
+  fluid::Isometry<d> pose = fluid::Isometry<d>::Identity();
+  if constexpr (d == 2)
+    pose.rotate(0.65);
+  else
+    pose.rotate(Eigen::AngleAxisd(0.65, Eigen::Vector3d(1, 2, 3).normalized()));
+  pose.translate(fluid::Vec<d>::Constant(7));  // about the centre of mass: no matter where that is
+  Eigen::Matrix<double, m, m> turn = Eigen::Matrix<double, m, m>::Zero();
+  turn.template topLeftCorner<d, d>() = pose.linear();
+  if constexpr (d == 2)
+    turn(2, 2) = 1;
+  else
+    turn.template bottomRightCorner<d, d>() = pose.linear();
+  write_added_mass_row<d>(file, 0, "body", turn * own * turn.transpose(), pose);
+  file.sync();
+  const auto table = read_csv(folder.path() / "m.csv").at(0).second;
+  ASSERT_EQ(table.columns.size(), 2u + m * (m + 1) / 2);
+  for (int i = 0, column = 2; i < m; ++i)
+    for (int j = i; j < m; ++j, ++column)
+      EXPECT_NEAR(table.columns[static_cast<std::size_t>(column)][0], own(i, j), 1e-14 * own.norm()) << i << j;
+}
+
+TEST(AddedMassRow, is_in_the_axes_of_a_body_that_has_turned) {
+  turned_matrix_reads_as_its_own<2>();
+  turned_matrix_reads_as_its_own<3>();
 }
 
 TEST(Recorder, an_effect_that_is_present_has_its_column) {

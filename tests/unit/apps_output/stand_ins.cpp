@@ -58,6 +58,12 @@ std::optional<double> Fluid<d>::pressure_at(const Vec<d>& point) const {
   return -s_->spec.density * 9.81 * point(d - 1);
 }
 template <int d>
+Eigen::MatrixXd Fluid<d>::added_mass(std::span<const std::size_t> walls) const {
+  Twist<d> mass = Twist<d>::Zero();
+  for (int k = 0; k < freedoms<d>; ++k) mass(k) = 100 * (k + 1 + s_->poses[walls[0]].translation()(d - 1));
+  return mass.asDiagonal();
+}
+template <int d>
 const std::vector<std::unique_ptr<Term<d>>>& Fluid<d>::terms() const {
   return s_->terms;
 }

@@ -284,6 +284,27 @@ TYPED_TEST(Pressure, added_mass_is_symmetric_and_positive) {
   EXPECT_NEAR(G(d - 1, d - 1), density, 1e4 * eps * density);
 }
 
+TYPED_TEST(Pressure, added_mass_of_a_wall_is_one_matrix_whatever_the_wall_answers) {
+  // G = B A^-1 B^T, A without the answers of bodies: held, free with its exact answer, or with a Laplacian.
+  constexpr int d = TypeParam::value;
+  Problem<d> p;
+  const std::array<std::size_t, 1> wall{0};
+  ASSERT_TRUE(p.build());
+  const Eigen::MatrixXd A = p.dense(), exact = p.B() * A.ldlt().solve(p.B().transpose());
+  const double condition = A.norm() * A.inverse().norm();
+  for (const WallResponse<d>& answer :
+       {WallResponse<d>{}, WallResponse<d>{.rigid = p.any_compliance()}, WallResponse<d>{.laplacian = 0.7},
+        WallResponse<d>{.laplacian = 1e3}}) {
+    ASSERT_TRUE(p.build(answer));
+    const Eigen::MatrixXd G = p.equation.added_mass_of(wall);
+    // A Laplacian of this size makes A + K stiffer by K / A ~ 1e3 times its size, which is lost when taken out again.
+    const double stiffer = 1 + answer.laplacian * density;
+    EXPECT_LE((G - exact).norm(), 10 * eps * condition * stiffer * exact.norm()) << answer.laplacian;
+    EXPECT_LE((G - G.transpose()).norm(), 10 * eps * condition * stiffer * exact.norm()) << answer.laplacian;
+    EXPECT_GE(smallest_eigenvalue(G), -10 * eps * condition * stiffer * exact.norm()) << answer.laplacian;
+  }
+}
+
 TYPED_TEST(Pressure, interface_laplacian_is_the_difference_it_makes_in_the_matrix) {
   constexpr int d = TypeParam::value;
   Problem<d> p;
