@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown::coupling {
@@ -167,7 +169,38 @@ TEST(Partitioned, says_that_the_coupling_diverged) {
   const auto stepper = scenes::coupled(scenes::submerged_circle(0.1), std::make_unique<NoTerm<2>>());
   const auto report = stepper->attempt(1e-3);
   EXPECT_NE(report.cause.find("diverged"), std::string::npos) << report.cause;
+  EXPECT_NE(report.cause.find("interface_term = \"rigid\""), std::string::npos) << "the cure: " << report.cause;
   EXPECT_LT(report.passes, 20) << "1e6 at tenfold a pass";
+}
+
+/// Answers what it is told, whatever it is asked.
+class Stuck final : public Accelerator {
+ public:
+  explicit Stuck(double factor) : factor_(factor) {}
+  std::string name() const override { return "stuck"; }
+  void begin_step() override {}
+  Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd&) override { return factor_ * x; }
+
+ private:
+  double factor_;
+};
+
+TEST(Partitioned, names_a_cause_when_passes_stand_still_or_end_in_nothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (double factor : {1.0, nan, infinity}) {
+    auto scene = scenes::submerged_circle(0.1);
+    scene.set_velocity(0, {0.1, 0, 0});  // a first guess that is not zero
+    const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<Stuck>(factor),
+                                         {.max_passes = 7});
+    const auto before = saved(*stepper);
+    const auto report = stepper->attempt(1e-3);
+    EXPECT_FALSE(report.ok()) << factor;
+    EXPECT_EQ(report.passes, factor == 1 ? 7 : 2) << factor;
+    EXPECT_NE(report.cause.find(factor == 1 ? "did not converge" : "not finite"), std::string::npos) << report.cause;
+    EXPECT_EQ(saved(*stepper), before) << factor;
+    const auto next = scenes::coupled(scene);
+    EXPECT_TRUE(next->attempt(1e-3).ok()) << "the same scene has a solution";
+  }
 }
 
 TEST(Phases, are_those_of_the_parts_and_effects_a_stepper_has) {
