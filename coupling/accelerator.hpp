@@ -43,7 +43,7 @@ class ConstantRelaxation final : public Accelerator {
 
 /// Aitken's dynamic relaxation (Irons, Tuck 1969; Kuettler, Wall 2008):
 ///   w_{k+1} = -w_k r_k . (r_{k+1} - r_k) / |r_{k+1} - r_k|^2
-/// Every step begins with the given first factor; equal residuals keep the factor.
+/// Every step begins with the given first factor; equal residuals and values that are not finite keep it.
 class Aitken final : public Accelerator {
  public:
   explicit Aitken(double first) : first_(first), factor_(first) {}

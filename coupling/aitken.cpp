@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cmath>
 
 #include "coupling/accelerator.hpp"
 
@@ -14,8 +14,8 @@ Eigen::VectorXd Aitken::next(const Eigen::VectorXd& x, const Eigen::VectorXd& im
   if (residual_.size() == residual.size()) {
     const Eigen::VectorXd change = residual - residual_;
     const double squared = change.squaredNorm();
-    // Identical residuals carry no information: keep the factor.
-    if (squared > 0) factor_ = -factor_ * residual_.dot(change) / squared;
+    // Identical residuals carry no information, nor do those too large to square: keep the factor.
+    if (squared > 0 && std::isfinite(squared)) factor_ = -factor_ * residual_.dot(change) / squared;
   }
   residual_ = residual;
   return x + factor_ * residual;
