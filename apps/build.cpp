@@ -23,12 +23,14 @@ std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
   if (coupling.accelerator == "broyden") return std::make_unique<coupling::Broyden>(coupling.relaxation);
   if (coupling.accelerator == "iqn_ils")
     return std::make_unique<coupling::IqnIls>(coupling.relaxation, static_cast<std::size_t>(coupling.reuse));
+  if (coupling.accelerator == "probe") return std::make_unique<coupling::Probe>(coupling.relaxation);
   return std::make_unique<coupling::ConstantRelaxation>(coupling.relaxation);
 }
 
 CouplingLimits limits(const Coupling& coupling) {
   return {.tolerance = coupling.tolerance,
-          .max_passes = coupling.scheme == "staggered" ? 1 : coupling.max_passes};
+          .max_passes = coupling.max_passes,
+          .fixed_passes = coupling.scheme == "staggered" ? (coupling.accelerator == "probe" ? 2 : 1) : 0};
 }
 
 /// Bodies that the fluid cannot move have nothing to agree about: one pass without a term.

@@ -16,6 +16,9 @@ class Accelerator {
   virtual std::string name() const = 0;
   /// Before the first pass of an attempt: forgets what attempts that were not committed have learnt.
   virtual void begin_step() = 0;
+  /// Whether it wants dG/dx at the beginning of each attempt, after begin_step().
+  virtual bool needs_slope() const { return false; }
+  virtual void set_slope(const Eigen::MatrixXd&) {}
   /// Next iterate from x and its image G(x).
   virtual Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) = 0;
   /// The attempt became a step: what it has learnt may serve the next one.

@@ -47,6 +47,11 @@ Eigen::VectorXd InterfaceSpace<d>::vector(const Interface<d>& interface) const {
 }
 
 template <int d>
+Eigen::MatrixXd InterfaceSpace<d>::slope(const Eigen::MatrixXd& of_interface) const {
+  return weight_.asDiagonal() * of_interface * weight_.cwiseInverse().asDiagonal();
+}
+
+template <int d>
 void InterfaceSpace<d>::add(const Eigen::VectorXd& change, Interface<d>& interface) const {
   constexpr int m = fluid::freedoms<d>;
   const Eigen::VectorXd unscaled = change.cwiseQuotient(weight_);

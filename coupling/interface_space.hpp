@@ -29,6 +29,8 @@ class InterfaceSpace {
                  double fluid_density);
   Eigen::VectorXd vector(const Interface<d>& interface) const;
   Eigen::VectorXd velocities(const std::vector<fluid::Twist<d>>& twists) const;
+  /// A slope between entries of Interface, as one between vectors.
+  Eigen::MatrixXd slope(const Eigen::MatrixXd& of_interface) const;
   /// Adds a change; twists of bodies that are not free stay.
   void add(const Eigen::VectorXd& change, Interface<d>& interface) const;
 

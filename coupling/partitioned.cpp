@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "coupling/interface_space.hpp"
+#include "coupling/pass_slope.hpp"
 #include "coupling/steppers.hpp"
 
 namespace splashdown::coupling {
@@ -26,7 +27,7 @@ std::string no_agreement(const char* what, int passes, double residual, const st
   std::ostringstream text;
   text << "the coupling " << what << ": residual " << residual << " after " << passes << " passes with interface_term = \""
        << term << "\"";
-  if (term != "rigid") text << "; use interface_term = \"rigid\", or accelerator = \"iqn_ils\"";
+  if (term != "rigid") text << "; use interface_term = \"rigid\", or accelerator = \"probe\"";
   return text.str();
 }
 
@@ -93,6 +94,8 @@ StepReport Partitioned<d>::attempt(double dt) {
     const auto& vertices = bodies_->spec(b).surface.vertices;
     length = std::max(length, (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm());
   }
+  if (outside && accelerator_->needs_slope())
+    accelerator_->set_slope(space.slope(pass_slope(*fluid_, *bodies_, kick_)));
   StepReport report;
   double first = 0, calmest = std::numeric_limits<double>::infinity();
   const double fluid_seconds = [&] {
@@ -120,7 +123,7 @@ StepReport Partitioned<d>::attempt(double dt) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
       return report;
     }
-    if (report.residual <= limits_.tolerance || limits_.max_passes == 1) break;
+    if (report.residual <= limits_.tolerance || report.passes == limits_.fixed_passes) break;
     if (report.passes == 1) first = report.residual;
     if (report.residual > diverged * first) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());

@@ -1,6 +1,7 @@
 // Accelerators that learn the map's slope from its passes.
 #pragma once
 
+#include <Eigen/LU>
 #include <vector>
 
 #include "coupling/accelerator.hpp"
@@ -71,6 +72,25 @@ class Broyden final : public Accelerator {
   double factor_;
   std::vector<Update> updates_;
   Eigen::VectorXd residual_, x_;
+};
+
+/// Newton's method with the slope J = dG/dx that both sides know before the first pass, as in the non-iterative stepper
+/// of Roenby, Aliyar, Bredmose (2024):
+///   x_2 = x_1 + (1 - J)^-1 r_1
+/// The second pass of an affine map is its solution. What a wrong or bent slope leaves, further passes find as
+/// `IqnIls` does with (1 - J)^-1 r in the place of r. The first pass is relaxed by w, without a slope like any other.
+class Probe final : public Accelerator {
+ public:
+  explicit Probe(double factor) : passes_(factor) {}
+  std::string name() const override { return "probe"; }
+  void begin_step() override;
+  bool needs_slope() const override { return true; }
+  void set_slope(const Eigen::MatrixXd& slope) override;
+  Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) override;
+
+ private:
+  IqnIls passes_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> left_;  // 1 - J; empty: not known
 };
 
 }  // namespace splashdown::coupling

@@ -66,7 +66,8 @@ class BodiesOnly final : public Stepper {
 
 struct CouplingLimits {
   double tolerance = 1e-8;  ///< of the interface velocity residual, relative to the step's velocities
-  int max_passes = 50;      ///< 1: staggered; more passes mean that the step is refused
+  int max_passes = 50;      ///< more passes mean that the step is refused
+  int fixed_passes = 0;     ///< the last of so many is accepted as it is; 0: none is
 };
 
 /// Dirichlet-Neumann: the fluid gets wall velocities, the bodies get loads, until both agree.

@@ -496,6 +496,11 @@ Eigen::MatrixXd Fluid<d>::added_mass(std::span<const std::size_t> walls) const {
   return s_->equation.added_mass_of(walls);
 }
 template <int d>
+Eigen::MatrixXd Fluid<d>::interface_slope(std::span<const std::size_t> walls) const {
+  if (!s_->prepared) throw std::logic_error("fluid: the slope is known from begin to commit");
+  return s_->equation.interface_slope(walls);
+}
+template <int d>
 std::span<const double> Fluid<d>::interface_impulse() const {
   return s_->interface;
 }

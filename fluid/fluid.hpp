@@ -75,6 +75,9 @@ class Fluid {
   /// Instantaneous added mass G = B A^-1 B^T of some walls together at t_n [kg, kg m, kg m^2; 2D: per metre]: world
   /// frame, about the walls' reference points, d(d+1)/2 rows a wall. From `begin` to `commit`.
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const;
+  /// Slope of `solve`, corrections apart: impulses on these walls and interface impulses, one below the other, by the
+  /// walls' twists and the previous interface impulses. From `begin` to `commit`.
+  Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls) const;
   /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<d>> poses);
 

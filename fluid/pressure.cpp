@@ -217,51 +217,44 @@ void PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> 
   for (std::size_t k = 0; k < responding_.size(); ++k) s[responding_[k]] += change.segment(k * m, m);
 }
 
-// A X = B with the factor of A + K, K = Q^T L Q:  X = (A + K)^-1 (B + Q^T L m),  m = Q X, of the size of the pieces.
 template <int d>
-bool PressureEquation<d>::solve_without_laplacian(Eigen::MatrixXd& columns) {
-  const auto solve = [&](Eigen::MatrixXd& rhs) {
-    return solver_.solve({rhs.data(), static_cast<std::size_t>(rhs.size())}, static_cast<int>(rhs.cols()));
-  };
-  const auto means = [&](const Eigen::MatrixXd& of) {
-    Eigen::MatrixXd out(laplacian_.pieces().size(), of.cols());
-    for (Eigen::Index k = 0; k < of.cols(); ++k) {
-      const auto mean = laplacian_.means({of.col(k).data(), static_cast<std::size_t>(size())});
-      out.col(k) = Eigen::Map<const Eigen::VectorXd>(mean.data(), out.rows());
-    }
-    return out;
-  };
-  if (!solve(columns)) return false;
+Eigen::MatrixXd PressureEquation<d>::interface_slope(std::span<const std::size_t> walls) {
+  constexpr int m = freedoms<d>;
   const auto pieces = static_cast<Eigen::Index>(laplacian_.pieces().size());
-  if (pieces == 0) return true;
-  Eigen::MatrixXd of_pieces(size(), pieces);  // (A + K)^-1 Q^T L
+  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  Eigen::MatrixXd phi = Eigen::MatrixXd::Zero(size(), count + pieces);
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]]) phi.row(mode.unknown).segment(k * m, m) -= mode.row.transpose();
   std::vector<double> unit(static_cast<std::size_t>(pieces), 0.0), flux;
   for (Eigen::Index k = 0; k < pieces; ++k) {
     flux.assign(size(), 0.0);
     unit[k] = 1;
     laplacian_.add(unit, flux);
     unit[k] = 0;
-    of_pieces.col(k) = Eigen::Map<const Eigen::VectorXd>(flux.data(), size());
+    phi.col(count + k) = Eigen::Map<const Eigen::VectorXd>(flux.data(), size());
   }
-  if (!solve(of_pieces)) return false;
-  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(pieces, pieces) - means(of_pieces);
-  columns += of_pieces * left.partialPivLu().solve(means(columns));
-  return true;
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(count + pieces, count + pieces);
+  if (phi.size() == 0) return slope;
+  if (!solver_.solve({phi.data(), static_cast<std::size_t>(phi.size())}, static_cast<int>(phi.cols())))
+    return slope.array() + std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]]) slope.middleRows(k * m, m) += mode.row * phi.row(mode.unknown);
+  for (Eigen::Index k = 0; k < phi.cols(); ++k) {
+    const auto means = laplacian_.means({phi.col(k).data(), static_cast<std::size_t>(size())});
+    slope.col(k).tail(pieces) = Eigen::Map<const Eigen::VectorXd>(means.data(), pieces);
+  }
+  return slope;
 }
 
+// An interface Laplacian vanishes where its means are those of phi itself: m = Q phi eliminated, A is left.
 template <int d>
 Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
-  constexpr int m = freedoms<d>;
-  const int count = static_cast<int>(walls.size()) * m;
-  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(size(), count), inertia = Eigen::MatrixXd::Zero(count, count);
-  if (size() == 0) return inertia;
-  for (std::size_t k = 0; k < walls.size(); ++k)
-    for (const Mode& mode : modes_[walls[k]]) response.row(mode.unknown).segment(k * m, m) += mode.row.transpose();
-  if (!solve_without_laplacian(response))
-    return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t k = 0; k < walls.size(); ++k)
-    for (const Mode& mode : modes_[walls[k]]) inertia.middleRows(k * m, m) += mode.row * response.row(mode.unknown);
-  return inertia;
+  const Eigen::MatrixXd slope = interface_slope(walls);
+  const auto count = static_cast<Eigen::Index>(walls.size()) * freedoms<d>, pieces = slope.rows() - count;
+  if (pieces == 0) return -slope;
+  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(pieces, pieces) - slope.bottomRightCorner(pieces, pieces);
+  return -slope.topLeftCorner(count, count) -
+         slope.topRightCorner(count, pieces) * left.partialPivLu().solve(slope.bottomLeftCorner(pieces, count));
 }
 
 template <int d>

@@ -71,6 +71,9 @@ class PressureEquation {
   Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
   /// G = B A^-1 B^T of a responding wall: its added mass.
   const Eigen::MatrixXd& added_mass() const { return added_mass_; }
+  /// Slope of a solve: what twists of walls and impulses that Laplacians lag on change in the walls' impulses and in
+  /// the means,  d(B phi, Q phi) / d(s, m) = (B; Q) (A + K)^-1 (-B^T, Q^T L). NaN if a solve fails.
+  Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls);
   /// G = B A^-1 B^T [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the
   /// world frame: whatever answers they have in this equation. One right-hand side a freedom on the factor that is
   /// there; what an interface Laplacian adds to it is taken out again. NaN if a solve fails.
@@ -87,7 +90,6 @@ class PressureEquation {
   void assemble();
   bool factored();
   void wall_modes(std::span<const Vec<d>> centres);
-  bool solve_without_laplacian(Eigen::MatrixXd& columns);
 
   const Nodes<d>* nodes_ = nullptr;
   const Mesh<d>* mesh_ = nullptr;

@@ -28,7 +28,9 @@ const Scheme schemes[] = {scheme<Rigid, coupling::ConstantRelaxation>("rigid", 1
                           scheme<None, coupling::Aitken>("none_aitken", 0.1),
                           scheme<None, coupling::Anderson>("none_anderson", 1.0),
                           scheme<None, coupling::Broyden>("none_broyden", 1.0),
-                          scheme<None, coupling::IqnIls>("none_iqn_ils", 1.0)};
+                          scheme<None, coupling::IqnIls>("none_iqn_ils", 1.0),
+                          scheme<None, coupling::Probe>("none_probe", 1.0),
+                          scheme<Laplacian, coupling::Probe>("laplacian_probe", 1.0)};
 
 void PrintTo(const Scheme& s, std::ostream* out) { *out << s.name; }
 

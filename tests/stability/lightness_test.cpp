@@ -162,6 +162,7 @@ std::unique_ptr<coupling::Accelerator> accelerator(const std::string& name) {
   if (name == "aitken") return std::make_unique<coupling::Aitken>(0.1);
   if (name == "anderson") return std::make_unique<coupling::Anderson>(1.0);
   if (name == "broyden") return std::make_unique<coupling::Broyden>(1.0);
+  if (name == "probe") return std::make_unique<coupling::Probe>(1.0);
   return std::make_unique<coupling::IqnIls>(1.0);
 }
 
@@ -197,6 +198,35 @@ TEST(LaplacianTerm, converges_where_plain_exchange_diverges) {
       const auto broyden = first_step<coupling::LaplacianTerm<2>>(ratio, dt, "broyden").first;
       EXPECT_TRUE(broyden.ok()) << ratio << ' ' << dt;  // 2 n + 1 = 19 on an affine map; curvature has no bound
     }
+}
+
+TEST(Probe, knows_what_other_schemes_have_to_learn) {
+  // They take n + 2 passes on an affine map: 5 for three freedoms, 11 with six pieces more, and some for its
+  // curvature. It has only the corrections of the pressure and the curvature to learn, at any mass.
+  for (double ratio : {10.0, 1.0, 1.0 / 3, 0.1, 1e-2, 1e-3})
+    for (double dt : {1e-3, 1e-3 / 16}) {
+      // Roundoff of positions over dt, eps 3 m / dt, is 3e-8 of the speed g dt / 2; a pass amplifies it by M_a / m.
+      if (ratio < 1e-2 && dt < 1e-3) continue;
+      EXPECT_LE(first_step<coupling::NoTerm<2>>(ratio, dt, "probe").first.passes, 5) << ratio << ' ' << dt;
+      EXPECT_LE(first_step<coupling::LaplacianTerm<2>>(ratio, dt, "probe").first.passes, 11) << ratio << ' ' << dt;
+    }
+}
+
+TEST(Probe, after_two_passes_is_off_by_no_more_than_the_residual_it_reports) {
+  // The pass has negative slopes -eta: the solution is r eta / (1 + eta) from the last image, hence nearer than r.
+  // Relative to the speed of free flight; a coarse tolerance of the reference is a part of r.
+  const double dt = 1e-3, free_flight = scenes::g * dt / 2;
+  for (double ratio : {10.0, 1.0 / 3, 0.1}) {
+    const auto reference = first_step<coupling::NoTerm<2>>(ratio, dt, "iqn_ils", 1e-10).second;
+    const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>(),
+                                         accelerator("probe"), {.tolerance = 1e-14, .fixed_passes = 2});
+    const auto report = stepper->attempt(dt);
+    ASSERT_TRUE(report.ok()) << report.cause;
+    EXPECT_EQ(report.passes, 2);
+    EXPECT_GT(report.residual, 0);
+    const fluid::Twist<2> off = stepper->trial()[0].velocity - reference;
+    EXPECT_LE(off.head<2>().norm(), 1.01 * report.residual * free_flight) << ratio;
+  }
 }
 
 TEST(LaplacianTerm, converges_with_aitken_too) {

@@ -193,7 +193,7 @@ const std::vector<BadScene> scenes = {
     {"interface_term_unknown", "[output]", "[coupling]\ninterface_term = \"exact\"\n[output]", 27,
      "coupling.interface_term = \"exact\"", "'rigid', 'laplacian' or 'none'"},
     {"accelerator_unknown", "[output]", "[coupling]\naccelerator = \"newton\"\n[output]", 27,
-     "coupling.accelerator = \"newton\"", "'constant', 'aitken', 'anderson', 'broyden' or 'iqn_ils'"},
+     "coupling.accelerator = \"newton\"", "'constant', 'aitken', 'anderson', 'broyden', 'iqn_ils' or 'probe'"},
     {"depth_zero", "[output]", "[coupling]\ndepth = 0\n[output]", 27, "coupling.depth = 0", "must lie in [1, 10000]"},
     {"reuse_negative", "[output]", "[coupling]\nreuse = -1\n[output]", 27, "coupling.reuse = -1",
      "must lie in [0, 100]"},

@@ -27,7 +27,8 @@ const Scheme schemes[] = {{"constant", [] { return std::make_unique<ConstantRela
                       {"anderson", [] { return std::make_unique<Anderson>(0.5); }},
                       {"broyden", [] { return std::make_unique<Broyden>(0.5); }},
                       {"iqn_ils", [] { return std::make_unique<IqnIls>(0.5); }},
-                      {"iqn_ils", [] { return std::make_unique<IqnIls>(0.5, 3); }}};
+                      {"iqn_ils", [] { return std::make_unique<IqnIls>(0.5, 3); }},
+                      {"probe", [] { return std::make_unique<Probe>(0.5); }}};
 
 INSTANTIATE_TEST_SUITE_P(All, Accelerators, testing::ValuesIn(schemes));
 
@@ -134,6 +135,7 @@ TEST(Passes, are_those_of_theory) {
     Anderson anderson(0.5);
     Broyden broyden(0.5);
     IqnIls iqn_ils(0.5);
+    Probe probe(1);
     const auto within = [&](Accelerator& scheme, const Bounds& bounds) {
       const int count = passes(scheme, map);
       EXPECT_GE(count, bounds.least) << scheme.name() << ", " << map.name;
@@ -145,6 +147,10 @@ TEST(Passes, are_those_of_theory) {
     within(aitken, n == 1 ? Bounds{3, 3} : Bounds{least(map), passes_of_best_factor(map)});
     within(anderson, least_squares(map));
     within(iqn_ils, least_squares(map));
+    // It knows the slope: exact in the second pass; bent, each one leaves bend / (1 + least mu) of the error, of 1e-9.
+    const double left = map.bend / (1 + map.mu.minCoeff());
+    const auto further = [&] { return static_cast<int>(std::ceil(std::log(1e-9) / std::log(left))); };
+    within(probe, map.affine() ? Bounds{2, 2} : Bounds{3, 2 + further()});
     // Gay 1979: 2 n steps and a pass to confirm, the first of which has none behind it.
     within(broyden, n == 1 ? Bounds{3, 3} : Bounds{least(map), 2 * n + 1 + (map.affine() ? 0 : 5)});
   }

@@ -25,6 +25,7 @@ struct Map {
   std::string name;
   Vector mu;  // ascending
   std::function<Vector(const Vector&)> image;
+  Matrix slope;          // at the solution
   double condition = 1;  // of the basis of its modes
   double bend = 0;       // most that its slope changes on the way from 0 to the solution
   int size() const { return static_cast<int>(mu.size()); }
@@ -37,7 +38,7 @@ inline Map affine(const std::string& name, const Vector& mu, const Matrix& basis
   const Matrix A = -modes * mu.asDiagonal() * modes.inverse();
   const Vector b = Vector::Ones(A.rows()) - A * Vector::Ones(A.rows());
   const bool orthogonal = (modes.transpose() * modes).isIdentity(1e-12);
-  return {name, mu, [A, b](const Vector& x) -> Vector { return A * x + b; },
+  return {name, mu, [A, b](const Vector& x) -> Vector { return A * x + b; }, A,
           orthogonal ? 1.0 : modes.norm() * modes.inverse().norm(), 0.0};
 }
 
@@ -74,6 +75,7 @@ inline std::vector<Map> all() {
 /// Passes until |G(x) - x| < 1e-9 of its first value: roundoff is 1e-16 times the largest slope, 1000, squared.
 inline int passes(Accelerator& scheme, const Map& map, Vector* solution = nullptr, double shift = 0) {
   scheme.begin_step();
+  if (scheme.needs_slope()) scheme.set_slope(map.slope);
   Vector x = Vector::Zero(map.size());
   double first = 0;
   for (int k = 1; k < never; ++k) {

@@ -87,7 +87,7 @@ TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
   auto scene = scenes::submerged_circle(1);
   scene.bodies[0].motion = rigid::Motion::fixed;
   const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm<2>>(),
-                                       std::make_unique<ConstantRelaxation>(1.0), {.max_passes = 1});
+                                       std::make_unique<ConstantRelaxation>(1.0), {.fixed_passes = 1});
   for (int i = 0; i < 3; ++i) {
     const auto report = stepper->attempt(1e-3);
     ASSERT_TRUE(report.ok());
