@@ -12,6 +12,7 @@ using coupling::CouplingLimits;
 
 std::unique_ptr<coupling::InterfaceTerm<2>> interface_term(const Coupling& coupling) {
   if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm<2>>();
+  if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm<2>>();
   if (coupling.interface_term == "none") return std::make_unique<coupling::NoTerm<2>>();
   return std::make_unique<coupling::RigidTerm<2>>();
 }

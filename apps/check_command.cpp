@@ -103,7 +103,7 @@ void print_body(const Scene& scene, const Body& body) {
       fmt::format("{:.4g} of the liquid's", spec.mass / shape.at_unit_density.mass / scene.fluid->density));
   row("added mass",
       fmt::format("about {:.4g} kg/m (flat plate of its breadth): {:.3g} times its mass{}", added,
-                  added / spec.mass, added > spec.mass ? "; needs interface_term rigid or laplacian" : ""));
+                  added / spec.mass, added > spec.mass ? "; needs interface_term rigid, or an accelerator" : ""));
   print_floating(scene, spec);
 }
 

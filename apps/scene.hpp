@@ -130,7 +130,7 @@ struct Body {
 
 struct Coupling {
   std::string scheme = "iterated";       ///< "iterated" | "staggered"
-  std::string interface_term = "rigid";  ///< "rigid" | "laplacian" | "none"
+  std::string interface_term = "rigid";  ///< "rigid" | "laplacian" | "robin" | "none"
   std::string accelerator = "constant";  ///< "constant" | "aitken" | "anderson" | "broyden" | "iqn_ils" | "probe"
   double relaxation = 1;                 ///< only (constant, anderson, probe) or first factor, in (0, 1]
   int depth = 50;                        ///< passes that anderson remembers

@@ -103,7 +103,7 @@ void read_fluid(Reader& reader, Fluid& fluid) {
 
 void read_coupling(Reader& reader, Coupling& coupling) {
   reader.choice("scheme", coupling.scheme, {"iterated", "staggered"});
-  reader.choice("interface_term", coupling.interface_term, {"rigid", "laplacian", "none"});
+  reader.choice("interface_term", coupling.interface_term, {"rigid", "laplacian", "robin", "none"});
   reader.choice("accelerator", coupling.accelerator, {"constant", "aitken", "anderson", "broyden", "iqn_ils", "probe"});
   reader.number("relaxation", coupling.relaxation, share("Use 1 unless the coupling diverges."));
   reader.integer("depth", coupling.depth, within(1, 10000, "", "Use e.g. 50: passes that anderson remembers."));

@@ -6,6 +6,7 @@
 //   rigid      B^T C B itself: exact, symmetric positive semidefinite, rank 3 (2D) or 6 (3D)
 //   laplacian  a local stand-in, a Laplacian of the long modes of phi on the hull (Idelsohn, Del Pin, Rossi,
 //              Onate 2009; Ryzhakov, Rossi, Vina, Onate 2013); needs passes
+//   robin      another one, a mass for each piece of the hull (Badia, Nobile, Vergara 2008); needs passes
 //   none       plain Dirichlet-Neumann: a pass amplifies the error by about M_a / m
 #pragma once
 
@@ -53,7 +54,18 @@ class LaplacianTerm final : public InterfaceTerm<d> {
   double strength_;  ///< 1: the energy of a translation is exact
 };
 
+/// Robin-Neumann: each piece of the hull answers like a mass of its own (Badia, Nobile, Vergara 2008; Astorino, Chouly,
+/// Fernandez 2010). Scaling and pieces: fluid/interface_laplacian.hpp.
+template <int d>
+class RobinTerm final : public InterfaceTerm<d> {
+ public:
+  std::string name() const override { return "robin"; }
+  fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const override;
+};
+
 extern template class LaplacianTerm<2>;
 extern template class LaplacianTerm<3>;
+extern template class RobinTerm<2>;
+extern template class RobinTerm<3>;
 
 }  // namespace splashdown::coupling

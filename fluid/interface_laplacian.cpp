@@ -124,7 +124,7 @@ std::vector<Place> sow(const Hull<d>& hull, int count) {
 
 template <int d>
 void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown,
-                                     int wall, double inverse_mass) {
+                                     int wall, const StandIn& stand_in) {
   const Hull<d> hull(mesh, nodes.x, wall);
   const auto places = sow(hull, 2 * freedoms<d>);
   const std::size_t first = pieces_.size();
@@ -156,29 +156,44 @@ void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh,
     for (auto& share : rows_[first + k]) share.weight /= measure;
     std::erase_if(rows_[first + k], [](const Share& share) { return share.weight == 0; });
   }
-  const std::size_t first_link = links_.size();
-  double energy = 0;  // of phi ~ n for lambda = 1
-  for (const auto& border : hull.borders) {
-    const int a = places[border.a].piece, b = border.b < 0 ? -1 : places[border.b].piece;
-    if (a < 0 || a == b) continue;
-    const double distance = (centre[a] - border.centre).norm() + (b < 0 ? 0.0 : (centre[b] - border.centre).norm());
-    if (distance == 0) continue;
+  std::vector<Link> links;  // of one operator
+  double energy = 0;        // of phi ~ n under them
+  const auto link = [&](int a, int b, double weight) {
     const int offset = static_cast<int>(first);
-    links_.push_back({offset + a, b < 0 ? -1 : offset + b, border.measure / distance});
-    energy += links_.back().weight * (normal[a] - (b < 0 ? Vec<d>::Zero().eval() : normal[b])).squaredNorm();
+    links.push_back({offset + a, b < 0 ? -1 : offset + b, weight});
+    energy += weight * (normal[a] - (b < 0 ? Vec<d>::Zero().eval() : normal[b])).squaredNorm();
+  };
+  // lambda or alpha: translations get the energy that they have under the exact answer.
+  const auto scale = [&](double inverse_mass) {
+    if (energy > 0)
+      for (const auto& l : links) links_.push_back({l.a, l.b, inverse_mass * exact.squaredNorm() / energy * l.weight});
+    links.clear(), energy = 0;
+  };
+  if (stand_in.laplacian != 0) {
+    for (const auto& border : hull.borders) {
+      const int a = places[border.a].piece, b = border.b < 0 ? -1 : places[border.b].piece;
+      if (a < 0 || a == b) continue;
+      const double distance =
+          (centre[a] - border.centre).norm() + (b < 0 ? 0.0 : (centre[b] - border.centre).norm());
+      if (distance > 0) link(a, b, border.measure / distance);
+    }
+    scale(stand_in.laplacian);
   }
-  const double lambda = energy > 0 ? inverse_mass * exact.squaredNorm() / energy : 0.0;
-  for (std::size_t k = first_link; k < links_.size(); ++k) links_[k].weight *= lambda;
+  if (stand_in.robin != 0) {
+    for (int k = 0; k < count; ++k) link(k, -1, pieces_[first + k].measure);
+    scale(stand_in.robin);
+  }
 }
 
 template <int d>
 void InterfaceLaplacian<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown,
-                                  std::span<const double> inverse_mass) {
+                                  std::span<const StandIn> stand_ins) {
   pieces_.clear();
   rows_.clear();
   links_.clear();
-  for (std::size_t w = 0; w < inverse_mass.size(); ++w)
-    if (inverse_mass[w] != 0) cut_wall(nodes, mesh, unknown, static_cast<int>(w), inverse_mass[w]);
+  for (std::size_t w = 0; w < stand_ins.size(); ++w)
+    if (stand_ins[w].laplacian != 0 || stand_ins[w].robin != 0)
+      cut_wall(nodes, mesh, unknown, static_cast<int>(w), stand_ins[w]);
 }
 
 template <int d>

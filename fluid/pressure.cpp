@@ -15,9 +15,9 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   measure(density);
   choose_unknowns();
   wall_modes(centres);
-  std::vector<double> inverse_mass;
-  for (const auto& response : responses) inverse_mass.push_back(response.laplacian);
-  laplacian_.build(nodes, mesh, unknown_, inverse_mass);
+  std::vector<StandIn> stand_ins;
+  for (const auto& response : responses) stand_ins.push_back(response.stand_in);
+  laplacian_.build(nodes, mesh, unknown_, stand_ins);
   assemble();
   if (size() == 0) return true;
   if (!factored()) return false;

@@ -40,8 +40,8 @@ template <int d>
 struct WallResponse {
   /// Exact rigid response: velocity change per unit impulse [1/kg ...]. Zero: none.
   Compliance<d> rigid = Compliance<d>::Zero();
-  /// Inverse mass for which an interface Laplacian stands in [m/kg, 1/kg]; 0: none.
-  double laplacian = 0;
+  /// Local operators that stand in for it.
+  StandIn stand_in = {};
 };
 
 template <int d>

@@ -21,16 +21,20 @@ Scheme scheme(const char* name, Arguments... arguments) {
 }
 using None = coupling::NoTerm<2>;
 using Laplacian = coupling::LaplacianTerm<2>;
+using Robin = coupling::RobinTerm<2>;
 using Rigid = coupling::RigidTerm<2>;
 const Scheme schemes[] = {scheme<Rigid, coupling::ConstantRelaxation>("rigid", 1.0),
                           scheme<Laplacian, coupling::IqnIls>("laplacian_iqn_ils", 1.0),
                           scheme<Laplacian, coupling::Anderson>("laplacian_anderson", 1.0),
+                          scheme<Robin, coupling::IqnIls>("robin_iqn_ils", 1.0),
+                          scheme<Robin, coupling::Anderson>("robin_anderson", 1.0),
                           scheme<None, coupling::Aitken>("none_aitken", 0.1),
                           scheme<None, coupling::Anderson>("none_anderson", 1.0),
                           scheme<None, coupling::Broyden>("none_broyden", 1.0),
                           scheme<None, coupling::IqnIls>("none_iqn_ils", 1.0),
                           scheme<None, coupling::Probe>("none_probe", 1.0),
-                          scheme<Laplacian, coupling::Probe>("laplacian_probe", 1.0)};
+                          scheme<Laplacian, coupling::Probe>("laplacian_probe", 1.0),
+                          scheme<Robin, coupling::Probe>("robin_probe", 1.0)};
 
 void PrintTo(const Scheme& s, std::ostream* out) { *out << s.name; }
 
@@ -114,7 +118,7 @@ TEST(Accelerators, lead_to_one_motion) {
   // A step ends within tolerance / (1 - slope) of where its term's passes lead. Slopes of plain passes are negative,
   // those with a Laplacian below 6 mu / (1 + 6 mu), mu = M_a / m < 10 (docs/theory.md): eight steps of 60 * 1e-8.
   for (double ratio : {1.0 / 3, 0.1})
-    for (const char* term : {"laplacian", "none"}) {
+    for (const char* term : {"laplacian", "robin", "none"}) {
       std::vector<std::vector<fluid::Twist<2>>> found;
       for (const auto& s : schemes)
         if (std::string(s.name).starts_with(term)) found.push_back(velocities(*released(s, ratio)));
@@ -132,7 +136,7 @@ TEST(InterfaceTerms, lead_to_one_motion_but_for_the_error_of_the_mesh) {
   };
   const auto& exact = schemes[0];
   const Eigen::Vector2d coarse = rise(exact, 0.12), middle = rise(exact, 0.06), fine = rise(exact, 0.03);
-  for (const auto& s : {schemes[1], schemes[6]}) {
+  for (const auto& s : {schemes[1], schemes[3], schemes[8]}) {
     const double at_coarse = (rise(s, 0.12) - coarse).norm(), at_middle = (rise(s, 0.06) - middle).norm();
     EXPECT_LE(at_coarse, (coarse - middle).norm()) << s.name;
     EXPECT_LE(at_middle, (middle - fine).norm()) << s.name;

@@ -104,7 +104,7 @@ TEST(LinearSolver, that_fails_refuses_the_step_and_the_next_attempt_is_undisturb
   const auto spec = fluid::scenes::still_water(1, 0.5, 0.1);
   fluid::Fluid<2> f(spec, fluid::scenes::gravity({0, -scenes::g}));
   std::vector<fluid::WallResponse<2>> bad(1), good(1);
-  bad[0].laplacian = -1e6;
+  bad[0].stand_in.laplacian = -1e6;
   EXPECT_FALSE(f.begin(1e-3, 1e-3, bad).ok());
   ASSERT_TRUE(f.begin(1e-3, 1e-3, good).ok());
   ASSERT_TRUE(f.solve(std::vector<fluid::Twist<2>>(1, fluid::Twist<2>::Zero())).ok());

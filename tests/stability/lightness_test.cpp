@@ -188,16 +188,39 @@ TEST(Accelerators, make_plain_exchange_converge_to_one_state_for_light_bodies) {
   }
 }
 
-TEST(LaplacianTerm, converges_where_plain_exchange_diverges) {
+template <class Term>
+void converges_where_plain_exchange_diverges() {
   // Three freedoms and six pieces: n + 2 = 11 passes on an affine map, whatever mass, mesh and step; the curvature
   // takes some more. Broyden's method ends within 2 n + 1.
   for (double ratio : {1.0 / 3, 0.1, 0.01})
     for (double dt : {1e-3, 1e-3 / 4, 1e-3 / 16}) {
       for (const char* name : {"anderson", "iqn_ils"})
-        EXPECT_LE(first_step<coupling::LaplacianTerm<2>>(ratio, dt, name).first.passes, 11 + 4) << ratio << ' ' << dt;
-      const auto broyden = first_step<coupling::LaplacianTerm<2>>(ratio, dt, "broyden").first;
+        EXPECT_LE(first_step<Term>(ratio, dt, name).first.passes, 11 + 4) << ratio << ' ' << dt;
+      const auto broyden = first_step<Term>(ratio, dt, "broyden").first;
       EXPECT_TRUE(broyden.ok()) << ratio << ' ' << dt;  // 2 n + 1 = 19 on an affine map; curvature has no bound
     }
+}
+
+TEST(LaplacianTerm, converges_where_plain_exchange_diverges) {
+  converges_where_plain_exchange_diverges<coupling::LaplacianTerm<2>>();
+}
+
+TEST(RobinTerm, converges_where_plain_exchange_diverges) {
+  converges_where_plain_exchange_diverges<coupling::RobinTerm<2>>();
+}
+
+TEST(RobinTerm, needs_no_relaxation_for_a_light_body_that_slams) {
+  // 2 K + A > S on a hull between contact lines, for any mass: convergence, slower for lighter bodies (docs/theory.md).
+  const auto most_passes = [](double ratio, std::unique_ptr<coupling::InterfaceTerm<2>> term) {
+    const auto stepper =
+        scenes::coupled(scenes::wedge_drop(ratio * 36, 0.001, 0.02), std::move(term),
+                        std::make_unique<coupling::ConstantRelaxation>(1.0), {.tolerance = 1e-6, .max_passes = 500});
+    return scenes::run(*stepper, 25);
+  };
+  for (double ratio : {1.0 / 3, 0.1, 0.01}) {
+    EXPECT_GT(most_passes(ratio, std::make_unique<coupling::RobinTerm<2>>()), 1) << ratio << ": a step was refused";
+    EXPECT_EQ(most_passes(ratio, std::make_unique<coupling::NoTerm<2>>()), -1) << ratio;
+  }
 }
 
 TEST(Probe, knows_what_other_schemes_have_to_learn) {

@@ -191,7 +191,7 @@ const std::vector<BadScene> scenes = {
     {"scheme_unknown", "[output]", "[coupling]\nscheme = \"iterate\"\n[output]", 27,
      "coupling.scheme = \"iterate\"", "Did you mean 'iterated'?"},
     {"interface_term_unknown", "[output]", "[coupling]\ninterface_term = \"exact\"\n[output]", 27,
-     "coupling.interface_term = \"exact\"", "'rigid', 'laplacian' or 'none'"},
+     "coupling.interface_term = \"exact\"", "'rigid', 'laplacian', 'robin' or 'none'"},
     {"accelerator_unknown", "[output]", "[coupling]\naccelerator = \"newton\"\n[output]", 27,
      "coupling.accelerator = \"newton\"", "'constant', 'aitken', 'anderson', 'broyden', 'iqn_ils' or 'probe'"},
     {"depth_zero", "[output]", "[coupling]\ndepth = 0\n[output]", 27, "coupling.depth = 0", "must lie in [1, 10000]"},
