@@ -13,8 +13,7 @@ using coupling::CouplingLimits;
 std::unique_ptr<coupling::InterfaceTerm<2>> interface_term(const Coupling& coupling) {
   if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm<2>>();
   if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm<2>>();
-  if (coupling.interface_term == "none") return std::make_unique<coupling::NoTerm<2>>();
-  return std::make_unique<coupling::RigidTerm<2>>();
+  return std::make_unique<coupling::NoTerm<2>>();
 }
 
 std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
@@ -44,7 +43,8 @@ std::unique_ptr<fluid::Fluid<2>> build_fluid(const Scene& scene) {
 std::unique_ptr<rigid::Bodies<2>> build_bodies(const Scene& scene) {
   std::vector<rigid::BodySpec<2>> specs;
   for (const auto& body : scene.bodies) specs.push_back(body_spec(body));
-  return std::make_unique<rigid::Bodies<2>>(std::move(specs), body_forces(scene));
+  return std::make_unique<rigid::Bodies<2>>(std::move(specs), body_forces(scene), joint_specs(scene),
+                                            contact_spec(scene));
 }
 
 /// `Stepper` keeps its trial states.
@@ -74,12 +74,17 @@ World<2> bodies_world(const Scene& scene) {
   return world;
 }
 
-World<2> coupled_world(const Scene& scene) {
+std::unique_ptr<coupling::Coupled<2>> coupled_stepper(const Scene& scene) {
   const Coupling coupling = scene.coupling.value_or(one_way());
+  if (coupling.interface_term == "rigid")
+    return std::make_unique<coupling::Simultaneous<2>>(build_fluid(scene), build_bodies(scene), coupling.max_passes);
+  return std::make_unique<coupling::Partitioned<2>>(build_fluid(scene), build_bodies(scene), interface_term(coupling),
+                                                    accelerator(coupling), limits(coupling));
+}
+
+World<2> coupled_world(const Scene& scene) {
   World<2> world;
-  auto stepper = std::make_unique<coupling::Partitioned<2>>(build_fluid(scene), build_bodies(scene),
-                                                            interface_term(coupling), accelerator(coupling),
-                                                            limits(coupling));
+  auto stepper = coupled_stepper(scene);
   world.fluid = &stepper->fluid();
   world.bodies = &stepper->bodies();
   world.trial_velocities = trial_velocities_of(stepper.get());

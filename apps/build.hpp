@@ -31,6 +31,8 @@ World<2> build_world(const Scene& scene);
 fluid::FluidSpec<2> fluid_spec(const Scene& scene);
 std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms(const Scene& scene);
 rigid::BodySpec<2> body_spec(const Body& body);
+std::vector<rigid::JointSpec> joint_specs(const Scene& scene);
+std::optional<rigid::ContactSpec<2>> contact_spec(const Scene& scene);
 std::vector<std::unique_ptr<rigid::Force<2>>> body_forces(const Scene& scene);
 RecorderSettings<2> recorder_settings(const Scene& scene, const std::filesystem::path& directory);
 

@@ -93,6 +93,28 @@ rigid::BodySpec<2> body_spec(const Body& body) {
   return spec;
 }
 
+std::vector<rigid::JointSpec> joint_specs(const Scene& scene) {
+  std::vector<rigid::JointSpec> specs;
+  for (const auto& joint : scene.joints) {
+    const auto type = joint.type == "slider" ? rigid::JointType::slider
+                      : joint.type == "weld" ? rigid::JointType::weld
+                                             : rigid::JointType::hinge;
+    // A weld has no place of its own; the body's reference point is as good as any.
+    const Point point = joint.type == "hinge" ? joint.point : scene.bodies[joint.body].position;
+    specs.push_back({type, joint.body, joint.other, point, joint.axis.normalized()});
+  }
+  return specs;
+}
+
+std::optional<rigid::ContactSpec<2>> contact_spec(const Scene& scene) {
+  if (!scene.contact) return {};
+  rigid::ContactSpec<2> spec;
+  if (!scene.tank) return spec;
+  const Vec<2> low = planar(scene.tank->min), high = planar(scene.tank->max);
+  spec.planes = {{low, Vec<2>::UnitX()}, {low, Vec<2>::UnitY()}, {high, -Vec<2>::UnitX()}, {high, -Vec<2>::UnitY()}};
+  return spec;
+}
+
 std::vector<std::unique_ptr<rigid::Force<2>>> body_forces(const Scene& scene) {
   std::vector<std::unique_ptr<rigid::Force<2>>> forces;
   if (scene.gravity)

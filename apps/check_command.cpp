@@ -107,6 +107,18 @@ void print_body(const Scene& scene, const Body& body) {
   print_floating(scene, spec);
 }
 
+void print_ties(const Scene& scene) {
+  for (const auto& joint : scene.joints) {
+    const std::string other = joint.other ? scene.bodies[*joint.other].name : "the world";
+    const std::string where = joint.type == "hinge"    ? fmt::format(" at ({:g}, {:g}) m", joint.point.x(), joint.point.y())
+                              : joint.type == "slider" ? fmt::format(" along ({:g}, {:g})", joint.axis.x(), joint.axis.y())
+                                                       : "";
+    row(joint.type, fmt::format("{} to {}{}", scene.bodies[joint.body].name, other, where));
+  }
+  if (scene.contact)
+    row("contact", fmt::format("bodies touch each other{}; no rebound, no friction", scene.tank ? " and the tank" : ""));
+}
+
 void print_liquid(const Scene& scene) {
   if (!scene.fluid) return;
   const auto& fluid = *scene.fluid;
@@ -168,6 +180,7 @@ int check_command(const std::filesystem::path& path, const std::vector<std::stri
                             s.speed > 0 ? with_unit(s.length / s.speed, "s") : "-"));
   print_liquid(scene);
   for (const auto& body : scene.bodies) print_body(scene, body);
+  print_ties(scene);
   print_effects(scene);
   print_cost(scene);
   fmt::print("The scene is good. Run it with: splashdown run {}\n", path.string());

@@ -128,6 +128,18 @@ struct Body {
   double size = 0;                 ///< element size at the hull [m]; default: fluid.size.surface
 };
 
+/// Ties a body to another one or to the world.
+struct Joint {
+  std::string type = "hinge";  ///< "hinge" | "slider" | "weld"
+  std::size_t body = 0;
+  std::optional<std::size_t> other;  ///< absent: the world
+  Point point = Point::Zero();       ///< world frame, at t = 0 [m]
+  Point axis = Point::UnitZ();       ///< of a slider, world frame, at t = 0
+};
+
+/// Present: bodies touch each other and the tank. They do not rebound and do not rub.
+struct Contact {};
+
 struct Coupling {
   std::string scheme = "iterated";       ///< "iterated" | "staggered"
   std::string interface_term = "rigid";  ///< "rigid" | "laplacian" | "robin" | "none"
@@ -188,6 +200,8 @@ struct Scene {
   std::optional<Tank> tank;
   std::optional<Gravity> gravity;
   std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::optional<Contact> contact;
   std::optional<Coupling> coupling;  ///< present whenever a free body meets a fluid
   Output output;
   std::vector<RecordEntry> records;

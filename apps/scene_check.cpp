@@ -42,6 +42,7 @@ void check_scene(const Scene& read, const SceneLabels& labels, Problems& problem
   check_times(scene, problems);
   if (scene.fluid) check_fluid(scene, labels, problems);
   check_bodies(scene, labels, problems);
+  check_joints(scene, labels, problems);
   check_records(scene, labels, problems);
 }
 

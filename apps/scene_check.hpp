@@ -8,13 +8,14 @@ namespace splashdown::apps {
 
 /// How messages call the elements of arrays of tables, e.g. `body.wedge`, `fluid.region[0]`.
 struct SceneLabels {
-  std::vector<std::string> bodies, regions, records;
+  std::vector<std::string> bodies, joints, regions, records;
 };
 
 void check_scene(const Scene& scene, const SceneLabels& labels, Problems& problems);
 
 // Its parts.
 void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& problems);
+void check_joints(const Scene& scene, const SceneLabels& labels, Problems& problems);
 void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& problems);
 void check_records(const Scene& scene, const SceneLabels& labels, Problems& problems);
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,6 +33,25 @@ void check_mass(const Body& body, const std::string& label, Problems& problems) 
   if (body.motion == Motion::free && body.free.empty() && problems.noted(label + ".free"))
     problems.add(label + ".free", "must name at least one of 'x', 'y' or 'rotation'",
                  "For none of them use motion = \"fixed\".");
+}
+
+bool starts_wet(const Scene& scene, const Body& body) {
+  const auto hull = outline(body);
+  return std::any_of(scene.fluid->regions.begin(), scene.fluid->regions.end(),
+                     [&](const Region& region) { return overlap(hull, outline(region)); });
+}
+
+/// A body without mass moves as the water lets it.
+void check_massless(const Scene& scene, const Body& body, const std::string& label, Problems& problems) {
+  const bool massless = body.mass == 0. || body.density == 0.;
+  if (body.motion != Motion::free || !massless) return;
+  const std::string key = label + (body.mass ? ".mass" : ".density"), cure = "Give it a mass, or let it start in the water.";
+  if (!scene.fluid) return problems.add(key, "a free body without mass needs a fluid that has inertia for it", "Give it a mass.");
+  if (scene.coupling && scene.coupling->interface_term != "rigid")
+    problems.add(key, "a free body without mass needs coupling.interface_term = \"rigid\"", "Change the term, or give it a mass.");
+  if (!starts_wet(scene, body))
+    problems.add(key, "a free body without mass must start in the fluid, which has inertia for it", cure);
+  if (body.inertia) problems.add(label + ".inertia", "a body without mass has no inertia", "Remove it.");
 }
 
 void check_path(const Body& body, const std::string& label, Problems& problems) {
@@ -119,6 +139,7 @@ void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& probl
       continue;
     check_inside_tank(scene, body, *shape, label, problems);
     check_size(scene, body, *shape, label, problems);
+    if (!problems.found_in("fluid")) check_massless(scene, body, label, problems);
     outlines[i] = std::move(shape);
     outlines[i]->vertices = shape_pose(body) * outlines[i]->vertices;
     for (std::size_t j = 0; j < i; ++j)

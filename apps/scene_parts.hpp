@@ -8,6 +8,10 @@ namespace splashdown::apps {
 
 void read_fluid(Reader& reader, Fluid& fluid);
 void read_body(Reader& reader, Body& body, const Scene& scene);
+/// The index of the body that `key` names; nothing if it is absent or unknown. `what` it is that names it.
+std::optional<std::size_t> read_body_name(Reader& reader, std::string_view key, const Scene& scene, Need need,
+                                          const std::string& what);
+std::optional<Joint> read_joint(Reader& reader, const Scene& scene);
 void read_record(Reader& reader, Scene& scene);
 void read_coupling(Reader& reader, Coupling& coupling);
 

@@ -72,6 +72,13 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     labels.bodies.push_back(reader.path());
     read_body(reader, scene.bodies.emplace_back(), scene);
   });
+  root.each_table("joint", [&](Reader& reader) {
+    auto joint = read_joint(reader, scene);
+    if (!joint) return;
+    labels.joints.push_back(reader.path());
+    scene.joints.push_back(*joint);
+  });
+  if (root.table("contact")) scene.contact.emplace();
   scene.time.dt_max = default_dt_max(scene);
   time.number("dt_max", scene.time.dt_max, positive("s", "Leave it out for a sensible value."));
   if (meets_fluid_freely(scene)) {

@@ -59,8 +59,8 @@ void read_shape(Reader& reader, Shape& shape) {
 
 void read_mass(Reader& reader, Body& body) {
   const std::string fix = "Use motion = \"fixed\" or \"prescribed\" for a body that the fluid does not move.";
-  reader.number("mass", body.mass, positive("kg/m", fix));
-  reader.number("density", body.density, positive("kg/m^3", fix));
+  reader.number("mass", body.mass, not_negative("kg/m", fix));
+  reader.number("density", body.density, not_negative("kg/m^3", fix));
   reader.point("centre_of_mass", body.centre_of_mass, coordinate);
   reader.number("inertia", body.inertia, positive("kg m", "Leave it out for that of uniform density."));
 }

@@ -8,50 +8,10 @@ namespace {
 const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
 const std::string name_cure = "Give it a name: it becomes the probe's name in probes.csv.";
 
-std::vector<std::string> body_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const auto& body : scene.bodies) names.push_back(body.name);
-  return names;
-}
-
-/// The index of the body that `key` names; nothing if it is absent or unknown.
-std::optional<std::size_t> read_body_name(Reader& reader, const Scene& scene, Need need) {
-  const auto names = body_names(scene);
-  if (need == Need::optional && !reader.holds("body")) {
-    reader.skip("body");
-    return {};
-  }
-  std::string name;
-  if (reader.context().problems.found_in("body")) {  // first things first: the names may be wrong
-    reader.text("body", name, "Use the name of a body.", need);
-    return {};
-  }
-  if (names.empty()) {
-    reader.text("body", name, "Use the name of a body.", need);
-    reader.context().problems.add(reader.key("body"), "the scene has no bodies",
-                                  "Add [[body]] or remove the record.");
-    return {};
-  }
-  reader.choice("body", name, names, need);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<std::size_t>(found - names.begin());
-}
-
-/// When rows of a file of its own are due: an interval or a list, each step without both.
-template <class Entry>
-void read_instants(Reader& reader, Entry& entry) {
-  reader.number("interval", entry.interval, not_negative("s", "Use e.g. 0.001, or 0 for every step."));
-  reader.numbers("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
-  if (entry.interval && !entry.times.empty())
-    reader.context().problems.add(reader.key("times"), "interval and times exclude each other",
-                                  "Remove one of them.");
-  if (!entry.interval && entry.times.empty()) entry.interval = 0;
-}
-
 void read_surface_pressure(Reader& reader, Scene& scene) {
   SurfacePressureEntry entry;
-  auto walls = body_names(scene);
+  std::vector<std::string> walls;
+  for (const auto& body : scene.bodies) walls.push_back(body.name);
   if (scene.tank) walls.push_back("tank");
   reader.choice("wall", entry.wall, walls, Need::required);
   read_instants(reader, entry);
@@ -70,7 +30,7 @@ void read_record(Reader& reader, Scene& scene) {
   if (kind == "pressure") {
     PressureEntry entry;
     reader.text("name", entry.name, name_cure, Need::required);
-    entry.body = read_body_name(reader, scene, Need::optional);
+    entry.body = read_body_name(reader, "body", scene, Need::optional, "record");
     reader.point("point", entry.point, coordinate, Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "surface_elevation") {
@@ -81,12 +41,12 @@ void read_record(Reader& reader, Scene& scene) {
   } else if (kind == "acceleration") {
     AccelerationEntry entry;
     reader.text("name", entry.name, name_cure, Need::required);
-    entry.body = read_body_name(reader, scene, Need::required).value_or(0);
+    entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
     reader.point("point", entry.point, coordinate, Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "added_mass") {
     AddedMassEntry entry;
-    entry.body = read_body_name(reader, scene, Need::required).value_or(0);
+    entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
     read_instants(reader, entry);
     scene.records.emplace_back(std::move(entry));
   }

@@ -3,17 +3,17 @@
 namespace splashdown::coupling {
 
 template <int d>
-fluid::WallResponse<d> LaplacianTerm<d>::response(const rigid::Bodies<d>& bodies, std::size_t body) const {
+fluid::StandIn LaplacianTerm<d>::stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const {
   const auto& spec = bodies.spec(body);
   if (spec.motion != rigid::Motion::free) return {};
-  return {.stand_in = {.laplacian = strength_ / spec.mass}};
+  return {.laplacian = strength_ / spec.mass};
 }
 
 template <int d>
-fluid::WallResponse<d> RobinTerm<d>::response(const rigid::Bodies<d>& bodies, std::size_t body) const {
+fluid::StandIn RobinTerm<d>::stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const {
   const auto& spec = bodies.spec(body);
   if (spec.motion != rigid::Motion::free) return {};
-  return {.stand_in = {.robin = 1 / spec.mass}};
+  return {.robin = 1 / spec.mass};
 }
 
 template class LaplacianTerm<2>;

@@ -3,43 +3,34 @@
 // The body answers a pressure impulse phi on its hull with s = s~ + C B phi, C = M_b^-1. Seen from the
 // fluid this adds B^T C B phi to the pressure equation (derivation, scaling and signs: docs/theory.md).
 //
-//   rigid      B^T C B itself: exact, symmetric positive semidefinite, rank 3 (2D) or 6 (3D)
+//   rigid      B^T C B itself: exact, symmetric positive semidefinite, of low rank; the stepper Simultaneous
 //   laplacian  a local stand-in, a Laplacian of the long modes of phi on the hull (Idelsohn, Del Pin, Rossi,
 //              Onate 2009; Ryzhakov, Rossi, Vina, Onate 2013); needs passes
 //   robin      another one, a mass for each piece of the hull (Badia, Nobile, Vergara 2008); needs passes
 //   none       plain Dirichlet-Neumann: a pass amplifies the error by about M_a / m
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "fluid/pressure.hpp"
+#include "fluid/interface_laplacian.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::coupling {
 
+/// A stand-in for the body's answer, which the stepper Partitioned removes pass by pass.
 template <int d>
 class InterfaceTerm {
  public:
   virtual ~InterfaceTerm() = default;
   virtual std::string name() const = 0;
-  virtual fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const = 0;
+  virtual fluid::StandIn stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const = 0;
 };
 
 template <int d>
 class NoTerm final : public InterfaceTerm<d> {
  public:
   std::string name() const override { return "none"; }
-  fluid::WallResponse<d> response(const rigid::Bodies<d>&, std::size_t) const override { return {}; }
-};
-
-template <int d>
-class RigidTerm final : public InterfaceTerm<d> {
- public:
-  std::string name() const override { return "rigid"; }
-  fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const override {
-    return {.rigid = bodies.compliance(body)};
-  }
+  fluid::StandIn stand_in(const rigid::Bodies<d>&, std::size_t) const override { return {}; }
 };
 
 /// Scaling and pieces: fluid/interface_laplacian.hpp.
@@ -48,7 +39,7 @@ class LaplacianTerm final : public InterfaceTerm<d> {
  public:
   explicit LaplacianTerm(double strength = 1) : strength_(strength) {}
   std::string name() const override { return "laplacian"; }
-  fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const override;
+  fluid::StandIn stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const override;
 
  private:
   double strength_;  ///< 1: the energy of a translation is exact
@@ -60,7 +51,7 @@ template <int d>
 class RobinTerm final : public InterfaceTerm<d> {
  public:
   std::string name() const override { return "robin"; }
-  fluid::WallResponse<d> response(const rigid::Bodies<d>& bodies, std::size_t body) const override;
+  fluid::StandIn stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const override;
 };
 
 extern template class LaplacianTerm<2>;

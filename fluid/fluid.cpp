@@ -42,6 +42,7 @@ struct Trial {
   std::vector<Vec<d>> x_mid;                // where a motion is judged
   std::vector<double> r, repaired;          // residual, repair impulse
   std::vector<Wrench<d>> on_walls, dragged;  // impulses of effects and of sticking
+  Eigen::VectorXd known, answer;             // impulses on the motions besides the pressure's, and what they did
 };
 
 template <class Archive, class T>
@@ -59,15 +60,6 @@ void archive_present(Archive& archive, Present<d>& s) {
   raw(archive, s.nodes.surface), raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
   raw(archive, s.mesh.cells), raw(archive, s.mesh.boundary);
   raw(archive, s.poses), raw(archive, s.velocity), raw(archive, s.wetted);
-}
-
-// Impulse that explains the answer of a wall in its free directions; held ones keep what the pressure
-// gives. For very light bodies B phi is a small difference of large numbers, C^-1 s is not.
-template <int d>
-Wrench<d> consistent(const Compliance<d>& rigid, const Twist<d>& answer, const Wrench<d>& impulse) {
-  if (rigid.isZero(0)) return impulse;
-  const auto inverse = rigid.completeOrthogonalDecomposition();
-  return inverse.solve(answer) + impulse - inverse.solve(rigid * impulse);
 }
 
 template <int d>
@@ -103,7 +95,7 @@ struct Fluid<d>::State {
   bool prepared = false;   // work belongs to now
 
   double kick = 0, dt = 0;
-  std::vector<WallResponse<d>> responses;
+  WallResponse<d> response;
   PressureEquation<d> equation;
   std::optional<WallMotion<d>> wall_motion;
   typename WallMotion<d>::Moved moved;
@@ -115,6 +107,7 @@ struct Fluid<d>::State {
   std::vector<double> interface;             // physical impulse on the pieces of walls with a Laplacian
   std::vector<double> carried_p;             // pressure at the nodes before the step
   std::vector<WallLoad<d>> loads;
+  std::vector<Twist<d>> imbalance;
   double energy_carried = 0, energy_before = 0, energy_repaired = 0;  // before remeshing, after, repaired
 
   WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
@@ -142,10 +135,29 @@ struct Fluid<d>::State {
     for (double& m : mass) m *= spec.density;
     std::vector<Wrench<d>> now_on_walls;
     wall_motion->drag(v_after, moved.u, mass, now_on_walls);
-    for (std::size_t w = 0; w < walls.size(); ++w) {
-      s_after[w] += responses[w].rigid * (now_on_walls[w] - impulses[w]);
-      impulses[w] = now_on_walls[w];
-    }
+    for (std::size_t w = 0; w < walls.size(); ++w) impulses[w] = now_on_walls[w] - impulses[w];
+    push(equation.on_motions(impulses));
+    impulses = std::move(now_on_walls);
+  }
+
+  // A further impulse on the motions: water and bodies answer.
+  void push(const Eigen::VectorXd& impulse) {
+    if (equation.motions() == 0) return;
+    std::vector<double> none(phi.size(), 0.0);
+    trial.known += impulse;
+    trial.answer += equation.respond(none, s_after, impulse);
+    for (std::size_t i = 0; i < phi.size(); ++i) phi[i] += none[i];
+  }
+
+  // Solves for impulses and lets the motions answer to them.
+  bool solve_with_bodies(std::vector<double>& r, std::vector<Twist<d>>& s) {
+    if (!equation.solve(r)) return false;
+    answer_to(r, s);
+    return true;
+  }
+  void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s) {
+    if (equation.motions() > 0)
+      trial.answer += equation.respond(impulses, s, Eigen::VectorXd::Zero(equation.motions()));
   }
 
   double kinetic_energy(std::span<const Vec<d>> v) const {
@@ -199,12 +211,12 @@ struct Fluid<d>::State {
     interface = equation.laplacian().means(carried);
   }
 
-  Status solve(std::span<const Twist<d>> given, std::span<const double> previous);
+  Status solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
   Status repair();
   Status predict();
   Status press(std::span<const Twist<d>> given, std::span<const double> previous);
   Status correct(std::span<const double> previous);
-  void weigh(std::span<const Twist<d>> given);
+  void weigh();
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
   void middle(std::span<const Vec<d>> u, double by) {
     for (std::size_t i = 0; i < u.size(); ++i) trial.x_mid[i] = work.nodes.x[i] + by * u[i];
@@ -262,15 +274,15 @@ double Fluid<d>::stable_dt() const {
 }
 
 template <int d>
-Status Fluid<d>::begin(double kick, double dt, std::span<const WallResponse<d>> responses) {
+Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) {
   State& s = *s_;
   s.kick = kick;
   s.dt = dt;
   if (!s.prepared) s.prepare();
-  s.responses.assign(responses.begin(), responses.end());
+  s.response = response;
   {
     const auto scope = s.timer.scope(assemble);
-    if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), responses))
+    if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response))
       return {"the pressure matrix could not be factored"};
     s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses));
     s.guess_interface();
@@ -283,7 +295,8 @@ Status Fluid<d>::begin(double kick, double dt, std::span<const WallResponse<d>> 
 }
 
 template <int d>
-Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const double> previous) {
+Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const double> previous,
+                              const MotionDrive& drive) {
   if (previous.size() != equation.laplacian().pieces().size())
     throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
   trial.v = work.nodes.v;
@@ -291,13 +304,17 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   trial.x_mid.resize(trial.v.size());
   trial.on_walls.assign(walls.size(), Wrench<d>::Zero());
   trial.dragged = trial.on_walls;
+  trial.known.setZero(equation.motions());
+  trial.answer = trial.known;
+  if (drive.directions.size() > 0 || drive.impulse.size() > 0) equation.allow(drive.directions);
   if (auto status = repair(); !status.ok()) return status;
   if (auto status = predict(); !status.ok()) return status;
   {
     const auto scope = timer.scope(pressure);
     if (auto status = press(given, previous); !status.ok()) return status;
+    if (drive.impulse.size() > 0) push(drive.impulse);
     if (auto status = correct(previous); !status.ok()) return status;
-    weigh(given);
+    weigh();
   }
   return finite() ? Status{} : Status{"the solution is not finite"};
 }
@@ -317,15 +334,17 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
 template <int d>
 Status Fluid<d>::State::repair() {
   const auto scope = timer.scope(pressure);
-  auto& [v, s_before, x_mid, r, repaired, on_walls, dragged] = trial;
-  repaired.assign(equation.size(), 0.0);
+  auto& v = trial.v;
+  auto& r = trial.r;
+  auto& s_before = trial.s_before;
+  trial.repaired.assign(equation.size(), 0.0);
   energy_before = kinetic_energy(v);
   for (int k = 0; k < repairs; ++k) {
     middle(v, -0.5 * work.dt);
-    equation.flux_residual(x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
-    if (!equation.solve(r, s_before)) return {"the pressure solve failed"};
+    equation.flux_residual(trial.x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
+    if (!solve_with_bodies(r, s_before)) return {"the pressure solve failed"};
     equation.accelerate(r, v);
-    for (int i = 0; i < equation.size(); ++i) repaired[i] += r[i];
+    for (int i = 0; i < equation.size(); ++i) trial.repaired[i] += r[i];
   }
   energy_repaired = kinetic_energy(v);
   return {};
@@ -351,34 +370,36 @@ template <int d>
 Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const double> previous) {
   s_after.assign(given.begin(), given.end());
   for (std::size_t w = 0; w < walls.size(); ++w)
-    s_after[w] += trial.s_before[w] - work.velocity[w] + responses[w].rigid * trial.on_walls[w];
+    s_after[w] += trial.s_before[w] - work.velocity[w];
   middle(trial.v, 0.5 * dt);
   equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
   if (!previous.empty()) equation.laplacian().add(previous, phi);
-  return equation.solve(phi, s_after) ? Status{} : Status{"the pressure solve failed"};
+  if (!solve_with_bodies(phi, s_after)) return {"the pressure solve failed"};
+  push(equation.on_motions(trial.on_walls));
+  return {};
 }
 
 template <int d>
 Status Fluid<d>::State::correct(std::span<const double> previous) {
-  auto& [v, s_before, x_mid, r, repaired, on_walls, dragged] = trial;
+  auto& r = trial.r;
   const auto& unknown = equation.unknown();
-  const std::size_t count = v.size();
+  const std::size_t count = trial.v.size();
   // They start from what they found in the last step, so that they converge over the steps.
   const std::vector<double> uncorrected = phi;
   for (std::size_t i = 0; i < count; ++i)
     if (unknown[i] >= 0) r[unknown[i]] = kick * work.nodes.q[i];
-  equation.respond(r, s_after);
+  answer_to(r, s_after);
   for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
   for (int k = 0;; ++k) {
-    v_after = v;
+    v_after = trial.v;
     equation.accelerate(phi, v_after);
     wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
     if (k == corrections) break;
-    if (wall_motion->sticks()) stick(dragged);
-    for (std::size_t i = 0; i < count; ++i) x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]);
-    equation.motion_residual(x_mid, moved.u, r);
+    if (wall_motion->sticks()) stick(trial.dragged);
+    for (std::size_t i = 0; i < count; ++i) trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]);
+    equation.motion_residual(trial.x_mid, moved.u, r);
     lag(r, previous, phi);
-    if (!equation.solve(r, s_after)) return {"the pressure solve failed"};
+    if (!solve_with_bodies(r, s_after)) return {"the pressure solve failed"};
     for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
   }
   found_by_corrections.assign(count, 0.0);
@@ -389,18 +410,21 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
 
 // Loads, pressures and energies of the solution.
 template <int d>
-void Fluid<d>::State::weigh(std::span<const Twist<d>> given) {
+void Fluid<d>::State::weigh() {
   interface = equation.laplacian().means(phi);
   loads.assign(walls.size(), {});
+  std::vector<Wrench<d>> by_pressure;
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const Wrench<d> effects_on_wall = trial.on_walls[w] + trial.dragged[w];
-    const Twist<d> pushed = trial.s_before[w] - work.velocity[w];
-    const Twist<d> answered = s_after[w] - given[w] - pushed - responses[w].rigid * effects_on_wall;
-    loads[w].physical =
-        (consistent<d>(responses[w].rigid, answered, equation.impulse(w, phi)) + effects_on_wall) / kick;
-    loads[w].repair = consistent<d>(responses[w].rigid, pushed, equation.impulse(w, trial.repaired)) / kick;
+    const Wrench<d> repair = equation.impulse(w, trial.repaired), physical = equation.impulse(w, phi);
+    loads[w].physical = (physical + trial.on_walls[w] + trial.dragged[w]) / kick;
+    loads[w].repair = repair / kick;
     loads[w].wetted = work.wetted[w];
+    by_pressure.push_back(repair + physical);
   }
+  imbalance.assign(walls.size(), Twist<d>::Zero());
+  if (equation.motions() > 0)
+    equation.move(equation.response(equation.on_motions(by_pressure) + trial.known - response.inertia * trial.answer),
+                  imbalance);
   Ledger& ledger = work.ledger;
   ledger.kinetic_energy = ledger.potential_energy = 0;
   for (std::size_t i = 0; i < trial.v.size(); ++i) {
@@ -436,8 +460,8 @@ bool Fluid<d>::State::orderly() const {
 }
 
 template <int d>
-Status Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous) {
-  return s_->solve(walls, previous);
+Status Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous, const MotionDrive& drive) {
+  return s_->solve(walls, previous, drive);
 }
 
 template <int d>
@@ -499,6 +523,10 @@ template <int d>
 Eigen::MatrixXd Fluid<d>::interface_slope(std::span<const std::size_t> walls) const {
   if (!s_->prepared) throw std::logic_error("fluid: the slope is known from begin to commit");
   return s_->equation.interface_slope(walls);
+}
+template <int d>
+std::span<const Twist<d>> Fluid<d>::imbalance() const {
+  return s_->imbalance;
 }
 template <int d>
 std::span<const double> Fluid<d>::interface_impulse() const {

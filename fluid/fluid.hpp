@@ -50,6 +50,12 @@ struct Ledger {
   double work_on_walls = 0;      ///< integral of load . wall velocity
 };
 
+/// How the motions of WallResponse are driven in a step.
+struct MotionDrive {
+  Eigen::MatrixXd directions;  ///< only these combinations of them may occur; empty: all
+  Eigen::VectorXd impulse;     ///< on them, besides the fluid's and what the given velocities contain; empty: none
+};
+
 template <int d>
 class Fluid {
  public:
@@ -59,11 +65,11 @@ class Fluid {
   double time() const;       ///< t_n
   double stable_dt() const;  ///< largest dt the criterion allows from t_n
 
-  Status begin(double kick, double dt, std::span<const WallResponse<d>> responses);
-  /// `walls`: half-step velocity each wall would have without the fluid's load where its rigid response
-  /// is given, with it where it is not. `previous`: the interface impulses on which the interface Laplacians
-  /// lag; one that equals interface_impulse() afterwards makes them vanish. Needed with such walls only.
-  Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {});
+  Status begin(double kick, double dt, const WallResponse<d>& response);
+  /// `walls`: half-step velocities of the walls, without the fluid's load in the motions that respond, with it in all
+  /// others. `previous`: the interface impulses on which the interface Laplacians lag; one that equals
+  /// interface_impulse() afterwards makes them vanish. Needed with such walls only.
+  Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {}, const MotionDrive& drive = {});
   /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
   Status verdict() const;
   /// Mean physical pressure impulses on the pieces of walls with an interface Laplacian [Pa s]. After `begin` the
@@ -78,6 +84,9 @@ class Fluid {
   /// Slope of `solve`, corrections apart: impulses on these walls and interface impulses, one below the other, by the
   /// walls' twists and the previous interface impulses. From `begin` to `commit`.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls) const;
+  /// Velocities that impulses left unbalanced in the motions would still give to bodies and water: what the last
+  /// solve fell short of Newton's law, Z (M + G)^-1 (Z^T impulses - M y).
+  std::span<const Twist<d>> imbalance() const;
   /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<d>> poses);
 

@@ -1,51 +1,61 @@
 #include "fluid/pressure.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 
 namespace splashdown::fluid {
 template <int d>
 bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density,
-                                std::span<const Vec<d>> centres, std::span<const WallResponse<d>> responses) {
+                                std::span<const Vec<d>> centres, const WallResponse<d>& response) {
   nodes_ = &nodes;
   mesh_ = &mesh;
+  response_ = response;
   measure(density);
   choose_unknowns();
   wall_modes(centres);
-  std::vector<StandIn> stand_ins;
-  for (const auto& response : responses) stand_ins.push_back(response.stand_in);
-  laplacian_.build(nodes, mesh, unknown_, stand_ins);
+  laplacian_.build(nodes, mesh, unknown_, response.stand_ins);
   assemble();
-  if (size() == 0) return true;
-  if (!factored()) return false;
+  return (size() == 0 || factored()) && add_bodies();
+}
 
-  responding_.clear();
-  for (std::size_t w = 0; w < responses.size(); ++w)
-    if (!responses[w].rigid.isZero(0) && !modes_[w].empty()) responding_.push_back(w);
+template <int d>
+bool PressureEquation<d>::add_bodies() {
   constexpr int m = freedoms<d>;
-  const int columns = static_cast<int>(responding_.size()) * m;
-  Y_.setZero(size(), columns);
-  C_.setZero(columns, columns);
-  for (std::size_t k = 0; k < responding_.size(); ++k) {
-    for (const Mode& mode : modes_[responding_[k]]) Y_.row(mode.unknown).segment(k * m, m) += mode.row.transpose();
-    C_.block(k * m, k * m, m, m) = responses[responding_[k]].rigid;
+  Y_.setZero(size(), motions());
+  for (std::size_t w = 0; w < modes_.size(); ++w) {
+    if (motions() == 0) break;
+    const Eigen::MatrixXd moves = response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    for (const Mode& mode : modes_[w]) Y_.row(mode.unknown) += mode.row.transpose() * moves;
   }
-  if (columns == 0) return true;
-  if (!solver_.solve({Y_.data(), static_cast<std::size_t>(Y_.size())}, columns)) return false;
-  added_mass_.setZero(columns, columns);
-  for (std::size_t k = 0; k < responding_.size(); ++k)
-    for (const Mode& mode : modes_[responding_[k]])
-      added_mass_.middleRows(k * m, m) += mode.row * Y_.row(mode.unknown);
-  // (1 + C G)^-1 C = R (1 + R^T G R)^-1 R^T with C = R R^T: symmetric, and exact to roundoff for bodies of no mass.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(C_);
-  const Eigen::MatrixXd R =
-      spectrum.eigenvectors() * spectrum.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  const Eigen::MatrixXd inner = Eigen::MatrixXd::Identity(columns, columns) + R.transpose() * added_mass_ * R;
-  elimination_ = R * inner.selfadjointView<Eigen::Lower>().ldlt().solve(R.transpose());
+  std::vector<int> wet;  // motions that the water feels
+  for (int k = 0; k < motions(); ++k)
+    if (!Y_.col(k).isZero(0)) wet.push_back(k);
+  const Eigen::MatrixXd loads = Y_(Eigen::all, wet);  // B^T Z
+  Eigen::MatrixXd answers = loads;
+  if (!wet.empty() && !solver_.solve({answers.data(), static_cast<std::size_t>(answers.size())}, static_cast<int>(wet.size())))
+    return false;
+  Y_(Eigen::all, wet) = answers;
+  added_mass_.setZero(motions(), motions());
+  added_mass_(wet, wet) = loads.transpose() * answers;
+  allow(Eigen::MatrixXd::Identity(motions(), motions()));
   return true;
+}
+
+// Directions in which neither body nor water has inertia stay as they are.
+template <int d>
+void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
+  elimination_.setZero(motions(), motions());
+  if (directions.cols() == 0) return;
+  const Eigen::MatrixXd total = directions.transpose() * (response_.inertia + added_mass_) * directions;
+  const Eigen::VectorXd diagonal = total.diagonal();
+  Eigen::VectorXd unit(diagonal.size());
+  for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = diagonal[i] > 0 ? 1 / std::sqrt(diagonal[i]) : 0.0;
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * total * unit.asDiagonal();
+  const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
+  elimination_ = lifted * (0.5 * (inverse + inverse.transpose())) * lifted.transpose();
 }
 
 template <int d>
@@ -199,22 +209,38 @@ void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<c
 }
 
 template <int d>
-bool PressureEquation<d>::solve(std::vector<double>& r, std::span<Twist<d>> s) {
-  if (size() == 0) return true;
-  if (!solver_.solve(r)) return false;
-  respond(r, s);
-  return true;
+bool PressureEquation<d>::solve(std::vector<double>& r) {
+  return size() == 0 || solver_.solve(r);
 }
 
 template <int d>
-void PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s) const {
-  if (responding_.empty()) return;
+Eigen::VectorXd PressureEquation<d>::on_motions(std::span<const Wrench<d>> impulses) const {
   constexpr int m = freedoms<d>;
-  Eigen::VectorXd load(Y_.cols());
-  for (std::size_t k = 0; k < responding_.size(); ++k) load.segment(k * m, m) = impulse(responding_[k], phi);
-  const Eigen::VectorXd change = elimination_ * load;
-  Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * change;
-  for (std::size_t k = 0; k < responding_.size(); ++k) s[responding_[k]] += change.segment(k * m, m);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(motions());
+  if (motions() == 0) return sum;
+  for (std::size_t w = 0; w < impulses.size(); ++w)
+    sum += response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m).transpose() * impulses[w];
+  return sum;
+}
+
+template <int d>
+void PressureEquation<d>::move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const {
+  constexpr int m = freedoms<d>;
+  if (motions() == 0) return;
+  const Eigen::VectorXd twists = response_.modes * y;
+  for (std::size_t w = 0; w < s.size(); ++w) s[w] += twists.segment<m>(static_cast<Eigen::Index>(w) * m);
+}
+
+template <int d>
+Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s,
+                                             const Eigen::VectorXd& further) const {
+  if (motions() == 0) return {};
+  std::vector<Wrench<d>> loads;
+  for (std::size_t w = 0; w < modes_.size(); ++w) loads.push_back(impulse(w, phi));
+  const Eigen::VectorXd y = response(on_motions(loads) + further);
+  Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * y;
+  move(y, s);
+  return y;
 }
 
 template <int d>

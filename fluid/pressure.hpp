@@ -1,6 +1,6 @@
 // The pressure equation on the mesh of t_n, for impulses phi = kick * p [Pa s]:
 //
-//   int grad q . grad phi / rho  + surface(q, phi)  [+ q B^T C B phi]  [+ q K phi]  =  r(q)
+//   int grad q . grad phi / rho  + surface(q, phi)  [+ q B^T Z M^-1 Z^T B phi]  [+ q K phi]  =  r(q)
 //
 // r is the volume that a motion would create (per time):
 //
@@ -19,9 +19,12 @@
 // n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Nodes of
 // thin sheets, of spikes and of contact lines keep phi = 0.
 // B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
-// The exact rigid response C = M_b^-1 has low rank, so it is eliminated on the factor (Woodbury):
+// Bodies that the equation solves for, s = s_0 + Z y with M y = Z^T B phi + e, are of low rank and eliminated on the
+// factor (Woodbury):
 //
-//   phi = phi_0 - Y (1 + C G)^-1 C B phi_0,   Y = A^-1 B^T,   G = B Y = added mass (docs/theory.md)
+//   y = (M + G)^-1 (Z^T B phi_0 + e),   phi = phi_0 - Y y,   Y = A^-1 B^T Z,   G = Z^T B Y = added mass
+//
+// No M is inverted: the water's inertia is enough (docs/theory.md).
 #pragma once
 
 #include <span>
@@ -35,13 +38,13 @@
 
 namespace splashdown::fluid {
 
-/// What the pressure equation knows about the body behind a wall.
+/// What the pressure equation knows about the bodies behind the walls.
 template <int d>
 struct WallResponse {
-  /// Exact rigid response: velocity change per unit impulse [1/kg ...]. Zero: none.
-  Compliance<d> rigid = Compliance<d>::Zero();
-  /// Local operators that stand in for it.
-  StandIn stand_in = {};
+  /// Motions that are solved with the pressure: twists of all walls, one below the other, a column each. Empty: none.
+  Eigen::MatrixXd modes;
+  Eigen::MatrixXd inertia;  ///< of these motions; symmetric, not negative
+  std::vector<StandIn> stand_ins;  ///< of each wall: local operators instead; empty: none at all
 };
 
 template <int d>
@@ -49,7 +52,9 @@ class PressureEquation {
  public:
   /// Assembles and factors; `centres`: reference points of the walls. False if the factor fails.
   bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Vec<d>> centres,
-             std::span<const WallResponse<d>> responses);
+             const WallResponse<d>& response);
+  /// Restricts the motions to y = directions w, w of any size. All are allowed after build.
+  void allow(const Eigen::MatrixXd& directions);
 
   /// r in flux form at positions `x`, for nodal velocities v and wall twists s about `centres`.
   void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const Twist<d>> s,
@@ -57,11 +62,18 @@ class PressureEquation {
   /// r in motion form at positions `x` for displacement velocities u.
   void motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::vector<double>& r) const;
 
-  /// Solves in place; adds C B phi to the twists of walls that respond.
-  bool solve(std::vector<double>& r, std::span<Twist<d>> s);
-  /// Turns an impulse that held bodies would get into the one with their answer, (1 + A^-1 B^T C B)^-1 phi, and
-  /// adds that answer to the twists. A body of no mass yields, and is not thrown.
-  void respond(std::vector<double>& phi, std::span<Twist<d>> s) const;
+  /// Solves in place for walls that stand still; `respond` lets those that do not move.
+  bool solve(std::vector<double>& r);
+  /// Lets the motions answer to impulses phi that held bodies would get, and to a further impulse on them: changes
+  /// phi, adds to the twists, and returns y.
+  Eigen::VectorXd respond(std::vector<double>& phi, std::span<Twist<d>> s, const Eigen::VectorXd& further) const;
+  /// (M + G)^-1 impulse, in the directions allowed: what such an impulse changes in the motions.
+  Eigen::VectorXd response(const Eigen::VectorXd& impulse) const { return elimination_ * impulse; }
+  int motions() const { return static_cast<int>(response_.modes.cols()); }
+  /// Z^T of impulses on all walls.
+  Eigen::VectorXd on_motions(std::span<const Wrench<d>> impulses) const;
+  /// Adds Z y to the walls' twists.
+  void move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const;
   const InterfaceLaplacian<d>& laplacian() const { return laplacian_; }
 
   /// v -= M^-1 (int N grad phi - int_surface N phi n), M^-1 = (2 - M_L^-1 M_C) M_L^-1: lumped mass M_L and one
@@ -69,7 +81,7 @@ class PressureEquation {
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
   /// B phi of a wall: impulse on the body about its reference point.
   Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
-  /// G = B A^-1 B^T of a responding wall: its added mass.
+  /// G = Z^T B A^-1 B^T Z: the motions' added mass.
   const Eigen::MatrixXd& added_mass() const { return added_mass_; }
   /// Slope of a solve: what twists of walls and impulses that Laplacians lag on change in the walls' impulses and in
   /// the means,  d(B phi, Q phi) / d(s, m) = (B; Q) (A + K)^-1 (-B^T, Q^T L). NaN if a solve fails.
@@ -90,6 +102,7 @@ class PressureEquation {
   void assemble();
   bool factored();
   void wall_modes(std::span<const Vec<d>> centres);
+  bool add_bodies();
 
   const Nodes<d>* nodes_ = nullptr;
   const Mesh<d>* mesh_ = nullptr;
@@ -111,8 +124,8 @@ class PressureEquation {
   };
   std::vector<std::vector<Mode>> modes_;  // of each wall
   InterfaceLaplacian<d> laplacian_;
-  std::vector<std::size_t> responding_;
-  Eigen::MatrixXd Y_, C_, added_mass_, elimination_;
+  WallResponse<d> response_;
+  Eigen::MatrixXd Y_, added_mass_, elimination_;
 };
 
 extern template class PressureEquation<2>;

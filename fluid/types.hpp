@@ -25,8 +25,6 @@ template <int d>
 using Twist = Eigen::Matrix<double, freedoms<d>, 1>;
 template <int d>
 using Wrench = Eigen::Matrix<double, freedoms<d>, 1>;
-template <int d>
-using Compliance = Eigen::Matrix<double, freedoms<d>, freedoms<d>>;
 
 /// Closed, oriented simplicial surface: polyline (d = 2) or triangle mesh (d = 3). Normals point out of
 /// what the surface encloses: a 2D outline runs counter-clockwise.

@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <istream>
+#include <limits>
 #include <ostream>
 #include <stdexcept>
 
 #include "rigid/embedding.hpp"
+#include "rigid/bullet_world.hpp"
 #include "rigid/free_body.hpp"
 #include "rigid/message.hpp"
+#include "rigid/motions.hpp"
 
 namespace splashdown::rigid {
 
@@ -26,6 +29,13 @@ BodyState<3> lifted_state(const BodyState<d>& state) {
   return {lifted<d>(state.pose), embedding<d>() * state.velocity};
 }
 
+/// Of a body, by which a turn of one radian moves it [m].
+template <int d>
+double reach(const BodySpec<d>& spec) {
+  const double farthest = spec.surface.vertices.cols() > 0 ? spec.surface.vertices.colwise().norm().maxCoeff() : 0.0;
+  return farthest > 0 ? farthest : 1.0;
+}
+
 enum class Phase { committed, begun, solved };
 
 }  // namespace
@@ -35,8 +45,11 @@ struct Bodies<d>::World {
   std::vector<BodySpec<d>> specs;
   std::vector<std::unique_ptr<Force<d>>> forces;
   std::vector<BodyState<d>> states, trials;
+  std::optional<ContactSpec<d>> touching;
   BulletWorld bullet;
   std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
+  std::vector<Condition<d>> tied;                 // by joints, of the begun step
+  Motions motions;
   double time = 0, kick = 0, dt = 0;
   Phase phase = Phase::committed;
 
@@ -59,20 +72,124 @@ struct Bodies<d>::World {
         rotation_log(to_space.linear() * from_space.linear().transpose());
     return {to, embedding<d>().transpose() * displacement / dt};
   }
+
+  static constexpr int m = freedoms<d>;
+  Eigen::Index size() const { return static_cast<Eigen::Index>(specs.size()); }
+
+  std::vector<Condition<d>> joints() {
+    std::vector<Condition<d>> all;
+    const auto lift = embedding<d>();
+    for (const auto& c : bullet.conditions(dt))
+      all.push_back({c.body, c.other, lift.transpose() * c.first, lift.transpose() * c.second, c.rate});
+    return all;
+  }
+
+  /// Joints, then what is held: freedoms of free bodies, and others altogether.
+  std::vector<Condition<d>> equalities() {
+    std::vector<Condition<d>> all = tied;
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      const Twist<d>& velocity = movers[i] ? states[i].velocity : trials[i].velocity;
+      for (int k = 0; k < m; ++k)
+        if (!movers[i] || !specs[i].free[static_cast<std::size_t>(k)])
+          all.push_back({i, {}, Wrench<d>::Unit(k), Wrench<d>::Zero(), velocity[k]});
+    }
+    return all;
+  }
+
+  void fill(const std::vector<Condition<d>>& conditions, Eigen::MatrixXd& rows, Eigen::VectorXd& rates) const {
+    rows.setZero(static_cast<Eigen::Index>(conditions.size()), m * size());
+    rates.resize(rows.rows());
+    for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+      const auto& c = conditions[static_cast<std::size_t>(r)];
+      rows.template block<1, m>(r, m * static_cast<Eigen::Index>(c.body)) += c.first.transpose();
+      if (c.other) rows.template block<1, m>(r, m * static_cast<Eigen::Index>(*c.other)) += c.second.transpose();
+      rates[r] = c.rate;
+    }
+  }
+
+  void find_motions() {
+    for (Eigen::Index i = 0; i < size(); ++i) place(i, states[static_cast<std::size_t>(i)]);
+    tied = joints();
+    solve_conditions();
+    if (tied.empty()) return;
+    // Joints are met at x_{n+1}, but for what the fluid's load adds to the curvature of the way there (SHAKE, Ryckaert,
+    // Ciccotti, Berendsen 1977): what a trial step without the load still violates goes into the rates.
+    constexpr int trials_enough = 3;  // quadratic: (w dt)^2, ^4, ^8
+    for (int k = 0; k < trials_enough; ++k) {
+      drift(motions.velocity(Eigen::VectorXd::Zero(m * size())));
+      for (Eigen::Index i = 0; i < size(); ++i) place(i, trials[static_cast<std::size_t>(i)]);
+      const auto at_end = joints();
+      for (std::size_t c = 0; c < tied.size(); ++c) tied[c].rate += at_end[c].rate;
+      solve_conditions();
+    }
+  }
+
+  void place(Eigen::Index i, const BodyState<d>& state) {
+    bullet.place(static_cast<std::size_t>(i), lifted<d>(state.pose), embedding<d>() * state.velocity);
+  }
+
+  void solve_conditions() {
+    typename Motions::Problem p;
+    p.before.setZero(m * size());
+    p.unit.setOnes(m * size());
+    p.inertia.setZero(m * size(), m * size());
+    p.impulse.setZero(m * size());
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      const auto b = static_cast<std::size_t>(i);
+      p.unit.segment(m * i + d, rotations<d>).setConstant(reach(specs[b]));
+      p.before.segment<m>(m * i) = states[b].velocity;
+      if (!movers[b]) continue;
+      p.inertia.block<m, m>(m * i, m * i) = embedding<d>().transpose() * movers[b]->inertia() * embedding<d>();
+      p.impulse.segment<m>(m * i) = embedding<d>().transpose() * movers[b]->impulse();
+    }
+    fill(equalities(), p.equalities, p.equal);
+    std::vector<Condition<d>> contacts;
+    if (touching) contacts = contacts_between<d>(*touching, specs, states, dt);
+    fill(contacts, p.contacts, p.least);
+    motions = Motions(p);
+  }
+
+  Eigen::VectorXd stacked(std::span<const Wrench<d>> each) const {
+    if (each.size() != specs.size())
+      throw std::invalid_argument(message("bodies: values for ", each.size(), " of ", specs.size(), " bodies"));
+    Eigen::VectorXd all(m * size());
+    for (Eigen::Index i = 0; i < size(); ++i) all.segment<m>(m * i) = each[static_cast<std::size_t>(i)];
+    return all;
+  }
+
+  void drift(const Eigen::VectorXd& velocities) {
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      if (!movers[i]) continue;
+      const Twist<d> s = velocities.segment<m>(m * static_cast<Eigen::Index>(i));
+      bullet.place(i, lifted<d>(states[i].pose), embedding<d>() * (s.allFinite() ? s : Twist<d>::Zero().eval()));
+    }
+    bullet.drift(dt);
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      if (!movers[i]) continue;
+      trials[i] = {lowered<d>(bullet.pose(i)), velocities.segment<m>(m * static_cast<Eigen::Index>(i))};
+      if (!trials[i].velocity.allFinite())
+        trials[i].pose.matrix().template topRows<d>().setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    phase = Phase::solved;
+  }
 };
 
 template <int d>
-Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces)
+Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces,
+                  std::vector<JointSpec> joints, std::optional<ContactSpec<d>> contacts)
     : world_(std::make_unique<World>()) {
   World& w = *world_;
   w.specs = std::move(specs);
   w.forces = std::move(forces);
+  w.touching = std::move(contacts);
   for (const BodySpec<d>& spec : w.specs) {
     check(spec);
     const bool held_still = spec.motion == Motion::fixed;
     const Isometry<d> pose = spec.motion == Motion::prescribed ? spec.path(0) : spec.pose;
     w.states.push_back({pose, held_still ? Twist<d>::Zero().eval() : spec.velocity});
     w.movers.emplace_back();
+    w.bullet.add(spec.motion == Motion::free);
+    w.bullet.place(w.states.size() - 1, lifted<d>(pose), Twist<3>::Zero());
     if (spec.motion != Motion::free) continue;
 
     FreeBody::Freedom free{};
@@ -81,8 +198,12 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
       embedding<d>().col(k).maxCoeff(&in_space);
       free[static_cast<std::size_t>(in_space)] = spec.free[static_cast<std::size_t>(k)];
     }
-    w.movers.back() = std::make_unique<FreeBody>(w.bullet, spec.mass, lifted_inertia<d>(spec.inertia), free,
-                                                 lifted_state(w.states.back()));
+    w.movers.back() =
+        std::make_unique<FreeBody>(spec.mass, lifted_inertia<d>(spec.inertia), free, lifted_state(w.states.back()));
+  }
+  for (const JointSpec& joint : joints) {
+    check(joint, size());
+    w.bullet.add(joint);
   }
   w.trials = w.states;
 }
@@ -112,16 +233,6 @@ double Bodies<d>::time() const {
 }
 
 template <int d>
-Compliance<d> Bodies<d>::compliance(std::size_t body) const {
-  const auto& mover = world_->movers.at(body);
-  if (!mover) return Compliance<d>::Zero();
-  const Compliance<3> c = world_->phase == Phase::committed
-                              ? mover->compliance_at(lifted<d>(world_->states[body].pose))
-                              : mover->compliance();
-  return embedding<d>().transpose() * c * embedding<d>();
-}
-
-template <int d>
 void Bodies<d>::begin(double kick, double dt) {
   World& w = *world_;
   if (!(kick > 0 && dt > 0 && std::isfinite(kick) && std::isfinite(dt)))
@@ -133,26 +244,53 @@ void Bodies<d>::begin(double kick, double dt) {
       w.movers[i]->begin(lifted_state(w.states[i]), embedding<d>() * (kick * w.known_force(i)), dt);
     if (w.specs[i].motion == Motion::prescribed) w.trials[i] = w.prescribed(i);
   }
+  w.find_motions();
   w.phase = Phase::begun;
+}
+
+template <int d>
+Mobility<d> Bodies<d>::mobility() const {
+  const World& w = *world_;
+  w.expect(w.phase != Phase::committed, "mobility needs begin first");
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms<d> * w.size());
+  const Eigen::VectorXd s = w.motions.velocity(none);
+  Mobility<d> all{{}, w.motions.modes(), w.motions.inertia(), w.motions.directions(), w.motions.unspent(s, none)};
+  for (Eigen::Index i = 0; i < w.size(); ++i) all.velocities.push_back(s.segment<freedoms<d>>(freedoms<d> * i));
+  return all;
 }
 
 template <int d>
 std::span<const BodyState<d>> Bodies<d>::solve(std::span<const Wrench<d>> loads) {
   World& w = *world_;
   w.expect(w.phase != Phase::committed, "solve needs begin first");
-  if (loads.size() != size())
-    throw std::invalid_argument(message("bodies: ", loads.size(), " loads for ", size(), " bodies"));
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (w.movers[i]) w.movers[i]->kick(w.bullet, embedding<d>() * (w.kick * loads[i]));
+  const Eigen::VectorXd impulse = w.kick * w.stacked(loads);
+  Eigen::VectorXd velocity = w.motions.velocity(impulse);
+  constexpr int most = 100;  // more changes than contacts in a scene
+  for (int i = 0; w.motions.settle(velocity, impulse); ++i) {
+    velocity = w.motions.velocity(impulse);
+    if (i == most) velocity.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (i == most) break;
   }
-  w.bullet.drift(w.dt);
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (!w.movers[i]) continue;
-    const BodyState<3> moved = w.movers[i]->drifted(w.bullet);
-    w.trials[i] = {lowered<d>(moved.pose), embedding<d>().transpose() * moved.velocity};
-  }
-  w.phase = Phase::solved;
+  w.drift(velocity);
   return w.trials;
+}
+
+template <int d>
+std::span<const BodyState<d>> Bodies<d>::follow(std::span<const Twist<d>> velocities) {
+  World& w = *world_;
+  w.expect(w.phase != Phase::committed, "follow needs begin first");
+  w.drift(w.stacked(velocities));
+  return w.trials;
+}
+
+template <int d>
+bool Bodies<d>::settle(std::span<const Wrench<d>> loads) {
+  World& w = *world_;
+  w.expect(w.phase == Phase::solved, "settle needs a trial first");
+  Eigen::VectorXd velocities(freedoms<d> * w.size());
+  for (Eigen::Index i = 0; i < w.size(); ++i)
+    velocities.segment<freedoms<d>>(freedoms<d> * i) = w.trials[static_cast<std::size_t>(i)].velocity;
+  return w.motions.settle(velocities, w.kick * w.stacked(loads));
 }
 
 template <int d>

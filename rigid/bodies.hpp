@@ -8,6 +8,9 @@
 //   x_{n+1}   = x_n + dt_n V_{n+1/2},   R_{n+1} = exp(dt_n w_{n+1/2}) R_n
 //
 // which is Bullet's semi-implicit Euler step when dt is constant. Second order, symplectic.
+//
+// Joints and contacts are conditions on the half-step velocities, taken at x_n, that remove what x_n violates of
+// them: positions stay on them to second order in dt. Contacts do not rebound and do not rub.
 // The three verbs: begin fixes kick and dt, solve may be repeated (always from t_n, same bits for the
 // same input), commit makes t_{n+1} the present.
 // A body whose load is not finite gets a trial state that is not finite either, and nothing else happens.
@@ -15,10 +18,13 @@
 
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "rigid/body.hpp"
+#include "rigid/contacts.hpp"
+#include "rigid/joint.hpp"
 
 namespace splashdown::rigid {
 
@@ -44,16 +50,27 @@ class Gravity final : public Force<d> {
   Vec<d> acceleration_;
 };
 
+/// How all bodies of a begun step answer to impulses on them, joints, contacts and held freedoms included.
+/// Twists and wrenches of all bodies stand one below the other.
+///
+///   s = velocities + modes W w,   W^T inertia W w = W^T (modes^T impulses + impulse),   W = directions
+///
+/// The least that the pressure equation has to know of bodies (docs/theory.md).
 template <int d>
-struct BodyState {
-  Isometry<d> pose;   ///< at t_n, body frame to world
-  Twist<d> velocity;  ///< at t_{n-1/2} (at t_0 for the first step)
+struct Mobility {
+  std::vector<Twist<d>> velocities;  ///< s_{n+1/2} without the fluid's load
+  Eigen::MatrixXd modes;             ///< Z: motions that joints and held freedoms leave; all in m/s
+  Eigen::MatrixXd inertia;           ///< Z^T M Z [kg]; singular for bodies without mass
+  Eigen::MatrixXd directions;        ///< W: of these motions, what closed contacts leave; orthonormal
+  Eigen::VectorXd impulse;           ///< known ones on motions without inertia, which `velocities` lacks [N s]
 };
 
 template <int d>
 class Bodies {
  public:
-  Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces);
+  /// Contacts between the bodies and with the planes only if asked for.
+  Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces,
+         std::vector<JointSpec> joints = {}, std::optional<ContactSpec<d>> contacts = {});
   ~Bodies();
   Bodies(Bodies&&) noexcept;
   Bodies& operator=(Bodies&&) noexcept;
@@ -63,15 +80,16 @@ class Bodies {
   const BodyState<d>& state(std::size_t body) const;  ///< at t_n
   double time() const;                                ///< t_n
 
-  /// Compliance M_b^-1 of the body at t_n in the world frame: the velocity change per unit impulse.
-  /// Rows and columns of held freedoms are zero; fixed and prescribed bodies have none at all.
-  /// Between begin and commit it is that of the begun step, and exact: the half-step velocity is affine in
-  /// the load with slope kick * compliance. (A spinning body in space is taken at its predicted midpoint.)
-  Compliance<d> compliance(std::size_t body) const;
-
   void begin(double kick, double dt);
+  /// Of the begun step, with the contacts that are closed at the moment. The half-step velocities are affine in the
+  /// load until contacts open or close. (A spinning body in space is taken at its predicted midpoint.)
+  Mobility<d> mobility() const;
   /// Trial state at t_{n+1} (pose) and t_{n+1/2} (velocity) under constant loads, one wrench a body.
   std::span<const BodyState<d>> solve(std::span<const Wrench<d>> loads);
+  /// Trial state with half-step velocities that somebody found from `mobility`.
+  std::span<const BodyState<d>> follow(std::span<const Twist<d>> velocities);
+  /// Opens and closes contacts as the last trial asks for if the loads on the bodies are these. False: they were right.
+  bool settle(std::span<const Wrench<d>> loads);
   /// Accepts the last trial.
   void commit();
 

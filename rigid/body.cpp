@@ -22,8 +22,10 @@ void check(const BodySpec<d>& spec) {
   require(spec.motion != Motion::prescribed || spec.path, "prescribed motion needs a path");
   if (spec.motion != Motion::free) return;
 
-  require(std::isfinite(spec.mass) && spec.mass > 0, "mass is ", spec.mass,
-          "; a body that moves freely needs a positive mass");
+  require(std::isfinite(spec.mass) && spec.mass >= 0, "mass is ", spec.mass,
+          "; a body that moves freely needs a positive mass, or none and the water's inertia");
+  if (spec.mass == 0)
+    return require(spec.inertia.isZero(0), "it has a moment of inertia and no mass");
   require(spec.inertia.allFinite() && spec.inertia.isApprox(spec.inertia.transpose(), round_off),
           "the moment of inertia is not a finite symmetric tensor");
   const double smallest = spec.inertia.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();

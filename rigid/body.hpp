@@ -33,6 +33,12 @@ struct BodySpec {
   std::function<Isometry<d>(double)> path;
 };
 
+template <int d>
+struct BodyState {
+  Isometry<d> pose;   ///< at t_n, body frame to world
+  Twist<d> velocity;  ///< at t_{n-1/2} (at t_0 for the first step)
+};
+
 /// Throws std::invalid_argument naming body, rule and value unless the body can be moved as specified.
 template <int d>
 void check(const BodySpec<d>& spec);

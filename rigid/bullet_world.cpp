@@ -2,7 +2,8 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include <vector>
+#include <array>
+#include <limits>
 
 #include "rigid/spin.hpp"
 
@@ -12,32 +13,57 @@ namespace splashdown::rigid {
 
 namespace {
 
-btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+btVector3 vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-btTransform to_bullet(const Eigen::Matrix3d& r, const Eigen::Vector3d& origin) {
-  const btMatrix3x3 basis(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2));
-  return btTransform(basis, to_bullet(origin));
+btMatrix3x3 matrix(const Eigen::Matrix3d& r) {
+  return btMatrix3x3(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2));
 }
-
 Eigen::Matrix3d from_bullet(const btMatrix3x3& basis) {
   Eigen::Matrix3d r;
   for (int i = 0; i < 3; ++i) r.row(i) = from_bullet(basis[i]).transpose();
   return r;
 }
 
-struct Body {
-  std::unique_ptr<btRigidBody> bullet;
-  double mass;
-  Inertia<3> inertia;
-  Eigen::Matrix3d axes;  // Bullet's body frame: it knows diagonal inertias only
+/// Frame at a point of the world whose given axis is `column`, seen from a body.
+btTransform seen_from(const btRigidBody& body, const JointSpec& joint, int column) {
+  const Eigen::Vector3d axis = joint.axis.normalized(), across = axis.unitOrthogonal();
+  Eigen::Matrix3d frame;
+  frame.col(column) = axis;
+  frame.col((column + 1) % 3) = across;
+  frame.col((column + 2) % 3) = axis.cross(across);
+  return body.getCenterOfMassTransform().inverse() * btTransform(matrix(frame), vector(joint.point));
+}
+
+std::unique_ptr<btTypedConstraint> made(const JointSpec& joint, btRigidBody& a, btRigidBody& b) {
+  constexpr bool frame_of_first = true;
+  if (joint.type == JointType::weld)
+    return std::make_unique<btFixedConstraint>(a, b, seen_from(a, joint, 0), seen_from(b, joint, 0));
+  if (joint.type == JointType::slider) {
+    auto slider = std::make_unique<btSliderConstraint>(a, b, seen_from(a, joint, 0), seen_from(b, joint, 0), frame_of_first);
+    slider->setUseFrameOffset(false);
+    constexpr double none = 1;  // lower limit above the upper one
+    slider->setLowerLinLimit(none), slider->setUpperLinLimit(-none);
+    slider->setLowerAngLimit(0), slider->setUpperAngLimit(0);
+    return slider;
+  }
+  auto hinge = std::make_unique<btHingeConstraint>(a, b, seen_from(a, joint, 2), seen_from(b, joint, 2), frame_of_first);
+  hinge->setUseFrameOffset(false);
+  return hinge;
+}
+
+struct Joint {
+  std::unique_ptr<btTypedConstraint> bullet;
+  std::size_t body;
+  std::optional<std::size_t> other;
 };
 
 }  // namespace
 
 struct BulletWorld::Objects {
   btEmptyShape shape;
-  std::vector<Body> bodies;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+  std::vector<Joint> joints;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
@@ -51,65 +77,91 @@ BulletWorld::BulletWorld() : objects_(std::make_unique<Objects>()) {
 
 BulletWorld::~BulletWorld() = default;
 
-std::size_t BulletWorld::add(double mass, const Inertia<3>& inertia, const std::array<bool, 6>& free) {
-  const Eigen::Matrix3d axes = principal_axes(inertia);
-  const Eigen::Vector3d principal = (axes.transpose() * inertia * axes).diagonal();
-  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, &objects_->shape, to_bullet(principal));
+std::size_t BulletWorld::add(bool moves) {
+  const double any_mass = moves ? 1 : 0;  // 0: stays where it is placed
+  btRigidBody::btRigidBodyConstructionInfo info(any_mass, nullptr, &objects_->shape, btVector3(any_mass, any_mass, any_mass));
   info.m_linearDamping = 0;
   info.m_angularDamping = 0;
   info.m_additionalDamping = false;
   auto body = std::make_unique<btRigidBody>(info);
   const int no_gyroscopic_term = 0;
   body->setFlags(no_gyroscopic_term);
-  body->setLinearFactor(btVector3(free[0], free[1], free[2]));
-  body->setAngularFactor(btVector3(free[3], free[4], free[5]));
   const int no_collisions = 0;
   objects_->world.addRigidBody(body.get(), no_collisions, no_collisions);
-  objects_->bodies.push_back({std::move(body), mass, inertia, axes});
+  objects_->bodies.push_back(std::move(body));
   return objects_->bodies.size() - 1;
 }
 
-void BulletWorld::kick(std::size_t body, const Isometry<3>& pose, const Twist<3>& velocity,
-                       const Twist<3>& change) {
-  const Body& b = objects_->bodies[body];
-  b.bullet->setCenterOfMassTransform(to_bullet(pose.linear() * b.axes, pose.translation()));
-  b.bullet->setLinearVelocity(to_bullet(velocity.head<3>()));
-  b.bullet->setAngularVelocity(to_bullet(velocity.tail<3>()));
-  b.bullet->applyCentralImpulse(to_bullet(b.mass * change.head<3>()));
-  b.bullet->applyTorqueImpulse(to_bullet(world_inertia(pose.linear(), b.inertia) * change.tail<3>()));
+void BulletWorld::add(const JointSpec& joint) {
+  btRigidBody& first = *objects_->bodies[joint.body];
+  btRigidBody& second = joint.other ? *objects_->bodies[*joint.other] : btTypedConstraint::getFixedBody();
+  objects_->joints.push_back({made(joint, first, second), joint.body, joint.other});
+}
+
+void BulletWorld::place(std::size_t body, const Isometry<3>& pose, const Twist<3>& velocity) {
+  btRigidBody& b = *objects_->bodies[body];
+  b.setCenterOfMassTransform(btTransform(matrix(pose.linear()), vector(pose.translation())));
+  b.setLinearVelocity(vector(velocity.head<3>()));
+  b.setAngularVelocity(vector(velocity.tail<3>()));
 }
 
 void BulletWorld::drift(double dt) {
   const double bullet_stops_turning_at = 0.78;  // a little below pi/4
-  std::vector<std::pair<std::size_t, btTransform>> fast;
+  std::vector<std::pair<std::size_t, btMatrix3x3>> fast;
   for (std::size_t i = 0; i < objects_->bodies.size(); ++i) {
-    btRigidBody& body = *objects_->bodies[i].bullet;
+    btRigidBody& body = *objects_->bodies[i];
     // Forced, because Bullet switches off for good a body that a diverged trial once threw out of its world.
     body.forceActivationState(DISABLE_DEACTIVATION);
     const Eigen::Vector3d turn = dt * from_bullet(body.getAngularVelocity());
-    if (turn.norm() <= bullet_stops_turning_at) continue;
-    const Eigen::Matrix3d turned = rotation_exp(turn) * from_bullet(body.getWorldTransform().getBasis());
-    fast.emplace_back(i, to_bullet(turned, Eigen::Vector3d::Zero()));
+    if (body.isStaticObject() || turn.norm() <= bullet_stops_turning_at) continue;
+    fast.emplace_back(i, matrix(rotation_exp(turn) * from_bullet(body.getWorldTransform().getBasis())));
   }
   const int one_step_of_dt = 0;
   objects_->world.stepSimulation(dt, one_step_of_dt);
-  for (const auto& [i, turned] : fast)
-    objects_->bodies[i].bullet->getWorldTransform().setBasis(turned.getBasis());
+  for (const auto& [i, turned] : fast) objects_->bodies[i]->getWorldTransform().setBasis(turned);
+}
+
+std::vector<Condition<3>> BulletWorld::conditions(double dt) {
+  // Rows of a joint; numbers in one: linear and angular, of both bodies, then what stands on the right.
+  constexpr int most = 6, row = 3 * 4 + 4;
+  std::vector<Condition<3>> all;
+  for (const Joint& joint : objects_->joints) {
+    std::array<double, most * row> rows{};
+    btTypedConstraint::btConstraintInfo1 count{};
+    joint.bullet->getInfo1(&count);
+    btTypedConstraint::btConstraintInfo2 info{};
+    info.fps = 1 / dt;
+    info.erp = 1;  // what is violated is mended in one step
+    info.m_J1linearAxis = rows.data();
+    info.m_J1angularAxis = rows.data() + 3;
+    info.m_J2linearAxis = rows.data() + 6;
+    info.m_J2angularAxis = rows.data() + 9;
+    info.rowskip = row;
+    info.m_constraintError = rows.data() + 12;
+    info.cfm = rows.data() + 13;
+    info.m_lowerLimit = rows.data() + 14;
+    info.m_upperLimit = rows.data() + 15;
+    joint.bullet->getInfo2(&info);
+    for (int i = 0; i < count.m_numConstraintRows; ++i) {
+      const Eigen::Map<const Wrench<3>> first(rows.data() + i * row);
+      // Bullet's own second half balances forces but not moments while the two frames are apart; hinges lack it.
+      Wrench<3> second = -first;
+      if (joint.other) {
+        const Eigen::Vector3d arm = pose(joint.body).translation() - pose(*joint.other).translation();
+        second.tail<3>() -= arm.cross(first.head<3>());
+      }
+      all.push_back({joint.body, joint.other, first, second, first.data()[12]});
+    }
+  }
+  return all;
 }
 
 Isometry<3> BulletWorld::pose(std::size_t body) const {
-  const Body& b = objects_->bodies[body];
   Isometry<3> pose = Isometry<3>::Identity();
-  pose.linear() = from_bullet(b.bullet->getWorldTransform().getBasis()) * b.axes.transpose();
-  pose.translation() = from_bullet(b.bullet->getWorldTransform().getOrigin());
+  const btTransform& at = objects_->bodies[body]->getWorldTransform();
+  pose.linear() = from_bullet(at.getBasis());
+  pose.translation() = from_bullet(at.getOrigin());
   return pose;
-}
-
-Twist<3> BulletWorld::velocity(std::size_t body) const {
-  const btRigidBody& bullet = *objects_->bodies[body].bullet;
-  Twist<3> velocity;
-  velocity << from_bullet(bullet.getLinearVelocity()), from_bullet(bullet.getAngularVelocity());
-  return velocity;
 }
 
 }  // namespace splashdown::rigid

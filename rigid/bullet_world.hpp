@@ -1,17 +1,18 @@
-// Bullet's world, double precision, without contacts: it kicks and drifts free bodies in space. Internal to
-// the rigid-body room; bullet_world.cpp is the only file that includes Bullet.
+// Bullet's world, double precision: it moves bodies in space and knows their joints. Internal to the rigid-body
+// room; bullet_world.cpp is the only file that includes Bullet.
 //
-//   s <- s + M^-1 J (impulse, free axes only),   x <- x + dt V,   R <- exp(dt w) R
+//   x <- x + dt V,   R <- exp(dt w) R
 //
-// Leapfrog has two steps, kick and dt, Bullet has one: so a kick is an impulse and Bullet's step a mere
+// Leapfrog has two steps, kick and dt, Bullet has one: so velocities are handed over and Bullet's step is a mere
 // drift. What Bullet does by itself and must not: 1/60 s quanta, gravity, damping, sleeping, its implicit
-// gyroscopic term (loses energy at first order), and a silent stop at pi/4 of rotation a step.
+// gyroscopic term (loses energy at first order), and a silent stop at pi/4 of rotation a step. Its joints give
+// their conditions; its solver of them is an iteration that stops far from roundoff, ours is direct (motions.hpp).
 #pragma once
 
-#include <array>
 #include <memory>
+#include <vector>
 
-#include "rigid/types.hpp"
+#include "rigid/joint.hpp"
 
 namespace splashdown::rigid {
 
@@ -20,16 +21,19 @@ class BulletWorld {
   BulletWorld();
   ~BulletWorld();
 
-  /// Inertia in body axes; which of (V, w) in world axes impulses may change. Returns the body's number.
-  std::size_t add(double mass, const Inertia<3>& inertia, const std::array<bool, 6>& free);
+  /// `moves`: whether drift moves it. Returns the body's number, counting from 0.
+  std::size_t add(bool moves);
+  /// Between bodies where they are now. Refers to them by their numbers.
+  void add(const JointSpec& joint);
 
-  /// Places a body and changes its velocity by the impulse that does so. Finite values only.
-  void kick(std::size_t body, const Isometry<3>& pose, const Twist<3>& velocity, const Twist<3>& change);
+  /// Finite values only.
+  void place(std::size_t body, const Isometry<3>& pose, const Twist<3>& velocity);
   /// Moves all bodies.
   void drift(double dt);
+  /// What the joints ask of the velocities with which bodies leave their places for a time dt.
+  std::vector<Condition<3>> conditions(double dt);
 
   Isometry<3> pose(std::size_t body) const;
-  Twist<3> velocity(std::size_t body) const;
 
  private:
   struct Objects;

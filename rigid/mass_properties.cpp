@@ -59,15 +59,15 @@ MassProperties<d> mass_properties(const Surface<d>& surface) {
 
 template <int d>
 MassProperties<d> with_density(const MassProperties<d>& unit_density, double density) {
-  if (!(density > 0 && std::isfinite(density)))
-    throw std::invalid_argument(message("density is ", density, " kg/m^3; it must be positive"));
+  if (!(density >= 0 && std::isfinite(density)))
+    throw std::invalid_argument(message("density is ", density, " kg/m^3; it must not be negative"));
   return {density * unit_density.mass, unit_density.centre, density * unit_density.inertia};
 }
 
 template <int d>
 MassProperties<d> with_mass(const MassProperties<d>& any_density, double mass) {
-  if (!(mass > 0 && std::isfinite(mass)))
-    throw std::invalid_argument(message("mass is ", mass, "; it must be positive"));
+  if (!(mass >= 0 && std::isfinite(mass)))
+    throw std::invalid_argument(message("mass is ", mass, "; it must not be negative"));
   return {mass, any_density.centre, mass / any_density.mass * any_density.inertia};
 }
 

@@ -18,7 +18,7 @@ namespace splashdown::rigid {
 template <int d>
 MassProperties<d> mass_properties(const Surface<d>& surface);
 
-/// The same body with another density [kg/m^3] or with another mass [kg, kg/m]; both must be positive.
+/// The same body with another density [kg/m^3] or with another mass [kg, kg/m]; neither may be negative.
 template <int d>
 MassProperties<d> with_density(const MassProperties<d>& unit_density, double density);
 template <int d>

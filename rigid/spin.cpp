@@ -27,25 +27,6 @@ Vector3d rotation_log(const Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
-Matrix3d principal_axes(const Matrix3d& inertia) {
-  // Jacobi's method rather than a sorting eigensolver: a diagonal tensor keeps its axes exactly.
-  Matrix3d a = inertia;
-  Matrix3d axes = Matrix3d::Identity();
-  const int sweeps = 10;  // converges quadratically; 3 x 3 needs 4 or 5
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (int p = 0; p < 2; ++p) {
-      for (int q = p + 1; q < 3; ++q) {
-        Eigen::JacobiRotation<double> turn;
-        if (!turn.makeJacobi(a, p, q)) continue;
-        a.applyOnTheLeft(p, q, turn.adjoint());
-        a.applyOnTheRight(p, q, turn);
-        axes.applyOnTheRight(p, q, turn);
-      }
-    }
-  }
-  return axes;
-}
-
 Matrix3d world_inertia(const Matrix3d& rotation, const Matrix3d& inertia) {
   const Matrix3d j = rotation * inertia * rotation.transpose();
   return 0.5 * (j + j.transpose());

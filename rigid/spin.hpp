@@ -22,9 +22,6 @@ Eigen::Matrix3d rotation_exp(const Eigen::Vector3d& angle);
 /// The shortest rotation vector of a rotation matrix [rad].
 Eigen::Vector3d rotation_log(const Eigen::Matrix3d& rotation);
 
-/// Axes u (columns of a rotation matrix, as near to the body axes as can be) with u^T inertia u diagonal.
-Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& inertia);
-
 Eigen::Matrix3d world_inertia(const Eigen::Matrix3d& rotation, const Eigen::Matrix3d& inertia);
 
 /// Angular velocity change per unit angular impulse when only the free world axes can turn: the inverse of

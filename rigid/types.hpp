@@ -30,8 +30,6 @@ template <int d>
 using Twist = Eigen::Matrix<double, freedoms<d>, 1>;
 template <int d>
 using Wrench = Eigen::Matrix<double, freedoms<d>, 1>;
-template <int d>
-using Compliance = Eigen::Matrix<double, freedoms<d>, freedoms<d>>;
 
 /// Closed, oriented simplicial surface: polyline (d = 2) or triangle mesh (d = 3).
 /// Facets are oriented so that the normal points out of the solid: in 2D the solid lies to the left of

@@ -77,9 +77,8 @@ void triangulate(benchmark::State& state, int nodes) {
 void solve_laplacian(benchmark::State& state, int nodes) {
   const auto& f = moving(nodes, false).fluid();
   const std::vector<Vec<2>> centres(1, Vec<2>::Zero());
-  const std::vector<fluid::WallResponse<2>> held(1);
   fluid::PressureEquation<2> equation;
-  equation.build(f.nodes(), f.mesh(), f.spec().density, centres, held);
+  equation.build(f.nodes(), f.mesh(), f.spec().density, centres, {});
   fluid::LinearSolver solver;
   std::vector<double> rhs(static_cast<std::size_t>(equation.size()), 1.0);
   for (auto _ : state)

@@ -8,22 +8,22 @@ namespace splashdown {
 namespace {
 
 namespace scenes = coupling::scenes;
-using coupling::Partitioned;
+using coupling::Coupled;
 
 struct Scheme {
   const char* name;
-  std::function<std::unique_ptr<coupling::InterfaceTerm<2>>()> term;
-  std::function<std::unique_ptr<coupling::Accelerator>()> accelerator;
+  std::function<std::unique_ptr<Coupled<2>>(const scenes::Scene&, coupling::CouplingLimits)> couple;
 };
 template <class Term, class Made, class... Arguments>
 Scheme scheme(const char* name, Arguments... arguments) {
-  return {name, [] { return std::make_unique<Term>(); }, [=] { return std::make_unique<Made>(arguments...); }};
+  return {name, [=](const scenes::Scene& scene, coupling::CouplingLimits limits) {
+            return scenes::coupled(scene, std::make_unique<Term>(), std::make_unique<Made>(arguments...), limits);
+          }};
 }
 using None = coupling::NoTerm<2>;
 using Laplacian = coupling::LaplacianTerm<2>;
 using Robin = coupling::RobinTerm<2>;
-using Rigid = coupling::RigidTerm<2>;
-const Scheme schemes[] = {scheme<Rigid, coupling::ConstantRelaxation>("rigid", 1.0),
+const Scheme schemes[] = {{"rigid", [](const auto& scene, auto) { return scenes::coupled(scene); }},
                           scheme<Laplacian, coupling::IqnIls>("laplacian_iqn_ils", 1.0),
                           scheme<Laplacian, coupling::Anderson>("laplacian_anderson", 1.0),
                           scheme<Robin, coupling::IqnIls>("robin_iqn_ils", 1.0),
@@ -43,15 +43,15 @@ void PrintTo(const Scheme& s, std::ostream* out) { *out << s.name; }
 constexpr int steps = 8;
 constexpr double dt = 1e-3, tolerance = 1e-8;
 
-std::unique_ptr<Partitioned<2>> released(const Scheme& s, double ratio, double h = 0.12,
+std::unique_ptr<Coupled<2>> released(const Scheme& s, double ratio, double h = 0.12,
                                          const fluid::Twist<2>& velocity = fluid::Twist<2>::Zero()) {
   auto scene = scenes::submerged_circle(ratio, h);
   scene.set_velocity(0, velocity);
-  return scenes::coupled(scene, s.term(), s.accelerator(), {.tolerance = tolerance});
+  return s.couple(scene, {.tolerance = tolerance});
 }
 
 /// Velocities after each step.
-std::vector<fluid::Twist<2>> velocities(Partitioned<2>& stepper, int count = steps) {
+std::vector<fluid::Twist<2>> velocities(Coupled<2>& stepper, int count = steps) {
   std::vector<fluid::Twist<2>> out;
   for (int i = 0; i < count; ++i) {
     const auto report = stepper.attempt(dt);

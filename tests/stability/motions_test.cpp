@@ -12,7 +12,7 @@ using scenes::g;
 using scenes::water;
 
 // Steps as a run takes them: a refused one is halved.
-bool step(coupling::Partitioned<2>& stepper, double& dt, double most) {
+bool step(coupling::Coupled<2>& stepper, double& dt, double most) {
   dt = std::min({stepper.stable_dt(), 1.5 * dt, most});
   for (int cuts = 0; cuts < 12; ++cuts, dt *= 0.5)
     if (stepper.attempt(dt).ok()) return true;
@@ -20,7 +20,7 @@ bool step(coupling::Partitioned<2>& stepper, double& dt, double most) {
 }
 
 // Of a body at t_n of an attempted step; its velocity is the mean of the two half steps.
-double energy(const coupling::Partitioned<2>& stepper, std::size_t body) {
+double energy(const coupling::Coupled<2>& stepper, std::size_t body) {
   const auto& spec = stepper.bodies().spec(body);
   const auto& s = stepper.bodies().state(body);
   const rigid::Twist<2> mean = 0.5 * (s.velocity + stepper.trial()[body].velocity);

@@ -16,7 +16,7 @@ scenes::Scene light_wedge() { return scenes::wedge_drop(20, 0.004, 0.02); }
 TEST(Solve, twice_gives_the_same_bits) {
   const auto scene = scenes::submerged_circle(0.3);
   fluid::Fluid<2> f(scene.fluid, fluid::scenes::gravity(scene.gravity));
-  ASSERT_TRUE(f.begin(1e-3, 1e-3, std::vector<fluid::WallResponse<2>>(2)).ok());
+  ASSERT_TRUE(f.begin(1e-3, 1e-3, {}).ok());
   std::vector<fluid::Twist<2>> walls(2, fluid::Twist<2>::Zero()), other = walls;
   walls[0] << 0.1, 0.2, 0.3;
   other[0] << -5, 7, 1;

@@ -25,9 +25,7 @@ coupling::scenes::Scene ring(double h) {
 // From the response of the coupled equation to a body that would have moved with velocity s.
 double added_mass(double h, double mass, int axis) {
   fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_terms());
-  std::vector<fluid::WallResponse<2>> response(1);
-  response[0].rigid = fluid::Compliance<2>::Zero();
-  response[0].rigid(axis, axis) = 1 / mass;
+  const fluid::WallResponse<2> response{fluid::Twist<2>::Unit(axis), Eigen::MatrixXd::Constant(1, 1, mass), {}};
   fluid::Twist<2> s = fluid::Twist<2>::Zero();
   s[axis] = 1;
   const double instant = 1e-6;  // next to nothing moves; positions' roundoff over it is 1e-10 m/s
@@ -54,7 +52,7 @@ TEST(AddedMass, as_a_matrix_tends_to_the_exact_one_from_below_with_second_order)
   for (std::size_t i = 0; i < h.size(); ++i) {
     fluid::Fluid<2> f(ring(h[i]).fluid, fluid::scenes::no_terms());
     EXPECT_THROW(f.added_mass(circle), std::logic_error) << "no pressure equation yet";
-    ASSERT_TRUE(f.begin(1e-3, 1e-3, std::vector<fluid::WallResponse<2>>(1)).ok());
+    ASSERT_TRUE(f.begin(1e-3, 1e-3, {}).ok());
     const Eigen::Matrix3d G = f.added_mass(circle);
     error[i] = 1 - G(1, 1) / exact;
     EXPECT_GT(error[i], 0);
@@ -92,8 +90,7 @@ TEST(AddedMass, in_a_tank_tends_to_that_in_open_water) {
     scene.fluid.liquids.push_back({fluid::scenes::rectangle({-L, -L}, {L, L}), {}});
     scene.add_body(rigid::circle(a, 256), 100, {0, 0}, 0.025);
     fluid::Fluid<2> f(scene.fluid, fluid::scenes::no_terms());
-    std::vector<fluid::WallResponse<2>> response(1);
-    response[0].rigid.diagonal() << 0.01, 0.01, 0;
+    const fluid::WallResponse<2> response{Eigen::MatrixXd::Identity(3, 2), 100 * Eigen::Matrix2d::Identity(), {}};
     ASSERT_TRUE(f.begin(1e-6, 1e-6, response).ok());
     ASSERT_TRUE(f.solve(std::vector{fluid::Twist<2>(0, 1, 0)}).ok());
     const double M = 100 * (1 / f.wall_velocities()[0][1] - 1);

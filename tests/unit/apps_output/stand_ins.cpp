@@ -81,7 +81,8 @@ struct Bodies<d>::World {
 };
 
 template <int d>
-Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>>)
+Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>>, std::vector<JointSpec>,
+                  std::optional<ContactSpec<d>>)
     : world_(std::make_unique<World>()) {
   for (auto& spec : specs) world_->states.push_back({spec.pose, spec.velocity});
   world_->specs = std::move(specs);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct Scene {
   std::vector<rigid::BodySpec<2>> bodies;
   Vec gravity{0, -g};
   std::function<std::unique_ptr<rigid::Force<2>>()> extra_force;
+  std::vector<rigid::JointSpec> joints;
+  std::optional<rigid::ContactSpec<2>> contacts;
 
   void add_body(const rigid::Shape<2>& shape, double mass, const Vec& centre, double size, double pitch = 0) {
     const auto properties = rigid::with_mass<2>(shape.at_unit_density, mass);
@@ -60,19 +63,30 @@ struct Scene {
   }
 };
 
-inline std::unique_ptr<Partitioned<2>> coupled(
-    const Scene& scene, std::unique_ptr<InterfaceTerm<2>> term = std::make_unique<RigidTerm<2>>(),
-    std::unique_ptr<Accelerator> accelerator = std::make_unique<ConstantRelaxation>(1.0),
-    CouplingLimits limits = {}) {
+inline std::unique_ptr<fluid::Fluid<2>> water_of(const Scene& scene) {
+  const bool weighs = scene.gravity != Vec::Zero();
+  return std::make_unique<fluid::Fluid<2>>(
+      scene.fluid, weighs ? fluid::scenes::gravity(scene.gravity) : fluid::scenes::no_terms());
+}
+
+inline std::unique_ptr<rigid::Bodies<2>> bodies_of(const Scene& scene) {
   std::vector<std::unique_ptr<rigid::Force<2>>> forces;
   if (scene.gravity != Vec::Zero()) forces.push_back(std::make_unique<rigid::Gravity<2>>(scene.gravity));
   if (scene.extra_force) forces.push_back(scene.extra_force());
-  return std::make_unique<Partitioned<2>>(
-      std::make_unique<fluid::Fluid<2>>(scene.fluid, scene.gravity != Vec::Zero()
-                                                         ? fluid::scenes::gravity(scene.gravity)
-                                                         : fluid::scenes::no_terms()),
-      std::make_unique<rigid::Bodies<2>>(scene.bodies, std::move(forces)), std::move(term),
-      std::move(accelerator), limits);
+  return std::make_unique<rigid::Bodies<2>>(scene.bodies, std::move(forces), scene.joints, scene.contacts);
+}
+
+/// Bodies inside the pressure equation.
+inline std::unique_ptr<Coupled<2>> coupled(const Scene& scene) {
+  return std::make_unique<Simultaneous<2>>(water_of(scene), bodies_of(scene));
+}
+
+inline std::unique_ptr<Coupled<2>> coupled(
+    const Scene& scene, std::unique_ptr<InterfaceTerm<2>> term,
+    std::unique_ptr<Accelerator> accelerator = std::make_unique<ConstantRelaxation>(1.0),
+    CouplingLimits limits = {}) {
+  return std::make_unique<Partitioned<2>>(water_of(scene), bodies_of(scene), std::move(term), std::move(accelerator),
+                                          limits);
 }
 
 /// A circle of radius 0.5 m, 1.5 m deep in a tank of 5 m by 3 m.

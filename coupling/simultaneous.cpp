@@ -1,0 +1,80 @@
+#include <cmath>
+#include <sstream>
+
+#include "coupling/steppers.hpp"
+#include "coupling/stopwatch.hpp"
+
+namespace splashdown::coupling {
+namespace {
+
+// Both sides agree to roundoff times the condition of the pressure equation.
+constexpr double roundoff = 1e-6;
+
+/// Of the points of a body: its velocity, and its turning at the farthest of them [m/s].
+template <int d>
+double speed(const rigid::BodySpec<d>& body, const fluid::Twist<d>& twist) {
+  const double farthest = body.surface.vertices.colwise().norm().maxCoeff();
+  return twist.template head<d>().norm() + farthest * twist.template tail<fluid::rotations<d>>().norm();
+}
+
+}  // namespace
+
+/// What Newton's law is short of, relative to the velocities of the step.
+template <int d>
+double Simultaneous<d>::relative(std::span<const fluid::Twist<d>> unloaded, double dt) const {
+  double error = 0, scale = this->still(dt);
+  for (std::size_t b = 0; b < bodies_->size(); ++b) {
+    const auto& spec = bodies_->spec(b);
+    error = std::max(error, speed<d>(spec, fluid_->imbalance()[b]));
+    scale = std::max({scale, speed<d>(spec, unloaded[b]), speed<d>(spec, trial_[b].velocity),
+                      speed<d>(spec, bodies_->state(b).velocity)});
+  }
+  return error / scale;
+}
+
+template <int d>
+StepReport Simultaneous<d>::attempt(double dt) {
+  this->begin_bodies(dt);
+  const std::size_t count = bodies_->size();
+  rigid::Mobility<d> bodies = bodies_->mobility();
+  fluid::WallResponse<d> response;
+  response.modes.setZero(static_cast<Eigen::Index>(fluid_->spec().walls.size()) * fluid::freedoms<d>, bodies.modes.cols());
+  response.modes.topRows(bodies.modes.rows()) = bodies.modes;
+  response.inertia = bodies.inertia;
+  if (const auto status = fluid_->begin(kick_, dt, response); !status.ok()) return {.cause = status.cause};
+
+  const double fluid_before = this->fluid_seconds();
+  StepReport report;
+  {
+    const Stopwatch watch(this->coupling_seconds_);
+    for (report.passes = 1;; ++report.passes) {
+      const auto status = fluid_->solve(this->of_walls(bodies.velocities), {}, {bodies.directions, bodies.impulse});
+      if (!status.ok()) {
+        report.cause = status.cause;
+        break;
+      }
+      const Stopwatch moving(this->rigid_seconds_);
+      this->keep(bodies_->follow(fluid_->wall_velocities().first(count)));
+      report.residual = relative(bodies.velocities, dt);
+      if (!bodies_->settle(this->total_loads())) break;
+      if (report.passes == max_passes_) {
+        report.cause = "contacts between bodies keep opening and closing";
+        break;
+      }
+      bodies = bodies_->mobility();
+    }
+  }
+  this->coupling_seconds_ -= this->fluid_seconds() - fluid_before;
+  if (report.ok() && !(report.residual <= roundoff)) {
+    std::ostringstream text;
+    text << "bodies and water disagree: residual " << report.residual << " with interface_term = \"rigid\"";
+    report.cause = text.str();
+  }
+  if (report.ok()) report.cause = fluid_->verdict().cause;
+  return report;
+}
+
+template class Simultaneous<2>;
+template class Simultaneous<3>;
+
+}  // namespace splashdown::coupling
