@@ -156,4 +156,34 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
   if (auto shape = reader.table("shape", Need::required)) read_shape(*shape, body.shape);
 }
 
+std::vector<std::string> body_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies) names.push_back(body.name);
+  return names;
+}
+
+std::optional<std::size_t> read_body_name(Reader& reader, std::string_view key, const Scene& scene, Need need,
+                                          const std::string& what) {
+  const auto names = body_names(scene);
+  if (need == Need::optional && !reader.holds(key)) {
+    reader.skip(key);
+    return {};
+  }
+  std::string name;
+  if (reader.context().problems.found_in("body")) {  // first things first: the names may be wrong
+    reader.text(key, name, "Use the name of a body.", need);
+    return {};
+  }
+  if (names.empty()) {
+    reader.text(key, name, "Use the name of a body.", need);
+    reader.context().problems.add(reader.key(key), "the scene has no bodies",
+                                  "Add [[body]] or remove the " + what + ".");
+    return {};
+  }
+  reader.choice(key, name, names, need);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 }  // namespace splashdown::apps

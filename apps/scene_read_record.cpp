@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "apps/scene_parts.hpp"
 
 namespace splashdown::apps {
@@ -8,10 +6,20 @@ namespace {
 const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
 const std::string name_cure = "Give it a name: it becomes the probe's name in probes.csv.";
 
+/// When rows of a file of its own are due: an interval or a list, each step without both.
+template <class Entry>
+void read_instants(Reader& reader, Entry& entry) {
+  reader.number("interval", entry.interval, not_negative("s", "Use e.g. 0.001, or 0 for every step."));
+  reader.numbers("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
+  if (entry.interval && !entry.times.empty())
+    reader.context().problems.add(reader.key("times"), "interval and times exclude each other",
+                                  "Remove one of them.");
+  if (!entry.interval && entry.times.empty()) entry.interval = 0;
+}
+
 void read_surface_pressure(Reader& reader, Scene& scene) {
   SurfacePressureEntry entry;
-  std::vector<std::string> walls;
-  for (const auto& body : scene.bodies) walls.push_back(body.name);
+  auto walls = body_names(scene);
   if (scene.tank) walls.push_back("tank");
   reader.choice("wall", entry.wall, walls, Need::required);
   read_instants(reader, entry);

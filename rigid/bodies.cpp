@@ -146,6 +146,8 @@ struct Bodies<d>::World {
     std::vector<Condition<d>> contacts;
     if (touching) contacts = contacts_between<d>(*touching, specs, states, dt);
     fill(contacts, p.contacts, p.least);
+    constexpr double flush = 1e-10;  // of the bodies' lengths: what positions do not resolve
+    p.resolution = flush * p.unit.maxCoeff() / dt;
     motions = Motions(p);
   }
 

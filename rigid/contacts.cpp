@@ -1,6 +1,7 @@
 #include "rigid/contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "rigid/simplex.hpp"
@@ -105,22 +106,38 @@ struct Place {
 
 template <int d>
 Place<d> place_for(const Hull<d>& moving, int v, const Hull<d>& touched) {
-  Place<d> best;
-  double least = std::numeric_limits<double>::infinity();
+  struct Facet {
+    Vec<d> foot, away, normal;
+    double distance, height;  // height: over the facet's plane
+  };
   const Vec<d> x = moving.x.col(v);
+  const double flush = 1e-9 * touched.size;
+  std::vector<Facet> facets;
+  double least = std::numeric_limits<double>::infinity();
   for (Eigen::Index f = 0; f < touched.surface->facets.cols(); ++f) {
     const FacetCorners<d> corners = corners_of(touched, f);
-    const Vec<d> foot = nearest(x, corners), away = x - foot;
-    const double distance = away.norm();
-    if (distance >= least) continue;
-    Vec<d> n = normal_of(corners);
-    double gap = n.dot(away);
-    const bool at_rim = distance > 1e-9 * touched.size && gap < (1 - 1e-9) * distance;
-    if (at_rim && gap <= 0) continue;  // beside the facet: another one faces the vertex
-    if (at_rim) n = away / distance, gap = distance;
+    const Vec<d> foot = nearest(x, corners), away = x - foot, n = normal_of(corners);
+    facets.push_back({foot, away, n, away.norm(), n.dot(away)});
+    least = std::min(least, away.norm());
+  }
+  // At an edge or a corner the facets there decide together which side x is on.
+  const auto inside = [&] {
+    double side = 0;
+    for (const Facet& f : facets)
+      if (f.distance <= least + flush) side += f.height;
+    return side < 0;
+  }();
+  Place<d> best;
+  double nearest_yet = std::numeric_limits<double>::infinity();
+  for (const Facet& f : facets) {
+    if (f.distance >= nearest_yet) continue;
+    const bool touches = f.distance <= flush, beside = !touches && std::abs(f.height) < (1 - 1e-9) * f.distance;
+    if (!touches && (f.height < 0) != inside) continue;  // seen from behind
+    if (beside && inside) continue;
+    const Vec<d> n = beside ? Vec<d>(f.away / f.distance) : f.normal;
     if (!rests(moving, v, n)) continue;
-    best = {foot, n, gap};
-    least = distance;
+    best = {f.foot, n, beside ? f.distance : f.height};
+    nearest_yet = f.distance;
   }
   return best;
 }

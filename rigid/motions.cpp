@@ -28,7 +28,7 @@ Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return {svd.solve(b), svd.matrixV().rightCols(n - svd.rank())};
 }
 
-Motions::Motions(const Problem& p) : unit_(p.unit) {
+Motions::Motions(const Problem& p) : unit_(p.unit), resolution_(p.resolution) {
   const auto scaled = p.unit.cwiseInverse().asDiagonal();
   const Solutions free = solutions_of(p.equalities * scaled, p.equal - p.equalities * p.before);
   origin_ = p.before + scaled * free.point;
@@ -73,7 +73,7 @@ bool Motions::settle(const Eigen::VectorXd& velocity, const Eigen::VectorXd& imp
   Eigen::VectorXd pushes(closed.rows());
   if (closed.rows() > 0) pushes = closed.transpose().completeOrthogonalDecomposition().solve(left);
   const double weak = negligible * pushes.cwiseAbs().sum();
-  const double slow = negligible * (contacts_.rowwise().norm().maxCoeff() * y.norm() + least_.cwiseAbs().maxCoeff());
+  const double slow = resolution_ + negligible * contacts_.rowwise().norm().maxCoeff() * y.norm();
   constexpr int together = 5;
   bool changed = false;
   Eigen::Index push = 0;

@@ -33,6 +33,7 @@ class Motions {
     Eigen::VectorXd equal;          ///< a
     Eigen::MatrixXd contacts;       ///< D
     Eigen::VectorXd least;          ///< b
+    double resolution = 0;          ///< of D s - b: smaller violations are roundoff [m/s]
     Eigen::MatrixXd inertia;        ///< M
     Eigen::VectorXd impulse;        ///< known already [N s]
   };
@@ -57,6 +58,7 @@ class Motions {
   Eigen::MatrixXd modes_, basis_, inertia_; // basis: Z in scaled velocities, orthonormal
   Eigen::MatrixXd contacts_;                // D Z
   Eigen::VectorXd least_;                   // b - D s_0
+  double resolution_ = 0;
   std::vector<char> closed_;
   int settled_ = 0;                         // how often contacts changed
   Eigen::VectorXd pushed_;                  // amplitudes that closed contacts ask for
