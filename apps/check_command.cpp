@@ -89,8 +89,9 @@ void print_body(const Scene& scene, const Body& body) {
   if (body.mass || body.density) {
     row("mass", fmt::format("{:.6g} kg/m (mean density {:.5g} kg/m^3)", spec.mass,
                             spec.mass / shape.at_unit_density.mass));
-    row("inertia", fmt::format("{:.6g} kg m about the centre of mass (radius of gyration {:.5g} m)",
-                               spec.inertia(0, 0), std::sqrt(spec.inertia(0, 0) / spec.mass)));
+    if (spec.mass > 0)
+      row("inertia", fmt::format("{:.6g} kg m about the centre of mass (radius of gyration {:.5g} m)",
+                                 spec.inertia(0, 0), std::sqrt(spec.inertia(0, 0) / spec.mass)));
   }
   row("centre of mass", fmt::format("{} now, {} in the shape's frame", pair_text(spec.pose.translation()),
                                     pair_text(mass_properties(body).centre)));
@@ -101,9 +102,10 @@ void print_body(const Scene& scene, const Body& body) {
   const double added = scene.fluid->density * pi / 8 * box.sizes().x() * box.sizes().x();
   row("density ratio",
       fmt::format("{:.4g} of the liquid's", spec.mass / shape.at_unit_density.mass / scene.fluid->density));
-  row("added mass",
-      fmt::format("about {:.4g} kg/m (flat plate of its breadth): {:.3g} times its mass{}", added,
-                  added / spec.mass, added > spec.mass ? "; needs interface_term rigid, or an accelerator" : ""));
+  const std::string plate = fmt::format("about {:.4g} kg/m (flat plate of its breadth)", added);
+  if (spec.mass == 0) return row("added mass", plate + ": all the inertia there is; the body has no mass");
+  row("added mass", fmt::format("{}: {:.3g} times its mass{}", plate, added / spec.mass,
+                                added > spec.mass ? "; needs interface_term rigid, or an accelerator" : ""));
   print_floating(scene, spec);
 }
 

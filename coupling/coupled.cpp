@@ -35,6 +35,17 @@ double Coupled<d>::fluid_seconds() const {
 }
 
 template <int d>
+double Coupled<d>::stable_dt() const {
+  constexpr double turn = 0.5;  // [rad]
+  double dt = fluid_->stable_dt();
+  for (std::size_t b = 0; b < bodies_->size(); ++b) {
+    const double spin = bodies_->state(b).velocity.template tail<fluid::rotations<d>>().norm();
+    if (spin * dt > turn) dt = turn / spin;
+  }
+  return dt;
+}
+
+template <int d>
 double Coupled<d>::still(double dt) const {
   constexpr double lengths = 1e-9;
   double longest = 0;

@@ -78,7 +78,8 @@ class Coupled : public Stepper {
   Coupled(std::unique_ptr<fluid::Fluid<d>> fluid, std::unique_ptr<rigid::Bodies<d>> bodies)
       : fluid_(std::move(fluid)), bodies_(std::move(bodies)) {}
   double time() const override { return fluid_->time(); }
-  double stable_dt() const override { return fluid_->stable_dt(); }
+  /// The fluid's; and no body turns by more than half a radian.
+  double stable_dt() const override;
   void commit() override;
   std::vector<std::pair<std::string, double>> phase_seconds() const override;
   void save(std::ostream& out) const override;

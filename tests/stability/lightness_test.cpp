@@ -170,7 +170,7 @@ template <class Term>
 std::pair<coupling::StepReport, fluid::Twist<2>> first_step(double ratio, double dt, const std::string& name,
                                                             double tolerance = 1e-6) {
   const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<Term>(),
-                                       accelerator(name), {.tolerance = tolerance});
+                                       accelerator(name), {.tolerance = tolerance, .max_passes = 200});
   const auto report = stepper->attempt(dt);
   EXPECT_TRUE(report.ok()) << name << ' ' << ratio << ": " << report.cause;
   return {report, stepper->trial()[0].velocity};

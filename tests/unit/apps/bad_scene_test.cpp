@@ -133,8 +133,27 @@ const std::vector<BadScene> scenes = {
     {"body_name_missing", "name = \"wedge\"\n", "", 18, "body[0].name is missing", "a string"},
     {"body_name_is_a_number", "\"wedge\"\nmass", "\"12\"\nmass", 19, "body.12.name = \"12\"",
      "not of digits alone"},
-    {"mass_zero", "mass = 241", "mass = 0", 20, "body.wedge.mass = 0",
-     "must be positive (kg/m). Use motion = \"fixed\""},
+    {"mass_negative", "mass = 241", "mass = -1", 20, "body.wedge.mass = -1",
+     "must not be below 0 (kg/m). Use motion = \"fixed\""},
+    {"mass_zero_in_the_air", "mass = 241", "mass = 0", 20, "body.wedge.mass = 0",
+     "must start in the fluid, which has inertia for it. Give it a mass"},
+    {"joint_of_no_type", "[[record]]", "[[joint]]\ntype = \"hing\"\n[[record]]", 29, "joint[0].type = \"hing\"",
+     "Did you mean 'hinge'?"},
+    {"joint_of_no_body", "[[record]]", "[[joint]]\ntype = \"hinge\"\nbody = \"wegde\"\npoint = [0, 0]\n[[record]]", 30,
+     "joint[0].body = \"wegde\"", "Did you mean 'wedge'?"},
+    {"hinge_of_no_place", "[[record]]", "[[joint]]\ntype = \"hinge\"\nbody = \"wedge\"\n[[record]]", 28,
+     "joint[0].point is missing", "Use the place of the hinge"},
+    {"joint_to_itself", "[[record]]",
+     "[[joint]]\ntype = \"weld\"\nbody = \"wedge\"\nother = \"wedge\"\n[[record]]", 31, "joint[0].other = \"wedge\"",
+     "cannot be tied to itself"},
+    {"slider_without_direction", "[[record]]",
+     "[[joint]]\ntype = \"slider\"\nbody = \"wedge\"\naxis = [0, 0]\n[[record]]", 31, "joint[0].axis = [0, 0]",
+     "must have a direction"},
+    {"weld_with_a_point", "[[record]]",
+     "[[joint]]\ntype = \"weld\"\nbody = \"wedge\"\npoint = [0, 0]\n[[record]]", 31, "joint[0].point = [0, 0]",
+     "unknown key"},
+    {"contact_with_a_key", "[[record]]", "[contact]\nfriction = 0.3\n[[record]]", 29, "contact.friction = 0.3",
+     "unknown key"},
     {"mass_missing", "mass = 241\n", "", 18, "body.wedge.mass is missing", "mass (kg/m) or mean density"},
     {"mass_and_density", "mass = 241", "mass = 241\ndensity = 500", 21, "body.wedge.density = 500",
      "exclude each other"},
@@ -271,6 +290,17 @@ TEST(BadScene, a_missing_file_is_named_with_the_cause) {
         << error.what();
   }
   EXPECT_THROW(read_scene("/"), SceneError);
+}
+
+TEST(BadScene, a_body_without_mass_must_be_solved_with_the_pressure) {
+  auto text = testing::wedge_drop_with("mass = 241", "mass = 0");
+  text.replace(text.find("position = [0, 0.01]"), 20, "position = [0, -0.5]");
+  text.replace(text.find("[output]"), 8, "[coupling]\ninterface_term = \"none\"\n[output]");
+  const auto messages = messages_of(text);
+  ASSERT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
+  EXPECT_TRUE(messages[0].starts_with("scene.toml:20: body.wedge.mass = 0: a free body without mass needs "
+                                      "coupling.interface_term = \"rigid\""))
+      << messages[0];
 }
 
 TEST(BadScene, an_absorber_needs_a_tank) {

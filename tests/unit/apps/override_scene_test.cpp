@@ -64,8 +64,8 @@ TEST(Override, is_checked_like_the_file_and_named_in_the_message) {
       refusal("fluid.densty=3")
           .starts_with("--set fluid.densty=3: fluid.densty = 3: unknown key. Did you mean 'density'?"))
       << refusal("fluid.densty=3");
-  EXPECT_TRUE(refusal("body.wedge.mass=0")
-                  .starts_with("--set body.wedge.mass=0: body.wedge.mass = 0: must be positive"));
+  EXPECT_TRUE(refusal("body.wedge.mass=-1")
+                  .starts_with("--set body.wedge.mass=-1: body.wedge.mass = -1: must not be below 0"));
   EXPECT_TRUE(refusal("coupling.relaxation=2")
                   .starts_with("--set coupling.relaxation=2: coupling.relaxation = 2: must lie in (0, 1]"));
 }

@@ -305,7 +305,7 @@ const std::vector<BadStudy> studies = {
     {"logarithm_of_zero", "[1, 0.5, 0.1]", "[1, 0.5, 0]", 31, "chart.x", "linear"},
     // What the scene's own rules say about a value, at the value's place.
     {"value_the_scene_refuses", "scale = 100", "scale = -100", 11,
-     "axis.ratio: body.wedge.mass=-100.0: ", "must be positive"},
+     "axis.ratio: body.wedge.mass=-100.0: ", "must not be below 0"},
     {"key_the_scene_does_not_have", "body.wedge.mass", "body.wegde.mass", 11,
      "axis.ratio: body.wegde.mass=100.0: ", "Did you mean 'wedge'?"},
     {"case_the_scene_refuses", "interface_term=none", "interface_term=non", 15,

@@ -115,7 +115,7 @@ TEST(MassProperties, scale_with_density_and_mass) {
   EXPECT_DOUBLE_EQ(heavy.inertia(0, 0) / heavy.mass, unit.inertia(0, 0) / unit.mass);
   EXPECT_EQ(heavy.centre, unit.centre);
   EXPECT_THROW(with_density(unit, -1), std::invalid_argument);
-  EXPECT_THROW(with_mass(unit, 0), std::invalid_argument);
+  EXPECT_THROW(with_mass(unit, -1), std::invalid_argument);
 }
 
 TEST(MassProperties, of_a_surface_inside_out_are_refused) {
