@@ -19,7 +19,7 @@ enum class JointType {
 struct JointSpec {
   JointType type = JointType::hinge;
   std::size_t body = 0;
-  std::optional<std::size_t> other;
+  std::optional<std::size_t> other = {};
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< world frame, at t = 0 [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< world frame, at t = 0; unit length
 };
@@ -36,7 +36,7 @@ void check(const JointSpec& joint, std::size_t bodies);
 template <int d>
 struct Condition {
   std::size_t body = 0;
-  std::optional<std::size_t> other;
+  std::optional<std::size_t> other = {};
   Wrench<d> first = Wrench<d>::Zero(), second = Wrench<d>::Zero();
   double rate = 0;
 };
