@@ -144,7 +144,7 @@ struct Coupling {
   std::string scheme = "iterated";       ///< "iterated" | "staggered"
   std::string interface_term = "rigid";  ///< "rigid" | "laplacian" | "robin" | "none"
   std::string accelerator = "constant";  ///< "constant" | "aitken" | "anderson" | "broyden" | "iqn_ils" | "probe"
-  double relaxation = 1;                 ///< only (constant, anderson, probe) or first factor, in (0, 1]
+  double relaxation = 1;                 ///< only (constant, anderson) or first factor, in (0, 1]
   int depth = 50;                        ///< passes that anderson remembers
   int reuse = 0;                         ///< past steps that iqn_ils learns from
   double tolerance = 1e-8;               ///< of the interface velocities, relative
