@@ -52,7 +52,7 @@ struct Ledger {
 
 /// How the motions of WallResponse are driven in a step.
 struct MotionDrive {
-  Eigen::MatrixXd directions;  ///< only these combinations of them may occur; empty: all
+  Eigen::MatrixXd directions;  ///< only these combinations of them may occur; without them and an impulse: all
   Eigen::VectorXd impulse;     ///< on them, besides the fluid's and what the given velocities contain; empty: none
 };
 

@@ -7,7 +7,8 @@
 // Solved in coordinates: s = s_0 + Z y with Z a basis of the motions that E leaves, and y in the directions W that
 // the closed contacts leave. Which contacts are closed is found by the primal-dual active set method (Hintermueller,
 // Ito, Kunisch 2002): a closed contact that pulls opens, an open one that would be crossed closes. It may run in
-// circles; after a few changes only the first contact that is wrong changes (Murty 1974), which ends.
+// circles; after a few changes only the first contact that is wrong changes (Murty 1974), which ends where contacts
+// are independent of each other.
 // Nothing divides by M: bodies may lack mass where something else, the water, has inertia for them.
 #pragma once
 
