@@ -6,8 +6,8 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "rigid/embedding.hpp"
 #include "rigid/bullet_world.hpp"
+#include "rigid/embedding.hpp"
 #include "rigid/free_body.hpp"
 #include "rigid/message.hpp"
 #include "rigid/motions.hpp"
@@ -48,7 +48,7 @@ struct Bodies<d>::World {
   std::optional<ContactSpec<d>> touching;
   BulletWorld bullet;
   std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
-  std::vector<Condition<d>> tied;                 // by joints, of the begun step
+  std::vector<Condition<d>> tied, near;           // by joints, and by contacts that may close, of the begun step
   Motions motions;
   double time = 0, kick = 0, dt = 0;
   Phase phase = Phase::committed;
@@ -110,6 +110,7 @@ struct Bodies<d>::World {
   void find_motions() {
     for (Eigen::Index i = 0; i < size(); ++i) place(i, states[static_cast<std::size_t>(i)]);
     tied = joints();
+    if (touching) near = contacts_between<d>(*touching, specs, states, dt);
     solve_conditions();
     if (tied.empty()) return;
     // Joints are met at x_{n+1}, but for what the fluid's load adds to the curvature of the way there (SHAKE, Ryckaert,
@@ -143,9 +144,7 @@ struct Bodies<d>::World {
       p.impulse.segment<m>(m * i) = embedding<d>().transpose() * movers[b]->impulse();
     }
     fill(equalities(), p.equalities, p.equal);
-    std::vector<Condition<d>> contacts;
-    if (touching) contacts = contacts_between<d>(*touching, specs, states, dt);
-    fill(contacts, p.contacts, p.least);
+    fill(near, p.contacts, p.least);
     constexpr double flush = 1e-10;  // of the bodies' lengths: what positions do not resolve
     p.resolution = flush * p.unit.maxCoeff() / dt;
     motions = Motions(p);
