@@ -10,6 +10,7 @@ template <int d>
 void Coupled<d>::begin_bodies(double dt) {
   clock_.start(dt);
   kick_ = clock_.kick(dt);
+  const Stopwatch moving(rigid_seconds_), coupling(coupling_seconds_);
   bodies_->begin(kick_, dt);
 }
 

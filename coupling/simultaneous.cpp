@@ -70,6 +70,11 @@ StepReport Simultaneous<d>::attempt(double dt) {
     text << "bodies and water disagree: residual " << report.residual << " with interface_term = \"rigid\"";
     report.cause = text.str();
   }
+  for (std::size_t b = 0; b < count && report.ok(); ++b) {
+    const auto& spec = bodies_->spec(b);
+    if (spec.motion == rigid::Motion::free && spec.mass == 0 && fluid_->loads()[b].wetted == 0)
+      report.cause = "body \"" + spec.name + "\" has no mass and is out of the water, which had inertia for it; give it a mass";
+  }
   if (report.ok()) report.cause = fluid_->verdict().cause;
   return report;
 }

@@ -47,6 +47,8 @@ StepReport BodiesOnly<d>::attempt(double dt) {
   const std::vector<rigid::Wrench<d>> no_load(bodies_->size(), rigid::Wrench<d>::Zero());
   const auto trial = bodies_->solve(no_load);
   trial_.assign(trial.begin(), trial.end());
+  for (const auto& state : trial_)
+    if (!state.velocity.allFinite()) return {.cause = "the bodies' velocities are not finite"};
   return {.cause = {}, .passes = 1};
 }
 

@@ -258,7 +258,7 @@ double Fluid<d>::stable_dt() const {
   const auto& now = s_->now;
   double squared = std::numeric_limits<double>::infinity();
   for (const auto& cell : now.mesh.cells) {
-    // Sheets and spray carry no pressure: they fly, however much they deform.
+    // Sheets may deform by more than this; verdict() refuses steps in which they turn over.
     if (std::all_of(cell.begin(), cell.end(), [&](int n) { return now.nodes.surface[n]; })) continue;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {

@@ -101,9 +101,9 @@ void PressureEquation<d>::measure(double density) {
 
 template <int d>
 void PressureEquation<d>::choose_unknowns() {
-  // Surface nodes of the bulk, unless they sit on a spike: a volume this small for its surface, 0.43 on a flat
-  // one in 2D, would be thrown by what little is left of the volume's error. Cells of sheets deform freely and
-  // may turn over within a step: their volume is nobody's constraint.
+  // All surface nodes but those on a spike of the bulk: a volume this small for its surface, 0.43 on a flat one in
+  // 2D, would be thrown by what little is left of the volume's error. Sheets are thin by nature, and their volume is kept
+  // like any other's: left to fly, they gain volume, hence energy, while they stretch.
   constexpr double spike = 0.1;
   std::vector<char> bulk(nodes_->size(), 1);
   for (const auto& cell : mesh_->cells)
@@ -112,8 +112,8 @@ void PressureEquation<d>::choose_unknowns() {
   unknown_.assign(nodes_->size(), -1);
   node_.clear();
   for (std::size_t i = 0; i < nodes_->size(); ++i) {
-    const bool held = nodes_->surface[i] && (nodes_->tie[i].wall >= 0 ||
-                      !bulk[i] || lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0)));
+    const bool on_spike = bulk[i] && lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0));
+    const bool held = nodes_->surface[i] && (nodes_->tie[i].wall >= 0 || on_spike);
     if (held || nodes_->spray[i]) {
       free_area_[i].setZero();
       continue;

@@ -16,8 +16,8 @@
 //
 //   surface(q, phi) = sum_i - q_i A_i . g_i(phi) - phi_i A_i . g_i(q) + 2 n_i q_i phi_i sum_f |A_f / d|^2 / m_i
 //
-// n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Nodes of
-// thin sheets, of spikes and of contact lines keep phi = 0.
+// n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Spikes and contact
+// lines keep phi = 0.
 // B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
 // Bodies that the equation solves for, s = s_0 + Z y with M y = Z^T B phi + e, are of low rank and eliminated on the
 // factor (Woodbury):

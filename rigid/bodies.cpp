@@ -1,5 +1,6 @@
 #include "rigid/bodies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <istream>
 #include <limits>
@@ -205,6 +206,7 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
   for (const JointSpec& joint : joints) {
     check(joint, size());
     w.bullet.add(joint);
+    if (w.touching && joint.other) w.touching->apart.insert(std::minmax(joint.body, *joint.other));
   }
   w.trials = w.states;
 }

@@ -159,6 +159,7 @@ std::vector<Condition<d>> contacts_between(const ContactSpec<d>& spec, std::span
   for (std::size_t a = 0; a < bodies.size(); ++a) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (a == b || (bodies[a].motion != Motion::free && bodies[b].motion != Motion::free)) continue;
+      if (spec.apart.contains(std::minmax(a, b))) continue;
       const double reach = near * std::min(hulls[a].size, hulls[b].size) + 2 * (hulls[a].moves + hulls[b].moves);
       for (int v = 0; v < hulls[a].x.cols(); ++v) {
         const Vec<d> x = hulls[a].x.col(v);

@@ -9,7 +9,9 @@
 // faces that touch, and normals that leave the plane as soon as they do.
 #pragma once
 
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "rigid/body.hpp"
@@ -26,6 +28,8 @@ struct Plane {
 template <int d>
 struct ContactSpec {
   std::vector<Plane<d>> planes;
+  /// Pairs of bodies that do not touch: those that a joint ties, which knows better where they are.
+  std::set<std::pair<std::size_t, std::size_t>> apart = {};
 };
 
 template <int d>

@@ -402,7 +402,7 @@ TYPED_TEST(Pressure, a_passed_interface_laplacian_changes_nothing) {
 TYPED_TEST(Pressure, without_unknowns_there_is_nothing_to_solve) {
   constexpr int d = TypeParam::value;
   Problem<d> p;
-  for (auto& s : p.cube.nodes.surface) s = 1;
+  for (auto& s : p.cube.nodes.spray) s = 1;
   ASSERT_TRUE(p.build(p.body(p.any_inertia())));
   EXPECT_EQ(p.equation.size(), 0);
   std::vector<double> r;
