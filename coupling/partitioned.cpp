@@ -83,7 +83,13 @@ StepReport Partitioned<d>::iterate(double dt) {
       x.twists[b] = bodies_->state(b).velocity + kick_ * acceleration_[b];
   }
   if (accelerator_->needs_slope()) accelerator_->set_slope(space.slope(pass_slope(*fluid_, *bodies_)));
-  scale = std::max({scale, space.velocities(change).norm(), this->still(dt)});
+  scale = std::max(scale, space.velocities(change).norm());
+  // Where nothing moves there is nothing to agree on but the roundoff of the water's positions.
+  double farthest = 0;
+  for (const auto& node : fluid_->nodes().x) farthest = std::max(farthest, node.norm());
+  const double roundoff = std::numeric_limits<double>::epsilon() * farthest / dt;
+  const bool at_rest = scale <= roundoff;
+  scale = std::max(scale, this->still(dt));
   StepReport report;
   double first = 0, calmest = std::numeric_limits<double>::infinity();
   for (report.passes = 1;; ++report.passes) {
@@ -98,12 +104,14 @@ StepReport Partitioned<d>::iterate(double dt) {
     const Eigen::VectorXd image = space.vector({trial_velocities(), {found.begin(), found.end()}});
     // Relative to the calmest pass so far: a wild one would excuse errors of its own size.
     calmest = std::min(calmest, space.velocities(trial_velocities()).norm());
-    report.residual = (image - now).norm() / std::max(scale, calmest);
+    const double error = (image - now).norm();
+    report.residual = error / std::max(scale, calmest);
     if (!std::isfinite(report.residual)) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
       return report;
     }
-    if (report.residual <= limits_.tolerance || report.passes == limits_.fixed_passes) break;
+    if (report.residual <= limits_.tolerance || (at_rest && error <= roundoff)) break;
+    if (report.passes == limits_.fixed_passes) break;
     if (report.passes == 1) first = report.residual;
     if (report.residual > diverged * first) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
