@@ -176,18 +176,10 @@ class Adapter {
 
   void compact() {
     if (report_.removed == 0) return;
-    std::vector<int> order;
-    std::vector<int> renumber(nodes_.size(), -1);
+    std::vector<int> kept;
     for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (into_[i] == static_cast<int>(i)) {
-        renumber[i] = static_cast<int>(order.size());
-        order.push_back(static_cast<int>(i));
-      }
-    nodes_.select(order);
-    for (std::size_t i = 0; i < order.size(); ++i) h_[i] = h_[order[i]];
-    h_.resize(order.size());
-    for (auto& f : mesh_.boundary)
-      for (int& n : f.nodes) n = renumber[n];
+      if (into_[i] == static_cast<int>(i)) kept.push_back(static_cast<int>(i));
+    keep(kept, nodes_, h_, mesh_.boundary);
   }
 
   Nodes<d>& nodes_;
@@ -208,7 +200,23 @@ AdaptReport<d> adapt(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, con
   return Adapter<d>(nodes, h, mesh, walls).run();
 }
 
+template <int d>
+void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<double>& h, std::vector<Facet<d>>& boundary) {
+  std::vector<int> renumber(nodes.size(), -1);
+  std::vector<double> sizes(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    renumber[kept[i]] = static_cast<int>(i);
+    sizes[i] = h[kept[i]];
+  }
+  nodes.select(kept);
+  h = std::move(sizes);
+  for (auto& f : boundary)
+    for (int& n : f.nodes) n = renumber[n];
+}
+
 template AdaptReport<2> adapt(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&);
 template AdaptReport<3> adapt(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&);
+template void keep(const std::vector<int>&, Nodes<2>&, std::vector<double>&, std::vector<Facet<2>>&);
+template void keep(const std::vector<int>&, Nodes<3>&, std::vector<double>&, std::vector<Facet<3>>&);
 
 }  // namespace splashdown::fluid

@@ -21,4 +21,8 @@ struct AdaptReport {
 template <int d>
 AdaptReport<d> adapt(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls);
 
+/// Keeps these nodes alone and renumbers; all nodes of the boundary must be among them.
+template <int d>
+void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<double>& h, std::vector<Facet<d>>& boundary);
+
 }  // namespace splashdown::fluid

@@ -198,7 +198,8 @@ class Filler {
     wet<2>(out_.nodes, h, out_.mesh, walls_, at_rest);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps; ++sweep) {
-      out_.mesh = recognise<2>(out_.nodes, h, out_.mesh.boundary, walls_, outline_decides);
+      do out_.mesh = recognise<2>(out_.nodes, h, out_.mesh.boundary, walls_, outline_decides);
+      while (drop_lost());
       if (settled + 1 == smoothing_sweeps) return;
       const auto report = adapt(out_.nodes, h, out_.mesh, walls_);
       const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
@@ -207,6 +208,16 @@ class Filler {
       smooth(h);
       sizes();
     }
+  }
+
+  // Smoothing may push a node through a wall. It has no cell then, and is no drop of water either.
+  bool drop_lost() {
+    std::vector<int> kept;
+    for (std::size_t i = 0; i < out_.nodes.size(); ++i)
+      if (!out_.nodes.spray[i]) kept.push_back(static_cast<int>(i));
+    if (kept.size() == out_.nodes.size()) return false;
+    keep(kept, out_.nodes, out_.h, out_.mesh.boundary);
+    return true;
   }
 
   // Inner nodes move towards the mean of their neighbours, weighted by how far apart they should be.
