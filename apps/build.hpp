@@ -30,6 +30,12 @@ World<2> build_world(const Scene& scene);
 /// Walls: one a body, in their order, then the tank if there is one.
 fluid::FluidSpec<2> fluid_spec(const Scene& scene);
 std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms(const Scene& scene);
+/// A place where a body's hull is curved.
+struct HullBend {
+  fluid::Vec<2> at;     ///< world frame, at t = 0
+  double radius, size;  ///< of curvature; of the elements there [m]
+};
+std::vector<HullBend> hull_bends(const Scene& scene, const Body& body);
 rigid::BodySpec<2> body_spec(const Body& body);
 std::vector<rigid::JointSpec> joint_specs(const Scene& scene);
 std::optional<rigid::ContactSpec<2>> contact_spec(const Scene& scene);

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <limits>
 
 #include "apps/build.hpp"
 #include "apps/scene_geometry.hpp"
 #include "fluid/absorber.hpp"
+#include "fluid/size_field.hpp"
 #include "fluid/viscosity.hpp"
 
 namespace splashdown::apps {
@@ -28,18 +30,33 @@ fluid::WallSpec<2> hull(const Body& body) {
           .size = body.size};
 }
 
+fluid::SizeSpec size_spec(const Sizes& size) {
+  return {.surface = size.surface,
+          .far = size.far,
+          .growth = size.growth,
+          .wetted_fraction = size.wetted_fraction,
+          .hollow = size.hollow.value_or(std::numeric_limits<double>::infinity()),
+          .hollow_min = size.hollow_min,
+          .curvature = size.curvature};
+}
+
 }  // namespace
+
+std::vector<HullBend> hull_bends(const Scene& scene, const Body& body) {
+  const fluid::Wall<2> wall(hull(body));
+  const auto sizes = size_spec(scene.fluid->size);
+  std::vector<HullBend> bends;
+  for (const auto& bend : wall.bends())
+    bends.push_back({wall.spec().pose * bend.at, bend.radius,
+                     std::min(body.size, fluid::size_at_bend(sizes, body.size, bend.radius))});
+  return bends;
+}
 
 fluid::FluidSpec<2> fluid_spec(const Scene& scene) {
   const auto& liquid = *scene.fluid;
   fluid::FluidSpec<2> spec;
   spec.density = liquid.density;
-  spec.size = {.surface = liquid.size.surface,
-               .far = liquid.size.far,
-               .growth = liquid.size.growth,
-               .wetted_fraction = liquid.size.wetted_fraction,
-               .hollow = liquid.size.hollow.value_or(std::numeric_limits<double>::infinity()),
-               .hollow_min = liquid.size.hollow_min};
+  spec.size = size_spec(liquid.size);
   spec.step = {.cfl = scene.time.cfl, .dt_max = scene.time.dt_max};
   for (const auto& region : liquid.regions)
     spec.liquids.push_back({fluid_surface(outline(region)), velocity_field(region)});

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -77,6 +78,23 @@ void print_floating(const Scene& scene, const rigid::BodySpec<2>& spec) {
                              rest->metacentric_height, rest->pose.translation().y() - *level));
 }
 
+/// Elements at the tightest curve of the hull, and whether they can follow it.
+void print_curvature(const Scene& scene, const Body& body) {
+  const auto bends = hull_bends(scene, body);
+  if (bends.empty()) return;
+  const auto& tight = *std::min_element(bends.begin(), bends.end(),
+                                        [](const HullBend& a, const HullBend& b) { return a.radius < b.radius; });
+  const double share = tight.size / tight.radius, rounded_up = 1 + 1e-6;
+  std::string note;
+  if (share > scene.fluid->size.curvature * rounded_up)
+    note = fmt::format("; not resolved: use size = {:.2g} m or less, or a sharp edge",
+                       4 * scene.fluid->size.curvature * tight.radius);
+  else if (share > 0.25 * rounded_up)
+    note = "; enough for loads; where a swing has to keep its energy set fluid.size.curvature = 0.25";
+  row("curvature", fmt::format("radius {:.3g} m at ({:.3g}, {:.3g}) m, elements {:.3g} m there{}", tight.radius,
+                               tight.at.x(), tight.at.y(), tight.size, note));
+}
+
 void print_body(const Scene& scene, const Body& body) {
   const auto spec = body_spec(body);
   const auto shape = shape_of(body.shape);
@@ -98,6 +116,7 @@ void print_body(const Scene& scene, const Body& body) {
   if (!scene.fluid) return;
   row("deadrise", deadrise_text(body, hull));
   row("hull elements", fmt::format("{:g} m", body.size));
+  print_curvature(scene, body);
   if (!body.mass && !body.density) return;
   const double added = scene.fluid->density * pi / 8 * box.sizes().x() * box.sizes().x();
   row("density ratio",

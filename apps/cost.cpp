@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "apps/build.hpp"
 #include "apps/scales.hpp"
 #include "apps/scene_geometry.hpp"
 
@@ -24,7 +25,11 @@ class SizeEstimate {
  public:
   explicit SizeEstimate(const Scene& scene) : size_(scene.fluid->size) {
     for (const auto& region : scene.fluid->regions) regions_.push_back(outline(region));
-    for (const auto& body : scene.bodies) bodies_.emplace_back(outline(body), body.size);
+    for (const auto& body : scene.bodies) {
+      bodies_.emplace_back(outline(body), body.size);
+      for (const auto& bend : hull_bends(scene, body))
+        if (bend.size < body.size) bends_.push_back(bend);
+    }
     if (scene.tank) {
       tank_ = Extents(planar(scene.tank->min), planar(scene.tank->max));
       tank_size_ = scene.tank->size;
@@ -39,6 +44,7 @@ class SizeEstimate {
     double h = size_.far;
     for (const auto& [hull, size] : bodies_) h = std::min(h, grown(size, std::abs(signed_distance(hull, x))));
     if (!tank_.isEmpty()) h = std::min(h, grown(tank_size_, to_tank(x)));
+    for (const auto& bend : bends_) h = std::min(h, grown(bend.size, (x - bend.at).norm()));
     for (const auto& [a, b] : free_) {
       const Vec<2> edge = b - a;
       const double along = std::clamp((x - a).dot(edge) / edge.squaredNorm(), 0., 1.);
@@ -75,6 +81,7 @@ class SizeEstimate {
   Sizes size_;
   std::vector<Surface<2>> regions_;
   std::vector<std::pair<Surface<2>, double>> bodies_;
+  std::vector<HullBend> bends_;
   Extents tank_;
   double tank_size_ = 0;
   std::vector<std::pair<Vec<2>, Vec<2>>> free_;
@@ -99,7 +106,10 @@ double nodes_in(const SizeEstimate& estimate, const Extents& cell) {
 
 double finest(const Scene& scene) {
   double h = scene.fluid->size.surface;
-  for (const auto& body : scene.bodies) h = std::min(h, body.size);
+  for (const auto& body : scene.bodies) {
+    h = std::min(h, body.size);
+    for (const auto& bend : hull_bends(scene, body)) h = std::min(h, bend.size);
+  }
   return h;
 }
 

@@ -73,6 +73,7 @@ struct Sizes {
   /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
   std::optional<double> hollow;
   double hollow_min = 0;  ///< ... but not below this [m]; needed with `hollow`
+  double curvature = 0.5;  ///< h at a hull over the outline's radius of curvature, at most
 };
 
 struct Viscosity {

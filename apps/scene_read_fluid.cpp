@@ -75,6 +75,8 @@ void read_sizes(Reader& reader, Sizes& size) {
                   Need::required);
   else
     reader.skip("hollow_min");
+  reader.number("curvature", size.curvature,
+                positive("", "Use 0.5, or 0.25 where flow around a tight bend matters: h over its radius."));
 }
 
 }  // namespace

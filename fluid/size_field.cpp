@@ -5,6 +5,11 @@
 
 namespace splashdown::fluid {
 
+double size_at_bend(const SizeSpec& spec, double wall_size, double radius) {
+  constexpr double least = 0.25;
+  return std::max(spec.curvature * radius, least * wall_size);
+}
+
 template <int d>
 SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted,
                         std::span<const Vec<d>> x, const Mesh<d>& mesh)
@@ -14,6 +19,7 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
     const double length = 0.5 * std::pow(wetted[w], 1.0 / (d - 1));
     wall_size_[w] = std::max(walls.walls[w].spec().size, spec.wetted_fraction * length);
   }
+  find_bends();
   if (std::isfinite(spec.hollow)) find_hollows(x, mesh);
   if (spec.surface >= spec.far) return;  // the far size already resolves the surface
   std::vector<const Facet<d>*> free;
@@ -30,8 +36,27 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
   surface_ = FacetTree<d>(std::move(vertices), std::move(facets));
 }
 
+template <int d>
+void SizeField<d>::find_bends() {
+  std::vector<Source> found;
+  for (std::size_t w = 0; w < wall_size_.size(); ++w)
+    for (const auto& bend : walls_.walls[w].bends()) {
+      const double size = size_at_bend(spec_, walls_.walls[w].spec().size, bend.radius);
+      if (size < wall_size_[w]) found.push_back({walls_.poses[w] * bend.at, size});
+    }
+  add(std::move(found));
+}
+
+// Sources that others already imply are dropped.
+template <int d>
+void SizeField<d>::add(std::vector<Source> found) {
+  std::sort(found.begin(), found.end(), [](const Source& a, const Source& b) { return a.size < b.size; });
+  for (const Source& s : found)
+    if (s.size < (*this)(s.at)) points_.push_back(s);
+}
+
 // Curvature along a facet's edge from the nodes' normals, (n_j - n_i).(x_j - x_i) / |x_j - x_i|^2, averaged
-// at the nodes; negative where the liquid is hollow. Sources that others already imply are dropped.
+// at the nodes; negative where the liquid is hollow.
 template <int d>
 void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh) {
   const auto& boundary = mesh.boundary;
@@ -62,9 +87,7 @@ void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh) 
     const double size = std::max(spec_.hollow_min, -spec_.hollow * edges[i] / curvature[i]);
     if (size < (*this)(x[i])) found.push_back({x[i], size});
   }
-  std::sort(found.begin(), found.end(), [](const Source& a, const Source& b) { return a.size < b.size; });
-  for (const Source& s : found)
-    if (s.size < (*this)(s.at)) hollows_.push_back(s);
+  add(std::move(found));
 }
 
 template <int d>
@@ -75,7 +98,7 @@ double SizeField<d>::operator()(const Vec<d>& point) const {
     if (reach <= 0) continue;
     h = wall_size_[w] + spec_.growth * walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach);
   }
-  for (const Source& s : hollows_) {
+  for (const Source& s : points_) {
     const double reach = (h - s.size) / spec_.growth;
     const double squared = (s.at - point).squaredNorm();
     if (reach > 0 && squared < reach * reach) h = s.size + spec_.growth * std::sqrt(squared);

@@ -9,6 +9,9 @@
 
 namespace splashdown::fluid {
 
+/// Element size at a bend of a wall [m]: `curvature` times its radius, but no less than a quarter of the wall's own size.
+double size_at_bend(const SizeSpec& spec, double wall_size, double radius);
+
 template <int d>
 class SizeField {
  public:
@@ -19,17 +22,19 @@ class SizeField {
   double at_wall(std::size_t wall) const { return wall_size_[wall]; }
 
  private:
-  void find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh);
-
   struct Source {
     Vec<d> at;
     double size;
   };
+  void find_bends();
+  void find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh);
+  void add(std::vector<Source> found);
+
   SizeSpec spec_;
   WallsAt<d> walls_;
   std::vector<double> wall_size_;
   FacetTree<d> surface_;
-  std::vector<Source> hollows_;
+  std::vector<Source> points_;  // bends of walls, hollows
 };
 
 extern template class SizeField<2>;

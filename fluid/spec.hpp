@@ -38,6 +38,8 @@ struct SizeSpec {
   /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
   double hollow = std::numeric_limits<double>::infinity();
   double hollow_min = 0;  ///< ... but not below this [m]
+  /// At a wall h is at most this fraction of the outline's radius of curvature (`size_at_bend`).
+  double curvature = 0.5;
 };
 
 /// dt = min(cfl * min over edges of length / |relative velocity|, min over nodes of sqrt(h / |a|) / 2, dt_max): the

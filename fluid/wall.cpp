@@ -1,5 +1,6 @@
 #include "fluid/wall.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -38,6 +39,7 @@ Wall<d>::Wall(const WallSpec<d>& spec)
     if (is_sharp_[v]) sharp_.push_back(v);
   }
   find_patches(crease);
+  find_bends();
   double enclosed = 0;
   for (int f = 0; f < facets.cols(); ++f) {
     std::array<Vec<d>, d> corner;
@@ -73,6 +75,26 @@ void Wall<d>::find_patches(double crease) {
     patch_tree_.emplace_back(spec_.surface.vertices, std::move(own));
     patch_facets_.push_back(std::move(members));
   }
+}
+
+// Curvature along an edge from the normals at its ends, |(n_j - n_i).(x_j - x_i)| / |x_j - x_i|^2. A sharp vertex has no
+// normal, so edges that end at one are no curve.
+template <int d>
+void Wall<d>::find_bends() {
+  const auto& vertices = spec_.surface.vertices;
+  const auto& facets = spec_.surface.facets;
+  std::vector<double> curvature(vertices.cols(), 0.0);
+  for (int f = 0; f < facets.cols(); ++f)
+    for (int k = 0; k < d; ++k) {
+      const int i = facets(k, f), j = facets((k + 1) % d, f);
+      if (is_sharp_[i] || is_sharp_[j]) continue;
+      const Vec<d> e = vertices.col(j) - vertices.col(i);
+      const double along = (vertex_normal_.col(j).normalized() - vertex_normal_.col(i).normalized()).dot(e);
+      for (int v : {i, j}) curvature[v] = std::max(curvature[v], std::abs(along) / e.squaredNorm());
+    }
+  const double straight = 1e-6 / box_.diagonal().norm();  // roundoff of outlines that are subdivided
+  for (int v = 0; v < vertices.cols(); ++v)
+    if (curvature[v] > straight) bends_.push_back({vertices.col(v), 1 / curvature[v]});
 }
 
 template <int d>

@@ -33,11 +33,18 @@ class Wall {
   Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
   const std::vector<int>& sharp_vertices() const { return sharp_; }
   const WallSpec<d>& spec() const { return spec_; }
+  /// A vertex of a smooth patch that is curved there.
+  struct Bend {
+    Vec<d> at;      ///< wall frame
+    double radius;  ///< of curvature, the smallest along the edges that meet there [m]
+  };
+  const std::vector<Bend>& bends() const { return bends_; }
   /// Box around the surface in the wall frame.
   const Eigen::AlignedBox<double, d>& box() const { return box_; }
 
  private:
   void find_patches(double crease);
+  void find_bends();
   Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
 
   WallSpec<d> spec_;
@@ -49,6 +56,7 @@ class Wall {
   Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // sum over the facets around a vertex
   std::vector<std::vector<int>> facets_of_;
   std::vector<int> sharp_;
+  std::vector<Bend> bends_;
   std::vector<char> is_sharp_;
   Eigen::AlignedBox<double, d> box_;
   bool turned_inside_out_;  // a tank: the solid is outside the box

@@ -98,6 +98,7 @@ const std::vector<BadScene> scenes = {
      "fluid.size.wetted_fraction = -1", "must lie in [0, 0.5]"},
     {"hollow_without_a_least_size", "far = 0.2", "far = 0.2\nhollow = 0.2", 11,
      "fluid.size.hollow_min is missing", "a number (m)"},
+    {"curvature_zero", "far = 0.2", "far = 0.2\ncurvature = 0", 14, "fluid.size.curvature = 0", "must be positive"},
     {"no_region", "[[fluid.region]]\nshape = \"box\"\nmin = [-2, -1]\nmax = [2, 0]\n", "", 9,
      "fluid.region is missing", "[[fluid.region]]"},
     {"region_as_table", "[[fluid.region]]", "[fluid.region]", 14, "fluid.region",

@@ -121,6 +121,7 @@ growth = 0.1
 wetted_fraction = 0.005
 hollow = 0.3
 hollow_min = 0.01
+curvature = 0.25
 [fluid.viscosity]
 dynamic = 0.1
 walls = "no_slip"

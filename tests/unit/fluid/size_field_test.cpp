@@ -129,5 +129,33 @@ TEST(SizeField, a_bulge_is_no_hollow) {
   for (const auto& x : drop.nodes.x) EXPECT_EQ(h(x), 0.1);
 }
 
+// Element size at a point near a hull of elements of 0.05 m.
+double size_at_hull(const Surface<2>& hull, const Vec<2>& x, double curvature = 0.5) {
+  FluidSpec<2> spec;
+  spec.walls.push_back(scenes::wall("hull", hull, 0.05));
+  const scenes::Placed placed(spec);
+  SizeSpec size = graded;
+  size.surface = 1;
+  size.curvature = curvature;
+  return SizeField<2>(size, placed.at(), std::vector{0.0}, {}, {})(x);
+}
+
+TEST(SizeField, tight_curves_of_a_hull_are_meshed_by_their_radius) {
+  const double a = 0.5, b = 0.2, radius = b * b / a;
+  const auto hull = scenes::ellipse(a, b, 256);
+  const double turn = 2 * std::numbers::pi * a / b / 256;  // of a facet at the tip: the polygon's error of the radius
+  EXPECT_NEAR(size_at_hull(hull, {a, 0}), 0.5 * radius, 0.5 * radius * turn * turn);
+  EXPECT_NEAR(size_at_hull(hull, {-a - 0.1, 0}, 0.25), 0.25 * radius + 0.15 * 0.1, 0.25 * radius * turn * turn);
+  EXPECT_EQ(size_at_hull(hull, {0, b}), 0.05) << "the sides are flat";
+  EXPECT_EQ(size_at_hull(hull, {a, 0}, 1), 0.05) << "resolved as it is";
+  EXPECT_NEAR(size_at_hull(scenes::ellipse(0.2, 0.02, 256), {0.2, 0}), 0.25 * 0.05, eps) << "a quarter at least";
+}
+
+TEST(SizeField, corners_of_a_hull_are_no_curves) {
+  EXPECT_EQ(size_at_hull(scenes::rectangle({-0.01, -0.5}, {0.01, 0.5}), {0.01, 0.5}), 0.05);
+  const double low = -std::tan(std::numbers::pi / 18);  // the keel of a wedge of 10 degrees turns by 20
+  EXPECT_EQ(size_at_hull(scenes::outline({{0, low}, {1, 0}, {1, 1}, {-1, 1}, {-1, 0}}), {0, low}), 0.05);
+}
+
 }  // namespace
 }  // namespace splashdown::fluid
