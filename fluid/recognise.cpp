@@ -1,5 +1,7 @@
 #include "fluid/recognise.hpp"
 
+#include <algorithm>
+
 #include "fluid/delaunay.hpp"
 #include "fluid/inside.hpp"
 
@@ -9,7 +11,7 @@ namespace {
 constexpr double flat = 1e-7;         // volume over longest edge^d below which a cell is degenerate
 constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, belong to no fluid cell
 constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
-constexpr double facet_sag = 0.1;     // wetted facets stay this close to their wall, over their length
+constexpr double facet_sag = 0.1;     // gap between a wetted facet and its wall, at most, over its length
 
 template <int d>
 struct Opposite;
@@ -42,17 +44,34 @@ Shape shape(const Mat<d>& J) {
   return {(cofactor(J) * half).norm() / det, false};
 }
 
-// Only cells that touch a wall can lie in it.
+// How deep the facet lies in the solid that `wall` wetted before and the cell stands on: a chord, if the hull is convex.
+template <int d>
+double chord_depth(int wall, const std::array<int, d + 1>& cell, const Nodes<d>& nodes,
+                   const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& at) {
+  auto of_cell = [&](int n) { return std::find(cell.begin(), cell.end(), n) != cell.end(); };
+  for (const auto& f : old_boundary) {
+    if (f.wall != wall || !std::all_of(f.nodes.begin(), f.nodes.end(), of_cell)) continue;
+    Vec<d> centre = Vec<d>::Zero();
+    for (int n : f.nodes) centre += nodes.x[n] / d;
+    return -at.walls[wall].nearest(at.poses[wall], centre, at.walls[wall].box().diagonal().norm()).distance;
+  }
+  return 0;
+}
+
+// Only cells that touch a wall can lie in it. One that stands on a chord of a convex hull reaches into the hull with it;
+// one with all its nodes on the wall lies between a chord and the hull.
 template <int d>
 bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double size, const Nodes<d>& nodes,
-              const WallsAt<d>& at) {
+              const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& at) {
   for (int k = 0; k <= d; ++k) {
     const int w = nodes.tie[cell[k]].wall;
     if (w < 0 || (k > 0 && w == nodes.tie[cell[k - 1]].wall)) continue;
     const double reach = at.walls[w].box().diagonal().norm();
-    if (at.walls[w].may_touch(at.poses[w], centroid, 0) &&
-        at.walls[w].nearest(at.poses[w], centroid, reach).distance < -solid_depth * size)
-      return true;
+    if (!at.walls[w].may_touch(at.poses[w], centroid, 0)) continue;
+    const double deeper = -at.walls[w].nearest(at.poses[w], centroid, reach).distance - solid_depth * size;
+    if (deeper <= 0) continue;
+    const auto on_wall = std::count_if(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == w; });
+    if (on_wall != d || deeper > chord_depth<d>(w, cell, nodes, old_boundary, at)) return true;
   }
   return false;
 }
@@ -61,9 +80,6 @@ bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double
 template <int d>
 bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
   const double length = (nodes.x[f.nodes[1]] - nodes.x[f.nodes[0]]).norm();
-  auto near = [&](const Vec<d>& x, double most) {
-    return at.walls[wall].distance_unsigned(at.poses[wall], x, length) < most * length;
-  };
   Vec<d> centre = Vec<d>::Zero();
   int patch = -1;
   bool one_patch = true, at_vertex = false;
@@ -71,7 +87,8 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
     centre += nodes.x[n] / d;
     const WallTie& tie = nodes.tie[n];
     if (tie.wall != wall) {
-      if (tie.wall < 0 || !near(nodes.x[n], facet_meet)) return false;
+      if (tie.wall < 0 || at.walls[wall].distance_unsigned(at.poses[wall], nodes.x[n], length) >= facet_meet * length)
+        return false;
       at_vertex = true;
       continue;
     }
@@ -80,7 +97,8 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
     at_vertex = at_vertex || tie.vertex >= 0;
   }
   if (d == 2 && !one_patch && !at_vertex) return false;  // cuts a corner
-  return near(centre, facet_sag);
+  // The chord of a convex hull lies in the solid, however deep: no air is there to be a surface to.
+  return at.walls[wall].nearest(at.poses[wall], centre, length).distance < facet_sag * length;
 }
 
 template <int d>
@@ -123,7 +141,7 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
     const double alpha = s.radius / size;
     is_fluid[c] = alpha <= limit.never &&
                   ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&
-                  !in_solid<d>(cell, centroid, size, nodes, walls);
+                  !in_solid<d>(cell, centroid, size, nodes, old_boundary, walls);
   }
 
   Mesh<d> mesh;

@@ -174,6 +174,37 @@ TEST(Recognise, facets_are_wetted_where_both_ends_lie_on_the_wall_and_the_wall_b
   EXPECT_NEAR(enclosed_volume(mesh.boundary, liquid.nodes.x), 0.5, 100 * eps);
 }
 
+// Chords of a circle that are as long as its radius lie 0.13 of their length inside: deeper than a facet may stand off.
+TEST(Recognise, a_hull_that_the_mesh_hardly_resolves_is_wet_all_around) {
+  for (double size : {0.5, 1.0, 1.4}) {  // over the radius
+    auto spec = scenes::still_water(1, 0.5, 0.1);
+    spec.size.curvature = std::numeric_limits<double>::infinity();
+    const double radius = 0.05;
+    const auto circle = scenes::ellipse(radius, radius, 64, {0, -0.25});
+    spec.walls.insert(spec.walls.begin(), scenes::wall("hull", circle, size * radius));
+    const scenes::Placed placed(spec);
+    auto liquid = fill<2>(spec, placed.at());
+    for (const auto& f : liquid.mesh.boundary) {
+      if (f.wall >= 0) continue;
+      for (int n : f.nodes) EXPECT_NEAR(liquid.nodes.x[n].y(), 0, 100 * eps) << size;
+    }
+  }
+}
+
+// Nodes that smoothing pushes into a hull are neither water nor spray; here there was one.
+TEST(Recognise, the_first_mesh_has_no_lost_nodes) {
+  auto spec = scenes::still_water(8, 6, 0.3);
+  spec.size = {.surface = 0.1, .far = 0.3};
+  auto hull = scenes::wall("hull", scenes::ellipse(0.25, 0.05, 256), 0.0025);
+  hull.pose.translate(Vec<2>(0.25 * std::cos(std::numbers::pi / 6), -2.875));
+  hull.pose.rotate(std::numbers::pi / 6);
+  spec.walls.insert(spec.walls.begin(), hull);
+  const scenes::Placed placed(spec);
+  const auto liquid = fill<2>(spec, placed.at());
+  for (std::size_t i = 0; i < liquid.nodes.size(); ++i)
+    EXPECT_EQ(liquid.nodes.spray[i], 0) << liquid.nodes.x[i].transpose();
+}
+
 TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
   scenes::Lattice<3> cube(5, 0.0);
   for (auto& t : cube.nodes.tie) t = {};
