@@ -66,6 +66,7 @@ void Problems::add_missing(const std::string& key, const std::string& meaning, c
 void Problems::add_unknown(const std::string& key, const std::vector<std::string>& valid) {
   const auto cut = key.find_last_of('.');
   const std::string near = nearest(cut == std::string::npos ? key : key.substr(cut + 1), valid);
+  if (valid.empty()) return add(key, "unknown key", "This table has no keys: remove it.");
   add(key, "unknown key",
       near.empty() ? "Valid here: " + listing(valid) + "." : "Did you mean '" + near + "'?");
 }

@@ -154,7 +154,7 @@ const std::vector<BadScene> scenes = {
      "[[joint]]\ntype = \"weld\"\nbody = \"wedge\"\npoint = [0, 0]\n[[record]]", 31, "joint[0].point = [0, 0]",
      "unknown key"},
     {"contact_with_a_key", "[[record]]", "[contact]\nfriction = 0.3\n[[record]]", 29, "contact.friction = 0.3",
-     "unknown key"},
+     "unknown key. This table has no keys: remove it."},
     {"mass_missing", "mass = 241\n", "", 18, "body.wedge.mass is missing", "mass (kg/m) or mean density"},
     {"mass_and_density", "mass = 241", "mass = 241\ndensity = 500", 21, "body.wedge.density = 500",
      "exclude each other"},
