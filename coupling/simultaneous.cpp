@@ -10,13 +10,6 @@ namespace {
 // Both sides agree to roundoff times the condition of the pressure equation.
 constexpr double roundoff = 1e-6;
 
-/// Of the points of a body: its velocity, and its turning at the farthest of them [m/s].
-template <int d>
-double speed(const rigid::BodySpec<d>& body, const fluid::Twist<d>& twist) {
-  const double farthest = body.surface.vertices.colwise().norm().maxCoeff();
-  return twist.template head<d>().norm() + farthest * twist.template tail<fluid::rotations<d>>().norm();
-}
-
 }  // namespace
 
 /// What Newton's law is short of, relative to the velocities of the step.
@@ -24,10 +17,12 @@ template <int d>
 double Simultaneous<d>::relative(std::span<const fluid::Twist<d>> unloaded, double dt) const {
   double error = 0, scale = this->still(dt);
   for (std::size_t b = 0; b < bodies_->size(); ++b) {
-    const auto& spec = bodies_->spec(b);
-    error = std::max(error, speed<d>(spec, fluid_->imbalance()[b]));
-    scale = std::max({scale, speed<d>(spec, unloaded[b]), speed<d>(spec, trial_[b].velocity),
-                      speed<d>(spec, bodies_->state(b).velocity)});
+    // Of the points of a body: its velocity, and its turning at the farthest of them.
+    const auto speed = [reach = rigid::reach(bodies_->spec(b))](const fluid::Twist<d>& twist) {
+      return twist.template head<d>().norm() + reach * twist.template tail<fluid::rotations<d>>().norm();
+    };
+    error = std::max(error, speed(fluid_->imbalance()[b]));
+    scale = std::max({scale, speed(unloaded[b]), speed(trial_[b].velocity), speed(bodies_->state(b).velocity)});
   }
   return error / scale;
 }

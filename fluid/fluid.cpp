@@ -95,7 +95,6 @@ struct Fluid<d>::State {
   bool prepared = false;   // work belongs to now
 
   double kick = 0, dt = 0;
-  WallResponse<d> response;
   PressureEquation<d> equation;
   std::optional<WallMotion<d>> wall_motion;
   typename WallMotion<d>::Moved moved;
@@ -142,7 +141,7 @@ struct Fluid<d>::State {
 
   // A further impulse on the motions: water and bodies answer.
   void push(const Eigen::VectorXd& impulse) {
-    if (equation.motions() == 0) return;
+    if (impulse.isZero(0)) return;
     std::vector<double> none(phi.size(), 0.0);
     trial.known += impulse;
     trial.answer += equation.respond(none, s_after, impulse);
@@ -279,7 +278,6 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
   s.kick = kick;
   s.dt = dt;
   if (!s.prepared) s.prepare();
-  s.response = response;
   {
     const auto scope = s.timer.scope(assemble);
     if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response))
@@ -312,7 +310,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   {
     const auto scope = timer.scope(pressure);
     if (auto status = press(given, previous); !status.ok()) return status;
-    if (drive.impulse.size() > 0) push(drive.impulse);
+    push(drive.impulse);
     if (auto status = correct(previous); !status.ok()) return status;
     weigh();
   }
@@ -423,7 +421,7 @@ void Fluid<d>::State::weigh() {
   }
   imbalance.assign(walls.size(), Twist<d>::Zero());
   if (equation.motions() > 0)
-    equation.move(equation.response(equation.on_motions(by_pressure) + trial.known - response.inertia * trial.answer),
+    equation.move(equation.response(equation.on_motions(by_pressure) + trial.known - equation.inertia() * trial.answer),
                   imbalance);
   Ledger& ledger = work.ledger;
   ledger.kinetic_energy = ledger.potential_energy = 0;

@@ -70,6 +70,7 @@ class PressureEquation {
   /// (M + G)^-1 impulse, in the directions allowed: what such an impulse changes in the motions.
   Eigen::VectorXd response(const Eigen::VectorXd& impulse) const { return elimination_ * impulse; }
   int motions() const { return static_cast<int>(response_.modes.cols()); }
+  const Eigen::MatrixXd& inertia() const { return response_.inertia; }  ///< M, of the motions alone
   /// Z^T of impulses on all walls.
   Eigen::VectorXd on_motions(std::span<const Wrench<d>> impulses) const;
   /// Adds Z y to the walls' twists.

@@ -30,13 +30,6 @@ BodyState<3> lifted_state(const BodyState<d>& state) {
   return {lifted<d>(state.pose), embedding<d>() * state.velocity};
 }
 
-/// Of a body, by which a turn of one radian moves it [m].
-template <int d>
-double reach(const BodySpec<d>& spec) {
-  const double farthest = spec.surface.vertices.cols() > 0 ? spec.surface.vertices.colwise().norm().maxCoeff() : 0.0;
-  return farthest > 0 ? farthest : 1.0;
-}
-
 enum class Phase { committed, begun, solved };
 
 }  // namespace

@@ -8,6 +8,12 @@
 namespace splashdown::rigid {
 
 template <int d>
+double reach(const BodySpec<d>& spec) {
+  const double farthest = spec.surface.vertices.cols() > 0 ? spec.surface.vertices.colwise().norm().maxCoeff() : 0.0;
+  return farthest > 0 ? farthest : 1.0;
+}
+
+template <int d>
 void check(const BodySpec<d>& spec) {
   const auto require = [&](bool fine, const auto&... text) {
     if (!fine) throw std::invalid_argument(message("body \"", spec.name, "\": ", text...));
@@ -33,6 +39,8 @@ void check(const BodySpec<d>& spec) {
           "; a body that moves freely needs a positive one about every axis");
 }
 
+template double reach<2>(const BodySpec<2>&);
+template double reach<3>(const BodySpec<3>&);
 template void check<2>(const BodySpec<2>&);
 template void check<3>(const BodySpec<3>&);
 

@@ -39,6 +39,10 @@ struct BodyState {
   Twist<d> velocity;  ///< at t_{n-1/2} (at t_0 for the first step)
 };
 
+/// By which a turn of one radian moves the farthest point of a body [m]; 1 for one without a surface.
+template <int d>
+double reach(const BodySpec<d>& spec);
+
 /// Throws std::invalid_argument naming body, rule and value unless the body can be moved as specified.
 template <int d>
 void check(const BodySpec<d>& spec);

@@ -18,8 +18,7 @@ constexpr double dip = 0.2;
 /// A hull in the world.
 template <int d>
 struct Hull {
-  Eigen::Matrix<double, d, Eigen::Dynamic> x;
-  const Surface<d>* surface;
+  Surface<d> surface;
   std::vector<std::vector<int>> neighbours;  // of vertices
   Vec<d> low, high;
   double size, moves;  // moves: farthest that its velocity takes a point of it within the step
@@ -28,27 +27,21 @@ struct Hull {
 template <int d>
 Hull<d> hull_of(const BodySpec<d>& body, const BodyState<d>& state, double dt) {
   Hull<d> hull;
-  hull.surface = &body.surface;
-  hull.x = (state.pose.linear() * body.surface.vertices).colwise() + state.pose.translation();
-  hull.low = hull.x.rowwise().minCoeff();
-  hull.high = hull.x.rowwise().maxCoeff();
+  hull.surface = body.surface;
+  auto& x = hull.surface.vertices;
+  x = (state.pose.linear() * body.surface.vertices).colwise() + state.pose.translation();
+  hull.low = x.rowwise().minCoeff();
+  hull.high = x.rowwise().maxCoeff();
   hull.size = (hull.high - hull.low).norm();
   hull.moves = dt * (state.velocity.template head<d>().norm() +
                      hull.size * state.velocity.template tail<rotations<d>>().norm());
-  hull.neighbours.resize(static_cast<std::size_t>(hull.x.cols()));
+  hull.neighbours.resize(static_cast<std::size_t>(x.cols()));
   const auto& facets = body.surface.facets;
   for (Eigen::Index f = 0; f < facets.cols(); ++f)
     for (int a = 0; a < d; ++a)
       for (int b = 0; b < d; ++b)
         if (a != b) hull.neighbours[static_cast<std::size_t>(facets(a, f))].push_back(facets(b, f));
   return hull;
-}
-
-template <int d>
-FacetCorners<d> corners_of(const Hull<d>& hull, Eigen::Index facet) {
-  FacetCorners<d> corners;
-  for (int k = 0; k < d; ++k) corners[static_cast<std::size_t>(k)] = hull.x.col(hull.surface->facets(k, facet));
-  return corners;
 }
 
 Vec<2> normal_of(const FacetCorners<2>& c) {
@@ -92,7 +85,7 @@ template <int d>
 bool rests(const Hull<d>& hull, int v, const Vec<d>& n) {
   const auto& around = hull.neighbours[static_cast<std::size_t>(v)];
   return std::all_of(around.begin(), around.end(), [&](int w) {
-    const Vec<d> edge = hull.x.col(w) - hull.x.col(v);
+    const Vec<d> edge = hull.surface.vertices.col(w) - hull.surface.vertices.col(v);
     return n.dot(edge) >= -dip * edge.norm();
   });
 }
@@ -110,12 +103,12 @@ Place<d> place_for(const Hull<d>& moving, int v, const Hull<d>& touched) {
     Vec<d> foot, away, normal;
     double distance, height;  // height: over the facet's plane
   };
-  const Vec<d> x = moving.x.col(v);
+  const Vec<d> x = moving.surface.vertices.col(v);
   const double flush = 1e-9 * touched.size;
   std::vector<Facet> facets;
   double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index f = 0; f < touched.surface->facets.cols(); ++f) {
-    const FacetCorners<d> corners = corners_of(touched, f);
+  for (Eigen::Index f = 0; f < touched.surface.facets.cols(); ++f) {
+    const FacetCorners<d> corners = facet_corners(touched.surface, f);
     const Vec<d> foot = nearest(x, corners), away = x - foot, n = normal_of(corners);
     facets.push_back({foot, away, n, away.norm(), n.dot(away)});
     least = std::min(least, away.norm());
@@ -161,8 +154,8 @@ std::vector<Condition<d>> contacts_between(const ContactSpec<d>& spec, std::span
       if (a == b || (bodies[a].motion != Motion::free && bodies[b].motion != Motion::free)) continue;
       if (spec.apart.contains(std::minmax(a, b))) continue;
       const double reach = near * std::min(hulls[a].size, hulls[b].size) + 2 * (hulls[a].moves + hulls[b].moves);
-      for (int v = 0; v < hulls[a].x.cols(); ++v) {
-        const Vec<d> x = hulls[a].x.col(v);
+      for (int v = 0; v < hulls[a].surface.vertices.cols(); ++v) {
+        const Vec<d> x = hulls[a].surface.vertices.col(v);
         if (!near_box<d>(x, hulls[b], reach)) continue;
         const Place<d> place = place_for(hulls[a], v, hulls[b]);
         if (place.gap > reach) continue;
@@ -172,8 +165,8 @@ std::vector<Condition<d>> contacts_between(const ContactSpec<d>& spec, std::span
     }
     if (bodies[a].motion != Motion::free) continue;
     for (const auto& plane : spec.planes)
-      for (int v = 0; v < hulls[a].x.cols(); ++v) {
-        const Vec<d> x = hulls[a].x.col(v);
+      for (int v = 0; v < hulls[a].surface.vertices.cols(); ++v) {
+        const Vec<d> x = hulls[a].surface.vertices.col(v);
         const double gap = plane.normal.dot(x - plane.point);
         if (gap > near * hulls[a].size + 2 * hulls[a].moves) continue;
         all.push_back({a, {}, about<d>(centre(a), x, plane.normal), Wrench<d>::Zero(), -gap / dt});

@@ -1,9 +1,8 @@
 // What ties a body to another one or to the world, and what it makes of velocities.
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "rigid/types.hpp"
 

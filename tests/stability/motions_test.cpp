@@ -14,9 +14,7 @@ using scenes::water;
 // Steps as a run takes them: a refused one is halved.
 bool step(coupling::Coupled<2>& stepper, double& dt, double most) {
   dt = std::min({stepper.stable_dt(), 1.5 * dt, most});
-  for (int cuts = 0; cuts < 12; ++cuts, dt *= 0.5)
-    if (stepper.attempt(dt).ok()) return true;
-  return false;
+  return scenes::attempt_halving(stepper, dt, 12).ok();
 }
 
 // Of a body at t_n of an attempted step; its velocity is the mean of the two half steps.

@@ -129,8 +129,7 @@ TEST(Touching, boxes_do_not_enter_each_other) {
   double dt = 1e-3, nearest = 1;
   while (stepper->time() < 1.5) {
     dt = std::min(stepper->stable_dt(), 1.5 * dt);
-    auto report = stepper->attempt(dt);
-    for (int cut = 0; !report.ok() && cut < 8; ++cut) report = stepper->attempt(dt *= 0.5);
+    const auto report = scenes::attempt_halving(*stepper, dt, 9);
     ASSERT_TRUE(report.ok()) << report.cause;
     stepper->commit();
     for (std::size_t one : {0u, 1u}) {
@@ -155,8 +154,7 @@ TEST(Touching, a_sunken_box_comes_to_rest_on_the_bottom) {
   double dt = 1e-3;
   while (stepper->time() < 1.5) {
     dt = std::min({stepper->stable_dt(), 1.5 * dt, 5e-3});
-    auto report = stepper->attempt(dt);
-    for (int cut = 0; !report.ok() && cut < 8; ++cut) report = stepper->attempt(dt *= 0.5);
+    const auto report = scenes::attempt_halving(*stepper, dt, 9);
     ASSERT_TRUE(report.ok()) << stepper->time() << ": " << report.cause;
     stepper->commit();
   }

@@ -1,6 +1,9 @@
 // Scenes that the tests of this folder start from.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <ostream>
 #include <string>
 
 namespace splashdown::apps::testing {
@@ -44,6 +47,26 @@ point = [0, 0]
 inline std::string wedge_drop_with(const std::string& from, const std::string& to) {
   std::string text = wedge_drop;
   return text.replace(text.find(from), from.size(), to);
+}
+
+/// A mistake in a good text, and what the message about it has to say.
+struct Mistake {
+  const char* name;
+  const char* from;  ///< text of the good file ...
+  const char* to;    ///< ... and what stands in its place
+  int line;          ///< where the problem is
+  const char* key;   ///< as the message begins after the place
+  const char* rule;  ///< part of the rule or the cure
+};
+
+inline void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+/// `file`: as messages name it.
+inline void expect_told(const std::string& message, const std::string& file, const Mistake& mistake) {
+  const auto start = file + ":" + std::to_string(mistake.line) + ": " + mistake.key;
+  EXPECT_TRUE(message.starts_with(start)) << message << "\nshould start with " << start;
+  EXPECT_NE(message.find(mistake.rule), std::string::npos) << message << "\nshould contain " << mistake.rule;
+  EXPECT_TRUE(std::string(".?'").find(message.back()) != std::string::npos) << "no cure: " << message;
 }
 
 }  // namespace splashdown::apps::testing

@@ -117,6 +117,13 @@ inline std::string saved(const Stepper& stepper) {
   return out.str();
 }
 
+/// Attempts a step as runs do: halved as long as it is refused.
+inline StepReport attempt_halving(Stepper& stepper, double& dt, int attempts) {
+  auto report = stepper.attempt(dt);
+  while (!report.ok() && --attempts > 0) report = stepper.attempt(dt *= 0.5);
+  return report;
+}
+
 /// Steps of the criterion, the first ones short. Returns the largest number of passes; -1: a step was
 /// refused.
 inline int run(Stepper& stepper, int steps, double dt_first = 1e-4) {
