@@ -16,19 +16,68 @@ std::string row(const std::string& head, const std::string& text) {
 
 std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
 
-std::string body_text(const BodySummary& body, int dimension) {
-  if (body.first_contact < 0)
-    return fmt::format("stayed dry, peak acceleration {:.3g} g{}", body.acceleration.raw.value,
-                       at(body.acceleration.raw));
+std::string impact_text(const BodySummary& body, int dimension) {
+  const auto& a = body.acceleration.raw;
+  if (body.landing.first_contact < 0) return fmt::format("stayed dry, peak acceleration {:.3g} g{}", a.value, at(a));
   const std::string force = dimension == 2 ? "N/m" : "N";
   auto text = fmt::format("wet from {}, peak force {}{}, peak acceleration {:.3g} g{}",
-                          with_unit(body.first_contact, "s"), with_unit(body.force.value, force),
-                          at(body.force), body.acceleration.raw.value, at(body.acceleration.raw));
+                          with_unit(body.landing.first_contact, "s"), with_unit(body.force.raw.value, force),
+                          at(body.force.raw), a.value, at(a));
   double total = 0, repair = 0;
   for (const double value : body.impulse) total += value * value;
   for (const double value : body.impulse_repair) repair += value * value;
   if (total > 0)
     text += fmt::format(", repair share of the impulse {:.2g} %", 100 * std::sqrt(repair / total));
+  return text;
+}
+
+/// Filtered peaks of all classes, and the pulse in the class that J211 gives for integration to velocity or the next one.
+std::string pulse_text(const PulseSummary& acceleration) {
+  const auto& classes = acceleration.cfc;
+  if (classes.empty()) return {};
+  std::string names, peaks;
+  for (const auto& [cfc, pulse] : classes) {
+    names += fmt::format("{}{}", names.empty() ? "" : "/", cfc);
+    peaks += fmt::format("{}{:.3g}", peaks.empty() ? "" : ", ", pulse.value);
+  }
+  auto text = fmt::format("CFC {}: {} g", names, peaks);
+  const auto chosen = classes.contains(180) ? classes.find(180) : classes.begin();
+  const auto& [cfc, pulse] = *chosen;
+  if (std::isfinite(pulse.rise_time))
+    text += fmt::format("; pulse (CFC {}) at {}, rise time {}", cfc, with_unit(pulse.time, "s"),
+                        with_unit(pulse.rise_time, "s"));
+  if (std::isfinite(pulse.duration))
+    text += fmt::format(", duration {}, delta v {:.3g} m/s", with_unit(pulse.duration, "s"), pulse.change);
+  return text;
+}
+
+std::string landing_text(const BodySummary& body) {
+  const auto& landing = body.landing;
+  std::string text;
+  if (body.submergence.time >= 0)
+    text += fmt::format("greatest submergence {}{}", with_unit(body.submergence.value, "m"), at(body.submergence));
+  for (const auto& [name, angle] : landing.attitude)
+    text += fmt::format("{}{} {:.1f} deg ({:.1f} to {:.1f})", text.empty() ? "" : ", ", name, angle.end,
+                        angle.lowest.value, angle.highest.value);
+  if (landing.capsized_since >= 0) text += ", capsized at " + with_unit(landing.capsized_since, "s");
+  const auto skips = landing.dry_intervals.size();
+  if (skips > 0)
+    text += fmt::format(", left the water {} time{}, first at {}", skips, skips > 1 ? "s" : "",
+                        with_unit(landing.dry_intervals.front()[0], "s"));
+  if (landing.settled >= 0) text += ", settled at " + with_unit(landing.settled, "s");
+  return text;
+}
+
+std::string body_rows(const std::string& name, const BodySummary& body, int dimension) {
+  auto text = row(name, impact_text(body, dimension));
+  if (const auto pulse = pulse_text(body.acceleration); !pulse.empty()) text += row("", pulse);
+  if (body.landing.first_contact >= 0) text += row("", landing_text(body));
+  return text;
+}
+
+std::string equipment_text(const PulseSummary& point) {
+  auto text = fmt::format("peak acceleration {:.3g} g{}", point.raw.value, at(point.raw));
+  if (const auto pulse = pulse_text(point); !pulse.empty()) text += ", " + pulse;
   return text;
 }
 
@@ -84,7 +133,8 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
                           with_unit(summary.simulated_time, "s"), summary.steps,
                           summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds)
                                                     : clock_text(summary.wall_seconds));
-  for (const auto& [name, body] : summary.bodies) text += row(name, body_text(body, summary.dimension));
+  for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
+  for (const auto& [name, point] : summary.equipment) text += row(name, equipment_text(point));
   if (summary.nodes && summary.ledger)
     text += row("liquid", fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final,
                                       summary.nodes->max, 100 * summary.ledger->volume_error));

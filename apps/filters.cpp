@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <optional>
 
 namespace splashdown::apps {
 
@@ -40,6 +39,23 @@ Biquad butterworth(double dt, int cfc) {
   return {a0, 2 * a0, a0, -2 * (wa * wa - 1) * scale, (-1 + std::numbers::sqrt2 * wa - wa * wa) * scale};
 }
 
+/// A held margin of one period of the class: the impulse response has died out to 1e-4 by then.
+std::size_t margin_samples(double dt, int cfc) { return static_cast<std::size_t>(std::ceil(1 / (cfc * dt) - 1e-9)); }
+
+std::vector<double> filtered_with_margins(std::span<const double> samples, double dt, int cfc) {
+  if (samples.empty()) return {};
+  const std::size_t margin = margin_samples(dt, cfc);
+  std::vector<double> work(margin, samples.front());
+  work.insert(work.end(), samples.begin(), samples.end());
+  work.insert(work.end(), margin, samples.back());
+  const Biquad filter = butterworth(dt, cfc);
+  filter.run(work);
+  std::ranges::reverse(work);
+  filter.run(work);
+  std::ranges::reverse(work);
+  return work;
+}
+
 /// Longest interval that overlaps [from, to].
 double longest_interval(const IntervalHistory& history, double from, double to) {
   const auto& ends = history.ends;
@@ -53,24 +69,6 @@ double longest_interval(const IntervalHistory& history, double from, double to) 
   return longest;
 }
 
-std::optional<Peak> filtered_peak(const IntervalHistory& history, int cfc) {
-  const double span = history.ends.back() - history.begin, period = 1.0 / cfc;
-  if (span < period) return std::nullopt;
-  const double dt = 1 / (samples_per_cfc * cfc);
-  std::vector<double> squared;
-  for (int channel = 0; channel < history.channels; ++channel) {
-    const auto filtered = cfc_filter(resample(history, channel, dt), dt, cfc);
-    squared.resize(filtered.size());
-    for (std::size_t i = 0; i < filtered.size(); ++i) squared[i] += filtered[i] * filtered[i];
-  }
-  if (squared.empty()) return std::nullopt;
-  const auto top = std::ranges::max_element(squared);
-  const double time = history.begin + (static_cast<double>(top - squared.begin()) + 0.5) * dt;
-  if (longest_interval(history, time - period, time + period) * required_samples_per_cfc * cfc > 1 + 1e-9)
-    return std::nullopt;
-  return Peak{std::sqrt(*top), time};
-}
-
 }  // namespace
 
 void IntervalHistory::append(double end, std::span<const double> sample) {
@@ -79,18 +77,9 @@ void IntervalHistory::append(double end, std::span<const double> sample) {
 }
 
 std::vector<double> cfc_filter(std::span<const double> samples, double dt, int cfc) {
-  if (samples.empty()) return {};
-  // A held margin of one period of the class: the impulse response has died out to 1e-4 by then.
-  const auto margin = static_cast<std::size_t>(std::ceil(1 / (cfc * dt)));
-  std::vector<double> work(margin, samples.front());
-  work.insert(work.end(), samples.begin(), samples.end());
-  work.insert(work.end(), margin, samples.back());
-  const Biquad filter = butterworth(dt, cfc);
-  filter.run(work);
-  std::ranges::reverse(work);
-  filter.run(work);
-  std::ranges::reverse(work);
-  const auto first = work.begin() + static_cast<std::ptrdiff_t>(margin);
+  const auto work = filtered_with_margins(samples, dt, cfc);
+  if (work.empty()) return {};
+  const auto first = work.begin() + static_cast<std::ptrdiff_t>(margin_samples(dt, cfc));
   return {first, first + static_cast<std::ptrdiff_t>(samples.size())};
 }
 
@@ -119,12 +108,28 @@ std::vector<double> resample(const IntervalHistory& history, int channel, double
   return result;
 }
 
-std::map<int, Peak> filtered_peaks(const IntervalHistory& history) {
-  std::map<int, Peak> peaks;
-  if (history.ends.empty()) return peaks;
-  for (const int cfc : channel_frequency_classes)
-    if (const auto peak = filtered_peak(history, cfc)) peaks.emplace(cfc, *peak);
-  return peaks;
+std::optional<IntervalHistory> filtered(const IntervalHistory& history, int cfc) {
+  if (history.ends.empty()) return std::nullopt;
+  const double span = history.ends.back() - history.begin, period = 1.0 / cfc;
+  if (span < period) return std::nullopt;
+  const double dt = 1 / (samples_per_cfc * cfc);
+  const auto channels = static_cast<std::size_t>(history.channels);
+  const double begin = history.begin - static_cast<double>(margin_samples(dt, cfc)) * dt;
+  IntervalHistory result{history.channels, begin, {}, {}};
+  for (std::size_t channel = 0; channel < channels; ++channel) {
+    const auto samples = filtered_with_margins(resample(history, static_cast<int>(channel), dt), dt, cfc);
+    result.values.resize(samples.size() * channels);
+    for (std::size_t i = 0; i < samples.size(); ++i) result.values[i * channels + channel] = samples[i];
+  }
+  if (result.values.empty()) return std::nullopt;
+  for (std::size_t i = 0; i * channels < result.values.size(); ++i)
+    result.ends.push_back(begin + static_cast<double>(i + 1) * dt);
+  return result;
+}
+
+bool fine_enough(const IntervalHistory& history, int cfc, double time) {
+  const double period = 1.0 / cfc;
+  return longest_interval(history, time - period, time + period) * required_samples_per_cfc * cfc <= 1 + 1e-9;
 }
 
 }  // namespace splashdown::apps

@@ -7,11 +7,9 @@
 // again, which keeps the velocity change exactly. Outside the record the first and last value are held.
 #pragma once
 
-#include <map>
+#include <optional>
 #include <span>
 #include <vector>
-
-#include "apps/summary.hpp"
 
 namespace splashdown::apps {
 
@@ -38,8 +36,11 @@ std::vector<double> cfc_filter(std::span<const double> samples, double dt, int c
 /// One channel averaged over equal intervals of length `dt` from history.begin on.
 std::vector<double> resample(const IntervalHistory& history, int channel, double dt);
 
-/// Peak of the filtered vector's magnitude, for each class the record allows: J211 asks for 10 CFC samples a
-/// second (here: within 1/CFC of the peak), and the record must be longer than 1/CFC.
-std::map<int, Peak> filtered_peaks(const IntervalHistory& history);
+/// All channels filtered, at equal intervals, with a margin of 1/CFC before and after the record in which the filters still
+/// answer to it. Nothing if the record is shorter than 1/CFC.
+std::optional<IntervalHistory> filtered(const IntervalHistory& history, int cfc);
+
+/// Whether the record is sampled as J211 asks for, 10 CFC times a second, within 1/CFC of a time.
+bool fine_enough(const IntervalHistory& history, int cfc, double time);
 
 }  // namespace splashdown::apps

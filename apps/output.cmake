@@ -6,11 +6,14 @@ find_package(nlohmann_json REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 
 add_library(splashdown_output STATIC
+  ${CMAKE_CURRENT_LIST_DIR}/attitude.cpp
   ${CMAKE_CURRENT_LIST_DIR}/csv.cpp
   ${CMAKE_CURRENT_LIST_DIR}/filters.cpp
   ${CMAKE_CURRENT_LIST_DIR}/frames.cpp
   ${CMAKE_CURRENT_LIST_DIR}/gnuplot.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/landing_statistics.cpp
   ${CMAKE_CURRENT_LIST_DIR}/plane_picture.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/pulse.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_probes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_rows.cpp

@@ -58,7 +58,7 @@ struct Recorder<d>::State {
   RunStatistics run;
   double max_speed_peak = 0;
   std::vector<BodyStatistics<d>> bodies;
-  std::vector<AccelerationStatistics> equipment;
+  std::vector<PulseStatistics> equipment;
   double peak_force = 0;
   std::vector<std::string> body_names;
   fluid::Ledger ledger;
@@ -67,6 +67,8 @@ struct Recorder<d>::State {
   // Not part of the checkpoint.
   std::optional<Frame<d>> peak;  ///< state at the largest load, until it is written
   std::map<std::size_t, SurfaceRuler<d>> rulers;
+  std::vector<HullExtent> extents;  ///< of the bodies, once known
+  std::vector<double> submergence;  ///< of the bodies at this step
 
   explicit State(RecorderSettings<d> s)
       : settings(std::move(s)),
@@ -136,11 +138,15 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
   has_fluid = input.fluid != nullptr;
   bool new_peak = false;
   body_names.clear();
+  submergence.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto& spec = input.bodies->spec(b);
-    const double lowest = (input.bodies->state(b).pose * spec.surface.vertices).row(d - 1).minCoeff();
+    const auto& pose = input.bodies->state(b).pose;
+    if (extents.size() <= b) extents.push_back(extent_of<d>(spec.surface));
+    submergence.push_back(still_water_level - (pose * spec.surface.vertices).row(d - 1).minCoeff());
     body_names.push_back(spec.name);
-    bodies[b].add(kick, {input.body_acceleration_n[b], input.body_load[b], still_water_level - lowest});
+    bodies[b].add(kick, {input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b], submergence[b],
+                         pose.linear(), extents[b], spec.motion == rigid::Motion::free});
     new_peak = new_peak || bodies[b].peak_force() > peak_force;
     peak_force = std::max(peak_force, bodies[b].peak_force());
   }
@@ -157,7 +163,8 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     write_row(file("bodies.csv", bodies_header),
               BodyRow<d>{input.time, input.bodies->spec(b).name, input.bodies->state(b).pose,
-                         input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b]});
+                         input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b],
+                         submergence[b]});
   if (input.fluid) {
     const auto& fluid = *input.fluid;
     auto effects = effect_columns(fluid);

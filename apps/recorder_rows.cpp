@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "apps/attitude.hpp"
+
 namespace splashdown::apps {
 
 namespace {
@@ -67,6 +69,8 @@ void write_row(CsvFile& file, const BodyRow<d>& row) {
   put(file, spatial<d>(row.load.total()));
   file << row.load.wetted;
   put(file, spatial<d>(row.load.repair));
+  put(file, attitude_deg<d>(row.pose.linear()));
+  file << row.submergence;
   file.end_row();
 }
 

@@ -14,7 +14,7 @@ namespace splashdown::apps {
 
 inline constexpr const char* bodies_header =
     "time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,alphax,alphay,alphaz,fx,fy,fz,mx,my,mz,wetted,"
-    "fx_repair,fy_repair,fz_repair,mx_repair,my_repair,mz_repair";
+    "fx_repair,fy_repair,fz_repair,mx_repair,my_repair,mz_repair,roll_deg,pitch_deg,heading_deg,submergence";
 inline constexpr const char* probes_header = "time,probe,value";
 
 /// `effect_columns`: behind all others.
@@ -30,6 +30,7 @@ struct BodyRow {
   rigid::Isometry<d> pose;
   rigid::Twist<d> velocity, acceleration;
   fluid::WallLoad<d> load;
+  double submergence;  ///< of the lowest point below still water, negative above; nan without water [m]
 };
 
 struct FluidRow {

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "apps/attitude.hpp"
 #include "apps/frames.hpp"
 #include "apps/report_words.hpp"
+#include "apps/summary.hpp"
 
 namespace splashdown::apps {
 
@@ -125,17 +126,18 @@ struct BodyPlotter {
     figures.push_back(std::move(figure));
   }
 
-  /// Pitch in two dimensions, the rotation's angle in three; without jumps by whole turns [deg].
-  Values attitude() const {
-    Values angle;
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      const double half = dimension == 2 ? std::atan2(table["qz"][i], table["qw"][i])
-                                         : std::acos(std::min(1.0, std::abs(table["qw"][i])));
-      const double a = 2 * half * 180 / std::numbers::pi;
-      const double whole_turns = dimension == 2 && i > 0 ? std::round((angle.back() - a) / 360) * 360 : 0;
-      angle.push_back(a + whole_turns);
-    }
-    return angle;
+  /// Without jumps by whole turns [deg].
+  Values angle(const std::string& name) const {
+    Values values = table[name + "_deg"];
+    for (std::size_t i = 1; i < values.size(); ++i) values[i] = continued(values[i], values[i - 1]);
+    return values;
+  }
+
+  const Values& strongest_moment() const {
+    const Values* strongest = &table["mz"];
+    for (const char* column : {"mx", "my"})
+      if (largest(table[column]) > largest(*strongest)) strongest = &table[column];
+    return *strongest;
   }
 
   std::vector<Figure> figures() const {
@@ -153,7 +155,7 @@ struct BodyPlotter {
     for (const char axis : axes) {
       v.push_back(table[std::string("v") + axis]);
       x.push_back(scaled(table[std::string(1, axis)], 1, first_of(table[std::string(1, axis)])));
-      a.push_back(scaled(table[std::string("a") + axis], 1 / 9.80665));
+      a.push_back(scaled(table[std::string("a") + axis], 1 / standard_gravity));
       names_v.push_back(std::string("v_") + axis);
       names_x.push_back(std::string(1, axis));
       names_a.push_back(std::string("a_") + axis);
@@ -163,14 +165,26 @@ struct BodyPlotter {
                    "Acceleration of the centre of mass, unfiltered, in multiples of 9.80665 m/s².");
     add_components(figures, "displacement", "displacement / m", x, names_x,
                    "Displacement of the centre of mass since the start.");
-    const Values angle = attitude();
-    if (largest(scaled(angle, 1, first_of(angle))) > 1e-6) {
-      figures.push_back(load(dimension == 2 ? 'z' : 'y', "m", moment_unit(dimension), "Moment"));
-      add_components(figures, "attitude", "rotation / deg", {angle}, {"rotation"},
-                     "Rotation of the body, counter-clockwise positive.");
+    double turned = 0;
+    std::vector<Values> angles;
+    for (const char* name : attitude_names) {
+      angles.push_back(angle(name));
+      turned = std::max(turned, largest(scaled(angles.back(), 1, first_of(angles.back()))));
+    }
+    if (turned > 1e-6) {
+      for (const char axis : dimension == 2 ? std::string("z") : axes)
+        if (largest(table[std::string("m") + axis]) > 0.02 * largest(strongest_moment()))
+          figures.push_back(load(axis, "m", moment_unit(dimension),
+                                 dimension == 2 ? "Moment" : fmt::format("Moment about {}", axis)));
+      add_components(figures, "attitude", "angle / deg", angles, {attitude_names.begin(), attitude_names.end()},
+                     dimension == 2 ? "Pitch of the body, counter-clockwise positive."
+                                    : "Attitude of the body: roll about its long axis, pitch nose up, heading "
+                                      "counter-clockwise from above.");
     }
     add_components(figures, "wetted", dimension == 2 ? "wetted length / m" : "wetted area / m²",
                    {table["wetted"]}, {"wetted"}, "Part of the body's surface that touches water.");
+    add_components(figures, "submergence", "submergence / m", {table["submergence"]}, {"lowest point"},
+                   "Depth of the hull's lowest point below the level of the water at the start; negative above it.");
     return figures;
   }
 };

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
+#include "apps/attitude.hpp"
 #include "apps/report_page.hpp"
 
 namespace splashdown::apps {
@@ -96,6 +98,19 @@ double last_component(const nlohmann::ordered_json& body, const char* key) {
   return body[key].back().get<double>();
 }
 
+/// The class that J211 gives for integration to velocity, or the lowest that the run's steps allow.
+const nlohmann::ordered_json& shown_pulse(const nlohmann::ordered_json& acceleration) {
+  for (const char* cfc : {"cfc180", "cfc60", "cfc600", "cfc1000"})
+    if (acceleration.contains(cfc)) return acceleration[cfc];
+  return member(acceleration, "none");
+}
+
+std::string angle_text(const nlohmann::ordered_json& angle) {
+  const auto degrees = [](double value) { return std::isfinite(value) ? fmt::format("{:.1f}°", value) : "–"; };
+  return fmt::format("{} ({} to {})", degrees(number_at(angle, {"end"})), degrees(number_at(angle, {"minimum", "value"})),
+                     degrees(number_at(angle, {"maximum", "value"})));
+}
+
 std::string body_table(const RunData& run) {
   const auto& bodies = member(run.summary, "bodies");
   if (bodies.empty()) return {};
@@ -121,6 +136,18 @@ std::string body_table(const RunData& run) {
       const double peak = number_at(b, {"peak_acceleration_g", fmt::format("cfc{}", cfc).c_str(), "value"});
       return std::isfinite(peak) ? digits(peak, 3) + " g" : std::string("steps too long");
     });
+  row("its pulse: rise time, duration", [](const Body& b) {
+    const auto& pulse = shown_pulse(member(b, "peak_acceleration_g"));
+    return seconds_text(number_at(pulse, {"rise_time"})) + ", " + seconds_text(number_at(pulse, {"duration"}));
+  });
+  row("its change of velocity", [](const Body& b) {
+    return with_unit(number_at(shown_pulse(member(b, "peak_acceleration_g")), {"delta_v"}), "m/s", 3);
+  });
+  for (const int cfc : {600, 60})
+    row(fmt::format("peak load, CFC {}", cfc), [&](const Body& b) {
+      const double peak = number_at(b, {"peak_force_filtered", fmt::format("cfc{}", cfc).c_str(), "value"});
+      return std::isfinite(peak) ? with_unit(peak, force_unit(d)) : std::string("steps too long");
+    });
   row("vertical impulse of the load",
       [&](const Body& b) { return with_unit(last_component(b, "impulse"), d == 2 ? "N s/m" : "N s"); });
   row("its repair part", [](const Body& b) {
@@ -132,10 +159,27 @@ std::string body_table(const RunData& run) {
   });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"maximum_submergence", "time"})); });
   row("first contact", [](const Body& b) { return seconds_text(number_at(b, {"first_contact_time"})); });
+  for (const char* angle : attitude_names)
+    if (std::ranges::any_of(bodies, [&](const Body& b) { return member(b, "attitude_deg").contains(angle); }))
+      row(std::string(angle) + " at the end (lowest to highest since contact)",
+          [&](const Body& b) { return angle_text(member(member(b, "attitude_deg"), angle)); });
+  row("capsized", [](const Body& b) {
+    const double since = number_at(b, {"capsized_time"});
+    return std::isfinite(since) ? "since " + seconds_text(since) : std::string("no");
+  });
+  row("left the water again", [](const Body& b) {
+    const double skips = number_at(b, {"skips"});
+    return skips > 0 ? count_text(skips) + " times" : std::string("no");
+  });
+  row("settled", [](const Body& b) {
+    const double settled = number_at(b, {"settled_time"});
+    return std::isfinite(settled) ? "since " + seconds_text(settled) : std::string("not within the run");
+  });
   return html +
          "</tbody></table></div>\n<p class=\"where\">Accelerations are those of the centre of mass in "
          "multiples of "
-         "9.80665 m/s², raw and filtered by the channel frequency classes of SAE J211.</p>\n";
+         "9.80665 m/s², raw and filtered by the channel frequency classes of SAE J211. The pulse is that of CFC 180, or of the "
+         "lowest class there is: rise time from 10 to 90 % of its peak, duration above 10 %.</p>\n";
 }
 
 std::string equipment_table(const RunData& run) {
@@ -144,14 +188,17 @@ std::string equipment_table(const RunData& run) {
   std::string html =
       "<h2>Equipment</h2>\n<div class=\"scroll\"><table><thead><tr><th>point</th><th>peak g, "
       "raw</th><th>at</th>"
-      "<th>CFC 1000</th><th>CFC 600</th><th>CFC 180</th><th>CFC 60</th></tr></thead><tbody>\n";
+      "<th>CFC 1000</th><th>CFC 600</th><th>CFC 180</th><th>CFC 60</th><th>rise time</th><th>duration</th><th>change of "
+      "velocity</th></tr></thead><tbody>\n";
   for (const auto& [name, point] : points.items()) {
     html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", html_escaped(name),
                         digits(number_at(point, {"raw", "value"}), 3),
                         seconds_text(number_at(point, {"raw", "time"})));
     for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"})
       html += "<td>" + digits(number_at(point, {cfc, "value"}), 3) + "</td>";
-    html += "</tr>\n";
+    const auto& pulse = shown_pulse(point);
+    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", seconds_text(number_at(pulse, {"rise_time"})),
+                        seconds_text(number_at(pulse, {"duration"})), with_unit(number_at(pulse, {"delta_v"}), "m/s", 3));
   }
   return html + "</tbody></table></div>\n";
 }

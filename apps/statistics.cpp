@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/pulse.hpp"
+
 namespace splashdown::apps {
 
 namespace {
-
-constexpr double standard_gravity = 9.80665;  // [m/s^2], CGPM 1901
 
 void offer_if_finite(Peak& peak, double value, double time) {
   if (std::isfinite(value)) peak.offer(value, time);
@@ -22,49 +22,49 @@ void update(RangeCount& range, std::size_t count, bool first) {
 
 }  // namespace
 
-void AccelerationStatistics::add(const Kick& kick, std::span<const double> acceleration) {
+void PulseStatistics::add(const Kick& kick, std::span<const double> value) {
   double squared = 0;
-  for (const double a : acceleration) squared += a * a;
+  for (const double v : value) squared += v * v;
   offer_if_finite(raw_, std::sqrt(squared), kick.time);
   if (history_.ends.empty()) {
-    history_.channels = static_cast<int>(acceleration.size());
+    history_.channels = static_cast<int>(value.size());
     history_.begin = kick.begin;
   }
-  history_.append(kick.end, acceleration);
+  history_.append(kick.end, value);
 }
 
-AccelerationSummary AccelerationStatistics::summary() const {
-  AccelerationSummary summary{raw_, filtered_peaks(history_)};
-  summary.raw.value /= standard_gravity;
-  for (auto& [cfc, peak] : summary.cfc) peak.value /= standard_gravity;
+PulseSummary PulseStatistics::summary(double unit) const {
+  PulseSummary summary{pulse_of(history_), filtered_pulses(history_)};
+  static_cast<Peak&>(summary.raw) = raw_;  // its time is t_n, not the middle of the kick
+  summary.raw.value /= unit;
+  for (auto& [cfc, pulse] : summary.cfc) pulse.value /= unit;
   return summary;
 }
 
 template <int d>
-bool BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
+void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
   acceleration_.add(kick, {reading.acceleration.data(), static_cast<std::size_t>(d)});
-  const auto total = reading.load.total();
+  const rigid::Wrench<d> total = reading.load.total();
   for (int k = 0; k < d; ++k) {
     impulse_[static_cast<std::size_t>(k)] += total(k) * kick.length();
     impulse_repair_[static_cast<std::size_t>(k)] += reading.load.repair(k) * kick.length();
   }
   offer_if_finite(submergence_, reading.submergence, kick.time);
   offer_if_finite(wetted_, reading.load.wetted, kick.time);
-  if (reading.load.wetted > 0 && first_contact_ < 0) first_contact_ = kick.time;
-  const double force = total.template head<d>().norm();
-  return std::isfinite(force) && force_.offer(force, kick.time);
+  force_.add(kick, {total.data(), static_cast<std::size_t>(d)});
+  landing_.add(kick.time, {reading.rotation, reading.velocity, reading.load.wetted, reading.free}, reading.extent);
 }
 
 template <int d>
 BodySummary BodyStatistics<d>::summary() const {
   BodySummary summary;
-  summary.acceleration = acceleration_.summary();
-  summary.force = force_;
+  summary.acceleration = acceleration_.summary(standard_gravity);
+  summary.force = force_.summary();
   summary.impulse.assign(impulse_.begin(), impulse_.end());
   summary.impulse_repair.assign(impulse_repair_.begin(), impulse_repair_.end());
   summary.submergence = submergence_;
   summary.wetted = wetted_;
-  summary.first_contact = first_contact_;
+  summary.landing = landing_.summary();
   return summary;
 }
 

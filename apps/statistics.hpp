@@ -7,21 +7,12 @@
 #include <span>
 
 #include "apps/filters.hpp"
-#include "apps/summary.hpp"
+#include "apps/landing_statistics.hpp"
+#include "apps/statistics_archive.hpp"
 #include "fluid/fluid.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {
-
-template <class Archive>
-void serialize(Archive& archive, Peak& peak) {
-  archive(peak.value, peak.time);
-}
-
-template <class Archive>
-void serialize(Archive& archive, RangeCount& count) {
-  archive(count.initial, count.max, count.final);
-}
 
 /// The kick around t_n.
 struct Kick {
@@ -29,44 +20,49 @@ struct Kick {
   double length() const { return end - begin; }
 };
 
-class AccelerationStatistics {
+/// Peak and history of a vector channel: an acceleration, a force.
+class PulseStatistics {
  public:
-  void add(const Kick& kick, std::span<const double> acceleration);  ///< [m/s^2]
-  AccelerationSummary summary() const;                               ///< [g]
+  void add(const Kick& kick, std::span<const double> value);
+  /// Peaks in units of `unit`, changes as they are.
+  PulseSummary summary(double unit = 1) const;
+  const Peak& peak() const { return raw_; }
   template <class Archive>
   void serialize(Archive& archive) {
     archive(raw_, history_);
   }
 
  private:
-  Peak raw_;  ///< [m/s^2]
+  Peak raw_;
   IntervalHistory history_;
 };
 
 template <int d>
 struct BodyReading {
-  rigid::Twist<d> acceleration;
+  rigid::Twist<d> velocity, acceleration;
   fluid::WallLoad<d> load;
-  double submergence;  ///< of the lowest point; nan without a water level [m]
+  double submergence;                    ///< of the lowest point; nan without a water level [m]
+  Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
+  HullExtent extent;
+  bool free;                             ///< the water moves it
 };
 
 template <int d>
 class BodyStatistics {
  public:
-  /// True if the load has a new peak.
-  bool add(const Kick& kick, const BodyReading<d>& reading);
+  void add(const Kick& kick, const BodyReading<d>& reading);
   BodySummary summary() const;
-  double peak_force() const { return force_.time < 0 ? 0 : force_.value; }
+  double peak_force() const { return force_.peak().time < 0 ? 0 : force_.peak().value; }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, first_contact_);
+    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_);
   }
 
  private:
-  AccelerationStatistics acceleration_;
-  Peak force_, submergence_, wetted_;
+  PulseStatistics acceleration_, force_;
+  Peak submergence_, wetted_;
   std::array<double, d> impulse_{}, impulse_repair_{};
-  double first_contact_ = -1;
+  LandingStatistics<d> landing_;
 };
 
 /// Counts of the mesh and of the coupling's passes.

@@ -21,10 +21,26 @@ Json json_of(const Peak& peak) {
   return {{"value", number(peak.value)}, {"time", number(peak.time)}};
 }
 
-Json json_of(const AccelerationSummary& acceleration) {
+/// `change`: what the channel's integral is called.
+Json json_of(const Pulse& pulse, const char* change) {
+  Json json = json_of(static_cast<const Peak&>(pulse));
+  if (json.is_null()) return json;
+  json["rise_time"] = number(pulse.rise_time);
+  json["duration"] = number(pulse.duration);
+  json[change] = number(pulse.change);
+  return json;
+}
+
+Json json_of(const std::map<int, Pulse>& classes, const char* change) {
+  Json json = Json::object();
+  for (const auto& [cfc, pulse] : classes) json["cfc" + std::to_string(cfc)] = json_of(pulse, change);
+  return json;
+}
+
+Json json_of_acceleration(const PulseSummary& acceleration) {
   Json json;
-  json["raw"] = json_of(acceleration.raw);
-  for (const auto& [cfc, peak] : acceleration.cfc) json["cfc" + std::to_string(cfc)] = json_of(peak);
+  json["raw"] = json_of(acceleration.raw, "delta_v");
+  json.update(json_of(acceleration.cfc, "delta_v"));
   return json;
 }
 
@@ -38,14 +54,35 @@ Json json_of(const RangeCount& count) {
   return {{"initial", count.initial}, {"max", count.max}, {"final", count.final}};
 }
 
+Json json_of(const LandingSummary& landing) {
+  Json json;
+  json["first_contact_time"] = time_or_null(landing.first_contact);
+  for (const auto& [name, angle] : landing.attitude)
+    json["attitude_deg"][name] = {
+        {"end", number(angle.end)}, {"minimum", json_of(angle.lowest)}, {"maximum", json_of(angle.highest)}};
+  json["maximum_tilt_deg"] = json_of(landing.maximum_tilt);
+  json["capsized"] = landing.capsized_since >= 0;
+  json["capsized_time"] = time_or_null(landing.capsized_since);
+  json["settled_time"] = time_or_null(landing.settled);
+  json["settled_below"] = number(landing.settled_below);
+  json["settled_window"] = number(landing.settled_window);
+  json["skips"] = landing.dry_intervals.size();
+  json["dry_intervals"] = Json::array();
+  for (const auto& [from, to] : landing.dry_intervals)
+    json["dry_intervals"].push_back({time_or_null(from), time_or_null(to)});
+  return json;
+}
+
 Json json_of(const BodySummary& body) {
-  return {{"peak_acceleration_g", json_of(body.acceleration)},
-          {"peak_force", json_of(body.force)},
-          {"impulse", json_of(body.impulse)},
-          {"impulse_repair", json_of(body.impulse_repair)},
-          {"maximum_submergence", json_of(body.submergence)},
-          {"maximum_wetted", json_of(body.wetted)},
-          {"first_contact_time", time_or_null(body.first_contact)}};
+  Json json = {{"peak_acceleration_g", json_of_acceleration(body.acceleration)},
+               {"peak_force", json_of(body.force.raw, "impulse")},
+               {"peak_force_filtered", json_of(body.force.cfc, "impulse")},
+               {"impulse", json_of(body.impulse)},
+               {"impulse_repair", json_of(body.impulse_repair)},
+               {"maximum_submergence", json_of(body.submergence)},
+               {"maximum_wetted", json_of(body.wetted)}};
+  json.update(json_of(body.landing));
+  return json;
 }
 
 Json json_of(const LedgerSummary& ledger) {
@@ -121,7 +158,7 @@ std::string to_json(const Summary& summary) {
   json["bodies"] = Json::object();
   for (const auto& [name, body] : summary.bodies) json["bodies"][name] = json_of(body);
   if (!summary.equipment.empty())
-    for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of(point);
+    for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of_acceleration(point);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,7 +1,9 @@
 // summary.json: how a run ended and what it measured, one object per run.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +11,8 @@
 #include <vector>
 
 namespace splashdown::apps {
+
+inline constexpr double standard_gravity = 9.80665;  ///< [m/s^2], CGPM 1901: one g
 
 /// A largest value and when it happened; nothing happened while `time` is negative.
 struct Peak {
@@ -31,19 +35,43 @@ struct InactiveEffect {
   std::string name, reason;
 };
 
-struct AccelerationSummary {
-  Peak raw;                 ///< [g]
-  std::map<int, Peak> cfc;  ///< channel frequency class -> filtered peak [g]
+/// A peak with the pulse around it (pulse.hpp); nan: the record does not show it.
+struct Pulse : Peak {
+  double rise_time = std::numeric_limits<double>::quiet_NaN();  ///< from 10 to 90 % of the peak [s]
+  double duration = std::numeric_limits<double>::quiet_NaN();   ///< above 10 % of the peak [s]
+  double change = std::numeric_limits<double>::quiet_NaN();     ///< integral over the duration [m/s, N s]
+};
+
+struct PulseSummary {
+  Pulse raw;
+  std::map<int, Pulse> cfc;  ///< channel frequency class -> pulse of the filtered channels
+};
+
+/// An angle of a body [deg].
+struct AngleSummary {
+  double end = 0;
+  Peak lowest, highest;  ///< since first contact
+};
+
+/// What became of a body on the water (landing_statistics.hpp). Times [s] are negative for what did not happen.
+struct LandingSummary {
+  double first_contact = -1;                                    ///< first wetting
+  std::vector<std::pair<std::string, AngleSummary>> attitude;   ///< 2D: pitch alone
+  Peak maximum_tilt;                                            ///< since first contact [deg]
+  double capsized_since = -1;                                   ///< over until the end of the record
+  double settled = -1;
+  double settled_below = 0, settled_window = 0;                 ///< speed [m/s] and time [s] that `settled` asks for
+  std::vector<std::array<double, 2>> dry_intervals;             ///< after first contact; the last may have no end
 };
 
 struct BodySummary {
-  AccelerationSummary acceleration;    ///< of the centre of mass
-  Peak force;                          ///< magnitude of the fluid's total load [N, N/m]
+  PulseSummary acceleration;           ///< of the centre of mass; peaks [g]
+  PulseSummary force;                  ///< of the fluid's total load [N, N/m]
   std::vector<double> impulse;         ///< integral of the total load, x y (z) [N s]
   std::vector<double> impulse_repair;  ///< the part of it from repair impulses
   Peak submergence;                    ///< still-water level minus lowest point [m]
   Peak wetted;                         ///< wetted length or area [m, m^2]
-  double first_contact = -1;           ///< time of first wetting [s]; negative: never
+  LandingSummary landing;
 };
 
 struct LedgerSummary {
@@ -84,7 +112,7 @@ struct Summary {
   std::optional<LedgerSummary> ledger;
   std::optional<FluidSummary> fluid;
   std::map<std::string, BodySummary> bodies;
-  std::map<std::string, AccelerationSummary> equipment;
+  std::map<std::string, PulseSummary> equipment;  ///< accelerations; peaks [g]
 };
 
 std::string to_json(const Summary& summary);

@@ -115,12 +115,12 @@ TEST(Columns, a_plane_row_fills_the_columns_of_a_spatial_one) {
   load.physical << 10, 20, 30;
   load.repair << 1, 2, 3;
   load.wetted = 0.5;
-  write_row(file, BodyRow<2>{0.25, "hull", pose, {3, 4, 5}, {6, 7, 8}, load});
+  write_row(file, BodyRow<2>{0.25, "hull", pose, {3, 4, 5}, {6, 7, 8}, load, 0.125});
   file.sync();
   const std::string half = fmt::format("{}", std::cos(std::atan2(1.0, 0.0) / 2)),
                     other = fmt::format("{}", std::sin(std::atan2(1.0, 0.0) / 2));
   EXPECT_EQ(folder.text("a.csv"), std::string(bodies_header) + "\n0.25,hull,1,2,0," + half + ",0,0," + other +
-                                      ",3,4,0,0,0,5,6,7,0,0,0,8,11,22,0,0,0,33,0.5,1,2,0,0,0,3\n");
+                                      ",3,4,0,0,0,5,6,7,0,0,0,8,11,22,0,0,0,33,0.5,1,2,0,0,0,3,0,90,0,0.125\n");
 }
 
 }  // namespace

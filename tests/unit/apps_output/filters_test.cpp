@@ -1,4 +1,4 @@
-#include "apps/filters.hpp"
+#include "apps/pulse.hpp"
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ IntervalHistory half_sine_pulse(double duration, double dt) {
 }
 
 TEST(Peaks, a_slow_pulse_keeps_its_height_and_instant_in_all_classes) {
-  const auto peaks = filtered_peaks(half_sine_pulse(0.05, 5e-5));  // 10 Hz
+  const auto peaks = filtered_pulses(half_sine_pulse(0.05, 5e-5));  // 10 Hz
   ASSERT_EQ(peaks.size(), 4u);
   for (const auto& [cfc, peak] : peaks) {
     // f / 2.0775 CFC <= 0.08: the gain is one to 4e-5, the pulse's corners add harmonics.
@@ -112,7 +112,7 @@ TEST(Peaks, a_slow_pulse_keeps_its_height_and_instant_in_all_classes) {
 }
 
 TEST(Peaks, a_lower_class_gives_a_lower_peak) {
-  const auto peaks = filtered_peaks(half_sine_pulse(0.002, 2e-5));
+  const auto peaks = filtered_pulses(half_sine_pulse(0.002, 2e-5));
   ASSERT_EQ(peaks.size(), 4u);
   EXPECT_LT(peaks.at(60).value, peaks.at(180).value);
   EXPECT_LT(peaks.at(180).value, peaks.at(600).value);
@@ -121,14 +121,14 @@ TEST(Peaks, a_lower_class_gives_a_lower_peak) {
 
 // J211 asks for a sampling rate of ten times the class: 3 kHz allow CFC 60 and 180 only.
 TEST(Peaks, classes_beyond_the_sampling_rate_are_absent) {
-  const auto peaks = filtered_peaks(half_sine_pulse(0.05, 1.0 / 3000));
+  const auto peaks = filtered_pulses(half_sine_pulse(0.05, 1.0 / 3000));
   EXPECT_TRUE(peaks.contains(60));
   EXPECT_TRUE(peaks.contains(180));
   EXPECT_FALSE(peaks.contains(600));
   EXPECT_FALSE(peaks.contains(1000));
 }
 
-TEST(Peaks, an_empty_record_has_none) { EXPECT_TRUE(filtered_peaks({}).empty()); }
+TEST(Peaks, an_empty_record_has_none) { EXPECT_TRUE(filtered_pulses({}).empty()); }
 
 }  // namespace
 }  // namespace splashdown::apps

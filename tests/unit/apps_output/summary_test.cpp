@@ -24,11 +24,14 @@ Summary full() {
   summary.fluid = FluidSummary{};
   BodySummary body;
   body.acceleration.raw = {12, 0.01};
-  body.acceleration.cfc[600] = {11, 0.011};
-  body.force = {26e3, 0.01};
+  body.acceleration.cfc[600] = {{11, 0.011}, 0.002, 0.01, 3.5};
+  body.force.raw = {26e3, 0.01};
   body.impulse = {0, 1};
   body.impulse_repair = {0, 0.01};
   body.submergence = {0.2, 0.03};
+  body.force.cfc[60] = {{25e3, 0.011}, 0.002, 0.01, 900};
+  body.landing.attitude = {{"pitch", {1, {-3, 0.02}, {4, 0.03}}}};
+  body.landing.dry_intervals = {{0.02, 0.025}, {0.03, -1}};
   summary.bodies["hull"] = body;
   return summary;
 }
@@ -65,6 +68,23 @@ TEST(Summary, has_the_keys_of_the_contract) {
                            "/bodies/hull/peak_acceleration_g/raw/value",
                            "/bodies/hull/peak_acceleration_g/raw/time",
                            "/bodies/hull/peak_acceleration_g/cfc600/value",
+                           "/bodies/hull/peak_acceleration_g/cfc600/rise_time",
+                           "/bodies/hull/peak_acceleration_g/cfc600/duration",
+                           "/bodies/hull/peak_acceleration_g/cfc600/delta_v",
+                           "/bodies/hull/peak_force/rise_time",
+                           "/bodies/hull/peak_force/impulse",
+                           "/bodies/hull/peak_force_filtered/cfc60/value",
+                           "/bodies/hull/attitude_deg/pitch/end",
+                           "/bodies/hull/attitude_deg/pitch/minimum/value",
+                           "/bodies/hull/attitude_deg/pitch/maximum/time",
+                           "/bodies/hull/maximum_tilt_deg",
+                           "/bodies/hull/capsized",
+                           "/bodies/hull/capsized_time",
+                           "/bodies/hull/settled_time",
+                           "/bodies/hull/settled_below",
+                           "/bodies/hull/skips",
+                           "/bodies/hull/dry_intervals/0/1",
+                           "/bodies/hull/first_contact_time",
                            "/bodies/hull/peak_force/value",
                            "/bodies/hull/peak_force/time",
                            "/bodies/hull/impulse/1",
@@ -83,11 +103,13 @@ TEST(Summary, what_a_scene_lacks_its_summary_lacks) {
 TEST(Summary, numbers_that_do_not_exist_are_null) {
   Summary summary = full();
   summary.ledger->volume_error = std::nan("");
-  summary.bodies["hull"].force = {};
+  summary.bodies["hull"].force.raw = {};
   const auto json = nlohmann::json::parse(to_json(summary));
   EXPECT_TRUE(json["ledger"]["volume_error"].is_null());
   EXPECT_TRUE(json["bodies"]["hull"]["peak_force"].is_null());
   EXPECT_TRUE(json["bodies"]["hull"]["first_contact_time"].is_null());
+  EXPECT_TRUE(json["bodies"]["hull"]["settled_time"].is_null());
+  EXPECT_TRUE(json["bodies"]["hull"]["dry_intervals"][1][1].is_null());
 }
 
 TEST(Summary, text_that_is_no_utf8_does_not_stop_it) {
