@@ -13,7 +13,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 }  // namespace
 
 template <int d>
-Attitude attitude_deg(const Eigen::Matrix<double, d, d>& rotation) {
+Angles attitude_deg(const Eigen::Matrix<double, d, d>& rotation) {
   const auto& r = rotation;
   if constexpr (d == 2)
     return {0, degrees * std::atan2(r(1, 0), r(0, 0)), 0};
@@ -31,8 +31,8 @@ double tilt_deg(const Eigen::Matrix<double, d, d>& rotation) {
   return degrees * std::atan2(up.template head<d - 1>().norm(), up(d - 1));
 }
 
-template Attitude attitude_deg<2>(const Eigen::Matrix<double, 2, 2>&);
-template Attitude attitude_deg<3>(const Eigen::Matrix<double, 3, 3>&);
+template Angles attitude_deg<2>(const Eigen::Matrix<double, 2, 2>&);
+template Angles attitude_deg<3>(const Eigen::Matrix<double, 3, 3>&);
 template double tilt_deg<2>(const Eigen::Matrix<double, 2, 2>&);
 template double tilt_deg<3>(const Eigen::Matrix<double, 3, 3>&);
 

@@ -13,10 +13,10 @@ namespace splashdown::apps {
 
 inline constexpr std::array attitude_names = {"roll", "pitch", "heading"};
 /// Roll, pitch, heading [deg].
-using Attitude = std::array<double, 3>;
+using Angles = std::array<double, 3>;
 
 template <int d>
-Attitude attitude_deg(const Eigen::Matrix<double, d, d>& rotation);
+Angles attitude_deg(const Eigen::Matrix<double, d, d>& rotation);
 
 /// The angle of the same direction that is nearest to `before`: no jumps by whole turns [deg].
 double continued(double angle, double before);

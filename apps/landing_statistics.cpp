@@ -31,7 +31,7 @@ HullExtent extent_of(const rigid::Surface<d>& surface) {
 
 template <int d>
 void LandingStatistics<d>::add(double time, const LandingReading<d>& reading, const HullExtent& extent) {
-  Attitude angles = attitude_deg<d>(reading.rotation);
+  Angles angles = attitude_deg<d>(reading.rotation);
   for (std::size_t k = 0; begun_ && k < angles.size(); ++k) angles[k] = continued(angles[k], now_[k]);
   now_ = angles;
   time_ = time;

@@ -39,7 +39,7 @@ class LandingStatistics {
   void add(double time, const LandingReading<d>& reading, const HullExtent& extent);
   LandingSummary summary() const;
   /// Without jumps by whole turns [deg].
-  const Attitude& attitude() const { return now_; }
+  const Angles& attitude() const { return now_; }
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -50,7 +50,7 @@ class LandingStatistics {
  private:
   bool begun_ = false, free_ = true;
   double time_ = 0, first_contact_ = -1;
-  Attitude now_{};
+  Angles now_{};
   std::array<Peak, 3> lowest_, highest_;  ///< of the angles since first contact [deg]; lowest with reversed sign
   Peak tilt_;                             ///< since first contact [deg]
   double over_since_ = -1, calm_since_ = -1;  ///< negative: not now
