@@ -55,5 +55,6 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
 }
 
 template double approach_dt<2>(const fluid::Fluid<2>&, const rigid::Bodies<2>&);
+template double approach_dt<3>(const fluid::Fluid<3>&, const rigid::Bodies<3>&);
 
 }  // namespace splashdown::apps

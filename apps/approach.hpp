@@ -16,5 +16,6 @@ template <int d>
 double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies);
 
 extern template double approach_dt<2>(const fluid::Fluid<2>&, const rigid::Bodies<2>&);
+extern template double approach_dt<3>(const fluid::Fluid<3>&, const rigid::Bodies<3>&);
 
 }  // namespace splashdown::apps

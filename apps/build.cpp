@@ -10,10 +10,11 @@ namespace {
 
 using coupling::CouplingLimits;
 
-std::unique_ptr<coupling::InterfaceTerm<2>> interface_term(const Coupling& coupling) {
-  if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm<2>>();
-  if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm<2>>();
-  return std::make_unique<coupling::NoTerm<2>>();
+template <int d>
+std::unique_ptr<coupling::InterfaceTerm<d>> interface_term(const Coupling& coupling) {
+  if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm<d>>();
+  if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm<d>>();
+  return std::make_unique<coupling::NoTerm<d>>();
 }
 
 std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
@@ -36,67 +37,79 @@ CouplingLimits limits(const Coupling& coupling) {
 /// Bodies that the fluid cannot move have nothing to agree about: one pass without a term.
 Coupling one_way() { return {.scheme = "staggered", .interface_term = "none"}; }
 
-std::unique_ptr<fluid::Fluid<2>> build_fluid(const Scene& scene) {
-  return std::make_unique<fluid::Fluid<2>>(fluid_spec(scene), fluid_terms(scene));
+template <int d>
+std::unique_ptr<fluid::Fluid<d>> build_fluid(const Scene& scene) {
+  return std::make_unique<fluid::Fluid<d>>(fluid_spec<d>(scene), fluid_terms<d>(scene));
 }
 
-std::unique_ptr<rigid::Bodies<2>> build_bodies(const Scene& scene) {
-  std::vector<rigid::BodySpec<2>> specs;
-  for (const auto& body : scene.bodies) specs.push_back(body_spec(body));
-  return std::make_unique<rigid::Bodies<2>>(std::move(specs), body_forces(scene), joint_specs(scene),
-                                            contact_spec(scene));
+template <int d>
+std::unique_ptr<rigid::Bodies<d>> build_bodies(const Scene& scene) {
+  std::vector<rigid::BodySpec<d>> specs;
+  for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
+  return std::make_unique<rigid::Bodies<d>>(std::move(specs), body_forces<d>(scene), joint_specs(scene),
+                                            contact_spec<d>(scene));
 }
 
 /// `Stepper` keeps its trial states.
-template <class Stepper>
-std::function<std::vector<rigid::Twist<2>>()> trial_velocities_of(const Stepper* stepper) {
+template <int d, class Stepper>
+std::function<std::vector<rigid::Twist<d>>()> trial_velocities_of(const Stepper* stepper) {
   return [stepper] {
-    std::vector<rigid::Twist<2>> velocities;
+    std::vector<rigid::Twist<d>> velocities;
     for (const auto& state : stepper->trial()) velocities.push_back(state.velocity);
     return velocities;
   };
 }
 
-World<2> fluid_world(const Scene& scene) {
-  World<2> world;
-  auto stepper = std::make_unique<coupling::FluidOnly<2>>(build_fluid(scene));
+template <int d>
+World<d> fluid_world(const Scene& scene) {
+  World<d> world;
+  auto stepper = std::make_unique<coupling::FluidOnly<d>>(build_fluid<d>(scene));
   world.fluid = &stepper->fluid();
   world.stepper = std::move(stepper);
   return world;
 }
 
-World<2> bodies_world(const Scene& scene) {
-  World<2> world;
-  auto stepper = std::make_unique<coupling::BodiesOnly<2>>(build_bodies(scene), scene.time.dt_max);
+template <int d>
+World<d> bodies_world(const Scene& scene) {
+  World<d> world;
+  auto stepper = std::make_unique<coupling::BodiesOnly<d>>(build_bodies<d>(scene), scene.time.dt_max);
   world.bodies = &stepper->bodies();
-  world.trial_velocities = trial_velocities_of(stepper.get());
+  world.trial_velocities = trial_velocities_of<d>(stepper.get());
   world.stepper = std::move(stepper);
   return world;
 }
 
-std::unique_ptr<coupling::Coupled<2>> coupled_stepper(const Scene& scene) {
+template <int d>
+std::unique_ptr<coupling::Coupled<d>> coupled_stepper(const Scene& scene) {
   const Coupling coupling = scene.coupling.value_or(one_way());
   if (coupling.interface_term == "rigid")
-    return std::make_unique<coupling::Simultaneous<2>>(build_fluid(scene), build_bodies(scene), coupling.max_passes);
-  return std::make_unique<coupling::Partitioned<2>>(build_fluid(scene), build_bodies(scene), interface_term(coupling),
-                                                    accelerator(coupling), limits(coupling));
+    return std::make_unique<coupling::Simultaneous<d>>(build_fluid<d>(scene), build_bodies<d>(scene),
+                                                       coupling.max_passes);
+  return std::make_unique<coupling::Partitioned<d>>(build_fluid<d>(scene), build_bodies<d>(scene),
+                                                    interface_term<d>(coupling), accelerator(coupling),
+                                                    limits(coupling));
 }
 
-World<2> coupled_world(const Scene& scene) {
-  World<2> world;
-  auto stepper = coupled_stepper(scene);
+template <int d>
+World<d> coupled_world(const Scene& scene) {
+  World<d> world;
+  auto stepper = coupled_stepper<d>(scene);
   world.fluid = &stepper->fluid();
   world.bodies = &stepper->bodies();
-  world.trial_velocities = trial_velocities_of(stepper.get());
+  world.trial_velocities = trial_velocities_of<d>(stepper.get());
   world.stepper = std::move(stepper);
   return world;
 }
 
 }  // namespace
 
-World<2> build_world(const Scene& scene) {
-  if (!scene.fluid) return bodies_world(scene);
-  return scene.bodies.empty() ? fluid_world(scene) : coupled_world(scene);
+template <int d>
+World<d> build_world(const Scene& scene) {
+  if (!scene.fluid) return bodies_world<d>(scene);
+  return scene.bodies.empty() ? fluid_world<d>(scene) : coupled_world<d>(scene);
 }
+
+template World<2> build_world<2>(const Scene&);
+template World<3> build_world<3>(const Scene&);
 
 }  // namespace splashdown::apps

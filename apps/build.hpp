@@ -25,21 +25,30 @@ struct World {
 };
 
 /// Throws std::invalid_argument if the parts refuse what the scene asks for.
-World<2> build_world(const Scene& scene);
+template <int d>
+World<d> build_world(const Scene& scene);
 
 /// Walls: one a body, in their order, then the tank if there is one.
-fluid::FluidSpec<2> fluid_spec(const Scene& scene);
-std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms(const Scene& scene);
+template <int d>
+fluid::FluidSpec<d> fluid_spec(const Scene& scene);
+template <int d>
+std::vector<std::unique_ptr<fluid::Term<d>>> fluid_terms(const Scene& scene);
 /// A place where a body's hull is curved.
+template <int d>
 struct HullBend {
-  fluid::Vec<2> at;     ///< world frame, at t = 0
+  fluid::Vec<d> at;     ///< world frame, at t = 0
   double radius, size;  ///< of curvature; of the elements there [m]
 };
-std::vector<HullBend> hull_bends(const Scene& scene, const Body& body);
-rigid::BodySpec<2> body_spec(const Body& body);
+template <int d>
+std::vector<HullBend<d>> hull_bends(const Scene& scene, const Body& body);
+template <int d>
+rigid::BodySpec<d> body_spec(const Body& body);
 std::vector<rigid::JointSpec> joint_specs(const Scene& scene);
-std::optional<rigid::ContactSpec<2>> contact_spec(const Scene& scene);
-std::vector<std::unique_ptr<rigid::Force<2>>> body_forces(const Scene& scene);
-RecorderSettings<2> recorder_settings(const Scene& scene, const std::filesystem::path& directory);
+template <int d>
+std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene);
+template <int d>
+std::vector<std::unique_ptr<rigid::Force<d>>> body_forces(const Scene& scene);
+template <int d>
+RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem::path& directory);
 
 }  // namespace splashdown::apps

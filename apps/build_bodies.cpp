@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numbers>
 
 #include "apps/build.hpp"
 #include "apps/scene_geometry.hpp"
@@ -8,20 +7,40 @@ namespace splashdown::apps {
 namespace {
 
 using rigid::Isometry;
+using rigid::Rotation;
 using rigid::Twist;
 using rigid::Vec;
 
-constexpr double radians = std::numbers::pi / 180;
-
 /// Body frame (origin: centre of mass) to world, when the shape's reference point is at `position`.
-Isometry<2> body_pose(const Point& position, double pitch_deg, const Vec<2>& centre) {
-  return shape_pose(position, pitch_deg) * Eigen::Translation2d(centre);
+template <int d>
+Isometry<d> body_pose(const Point& position, const Attitude& attitude, const Vec<d>& centre) {
+  return shape_pose<d>(position, attitude) * Eigen::Translation<double, d>(centre);
+}
+
+/// Angles that are small or about one axis, as a vector; in two dimensions its last entry alone.
+template <int d>
+Eigen::Vector3d in_space(const Rotation<d>& rotation) {
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  vector.tail<rigid::rotations<d>>() = rotation;
+  return vector;
+}
+
+template <int d>
+Eigen::Matrix<double, d, d> turn_by(const Rotation<d>& angle) {
+  const Eigen::Vector3d vector = in_space<d>(angle);
+  const Eigen::AngleAxisd turn(vector.norm(), vector.stableNormalized());
+  return turn.toRotationMatrix().topLeftCorner<d, d>();
+}
+
+Attitude between(const Attitude& a, const Attitude& b, double share) {
+  return {.heading_deg = a.heading_deg + share * (b.heading_deg - a.heading_deg),
+          .pitch_deg = a.pitch_deg + share * (b.pitch_deg - a.pitch_deg),
+          .roll_deg = a.roll_deg + share * (b.roll_deg - a.roll_deg)};
 }
 
 Waypoint between(const Waypoint& a, const Waypoint& b, double time) {
   const double share = (time - a.time) / (b.time - a.time);
-  return {time, a.position + share * (b.position - a.position),
-          a.pitch_deg + share * (b.pitch_deg - a.pitch_deg)};
+  return {time, a.position + share * (b.position - a.position), between(a.attitude, b.attitude, share)};
 }
 
 /// Piecewise linear between the waypoints, at rest after the last.
@@ -32,30 +51,40 @@ Waypoint on_path(const std::vector<Waypoint>& path, double time) {
   return next == path.end() ? path.back() : between(*(next - 1), *next, time);
 }
 
-std::function<Isometry<2>(double)> pose_along(const std::vector<Waypoint>& path, const Vec<2>& centre) {
+template <int d>
+std::function<Isometry<d>(double)> pose_along(const std::vector<Waypoint>& path, const Vec<d>& centre) {
   return [path, centre](double time) {
     const auto point = on_path(path, time);
-    return body_pose(point.position, point.pitch_deg, centre);
+    return body_pose<d>(point.position, point.attitude, centre);
   };
 }
 
-std::function<Isometry<2>(double)> steady_motion(const Isometry<2>& start, const Twist<2>& velocity) {
+template <int d>
+std::function<Isometry<d>(double)> steady_motion(const Isometry<d>& start, const Twist<d>& velocity) {
   return [start, velocity](double time) {
-    Isometry<2> pose = start;
-    pose.pretranslate(velocity.head<2>() * time);
-    pose.rotate(Eigen::Rotation2Dd(velocity[2] * time));
+    const Rotation<d> angle = velocity.template tail<rigid::rotations<d>>() * time;
+    Isometry<d> pose = start;
+    pose.linear() = turn_by<d>(angle) * start.linear();
+    pose.pretranslate(velocity.template head<d>() * time);
     return pose;
   };
 }
 
 /// Of the centre of mass on the path's first leg, at its beginning.
-Twist<2> first_velocity(const std::vector<Waypoint>& path, const Vec<2>& centre) {
+template <int d>
+Twist<d> first_velocity(const std::vector<Waypoint>& path, const Vec<d>& centre) {
   const auto& a = path[0];
   const auto& b = path[1];
-  const double seconds = b.time - a.time, spin = (b.pitch_deg - a.pitch_deg) * radians / seconds;
-  const Vec<2> arm = shape_pose(a.position, a.pitch_deg).linear() * centre;
-  const Vec<2> velocity = planar(b.position - a.position) / seconds + spin * Vec<2>(-arm.y(), arm.x());
-  return {velocity.x(), velocity.y(), spin};
+  const double seconds = b.time - a.time;
+  const Attitude rate{.heading_deg = (b.attitude.heading_deg - a.attitude.heading_deg) / seconds,
+                      .pitch_deg = (b.attitude.pitch_deg - a.attitude.pitch_deg) / seconds,
+                      .roll_deg = (b.attitude.roll_deg - a.attitude.roll_deg) / seconds};
+  const Rotation<d> spin = angular_velocity<d>(a.attitude, rate);
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  arm.head<d>() = rotation<d>(a.attitude) * centre;
+  Twist<d> velocity;
+  velocity << vec<d>((b.position - a.position) / seconds) + in_space<d>(spin).cross(arm).template head<d>(), spin;
+  return velocity;
 }
 
 rigid::Motion motion_of(Motion motion) {
@@ -72,23 +101,24 @@ rigid::Motion motion_of(Motion motion) {
 
 }  // namespace
 
-rigid::BodySpec<2> body_spec(const Body& body) {
-  const auto properties = mass_properties(body);
-  rigid::BodySpec<2> spec;
+template <int d>
+rigid::BodySpec<d> body_spec(const Body& body) {
+  const auto properties = mass_properties<d>(body);
+  rigid::BodySpec<d> spec;
   spec.name = body.name;
-  spec.surface = rigid::centred<2>(shape_of(body.shape).surface, properties.centre);
+  spec.surface = rigid::centred<d>(shape_of<d>(body.shape).surface, properties.centre);
   spec.mass = properties.mass;
   spec.inertia = properties.inertia;
   spec.motion = motion_of(body.motion);
-  const char* const names[] = {"x", "y", "rotation"};
+  const auto names = freedom_names(d);
   for (std::size_t i = 0; i < spec.free.size(); ++i)
     spec.free[i] = std::find(body.free.begin(), body.free.end(), names[i]) != body.free.end();
-  spec.pose = body_pose(body.position, body.pitch_deg, properties.centre);
-  spec.velocity << body.velocity.x(), body.velocity.y(), body.spin_deg * radians;
+  spec.pose = body_pose<d>(body.position, body.attitude, properties.centre);
+  spec.velocity << vec<d>(body.velocity), body.spin_deg.tail<rigid::rotations<d>>() * radians;
   if (body.motion == Motion::prescribed) {
-    if (!body.path.empty()) spec.velocity = first_velocity(body.path, properties.centre);
-    spec.path = body.path.empty() ? steady_motion(spec.pose, spec.velocity)
-                                  : pose_along(body.path, properties.centre);
+    if (!body.path.empty()) spec.velocity = first_velocity<d>(body.path, properties.centre);
+    spec.path = body.path.empty() ? steady_motion<d>(spec.pose, spec.velocity)
+                                  : pose_along<d>(body.path, properties.centre);
   }
   return spec;
 }
@@ -106,20 +136,29 @@ std::vector<rigid::JointSpec> joint_specs(const Scene& scene) {
   return specs;
 }
 
-std::optional<rigid::ContactSpec<2>> contact_spec(const Scene& scene) {
+template <int d>
+std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene) {
   if (!scene.contact) return {};
-  rigid::ContactSpec<2> spec;
+  rigid::ContactSpec<d> spec;
   if (!scene.tank) return spec;
-  const Vec<2> low = planar(scene.tank->min), high = planar(scene.tank->max);
-  spec.planes = {{low, Vec<2>::UnitX()}, {low, Vec<2>::UnitY()}, {high, -Vec<2>::UnitX()}, {high, -Vec<2>::UnitY()}};
+  for (int k = 0; k < d; ++k) spec.planes.push_back({vec<d>(scene.tank->min), Vec<d>::Unit(k)});
+  for (int k = 0; k < d; ++k) spec.planes.push_back({vec<d>(scene.tank->max), -Vec<d>::Unit(k)});
   return spec;
 }
 
-std::vector<std::unique_ptr<rigid::Force<2>>> body_forces(const Scene& scene) {
-  std::vector<std::unique_ptr<rigid::Force<2>>> forces;
+template <int d>
+std::vector<std::unique_ptr<rigid::Force<d>>> body_forces(const Scene& scene) {
+  std::vector<std::unique_ptr<rigid::Force<d>>> forces;
   if (scene.gravity)
-    forces.push_back(std::make_unique<rigid::Gravity<2>>(planar(scene.gravity->acceleration)));
+    forces.push_back(std::make_unique<rigid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
   return forces;
 }
+
+template rigid::BodySpec<2> body_spec<2>(const Body&);
+template rigid::BodySpec<3> body_spec<3>(const Body&);
+template std::optional<rigid::ContactSpec<2>> contact_spec<2>(const Scene&);
+template std::optional<rigid::ContactSpec<3>> contact_spec<3>(const Scene&);
+template std::vector<std::unique_ptr<rigid::Force<2>>> body_forces<2>(const Scene&);
+template std::vector<std::unique_ptr<rigid::Force<3>>> body_forces<3>(const Scene&);
 
 }  // namespace splashdown::apps

@@ -10,21 +10,24 @@
 namespace splashdown::apps {
 namespace {
 
-fluid::Surface<2> fluid_surface(const rigid::Surface<2>& surface) {
+template <int d>
+fluid::Surface<d> fluid_surface(const rigid::Surface<d>& surface) {
   return {surface.vertices, surface.facets};
 }
 
-std::function<fluid::Vec<2>(const fluid::Vec<2>&)> velocity_field(const Region& region) {
+template <int d>
+std::function<fluid::Vec<d>(const fluid::Vec<d>&)> velocity_field(const Region& region) {
   if (region.velocity.isZero(0) && region.velocity_gradient.isZero(0)) return {};
-  const fluid::Vec<2> velocity = planar(region.velocity), origin = planar(region.velocity_origin);
-  const fluid::Mat<2> gradient = region.velocity_gradient.topLeftCorner<2, 2>();
-  return [=](const fluid::Vec<2>& x) -> fluid::Vec<2> { return velocity + gradient * (x - origin); };
+  const fluid::Vec<d> velocity = vec<d>(region.velocity), origin = vec<d>(region.velocity_origin);
+  const fluid::Mat<d> gradient = region.velocity_gradient.topLeftCorner<d, d>();
+  return [=](const fluid::Vec<d>& x) -> fluid::Vec<d> { return velocity + gradient * (x - origin); };
 }
 
-fluid::WallSpec<2> hull(const Body& body) {
-  const auto spec = body_spec(body);
+template <int d>
+fluid::WallSpec<d> hull(const Body& body) {
+  const auto spec = body_spec<d>(body);
   return {.name = spec.name,
-          .surface = fluid_surface(spec.surface),
+          .surface = fluid_surface<d>(spec.surface),
           .pose = spec.pose,
           .velocity = spec.velocity,
           .size = body.size};
@@ -42,29 +45,31 @@ fluid::SizeSpec size_spec(const Sizes& size) {
 
 }  // namespace
 
-std::vector<HullBend> hull_bends(const Scene& scene, const Body& body) {
-  const fluid::Wall<2> wall(hull(body));
+template <int d>
+std::vector<HullBend<d>> hull_bends(const Scene& scene, const Body& body) {
+  const fluid::Wall<d> wall(hull<d>(body));
   const auto sizes = size_spec(scene.fluid->size);
-  std::vector<HullBend> bends;
+  std::vector<HullBend<d>> bends;
   for (const auto& bend : wall.bends())
     bends.push_back({wall.spec().pose * bend.at, bend.radius,
                      std::min(body.size, fluid::size_at_bend(sizes, body.size, bend.radius))});
   return bends;
 }
 
-fluid::FluidSpec<2> fluid_spec(const Scene& scene) {
+template <int d>
+fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
   const auto& liquid = *scene.fluid;
-  fluid::FluidSpec<2> spec;
+  fluid::FluidSpec<d> spec;
   spec.density = liquid.density;
   spec.size = size_spec(liquid.size);
   spec.step = {.cfl = scene.time.cfl, .dt_max = scene.time.dt_max};
   for (const auto& region : liquid.regions)
-    spec.liquids.push_back({fluid_surface(outline(region)), velocity_field(region)});
-  for (const auto& body : scene.bodies) spec.walls.push_back(hull(body));
+    spec.liquids.push_back({fluid_surface<d>(outline<d>(region)), velocity_field<d>(region)});
+  for (const auto& body : scene.bodies) spec.walls.push_back(hull<d>(body));
   if (scene.tank) {
-    fluid::WallSpec<2> tank;
+    fluid::WallSpec<d> tank;
     tank.name = "tank";
-    tank.surface = fluid_surface(tank_outline(*scene.tank));
+    tank.surface = fluid_surface<d>(tank_outline<d>(*scene.tank));
     tank.size = scene.tank->size;
     spec.walls.push_back(std::move(tank));
   }
@@ -73,17 +78,25 @@ fluid::FluidSpec<2> fluid_spec(const Scene& scene) {
   return spec;
 }
 
-std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms(const Scene& scene) {
-  std::vector<std::unique_ptr<fluid::Term<2>>> terms;
+template <int d>
+std::vector<std::unique_ptr<fluid::Term<d>>> fluid_terms(const Scene& scene) {
+  std::vector<std::unique_ptr<fluid::Term<d>>> terms;
   if (scene.gravity)
-    terms.push_back(std::make_unique<fluid::Gravity<2>>(planar(scene.gravity->acceleration)));
+    terms.push_back(std::make_unique<fluid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
   if (scene.fluid->viscosity)
-    terms.push_back(std::make_unique<fluid::Viscosity<2>>(scene.fluid->viscosity->dynamic));
+    terms.push_back(std::make_unique<fluid::Viscosity<d>>(scene.fluid->viscosity->dynamic));
   if (scene.fluid->absorber)
-    terms.push_back(std::make_unique<fluid::Absorber<2>>(
+    terms.push_back(std::make_unique<fluid::Absorber<d>>(
         fluid::AbsorberSpec{.from = scene.tank->min.x(), .to = scene.tank->max.x(),
                             .width = scene.fluid->absorber->width, .rate = scene.fluid->absorber->rate}));
   return terms;
 }
+
+template std::vector<HullBend<2>> hull_bends<2>(const Scene&, const Body&);
+template std::vector<HullBend<3>> hull_bends<3>(const Scene&, const Body&);
+template fluid::FluidSpec<2> fluid_spec<2>(const Scene&);
+template fluid::FluidSpec<3> fluid_spec<3>(const Scene&);
+template std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms<2>(const Scene&);
+template std::vector<std::unique_ptr<fluid::Term<3>>> fluid_terms<3>(const Scene&);
 
 }  // namespace splashdown::apps

@@ -5,31 +5,35 @@ namespace splashdown::apps {
 namespace {
 
 /// From the shape's frame to the body's, whose origin is the centre of mass.
-rigid::Vec<2> in_body(const Body& body, const Point& point) {
-  return planar(point) - mass_properties(body).centre;
+template <int d>
+rigid::Vec<d> in_body(const Body& body, const Point& point) {
+  return vec<d>(point) - mass_properties<d>(body).centre;
 }
 
+template <int d>
 struct AddRecord {
   const Scene& scene;
-  RecorderSettings<2>& settings;
+  RecorderSettings<d>& settings;
 
   void operator()(const PressureEntry& entry) const {
     if (entry.body) {
       const auto& body = scene.bodies[*entry.body];
-      settings.pressure_probes.push_back({entry.name, in_body(body, entry.point), body.name});
+      settings.pressure_probes.push_back({entry.name, in_body<d>(body, entry.point), body.name});
     } else {
-      settings.pressure_probes.push_back({entry.name, planar(entry.point), {}});
+      settings.pressure_probes.push_back({entry.name, vec<d>(entry.point), {}});
     }
   }
   void operator()(const SurfacePressureEntry& entry) const {
     settings.surface_pressure.push_back({entry.wall, entry.interval, entry.times});
   }
   void operator()(const ElevationEntry& entry) const {
-    settings.gauges.push_back({entry.name, Eigen::Matrix<double, 1, 1>(entry.x)});
+    Eigen::Matrix<double, d - 1, 1> at = Eigen::Matrix<double, d - 1, 1>::Zero();
+    at[0] = entry.x;
+    settings.gauges.push_back({entry.name, at});
   }
   void operator()(const AccelerationEntry& entry) const {
     const auto& body = scene.bodies[entry.body];
-    settings.equipment.push_back({entry.name, body.name, in_body(body, entry.point)});
+    settings.equipment.push_back({entry.name, body.name, in_body<d>(body, entry.point)});
   }
   void operator()(const AddedMassEntry& entry) const {
     settings.added_mass.push_back({scene.bodies[entry.body].name, entry.interval, entry.times});
@@ -38,13 +42,17 @@ struct AddRecord {
 
 }  // namespace
 
-RecorderSettings<2> recorder_settings(const Scene& scene, const std::filesystem::path& directory) {
-  RecorderSettings<2> settings;
+template <int d>
+RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem::path& directory) {
+  RecorderSettings<d> settings;
   settings.directory = directory;
   settings.interval = scene.output.interval;
   settings.frames = scene.output.frames;
-  for (const auto& record : scene.records) std::visit(AddRecord{scene, settings}, record);
+  for (const auto& record : scene.records) std::visit(AddRecord<d>{scene, settings}, record);
   return settings;
 }
+
+template RecorderSettings<2> recorder_settings<2>(const Scene&, const std::filesystem::path&);
+template RecorderSettings<3> recorder_settings<3>(const Scene&, const std::filesystem::path&);
 
 }  // namespace splashdown::apps

@@ -13,8 +13,9 @@ struct Cost {
   double steps = 0;
 };
 
-/// Nodes: the integral of 2/(sqrt(3) h^2) over the liquid, what equilateral triangles of side h have. Sizes are those
-/// of t = 0: what `hollow` adds and `wetted_fraction` saves later is not in it.
+/// Nodes: the integral over the liquid of 2/(sqrt(3) h^2), what equilateral triangles of side h have, in three
+/// dimensions of 1/h^3. Sizes are those of t = 0: what `hollow` adds and `wetted_fraction` saves later is not in it.
+template <int d>
 Cost predicted_cost(const Scene& scene);
 
 }  // namespace splashdown::apps

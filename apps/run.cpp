@@ -200,7 +200,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   for (const auto& [cause, count] : loop_.rejected) s.rejected_steps += count;
   const auto spent = phases();
   s.phases.assign(spent.begin(), spent.end());
-  for (const auto& note : effect_notes(scene_)) {
+  for (const auto& note : effect_notes<d>(scene_)) {
     const auto found = spent.find(note.name);
     if (note.active)
       s.effects.push_back({note.name, found == spent.end() ? 0 : found->second});
@@ -219,5 +219,6 @@ Summary Run<d>::summary(const LoopEnd& end) const {
 }
 
 template class Run<2>;
+template class Run<3>;
 
 }  // namespace splashdown::apps

@@ -68,5 +68,6 @@ class Run final : private LoopHost {
 };
 
 extern template class Run<2>;
+extern template class Run<3>;
 
 }  // namespace splashdown::apps

@@ -47,7 +47,8 @@ void say(const RunOptions& options, const std::string& text) {
 }
 
 /// Where, when and why; what was saved; what might help.
-std::string failure_text(const LoopEnd& end, const Run<2>& run, const fs::path& directory) {
+template <int d>
+std::string failure_text(const LoopEnd& end, const Run<d>& run, const fs::path& directory) {
   return fmt::format(
       "error: the simulation could not go on at t = {:.9g} s, step {}: {}\n"
       "The last good state is in {}. Smaller steps (--set time.cfl=0.25) or finer elements may help;\n"
@@ -56,7 +57,8 @@ std::string failure_text(const LoopEnd& end, const Run<2>& run, const fs::path& 
 }
 
 /// Writes summary.json and report.html.
-Summary conclude(const Run<2>& run, const LoopEnd& end, const std::string& scene_name,
+template <int d>
+Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene_name,
                  const RunOptions& options, const fs::path& directory) {
   auto summary = run.summary(end);
   summary.scene = scene_name;
@@ -77,7 +79,8 @@ int exit_code_of(const LoopEnd& end) {
   return exit_code::cannot_go_on;
 }
 
-int go(Run<2>& run, const std::string& scene_name, const RunOptions& options, const fs::path& directory) {
+template <int d>
+int go(Run<d>& run, const std::string& scene_name, const RunOptions& options, const fs::path& directory) {
   const auto end = run.go();
   const auto summary = conclude(run, end, scene_name, options, directory);
   if (end.status == LoopEnd::Status::failed) fmt::print(stderr, "{}\n", failure_text(end, run, directory));
@@ -92,67 +95,89 @@ int go(Run<2>& run, const std::string& scene_name, const RunOptions& options, co
 }
 
 /// Throws SceneError for what the scene's parts refuse when they are built.
-World<2> build(const Scene& scene, const fs::path& file) {
+template <int d>
+World<d> build(const Scene& scene, const fs::path& file) {
   try {
-    return build_world(scene);
+    return build_world<d>(scene);
   } catch (const std::exception& error) {
     throw SceneError({fmt::format("{}: {}", file.string(), error.what())});
   }
 }
 
-}  // namespace
-
-int run_command(const RunOptions& options) {
+/// What a run begins with.
+struct Start {
+  SceneFile file;
   RunPlan plan;
+  std::optional<Checkpoint> from;
+};
+
+/// Throws SceneError.
+Start read_start(const RunOptions& options) {
+  Start start;
+  auto& plan = start.plan;
   plan.started = std::chrono::steady_clock::now();
   plan.budget = options.budget;
   plan.directory = options.out.value_or(default_directory(options.scene));
-  SceneFile file;
-  World<2> world;
-  std::optional<Checkpoint> from;
+  start.file = read_scene(options.scene, options.overrides);
+  plan.stop = stop_time(options, start.file.scene);
+  plan.resolved = start.file.resolved;
+  if (options.resume) start.from = find_checkpoint(plan.directory, plan.resolved);
+  if (start.from && start.from->time > plan.stop)
+    throw SceneError(
+        {fmt::format("--resume: the run is at t = {:g} s already and cannot stop at {:g} s. Use a later "
+                     "stop, or start anew "
+                     "without --resume.",
+                     start.from->time, plan.stop)});
+  return start;
+}
+
+template <int d>
+int run_scene(const RunOptions& options, Start start) {
+  const auto& scene = start.file.scene;
+  const auto directory = start.plan.directory;
+  World<d> world;
   try {
-    file = read_scene(options.scene, options.overrides);
-    plan.stop = stop_time(options, file.scene);
-    plan.resolved = file.resolved;
-    if (options.resume) from = find_checkpoint(plan.directory, file.resolved);
-    if (from && from->time > plan.stop)
-      throw SceneError(
-          {fmt::format("--resume: the run is at t = {:g} s already and cannot stop at {:g} s. Use a later "
-                       "stop, or start anew "
-                       "without --resume.",
-                       from->time, plan.stop)});
-    set_threads(options.threads);
-    world = build(file.scene, options.scene);
+    world = build<d>(scene, options.scene);
   } catch (const SceneError& error) {
     return bad_input(error.what());
   }
-
-  const auto directory = plan.directory;
   Progress progress(progress_style(options.quiet));
   std::optional<FolderLock> lock;
   try {
     fs::create_directories(directory);
     lock.emplace(directory);
-    prepare_directory(directory, file.resolved, from.has_value());
+    prepare_directory(directory, start.file.resolved, start.from.has_value());
   } catch (const std::exception& error) {
     return bad_input(error.what());
   }
   try {
-    Run<2> run(file.scene, std::move(world), recorder_settings(file.scene, directory), std::move(plan),
-               progress);
-    if (from) run.resume(*from);
+    Run<d> run(scene, std::move(world), recorder_settings<d>(scene, directory), std::move(start.plan), progress);
+    if (start.from) run.resume(*start.from);
     if (options.resume)
-      say(options, from ? fmt::format("continuing at t = {:.6g} s, step {}", run.time(), run.loop().steps)
-                        : "no checkpoint found: starting from the beginning");
+      say(options, start.from ? fmt::format("continuing at t = {:.6g} s, step {}", run.time(), run.loop().steps)
+                              : "no checkpoint found: starting from the beginning");
     catch_interrupts();
-    const auto& title = file.scene.title;
-    return go(run, title.empty() ? directory.filename().string() : title, options, directory);
+    return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
   } catch (const std::exception& error) {
     progress.clear();
     fmt::print(stderr, "error: {}\nThe last good state is in {}; --resume continues from there.\n",
                error.what(), (directory / "checkpoint").string());
     return exit_code::cannot_go_on;
   }
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  Start start;
+  try {
+    start = read_start(options);
+  } catch (const SceneError& error) {
+    return bad_input(error.what());
+  }
+  set_threads(options.threads);
+  return start.file.scene.dimension == 2 ? run_scene<2>(options, std::move(start))
+                                         : run_scene<3>(options, std::move(start));
 }
 
 }  // namespace splashdown::apps

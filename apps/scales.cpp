@@ -17,13 +17,14 @@ constexpr double water_sound_speed = 1480;       // [m/s]
 constexpr double air_density = 1.2;              // [kg/m^3]
 
 /// A linear field is fastest on the region's outline.
+template <int d>
 double fastest(const Region& region) {
-  const auto surface = outline(region);
+  const auto surface = outline<d>(region);
   double speed = 0;
   for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) {
-    const rigid::Vec<2> x = surface.vertices.col(i) - planar(region.velocity_origin);
+    const rigid::Vec<d> x = surface.vertices.col(i) - vec<d>(region.velocity_origin);
     speed = std::max(speed,
-                     (planar(region.velocity) + region.velocity_gradient.topLeftCorner<2, 2>() * x).norm());
+                     (vec<d>(region.velocity) + region.velocity_gradient.topLeftCorner<d, d>() * x).norm());
   }
   return speed;
 }
@@ -37,11 +38,12 @@ double fastest(const Body& body) {
 }
 
 /// Speed at the water after a free fall from where the body is.
+template <int d>
 double at_the_water(const Scene& scene, const Body& body) {
   const double speed = fastest(body);
-  const auto level = still_water_level(scene);
+  const auto level = still_water_level<d>(scene);
   if (body.motion != Motion::free || !scene.gravity || !level) return speed;
-  const double drop = std::max(0., extents(outline(body)).min().y() - *level);
+  const double drop = std::max(0., extents<d>(outline<d>(body)).min()[d - 1] - *level);
   return std::sqrt(speed * speed + 2 * scene.gravity->acceleration.norm() * drop);
 }
 
@@ -67,13 +69,14 @@ EffectNote viscosity_note(const Scene& scene, const Scales& s) {
           number(1.33 / std::sqrt(reynolds)))};  // Blasius, flat plate
 }
 
+template <int d>
 EffectNote absorber_note(const Scene& scene, const Scales& s) {
   EffectNote note{"absorber", scene.fluid->absorber.has_value(), "no tank, no ends that reflect waves"};
   if (!scene.tank || s.gravity == 0) {
     if (scene.tank) note.reason = "no gravity, no waves to absorb";
     return note;
   }
-  const double depth = std::max(0., *still_water_level(scene) - scene.tank->min.y());
+  const double depth = std::max(0., *still_water_level<d>(scene) - scene.tank->min[d - 1]);
   const double there_and_back = (scene.tank->max.x() - scene.tank->min.x()) / std::sqrt(s.gravity * depth);
   note.reason =
       fmt::format("the fastest waves cross the tank in {} s, the run lasts {} s: {}", number(there_and_back),
@@ -84,46 +87,51 @@ EffectNote absorber_note(const Scene& scene, const Scales& s) {
 
 }  // namespace
 
+template <int d>
 std::optional<double> still_water_level(const Scene& scene) {
   if (!scene.fluid) return {};
   double level = 0, widest = 0;
   for (const auto& region : scene.fluid->regions) {
-    const auto box = extents(outline(region));
-    if (box.sizes().x() <= widest) continue;
-    widest = box.sizes().x();
+    const auto box = extents<d>(outline<d>(region));
+    const double wide = box.sizes().template head<d - 1>().prod();
+    if (wide <= widest) continue;
+    widest = wide;
     const auto* flat = std::get_if<BoxRegion>(&region.shape);
-    level = flat ? flat->max.y() : box.max().y();
+    level = flat ? flat->max[d - 1] : box.max()[d - 1];
   }
   return level;
 }
 
+template <int d>
 Scales scales(const Scene& scene) {
   Scales s;
   if (!scene.bodies.empty())
-    s.length = extents(outline(scene.bodies.front())).sizes().maxCoeff();
+    s.length = extents<d>(outline<d>(scene.bodies.front())).sizes().maxCoeff();
   else if (scene.fluid)
-    s.length = extents(outline(scene.fluid->regions.front())).sizes().maxCoeff();
+    s.length = extents<d>(outline<d>(scene.fluid->regions.front())).sizes().maxCoeff();
   s.gravity = scene.gravity ? scene.gravity->acceleration.norm() : 0;
   s.density = scene.fluid ? scene.fluid->density : 0;
-  for (const auto& body : scene.bodies) s.speed = std::max(s.speed, at_the_water(scene, body));
+  for (const auto& body : scene.bodies) s.speed = std::max(s.speed, at_the_water<d>(scene, body));
   if (scene.fluid)
-    for (const auto& region : scene.fluid->regions) s.speed = std::max(s.speed, fastest(region));
+    for (const auto& region : scene.fluid->regions) s.speed = std::max(s.speed, fastest<d>(region));
   if (s.speed == 0) s.speed = std::sqrt(s.gravity * s.length);  // what gravity will make of rest
   return s;
 }
 
+template <int d>
 std::vector<EffectNote> effect_notes(const Scene& scene) {
-  const auto s = scales(scene);
+  const auto s = scales<d>(scene);
   std::vector<EffectNote> notes{gravity_note(scene, s)};
   if (scene.fluid) {
     notes.push_back(viscosity_note(scene, s));
-    notes.push_back(absorber_note(scene, s));
+    notes.push_back(absorber_note<d>(scene, s));
   }
   return notes;
 }
 
+template <int d>
 std::vector<EffectNote> neglected(const Scene& scene) {
-  const auto s = scales(scene);
+  const auto s = scales<d>(scene);
   if (!scene.fluid || s.speed == 0) return {};
   const double weber = s.density * s.speed * s.speed * s.length / water_surface_tension;
   return {
@@ -132,5 +140,14 @@ std::vector<EffectNote> neglected(const Scene& scene) {
       {"air", false,
        fmt::format("rho_air/rho = {}; cushions form under flat bottoms", number(air_density / s.density))}};
 }
+
+template std::optional<double> still_water_level<2>(const Scene&);
+template Scales scales<2>(const Scene&);
+template std::vector<EffectNote> effect_notes<2>(const Scene&);
+template std::vector<EffectNote> neglected<2>(const Scene&);
+template std::optional<double> still_water_level<3>(const Scene&);
+template Scales scales<3>(const Scene&);
+template std::vector<EffectNote> effect_notes<3>(const Scene&);
+template std::vector<EffectNote> neglected<3>(const Scene&);
 
 }  // namespace splashdown::apps

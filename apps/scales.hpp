@@ -16,9 +16,11 @@ struct Scales {
   double density = 0;  ///< of the liquid [kg/m^3]; 0 without
 };
 
+template <int d>
 Scales scales(const Scene& scene);
 
 /// Highest point of the liquid at t = 0 on its largest region [m]; nothing without liquid.
+template <int d>
 std::optional<double> still_water_level(const Scene& scene);
 
 /// An effect of the catalogue: at work in this scene, or absent, and the number that says why it matters.
@@ -27,9 +29,11 @@ struct EffectNote {
   bool active = false;
   std::string reason;
 };
+template <int d>
 std::vector<EffectNote> effect_notes(const Scene& scene);
 
 /// What no scene can switch on yet, with the number that says whether that matters.
+template <int d>
 std::vector<EffectNote> neglected(const Scene& scene);
 
 }  // namespace splashdown::apps

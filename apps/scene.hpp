@@ -2,10 +2,11 @@
 //
 // An optional table that is absent is an effect that is absent: there are no switches.
 // SI units; angles in degrees where the name says so. Vectors have three entries, the third is zero in
-// two-dimensional scenes. Two-dimensional masses and loads are per metre of depth.
+// two-dimensional scenes. Two-dimensional masses and loads are per metre of depth. The last axis of a scene is up.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -24,7 +25,7 @@ struct WedgeShape {
   double breadth = 1;            ///< at the top [m]
   std::optional<double> height;  ///< keel to top [m]; absent: no vertical sides, a triangle
 };                               ///< reference point: the keel
-struct BoxShape {
+struct RectangleShape {
   double width = 1, height = 1;  ///< [m]; reference point: the centre
 };
 struct CircleShape {
@@ -36,7 +37,22 @@ struct EllipseShape {
 struct CapsuleShape {
   double radius = 1, length = 1;  ///< of the round ends; of the straight part between them, along x [m]
 };                                ///< reference point: the centre
-using Shape = std::variant<PolygonShape, WedgeShape, BoxShape, CircleShape, EllipseShape, CapsuleShape>;
+struct BoxShape {
+  Point size = Point::Ones();  ///< [m]; reference point: the centre
+};
+struct SphereShape {
+  double radius = 1;  ///< [m]; reference point: the centre
+};
+struct ConeShape {
+  double deadrise_deg = 30;  ///< between the horizontal and the side [deg]
+  double radius = 1;         ///< of the flat top [m]; reference point: the apex, below
+};
+struct RevolvedShape {
+  std::vector<std::array<double, 2>> profile;  ///< (r, z), turned about the z axis; reference point: r = z = 0
+};
+/// The capsule exists in two and in three dimensions, the shapes before it in two and those after it in three.
+using Shape = std::variant<PolygonShape, WedgeShape, RectangleShape, CircleShape, EllipseShape, CapsuleShape, BoxShape,
+                           SphereShape, ConeShape, RevolvedShape>;
 
 // Liquid regions, in the world frame.
 struct BoxRegion {
@@ -56,9 +72,13 @@ struct EllipseRegion {
 struct PolygonRegion {
   std::vector<Point> points;
 };
+struct SphereRegion {
+  Point centre = Point::Zero();
+  double radius = 1;
+};
 
 struct Region {
-  std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion> shape;
+  std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion, SphereRegion> shape;
   Point velocity = Point::Zero();  ///< at t = 0 [m/s]
   Eigen::Matrix3d velocity_gradient =
       Eigen::Matrix3d::Zero();            ///< v = velocity + gradient (x - origin) [1/s]
@@ -100,31 +120,45 @@ struct Tank {
 };
 
 struct Gravity {
-  Point acceleration = {0, -9.81, 0};  ///< [m/s^2]
+  Point acceleration = {0, -9.81, 0};  ///< [m/s^2]; of the standard in three dimensions: {0, 0, -9.81}
 };
 
 enum class Motion { free, fixed, prescribed };
 
-/// A pose on a prescribed path: piecewise linear in time.
+/// Shape frame to world, about the shape's reference point. In two dimensions a turn by `pitch_deg`, counter-clockwise;
+/// in three R = Rz(heading) Ry(-pitch) Rx(roll): heading counter-clockwise from above, nose (x) up, roll about x.
+struct Attitude {
+  double heading_deg = 0, pitch_deg = 0, roll_deg = 0;  ///< [deg]
+};
+
+/// A pose on a prescribed path: piecewise linear in time, angle by angle.
 struct Waypoint {
   double time = 0;                 ///< [s]
   Point position = Point::Zero();  ///< of the shape's reference point [m]
-  double pitch_deg = 0;            ///< [deg]
+  Attitude attitude;
 };
+
+/// Freedoms of free motion: translations along and rotations about the world's axes.
+inline std::vector<std::string> freedom_names(int dimension) {
+  if (dimension == 2) return {"x", "y", "rotation"};
+  return {"x", "y", "z", "roll", "pitch", "yaw"};
+}
 
 struct Body {
   std::string name;
   Shape shape;
-  std::optional<double> mass;           ///< [kg/m]; exactly one of mass and density for free motion
+  std::optional<double> mass;           ///< [kg, kg/m]; exactly one of mass and density for free motion
   std::optional<double> density;        ///< mean density [kg/m^3]
   std::optional<Point> centre_of_mass;  ///< in the shape's frame [m]; default: the centroid
-  std::optional<double> inertia;        ///< about the centre of mass [kg m]; default: of uniform density
+  /// About the centre of mass, axes of the shape's frame [kg m^2]; default: of uniform density. In two dimensions the
+  /// last entry alone [kg m].
+  std::optional<Eigen::Matrix3d> inertia;
   Motion motion = Motion::free;
-  std::vector<std::string> free = {"x", "y", "rotation"};  ///< freedoms of free motion
-  Point position = Point::Zero();                          ///< of the shape's reference point at t = 0 [m]
-  double pitch_deg = 0;            ///< about the reference point, counter-clockwise [deg]
+  std::vector<std::string> free = freedom_names(2);
+  Point position = Point::Zero();  ///< of the shape's reference point at t = 0 [m]
+  Attitude attitude;               ///< at t = 0
   Point velocity = Point::Zero();  ///< of the centre of mass at t = 0; constant if prescribed [m/s]
-  double spin_deg = 0;             ///< angular velocity at t = 0; constant if prescribed [deg/s]
+  Point spin_deg = Point::Zero();  ///< angular velocity at t = 0, world frame; constant if prescribed [deg/s]
   std::vector<Waypoint> path;      ///< prescribed motion; empty: constant velocity and spin
   double size = 0;                 ///< element size at the hull [m]; default: fluid.size.surface
 };
@@ -135,7 +169,7 @@ struct Joint {
   std::size_t body = 0;
   std::optional<std::size_t> other;  ///< absent: the world
   Point point = Point::Zero();       ///< world frame, at t = 0 [m]
-  Point axis = Point::UnitZ();       ///< of a slider, world frame, at t = 0
+  Point axis = Point::UnitZ();       ///< of a slider or a hinge, world frame, at t = 0
 };
 
 /// Present: bodies touch each other and the tank. They do not rebound and do not rub.

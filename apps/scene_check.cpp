@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-
-#include "apps/scene_geometry.hpp"
-
 namespace splashdown::apps {
 namespace {
 
@@ -26,6 +23,14 @@ void check_times(const Scene& scene, Problems& problems) {
                  "Use 0 for a row every step.");
 }
 
+template <int d>
+void check_parts(const Scene& scene, const SceneLabels& labels, Problems& problems) {
+  if (scene.fluid) check_fluid<d>(scene, labels, problems);
+  check_bodies<d>(scene, labels, problems);
+  check_joints(scene, labels, problems);
+  check_records<d>(scene, labels, problems);
+}
+
 }  // namespace
 
 void check_scene(const Scene& read, const SceneLabels& labels, Problems& problems) {
@@ -40,10 +45,7 @@ void check_scene(const Scene& read, const SceneLabels& labels, Problems& problem
   if (problems.found_in("tank")) scene.tank.reset();
   if (problems.found_in("time.end")) scene.time.end = std::numeric_limits<double>::infinity();
   check_times(scene, problems);
-  if (scene.fluid) check_fluid(scene, labels, problems);
-  check_bodies(scene, labels, problems);
-  check_joints(scene, labels, problems);
-  check_records(scene, labels, problems);
+  scene.dimension == 2 ? check_parts<2>(scene, labels, problems) : check_parts<3>(scene, labels, problems);
 }
 
 }  // namespace splashdown::apps

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/scene_check.hpp"
+#include "apps/scene_rules.hpp"
 
 namespace splashdown::apps {
 
@@ -16,8 +17,8 @@ void check_joints(const Scene& scene, const SceneLabels& labels, Problems& probl
     if (!moves)
       problems.add(label + ".body", fmt::format("the joint moves nothing: '{}' is not free, nor is what it is tied to", body.name),
                    "Remove the joint, or free a body.");
-    if (joint.type == "slider" && joint.axis.isZero(0) && !problems.found_in(label + ".axis"))
-      problems.add(label + ".axis", "must have a direction", "Use e.g. [0.0, 1.0].");
+    if (joint.axis.isZero(0) && !problems.found_in(label + ".axis"))
+      problems.add(label + ".axis", "must have a direction", "Use e.g. " + axis_example(scene.dimension, 1) + ".");
   }
 }
 

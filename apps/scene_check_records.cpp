@@ -4,11 +4,12 @@
 #include <set>
 
 #include "apps/scene_check.hpp"
-#include "apps/scene_geometry.hpp"
+#include "apps/solid.hpp"
 
 namespace splashdown::apps {
 namespace {
 
+template <int d>
 class RecordChecker {
  public:
   RecordChecker(const Scene& scene, Problems& problems) : scene_(scene), problems_(problems) {}
@@ -22,13 +23,13 @@ class RecordChecker {
     needs_fluid();
     unique(entry.name);
     if (problems_.found_in(label_)) return;
-    const rigid::Vec<2> point = planar(entry.point);
+    const rigid::Vec<d> point = vec<d>(entry.point);
     if (!entry.body) return inside_tank(point, ".point");
     const auto& body = scene_.bodies[*entry.body];
-    inside_tank(shape_pose(body) * point, ".point");
+    inside_tank(shape_pose<d>(body) * point, ".point");
     try {
-      const auto hull = shape_of(body.shape).surface;
-      const double extent = extents(hull).diagonal().norm(), depth = -signed_distance(hull, point);
+      const Solid<d> hull(shape_of<d>(body.shape).surface);
+      const double extent = hull.extents().diagonal().norm(), depth = -hull.signed_distance(point);
       // A sensor flush with the hull, up to the digits people write.
       if (depth > 1e-3 * extent)
         problems_.add(
@@ -45,8 +46,10 @@ class RecordChecker {
   void operator()(const ElevationEntry& entry) {
     needs_fluid();
     unique(entry.name);
-    if (scene_.tank && !problems_.found_in(label_))
-      inside_tank({entry.x, 0.5 * (scene_.tank->min.y() + scene_.tank->max.y())}, ".x");
+    if (!scene_.tank || problems_.found_in(label_)) return;
+    rigid::Vec<d> point = extents<d>(*scene_.tank).center();
+    point.x() = entry.x;
+    inside_tank(point, ".x");
   }
   void operator()(const AccelerationEntry& entry) { unique(entry.name); }
   void operator()(const AddedMassEntry& entry) {
@@ -69,14 +72,12 @@ class RecordChecker {
       problems_.add(label_ + ".times", fmt::format("must not exceed time.end = {:g} s", scene_.time.end),
                     "Remove the later ones.");
   }
-  void inside_tank(const rigid::Vec<2>& point, const std::string& key) {
+  void inside_tank(const rigid::Vec<d>& point, const std::string& key) {
     if (!scene_.tank) return;
-    const auto& tank = *scene_.tank;
-    const Extents box(planar(tank.min), planar(tank.max));
+    const Extents<d> box = extents<d>(*scene_.tank);
     if (box.isEmpty() || box.exteriorDistance(point) <= 1e-9 * box.diagonal().norm()) return;
     problems_.add(label_ + key,
-                  fmt::format("({:g}, {:g}) m lies outside the tank [{:g}, {:g}] x [{:g}, {:g}] m", point.x(),
-                              point.y(), tank.min.x(), tank.max.x(), tank.min.y(), tank.max.y()),
+                  fmt::format("{} m lies outside the tank {} m", text<d>(point), text<d>(box)),
                   "Move it inside.");
   }
 
@@ -89,9 +90,13 @@ class RecordChecker {
 
 }  // namespace
 
+template <int d>
 void check_records(const Scene& scene, const SceneLabels& labels, Problems& problems) {
-  RecordChecker checker(scene, problems);
+  RecordChecker<d> checker(scene, problems);
   for (std::size_t i = 0; i < scene.records.size(); ++i) checker.check(scene.records[i], labels.records[i]);
 }
+
+template void check_records<2>(const Scene&, const SceneLabels&, Problems&);
+template void check_records<3>(const Scene&, const SceneLabels&, Problems&);
 
 }  // namespace splashdown::apps

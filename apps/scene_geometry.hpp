@@ -1,41 +1,70 @@
-// Outlines and mass properties of what a scene describes, in two dimensions.
+// Surfaces and mass properties of what a scene describes.
 //
 // Shape frame: as drawn, origin at the shape's reference point. Body frame: origin at the centre of mass.
-// World frame of a shape at t = 0: position + R(pitch) x. Impossible shapes throw std::invalid_argument.
+// World frame of a shape at t = 0: position + R(attitude) x. Impossible shapes throw std::invalid_argument.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
+#include <string>
 
 #include "apps/scene.hpp"
 #include "rigid/shapes.hpp"
 
 namespace splashdown::apps {
 
-inline rigid::Vec<2> planar(const Point& point) { return point.head<2>(); }
+inline constexpr double radians = std::numbers::pi / 180;
+
+template <int d>
+rigid::Vec<d> vec(const Point& point) {
+  return point.head<d>();
+}
 
 /// In the shape's frame.
-rigid::Shape<2> shape_of(const Shape& shape);
+template <int d>
+rigid::Shape<d> shape_of(const Shape& shape);
 /// With the scene's mass or density and overrides; unit mass and inertia 1 for bodies that have neither.
 /// `centre` is in the shape's frame.
-rigid::MassProperties<2> mass_properties(const Body& body);
+template <int d>
+rigid::MassProperties<d> mass_properties(const Body& body);
+
+template <int d>
+Eigen::Matrix<double, d, d> rotation(const Attitude& attitude);
+/// Of a body whose attitude changes at such a rate, angle by angle [rad/s].
+template <int d>
+rigid::Rotation<d> angular_velocity(const Attitude& attitude, const Attitude& rate);
 
 /// Shape frame to world.
-rigid::Isometry<2> shape_pose(const Point& position, double pitch_deg);
-inline rigid::Isometry<2> shape_pose(const Body& body) { return shape_pose(body.position, body.pitch_deg); }
+template <int d>
+rigid::Isometry<d> shape_pose(const Point& position, const Attitude& attitude);
+template <int d>
+rigid::Isometry<d> shape_pose(const Body& body) {
+  return shape_pose<d>(body.position, body.attitude);
+}
 
-/// Counter-clockwise boundary in the world frame.
-rigid::Surface<2> outline(const Region& region);
+/// Boundary in the world frame, normals outward.
+template <int d>
+rigid::Surface<d> outline(const Region& region);
 /// In the world frame at t = 0.
-rigid::Surface<2> outline(const Body& body);
-/// Clockwise: encloses what is outside it.
-rigid::Surface<2> tank_outline(const Tank& tank);
+template <int d>
+rigid::Surface<d> outline(const Body& body);
+/// Turned inside out: encloses what is outside it.
+template <int d>
+rigid::Surface<d> tank_outline(const Tank& tank);
 
-using Extents = Eigen::AlignedBox<double, 2>;
-Extents extents(const rigid::Surface<2>& surface);
+template <int d>
+using Extents = Eigen::AlignedBox<double, d>;
+template <int d>
+Extents<d> extents(const rigid::Surface<d>& surface);
+template <int d>
+Extents<d> extents(const Tank& tank) {
+  return {vec<d>(tank.min), vec<d>(tank.max)};
+}
 
-/// Distance from a point to an outline, negative inside what it encloses.
-double signed_distance(const rigid::Surface<2>& surface, const rigid::Vec<2>& point);
-/// The interiors of two outlines share more than their edges.
-bool overlap(const rigid::Surface<2>& a, const rigid::Surface<2>& b);
+// As messages write them: "(1, 2)", "[0, 1] x [0, 2]".
+template <int d>
+std::string text(const rigid::Vec<d>& x, int digits = 6);
+template <int d>
+std::string text(const Extents<d>& box);
 
 }  // namespace splashdown::apps

@@ -37,13 +37,21 @@ bool meets_fluid_freely(const Scene& scene) {
 }
 
 void read_tank(Reader& reader, Scene& scene) {
-  const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
+  const Rule place = place_rule(scene.dimension);
   auto& tank = scene.tank.emplace();
-  reader.point("min", tank.min, coordinate, Need::required);
-  reader.point("max", tank.max, coordinate, Need::required);
+  reader.point("min", tank.min, place, Need::required);
+  reader.point("max", tank.max, place, Need::required);
   if (!scene.fluid) return reader.skip("size");
   tank.size = scene.fluid->size.far;
   reader.number("size", tank.size, positive("m", "Use e.g. fluid.size.far."));
+}
+
+void read_gravity(Reader& reader, Scene& scene) {
+  const double standard = -9.81;
+  auto& acceleration = scene.gravity.emplace().acceleration;
+  acceleration = standard * Point::Unit(scene.dimension - 1);
+  reader.point("acceleration", acceleration,
+               any("m/s^2", "Use e.g. " + axis_example(scene.dimension, standard) + "; leave the table out for none."));
 }
 
 void read_output(Reader& reader, Output& output) {
@@ -65,9 +73,7 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
       labels.regions.push_back(fmt::format("fluid.region[{}]", i));
   if (auto tank = root.table("tank")) read_tank(*tank, scene);
-  if (auto gravity = root.table("gravity"))
-    gravity->point("acceleration", scene.gravity.emplace().acceleration,
-                   any("m/s^2", "Use e.g. [0.0, -9.81]; leave the table out for none."));
+  if (auto gravity = root.table("gravity")) read_gravity(*gravity, scene);
   root.each_table("body", [&](Reader& reader) {
     labels.bodies.push_back(reader.path());
     read_body(reader, scene.bodies.emplace_back(), scene);
@@ -107,12 +113,8 @@ SceneFile read_root(const toml::table& table, Problems& problems) {
   {
     Reader root(context, table, "", "");
     root.ignore("provenance");  // what a run writes into scene.resolved.toml
-    root.integer("dimension", file.scene.dimension, within(2, 3, "", "Use 2."));
-    if (file.scene.dimension == 3) {
-      root.skip_all();
-      problems.add("dimension", "three-dimensional scenes are not available yet", "Use 2.");
-      problems.throw_if_any();
-    }
+    root.integer("dimension", file.scene.dimension, within(2, 3, "", "Use 2 or 3."));
+    context.dimension = file.scene.dimension;
     labels = read_tables(root, file.scene);
   }
   check_scene(file.scene, labels, problems);

@@ -6,22 +6,24 @@
 namespace splashdown::apps {
 namespace {
 
-const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
-
 struct ReadShape {
   Reader& reader;
+  Rule place = place_rule(reader.context().dimension);
   Rule extent = positive("m", "Use e.g. 0.5.");
 
-  void operator()(PolygonShape& polygon) const { reader.points("points", polygon.points, coordinate); }
+  void deadrise(double& target, const std::string& cure) const {
+    Rule rule = within(0, 89, "deg", cure);
+    rule.low_open = true;
+    reader.number("deadrise_deg", target, rule, Need::required);
+  }
+  void operator()(PolygonShape& polygon) const { reader.points("points", polygon.points, place); }
   void operator()(WedgeShape& wedge) const {
-    Rule deadrise = within(0, 89, "deg", "Use e.g. 30; a flat bottom is a box.");
-    deadrise.low_open = true;
-    reader.number("deadrise_deg", wedge.deadrise_deg, deadrise, Need::required);
+    deadrise(wedge.deadrise_deg, "Use e.g. 30; a flat bottom is a box.");
     reader.number("breadth", wedge.breadth, extent, Need::required);
     reader.number("height", wedge.height,
                   positive("m", "Use at least breadth/2 tan(deadrise), or leave it out."));
   }
-  void operator()(BoxShape& box) const {
+  void operator()(RectangleShape& box) const {
     reader.number("width", box.width, extent, Need::required);
     reader.number("height", box.height, extent, Need::required);
   }
@@ -34,35 +36,61 @@ struct ReadShape {
   void operator()(CapsuleShape& capsule) const {
     reader.number("radius", capsule.radius, extent, Need::required);
     reader.number("length", capsule.length,
-                  positive("m", "Use the straight part's length; without one it is a circle."),
+                  positive("m", "Use the straight part's length; without one it is a circle or a sphere."),
                   Need::required);
+  }
+  void operator()(BoxShape& box) const {
+    reader.point("size", box.size, positive("m", "Use the lengths along x, y and z, e.g. [1.0, 0.5, 0.3]."),
+                 Need::required);
+  }
+  void operator()(SphereShape& sphere) const { reader.number("radius", sphere.radius, extent, Need::required); }
+  void operator()(ConeShape& cone) const {
+    deadrise(cone.deadrise_deg, "Use e.g. 30; the angle between the horizontal and the side.");
+    reader.number("radius", cone.radius, extent, Need::required);
+  }
+  void operator()(RevolvedShape& revolved) const {
+    std::vector<std::vector<double>> rows;
+    reader.rows("profile", rows, 2, any("m", "Use points [r, z], e.g. [[0, 0], [0.5, 0.2], [0.5, 1]]."),
+                Need::required);
+    for (const auto& row : rows) revolved.profile.push_back({row[0], row[1]});
   }
 };
 
-Shape shape_called(const std::string& type) {
-  if (type == "wedge") return WedgeShape{};
-  if (type == "box") return BoxShape{};
-  if (type == "circle") return CircleShape{};
-  if (type == "ellipse") return EllipseShape{};
-  if (type == "capsule") return CapsuleShape{};
-  return PolygonShape{};
+/// The shapes of each dimension by their names.
+struct ShapeType {
+  int dimension;
+  const char* name;
+  Shape shape;
+};
+
+const std::vector<ShapeType>& shape_types() {
+  static const std::vector<ShapeType> types = {
+      {2, "polygon", PolygonShape{}}, {2, "wedge", WedgeShape{}},     {2, "box", RectangleShape{}},
+      {2, "circle", CircleShape{}},   {2, "ellipse", EllipseShape{}}, {2, "capsule", CapsuleShape{}},
+      {3, "sphere", SphereShape{}},   {3, "box", BoxShape{}},         {3, "cone", ConeShape{}},
+      {3, "capsule", CapsuleShape{}}, {3, "revolved", RevolvedShape{}}};
+  return types;
 }
 
 void read_shape(Reader& reader, Shape& shape) {
-  std::string type = "polygon";
-  if (!reader.choice("type", type, {"polygon", "wedge", "box", "circle", "ellipse", "capsule"},
-                     Need::required))
-    return reader.skip_all();
-  shape = shape_called(type);
+  Reader::Names names;
+  for (const auto& type : shape_types())
+    if (type.dimension == reader.context().dimension) names.emplace_back(type.name);
+  std::string name = names.front();
+  if (!reader.choice("type", name, names, Need::required)) return reader.skip_all();
+  for (const auto& type : shape_types())
+    if (type.dimension == reader.context().dimension && type.name == name) shape = type.shape;
   std::visit(ReadShape{reader}, shape);
 }
 
 void read_mass(Reader& reader, Body& body) {
+  const int dimension = reader.context().dimension;
   const std::string fix = "Use motion = \"fixed\" or \"prescribed\" for a body that the fluid does not move.";
-  reader.number("mass", body.mass, not_negative("kg/m", fix));
+  reader.number("mass", body.mass, not_negative(mass_unit(dimension), fix));
   reader.number("density", body.density, not_negative("kg/m^3", fix));
-  reader.point("centre_of_mass", body.centre_of_mass, coordinate);
-  reader.number("inertia", body.inertia, positive("kg m", "Leave it out for that of uniform density."));
+  reader.point("centre_of_mass", body.centre_of_mass, place_rule(dimension));
+  reader.inertia("inertia", body.inertia,
+                 positive(inertia_unit(dimension), "Leave it out for that of uniform density."));
 }
 
 bool is_good_name(const std::string& name) {
@@ -98,28 +126,50 @@ void refuse(Reader& reader, std::string_view name, const std::string& rule, cons
   reader.context().problems.add(reader.key(name), rule, cure);
 }
 
+/// A row of a path: time, position, angles.
+Waypoint waypoint(const std::vector<double>& row, std::size_t dimension) {
+  Waypoint point;
+  point.time = row[0];
+  for (std::size_t i = 0; i < dimension; ++i) point.position[static_cast<Eigen::Index>(i)] = row[i + 1];
+  if (dimension == 2)
+    point.attitude.pitch_deg = row[3];
+  else
+    point.attitude = {.heading_deg = row[4], .pitch_deg = row[5], .roll_deg = row[6]};
+  return point;
+}
+
 void read_path(Reader& reader, Body& body) {
   std::vector<std::vector<double>> rows;
   const auto d = static_cast<std::size_t>(reader.context().dimension);
-  reader.rows("path", rows, d + 2,
-              any("s, m, deg", "Use rows of time, position and angle: [[0, 0, 1, 0], [0.5, 0, 0.8, 0]]."));
-  for (const auto& row : rows) {
-    Waypoint point;
-    point.time = row[0];
-    for (std::size_t i = 0; i < d; ++i) point.position[static_cast<Eigen::Index>(i)] = row[i + 1];
-    point.pitch_deg = row.back();
-    body.path.push_back(point);
-  }
+  const std::string cure =
+      d == 2 ? "Use rows of time, position and angle: [[0, 0, 1, 0], [0.5, 0, 0.8, 0]]."
+             : "Use rows of time, x, y, z, heading, pitch, roll: [[0, 0, 0, 1, 0, 0, 0], [0.5, 0, 0, 0.8, 0, 0, 0]].";
+  reader.rows("path", rows, 1 + d + d * (d - 1) / 2, any("s, m, deg", cure));
+  for (const auto& row : rows) body.path.push_back(waypoint(row, d));
+}
+
+/// The keys of an attitude; two dimensions know the pitch alone.
+struct Angle {
+  const char* name;
+  double Attitude::*value;
+};
+std::vector<Angle> angles(int dimension) {
+  if (dimension == 2) return {{"pitch_deg", &Attitude::pitch_deg}};
+  return {{"heading_deg", &Attitude::heading_deg},
+          {"pitch_deg", &Attitude::pitch_deg},
+          {"roll_deg", &Attitude::roll_deg}};
 }
 
 }  // namespace
 
 void read_body(Reader& reader, Body& body, const Scene& scene) {
+  const int dimension = scene.dimension;
   read_name(reader, body.name);
   body.motion = read_motion(reader);
   read_mass(reader, body);
+  body.free = freedom_names(dimension);
   if (body.motion == Motion::free)
-    reader.choices("free", body.free, {"x", "y", "rotation"});
+    reader.choices("free", body.free, freedom_names(dimension));
   else
     refuse(reader, "free", "only a body with motion = \"free\" has freedoms", "Remove it.");
 
@@ -132,12 +182,14 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
   const std::string on_path = "the path already says it", drop = "Remove it, or the path.";
   if (follows_path) {
     refuse(reader, "position", on_path, drop);
-    refuse(reader, "pitch_deg", on_path, drop);
+    for (const auto& angle : angles(dimension)) refuse(reader, angle.name, on_path, drop);
     body.position = body.path.front().position;
-    body.pitch_deg = body.path.front().pitch_deg;
+    body.attitude = body.path.front().attitude;
   } else {
-    reader.point("position", body.position, coordinate);
-    reader.number("pitch_deg", body.pitch_deg, within(-360, 360, "deg", "Use degrees, counter-clockwise."));
+    reader.point("position", body.position, place_rule(dimension));
+    for (const auto& angle : angles(dimension))
+      reader.number(angle.name, body.attitude.*angle.value,
+                    within(-360, 360, "deg", dimension == 2 ? "Use degrees, counter-clockwise." : "Use degrees."));
   }
   if (follows_path || body.motion == Motion::fixed) {
     const auto rule = follows_path ? on_path : "a fixed body does not move";
@@ -145,7 +197,9 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
     refuse(reader, "spin_deg", rule, follows_path ? drop : "Remove it, or change the motion.");
   } else {
     reader.point("velocity", body.velocity, any("m/s", "Use metres per second, one number for each axis."));
-    reader.number("spin_deg", body.spin_deg, any("deg/s", "Use degrees per second, counter-clockwise."));
+    reader.rotation("spin_deg", body.spin_deg,
+                    any("deg/s", dimension == 2 ? "Use degrees per second, counter-clockwise."
+                                                : "Use degrees per second about x, y and z."));
   }
   if (scene.fluid) {
     body.size = scene.fluid->size.surface;

@@ -5,16 +5,17 @@
 namespace splashdown::apps {
 namespace {
 
-const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
-const Rule speed = any("m/s", "Use metres per second, one number for each axis, e.g. [0.0, -1.0].");
-
 struct ReadRegionShape {
   Reader& reader;
+  Rule place = place_rule(reader.context().dimension);
   Rule extent = positive("m", "Use e.g. 0.5.");
 
   void operator()(BoxRegion& box) const {
-    reader.point("min", box.min, coordinate, Need::required);
-    reader.point("max", box.max, coordinate, Need::required);
+    reader.point("min", box.min, place, Need::required);
+    reader.point("max", box.max, place, Need::required);
+    if (reader.context().dimension == 2) wave(box);
+  }
+  void wave(BoxRegion& box) const {
     reader.number("surface_amplitude", box.surface_amplitude,
                   any("m", "Use e.g. 0.01; leave it out for a flat surface."));
     if (box.surface_amplitude == 0 && !reader.holds("surface_wavelength") &&
@@ -25,38 +26,48 @@ struct ReadRegionShape {
                   Need::required);
     reader.number("surface_phase_deg", box.surface_phase_deg, any("deg", "Use degrees, e.g. 90."));
   }
-  void operator()(CircleRegion& circle) const {
-    reader.point("centre", circle.centre, coordinate, Need::required);
-    reader.number("radius", circle.radius, extent, Need::required);
-  }
+  void operator()(CircleRegion& circle) const { round(circle); }
+  void operator()(SphereRegion& sphere) const { round(sphere); }
   void operator()(EllipseRegion& ellipse) const {
-    reader.point("centre", ellipse.centre, coordinate, Need::required);
+    reader.point("centre", ellipse.centre, place, Need::required);
     reader.point("semi_axes", ellipse.semi_axes, positive("m", "Use e.g. [1.0, 0.5]."), Need::required);
   }
-  void operator()(PolygonRegion& polygon) const { reader.points("points", polygon.points, coordinate); }
+  void operator()(PolygonRegion& polygon) const { reader.points("points", polygon.points, place); }
+
+ private:
+  template <class Round>
+  void round(Round& region) const {
+    reader.point("centre", region.centre, place, Need::required);
+    reader.number("radius", region.radius, extent, Need::required);
+  }
 };
 
 struct Centre {
   Point operator()(const BoxRegion& box) const { return 0.5 * (box.min + box.max); }
-  Point operator()(const CircleRegion& circle) const { return circle.centre; }
-  Point operator()(const EllipseRegion& ellipse) const { return ellipse.centre; }
   Point operator()(const PolygonRegion&) const { return Point::Zero(); }
+  template <class Round>
+  Point operator()(const Round& region) const {
+    return region.centre;
+  }
 };
 
 void read_region(Reader& reader, Region& region) {
+  const int dimension = reader.context().dimension;
   std::string shape = "box";
-  if (!reader.choice("shape", shape, {"box", "circle", "ellipse", "polygon"}, Need::required))
-    return reader.skip_all();
+  const Reader::Names planar{"box", "circle", "ellipse", "polygon"}, spatial{"box", "sphere"};
+  if (!reader.choice("shape", shape, dimension == 2 ? planar : spatial, Need::required)) return reader.skip_all();
   if (shape == "circle") region.shape = CircleRegion{};
   if (shape == "ellipse") region.shape = EllipseRegion{};
   if (shape == "polygon") region.shape = PolygonRegion{};
+  if (shape == "sphere") region.shape = SphereRegion{};
   std::visit(ReadRegionShape{reader}, region.shape);
-  reader.point("velocity", region.velocity, speed);
+  reader.point("velocity", region.velocity,
+               any("m/s", "Use metres per second, one number for each axis, e.g. " + axis_example(dimension, -1) + "."));
   if (!reader.holds("velocity_gradient")) return reader.skip("velocity_gradient");
   reader.matrix("velocity_gradient", region.velocity_gradient,
                 any("1/s", "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0], [0.0, 1.0]]."));
   region.velocity_origin = std::visit(Centre{}, region.shape);
-  reader.point("velocity_origin", region.velocity_origin, coordinate);
+  reader.point("velocity_origin", region.velocity_origin, place_rule(dimension));
 }
 
 void read_sizes(Reader& reader, Sizes& size) {

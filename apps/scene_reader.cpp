@@ -297,6 +297,26 @@ void Reader::points(std::string_view name, std::vector<Point>& target, const Rul
   }
 }
 
+void Reader::rotation(std::string_view name, Point& target, const Rule& rule) {
+  if (context_->dimension == 2) return number(name, target.z(), rule);
+  point(name, target, rule);
+}
+
+void Reader::inertia(std::string_view name, std::optional<Eigen::Matrix3d>& target, const Rule& rule) {
+  if (!holds(name)) return skip(name);
+  target = Eigen::Matrix3d::Zero();
+  if (context_->dimension == 2) return number(name, (*target)(2, 2), rule);
+  const auto* list = table_->get(name)->as_array();
+  if (list && !list->empty() && list->front().is_array()) {
+    Rule entry = rule;  // beside the diagonal any sign is good
+    entry.low = -std::numeric_limits<double>::infinity();
+    return matrix(name, *target, entry);
+  }
+  Point diagonal = target->diagonal();
+  point(name, diagonal, rule);
+  target->diagonal() = diagonal;
+}
+
 void Reader::matrix(std::string_view name, Eigen::Matrix3d& target, const Rule& rule) {
   const auto d = static_cast<std::size_t>(context_->dimension);
   std::vector<std::vector<double>> list;

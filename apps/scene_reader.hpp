@@ -67,6 +67,10 @@ class Reader {
   void point(std::string_view name, Point& target, const Rule& rule, Need need = Need::optional);
   void point(std::string_view name, std::optional<Point>& target, const Rule& rule);
   void points(std::string_view name, std::vector<Point>& target, const Rule& rule);
+  /// About an axis: a number in two dimensions (the last entry), as many as axes in three.
+  void rotation(std::string_view name, Point& target, const Rule& rule);
+  /// Moments of inertia: a number in two dimensions (the last entry), in three the diagonal or a full matrix.
+  void inertia(std::string_view name, std::optional<Eigen::Matrix3d>& target, const Rule& rule);
   void matrix(std::string_view name, Eigen::Matrix3d& target, const Rule& rule);
   /// A list of lists, each with `columns` numbers.
   void rows(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns,

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
+
+#include "apps/scene_echo.hpp"
 
 namespace splashdown::apps {
 
@@ -26,6 +29,16 @@ Rule not_negative(std::string unit, std::string cure) {
 
 Rule share(std::string cure) {
   return {.unit = "", .cure = std::move(cure), .low = 0, .high = 1, .low_open = true};
+}
+
+std::string axis_example(int dimension, double value) {
+  std::vector<double> vector(static_cast<std::size_t>(dimension));
+  vector.back() = value;
+  return toml_list(vector);
+}
+
+Rule place_rule(int dimension) {
+  return any("m", "Use metres, one number for each axis, e.g. " + axis_example(dimension, 1) + ".");
 }
 
 Rule within(double low, double high, std::string unit, std::string cure) {

@@ -25,6 +25,13 @@ Rule positive(std::string unit, std::string cure);
 Rule not_negative(std::string unit, std::string cure);
 /// (0, 1]
 Rule share(std::string cure);
+/// A vector along the last axis, as TOML writes it: "[0.0, -9.81]".
+std::string axis_example(int dimension, double value);
+inline const char* mass_unit(int dimension) { return dimension == 2 ? "kg/m" : "kg"; }
+inline const char* inertia_unit(int dimension) { return dimension == 2 ? "kg m" : "kg m^2"; }
+/// A point or a displacement.
+Rule place_rule(int dimension);
+
 Rule within(double low, double high, std::string unit, std::string cure);
 
 }  // namespace splashdown::apps

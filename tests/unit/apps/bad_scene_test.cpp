@@ -240,7 +240,6 @@ const std::vector<Mistake> scenes = {
     {"added_mass_twice", "[[record]]",
      "[[record]]\nkind = \"added_mass\"\nbody = \"wedge\"\n[[record]]\nkind = \"added_mass\"\nbody = \"wedge\"\n[[record]]", 33,
      "record[1].body = \"wedge\"", "has an added_mass record already"},
-    {"three_dimensions", "title", "dimension = 3\ntitle", 1, "dimension = 3", "not available yet"},
     {"four_dimensions", "title", "dimension = 4\ntitle", 1, "dimension = 4", "must lie in [2, 3]"},
     {"dimension_as_text", "title", "dimension = \"2\"\ntitle", 1, "dimension = \"2\"",
      "must be a whole number, not a string"},

@@ -29,8 +29,8 @@ TEST(BodySpec, has_its_origin_at_the_centre_of_mass) {
   Body body = capsule();
   body.centre_of_mass = Point(0.1, 0, 0);
   body.position = {2, 3, 0};
-  body.pitch_deg = 90;
-  const auto spec = body_spec(body);
+  body.attitude.pitch_deg = 90;
+  const auto spec = body_spec<2>(body);
   EXPECT_NEAR((spec.pose.translation() - rigid::Vec<2>(2, 3.1)).norm(), 0, eps);
   // The shape stays where it was put: its reference point is at the position.
   EXPECT_NEAR((spec.pose * rigid::Vec<2>(-0.1, 0) - rigid::Vec<2>(2, 3)).norm(), 0, eps);
@@ -40,23 +40,23 @@ TEST(BodySpec, has_its_origin_at_the_centre_of_mass) {
 TEST(BodySpec, has_the_freedoms_that_are_named) {
   Body body = capsule();
   body.free = {"y", "rotation"};
-  EXPECT_EQ(body_spec(body).free, (std::array<bool, 3>{false, true, true}));
+  EXPECT_EQ(body_spec<2>(body).free, (std::array<bool, 3>{false, true, true}));
 }
 
 TEST(BodySpec, prescribed_motion_is_steady_or_along_its_path) {
   Body body = capsule();
   body.motion = Motion::prescribed;
   body.velocity = {1, -2, 0};
-  body.spin_deg = 90;
-  const auto steady = body_spec(body);
+  body.spin_deg = {0, 0, 90};
+  const auto steady = body_spec<2>(body);
   const auto pose = steady.path(2);
   EXPECT_NEAR((pose.translation() - rigid::Vec<2>(2, -4)).norm(), 0, eps);
   EXPECT_NEAR(pose.linear()(0, 0), -1, eps);  // half a turn
 
-  body.path = {{0, {0, 1, 0}, 0}, {2, {4, 1, 0}, 90}, {3, {4, 1, 0}, 90}};
+  body.path = {{0, {0, 1, 0}, {}}, {2, {4, 1, 0}, {.pitch_deg = 90}}, {3, {4, 1, 0}, {.pitch_deg = 90}}};
   body.position = {0, 1, 0};
   body.centre_of_mass = Point(0, 0.1, 0);
-  const auto along = body_spec(body);
+  const auto along = body_spec<2>(body);
   EXPECT_NEAR((along.path(0).translation() - rigid::Vec<2>(0, 1.1)).norm(), 0, eps);
   EXPECT_NEAR((along.path(2).translation() - rigid::Vec<2>(3.9, 1)).norm(), 0, eps);
   EXPECT_TRUE(along.path(7).isApprox(along.path(3)));
@@ -69,7 +69,7 @@ TEST(BodySpec, prescribed_motion_is_steady_or_along_its_path) {
 
 TEST(FluidSpec, has_a_wall_for_each_body_and_then_the_tank) {
   const auto scene = scene_of(testing::wedge_drop);
-  const auto spec = fluid_spec(scene);
+  const auto spec = fluid_spec<2>(scene);
   ASSERT_EQ(spec.walls.size(), 2u);
   EXPECT_EQ(spec.walls[0].name, "wedge");
   EXPECT_EQ(spec.walls[0].size, 0.005);
@@ -82,7 +82,7 @@ TEST(FluidSpec, has_a_wall_for_each_body_and_then_the_tank) {
 }
 
 TEST(FluidSpec, walls_enclose_the_solid) {
-  const auto spec = fluid_spec(scene_of(testing::wedge_drop));
+  const auto spec = fluid_spec<2>(scene_of(testing::wedge_drop));
   const auto area = [](const fluid::Surface<2>& s) {
     double sum = 0;
     for (Eigen::Index i = 0; i < s.facets.cols(); ++i) {
@@ -96,7 +96,7 @@ TEST(FluidSpec, walls_enclose_the_solid) {
 }
 
 TEST(FluidSpec, gives_regions_their_velocity_field) {
-  const auto spec = fluid_spec(scene_of(testing::wedge_drop_with(
+  const auto spec = fluid_spec<2>(scene_of(testing::wedge_drop_with(
       "max = [2, 0]",
       "max = [2, 0]\nvelocity = [1, 2]\nvelocity_gradient = [[3, 4], [5, -3]]\nvelocity_origin = [1, 1]")));
   const auto v = spec.liquids[0].velocity(fluid::Vec<2>(2, 3));
@@ -105,17 +105,17 @@ TEST(FluidSpec, gives_regions_their_velocity_field) {
 
 TEST(Effects, that_a_scene_does_not_name_are_absent) {
   const auto scene = scene_of(testing::wedge_drop_with("[gravity]\nacceleration = [0, -9.81]\n", ""));
-  EXPECT_TRUE(fluid_terms(scene).empty());
-  EXPECT_TRUE(body_forces(scene).empty());
+  EXPECT_TRUE(fluid_terms<2>(scene).empty());
+  EXPECT_TRUE(body_forces<2>(scene).empty());
 }
 
 TEST(Effects, that_a_scene_names_are_there_once) {
   const auto scene = scene_of(testing::wedge_drop);
-  const auto terms = fluid_terms(scene);
+  const auto terms = fluid_terms<2>(scene);
   ASSERT_EQ(terms.size(), 1u);
   EXPECT_EQ(terms[0]->name(), "gravity");
   EXPECT_EQ(terms[0]->potential({0, 2}), 2 * 9.81);
-  ASSERT_EQ(body_forces(scene).size(), 1u);
+  ASSERT_EQ(body_forces<2>(scene).size(), 1u);
 }
 
 TEST(RecorderSettings, points_move_from_the_shapes_frame_to_the_bodys) {
@@ -125,11 +125,11 @@ TEST(RecorderSettings, points_move_from_the_shapes_frame_to_the_bodys) {
   scene.records.push_back(PressureEntry{"fixed", {1, -0.5, 0}, {}});
   scene.records.push_back(ElevationEntry{"gauge", 0.7});
   scene.records.push_back(AddedMassEntry{0, 0.5, {}});
-  const auto settings = recorder_settings(scene, "folder");
+  const auto settings = recorder_settings<2>(scene, "folder");
   ASSERT_EQ(settings.added_mass.size(), 1u);
   EXPECT_EQ(settings.added_mass[0].body, "wedge");
   EXPECT_EQ(settings.added_mass[0].every, 0.5);
-  EXPECT_TRUE(recorder_settings(scene_of(testing::wedge_drop), "folder").added_mass.empty());
+  EXPECT_TRUE(recorder_settings<2>(scene_of(testing::wedge_drop), "folder").added_mass.empty());
   ASSERT_EQ(settings.pressure_probes.size(), 2u);
   EXPECT_EQ(settings.pressure_probes[0].body, "wedge");
   EXPECT_NEAR((settings.pressure_probes[0].point - fluid::Vec<2>(0, -0.1)).norm(), 0, eps);
@@ -141,16 +141,16 @@ TEST(RecorderSettings, points_move_from_the_shapes_frame_to_the_bodys) {
 }
 
 TEST(World, has_the_parts_its_scene_has) {
-  const auto both = build_world(scene_of(testing::wedge_drop));
+  const auto both = build_world<2>(scene_of(testing::wedge_drop));
   EXPECT_TRUE(both.fluid);
   EXPECT_TRUE(both.bodies);
   const auto flight =
-      build_world(scene_of("[time]\nend = 1\n[[body]]\nname = \"a\"\nmass = 1\nshape = {type = \"box\", "
+      build_world<2>(scene_of("[time]\nend = 1\n[[body]]\nname = \"a\"\nmass = 1\nshape = {type = \"box\", "
                            "width = 1, height = 1}\n"));
   EXPECT_FALSE(flight.fluid);
   EXPECT_EQ(flight.bodies->size(), 1u);
   const auto drop =
-      build_world(scene_of("[time]\nend = 1\n[fluid]\ndensity = 1000\nsize = {surface = "
+      build_world<2>(scene_of("[time]\nend = 1\n[fluid]\ndensity = 1000\nsize = {surface = "
                            "0.2}\n[[fluid.region]]\nshape = \"circle\"\ncentre = [0, "
                            "0]\nradius = 1\n"));
   EXPECT_TRUE(drop.fluid);
@@ -159,19 +159,19 @@ TEST(World, has_the_parts_its_scene_has) {
 
 TEST(Approach, a_dry_hull_moves_by_a_share_of_its_elements_or_half_the_gap) {
   // Keel 0.01 m above the water, h = 0.005 m, cfl = 0.5: half the gap is more.
-  const auto near = build_world(scene_of(testing::wedge_drop));
+  const auto near = build_world<2>(scene_of(testing::wedge_drop));
   EXPECT_NEAR(approach_dt(*near.fluid, *near.bodies), 0.005 / 6.15, 1e-12);
   const auto touching =
-      build_world(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, 0]")));
+      build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, 0]")));
   EXPECT_NEAR(approach_dt(*touching.fluid, *touching.bodies), 0.5 * 0.005 / 6.15, 1e-12);
   const auto wet =
-      build_world(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, -0.05]")));
+      build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, -0.05]")));
   EXPECT_EQ(approach_dt(*wet.fluid, *wet.bodies), std::numeric_limits<double>::infinity());
 }
 
 /// A step made by hand, with what a recorder is told of the body.
 TEST(World, a_body_in_flight_falls_freely) {
-  auto world = build_world(scene_of(R"([time]
+  auto world = build_world<2>(scene_of(R"([time]
 end = 1
 [gravity]
 [[body]]

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "apps/scene_geometry.hpp"
+#include "apps/solid.hpp"
 #include "apps/scene_read.hpp"
 #include "scenes.hpp"
 
@@ -96,7 +96,7 @@ TEST(GoodScene, reads_a_prescribed_path) {
   const auto& body = scene.bodies[0];
   EXPECT_EQ(body.motion, Motion::prescribed);
   ASSERT_EQ(body.path.size(), 2u);
-  EXPECT_EQ(body.path[1].pitch_deg, 4);
+  EXPECT_EQ(body.path[1].attitude.pitch_deg, 4);
   EXPECT_EQ(body.position, Point(0.1, 0.2, 0));
 }
 
@@ -240,44 +240,47 @@ TEST(SceneGeometry, a_body_turns_about_its_reference_point) {
   Body body;
   body.shape = WedgeShape{.deadrise_deg = 45, .breadth = 2, .height = {}};
   body.position = {3, 1, 0};
-  body.pitch_deg = 90;
-  const auto hull = outline(body);
+  body.attitude.pitch_deg = 90;
+  const auto hull = outline<2>(body);
   EXPECT_NEAR((hull.vertices.col(0) - rigid::Vec<2>(3, 1)).norm(), 0, 1e-15);
   // Its chines (+-1, 1) turn to (-1, +-1).
-  EXPECT_NEAR(extents(hull).min().x(), 2, 1e-15);
-  EXPECT_NEAR(extents(hull).max().x(), 3, 1e-15);
+  EXPECT_NEAR(extents<2>(hull).min().x(), 2, 1e-15);
+  EXPECT_NEAR(extents<2>(hull).max().x(), 3, 1e-15);
 }
 
 TEST(SceneGeometry, mass_follows_from_density_and_overrides_win) {
   Body body;
-  body.shape = BoxShape{.width = 2, .height = 0.5};
+  body.shape = RectangleShape{.width = 2, .height = 0.5};
   body.density = 300;
-  EXPECT_NEAR(mass_properties(body).mass, 300, 1e-10);
-  body.inertia = 7;
+  EXPECT_NEAR(mass_properties<2>(body).mass, 300, 1e-10);
+  body.inertia = Eigen::Vector3d(0, 0, 7).asDiagonal();
   body.centre_of_mass = Point(0.1, 0, 0);
-  EXPECT_EQ(mass_properties(body).inertia(0, 0), 7);
-  EXPECT_EQ(mass_properties(body).centre.x(), 0.1);
+  EXPECT_EQ(mass_properties<2>(body).inertia(0, 0), 7);
+  EXPECT_EQ(mass_properties<2>(body).centre.x(), 0.1);
 }
 
 TEST(SceneGeometry, touching_is_not_overlapping) {
   Body a, b;
-  a.shape = b.shape = BoxShape{.width = 1, .height = 1};
+  const auto share_space = [](const Body& p, const Body& q) {
+    return overlap(Solid<2>(outline<2>(p)), Solid<2>(outline<2>(q)));
+  };
+  a.shape = b.shape = RectangleShape{.width = 1, .height = 1};
   b.position = {1, 0, 0};
-  EXPECT_FALSE(overlap(outline(a), outline(b)));
+  EXPECT_FALSE(share_space(a, b));
   b.position = {0.999, 0, 0};
-  EXPECT_TRUE(overlap(outline(a), outline(b)));
+  EXPECT_TRUE(share_space(a, b));
   b.position = a.position;
-  EXPECT_TRUE(overlap(outline(a), outline(b)));
+  EXPECT_TRUE(share_space(a, b));
   b.shape = CircleShape{.radius = 0.1};  // one within the other
-  EXPECT_TRUE(overlap(outline(a), outline(b)));
-  EXPECT_TRUE(overlap(outline(b), outline(a)));
+  EXPECT_TRUE(share_space(a, b));
+  EXPECT_TRUE(share_space(b, a));
 }
 
 TEST(SceneGeometry, a_wavy_region_has_the_stated_elevation) {
   Region region;
   region.shape =
       BoxRegion{.min = {0, -1, 0}, .max = {2, 0, 0}, .surface_amplitude = 0.1, .surface_wavelength = 4};
-  const auto surface = outline(region);
+  const auto surface = outline<2>(region);
   double highest = -1, area = 0;
   for (int i = 0; i < surface.facets.cols(); ++i) {
     const auto a = surface.vertices.col(surface.facets(0, i)), b = surface.vertices.col(surface.facets(1, i));

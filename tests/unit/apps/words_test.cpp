@@ -45,16 +45,16 @@ TEST(Words, a_run_is_named_after_its_folder_or_its_file) {
 }
 
 TEST(Scales, follow_the_fastest_thing_in_the_scene) {
-  const auto falling = scales(scene_of(testing::wedge_drop));
+  const auto falling = scales<2>(scene_of(testing::wedge_drop));
   EXPECT_DOUBLE_EQ(falling.length, 0.5);
   EXPECT_DOUBLE_EQ(falling.speed, std::sqrt(6.15 * 6.15 + 2 * 9.81 * 0.01));
-  const auto resting = scales(scene_of(
+  const auto resting = scales<2>(scene_of(
       testing::wedge_drop_with("position = [0, 0.01]\nvelocity = [0, -6.15]", "position = [0, -0.01]")));
   EXPECT_DOUBLE_EQ(resting.speed, std::sqrt(9.81 * 0.5));
 }
 
 TEST(Scales, every_effect_is_on_or_off_with_a_number) {
-  const auto notes = effect_notes(scene_of(testing::wedge_drop));
+  const auto notes = effect_notes<2>(scene_of(testing::wedge_drop));
   ASSERT_EQ(notes.size(), 3u);
   EXPECT_TRUE(notes[0].active);
   EXPECT_NE(notes[0].reason.find("Fr = U/sqrt(g L) = 2.78"), std::string::npos) << notes[0].reason;
@@ -71,13 +71,13 @@ TEST(Cost, counts_the_nodes_of_a_uniform_box) {
     return s;
   }();
   // 4 m x 1 m of equilateral triangles of side 0.01 m
-  EXPECT_NEAR(predicted_cost(coarse_body).nodes, 4 * 2 / (std::sqrt(3.) * 1e-4), 1);
+  EXPECT_NEAR(predicted_cost<2>(coarse_body).nodes, 4 * 2 / (std::sqrt(3.) * 1e-4), 1);
 }
 
 TEST(Cost, finer_elements_at_the_body_cost_nodes) {
-  const double coarse = predicted_cost(scene_of(testing::wedge_drop)).nodes;
+  const double coarse = predicted_cost<2>(scene_of(testing::wedge_drop)).nodes;
   const double fine =
-      predicted_cost(scene_of(testing::wedge_drop_with("size = 0.005", "size = 0.001"))).nodes;
+      predicted_cost<2>(scene_of(testing::wedge_drop_with("size = 0.005", "size = 0.001"))).nodes;
   EXPECT_GT(fine, coarse);
   EXPECT_GT(coarse, 400);    // the surface alone: 4 m of elements of 0.01 m
   EXPECT_LT(coarse, 46000);  // all of it at 0.01 m
