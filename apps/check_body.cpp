@@ -146,6 +146,22 @@ void print_inertia(const rigid::BodySpec<3>& spec) {
                                        text<3>(axes.col(1), 3), text<3>(axes.col(2), 3)));
 }
 
+/// Where a hull from a file comes from, with a word if its unit looks wrong.
+void print_file(const Shape& shape, const Extents<3>& box) {
+  const auto* file = std::get_if<SurfaceShape>(&shape);
+  if (!file || !file->read) return;
+  const double extent = box.sizes().maxCoeff(), scale = file->scale;
+  const double ship = 400, insect = 1e-3;  // [m] larger and smaller things than these do not land on water
+  std::string unit = fmt::format("1 unit = {:g} m", scale);
+  if (extent > ship)
+    unit += fmt::format("; is it in millimetres? scale = {:g} makes it {:.3g} m long", scale * 1e-3, extent * 1e-3);
+  if (extent < insect)
+    unit += fmt::format("; is it in metres already? scale = {:g} makes it {:.3g} m long", scale * 1e3, extent * 1e3);
+  row("surface", fmt::format("{} facets{} from {}, {}", file->read->surface.facets.cols(),
+                             file->parts > 1 ? fmt::format(" in {} parts", file->parts) : "", file->file, unit));
+}
+void print_file(const Shape&, const Extents<2>&) {}
+
 template <int d>
 std::string sizes_text(const Extents<d>& box) {
   std::string list;
@@ -164,6 +180,7 @@ void print_body(const Scene& scene, const Body& body) {
   row("motion", motion_text<d>(body));
   row("extent", fmt::format("{}, {} {:.6g} {}", sizes_text<d>(extents<d>(hull)), Units<d>::volume_name, volume,
                             Units<d>::volume));
+  print_file(body.shape, extents<d>(hull));
   if (body.mass || body.density) {
     row("mass", fmt::format("{:.6g} {} (mean density {:.5g} kg/m^3)", spec.mass, Units<d>::mass, spec.mass / volume));
     if (spec.mass > 0) print_inertia(spec);

@@ -7,10 +7,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "rigid/shapes.hpp"
 
 namespace splashdown::apps {
 
@@ -50,9 +53,15 @@ struct ConeShape {
 struct RevolvedShape {
   std::vector<std::array<double, 2>> profile;  ///< (r, z), turned about the z axis; reference point: r = z = 0
 };
+struct SurfaceShape {
+  std::string file;   ///< STL or OBJ, absolute
+  double scale = 1;   ///< metres per unit of the file
+  int parts = 1;      ///< closed surfaces beside each other
+  std::shared_ptr<const rigid::Shape<3>> read;  ///< in metres; null: could not be read
+};                    ///< reference point: the origin of the file's coordinates
 /// The capsule exists in two and in three dimensions, the shapes before it in two and those after it in three.
 using Shape = std::variant<PolygonShape, WedgeShape, RectangleShape, CircleShape, EllipseShape, CapsuleShape, BoxShape,
-                           SphereShape, ConeShape, RevolvedShape>;
+                           SphereShape, ConeShape, RevolvedShape, SurfaceShape>;
 
 // Liquid regions, in the world frame.
 struct BoxRegion {

@@ -95,8 +95,10 @@ Extents<d> extents(const Surface<d>& surface) {
 
 template <int d>
 std::string text(const Vec<d>& x, int digits) {
+  const double round_off = 1e-12;  // of coordinates in metres: shown as the zero that is meant
   std::string list;
-  for (int k = 0; k < d; ++k) list += fmt::format("{}{:.{}g}", k > 0 ? ", " : "", x[k], digits);
+  for (int k = 0; k < d; ++k)
+    list += fmt::format("{}{:.{}g}", k > 0 ? ", " : "", std::abs(x[k]) < round_off ? 0. : x[k], digits);
   return "(" + list + ")";
 }
 

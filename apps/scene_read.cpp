@@ -105,10 +105,10 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   return labels;
 }
 
-SceneFile read_root(const toml::table& table, Problems& problems) {
+SceneFile read_root(const toml::table& table, const std::filesystem::path& folder, Problems& problems) {
   SceneFile file;
   Echo echo;
-  ReadContext context{problems, echo};
+  ReadContext context{.problems = problems, .echo = echo, .folder = folder};
   SceneLabels labels;
   {
     Reader root(context, table, "", "");
@@ -140,7 +140,7 @@ SceneFile read_scene_text(const std::string& text, const std::string& name,
   Problems problems(name);
   auto table = read_toml(text, name);
   for (const auto& argument : overrides) apply_override(table, argument, problems);
-  return read_root(table, problems);
+  return read_root(table, std::filesystem::path(name).parent_path(), problems);
 }
 
 std::string read_text(const std::filesystem::path& path, const std::string& example) {

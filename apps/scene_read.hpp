@@ -24,7 +24,7 @@ toml::table read_toml(const std::string& text, const std::string& name);
 
 /// `overrides`: texts `key.path=value`. Throws SceneError with every problem found.
 SceneFile read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
-/// The same from text; `name` stands for the file in messages.
+/// The same from text; `name` stands for the file in messages, and its folder is where names of files begin.
 SceneFile read_scene_text(const std::string& text, const std::string& name,
                           std::span<const std::string> overrides = {});
 

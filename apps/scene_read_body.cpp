@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "apps/scene_parts.hpp"
+#include "rigid/surface_file.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -54,6 +55,20 @@ struct ReadShape {
                 Need::required);
     for (const auto& row : rows) revolved.profile.push_back({row[0], row[1]});
   }
+  void operator()(SurfaceShape& surface) const {
+    reader.file("file", surface.file, "Name an .stl or .obj file; relative names begin at the folder of the scene.");
+    reader.number("scale", surface.scale, positive("", "Use metres per unit of the file: 0.001 if it is in millimetres."));
+    auto& problems = reader.context().problems;
+    if (problems.found_in(reader.path())) return;
+    try {
+      auto file = rigid::read_surface_file(surface.file);
+      file.surface.vertices *= surface.scale;
+      surface.parts = file.parts;
+      surface.read = std::make_shared<rigid::Shape<3>>(file.surface, rigid::mass_properties<3>(file.surface));
+    } catch (const rigid::SurfaceFileError& error) {
+      problems.add(reader.key("file"), error.what(), error.cure());
+    }
+  }
 };
 
 /// The shapes of each dimension by their names.
@@ -68,7 +83,7 @@ const std::vector<ShapeType>& shape_types() {
       {2, "polygon", PolygonShape{}}, {2, "wedge", WedgeShape{}},     {2, "box", RectangleShape{}},
       {2, "circle", CircleShape{}},   {2, "ellipse", EllipseShape{}}, {2, "capsule", CapsuleShape{}},
       {3, "sphere", SphereShape{}},   {3, "box", BoxShape{}},         {3, "cone", ConeShape{}},
-      {3, "capsule", CapsuleShape{}}, {3, "revolved", RevolvedShape{}}};
+      {3, "capsule", CapsuleShape{}}, {3, "revolved", RevolvedShape{}}, {3, "surface", SurfaceShape{}}};
   return types;
 }
 

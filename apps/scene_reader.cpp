@@ -199,6 +199,16 @@ void Reader::text(std::string_view name, std::string& target, const std::string&
   echo(name, target);
 }
 
+void Reader::file(std::string_view name, std::string& target, const std::string& cure) {
+  if (const auto* node = find(name, Need::required, "the name of a file", cure)) {
+    if (node->is_string())
+      target = std::filesystem::absolute(context_->folder / *node->value<std::string>()).lexically_normal().string();
+    else
+      wrong_type(key(name), "a string", *node, cure);
+  }
+  echo(name, target);
+}
+
 bool Reader::choice(std::string_view name, std::string& target, const Names& valid, Need need) {
   const auto cure = "Use " + listing(valid) + ".";
   const auto* node = find(name, need, "one of " + listing(valid), cure);

@@ -7,6 +7,7 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <set>
@@ -27,6 +28,7 @@ struct ReadContext {
   Problems& problems;
   Echo& echo;
   int dimension = 2;
+  std::filesystem::path folder = {};  ///< of the scene file: what relative file names begin at
 };
 
 Place place_of(const toml::node& node);
@@ -60,6 +62,8 @@ class Reader {
   void number(std::string_view name, std::optional<double>& target, const Rule& rule);
   void integer(std::string_view name, int& target, const Rule& rule);
   void text(std::string_view name, std::string& target, const std::string& cure, Need need = Need::optional);
+  /// The name of a file, made absolute: relative ones begin at the scene's folder.
+  void file(std::string_view name, std::string& target, const std::string& cure);
   /// False if what is given (or missing) is not valid.
   bool choice(std::string_view name, std::string& target, const Names& valid, Need need = Need::optional);
   void choices(std::string_view name, Names& target, const Names& valid);

@@ -1,7 +1,11 @@
 // Scenes in three dimensions: what they are read to, what is refused and how, what a World is built from.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "apps/build.hpp"
@@ -138,7 +142,7 @@ const std::vector<Mistake> mistakes = {
     {"freedom_of_the_plane", "free = [\"x\", \"z\", \"pitch\"]", "free = [\"y\", \"rotation\"]", 24,
      "body.ball.free = [\"y\", \"rotation\"]", "'x', 'y', 'z', 'roll', 'pitch' or 'yaw'"},
     {"shape_of_the_plane", "type = \"sphere\"", "type = \"circle\"", 25, "body.ball.shape.type = \"circle\"",
-     "must be 'sphere', 'box', 'cone', 'capsule' or 'revolved'"},
+     "must be 'sphere', 'box', 'cone', 'capsule', 'revolved' or 'surface'"},
     {"region_of_the_plane", "shape = \"box\"", "shape = \"circle\"", 15, "fluid.region[0].shape = \"circle\"",
      "must be 'box' or 'sphere'"},
     {"box_of_the_plane", "{ type = \"sphere\", radius = 0.3 }", "{ type = \"box\", size = [1, 1] }", 25,
@@ -192,7 +196,7 @@ TEST(Attitude, turns_the_nose_by_heading_then_up_by_pitch_then_rolls) {
   body.attitude = {.roll_deg = 90};
   EXPECT_NEAR((body_spec<3>(body).pose.linear() * Point::UnitY() - Point::UnitZ()).norm(), 0, eps);
   body.attitude = {.heading_deg = 90, .pitch_deg = 90, .roll_deg = 90};
-  const auto turn = body_spec<3>(body).pose.linear();
+  const Eigen::Matrix3d turn = body_spec<3>(body).pose.linear();
   EXPECT_NEAR((turn * Point::UnitX() - Point::UnitZ()).norm(), 0, eps);
   EXPECT_NEAR((turn * Point::UnitY() + Point::UnitY()).norm(), 0, eps) << "rolled up, pitched back to -x, headed to -y";
 }
@@ -269,6 +273,51 @@ TEST(SpatialSolids, touching_is_not_overlapping) {
   b.shape = SphereShape{.radius = 0.04};
   b.position.setZero();
   EXPECT_TRUE(share_space()) << "one within the other";
+}
+
+/// A folder with a hull: a tetrahedron with edges of 0.3 m along the axes, in millimetres.
+class SurfaceSceneTest : public ::testing::Test {
+ protected:
+  SurfaceSceneTest() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "scene-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+    std::ofstream(folder_ / "hull.obj") << "v 0 0 0\nv 300 0 0\nv 0 300 0\nv 0 0 300\n"
+                                        << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    std::ofstream(folder_ / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                        << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 1 4 3\n";
+  }
+  ~SurfaceSceneTest() override { std::filesystem::remove_all(folder_); }
+  SceneFile read(const std::string& shape) const {
+    return read_scene_text(landing_with("{ type = \"sphere\", radius = 0.3 }", shape),
+                           (folder_ / "scene.toml").string());
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(SurfaceSceneTest, a_hull_from_a_file_is_found_beside_the_scene_and_scaled_to_metres) {
+  const auto file = read("{ type = \"surface\", file = \"hull.obj\", scale = 0.001 }");
+  const auto spec = body_spec<3>(file.scene.bodies[0]);
+  EXPECT_NEAR(shape_of<3>(file.scene.bodies[0].shape).at_unit_density.mass, 0.3 * 0.3 * 0.3 / 6, eps);
+  EXPECT_NEAR((spec.pose.translation() - Point(0.075, 0.075, 0.31 + 0.075)).norm(), 0, eps);
+  // The text with all values in force is a scene in whatever folder.
+  EXPECT_EQ(read_scene_text(file.resolved, "elsewhere/scene.resolved.toml").resolved, file.resolved);
+}
+
+TEST_F(SurfaceSceneTest, a_hull_that_is_none_is_told_with_file_line_what_and_cure) {
+  const auto told = [&](const std::string& shape) {
+    try {
+      read(shape);
+    } catch (const SceneError& error) {
+      return ::testing::PrintToString(error.messages());
+    }
+    return std::string("was accepted");
+  };
+  const auto none = told("{ type = \"surface\", file = \"none.stl\" }");
+  EXPECT_NE(none.find("scene.toml:25: body.ball.shape.file = \\\"none.stl\\\": cannot be read: No such file"), std::string::npos) << none;
+  const auto open = told("{ type = \"surface\", file = \"open.obj\" }");
+  EXPECT_NE(open.find("body.ball.shape.file"), std::string::npos) << open;
+  const auto large = told("{ type = \"surface\", file = \"hull.obj\" }");
+  EXPECT_NE(large.find("leaves the tank"), std::string::npos) << large;
 }
 
 TEST(SpatialScales, count_heights_along_z) {

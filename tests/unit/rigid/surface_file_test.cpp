@@ -1,0 +1,226 @@
+// Hulls from files: what is read, and what is refused with what, where and how to repair.
+#include "rigid/surface_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <functional>
+
+#include "rigid/mass_properties.hpp"
+#include "rigid/message.hpp"
+#include "rigid/solids.hpp"
+#include "tests/unit/rigid/scenes.hpp"
+
+namespace splashdown::rigid {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SurfaceFileTest : public ::testing::Test {
+ protected:
+  SurfaceFileTest() {
+    std::string pattern = (fs::temp_directory_path() / "surface-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~SurfaceFileTest() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  std::string told(const fs::path& path) const {
+    try {
+      read_surface_file(path);
+    } catch (const SurfaceFileError& error) {
+      EXPECT_FALSE(error.cure().empty());
+      EXPECT_EQ(error.cure().back(), '.');
+      return error.what();
+    }
+    return "was accepted";
+  }
+  std::string told(const std::string& stl) const { return told(write("hull.stl", stl)); }
+
+  fs::path folder_;
+};
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Surface<3> cube(const Vec<3>& at = Vec<3>::Zero(), double size = 2) {
+  auto surface = box(Vec<3>::Constant(size)).surface;
+  surface.vertices.colwise() += at;
+  return surface;
+}
+
+Surface<3> without(Surface<3> surface, std::initializer_list<int> facets) {
+  Eigen::Matrix<int, 3, Eigen::Dynamic> left(3, surface.facets.cols());
+  int kept = 0;
+  for (int f = 0; f < surface.facets.cols(); ++f)
+    if (std::find(facets.begin(), facets.end(), f) == facets.end()) left.col(kept++) = surface.facets.col(f);
+  surface.facets = left.leftCols(kept);
+  return surface;
+}
+
+Surface<3> turned(Surface<3> surface, int first, int count) {
+  for (int f = first; f < first + count; ++f) std::swap(surface.facets(1, f), surface.facets(2, f));
+  return surface;
+}
+
+Surface<3> both(const Surface<3>& a, const Surface<3>& b) {
+  Surface<3> sum;
+  sum.vertices.resize(3, a.vertices.cols() + b.vertices.cols());
+  sum.vertices << a.vertices, b.vertices;
+  sum.facets.resize(3, a.facets.cols() + b.facets.cols());
+  sum.facets << a.facets, (b.facets.array() + static_cast<int>(a.vertices.cols())).matrix();
+  return sum;
+}
+
+/// `shake`: every corner is written by itself, off by so much.
+std::string ascii(const Surface<3>& s, double shake = 0) {
+  std::string text = "solid hull\n";
+  int sign = 1;
+  for (int f = 0; f < s.facets.cols(); ++f) {
+    text += "  facet normal 0 0 0\n    outer loop\n";
+    for (int k = 0; k < 3; ++k) {
+      const Vec<3> x = s.vertices.col(s.facets(k, f)) + Vec<3>::Constant((sign = -sign) * shake);
+      std::ostringstream line;
+      line.precision(17);
+      line << "      vertex " << x.x() << " " << x.y() << " " << x.z() << "\n";
+      text += line.str();
+    }
+    text += "    endloop\n  endfacet\n";
+  }
+  return text + "endsolid hull\n";
+}
+
+std::string binary(const Surface<3>& s, const std::string& header = "made by a test") {
+  std::string text = header;
+  text.resize(80);
+  const auto count = static_cast<std::uint32_t>(s.facets.cols());
+  text.append(reinterpret_cast<const char*>(&count), 4);
+  for (int f = 0; f < s.facets.cols(); ++f) {
+    text.append(12, '\0');
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3f x = s.vertices.col(s.facets(k, f)).cast<float>();
+      text.append(reinterpret_cast<const char*>(x.data()), 12);
+    }
+    text.append(2, '\0');
+  }
+  return text;
+}
+
+std::string obj(const Surface<3>& s) {
+  std::string text = "# a hull\no hull\n";
+  for (const Vec<3> x : s.vertices.colwise()) text += message("v ", x.x(), " ", x.y(), " ", x.z(), "\n");
+  for (const Eigen::Vector3i f : s.facets.colwise()) text += message("f ", f[0] + 1, "//1 ", f[1] + 1, "//1 ", f[2] + 1, "//1\n");
+  return text;
+}
+
+TEST_F(SurfaceFileTest, the_same_body_comes_from_every_format) {
+  const auto shape = capsule_of_revolution(0.3, 1, 64);
+  const auto exact = mass_properties(shape.surface);
+  struct Given {
+    std::string name, text;
+    double digits;
+  };
+  for (const auto& [name, text, digits] :
+       {Given{"a.stl", ascii(shape.surface), 1e-12}, Given{"b.STL", binary(shape.surface), 1e-6},
+        Given{"solid.stl", binary(shape.surface, "solid but binary"), 1e-6}, Given{"c.obj", obj(shape.surface), 1e-5}}) {
+    const auto file = read_surface_file(write(name, text));
+    EXPECT_EQ(file.parts, 1);
+    EXPECT_EQ(file.surface.vertices.cols(), shape.surface.vertices.cols()) << name << ": points are merged";
+    const auto p = mass_properties(file.surface);
+    EXPECT_NEAR(p.mass, exact.mass, digits) << name;
+    EXPECT_NEAR((p.inertia - exact.inertia).norm(), 0, digits) << name;
+  }
+}
+
+TEST_F(SurfaceFileTest, polygons_become_triangles) {
+  const auto file = read_surface_file(write("box.obj",
+                                            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                                            "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
+  EXPECT_EQ(file.surface.facets.cols(), 12);
+  EXPECT_NEAR(mass_properties(file.surface).mass, 1, 10 * eps);
+}
+
+TEST_F(SurfaceFileTest, points_that_rounding_has_parted_are_one) {
+  const auto file = read_surface_file(write("shaken.stl", ascii(sphere(1, 32).surface, 1e-7)));
+  EXPECT_EQ(file.surface.vertices.cols(), sphere(1, 32).surface.vertices.cols());
+}
+
+TEST_F(SurfaceFileTest, parts_beside_each_other_are_one_body) {
+  const auto file = read_surface_file(write("catamaran.stl", ascii(both(cube(), cube({5, 0, 0})))));
+  EXPECT_EQ(file.parts, 2);
+  EXPECT_NEAR(mass_properties(file.surface).mass, 16, 1e-12);
+}
+
+TEST_F(SurfaceFileTest, an_open_surface_is_told_with_its_holes) {
+  EXPECT_EQ(told(ascii(without(cube(), {2, 3}))), "is not closed: 1 hole, around (0, 0, 1) with 4 edges");
+  EXPECT_TRUE(says(told(ascii(without(cube(), {0, 1, 2}))), "2 holes, around (0, 0, -1) with 4 edges, around ("));
+}
+
+TEST_F(SurfaceFileTest, an_inverted_surface_is_refused_whole_or_in_part) {
+  EXPECT_EQ(told(ascii(turned(cube(), 0, 12))), "is inside out: all its normals point inward");
+  EXPECT_TRUE(says(told(ascii(turned(cube(), 5, 1))), "facets turned against their neighbours, 1 of 12, at ("));
+  EXPECT_TRUE(says(told(ascii(turned(both(cube(), cube({5, 0, 0})), 12, 12))), "a part that is inside out, at ("));
+  EXPECT_TRUE(says(told(ascii(both(cube(), cube({0, 0, 0}, 1)))), "a part inside another one"));
+}
+
+TEST_F(SurfaceFileTest, a_surface_that_crosses_itself_is_told_where) {
+  const auto text = told(ascii(both(cube(), cube({1.5, 0.3, 0.2}))));
+  EXPECT_TRUE(says(text, "crosses itself: ")) << text;
+  EXPECT_TRUE(says(text, "the first at (")) << text;
+}
+
+TEST_F(SurfaceFileTest, parts_that_share_an_edge_or_a_point_are_no_solid) {
+  EXPECT_TRUE(says(told(ascii(both(cube(), cube({2, 2, 0})))), "4 facets meet at the edge from (1, 1, -1) to (1, 1, 1)"));
+  EXPECT_TRUE(says(told(ascii(both(cube(), cube({2, 2, 2})))), "touch in the point (1, 1, 1)"));
+}
+
+TEST_F(SurfaceFileTest, a_facet_without_area_is_told_with_its_number) {
+  auto surface = cube();
+  surface.facets.col(3) << 4, 4, 6;
+  EXPECT_EQ(told(ascii(surface)).rfind("has a facet without area: number 4 at (", 0), 0u) << told(ascii(surface));
+}
+
+TEST_F(SurfaceFileTest, what_is_no_mesh_is_told_with_the_line) {
+  EXPECT_TRUE(says(told(std::string("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n")),
+                   "line 4, 'vertex 0 0 zero', is no line of STL"));
+  EXPECT_TRUE(says(told(std::string("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0,5 0,1 0\n")), "line 4"));
+  EXPECT_TRUE(says(told(std::string("solid a\nvertex 0 0 nan\n")), "line 2"));
+  EXPECT_TRUE(says(told(std::string("Dear reader,\nthis is a letter.\n")), "line 1, 'Dear reader,'"));
+  EXPECT_TRUE(says(told(write("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n")), "line 3, 'f 1 2', is no line of OBJ"));
+  EXPECT_TRUE(says(told(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 1 2 9\nf 1 2 9\nf 1 2 9\n")), "is not a whole mesh"));
+  EXPECT_TRUE(says(told(std::string(100000, 'x')), "line 1"));
+  EXPECT_TRUE(says(told(std::string()), "has 0 facets"));
+  EXPECT_TRUE(says(told(std::string("solid a\nendsolid a\n")), "has 0 facets"));
+}
+
+TEST_F(SurfaceFileTest, a_file_that_was_cut_off_is_told_with_its_length) {
+  const auto whole = binary(cube());
+  EXPECT_TRUE(says(told(whole.substr(0, 500)), "as a binary STL of 12 facets it would have 684 bytes, not 500"));
+}
+
+TEST_F(SurfaceFileTest, a_file_that_is_none_is_told_with_the_cause) {
+  EXPECT_TRUE(says(told(folder_ / "none.stl"), "cannot be read: No such file"));
+  EXPECT_TRUE(says(told(write("hull.step", "")), "must be an .stl or .obj file, not '.step'"));
+}
+
+// A file of 500 MB by its length, of nothing on the disk.
+TEST_F(SurfaceFileTest, ten_million_facets_are_refused_before_they_are_read) {
+  const std::uint32_t facets = 10'000'000;
+  std::string head(80, ' ');
+  head.append(reinterpret_cast<const char*>(&facets), 4);
+  const auto path = write("fine.stl", head);
+  fs::resize_file(path, 84 + 50ull * facets);
+  const auto start = std::chrono::steady_clock::now();
+  const auto text = told(path);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+  EXPECT_EQ(text, "has 10000000 facets; 1000000 are the most that are read");
+}
+
+}  // namespace
+}  // namespace splashdown::rigid
