@@ -1,6 +1,7 @@
 #include "apps/closing.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,9 @@ std::string body_rows(const std::string& name, const BodySummary& body, int dime
   auto text = row(name, impact_text(body, dimension));
   if (const auto pulse = pulse_text(body.acceleration); !pulse.empty()) text += row("", pulse);
   if (body.landing.first_contact >= 0) text += row("", landing_text(body));
+  if (const auto& highest = body.highest_pressure)
+    text += row("", fmt::format("highest pressure {}{}, at ({:.3g}) m of its shape", with_unit(highest->peak.value, "Pa"),
+                                at(highest->peak), fmt::join(highest->point, ", ")));
   return text;
 }
 
@@ -135,6 +139,9 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
                                                     : clock_text(summary.wall_seconds));
   for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
   for (const auto& [name, point] : summary.equipment) text += row(name, equipment_text(point));
+  for (const auto& [name, patch] : summary.patches)
+    text += row(name, fmt::format("peak pressure {}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
+                                  at(patch.pressure), patch.area, summary.dimension == 2 ? "m" : "m^2"));
   if (summary.nodes && summary.ledger)
     text += row("liquid", fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final,
                                       summary.nodes->max, 100 * summary.ledger->volume_error));

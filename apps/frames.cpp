@@ -101,21 +101,6 @@ void write_fluid(const Frame<d>& frame, const std::filesystem::path& path) {
   write(*grid, frame.time, path);
 }
 
-template <int d>
-void write_outline(const Outline<d>& outline, double time, const std::filesystem::path& path) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  const auto& [vertices, facets] = outline.surface;
-  set_points<d>(
-      *grid, [&](vtkIdType i) { return vertices.col(i); }, vertices.cols());
-  grid->AllocateExact(facets.cols(), d);
-  for (Eigen::Index f = 0; f < facets.cols(); ++f) {
-    vtkIdType ids[d];
-    for (int k = 0; k < d; ++k) ids[k] = facets(k, f);
-    grid->InsertNextCell(facet_type<d>, d, ids);
-  }
-  write(*grid, time, path);
-}
-
 std::string xml_escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -141,6 +126,23 @@ std::string file_name_of(const std::string& name) {
 }
 
 template <int d>
+void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
+                   const PointData& data) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  const auto& [vertices, facets] = surface;
+  set_points<d>(
+      *grid, [&](vtkIdType i) { return vertices.col(i); }, vertices.cols());
+  grid->AllocateExact(facets.cols(), d);
+  for (Eigen::Index f = 0; f < facets.cols(); ++f) {
+    vtkIdType ids[d];
+    for (int k = 0; k < d; ++k) ids[k] = facets(k, f);
+    grid->InsertNextCell(facet_type<d>, d, ids);
+  }
+  for (const auto& [name, values] : data) add_scalar<vtkDoubleArray>(*grid, name.c_str(), values);
+  write(*grid, time, path);
+}
+
+template <int d>
 std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesystem::path& directory,
                                                               const std::string& stem,
                                                               const Frame<d>& frame) {
@@ -152,7 +154,7 @@ std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesys
   }
   for (const auto& outline : frame.outlines) {
     pieces.emplace_back(outline.name, stem + "_" + file_name_of(outline.name) + ".vtu");
-    write_outline(outline, frame.time, directory / pieces.back().second);
+    write_surface<d>(directory / pieces.back().second, frame.time, outline.surface);
   }
   return pieces;
 }
@@ -183,6 +185,8 @@ template std::vector<std::pair<std::string, std::string>> write_pieces<2>(const 
 template std::vector<std::pair<std::string, std::string>> write_pieces<3>(const std::filesystem::path&,
                                                                           const std::string&,
                                                                           const Frame<3>&);
+template void write_surface<2>(const std::filesystem::path&, double, const fluid::Surface<2>&, const PointData&);
+template void write_surface<3>(const std::filesystem::path&, double, const fluid::Surface<3>&, const PointData&);
 template void FrameSeries::add<2>(const Frame<2>&);
 template void FrameSeries::add<3>(const Frame<3>&);
 

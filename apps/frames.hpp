@@ -45,6 +45,11 @@ template <int d>
 std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesystem::path& directory,
                                                               const std::string& stem, const Frame<d>& frame);
 
+using PointData = std::vector<std::pair<std::string, std::vector<double>>>;  ///< name and one value a vertex
+template <int d>
+void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
+                   const PointData& data = {});
+
 /// frames.pvd with frames/000000.vtu, frames/000000_WALL.vtu, ...
 class FrameSeries {
  public:

@@ -11,10 +11,12 @@ add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/filters.cpp
   ${CMAKE_CURRENT_LIST_DIR}/frames.cpp
   ${CMAKE_CURRENT_LIST_DIR}/gnuplot.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/hull_map.cpp
   ${CMAKE_CURRENT_LIST_DIR}/landing_statistics.cpp
   ${CMAKE_CURRENT_LIST_DIR}/plane_picture.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pulse.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/recorder_hulls.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_probes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_rows.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_view.cpp

@@ -11,6 +11,7 @@
 
 #include "apps/csv.hpp"
 #include "apps/frames.hpp"
+#include "apps/recorder_hulls.hpp"
 #include "apps/recorder_probes.hpp"
 #include "apps/recorder_rows.hpp"
 #include "apps/recorder_view.hpp"
@@ -26,13 +27,16 @@ void clear_earlier_run(const std::filesystem::path& directory) {
   for (const char* name : {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv",
                            "frames.pvd", "summary.json", "report.html"})
     std::filesystem::remove(directory / name);
-  for (const char* folder : {"frames", "snapshots"}) {
-    if (!std::filesystem::is_directory(directory / folder)) continue;
+  const auto remove_pictures = [](const std::filesystem::path& folder, const std::string& prefix) {
+    if (!std::filesystem::is_directory(folder)) return;
     std::vector<std::filesystem::path> pictures;
-    for (const auto& entry : std::filesystem::directory_iterator(directory / folder))
-      if (entry.path().extension() == ".vtu") pictures.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".vtu" && entry.path().filename().string().starts_with(prefix))
+        pictures.push_back(entry.path());
     for (const auto& picture : pictures) std::filesystem::remove(picture);
-  }
+  };
+  for (const char* folder : {"frames", "snapshots"}) remove_pictures(directory / folder, "");
+  remove_pictures(directory, "hull_");
 }
 
 template <class Record>
@@ -59,6 +63,7 @@ struct Recorder<d>::State {
   double max_speed_peak = 0;
   std::vector<BodyStatistics<d>> bodies;
   std::vector<PulseStatistics> equipment;
+  HullReadings<d> hulls;
   double peak_force = 0;
   std::vector<std::string> body_names;
   fluid::Ledger ledger;
@@ -68,14 +73,15 @@ struct Recorder<d>::State {
   std::optional<Frame<d>> peak;  ///< state at the largest load, until it is written
   std::map<std::size_t, SurfaceRuler<d>> rulers;
   std::vector<HullExtent> extents;  ///< of the bodies, once known
-  std::vector<double> submergence;  ///< of the bodies at this step
+  std::vector<double> submergence;  ///< of the bodies at this step [m]
 
   explicit State(RecorderSettings<d> s)
       : settings(std::move(s)),
         rows(settings.interval),
         frames_due(settings.frames.value_or(0)),
         frames(settings.directory),
-        equipment(settings.equipment.size()) {
+        equipment(settings.equipment.size()),
+        hulls(settings) {
     for (const auto& record : settings.surface_pressure) surface_due.push_back(schedule_of(record));
     for (const auto& record : settings.added_mass) added_mass_due.push_back(schedule_of(record));
   }
@@ -83,7 +89,7 @@ struct Recorder<d>::State {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
-            max_speed_peak, bodies, equipment, peak_force, body_names, speed, has_fluid,
+            max_speed_peak, bodies, equipment, hulls, peak_force, body_names, speed, has_fluid,
             cereal::binary_data(&ledger, sizeof ledger));
   }
 
@@ -154,6 +160,7 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
     const auto acceleration = equipment_acceleration(input, i);
     equipment[i].add(kick, {acceleration.data(), static_cast<std::size_t>(d)});
   }
+  if (input.fluid) hulls.read(*input.fluid, input.time);
   if (new_peak) peak = take_frame(input);
   previous_dt = input.dt;
 }
@@ -196,6 +203,7 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
     for (const auto& gauge : settings.gauges)
       put(gauge.name, surface_elevation(input.fluid->nodes(), input.fluid->mesh(), gauge.at)
                           .value_or(std::numeric_limits<double>::quiet_NaN()));
+    for (std::size_t i = 0; i < settings.patches.size(); ++i) put(settings.patches[i].name, hulls.pressures()[i]);
   }
   for (std::size_t i = 0; i < equipment.size(); ++i) {
     const auto acceleration = equipment_acceleration(input, i);
@@ -206,17 +214,20 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
 template <int d>
 void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std::size_t record) {
   const auto& name = settings.surface_pressure[record].wall;
-  const int wall = wall_index(*input.fluid, name);
-  if (wall < 0) throw std::invalid_argument("a record names the wall \"" + name + "\", which does not exist");
+  const int wall = wall_called(*input.fluid, name);
   const auto w = static_cast<std::size_t>(wall);
   const auto& spec = input.fluid->spec().walls[w];
+  const auto& pose = input.fluid->wall_poses()[w];
+  const fluid::Isometry<d> to_wall = pose.inverse();
+  const fluid::Vec<d> origin = centre_of_mass(settings, name);
   const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
   auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
-  for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), wall, ruler,
-                                            input.fluid->wall_poses()[w])) {
+  for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), wall, ruler, pose)) {
+    const fluid::Vec<d> on_hull = to_wall * point.x + origin;
     csv << input.time << name;
     for (int k = 0; k < d; ++k) csv << point.x(k);
     csv << point.s << point.p;
+    for (int k = 0; k < d; ++k) csv << on_hull(k);
     csv.end_row();
   }
 }
@@ -267,6 +278,7 @@ void Recorder<d>::snapshot(const std::string& name, const RecordInput<d>& input)
 template <int d>
 void Recorder<d>::finish() {
   s_->write_peak();
+  if (s_->started) s_->hulls.write();
   for (auto& [name, file] : s_->files) file.sync();
 }
 
@@ -287,7 +299,8 @@ void Recorder<d>::summarise(Summary& summary) const {
   for (std::size_t b = 0; b < s.body_names.size(); ++b)
     summary.bodies[s.body_names[b]] = s.bodies[b].summary();
   for (std::size_t i = 0; i < s.equipment.size(); ++i)
-    summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary();
+    summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary(standard_gravity);
+  s.hulls.summarise(summary);
 }
 
 template <int d>

@@ -101,6 +101,25 @@ std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::M
 }
 
 template <int d>
+double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const fluid::Isometry<d>& pose,
+                   const PatchRegion<d>& region) {
+  const fluid::Isometry<d> to_wall = pose.inverse();
+  double force = 0;
+  for (const auto& facet : mesh.boundary) {
+    if (facet.wall != wall) continue;
+    std::array<Vec<d>, d> corners;
+    std::array<double, d> pressure;
+    for (std::size_t k = 0; k < d; ++k) {
+      const std::size_t node = index(facet.nodes[d - 1 - k]);  // turned round: the hull's sense, not the fluid's
+      corners[k] = to_wall * nodes.x[node];
+      pressure[k] = nodes.p[node];
+    }
+    force += integrate<d>(region, corners, pressure).force;
+  }
+  return force;
+}
+
+template <int d>
 SurfaceRuler<d>::SurfaceRuler(const fluid::Surface<d>& surface, const fluid::Isometry<d>& initial)
     : surface_(surface), start_(static_cast<std::size_t>(surface.facets.cols()), 0.0) {
   const auto& [vertices, facets] = surface_;
@@ -174,6 +193,8 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nod
                                                       const Eigen::Matrix<double, d - 1, 1>&);       \
   template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,     \
                                                   const Vec<d>&);                                    \
+  template double patch_force<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, int,                 \
+                                 const fluid::Isometry<d>&, const PatchRegion<d>&);                  \
   template class SurfaceRuler<d>;                                                                    \
   template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                 \
       const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const SurfaceRuler<d>&,                    \

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/patch_region.hpp"
 #include "fluid/mesh.hpp"
 #include "fluid/nodes.hpp"
 
@@ -20,6 +21,11 @@ std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const flui
 template <int d>
 std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
                                     const fluid::Vec<d>& point);
+
+/// Force of the pressure on the region's part of a wall [N/m, N]; `pose` of the wall. Dry parts have no pressure.
+template <int d>
+double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const fluid::Isometry<d>& pose,
+                   const PatchRegion<d>& region);
 
 template <int d>
 struct SurfacePressurePoint {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/patch_region.hpp"
 #include "fluid/types.hpp"
 
 namespace splashdown::apps {
@@ -33,6 +35,24 @@ struct EquipmentPoint {
   fluid::Vec<d> point;  ///< [m] body frame, origin at its centre of mass
 };
 
+/// Mean pressure on a part of a body's hull; its dry parts count with zero.
+template <int d>
+struct PressurePatch {
+  std::string name;
+  std::string body;
+  PatchRegion<d> region;  ///< body frame, origin at the centre of mass
+  double area = 0;        ///< of the hull in it [m, m^2]
+};
+
+/// The highest pressure of the run at points all over a body's hull, written to hull_NAME.vtu.
+template <int d>
+struct HullMapRecord {
+  std::string body;
+  fluid::Surface<d> surface;  ///< body frame
+  fluid::Isometry<d> pose;    ///< at t = 0: says what the keel is
+  double size = 0;            ///< distance of the points [m]
+};
+
 /// Pressure along the wetted part of a wall, written to surface_pressure.csv.
 struct SurfacePressureRecord {
   std::string wall;             ///< name of a body or a tank
@@ -55,8 +75,12 @@ struct RecorderSettings {
   std::vector<PressureProbe<d>> pressure_probes;
   std::vector<ElevationGauge<d>> gauges;
   std::vector<EquipmentPoint<d>> equipment;
+  std::vector<PressurePatch<d>> patches;
+  std::vector<HullMapRecord<d>> hull_maps;
   std::vector<SurfacePressureRecord> surface_pressure;
   std::vector<AddedMassRecord> added_mass;
+  /// Centres of mass of the bodies in the frames of their shapes [m], in which files give points of hulls; without: zero.
+  std::map<std::string, fluid::Vec<d>> centre_of_mass;
   std::optional<double> still_water_level;  ///< [m]; absent: top of the free surface at the start
 };
 

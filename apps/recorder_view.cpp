@@ -70,6 +70,13 @@ int wall_index(const fluid::Fluid<d>& fluid, const std::string& name) {
 }
 
 template <int d>
+int wall_called(const fluid::Fluid<d>& fluid, const std::string& name) {
+  const int wall = wall_index(fluid, name);
+  if (wall < 0) throw std::invalid_argument("a record names the wall \"" + name + "\", which does not exist");
+  return wall;
+}
+
+template <int d>
 std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies.spec(b).name == name) return b;
@@ -135,6 +142,7 @@ double water_level(const fluid::Fluid<d>& fluid) {
 #define SPLASHDOWN_INSTANTIATE(d)                                                  \
   template Frame<d> take_frame<d>(const RecordInput<d>&);                          \
   template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);          \
+  template int wall_called<d>(const fluid::Fluid<d>&, const std::string&);         \
   template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&); \
   template rigid::Vec<d> acceleration_at<d>(const rigid::Vec<d>&, const rigid::Twist<d>&, const rigid::Twist<d>&); \
   template EffectColumns effect_columns<d>(const fluid::Fluid<d>&);                \

@@ -13,6 +13,10 @@ Frame<d> take_frame(const RecordInput<d>& input);
 template <int d>
 int wall_index(const fluid::Fluid<d>& fluid, const std::string& name);
 
+/// The same; throws std::invalid_argument if there is none.
+template <int d>
+int wall_called(const fluid::Fluid<d>& fluid, const std::string& name);
+
 /// Index of a body by name; throws std::invalid_argument if there is none.
 template <int d>
 std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name);

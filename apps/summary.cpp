@@ -82,6 +82,10 @@ Json json_of(const BodySummary& body) {
                {"maximum_submergence", json_of(body.submergence)},
                {"maximum_wetted", json_of(body.wetted)}};
   json.update(json_of(body.landing));
+  if (body.highest_pressure) {
+    json["highest_pressure"] = json_of(body.highest_pressure->peak);
+    json["highest_pressure"]["point"] = json_of(body.highest_pressure->point);
+  }
   return json;
 }
 
@@ -159,6 +163,8 @@ std::string to_json(const Summary& summary) {
   for (const auto& [name, body] : summary.bodies) json["bodies"][name] = json_of(body);
   if (!summary.equipment.empty())
     for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of_acceleration(point);
+  for (const auto& [name, patch] : summary.patches)
+    json["patches"][name] = {{"peak_pressure", json_of(patch.pressure)}, {"area", number(patch.area)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

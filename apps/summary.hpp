@@ -64,6 +64,16 @@ struct LandingSummary {
   std::vector<std::array<double, 2>> dry_intervals;             ///< after first contact; the last may have no end
 };
 
+struct HighestPressure {
+  Peak peak;                  ///< [Pa]
+  std::vector<double> point;  ///< in the frame of the body's shape [m]
+};
+
+struct PatchSummary {
+  Peak pressure;    ///< mean over the patch [Pa]
+  double area = 0;  ///< [m, m^2]
+};
+
 struct BodySummary {
   PulseSummary acceleration;           ///< of the centre of mass; peaks [g]
   PulseSummary force;                  ///< of the fluid's total load [N, N/m]
@@ -72,6 +82,7 @@ struct BodySummary {
   Peak submergence;                    ///< still-water level minus lowest point [m]
   Peak wetted;                         ///< wetted length or area [m, m^2]
   LandingSummary landing;
+  std::optional<HighestPressure> highest_pressure;  ///< if a record asks for it
 };
 
 struct LedgerSummary {
@@ -113,6 +124,7 @@ struct Summary {
   std::optional<FluidSummary> fluid;
   std::map<std::string, BodySummary> bodies;
   std::map<std::string, PulseSummary> equipment;  ///< accelerations; peaks [g]
+  std::map<std::string, PatchSummary> patches;
 };
 
 std::string to_json(const Summary& summary);

@@ -26,6 +26,11 @@ RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
   settings.equipment = {{"seat", "wedge", {0.1, 0}}};
   settings.surface_pressure = {{"wedge", {}, {0.01, 0.02}}};
   settings.added_mass = {{"wedge", 0.004, {}}};
+  const auto hull = StandInDrop::hull();
+  const auto region = box_region<2>({-0.05, -1}, {0.05, 1});
+  settings.patches = {{"bottom", "wedge", region, patch_area<2>(region, hull)}};
+  settings.hull_maps = {{"wedge", hull, fluid::Isometry<2>::Identity(), 0.01}};
+  settings.centre_of_mass = {{"wedge", {0, 2 * wedge_height / 3}}};
   return settings;
 }
 
@@ -46,7 +51,7 @@ std::string summary_of_run(const Recorder<2>& recorder) {
 }
 
 constexpr const char* recorded_files[] = {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv",
-                                          "added_mass.csv", "frames.pvd"};
+                                          "added_mass.csv", "frames.pvd", "hull_wedge.vtu"};
 
 class ResumedAt : public testing::TestWithParam<int> {};
 
@@ -116,7 +121,7 @@ TEST(Recorder, a_new_run_clears_what_an_earlier_one_left_and_nothing_else) {
   Recorder<2> recorder(bare);
   record_steps(recorder, 0, 3, true);
   for (const char* gone : {"probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
-                           "frames/000000.vtu"})
+                           "frames/000000.vtu", "hull_wedge.vtu"})
     EXPECT_FALSE(std::filesystem::exists(folder.path() / gone)) << gone;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "frames" / "mine.txt"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "mine.csv"));
@@ -165,7 +170,7 @@ TEST(Recorder, probes_have_a_defined_answer_everywhere) {
   record_steps(recorder, 0, steps, true);
   recorder.finish();
   const auto probes = read_csv(folder.path() / "probes.csv", "probe");
-  ASSERT_EQ(probes.size(), 6u);
+  ASSERT_EQ(probes.size(), 7u);
   const auto named = [&](const std::string& name) -> const Table& {
     return std::ranges::find(probes, name, &NamedTables::value_type::first)->second;
   };
@@ -181,12 +186,59 @@ TEST(Recorder, surface_pressure_is_written_at_the_listed_times_only) {
   Recorder<2> recorder(settings_in(folder.path()));
   record_steps(recorder, 0, steps, true);
   recorder.finish();
-  EXPECT_TRUE(folder.text("surface_pressure.csv").starts_with("time,body,x,y,s,p\n"));
+  EXPECT_TRUE(folder.text("surface_pressure.csv").starts_with("time,body,x,y,s,p,x_body,y_body\n"));
   auto times = read_csv(folder.path() / "surface_pressure.csv", "body").at(0).second["time"];
   times.erase(std::unique(times.begin(), times.end()), times.end());
   ASSERT_EQ(times.size(), 2u);
   EXPECT_NEAR(times[0], 0.01, 1e-12);
   EXPECT_NEAR(times[1], 0.02, 1e-12);
+}
+
+// A wall's point in the frame of its shape, whose origin is the keel, is where the world's point is behind the pose.
+TEST(Recorder, surface_pressure_has_its_points_in_the_frame_of_the_shape) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  const auto table = read_csv(folder.path() / "surface_pressure.csv", "body").at(0).second;
+  StandInDrop drop;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const double keel = drop.at(std::round(table["time"][i] / dt) * dt, dt).bodies->state(0).pose.translation().y() -
+                        2 * wedge_height / 3;
+    EXPECT_NEAR(table["x_body"][i], table["x"][i], 1e-15);
+    EXPECT_NEAR(table["y_body"][i], table["y"][i] - keel, 1e-15);
+  }
+}
+
+TEST(Recorder, the_peak_of_a_patch_is_the_largest_of_its_rows_when_every_step_has_one) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  const auto probes = read_csv(folder.path() / "probes.csv", "probe");
+  const auto& rows = std::ranges::find(probes, "bottom", &NamedTables::value_type::first)->second;
+  Summary summary;
+  recorder.summarise(summary);
+  const auto& patch = summary.patches.at("bottom");
+  EXPECT_EQ(patch.pressure.value, std::ranges::max(rows["value"]));
+  EXPECT_GT(patch.pressure.value, 0);
+  const auto& highest = summary.bodies.at("wedge").highest_pressure;
+  ASSERT_TRUE(highest);
+  EXPECT_GE(highest->peak.value, patch.pressure.value);
+}
+
+// Peaks of equipment are in g: a stiff point of a body that does not turn feels what the body feels.
+TEST(Recorder, equipment_on_a_body_that_does_not_turn_has_the_bodys_pulse) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  Summary summary;
+  recorder.summarise(summary);
+  const auto& seat = summary.equipment.at("seat");
+  const auto& body = summary.bodies.at("wedge").acceleration;
+  EXPECT_EQ(seat.raw.value, body.raw.value);
+  EXPECT_EQ(seat.cfc.at(60).value, body.cfc.at(60).value);
+  EXPECT_EQ(seat.cfc.at(60).change, body.cfc.at(60).change);
 }
 
 TEST(Recorder, added_mass_is_written_when_asked_for_and_only_then) {

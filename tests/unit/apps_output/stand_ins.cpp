@@ -195,6 +195,8 @@ StandInDrop::StandInDrop(int nodes_across) : nodes_across_(nodes_across) {
 
 StandInDrop::~StandInDrop() = default;
 
+fluid::Surface<2> StandInDrop::hull() { return wedge(); }
+
 const RecordInput<2>& StandInDrop::at(double time, double dt) {
   const Motion motion = motion_at(time);
   // The stand-ins own their state; only the accessors are const.

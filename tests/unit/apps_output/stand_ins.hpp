@@ -15,6 +15,7 @@ class StandInDrop {
   ~StandInDrop();
   /// The state at t_n with the step that starts there.
   const RecordInput<2>& at(double time, double dt);
+  static fluid::Surface<2> hull();  ///< body frame
 
  private:
   std::unique_ptr<fluid::Fluid<2>> fluid_;
