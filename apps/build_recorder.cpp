@@ -1,5 +1,5 @@
 #include "apps/build.hpp"
-#include "apps/scene_geometry.hpp"
+#include "apps/scene_patch.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -27,9 +27,7 @@ struct AddRecord {
     settings.surface_pressure.push_back({entry.wall, entry.interval, entry.times});
   }
   void operator()(const ElevationEntry& entry) const {
-    Eigen::Matrix<double, d - 1, 1> at = Eigen::Matrix<double, d - 1, 1>::Zero();
-    at[0] = entry.x;
-    settings.gauges.push_back({entry.name, at});
+    settings.gauges.push_back({entry.name, Eigen::Vector2d(entry.x, entry.y).head<d - 1>()});
   }
   void operator()(const AccelerationEntry& entry) const {
     const auto& body = scene.bodies[entry.body];
@@ -37,6 +35,16 @@ struct AddRecord {
   }
   void operator()(const AddedMassEntry& entry) const {
     settings.added_mass.push_back({scene.bodies[entry.body].name, entry.interval, entry.times});
+  }
+  void operator()(const PatchEntry& entry) const {
+    const auto& body = scene.bodies[entry.body];
+    const auto hull = body_spec<d>(body).surface;
+    const auto region = patch_region<d>(entry, hull, mass_properties<d>(body).centre);
+    settings.patches.push_back({entry.name, body.name, region, patch_area<d>(region, hull)});
+  }
+  void operator()(const MaximumPressureEntry& entry) const {
+    const auto spec = body_spec<d>(scene.bodies[entry.body]);
+    settings.hull_maps.push_back({spec.name, {spec.surface.vertices, spec.surface.facets}, spec.pose, entry.size});
   }
 };
 
@@ -48,6 +56,7 @@ RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem:
   settings.directory = directory;
   settings.interval = scene.output.interval;
   settings.frames = scene.output.frames;
+  for (const auto& body : scene.bodies) settings.centre_of_mass[body.name] = mass_properties<d>(body).centre;
   for (const auto& record : scene.records) std::visit(AddRecord<d>{scene, settings}, record);
   return settings;
 }

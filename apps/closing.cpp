@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/frames.hpp"
 #include "apps/progress.hpp"
 
 namespace splashdown::apps {
@@ -73,8 +74,8 @@ std::string body_rows(const std::string& name, const BodySummary& body, int dime
   auto text = row(name, impact_text(body, dimension));
   if (const auto pulse = pulse_text(body.acceleration); !pulse.empty()) text += row("", pulse);
   if (body.landing.first_contact >= 0) text += row("", landing_text(body));
-  if (const auto& highest = body.highest_pressure)
-    text += row("", fmt::format("highest pressure {}{}, at ({:.3g}) m of its shape", with_unit(highest->peak.value, "Pa"),
+  if (const auto& highest = body.maximum_pressure)
+    text += row("", fmt::format("maximum pressure {}{}, at ({:.3g}) m of its shape", with_unit(highest->peak.value, "Pa"),
                                 at(highest->peak), fmt::join(highest->point, ", ")));
   return text;
 }
@@ -108,11 +109,13 @@ std::string refused_text(const Summary& summary) {
   return text;
 }
 
-std::string files_text(const std::filesystem::path& directory) {
+std::string files_text(const std::filesystem::path& directory, const std::map<std::string, BodySummary>& bodies) {
   std::string text = directory.string() + "/:";
   for (const char* name : {"report.html", "summary.json", "bodies.csv", "fluid.csv", "probes.csv",
                            "surface_pressure.csv", "added_mass.csv", "frames.pvd"})
     if (std::filesystem::exists(directory / name)) text += fmt::format(" {}", name);
+  for (const auto& [name, body] : bodies)
+    if (body.maximum_pressure) text += fmt::format(" hull_{}.vtu", file_name_of(name));
   return text;
 }
 
@@ -148,7 +151,7 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
   if (summary.coupling) text += row("coupling", coupling_text(*summary.coupling));
   if (summary.rejected_steps > 0) text += row("refused", refused_text(summary));
   if (summary.wall_seconds > 0) text += row("spent on", time_text(summary));
-  text += row("files", files_text(directory));
+  text += row("files", files_text(directory, summary.bodies));
   return text;
 }
 

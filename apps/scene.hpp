@@ -221,7 +221,20 @@ struct SurfacePressureEntry {
 };
 struct ElevationEntry {
   std::string name;
-  double x = 0;  ///< [m]
+  double x = 0, y = 0;  ///< horizontal place [m]; y in three dimensions only
+};
+/// Mean pressure on a part of a hull: a disc around `centre`, or what is between `min` and `max`; shape's frame [m].
+struct PatchEntry {
+  std::string name;
+  std::size_t body = 0;
+  std::optional<Point> centre;
+  std::optional<double> radius;
+  std::optional<Point> min, max;
+};
+/// The highest pressure of the run all over a hull.
+struct MaximumPressureEntry {
+  std::size_t body = 0;
+  double size = 0;  ///< distance of the points [m]; default: that of the elements at the hull
 };
 struct AccelerationEntry {
   std::string name;
@@ -233,8 +246,8 @@ struct AddedMassEntry {
   std::optional<double> interval;  ///< [s]; 0: every step
   std::vector<double> times;       ///< first step at or after each [s]
 };
-using RecordEntry =
-    std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry, AddedMassEntry>;
+using RecordEntry = std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry, AddedMassEntry,
+                                 PatchEntry, MaximumPressureEntry>;
 
 struct Scene {
   int dimension = 2;

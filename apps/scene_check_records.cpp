@@ -4,6 +4,7 @@
 #include <set>
 
 #include "apps/scene_check.hpp"
+#include "apps/scene_patch.hpp"
 #include "apps/solid.hpp"
 
 namespace splashdown::apps {
@@ -48,8 +49,31 @@ class RecordChecker {
     unique(entry.name);
     if (!scene_.tank || problems_.found_in(label_)) return;
     rigid::Vec<d> point = extents<d>(*scene_.tank).center();
-    point.x() = entry.x;
+    point.template head<d - 1>() = Eigen::Vector2d(entry.x, entry.y).head<d - 1>();
     inside_tank(point, ".x");
+  }
+  void operator()(const PatchEntry& entry) {
+    needs_fluid();
+    unique(entry.name);
+    if (problems_.found_in(label_)) return;
+    if (entry.min && !((*entry.max - *entry.min).template head<d>().minCoeff() > 0))
+      return problems_.add(label_ + ".max", "must be greater than min in every axis",
+                           "min is the lower corner of the box, max the upper one.");
+    const auto& body = scene_.bodies[entry.body];
+    try {
+      const auto hull = shape_of<d>(body.shape).surface;
+      if (patch_area<d>(patch_region<d>(entry, hull, rigid::Vec<d>::Zero()), hull) > 0) return;
+      problems_.add(label_ + (entry.centre ? ".centre" : ".min"),
+                    fmt::format("the patch holds no part of the hull of '{}'", body.name),
+                    fmt::format("Coordinates are those of the shape's frame, in which the hull fills {} m.",
+                                text<d>(extents<d>(hull))));
+    } catch (const std::invalid_argument&) {  // the body's own check has reported it
+    }
+  }
+  void operator()(const MaximumPressureEntry& entry) {
+    needs_fluid();
+    if (!problems_.found_in(label_) && !maximum_pressure_of_.insert(entry.body).second)
+      problems_.add(label_ + ".body", "has a maximum_pressure record already", "Remove one of them.");
   }
   void operator()(const AccelerationEntry& entry) { unique(entry.name); }
   void operator()(const AddedMassEntry& entry) {
@@ -85,7 +109,7 @@ class RecordChecker {
   Problems& problems_;
   std::string label_;
   std::set<std::string> names_;
-  std::set<std::size_t> added_mass_of_;
+  std::set<std::size_t> added_mass_of_, maximum_pressure_of_;
 };
 
 }  // namespace

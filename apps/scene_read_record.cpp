@@ -26,15 +26,45 @@ void read_surface_pressure(Reader& reader, Scene& scene) {
   scene.records.emplace_back(std::move(entry));
 }
 
+void read_patch(Reader& reader, Scene& scene) {
+  PatchEntry entry;
+  reader.text("name", entry.name, name_cure, Need::required);
+  entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
+  reader.point("centre", entry.centre, coordinate);
+  reader.number("radius", entry.radius, positive("m", "Use that of the sensor or panel."));
+  reader.point("min", entry.min, coordinate);
+  reader.point("max", entry.max, coordinate);
+  const bool any_of_disc = reader.holds("centre") || reader.holds("radius");
+  const bool any_of_box = reader.holds("min") || reader.holds("max");
+  const bool whole = any_of_disc ? reader.holds("centre") && reader.holds("radius") && !any_of_box
+                                 : reader.holds("min") && reader.holds("max");
+  if (!whole)
+    reader.context().problems.add(reader.key("centre"), "a patch is a disc (centre and radius) or a box (min and max)",
+                                  "Give one of these pairs, in the frame of the body's shape.");
+  scene.records.emplace_back(std::move(entry));
+}
+
+void read_maximum_pressure(Reader& reader, Scene& scene) {
+  MaximumPressureEntry entry;
+  const auto body = read_body_name(reader, "body", scene, Need::required, "record");
+  entry.body = body.value_or(0);
+  if (body) entry.size = scene.bodies[*body].size;
+  reader.number("size", entry.size, positive("m", "Use the distance of the points, e.g. the body's size."));
+  scene.records.emplace_back(std::move(entry));
+}
+
 }  // namespace
 
 void read_record(Reader& reader, Scene& scene) {
   std::string kind;
   if (!reader.choice("kind", kind,
-                     {"pressure", "surface_pressure", "surface_elevation", "acceleration", "added_mass"},
+                     {"pressure", "pressure_patch", "maximum_pressure", "surface_pressure", "surface_elevation",
+                      "acceleration", "added_mass"},
                      Need::required))
     return reader.skip_all();
   if (kind == "surface_pressure") return read_surface_pressure(reader, scene);
+  if (kind == "pressure_patch") return read_patch(reader, scene);
+  if (kind == "maximum_pressure") return read_maximum_pressure(reader, scene);
   if (kind == "pressure") {
     PressureEntry entry;
     reader.text("name", entry.name, name_cure, Need::required);
@@ -44,7 +74,9 @@ void read_record(Reader& reader, Scene& scene) {
   } else if (kind == "surface_elevation") {
     ElevationEntry entry;
     reader.text("name", entry.name, name_cure, Need::required);
-    reader.number("x", entry.x, any("m", "Use the gauge's horizontal place."), Need::required);
+    const Rule place = any("m", "Use the gauge's horizontal place.");
+    reader.number("x", entry.x, place, Need::required);
+    if (reader.context().dimension == 3) reader.number("y", entry.y, place, Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "acceleration") {
     AccelerationEntry entry;

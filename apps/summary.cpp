@@ -82,9 +82,9 @@ Json json_of(const BodySummary& body) {
                {"maximum_submergence", json_of(body.submergence)},
                {"maximum_wetted", json_of(body.wetted)}};
   json.update(json_of(body.landing));
-  if (body.highest_pressure) {
-    json["highest_pressure"] = json_of(body.highest_pressure->peak);
-    json["highest_pressure"]["point"] = json_of(body.highest_pressure->point);
+  if (body.maximum_pressure) {
+    json["maximum_pressure"] = json_of(body.maximum_pressure->peak);
+    json["maximum_pressure"]["point"] = json_of(body.maximum_pressure->point);
   }
   return json;
 }

@@ -64,7 +64,7 @@ struct LandingSummary {
   std::vector<std::array<double, 2>> dry_intervals;             ///< after first contact; the last may have no end
 };
 
-struct HighestPressure {
+struct MaximumPressure {
   Peak peak;                  ///< [Pa]
   std::vector<double> point;  ///< in the frame of the body's shape [m]
 };
@@ -82,7 +82,7 @@ struct BodySummary {
   Peak submergence;                    ///< still-water level minus lowest point [m]
   Peak wetted;                         ///< wetted length or area [m, m^2]
   LandingSummary landing;
-  std::optional<HighestPressure> highest_pressure;  ///< if a record asks for it
+  std::optional<MaximumPressure> maximum_pressure;  ///< if a record asks for it
 };
 
 struct LedgerSummary {

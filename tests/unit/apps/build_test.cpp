@@ -125,6 +125,8 @@ TEST(RecorderSettings, points_move_from_the_shapes_frame_to_the_bodys) {
   scene.records.push_back(PressureEntry{"fixed", {1, -0.5, 0}, {}});
   scene.records.push_back(ElevationEntry{"gauge", 0.7});
   scene.records.push_back(AddedMassEntry{0, 0.5, {}});
+  scene.records.push_back(PatchEntry{"face", 0, Point(0.125, 0.125 * std::tan(std::numbers::pi / 6), 0), 0.05, {}, {}});
+  scene.records.push_back(MaximumPressureEntry{0, 0.02});
   const auto settings = recorder_settings<2>(scene, "folder");
   ASSERT_EQ(settings.added_mass.size(), 1u);
   EXPECT_EQ(settings.added_mass[0].body, "wedge");
@@ -138,6 +140,12 @@ TEST(RecorderSettings, points_move_from_the_shapes_frame_to_the_bodys) {
   EXPECT_NEAR((settings.equipment[0].point - fluid::Vec<2>(0.1, 0)).norm(), 0, eps);
   EXPECT_EQ(settings.gauges[0].at[0], 0.7);
   EXPECT_EQ(settings.interval, 0.001);
+  ASSERT_EQ(settings.patches.size(), 1u);
+  EXPECT_NEAR(settings.patches[0].area, 0.1, 1e-14);  // of the outline, in the body's frame as in the shape's
+  EXPECT_NEAR((*settings.patches[0].region.facing - fluid::Vec<2>(0.5, -std::sqrt(0.75))).norm(), 0, 1e-14);
+  ASSERT_EQ(settings.hull_maps.size(), 1u);
+  EXPECT_NEAR(settings.hull_maps[0].surface.vertices.row(1).minCoeff(), -0.1, eps);
+  EXPECT_EQ(settings.centre_of_mass.at("wedge"), fluid::Vec<2>(0, 0.1));
 }
 
 TEST(World, has_the_parts_its_scene_has) {

@@ -213,6 +213,21 @@ interval = 0.1
 kind = "added_mass"
 body = "d"
 times = [0.5, 1]
+[[record]]
+kind = "pressure_patch"
+name = "disc"
+body = "b"
+centre = [0, 0]
+radius = 10
+[[record]]
+kind = "pressure_patch"
+name = "part"
+body = "b"
+min = [-10, -10]
+max = [10, 10]
+[[record]]
+kind = "maximum_pressure"
+body = "b"
 )";
 
 TEST(ResolvedScene, reads_to_itself) {

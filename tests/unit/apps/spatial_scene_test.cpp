@@ -64,6 +64,35 @@ std::string landing_with(const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
+TEST(SpatialScene, records_have_their_third_axis) {
+  const auto scene = scene_of(landing + R"([[record]]
+kind = "surface_elevation"
+name = "gauge"
+x = 1
+y = -0.5
+[[record]]
+kind = "pressure_patch"
+name = "top"
+body = "cone"
+centre = [0, 0, 0.17320508]
+radius = 0.1
+[[record]]
+kind = "acceleration"
+name = "seat"
+body = "ball"
+point = [0, 0, 0.3]
+[[record]]
+kind = "maximum_pressure"
+body = "ball"
+)");
+  const auto settings = recorder_settings<3>(scene, "folder");
+  EXPECT_EQ(settings.gauges.at(0).at, Eigen::Vector2d(1, -0.5));
+  EXPECT_NEAR(settings.patches.at(0).area, pi * 0.01, 1e-12);  // a disc of 32 sides of the same area
+  EXPECT_NEAR(settings.patches[0].region.facing->z(), 1, eps);
+  EXPECT_EQ(settings.equipment.at(0).point, fluid::Vec<3>(0, 0, 0.3));
+  EXPECT_EQ(settings.hull_maps.at(0).size, 0.05) << "that of the elements at the hull";
+}
+
 std::vector<std::string> messages_of(const std::string& text) {
   try {
     read_scene_text(text, "scene.toml");

@@ -65,7 +65,7 @@ TEST(HullMap, of_a_box_under_water_is_rho_g_z_everywhere) {
   map_of_a_hydrostatic_box<3>();
 }
 
-TEST(HullMap, keeps_the_highest_pressure_and_its_first_time) {
+TEST(HullMap, keeps_the_maximum_pressure_and_its_first_time) {
   auto box = box_of_water<3>(fluid::Isometry<3>::Identity());
   HullMap<3> map(box.hull, 0.25);
   double time = 0;

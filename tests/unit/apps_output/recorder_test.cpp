@@ -222,7 +222,7 @@ TEST(Recorder, the_peak_of_a_patch_is_the_largest_of_its_rows_when_every_step_ha
   const auto& patch = summary.patches.at("bottom");
   EXPECT_EQ(patch.pressure.value, std::ranges::max(rows["value"]));
   EXPECT_GT(patch.pressure.value, 0);
-  const auto& highest = summary.bodies.at("wedge").highest_pressure;
+  const auto& highest = summary.bodies.at("wedge").maximum_pressure;
   ASSERT_TRUE(highest);
   EXPECT_GE(highest->peak.value, patch.pressure.value);
 }
