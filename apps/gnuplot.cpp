@@ -54,7 +54,8 @@ std::string plot_command(const Figure& figure) {
     if (!plots.empty()) plots += ", \\\n  ";
     plots += fmt::format(
         "'{}.dat' index {} using 1:2 {} with {} lw {} lc rgb '{}' {}", figure.name, i,
-        curve.right_axis ? "axes x1y2" : "", curve.steps ? "steps" : "lines", curve.width, curve.colour,
+        curve.right_axis ? "axes x1y2" : "", curve.points ? "points pt 7 ps 0.25" : curve.steps ? "steps" : "lines",
+        curve.width, curve.colour,
         curve.label.empty() ? std::string("notitle") : "title \"" + gnuplot_escaped(curve.label) + "\"");
   }
   return plots;

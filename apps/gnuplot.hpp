@@ -14,6 +14,7 @@ struct Curve {
   double width = 1.6;
   bool right_axis = false;
   bool steps = false;  ///< constant until the next point
+  bool points = false;  ///< dots, not joined
 };
 
 /// A labelled point, e.g. a peak.

@@ -25,11 +25,14 @@ add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/report_field.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_figures.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_html.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/report_hull.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_page.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/report_picture.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_study.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report_words.cpp
   ${CMAKE_CURRENT_LIST_DIR}/statistics.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/summary.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/summary.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/vtu_grid.cpp)
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
 target_compile_options(splashdown_output PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)

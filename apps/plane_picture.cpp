@@ -1,57 +1,17 @@
 #include "apps/plane_picture.hpp"
 
-#include <vtkCell.h>
-#include <vtkCellType.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
+
+#include "apps/vtu_grid.hpp"
 
 namespace splashdown::apps {
 
 namespace {
-
-using Point3 = std::array<double, 3>;
-
-struct Grid {
-  double time = 0;
-  std::vector<Point3> points;
-  std::vector<double> pressure;
-  std::vector<std::vector<int>> cells;
-};
-
-Grid read_grid(const std::filesystem::path& path) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!reader->CanReadFile(path.c_str()))
-    throw std::runtime_error(path.string() + ": is not a readable .vtu file");
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkUnstructuredGrid* data = reader->GetOutput();
-  Grid grid;
-  if (auto* time = data->GetFieldData()->GetArray("TimeValue")) grid.time = time->GetTuple1(0);
-  auto* pressure = data->GetPointData()->GetArray("p");
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
-    Point3 x;
-    data->GetPoint(i, x.data());
-    grid.points.push_back(x);
-    grid.pressure.push_back(pressure ? pressure->GetTuple1(i) : 0);
-  }
-  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c) {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    data->GetCellPoints(c, count, ids);
-    grid.cells.emplace_back(ids, ids + count);
-  }
-  return grid;
-}
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -76,7 +36,7 @@ void collect_edges(PlanePicture& picture) {
 
 void take_plane_mesh(const Grid& grid, PlanePicture& picture) {
   for (const auto& x : grid.points) picture.points.push_back(flat(x));
-  picture.pressure = grid.pressure;
+  picture.pressure = grid.values;
   for (const auto& cell : grid.cells) {
     if (cell.size() == 3) picture.triangles.push_back({cell[0], cell[1], cell[2]});
     if (cell.size() == 1) picture.drops.push_back(picture.points[index(cell[0])]);
@@ -87,30 +47,50 @@ void take_plane_mesh(const Grid& grid, PlanePicture& picture) {
 /// Where the edge between two points meets y = level, as a fraction of it.
 double fraction(double a, double b, double level) { return (level - a) / (b - a); }
 
-void cut_cell(const Grid& grid, const std::vector<int>& cell, double level, PlanePicture& picture) {
-  const auto y = [&](int node) { return grid.points[index(node)][1]; };
-  // Corner points of the cut, ordered so that neighbours share a node on one side: a triangle or a quad.
-  std::vector<int> below, above;
-  for (const int node : cell) (y(node) < level ? below : above).push_back(node);
-  if (below.empty() || above.empty()) return;
-  std::vector<std::pair<int, int>> crossed;
-  for (std::size_t i = 0; i < below.size(); ++i)
-    for (std::size_t j = 0; j < above.size(); ++j)
-      crossed.emplace_back(below[i], above[i % 2 == 0 ? j : above.size() - 1 - j]);
-  const int first = static_cast<int>(picture.points.size());
-  for (const auto& [a, b] : crossed) {
-    const double f = fraction(y(a), y(b), level);
-    const auto &from = grid.points[index(a)], &to = grid.points[index(b)];
-    picture.points.push_back({from[0] + f * (to[0] - from[0]), from[2] + f * (to[2] - from[2])});
-    picture.pressure.push_back(grid.pressure[index(a)] +
-                               f * (grid.pressure[index(b)] - grid.pressure[index(a)]));
+/// Cuts cells by a plane; cells that share an edge share its point.
+class Cutter {
+ public:
+  Cutter(const Grid& grid, double level, PlanePicture& picture) : grid_(grid), level_(level), picture_(picture) {}
+
+  void cut(const std::vector<int>& cell) {
+    // Corner points of the cut, ordered so that neighbours share a node on one side: a triangle or a quad.
+    std::vector<int> below, above, corners;
+    for (const int node : cell) (y(node) < level_ ? below : above).push_back(node);
+    if (below.empty() || above.empty()) return;
+    for (std::size_t i = 0; i < below.size(); ++i)
+      for (std::size_t j = 0; j < above.size(); ++j)
+        corners.push_back(point_between(below[i], above[i % 2 == 0 ? j : above.size() - 1 - j]));
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      ++edges_[std::minmax(int{corners[k]}, int{corners[(k + 1) % corners.size()]})];
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      picture_.triangles.push_back({corners[0], corners[k - 1], corners[k]});
   }
-  const int count = static_cast<int>(crossed.size());
-  for (int k = 0; k < count; ++k)
-    picture.edges.push_back(
-        {picture.points[index(first + k)], picture.points[index(first + (k + 1) % count)]});
-  for (int k = 2; k < count; ++k) picture.triangles.push_back({first, first + k - 1, first + k});
-}
+  /// The edges of all cuts; those of one cell only are the outline of the water.
+  void finish() {
+    for (const auto& [edge, cells] : edges_) {
+      const Segment segment{picture_.points[index(edge.first)], picture_.points[index(edge.second)]};
+      picture_.edges.push_back(segment);
+      if (cells == 1) picture_.surface.push_back(segment);
+    }
+  }
+
+ private:
+  double y(int node) const { return grid_.points[index(node)][1]; }
+  int point_between(int a, int b) {
+    const auto [place, is_new] = points_.try_emplace({a, b}, static_cast<int>(picture_.points.size()));
+    if (!is_new) return place->second;
+    const double f = fraction(y(a), y(b), level_);
+    const auto &from = grid_.points[index(a)], &to = grid_.points[index(b)];
+    picture_.points.push_back({from[0] + f * (to[0] - from[0]), from[2] + f * (to[2] - from[2])});
+    picture_.pressure.push_back(grid_.values[index(a)] + f * (grid_.values[index(b)] - grid_.values[index(a)]));
+    return place->second;
+  }
+
+  const Grid& grid_;
+  double level_;
+  PlanePicture& picture_;
+  std::map<std::pair<int, int>, int> points_, edges_;
+};
 
 double signed_volume(const Grid& grid) {
   double volume = 0;
@@ -126,24 +106,63 @@ double signed_volume(const Grid& grid) {
   return volume;
 }
 
-PlaneOutline outline_of(const Grid& grid, double level) {
+/// An edge of a surface that the plane cuts, and where; each is shared by two facets.
+struct Crossing {
+  std::pair<int, int> edge;
+  PlanePoint at;
+};
+
+/// Where a plane cuts a triangle's sides; none, or two.
+std::vector<Crossing> crossings(const Grid& grid, const std::vector<int>& cell, double level) {
+  std::vector<Crossing> found;
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    const std::pair<int, int> edge = std::minmax(int{cell[k]}, int{cell[(k + 1) % cell.size()]});
+    const auto &a = grid.points[index(edge.first)], &b = grid.points[index(edge.second)];
+    if ((a[1] < level) == (b[1] < level)) continue;
+    const double f = fraction(a[1], b[1], level);
+    found.push_back({edge, {a[0] + f * (b[0] - a[0]), a[2] + f * (b[2] - a[2])}});
+  }
+  return found;
+}
+
+/// The cut through a closed surface, one outline a loop, each segment beginning where the one before ended.
+void add_cut_outlines(const Grid& grid, double level, std::vector<PlaneOutline>& outlines) {
+  std::vector<std::vector<Crossing>> cuts;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> cuts_at;
+  for (const auto& cell : grid.cells) {
+    if (cell.size() != 3) continue;
+    auto ends = crossings(grid, cell, level);
+    if (ends.size() != 2) continue;
+    for (const auto& end : ends) cuts_at[end.edge].push_back(cuts.size());
+    cuts.push_back(std::move(ends));
+  }
+  const bool encloses_solid = signed_volume(grid) > 0;
+  std::vector<char> used(cuts.size(), 0);
+  for (std::size_t first = 0; first < cuts.size(); ++first) {
+    if (used[first]) continue;
+    PlaneOutline outline;
+    outline.encloses_solid = encloses_solid;
+    Crossing from = cuts[first][0];
+    for (std::size_t at = first; !used[at];) {
+      used[at] = 1;
+      const Crossing to = cuts[at][0].edge == from.edge ? cuts[at][1] : cuts[at][0];
+      outline.segments.push_back({from.at, to.at});
+      for (const std::size_t next : cuts_at[to.edge])
+        if (!used[next]) at = next;
+      from = to;
+    }
+    outlines.push_back(std::move(outline));
+  }
+}
+
+void add_outlines(const Grid& grid, double level, std::vector<PlaneOutline>& outlines) {
+  if (!grid.cells.empty() && grid.cells.front().size() == 3) return add_cut_outlines(grid, level, outlines);
   PlaneOutline outline;
   outline.encloses_solid = signed_volume(grid) > 0;
-  for (const auto& cell : grid.cells) {
-    if (cell.size() == 2) {
+  for (const auto& cell : grid.cells)
+    if (cell.size() == 2)
       outline.segments.push_back({flat(grid.points[index(cell[0])]), flat(grid.points[index(cell[1])])});
-      continue;
-    }
-    std::vector<PlanePoint> ends;
-    for (std::size_t k = 0; k < cell.size(); ++k) {
-      const auto &a = grid.points[index(cell[k])], &b = grid.points[index(cell[(k + 1) % cell.size()])];
-      if ((a[1] < level) == (b[1] < level)) continue;
-      const double f = fraction(a[1], b[1], level);
-      ends.push_back({a[0] + f * (b[0] - a[0]), a[2] + f * (b[2] - a[2])});
-    }
-    if (ends.size() == 2) outline.segments.push_back({ends[0], ends[1]});
-  }
-  return outline;
+  outlines.push_back(std::move(outline));
 }
 
 /// The plane through the middle of the first body, or of the water.
@@ -180,12 +199,14 @@ PlanePicture read_picture(const std::filesystem::path& folder, const std::string
   for (const auto& cell : fluid.cells) picture.cells += cell.size() > 1 ? 1 : 0;
   const double level = cut_level(fluid, walls);
   if (is_spatial(fluid, walls)) {
+    Cutter cutter(fluid, level, picture);
     for (const auto& cell : fluid.cells)
-      if (cell.size() == 4) cut_cell(fluid, cell, level, picture);
+      if (cell.size() == 4) cutter.cut(cell);
+    cutter.finish();
   } else {
     take_plane_mesh(fluid, picture);
   }
-  for (const auto& wall : walls) picture.outlines.push_back(outline_of(wall, level));
+  for (const auto& wall : walls) add_outlines(wall, level, picture.outlines);
   return picture;
 }
 

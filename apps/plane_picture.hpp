@@ -21,7 +21,7 @@ struct PlanePicture {
   std::vector<PlanePoint> points;
   std::vector<double> pressure;  ///< at the points [Pa]
   std::vector<std::array<int, 3>> triangles;
-  std::vector<Segment> edges;     ///< of the mesh; the cut cells' outlines in 3D
+  std::vector<Segment> edges;     ///< of the mesh; the cut cells' in 3D
   std::vector<Segment> surface;   ///< outline of the water
   std::vector<PlanePoint> drops;  ///< nodes without a cell
   std::vector<PlaneOutline> outlines;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "apps/csv.hpp"
@@ -11,6 +12,7 @@
 #include "apps/report_data.hpp"
 #include "apps/report_field.hpp"
 #include "apps/report_figures.hpp"
+#include "apps/report_hull.hpp"
 #include "apps/report_html.hpp"
 #include "apps/report_page.hpp"
 #include "apps/report_study.hpp"
@@ -63,12 +65,17 @@ ReportResult write_report(const std::filesystem::path& directory) {
   remove_old_images(folder);
 
   ReportResult result{directory / "report.html", {}};
-  ReportPage page{data, verdict_of(data), {}, figures_of(data), {}, {}};
+  ReportPage page{data, verdict_of(data), {}, {}, figures_of(data), {}, {}};
+  if (auto hulls = hull_curves(directory); !hulls.figures.empty())
+    page.groups.insert(page.groups.end() - (page.groups.empty() ? 0 : 1), std::move(hulls));  // before the numerics
   std::vector<Figure> curves;
   for (const auto& group : page.groups)
     curves.insert(curves.end(), group.figures.begin(), group.figures.end());
-  FieldFigures fields = prepare_field_figures(directory, folder);
+  FieldFigures fields = prepare_field_figures(directory, folder), hulls = prepare_hull_figures(directory, folder);
   result.warnings = fields.warnings;
+  result.warnings.insert(result.warnings.end(), hulls.warnings.begin(), hulls.warnings.end());
+  const auto of_plane = static_cast<std::ptrdiff_t>(fields.figures.size());
+  std::ranges::move(hulls.figures, std::back_inserter(fields.figures));
   draw(folder, curves, fields, result.warnings);
   remove_field_data(folder, fields);
 
@@ -78,6 +85,8 @@ ReportResult write_report(const std::filesystem::path& directory) {
   for (const auto& field : fields.figures)
     if (const auto file = folder / (field.name + ".png"); std::filesystem::exists(file))
       page.images[field.name] = inline_png(read_text(file), field.title);
+  page.hulls.assign(fields.figures.begin() + of_plane, fields.figures.end());
+  fields.figures.resize(static_cast<std::size_t>(of_plane));
   page.fields = std::move(fields.figures);
   for (const auto& warning : result.warnings) page.warnings.push_back(html_escaped(warning));
   write_file_atomically(result.page, html_of(page));

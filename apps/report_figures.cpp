@@ -277,10 +277,11 @@ FigureGroup surface_figures(const RunData& run) {
         curve.x.push_back(table["s"][i]);
         curve.y.push_back(table["p"][i] * unit.scale);
       }
+      curve.points = run.dimension() == 3;  // around a hull there are many points of one distance
       figure.curves.push_back(std::move(curve));
     }
-    figure.caption = fmt::format("Pressure on <b>{}</b> over the distance along its outline from the keel.",
-                                 html_escaped(wall));
+    figure.caption = fmt::format("Pressure on <b>{}</b> over the distance {}from the keel.", html_escaped(wall),
+                                 run.dimension() == 3 ? "" : "along its outline ");
     group.figures.push_back(std::move(figure));
   }
   return group;

@@ -76,11 +76,15 @@ std::string phase_bar(const RunData& run) {
 }
 
 std::string figures(const ReportPage& page) {
-  std::string html, fields;
-  for (const auto& field : page.fields)
-    if (const auto image = page.images.find(field.name); image != page.images.end())
-      fields += html_figure(image->second, "<b>" + html_escaped(field.title) + "</b>, " + field.caption);
-  if (!fields.empty()) html += "<h2>Mesh and pressure</h2>\n<div class=\"grid\">" + fields + "</div>\n";
+  std::string html;
+  for (const auto& [heading, pictures] :
+       {std::pair{"Mesh and pressure", &page.fields}, {"Highest pressure on the hulls", &page.hulls}}) {
+    std::string inside;
+    for (const auto& field : *pictures)
+      if (const auto image = page.images.find(field.name); image != page.images.end())
+        inside += html_figure(image->second, "<b>" + html_escaped(field.title) + "</b>, " + field.caption);
+    if (!inside.empty()) html += fmt::format("<h2>{}</h2>\n<div class=\"grid\">{}</div>\n", heading, inside);
+  }
   for (const auto& group : page.groups) {
     std::string inside;
     for (const auto& figure : group.figures)

@@ -15,7 +15,7 @@ namespace splashdown::apps {
 struct ReportPage {
   const RunData& run;
   Verdict verdict;
-  std::vector<FieldFigure> fields;
+  std::vector<FieldFigure> fields, hulls;
   std::vector<FigureGroup> groups;
   std::map<std::string, std::string> images;  ///< figure name -> <svg> or <img> element
   std::vector<std::string> warnings;          ///< HTML

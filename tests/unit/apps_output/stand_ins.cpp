@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "box_of_water.hpp"
+
 namespace splashdown::fluid {
 
 template <int d>
@@ -10,6 +12,7 @@ double Term<d>::stable_dt() const {
   return 1;
 }
 template class Term<2>;
+template class Term<3>;
 
 template <int d>
 struct Fluid<d>::State {
@@ -278,6 +281,80 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   input_.residual = 1e-9;
   input_.wall_seconds = 400 * time;
   input_.last = false;
+  return input_;
+}
+
+double press_at(double time) {
+  return 20e3 * std::exp(-std::pow((time - 0.5 * drop_end) / (0.2 * drop_end), 2));
+}
+
+fluid::Surface<3> StandInPress::hull() {
+  auto box = unit_box<3>();
+  box.vertices.topRows<2>() *= 2 * press_half_length;
+  box.vertices.row(2) *= 2 * press_half_height;
+  return box;
+}
+
+// A block of cubes, six tetrahedra each around the diagonal; the box lies on the middle of its upper side.
+StandInPress::StandInPress(int nodes_across) {
+  fluid::FluidSpec<3> spec;
+  fluid::Isometry<3> pose = fluid::Isometry<3>::Identity();
+  pose.translation().z() = press_half_height;
+  spec.walls = {{"box", hull(), pose}};
+  fluid_ = std::make_unique<fluid::Fluid<3>>(std::move(spec), std::vector<std::unique_ptr<fluid::Term<3>>>());
+  rigid::BodySpec<3> body;
+  body.name = "box";
+  body.surface = {hull().vertices, hull().facets};
+  body.mass = 100;
+  body.pose = pose;
+  std::vector<rigid::BodySpec<3>> bodies{body};
+  bodies_ = std::make_unique<rigid::Bodies<3>>(std::move(bodies), std::vector<std::unique_ptr<rigid::Force<3>>>());
+  input_.fluid = fluid_.get();
+  input_.bodies = bodies_.get();
+
+  auto& nodes = const_cast<fluid::Nodes<3>&>(fluid_->nodes());
+  auto& mesh = const_cast<fluid::Mesh<3>&>(fluid_->mesh());
+  const int n = nodes_across, deep = n / 2;
+  const double h = 2.0 / n;
+  const auto id = [&](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  for (int k = 0; k <= deep; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        nodes.add({i * h - 1, j * h - 1, (k - deep) * h}, {0, 0, 0}, 0, {}, k == deep);
+  constexpr int paths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};  // of a cube's corners, bits x y z
+  for (int k = 0; k < deep; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const auto corner = [&](int c) { return id(i + (c & 1), j + ((c >> 1) & 1), k + (c >> 2)); };
+        for (const auto& path : paths) mesh.cells.push_back({corner(0), corner(path[0]), corner(path[1]), corner(7)});
+        if (k + 1 < deep) continue;
+        const auto under = [&](int c) { return std::abs((i + c) * h - 1) <= press_half_length + 1e-12; };
+        const auto beside = [&](int c) { return std::abs((j + c) * h - 1) <= press_half_length + 1e-12; };
+        const int wall = under(0) && under(1) && beside(0) && beside(1) ? 0 : -1;
+        mesh.boundary.push_back({{corner(4), corner(5), corner(7)}, wall});
+        mesh.boundary.push_back({{corner(4), corner(7), corner(6)}, wall});
+      }
+}
+
+StandInPress::~StandInPress() = default;
+
+const RecordInput<3>& StandInPress::at(double time, double dt) {
+  auto& nodes = const_cast<fluid::Nodes<3>&>(fluid_->nodes());
+  const double press = press_at(time), area = 4 * press_half_length * press_half_length;
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes.p[i] = press - 9810 * nodes.x[i].z();
+  rigid::Twist<3> velocity = rigid::Twist<3>::Zero(), acceleration = rigid::Twist<3>::Zero();
+  acceleration(2) = press * area / 100;
+  velocity(5) = 10;
+  input_.body_velocity_n = {velocity};
+  input_.body_acceleration_n = {acceleration};
+  fluid::WallLoad<3> load;
+  load.physical(2) = press * area;
+  load.physical(3) = 0.1 * load.physical(2);
+  load.wetted = area;
+  input_.body_load = {load};
+  input_.time = time;
+  input_.dt = dt;
+  input_.passes = 1;
   return input_;
 }
 

@@ -24,6 +24,24 @@ class StandInDrop {
   int nodes_across_;
 };
 
+/// A box that lies on a block of water in three dimensions, pressed and turned about the vertical for a while.
+class StandInPress {
+ public:
+  explicit StandInPress(int nodes_across = 8);
+  ~StandInPress();
+  const RecordInput<3>& at(double time, double dt);
+  static fluid::Surface<3> hull();  ///< body frame
+
+ private:
+  std::unique_ptr<fluid::Fluid<3>> fluid_;
+  std::unique_ptr<rigid::Bodies<3>> bodies_;
+  RecordInput<3> input_;
+};
+
+inline constexpr double press_half_length = 0.5, press_half_height = 0.25;  ///< of the box; it is square from above
+/// Pressure under the box above that of the water's weight [Pa].
+double press_at(double time);
+
 inline constexpr double wedge_half_breadth = 0.25, wedge_height = 0.144, water_depth = 0.6,
                         tank_half_width = 0.8;
 inline constexpr double drop_end = 0.03;

@@ -1,0 +1,23 @@
+// An unstructured grid from a .vtu file as plain values.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace splashdown::apps {
+
+using Point3 = std::array<double, 3>;
+
+struct Grid {
+  double time = 0;
+  std::vector<Point3> points;
+  std::vector<double> values;  ///< the scalar asked for, at the points; zero without it
+  std::vector<std::vector<int>> cells;
+};
+
+/// Throws std::runtime_error if the file cannot be read.
+Grid read_grid(const std::filesystem::path& path, const std::string& scalar = "p");
+
+}  // namespace splashdown::apps

@@ -1,0 +1,154 @@
+// Recorder and report in three dimensions.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "apps/plane_picture.hpp"
+#include "apps/report.hpp"
+#include "apps/report_data.hpp"
+#include "scratch_folder.hpp"
+#include "stand_ins.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+constexpr int steps = 40;
+constexpr double dt = drop_end / steps;
+
+RecorderSettings<3> settings_in(const std::filesystem::path& directory) {
+  RecorderSettings<3> settings;
+  settings.directory = directory;
+  settings.frames = 0.01;
+  settings.gauges = {{"gauge", {0.7, -0.8}}, {"covered", {0.1, 0.1}}};
+  settings.equipment = {{"tip", "box", {0.5, 0, 0}}};
+  const auto hull = StandInPress::hull();
+  const auto region = disc_region<3>({0.1, 0.05, -press_half_height}, 0.2, {0, 0, -1});
+  settings.patches = {{"panel", "box", region, patch_area<3>(region, hull)}};
+  fluid::Isometry<3> pose = fluid::Isometry<3>::Identity();
+  settings.hull_maps = {{"box", hull, pose, 0.125}};
+  settings.surface_pressure = {{"box", {}, {0.015}}};
+  settings.added_mass = {{"box", 0.01, {}}};
+  settings.centre_of_mass = {{"box", {0, 0, press_half_height}}};
+  return settings;
+}
+
+void record_steps(Recorder<3>& recorder, int from, int to, bool last) {
+  StandInPress press;
+  for (int n = from; n <= to; ++n) {
+    RecordInput<3> input = press.at(n * dt, dt);
+    input.last = last && n == to;
+    recorder.record(input);
+    if (input.last) recorder.snapshot("end", input);
+  }
+}
+
+nlohmann::json summary_of(const Recorder<3>& recorder, const std::filesystem::path& directory) {
+  Summary summary;
+  summary.status = "done";
+  summary.simulated_time = drop_end;
+  recorder.summarise(summary);
+  write_summary(directory, summary);
+  return nlohmann::json::parse(to_json(summary));
+}
+
+TEST(SpatialRecorder, reads_patch_map_gauge_and_point_as_they_are) {
+  ScratchFolder folder;
+  Recorder<3> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  const auto summary = summary_of(recorder, folder.path());
+  const double peak = press_at(drop_end / 2);  // a step is there; the bottom is level, at z = 0
+  EXPECT_NEAR(summary["patches"]["panel"]["peak_pressure"]["value"], peak, 1e-12 * peak);
+  EXPECT_NEAR(summary["patches"]["panel"]["peak_pressure"]["time"], drop_end / 2, 1e-15);
+  EXPECT_NEAR(summary["bodies"]["box"]["maximum_pressure"]["value"], peak, 1e-12 * peak);
+  EXPECT_NEAR(summary["bodies"]["box"]["maximum_pressure"]["point"][2], 0, 1e-15) << "the shape's frame begins below";
+  EXPECT_NEAR(summary["bodies"]["box"]["attitude_deg"]["heading"]["end"], 0, 0);
+  EXPECT_FALSE(summary["bodies"]["box"]["capsized"]);
+
+  const auto probes = read_csv(folder.path() / "probes.csv", "probe");
+  const auto values = [&](const std::string& name) {
+    return std::ranges::find(probes, name, &NamedTables::value_type::first)->second["value"];
+  };
+  EXPECT_EQ(values("gauge").back(), 0);
+  EXPECT_TRUE(std::isnan(values("covered").back())) << "a hull is above";
+  for (const double a : values("tip.ax")) EXPECT_NEAR(a, -100 * 0.5, 1e-12);  // w^2 r
+}
+
+TEST(SpatialRecorder, files_have_the_columns_of_three_dimensions) {
+  ScratchFolder folder;
+  Recorder<3> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  const auto pressure = read_csv(folder.path() / "surface_pressure.csv", "body").at(0).second;
+  ASSERT_EQ(pressure.names, (std::vector<std::string>{"time", "body", "x", "y", "z", "s", "p", "x_body", "y_body", "z_body"}));
+  EXPECT_EQ(pressure.rows(), 25u);  // 5 x 5 nodes under the box
+  for (std::size_t i = 0; i < pressure.rows(); ++i) {
+    EXPECT_NEAR(pressure["z_body"][i], pressure["z"][i], 1e-15);
+    EXPECT_NEAR(pressure["p"][i], press_at(0.015), 1e-9);
+  }
+  EXPECT_EQ(read_csv(folder.path() / "added_mass.csv", "body").at(0).second.names.size(), 2u + 21u);
+}
+
+TEST(SpatialRecorder, a_resumed_run_leaves_what_an_undisturbed_one_leaves) {
+  ScratchFolder whole, broken;
+  Recorder<3> undisturbed(settings_in(whole.path()));
+  record_steps(undisturbed, 0, steps, true);
+  undisturbed.finish();
+  std::stringstream checkpoint;
+  {
+    Recorder<3> recorder(settings_in(broken.path()));
+    record_steps(recorder, 0, 21, false);  // just beyond the peak
+    recorder.save(checkpoint);
+    record_steps(recorder, 22, 25, false);
+  }
+  Recorder<3> recorder(settings_in(broken.path()));
+  recorder.load(checkpoint);
+  record_steps(recorder, 22, steps, true);
+  recorder.finish();
+  for (const char* file : {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
+                           "hull_box.vtu", "frames/000002.vtu", "snapshots/peak.vtu"})
+    EXPECT_EQ(broken.text(file), whole.text(file)) << file;
+  EXPECT_EQ(summary_of(recorder, broken.path()), summary_of(undisturbed, whole.path()));
+}
+
+TEST(SpatialReport, shows_curves_slices_and_the_hull) {
+  ScratchFolder folder;
+  Recorder<3> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  summary_of(recorder, folder.path());
+  const ReportResult result = write_report(folder.path());
+  if (!result.warnings.empty() && result.warnings[0].find("not installed") != std::string::npos)
+    GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+  for (const char* picture : {"field_0.png", "body_box_fz.svg", "body_box_acceleration.svg", "body_box_wetted.svg",
+                              "hull_box_below.png", "hull_box_side.png", "hull_box_ahead.png", "surface_box.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "report" / picture)) << picture;
+  EXPECT_NE(folder.text("report.html").find("box from below"), std::string::npos);
+}
+
+// The slice at y = 0 through a block of 2 m by 1 m: its outline has the block's length, its triangles its area.
+TEST(SpatialPicture, a_slice_has_the_outline_of_the_water) {
+  ScratchFolder folder;
+  Recorder<3> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, 1, true);
+  recorder.finish();
+  const auto picture = read_picture(folder.path() / "snapshots", "start");
+  double length = 0;
+  for (const auto& [a, b] : picture.surface) length += std::hypot(b[0] - a[0], b[1] - a[1]);
+  EXPECT_NEAR(length, 2 * (2 + 1), 1e-12);
+  ASSERT_EQ(picture.outlines.size(), 1u);
+  double silhouette = 0;
+  const auto& outline = picture.outlines[0].segments;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const auto& [a, b] = outline[i];
+    silhouette += std::hypot(b[0] - a[0], b[1] - a[1]);
+    EXPECT_EQ(b, outline[(i + 1) % outline.size()][0]) << "a closed loop";
+  }
+  EXPECT_NEAR(silhouette, 4 * (press_half_length + press_half_height), 1e-12);
+}
+
+}  // namespace
+}  // namespace splashdown::apps
