@@ -127,7 +127,7 @@ std::string file_name_of(const std::string& name) {
 
 template <int d>
 void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
-                   const PointData& data) {
+                   const PointData& data, const fluid::Vec<d>& forward) {
   vtkNew<vtkUnstructuredGrid> grid;
   const auto& [vertices, facets] = surface;
   set_points<d>(
@@ -139,6 +139,12 @@ void write_surface(const std::filesystem::path& path, double time, const fluid::
     grid->InsertNextCell(facet_type<d>, d, ids);
   }
   for (const auto& [name, values] : data) add_scalar<vtkDoubleArray>(*grid, name.c_str(), values);
+  vtkNew<vtkDoubleArray> direction;
+  direction->SetName("forward");
+  direction->SetNumberOfComponents(3);
+  direction->SetNumberOfTuples(1);
+  set_tuple<d>(*direction, 0, forward);
+  grid->GetFieldData()->AddArray(direction);
   write(*grid, time, path);
 }
 
@@ -154,7 +160,7 @@ std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesys
   }
   for (const auto& outline : frame.outlines) {
     pieces.emplace_back(outline.name, stem + "_" + file_name_of(outline.name) + ".vtu");
-    write_surface<d>(directory / pieces.back().second, frame.time, outline.surface);
+    write_surface<d>(directory / pieces.back().second, frame.time, outline.surface, {}, outline.forward);
   }
   return pieces;
 }
@@ -185,8 +191,10 @@ template std::vector<std::pair<std::string, std::string>> write_pieces<2>(const 
 template std::vector<std::pair<std::string, std::string>> write_pieces<3>(const std::filesystem::path&,
                                                                           const std::string&,
                                                                           const Frame<3>&);
-template void write_surface<2>(const std::filesystem::path&, double, const fluid::Surface<2>&, const PointData&);
-template void write_surface<3>(const std::filesystem::path&, double, const fluid::Surface<3>&, const PointData&);
+template void write_surface<2>(const std::filesystem::path&, double, const fluid::Surface<2>&, const PointData&,
+                               const fluid::Vec<2>&);
+template void write_surface<3>(const std::filesystem::path&, double, const fluid::Surface<3>&, const PointData&,
+                               const fluid::Vec<3>&);
 template void FrameSeries::add<2>(const Frame<2>&);
 template void FrameSeries::add<3>(const Frame<3>&);
 

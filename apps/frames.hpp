@@ -27,6 +27,7 @@ template <int d>
 struct Outline {
   std::string name;
   fluid::Surface<d> surface;
+  fluid::Vec<d> forward = fluid::Vec<d>::UnitX();  ///< where the x axis of its frame points
 };
 
 template <int d>
@@ -46,9 +47,10 @@ std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesys
                                                               const std::string& stem, const Frame<d>& frame);
 
 using PointData = std::vector<std::pair<std::string, std::vector<double>>>;  ///< name and one value a vertex
+/// `forward` is kept as field data.
 template <int d>
 void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
-                   const PointData& data = {});
+                   const PointData& data = {}, const fluid::Vec<d>& forward = fluid::Vec<d>::UnitX());
 
 /// frames.pvd with frames/000000.vtu, frames/000000_WALL.vtu, ...
 class FrameSeries {

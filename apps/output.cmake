@@ -16,6 +16,7 @@ add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/plane_picture.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pulse.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/recorder_files.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_hulls.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_probes.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_rows.cpp

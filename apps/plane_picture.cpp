@@ -165,10 +165,31 @@ void add_outlines(const Grid& grid, double level, std::vector<PlaneOutline>& out
   outlines.push_back(std::move(outline));
 }
 
+const Grid* first_solid(const std::vector<Grid>& walls) {
+  const auto solid = std::ranges::find_if(walls, [](const Grid& wall) { return signed_volume(wall) > 0; });
+  return solid == walls.end() ? nullptr : &*solid;
+}
+
+/// Turns everything about the vertical until the first body's heading lies in the x axis, to whichever side is nearer.
+void turn_to_heading(Grid& fluid, std::vector<Grid>& walls) {
+  const Grid* solid = first_solid(walls);
+  if (!solid) return;
+  const double length = std::hypot(solid->forward[0], solid->forward[1]);
+  if (length < 0.1) return;  // it stands on its nose: any plane is as good
+  const double sign = solid->forward[0] < 0 ? -1 : 1;
+  const double cosine = sign * solid->forward[0] / length, sine = sign * solid->forward[1] / length;
+  if (sine == 0) return;
+  const auto turn = [&](Grid& grid) {
+    for (auto& x : grid.points) x = {cosine * x[0] + sine * x[1], cosine * x[1] - sine * x[0], x[2]};
+  };
+  turn(fluid);
+  for (auto& wall : walls) turn(wall);
+}
+
 /// The plane through the middle of the first body, or of the water.
 double cut_level(const Grid& fluid, const std::vector<Grid>& walls) {
-  const auto solid = std::ranges::find_if(walls, [](const Grid& wall) { return signed_volume(wall) > 0; });
-  const auto& points = solid != walls.end() ? solid->points : fluid.points;
+  const Grid* solid = first_solid(walls);
+  const auto& points = solid ? solid->points : fluid.points;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto& x : points) low = std::min(low, x[1]), high = std::max(high, x[1]);
   return 0.5 * (low + high);
@@ -197,8 +218,10 @@ PlanePicture read_picture(const std::filesystem::path& folder, const std::string
   picture.time = fluid.points.empty() && !walls.empty() ? walls.front().time : fluid.time;
   picture.nodes = fluid.points.size();
   for (const auto& cell : fluid.cells) picture.cells += cell.size() > 1 ? 1 : 0;
+  const bool spatial = is_spatial(fluid, walls);
+  if (spatial) turn_to_heading(fluid, walls);
   const double level = cut_level(fluid, walls);
-  if (is_spatial(fluid, walls)) {
+  if (spatial) {
     Cutter cutter(fluid, level, picture);
     for (const auto& cell : fluid.cells)
       if (cell.size() == 4) cutter.cut(cell);

@@ -1,4 +1,5 @@
-// A recorded state as a plane picture: a 2D mesh as it is, a 3D mesh cut by a vertical plane y = const.
+// A recorded state as a plane picture: a 2D mesh as it is, a 3D mesh cut by an upright plane, through the middle
+// of the first body and along its heading; x then runs along that heading.
 #pragma once
 
 #include <array>

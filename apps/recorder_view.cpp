@@ -39,7 +39,7 @@ void take_fluid(const fluid::Fluid<d>& fluid, Frame<d>& frame) {
 
 template <int d, class Surface>
 Outline<d> outline_at(const std::string& name, const Surface& surface, const fluid::Isometry<d>& pose) {
-  return {name, {pose * surface.vertices, surface.facets}};
+  return {name, {pose * surface.vertices, surface.facets}, pose.linear().col(0)};
 }
 
 }  // namespace

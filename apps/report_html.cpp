@@ -163,22 +163,24 @@ std::string body_table(const RunData& run) {
   });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"maximum_submergence", "time"})); });
   row("first contact", [](const Body& b) { return seconds_text(number_at(b, {"first_contact_time"})); });
-  for (const char* angle : attitude_names)
-    if (std::ranges::any_of(bodies, [&](const Body& b) { return member(b, "attitude_deg").contains(angle); }))
-      row(std::string(angle) + " at the end (lowest to highest since contact)",
-          [&](const Body& b) { return angle_text(member(member(b, "attitude_deg"), angle)); });
-  row("capsized", [](const Body& b) {
-    const double since = number_at(b, {"capsized_time"});
-    return std::isfinite(since) ? "since " + seconds_text(since) : std::string("no");
-  });
-  row("left the water again", [](const Body& b) {
-    const double skips = number_at(b, {"skips"});
-    return skips > 0 ? count_text(skips) + " times" : std::string("no");
-  });
-  row("settled", [](const Body& b) {
-    const double settled = number_at(b, {"settled_time"});
-    return std::isfinite(settled) ? "since " + seconds_text(settled) : std::string("not within the run");
-  });
+  if (std::ranges::any_of(bodies, [](const Body& b) { return std::isfinite(number_at(b, {"first_contact_time"})); })) {
+    for (const char* angle : attitude_names)
+      if (std::ranges::any_of(bodies, [&](const Body& b) { return member(b, "attitude_deg").contains(angle); }))
+        row(std::string(angle) + " at the end (lowest to highest since contact)",
+            [&](const Body& b) { return angle_text(member(member(b, "attitude_deg"), angle)); });
+    row("capsized", [](const Body& b) {
+      const double since = number_at(b, {"capsized_time"});
+      return std::isfinite(since) ? "since " + seconds_text(since) : std::string("no");
+    });
+    row("left the water again", [](const Body& b) {
+      const double skips = number_at(b, {"skips"});
+      return skips > 0 ? count_text(skips) + " times" : std::string("no");
+    });
+    row("settled", [](const Body& b) {
+      const double settled = number_at(b, {"settled_time"});
+      return std::isfinite(settled) ? "since " + seconds_text(settled) : std::string("not within the run");
+    });
+  }
   return html +
          "</tbody></table></div>\n<p class=\"where\">Accelerations are those of the centre of mass in "
          "multiples of "

@@ -22,6 +22,7 @@ Grid read_grid(const std::filesystem::path& path, const std::string& scalar) {
   vtkUnstructuredGrid* data = reader->GetOutput();
   Grid grid;
   if (auto* time = data->GetFieldData()->GetArray("TimeValue")) grid.time = time->GetTuple1(0);
+  if (auto* forward = data->GetFieldData()->GetArray("forward")) forward->GetTuple(0, grid.forward.data());
   auto* values = data->GetPointData()->GetArray(scalar.c_str());
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     Point3 x;

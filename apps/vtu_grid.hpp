@@ -15,6 +15,7 @@ struct Grid {
   std::vector<Point3> points;
   std::vector<double> values;  ///< the scalar asked for, at the points; zero without it
   std::vector<std::vector<int>> cells;
+  Point3 forward{1, 0, 0};  ///< of a body: where its x axis points
 };
 
 /// Throws std::runtime_error if the file cannot be read.

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/plane_picture.hpp"
+#include "apps/recorder_view.hpp"
 #include "apps/report.hpp"
 #include "apps/report_data.hpp"
 #include "scratch_folder.hpp"
@@ -127,6 +128,29 @@ TEST(SpatialReport, shows_curves_slices_and_the_hull) {
                               "hull_box_below.png", "hull_box_side.png", "hull_box_ahead.png", "surface_box.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "report" / picture)) << picture;
   EXPECT_NE(folder.text("report.html").find("box from below"), std::string::npos);
+}
+
+// A whole scene that is turned about the vertical has the same slice.
+TEST(SpatialPicture, a_slice_follows_the_heading_of_the_body) {
+  ScratchFolder folder;
+  StandInPress press;
+  Frame<3> frame = take_frame(press.at(0, dt));
+  const Eigen::AngleAxisd turn(0.645, Eigen::Vector3d::UnitZ());
+  for (auto& x : frame.x) x = turn * x;
+  for (auto& outline : frame.outlines) {
+    outline.surface.vertices = turn.toRotationMatrix() * outline.surface.vertices;
+    outline.forward = turn * outline.forward;
+  }
+  write_pieces(folder.path(), "turned", frame);
+  write_pieces(folder.path(), "straight", take_frame(press.at(0, dt)));
+  const auto turned = read_picture(folder.path(), "turned"), straight = read_picture(folder.path(), "straight");
+  const auto area = [](const PlanePicture& picture) {
+    double sum = 0;
+    for (const auto& [a, b] : picture.outlines.at(0).segments) sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    return std::abs(sum);
+  };
+  EXPECT_NEAR(area(turned), area(straight), 1e-12);
+  EXPECT_NEAR(area(straight), 4 * press_half_length * press_half_height, 1e-12);
 }
 
 // The slice at y = 0 through a block of 2 m by 1 m: its outline has the block's length, its triangles its area.
