@@ -7,10 +7,9 @@
 #include <numbers>
 
 #include "apps/build.hpp"
+#include "apps/check_floating.hpp"
 #include "apps/check_words.hpp"
-#include "apps/scales.hpp"
 #include "apps/scene_geometry.hpp"
-#include "rigid/hydrostatics.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -35,9 +34,9 @@ std::string motion_text(const Body& body) {
     case Motion::fixed:
       return "fixed";
     case Motion::prescribed:
-      return body.path.empty() ? "prescribed: velocity " + start("spin ")
-                               : fmt::format("prescribed: path of {} points to {:g} s", body.path.size(),
-                                             body.path.back().time);
+      return body.path.empty()
+                 ? "prescribed: velocity " + start("spin ")
+                 : fmt::format("prescribed: path of {} points to {:g} s", body.path.size(), body.path.back().time);
     case Motion::free:
       break;
   }
@@ -76,30 +75,13 @@ std::string deadrise_text(const Body& body, const rigid::Surface<d>& hull) {
   return fmt::format("{:.4g} deg beside the lowest point", least);
 }
 
-/// Round-off of an angle that is meant to be zero is not shown.
-double shown_deg(double angle) { return std::abs(angle) * degrees < 1e-6 ? 0 : angle * degrees; }
-
-void print_floating(const Scene& scene, const rigid::BodySpec<2>& spec) {
-  const auto level = still_water_level<2>(scene);
-  if (!level || !scene.gravity) return;
-  const auto rest = rigid::floating_stable(spec.surface, spec.pose, spec.mass, scene.fluid->density, *level);
-  if (!rest) return row("at rest", "sinks: heavier than the water it can displace");
-  const Eigen::Matrix2d& turn = rest->pose.linear();
-  row("at rest", fmt::format("floats with a draft of {:.5g} m, pitch {:.4g} deg, GM {:.4g} m, centre of mass "
-                             "{:.4g} m above the water",
-                             rest->draft, shown_deg(std::atan2(turn(1, 0), turn(0, 0))),
-                             rest->metacentric_height, rest->pose.translation().y() - *level));
-}
-
-void print_floating(const Scene&, const rigid::BodySpec<3>&) {}
-
 /// Elements at the tightest curve of the hull, and whether they can follow it.
 template <int d>
 void print_curvature(const Scene& scene, const Body& body) {
   const auto bends = hull_bends<d>(scene, body);
   if (bends.empty()) return;
-  const auto& tight = *std::min_element(bends.begin(), bends.end(),
-                                        [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  const auto& tight =
+      *std::min_element(bends.begin(), bends.end(), [](const auto& a, const auto& b) { return a.radius < b.radius; });
   const double share = tight.size / tight.radius, rounded_up = 1 + 1e-6;
   std::string note;
   if (share > scene.fluid->size.curvature * rounded_up)
@@ -107,8 +89,8 @@ void print_curvature(const Scene& scene, const Body& body) {
                        4 * scene.fluid->size.curvature * tight.radius);
   else if (share > 0.25 * rounded_up)
     note = "; enough for loads; where a swing has to keep its energy set fluid.size.curvature = 0.25";
-  row("curvature", fmt::format("radius {:.3g} m at {} m, elements {:.3g} m there{}", tight.radius,
-                               text<d>(tight.at, 3), tight.size, note));
+  row("curvature", fmt::format("radius {:.3g} m at {} m, elements {:.3g} m there{}", tight.radius, text<d>(tight.at, 3),
+                               tight.size, note));
 }
 
 /// What the water adds to a plate on its surface: half of pi/4 b^2 rho a metre for a strip of breadth b, half of
@@ -129,8 +111,8 @@ const char* plate(const rigid::Surface<2>&) { return "flat plate of its breadth"
 const char* plate(const rigid::Surface<3>&) { return "disc of its plan area"; }
 
 void print_inertia(const rigid::BodySpec<2>& spec) {
-  row("inertia", fmt::format("{:.6g} kg m about the centre of mass (radius of gyration {:.5g} m)",
-                             spec.inertia(0, 0), std::sqrt(spec.inertia(0, 0) / spec.mass)));
+  row("inertia", fmt::format("{:.6g} kg m about the centre of mass (radius of gyration {:.5g} m)", spec.inertia(0, 0),
+                             std::sqrt(spec.inertia(0, 0) / spec.mass)));
 }
 
 void print_inertia(const rigid::BodySpec<3>& spec) {
@@ -185,8 +167,9 @@ void print_body(const Scene& scene, const Body& body) {
     row("mass", fmt::format("{:.6g} {} (mean density {:.5g} kg/m^3)", spec.mass, Units<d>::mass, spec.mass / volume));
     if (spec.mass > 0) print_inertia(spec);
   }
-  row("centre of mass", fmt::format("{} m now, {} m in the shape's frame", text<d>(rigid::Vec<d>(spec.pose.translation())),
-                                    text<d>(mass_properties<d>(body).centre)));
+  row("centre of mass",
+      fmt::format("{} m now, {} m in the shape's frame", text<d>(rigid::Vec<d>(spec.pose.translation())),
+                  text<d>(mass_properties<d>(body).centre)));
   if (!scene.fluid) return;
   row("deadrise", deadrise_text<d>(body, hull));
   row("hull elements", fmt::format("{:g} m", body.size));
@@ -198,7 +181,7 @@ void print_body(const Scene& scene, const Body& body) {
   if (spec.mass == 0) return row("added mass", about + ": all the inertia there is; the body has no mass");
   row("added mass", fmt::format("{}: {:.3g} times its mass{}", about, added / spec.mass,
                                 added > spec.mass ? "; needs interface_term rigid, or an accelerator" : ""));
-  print_floating(scene, spec);
+  print_floating<d>(scene, spec);
 }
 
 template void print_body<2>(const Scene&, const Body&);

@@ -23,8 +23,10 @@ void check_mass(const Scene& scene, const Body& body, const std::string& label, 
   if (mass && density)
     problems.add(label + ".density", "mass and density exclude each other", "Remove one of them.");
   if (body.motion == Motion::free && !mass && !density)
-    problems.add_missing(label + ".mass", fmt::format("a free body needs its mass ({}) or mean density (kg/m^3)", mass_unit(scene.dimension)),
-                         "Add mass or density, or motion = \"fixed\".");
+    problems.add_missing(
+        label + ".mass",
+        fmt::format("a free body needs its mass ({}) or mean density (kg/m^3)", mass_unit(scene.dimension)),
+        "Add mass or density, or motion = \"fixed\".");
   if (body.motion == Motion::free && body.free.empty() && problems.noted(label + ".free"))
     problems.add(label + ".free", "must name at least one of " + listing(freedom_names(scene.dimension)),
                  "For none of them use motion = \"fixed\".");
@@ -60,10 +62,13 @@ template <int d>
 void check_massless(const Scene& scene, const Body& body, const std::string& label, Problems& problems) {
   const bool massless = body.mass == 0. || body.density == 0.;
   if (body.motion != Motion::free || !massless) return;
-  const std::string key = label + (body.mass ? ".mass" : ".density"), cure = "Give it a mass, or let it start in the water.";
-  if (!scene.fluid) return problems.add(key, "a free body without mass needs a fluid that has inertia for it", "Give it a mass.");
+  const std::string key = label + (body.mass ? ".mass" : ".density"),
+                    cure = "Give it a mass, or let it start in the water.";
+  if (!scene.fluid)
+    return problems.add(key, "a free body without mass needs a fluid that has inertia for it", "Give it a mass.");
   if (scene.coupling && scene.coupling->interface_term != "rigid")
-    problems.add(key, "a free body without mass needs coupling.interface_term = \"rigid\"", "Change the term, or give it a mass.");
+    problems.add(key, "a free body without mass needs coupling.interface_term = \"rigid\"",
+                 "Change the term, or give it a mass.");
   if (!starts_wet<d>(scene, body))
     problems.add(key, "a free body without mass must start in the fluid, which has inertia for it", cure);
   if (body.inertia) problems.add(label + ".inertia", "a body without mass has no inertia", "Remove it.");

@@ -57,7 +57,8 @@ struct ReadShape {
   }
   void operator()(SurfaceShape& surface) const {
     reader.file("file", surface.file, "Name an .stl or .obj file; relative names begin at the folder of the scene.");
-    reader.number("scale", surface.scale, positive("", "Use metres per unit of the file: 0.001 if it is in millimetres."));
+    reader.number("scale", surface.scale,
+                  positive("", "Use metres per unit of the file: 0.001 if it is in millimetres."));
     auto& problems = reader.context().problems;
     if (problems.found_in(reader.path())) return;
     try {

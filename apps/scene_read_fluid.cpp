@@ -61,8 +61,9 @@ void read_region(Reader& reader, Region& region) {
   if (shape == "polygon") region.shape = PolygonRegion{};
   if (shape == "sphere") region.shape = SphereRegion{};
   std::visit(ReadRegionShape{reader}, region.shape);
-  reader.point("velocity", region.velocity,
-               any("m/s", "Use metres per second, one number for each axis, e.g. " + axis_example(dimension, -1) + "."));
+  reader.point(
+      "velocity", region.velocity,
+      any("m/s", "Use metres per second, one number for each axis, e.g. " + axis_example(dimension, -1) + "."));
   if (!reader.holds("velocity_gradient")) return reader.skip("velocity_gradient");
   reader.matrix("velocity_gradient", region.velocity_gradient,
                 any("1/s", "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0], [0.0, 1.0]]."));

@@ -35,16 +35,13 @@ struct MakeRegion<2> {
     const int pieces = std::max(1, static_cast<int>(std::ceil(200 * waves)));
     for (int i = pieces; i >= 0; --i) {
       const double s = (r.max.x() - r.min.x()) * i / pieces;
-      const double wave = r.surface_wavelength > 0
-                              ? std::cos(2 * pi * s / r.surface_wavelength + r.surface_phase_deg * radians)
-                              : 0;
+      const double wave =
+          r.surface_wavelength > 0 ? std::cos(2 * pi * s / r.surface_wavelength + r.surface_phase_deg * radians) : 0;
       points.emplace_back(i == pieces ? r.max.x() : r.min.x() + s, r.max.y() + r.surface_amplitude * wave);
     }
     return rigid::polygon(points).surface;
   }
-  Surface<2> operator()(const CircleRegion& r) const {
-    return shifted<2>(rigid::circle(r.radius).surface, r.centre);
-  }
+  Surface<2> operator()(const CircleRegion& r) const { return shifted<2>(rigid::circle(r.radius).surface, r.centre); }
   Surface<2> operator()(const EllipseRegion& r) const {
     return shifted<2>(rigid::ellipse(r.semi_axes.x(), r.semi_axes.y()).surface, r.centre);
   }
@@ -64,9 +61,7 @@ struct MakeRegion<3> {
   Surface<3> operator()(const BoxRegion& r) const {
     return shifted<3>(rigid::box(r.max - r.min).surface, 0.5 * (r.min + r.max));
   }
-  Surface<3> operator()(const SphereRegion& r) const {
-    return shifted<3>(rigid::sphere(r.radius).surface, r.centre);
-  }
+  Surface<3> operator()(const SphereRegion& r) const { return shifted<3>(rigid::sphere(r.radius).surface, r.centre); }
 };
 
 }  // namespace

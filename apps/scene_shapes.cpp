@@ -33,9 +33,7 @@ struct MakeShape<2> {
   }
   rigid::Shape<2> operator()(const RectangleShape& s) const { return rigid::box(s.width, s.height); }
   rigid::Shape<2> operator()(const CircleShape& s) const { return rigid::circle(s.radius); }
-  rigid::Shape<2> operator()(const EllipseShape& s) const {
-    return rigid::ellipse(s.semi_axes.x(), s.semi_axes.y());
-  }
+  rigid::Shape<2> operator()(const EllipseShape& s) const { return rigid::ellipse(s.semi_axes.x(), s.semi_axes.y()); }
   rigid::Shape<2> operator()(const CapsuleShape& s) const { return rigid::capsule(s.radius, s.length); }
 };
 
@@ -48,9 +46,7 @@ struct MakeShape<3> {
   rigid::Shape<3> operator()(const SphereShape& s) const { return rigid::sphere(s.radius); }
   rigid::Shape<3> operator()(const BoxShape& s) const { return rigid::box(s.size); }
   rigid::Shape<3> operator()(const ConeShape& s) const { return rigid::cone(s.deadrise_deg * radians, s.radius); }
-  rigid::Shape<3> operator()(const CapsuleShape& s) const {
-    return rigid::capsule_of_revolution(s.radius, s.length);
-  }
+  rigid::Shape<3> operator()(const CapsuleShape& s) const { return rigid::capsule_of_revolution(s.radius, s.length); }
   rigid::Shape<3> operator()(const RevolvedShape& s) const {
     std::vector<Vec<2>> profile;
     for (const auto& [r, z] : s.profile) profile.emplace_back(r, z);

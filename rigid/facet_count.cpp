@@ -17,13 +17,15 @@
 namespace splashdown::rigid {
 namespace {
 
-const std::string decimate = "Coarsen it, e.g. MeshLab: Filters > Remeshing > Quadric Edge Collapse Decimation; 10000 to "
-                             "100000 facets make a good hull.";
+const std::string decimate =
+    "Coarsen it, e.g. MeshLab: Filters > Remeshing > Quadric Edge Collapse Decimation; 10000 to "
+    "100000 facets make a good hull.";
 const std::string export_again = "Export it again as STL or OBJ.";
 
 void refuse_too_many(long facets, const char* more) {
   if (facets > most_facets)
-    throw SurfaceFileError(message("has ", facets, more, " facets; ", most_facets, " are the most that are read"), decimate);
+    throw SurfaceFileError(message("has ", facets, more, " facets; ", most_facets, " are the most that are read"),
+                           decimate);
 }
 
 std::string_view word_of(std::string_view& text) {
@@ -99,7 +101,8 @@ long count_lines(std::istream& file, int (*facets_of)(std::string_view), const c
 
 FacetCount count_facets(const std::filesystem::path& path) {
   auto extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   if (extension != ".stl" && extension != ".obj")
     throw SurfaceFileError(message("must be an .stl or .obj file, not '", extension, "'"), export_again);
   std::ifstream file(path, std::ios::binary);
@@ -122,7 +125,8 @@ FacetCount count_facets(const std::filesystem::path& path) {
   file.clear();
   file.seekg(0);
   // Binary files, too, begin with "solid" at times; their bytes are no text.
-  const bool printable = std::none_of(head.begin(), head.begin() + std::min(size, header), [](char c) { return c == '\0'; });
+  const bool printable =
+      std::none_of(head.begin(), head.begin() + std::min(size, header), [](char c) { return c == '\0'; });
   if (text || printable) return {SurfaceFormat::stl_ascii, count_lines(file, stl_facets, "STL")};
   throw SurfaceFileError(message("is not a mesh: as a binary STL of ", facets, " facets it would have ",
                                  header + record * facets, " bytes, not ", size),

@@ -13,8 +13,6 @@ namespace splashdown::rigid {
 
 namespace {
 
-using std::numbers::pi;
-
 /// The part of a polygon (or of a segment, seen as a polygon with two corners) with height <= 0.
 template <int d>
 std::vector<Vec<d>> below_zero(const FacetCorners<d>& corners) {
@@ -106,60 +104,137 @@ std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>
   double wet = water_level - heights.maxCoeff(), dry = water_level - heights.minCoeff();
   Isometry<d> trial = pose;
   double& height = trial.translation()(d - 1);
+  const double given = height;
   height = wet;
   const double target = mass / density;
   if (submerged<d>(surface, trial, water_level).volume < target) return std::nullopt;
 
   // The displaced volume falls with height at the rate of the waterline: Newton, kept between bounds.
-  const double resolution = 1e-15 * (dry - wet);
+  const double resolution = 1e-15 * (dry - wet), round_off = 1e-9 * (dry - wet);
   const int iterations = 200;  // bisection alone needs about 50
-  height = 0.5 * (wet + dry);
+  height = given > wet && given < dry ? given : 0.5 * (wet + dry);
+  double last = dry - wet;
   for (int i = 0; i < iterations && dry - wet > resolution; ++i) {
     const Submerged<d> s = submerged<d>(surface, trial, water_level);
     const double excess = s.volume - target;
     (excess > 0 ? wet : dry) = height;
     const double newton = height + excess / s.waterline;
     const double next = newton > wet && newton < dry ? newton : 0.5 * (wet + dry);
-    const bool settled = std::abs(newton - height) <= resolution;
-    if (settled) break;
+    const double change = std::abs(newton - height);
+    if (change <= resolution || (last < round_off && change >= last)) break;
+    last = change;
     height = next;
   }
   return assess<d>(surface, trial, water_level);
 }
 
-std::optional<Floating<2>> floating_stable(const Surface<2>& surface, const Isometry<2>& pose, double mass,
-                                           double density, double water_level) {
-  const double extent =
-      (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
-  const auto at = [&](double turn) {
-    Isometry<2> heeled = pose;
-    heeled.linear() = Eigen::Rotation2Dd(turn) * pose.linear();
-    return floating<2>(surface, heeled, mass, density, water_level);
-  };
-  const auto lever = [](const Floating<2>& f) { return f.submerged.centre.x() - f.pose.translation().x(); };
+namespace {
 
+/// Turns by a slope: a point at the horizontal distance p rises by slope . p. In space about ez x slope.
+template <int d>
+Eigen::Matrix<double, d, d> tilt(const Slope<d>& slope) {
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  if constexpr (d == 2)
+    turn.z() = slope(0);
+  else
+    turn.template head<2>() << slope.y(), -slope.x();
+  return Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix().template topLeftCorner<d, d>();
+}
+
+/// Energy over weight when the displaced volume is given: the height of the centre of mass over that of buoyancy. With
+/// respect to the slope, its gradient is minus the lever and its curvature the metacentric heights.
+template <int d>
+double energy(const Floating<d>& f) {
+  return f.pose.translation()(d - 1) - f.submerged.centre(d - 1);
+}
+
+template <int d>
+Slope<d> lever(const Floating<d>& f) {
+  return (f.submerged.centre - f.pose.translation()).template head<d - 1>();
+}
+
+template <int d>
+Eigen::Matrix<double, d - 1, d - 1> metacentric_tensor(const Floating<d>& f) {
+  return f.submerged.waterline_moment / f.submerged.volume -
+         energy(f) * Eigen::Matrix<double, d - 1, d - 1>::Identity();
+}
+
+/// Descends in energy along the allowed slopes (orthonormal columns) by Newton's method, in steps of a degree at most,
+/// so that it ends in the minimum that the body would come to; never at an unstable balance. Indifferent directions, a
+/// round body's roll, stay as they are.
+template <int d>
+Floating<d> settled(const Surface<d>& surface, Floating<d> f, double mass, double density, double water_level,
+                    const Eigen::MatrixXd& allowed) {
+  const double extent = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
   const double balance = 1e-9 * extent;  // a lever that is nothing but round-off
-  const double neutral = 1e-6 * extent;  // (a circle's 256-gon has |GM| < 8e-5 radii: it settles on a facet)
-  const double stride = pi / 180;        // resolves the equilibria of anything but a gear wheel
-  const std::optional<Floating<2>> start = at(0);
-  if (!start) return start;
-  double sense = std::copysign(1., lever(*start));
-  if (std::abs(lever(*start)) <= balance) {
-    if (start->metacentric_height > -neutral) return start;
-    sense = 1;
+  const double neutral = 1e-4 * extent;  // |GM| of round bodies: that of their facets (a 128-gon: 3e-4 radii)
+  const double stride = std::numbers::pi / 180, arrived = 1e-13;
+  const int iterations = 1000;
+  const auto along = [&](const Floating<d>& at) -> Eigen::VectorXd { return allowed.transpose() * lever(at); };
+  for (int i = 0; i < iterations; ++i) {
+    const Eigen::VectorXd down = along(f);
+    const Eigen::MatrixXd tensor = metacentric_tensor(f);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> curvature(allowed.transpose() * tensor * allowed);
+    const Eigen::VectorXd& heights = curvature.eigenvalues();
+    const Eigen::MatrixXd& axes = curvature.eigenvectors();
+    Eigen::VectorXd step;
+    if (down.norm() <= balance && heights(0) < -neutral) {
+      const double sense = axes.col(0).sum() < 0 ? -1 : 1;  // counter-clockwise in the plane
+      step = sense * stride * axes.col(0);
+    } else {
+      Eigen::VectorXd amounts = axes.transpose() * down;
+      for (Eigen::Index k = 0; k < amounts.size(); ++k) {
+        const bool indifferent = std::abs(heights(k)) <= neutral && std::abs(amounts(k)) <= 0.1 * neutral;
+        amounts(k) = indifferent ? 0 : amounts(k) / std::max(std::abs(heights(k)), neutral);
+      }
+      step = axes * amounts;
+      if (step.norm() < arrived) break;
+      if (step.norm() > stride) step *= stride / step.norm();
+    }
+    bool better = false;
+    for (; step.norm() >= arrived && !better; step *= 0.5) {
+      Isometry<d> pose = f.pose;
+      pose.linear() = tilt<d>(allowed * step) * f.pose.linear();
+      const auto next = floating<d>(surface, pose, mass, density, water_level);
+      // Near the minimum the energy is flat to round-off, the lever is not.
+      const bool lower = energy(*next) < energy(f), closer = along(*next).norm() < down.norm();
+      better = lower || (closer && heights(0) > 0);
+      if (better) f = *next;
+    }
+    if (!better) break;
   }
+  return f;
+}
 
-  double from = 0, to = sense * stride;
-  while (sense * lever(*at(to)) > 0 && std::abs(to) < 2 * pi) {
-    from = to;
-    to += sense * stride;
+}  // namespace
+
+template <int d>
+double metacentric_height(const Floating<d>& f, const Slope<d>& direction) {
+  return direction.dot(metacentric_tensor(f) * direction);
+}
+
+template <int d>
+std::optional<Floating<d>> floating_stable(const Surface<d>& surface, const Isometry<d>& pose, double mass,
+                                           double density, double water_level) {
+  const auto start = floating<d>(surface, pose, mass, density, water_level);
+  if (!start) return start;
+  return settled<d>(surface, *start, mass, density, water_level, Eigen::MatrixXd::Identity(d - 1, d - 1));
+}
+
+std::vector<Heeled> righting_levers(const Surface<3>& surface, const Floating<3>& rest, double mass, double density,
+                                    double water_level, const Slope<3>& axis, std::span<const double> heels) {
+  const Slope<3> across(-axis.y(), axis.x());
+  std::vector<Heeled> curve;
+  Floating<3> f = rest;
+  double before = 0;
+  for (const double heel : heels) {
+    Isometry<3> pose = f.pose;
+    pose.linear() = tilt<3>((heel - before) * across) * f.pose.linear();
+    before = heel;
+    f = settled<3>(surface, *floating<3>(surface, pose, mass, density, water_level), mass, density, water_level, axis);
+    curve.push_back({heel, -lever(f).dot(across), f});
   }
-  const double resolution = 1e-13;
-  while (std::abs(to - from) > resolution) {
-    const double middle = 0.5 * (from + to);
-    (sense * lever(*at(middle)) > 0 ? from : to) = middle;
-  }
-  return at(0.5 * (from + to));
+  return curve;
 }
 
 template Submerged<2> submerged<2>(const Surface<2>&, const Isometry<2>&, double);
@@ -168,5 +243,10 @@ template std::optional<Floating<2>> floating<2>(const Surface<2>&, const Isometr
                                                 double);
 template std::optional<Floating<3>> floating<3>(const Surface<3>&, const Isometry<3>&, double, double,
                                                 double);
+
+template double metacentric_height<2>(const Floating<2>&, const Slope<2>&);
+template double metacentric_height<3>(const Floating<3>&, const Slope<3>&);
+template std::optional<Floating<2>> floating_stable<2>(const Surface<2>&, const Isometry<2>&, double, double, double);
+template std::optional<Floating<3>> floating_stable<3>(const Surface<3>&, const Isometry<3>&, double, double, double);
 
 }  // namespace splashdown::rigid

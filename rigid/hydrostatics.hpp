@@ -9,6 +9,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "rigid/types.hpp"
 
@@ -39,9 +41,32 @@ template <int d>
 std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>& pose, double mass,
                                     double density, double water_level);
 
-/// Where a planar body floats when it may heel: the stable attitude that its righting moment leads to
-/// from the given one (counter-clockwise if that one is an unstable balance).
-std::optional<Floating<2>> floating_stable(const Surface<2>& surface, const Isometry<2>& pose, double mass,
+/// Horizontal direction in which a heeled body rises [rad]: to the right in the plane, x and y in space.
+template <int d>
+using Slope = Eigen::Matrix<double, d - 1, 1>;
+
+/// GM against a tilt that lifts the side that `direction` (of unit length) points to: n . I_w n / V + KB - KG [m].
+/// For roll the direction across the body, for pitch the one along it.
+template <int d>
+double metacentric_height(const Floating<d>& floating, const Slope<d>& direction);
+
+/// Where a body floats when it may heel and trim: the stable attitude that its righting moments lead to from the given
+/// one (in the plane counter-clockwise if that one is an unstable balance). Found by descent of the height of the
+/// centre of mass over that of buoyancy, which is the energy over the weight. Yaw stays as it is.
+template <int d>
+std::optional<Floating<d>> floating_stable(const Surface<d>& surface, const Isometry<d>& pose, double mass,
                                            double density, double water_level);
+
+/// A point of a curve of static stability.
+struct Heeled {
+  double heel = 0;          ///< [rad]
+  double lever = 0;         ///< GZ, of the moment that rights the body over its weight [m]
+  Floating<3> floating;
+};
+
+/// Righting levers of a body turned from rest about a horizontal axis (unit length, by the right hand) to each of the
+/// rising `heels` [rad], free to sink and to trim: it turns about the horizontal axis across until that moment vanishes.
+std::vector<Heeled> righting_levers(const Surface<3>& surface, const Floating<3>& rest, double mass, double density,
+                                    double water_level, const Slope<3>& axis, std::span<const double> heels);
 
 }  // namespace splashdown::rigid

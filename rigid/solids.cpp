@@ -114,7 +114,7 @@ void require_profile(std::span<const Vec<2>> profile) {
 /// V = pi int r^2 dz and so on. Exact: the integrands are of fourth degree along each piece.
 MassProperties<3> revolved_mass_properties(const std::vector<Vec<2>>& profile) {
   constexpr std::array<double, 3> node{-0.7745966692414834, 0, 0.7745966692414834},
-      weight{5. / 9, 8. / 9, 5. / 9};  // Gauss, on [-1, 1]
+      weight{5. / 9, 8. / 9, 5. / 9};                    // Gauss, on [-1, 1]
   double volume = 0, first = 0, second = 0, fourth = 0;  // int r^2, r^2 z, r^2 z^2, r^4 dz
   const double origin = profile.front().y();
   for (std::size_t i = 1; i < profile.size(); ++i)
@@ -143,13 +143,13 @@ Shape<3> sphere(double radius, int around) {
   require_around("sphere", around);
   // The icosahedron's corners and faces, and points (weights of three corners, sum n) on a grid on each face.
   const double g = std::numbers::phi;
-  const std::array<Vec<3>, 12> corner{Vec<3>(-1, g, 0), {1, g, 0},   {-1, -g, 0}, {1, -g, 0},  {0, -1, g}, {0, 1, g},
-                                      {0, -1, -g},      {0, 1, -g}, {g, 0, -1},  {g, 0, 1},   {-g, 0, -1}, {-g, 0, 1}};
+  const std::array<Vec<3>, 12> corner{Vec<3>(-1, g, 0), {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                      {0, -1, -g},      {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   constexpr std::array<Triangle, 20> face{{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                                            {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
                                            {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                                            {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
-  const double edge = std::atan(2.);  // seen from the centre
+  const double edge = std::atan(2.);                                        // seen from the centre
   const int n = 2 * static_cast<int>(std::ceil(around * edge / (4 * pi)));  // even: vertices on all axes
   std::vector<Vec<3>> points;
   std::vector<Triangle> triangles;
@@ -196,8 +196,8 @@ Shape<3> box(const Vec<3>& size) {
 
 Shape<3> cone(double deadrise, double radius, int around) {
   if (!(deadrise > 0 && deadrise < pi / 2))
-    throw std::invalid_argument(message("cone: deadrise is ", deadrise * 180 / pi,
-                                        " degrees; it must lie between 0 and 90"));
+    throw std::invalid_argument(
+        message("cone: deadrise is ", deadrise * 180 / pi, " degrees; it must lie between 0 and 90"));
   require_positive("cone", "radius", radius);
   const double height = radius * std::tan(deadrise);
   const std::array<Vec<2>, 3> profile{Vec<2>(0, 0), {radius, height}, {0, height}};
@@ -228,8 +228,8 @@ Shape<3> capsule_of_revolution(double radius, double straight, int around) {
   auto& p = shape.at_unit_density;
   p.mass = cylinder + ball;
   const double along = cylinder * r2 / 2 + 0.4 * ball * r2;
-  const double across = cylinder * (r2 / 4 + straight * straight / 12) +
-                        ball * (0.4 * r2 + half * half + 2 * half * 3. / 8 * radius);
+  const double across =
+      cylinder * (r2 / 4 + straight * straight / 12) + ball * (0.4 * r2 + half * half + 2 * half * 3. / 8 * radius);
   p.inertia.diagonal() << along, across, across;
   return shape;
 }

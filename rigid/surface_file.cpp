@@ -29,12 +29,15 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-const std::string flip = "Flip it in the tool that made it, e.g. Blender: Mesh > Normals > Recalculate Outside, and export "
-                         "it again.";
-const std::string close = "Close it in the tool that made it, e.g. Blender: 3D-Print Toolbox > Make Manifold, or MeshLab: "
-                          "Filters > Remeshing > Close Holes, and export it again.";
-const std::string clean = "Remove it, e.g. MeshLab: Filters > Cleaning > Merge Close Vertices and Remove Zero Area Faces, and "
-                          "export it again.";
+const std::string flip =
+    "Flip it in the tool that made it, e.g. Blender: Mesh > Normals > Recalculate Outside, and export "
+    "it again.";
+const std::string close =
+    "Close it in the tool that made it, e.g. Blender: 3D-Print Toolbox > Make Manifold, or MeshLab: "
+    "Filters > Remeshing > Close Holes, and export it again.";
+const std::string clean =
+    "Remove it, e.g. MeshLab: Filters > Cleaning > Merge Close Vertices and Remove Zero Area Faces, and "
+    "export it again.";
 const std::string unite = "Join the parts, e.g. Blender: Boolean > Union, or mend the place, and export it again.";
 
 /// Points and the polygons between them.
@@ -60,19 +63,23 @@ std::string text(const Vec<3>& x) { return message("(", x.x(), ", ", x.y(), ", "
 Soup read_soup(const std::filesystem::path& path) {
   const auto expected = count_facets(path);
   Soup soup;
-  const bool good = expected.format == SurfaceFormat::obj ? CGAL::IO::read_OBJ(path.string(), soup.points, soup.polygons)
-                                                          : CGAL::IO::read_STL(path.string(), soup.points, soup.polygons);
+  const bool good = expected.format == SurfaceFormat::obj
+                        ? CGAL::IO::read_OBJ(path.string(), soup.points, soup.polygons)
+                        : CGAL::IO::read_STL(path.string(), soup.points, soup.polygons);
   long triangles = 0;
   bool whole = good;
   for (const auto& polygon : soup.polygons) {
     triangles += static_cast<long>(polygon.size()) - 2;
     for (const auto point : polygon) whole = whole && point < soup.points.size();
   }
-  for (const auto& point : soup.points) whole = whole && text({point.x(), point.y(), point.z()}).find('n') == std::string::npos;
+  for (const auto& point : soup.points)
+    whole = whole && text({point.x(), point.y(), point.z()}).find('n') == std::string::npos;
   if (!whole || triangles != expected.facets)
-    throw SurfaceFileError(message("is not a whole mesh: ", triangles, " of ", expected.facets, " facets could be read"),
-                           "Export it again as STL or OBJ.");
-  if (triangles < 4) throw SurfaceFileError(message("has ", triangles, " facets; a closed surface has at least 4"), close);
+    throw SurfaceFileError(
+        message("is not a whole mesh: ", triangles, " of ", expected.facets, " facets could be read"),
+        "Export it again as STL or OBJ.");
+  if (triangles < 4)
+    throw SurfaceFileError(message("has ", triangles, " facets; a closed surface has at least 4"), close);
   return soup;
 }
 
@@ -91,7 +98,8 @@ void merge_points(Soup& soup) {
     const Cell cell = cell_of(x);
     std::optional<std::size_t> same;
     for (int k = 0; k < 27 && !same; ++k) {
-      const auto found = cells.find({cell[0] + (k % 3 + 1) % 3 - 1, cell[1] + (k / 3 % 3 + 1) % 3 - 1, cell[2] + (k / 9 + 1) % 3 - 1});
+      const auto found =
+          cells.find({cell[0] + (k % 3 + 1) % 3 - 1, cell[1] + (k / 3 % 3 + 1) % 3 - 1, cell[2] + (k / 9 + 1) % 3 - 1});
       if (found == cells.end()) continue;
       for (const auto other : found->second)
         if ((Vec<3>(points[other].x(), points[other].y(), points[other].z()) - x).norm() <= near) same = other;
@@ -190,7 +198,8 @@ void refuse_holes(const Mesh& mesh) {
   const std::size_t most = 3;
   for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
     where += message(", around ", text(found[i].centre), " with ", found[i].edges, " edges");
-  throw SurfaceFileError(message("is not closed: ", found.size(), found.size() == 1 ? " hole" : " holes", where), close);
+  throw SurfaceFileError(message("is not closed: ", found.size(), found.size() == 1 ? " hole" : " holes", where),
+                         close);
 }
 
 void refuse_crossings(const Mesh& mesh) {
@@ -200,7 +209,8 @@ void refuse_crossings(const Mesh& mesh) {
   Vec<3> where = Vec<3>::Zero();
   for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(crossings.front().first), mesh))
     where += Vec<3>(mesh.point(corner).x(), mesh.point(corner).y(), mesh.point(corner).z()) / 3;
-  throw SurfaceFileError(message("crosses itself: ", crossings.size(), " pairs of facets, the first at ", text(where)), unite);
+  throw SurfaceFileError(message("crosses itself: ", crossings.size(), " pairs of facets, the first at ", text(where)),
+                         unite);
 }
 
 /// Every closed part is turned outward, and none is inside another one.
@@ -221,8 +231,9 @@ int checked_parts(const Mesh& mesh) {
     const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(outer);
     for (const auto& inner : parts)
       if (&inner != &outer && side(inner.point(*inner.vertices().begin())) == CGAL::ON_BOUNDED_SIDE)
-        throw SurfaceFileError(message("has a part inside another one, at ", text(place(inner))),
-                               "Remove it: no water gets there; what it means for the mass goes into mass and inertia.");
+        throw SurfaceFileError(
+            message("has a part inside another one, at ", text(place(inner))),
+            "Remove it: no water gets there; what it means for the mass goes into mass and inertia.");
   }
   return static_cast<int>(parts.size());
 }

@@ -1,6 +1,5 @@
 // Scenes in three dimensions: what they are read to, what is refused and how, what a World is built from.
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <cmath>
@@ -193,11 +192,11 @@ const std::vector<Mistake> mistakes = {
     {"deadrise_upright", "deadrise_deg = 30", "deadrise_deg = 90", 31, "body.cone.shape.deadrise_deg = 90",
      "must lie in (0, 89] (deg)"},
     {"profile_across_the_axis", "{ type = \"sphere\", radius = 0.3 }",
-     "{ type = \"revolved\", profile = [[0, 0], [-1, 1], [0, 2]] }", 25, "body.ball.shape.profile",
-     "point 2 (-1, 1)"},
+     "{ type = \"revolved\", profile = [[0, 0], [-1, 1], [0, 2]] }", 25, "body.ball.shape.profile", "point 2 (-1, 1)"},
     // Places.
     {"tank_upside_down", "max = [2, 2, 1]", "max = [2, 2, -3]", 8, "tank.max = [2, 2, -3]", "must lie above tank.min"},
-    {"region_flat", "max = [2, 2, 0]", "max = [2, -2, 0]", 17, "fluid.region[0].max = [2, -2, 0]", "must lie above min"},
+    {"region_flat", "max = [2, 2, 0]", "max = [2, -2, 0]", 17, "fluid.region[0].max = [2, -2, 0]",
+     "must lie above min"},
     {"ball_through_the_wall", "position = [0, 0, 0.31]", "position = [0, 1.9, 0.31]", 21,
      "body.ball.position = [0, 1.9, 0.31]", "leaves the tank [-2, 2] x [-2, 2] x [-1, 1] m"},
     {"bodies_overlap", "position = [1, 0, 0.05]", "position = [0.2, 0.1, 0.2]", 29,
@@ -342,7 +341,9 @@ TEST_F(SurfaceSceneTest, a_hull_that_is_none_is_told_with_file_line_what_and_cur
     return std::string("was accepted");
   };
   const auto none = told("{ type = \"surface\", file = \"none.stl\" }");
-  EXPECT_NE(none.find("scene.toml:25: body.ball.shape.file = \\\"none.stl\\\": cannot be read: No such file"), std::string::npos) << none;
+  EXPECT_NE(none.find("scene.toml:25: body.ball.shape.file = \\\"none.stl\\\": cannot be read: No such file"),
+            std::string::npos)
+      << none;
   const auto open = told("{ type = \"surface\", file = \"open.obj\" }");
   EXPECT_NE(open.find("body.ball.shape.file"), std::string::npos) << open;
   const auto large = told("{ type = \"surface\", file = \"hull.obj\" }");

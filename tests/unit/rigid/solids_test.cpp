@@ -36,13 +36,13 @@ const Profile& buoy() {
 }
 
 std::vector<Shape<3>> all(int around = default_around) {
-  return {sphere(0.7, around), box({1, 0.4, 0.2}), cone(pi / 6, 0.5, around),
-          capsule_of_revolution(0.3, 1, around), revolved(buoy(), around)};
+  return {sphere(0.7, around), box({1, 0.4, 0.2}), cone(pi / 6, 0.5, around), capsule_of_revolution(0.3, 1, around),
+          revolved(buoy(), around)};
 }
 
-
 Vec<3> normal(const Surface<3>& s, Eigen::Index f) {
-  const Vec<3> a = s.vertices.col(s.facets(0, f)), b = s.vertices.col(s.facets(1, f)), c = s.vertices.col(s.facets(2, f));
+  const Vec<3> a = s.vertices.col(s.facets(0, f)), b = s.vertices.col(s.facets(1, f)),
+               c = s.vertices.col(s.facets(2, f));
   return (b - a).cross(c - a).normalized();
 }
 
@@ -97,7 +97,8 @@ TEST(Solids, are_smooth_but_for_their_edges) {
     for (const double angle : turns(shape.surface)) EXPECT_LT(angle, 2 * 360. / default_around);
   for (const double deadrise : {5., 30., 60., 85.})
     for (const double angle : turns(cone(deadrise * pi / 180, 0.5).surface))
-      EXPECT_TRUE(angle < 2 * 360. / default_around || std::abs(angle - (180 - deadrise)) < 2) << deadrise << " " << angle;
+      EXPECT_TRUE(angle < 2 * 360. / default_around || std::abs(angle - (180 - deadrise)) < 2)
+          << deadrise << " " << angle;
 }
 
 TEST(Solids, that_are_round_have_well_shaped_triangles) {

@@ -115,7 +115,8 @@ std::string binary(const Surface<3>& s, const std::string& header = "made by a t
 std::string obj(const Surface<3>& s) {
   std::string text = "# a hull\no hull\n";
   for (const Vec<3> x : s.vertices.colwise()) text += message("v ", x.x(), " ", x.y(), " ", x.z(), "\n");
-  for (const Eigen::Vector3i f : s.facets.colwise()) text += message("f ", f[0] + 1, "//1 ", f[1] + 1, "//1 ", f[2] + 1, "//1\n");
+  for (const Eigen::Vector3i f : s.facets.colwise())
+    text += message("f ", f[0] + 1, "//1 ", f[1] + 1, "//1 ", f[2] + 1, "//1\n");
   return text;
 }
 
@@ -128,7 +129,8 @@ TEST_F(SurfaceFileTest, the_same_body_comes_from_every_format) {
   };
   for (const auto& [name, text, digits] :
        {Given{"a.stl", ascii(shape.surface), 1e-12}, Given{"b.STL", binary(shape.surface), 1e-6},
-        Given{"solid.stl", binary(shape.surface, "solid but binary"), 1e-6}, Given{"c.obj", obj(shape.surface), 1e-5}}) {
+        Given{"solid.stl", binary(shape.surface, "solid but binary"), 1e-6},
+        Given{"c.obj", obj(shape.surface), 1e-5}}) {
     const auto file = read_surface_file(write(name, text));
     EXPECT_EQ(file.parts, 1);
     EXPECT_EQ(file.surface.vertices.cols(), shape.surface.vertices.cols()) << name << ": points are merged";
@@ -176,7 +178,8 @@ TEST_F(SurfaceFileTest, a_surface_that_crosses_itself_is_told_where) {
 }
 
 TEST_F(SurfaceFileTest, parts_that_share_an_edge_or_a_point_are_no_solid) {
-  EXPECT_TRUE(says(told(ascii(both(cube(), cube({2, 2, 0})))), "4 facets meet at the edge from (1, 1, -1) to (1, 1, 1)"));
+  EXPECT_TRUE(
+      says(told(ascii(both(cube(), cube({2, 2, 0})))), "4 facets meet at the edge from (1, 1, -1) to (1, 1, 1)"));
   EXPECT_TRUE(says(told(ascii(both(cube(), cube({2, 2, 2})))), "touch in the point (1, 1, 1)"));
 }
 
@@ -193,7 +196,8 @@ TEST_F(SurfaceFileTest, what_is_no_mesh_is_told_with_the_line) {
   EXPECT_TRUE(says(told(std::string("solid a\nvertex 0 0 nan\n")), "line 2"));
   EXPECT_TRUE(says(told(std::string("Dear reader,\nthis is a letter.\n")), "line 1, 'Dear reader,'"));
   EXPECT_TRUE(says(told(write("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n")), "line 3, 'f 1 2', is no line of OBJ"));
-  EXPECT_TRUE(says(told(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 1 2 9\nf 1 2 9\nf 1 2 9\n")), "is not a whole mesh"));
+  EXPECT_TRUE(says(told(write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 1 2 9\nf 1 2 9\nf 1 2 9\n")),
+                   "is not a whole mesh"));
   EXPECT_TRUE(says(told(std::string(100000, 'x')), "line 1"));
   EXPECT_TRUE(says(told(std::string()), "has 0 facets"));
   EXPECT_TRUE(says(told(std::string("solid a\nendsolid a\n")), "has 0 facets"));
