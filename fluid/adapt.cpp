@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "fluid/boundary_edges.hpp"
+
 namespace splashdown::fluid {
 namespace {
 
@@ -24,7 +26,7 @@ template <int d>
 class Adapter {
  public:
   Adapter(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls)
-      : nodes_(nodes), h_(h), mesh_(mesh), walls_(walls), on_boundary_(nodes.size(), 0), into_(nodes.size()) {
+      : nodes_(nodes), h_(h), mesh_(mesh), walls_(walls), edges_(mesh.boundary, nodes.size()), on_boundary_(nodes.size(), 0), into_(nodes.size()) {
     for (std::size_t i = 0; i < into_.size(); ++i) into_[i] = static_cast<int>(i);
     for (const auto& f : mesh.boundary)
       for (int a = 0; a < d; ++a) {
@@ -38,6 +40,7 @@ class Adapter {
     touched_.assign(nodes_.size(), 0);
     uncrowd();
     merge();
+    edges_ = BoundaryEdges<d>(mesh_.boundary, nodes_.size());
     split();
     compact();
     return report_;
@@ -89,22 +92,36 @@ class Adapter {
     }
   }
 
-  int rank(int i) const {
-    if (nodes_.tie[i].vertex >= 0) return 4;
-    if (nodes_.tie[i].wall >= 0 && nodes_.surface[i]) return 3;
-    return on_boundary_[i] ? 2 : 0;
+  // What a node stands for. In space, lines carry as many nodes as their length asks for.
+  enum Rank { within, boundary, contact_line, crease, separation_line, corner };
+  Rank rank(int i) const {
+    const WallTie& tie = nodes_.tie[i];
+    if (tie.vertex >= 0) return corner;
+    if (tie.crease >= 0) return nodes_.surface[i] ? separation_line : crease;
+    if (tie.wall >= 0 && nodes_.surface[i]) return contact_line;
+    return on_boundary_[i] ? boundary : within;
+  }
+  bool may_merge_with_its_like(Rank rank, const Edge& e) const {
+    if (!(nodes_.tie[e.a] == nodes_.tie[e.b]) || rank == corner) return false;
+    if (rank <= boundary) return true;
+    return d == 3 && (rank != contact_line || is_contact_edge(e));
+  }
+  bool is_contact_edge(const Edge& e) const {
+    bool wet = false, free = false;
+    edges_.around(mesh_.boundary, e.a, e.b, [&](int f) { (mesh_.boundary[f].wall < 0 ? free : wet) = true; });
+    return wet && free;
   }
 
   void merge() {
     for (const Edge& e : short_) {
       if (touched_[e.a] || touched_[e.b]) continue;
-      const int rank_a = rank(e.a), rank_b = rank(e.b);
-      const bool both_boundary = rank_a > 0 && rank_b > 0;
+      const Rank rank_a = rank(e.a), rank_b = rank(e.b);
+      const bool both_boundary = rank_a != within && rank_b != within;
       const WallTie &a = nodes_.tie[e.a], &b = nodes_.tie[e.b];
-      const bool same_patch = a.wall >= 0 && a.wall == b.wall && a.patch == b.patch;
+      const bool same_patch = d == 2 && a.wall >= 0 && a.wall == b.wall && a.patch == b.patch;
       if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
       if (rank_a == rank_b) {
-        if (rank_a > 2 || !(nodes_.tie[e.a] == nodes_.tie[e.b])) continue;
+        if (!may_merge_with_its_like(rank_a, e)) continue;
         nodes_.x[e.a] = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);
         nodes_.v[e.a] = 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]);
         nodes_.p[e.a] = 0.5 * (nodes_.p[e.a] + nodes_.p[e.b]);
@@ -130,6 +147,10 @@ class Adapter {
   void attach(int i) {
     const int w = nodes_.tie[i].wall;
     if (w < 0) return;
+    if (const int c = nodes_.tie[i].crease; c >= 0) {
+      nodes_.x[i] = walls_.walls[w].nearest_on_crease(walls_.poses[w], nodes_.x[i], c);
+      return;
+    }
     const auto near = walls_.walls[w].nearest(walls_.poses[w], nodes_.x[i], walls_.walls[w].box().diagonal().norm());
     nodes_.x[i] = near.point;
     nodes_.tie[i].patch = near.patch;
@@ -139,17 +160,10 @@ class Adapter {
     for (const Edge& e : long_) {
       if (touched_[e.a] || touched_[e.b]) continue;
       touched_[e.a] = touched_[e.b] = 1;
-      const bool boundary = is_boundary_edge(e.a, e.b);
-      const WallTie a = nodes_.tie[e.a], b = nodes_.tie[e.b];
+      const bool at_boundary = is_boundary_edge(e.a, e.b);
       WallTie tie;
       bool surface = false;
-      if (boundary) {
-        for (const auto& f : mesh_.boundary)
-          if (has(f, e.a) && has(f, e.b)) {
-            if (f.wall < 0) surface = true;
-            if (f.wall >= 0 && a.wall == f.wall && b.wall == f.wall) tie.wall = f.wall;
-          }
-      }
+      if (at_boundary) tie = tie_between(e, surface);
       const int m = nodes_.add(0.5 * (nodes_.x[e.a] + nodes_.x[e.b]), 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]),
                                0.5 * (nodes_.p[e.a] + nodes_.p[e.b]), tie, surface);
       nodes_.q[m] = 0.5 * (nodes_.q[e.a] + nodes_.q[e.b]);
@@ -157,21 +171,25 @@ class Adapter {
       into_.push_back(m);
       attach(m);
       ++report_.inserted;
-      if (boundary) split_facets(e, m);
+      if (at_boundary) edges_.split(mesh_.boundary, e.a, e.b, m);
     }
   }
 
-  static bool has(const Facet<d>& f, int n) { return std::find(f.nodes.begin(), f.nodes.end(), n) != f.nodes.end(); }
-
-  void split_facets(const Edge& e, int m) {
-    const std::size_t count = mesh_.boundary.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!has(mesh_.boundary[i], e.a) || !has(mesh_.boundary[i], e.b)) continue;
-      Facet<d> other = mesh_.boundary[i];
-      std::replace(mesh_.boundary[i].nodes.begin(), mesh_.boundary[i].nodes.end(), e.a, m);
-      std::replace(other.nodes.begin(), other.nodes.end(), e.b, m);
-      mesh_.boundary.push_back(other);
+  WallTie tie_between(const Edge& e, bool& surface) const {
+    const WallTie &a = nodes_.tie[e.a], &b = nodes_.tie[e.b];
+    WallTie tie;
+    edges_.around(mesh_.boundary, e.a, e.b, [&](int f) {
+      const int wall = mesh_.boundary[f].wall;
+      if (wall < 0) surface = true;
+      if (wall >= 0 && a.wall == wall && b.wall == wall) tie.wall = wall;
+    });
+    if (tie.wall >= 0 && a.sharp() && b.sharp()) {
+      constexpr double along = 0.1;  // distance of the edge's middle from a crease that it follows, over its length
+      const Vec<d> middle = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);
+      const auto near = walls_.walls[tie.wall].nearest_crease(walls_.poses[tie.wall], middle, middle);
+      if (near.crease >= 0 && near.distance < along * (nodes_.x[e.a] - nodes_.x[e.b]).norm()) tie.crease = near.crease;
     }
+    return tie;
   }
 
   void compact() {
@@ -186,6 +204,7 @@ class Adapter {
   std::vector<double>& h_;
   Mesh<d>& mesh_;
   const WallsAt<d>& walls_;
+  BoundaryEdges<d> edges_;  // of the boundary as it is now
   std::vector<char> on_boundary_, touched_;
   std::vector<int> into_;
   std::unordered_set<std::uint64_t> boundary_edges_;

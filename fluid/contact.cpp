@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "fluid/boundary_edges.hpp"
 #include "fluid/inside.hpp"
 
 namespace splashdown::fluid {
@@ -75,12 +76,12 @@ void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int fac
 }
 
 template <int d>
-void occupy_sharp_vertices(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
   for (std::size_t w = 0; w < at.walls.size(); ++w) {
     std::vector<char> taken(at.walls[w].spec().surface.vertices.cols(), 0);
     for (const WallTie& t : nodes.tie)
       if (t.wall == static_cast<int>(w) && t.vertex >= 0) taken[t.vertex] = 1;
-    for (int v : at.walls[w].sharp_vertices()) {
+    for (int v : at.walls[w].corners()) {
       if (taken[v]) continue;
       const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
       const auto hit = nearest_facet(nodes, mesh, point);
@@ -107,13 +108,62 @@ void occupy_sharp_vertices(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mes
   }
 }
 
+// The edge leaves a smooth patch of the wall over one of its creases.
+template <int d>
+bool passes_crease(const Nodes<d>& nodes, std::span<const double> h, const Wall<d>& wall, const Isometry<d>& pose, int w,
+                   int a, int b, typename Wall<d>::Crossing& at) {
+  const WallTie &tie_a = nodes.tie[a], &tie_b = nodes.tie[b];
+  if (tie_a.wall != w || tie_a.sharp()) return false;
+  const bool turns = tie_b.wall == w;
+  if (turns && (tie_b.sharp() || tie_a.patch == tie_b.patch)) return false;
+  at = wall.nearest_crease(pose, nodes.x[a], nodes.x[b]);
+  return at.distance < (turns ? (nodes.x[a] - nodes.x[b]).norm() : on_facet * h[a]);
+}
+
+template <int d>
+void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+  struct Pass {
+    int a, b, wall;
+    typename Wall<d>::Crossing at;
+  };
+  std::vector<Pass> passes;
+  for (const auto& f : mesh.boundary)
+    for (int k = 0; k < d; ++k) {
+      const int a = f.nodes[k], b = f.nodes[(k + 1) % d], w = nodes.tie[a].wall;
+      if (w < 0 || !at.walls[w].has_creases()) continue;
+      Pass pass{a, b, w, {}};
+      if (passes_crease<d>(nodes, h, at.walls[w], at.poses[w], w, a, b, pass.at)) passes.push_back(pass);
+    }
+  if (passes.empty()) return;
+  const BoundaryEdges<d> edges(mesh.boundary, nodes.size());
+  std::vector<char> touched(nodes.size(), 0);
+  for (const Pass& pass : passes) {
+    if (touched[pass.a] || touched[pass.b]) continue;
+    const WallTie tie{pass.wall, -1, -1, pass.at.crease};
+    const int closest = pass.at.share < 0.5 ? pass.a : pass.b;
+    if ((nodes.x[closest] - pass.at.point).norm() < snap * h[closest] && !nodes.tie[closest].sharp()) {
+      nodes.x[closest] = pass.at.point;
+      nodes.tie[closest] = tie;
+      touched[closest] = 1;
+      continue;
+    }
+    touched[pass.a] = touched[pass.b] = 1;
+    const double t = pass.at.share;
+    const int m = nodes.add(pass.at.point, (1 - t) * nodes.v[pass.a] + t * nodes.v[pass.b],
+                            (1 - t) * nodes.p[pass.a] + t * nodes.p[pass.b], tie, false);
+    h.push_back((1 - t) * h[pass.a] + t * h[pass.b]);
+    edges.split(mesh.boundary, pass.a, pass.b, m);
+  }
+}
+
 }  // namespace
 
 template <int d>
 void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
          std::span<const Twist<d>> velocities) {
   tie_arrivals<d>(nodes, h, walls, velocities);
-  occupy_sharp_vertices(nodes, h, mesh, walls);
+  occupy_corners(nodes, h, mesh, walls);
+  occupy_creases(nodes, h, mesh, walls);
 }
 
 template <int d>
@@ -142,17 +192,50 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
   for (const auto& f : mesh.boundary) {
     if (f.wall < 0) continue;
     for (int n : f.nodes) wetted_[n] = 1;
-    for (int k = 0; k < d; ++k) {
-      const int n = f.nodes[k];
-      if (nodes.tie[n].vertex >= 0 && nodes.surface[n]) separations_.push_back({n, f.nodes[(k + 1) % d]});
-    }
   }
+  find_separations(mesh);
   for (std::size_t w = 0; w < walls_.size(); ++w)
     attached_vertex_[w].assign(walls_[w].spec().surface.vertices.cols(), 0);
   for (int i : tied_)
-    if (nodes.tie[i].vertex >= 0 && wetted_[i] && !nodes.surface[i]) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = 1;
+    if (nodes.tie[i].sharp() && wetted_[i]) {
+      if (nodes.tie[i].vertex >= 0) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = !nodes.surface[i];
+      else on_creases_.push_back(i);
+    }
   if (std::any_of(walls_.begin(), walls_.end(), [](const Wall<d>& w) { return w.spec().sticks; }))
     find_stuck(mesh, walls);
+}
+
+template <int d>
+void WallMotion<d>::find_separations(const Mesh<d>& mesh) {
+  auto separates = [&](int n) { return nodes_.tie[n].sharp() && nodes_.surface[n]; };
+  std::vector<int> index(nodes_.size(), -1);
+  for (bool inner : {true, false})  // neighbours at the edge themselves serve where there are no others
+    for (const auto& f : mesh.boundary) {
+      if (f.wall < 0) continue;
+      for (int n : f.nodes) {
+        if (!separates(n) || (!inner && index[n] >= 0)) continue;
+        for (int other : f.nodes) {
+          if (other == n || separates(other) == inner) continue;
+          if (index[n] < 0) index[n] = static_cast<int>(separations_.size()), separations_.push_back({n, {}});
+          separations_[index[n]].upstream.push_back(other);
+        }
+      }
+    }
+}
+
+// The water wets both sides of the edge there: at the node on it that is nearest.
+template <int d>
+bool WallMotion<d>::attached(int wall, const typename Wall<d>::Near& edge) const {
+  if (edge.vertex >= 0) return attached_vertex_[wall][edge.vertex];
+  double least = std::numeric_limits<double>::infinity();
+  bool wet = false;
+  for (int i : on_creases_) {
+    const double distance = (nodes_.x[i] - edge.point).squaredNorm();
+    if (nodes_.tie[i].wall != wall || nodes_.tie[i].crease != edge.crease || distance >= least) continue;
+    least = distance;
+    wet = !nodes_.surface[i];
+  }
+  return wet;
 }
 
 template <int d>
@@ -161,7 +244,7 @@ void WallMotion<d>::find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls) {
   std::vector<int> stuck_at(nodes_.size(), -1);
   for (int i : tied_) {
     const int w = nodes_.tie[i].wall;
-    if (!walls_[w].spec().sticks || nodes_.tie[i].vertex >= 0 || nodes_.surface[i] || !wetted_[i]) {
+    if (!walls_[w].spec().sticks || nodes_.tie[i].sharp() || nodes_.surface[i] || !wetted_[i]) {
       slides.push_back(i);
       continue;
     }
@@ -199,15 +282,15 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     const WallTie tie = nodes_.tie[i];
     const Wall<d>& wall = walls_[tie.wall];
     const Isometry<d>& pose = poses[tie.wall];
-    auto near = tie.vertex >= 0 || tie.patch < 0 ? wall.nearest(pose, out.x[i], diameter(wall))
-                                : wall.nearest_on_patch(pose, out.x[i], tie.patch);
-    const bool passes_edge = tie.vertex < 0 && near.vertex >= 0;
+    auto near = tie.sharp() || tie.patch < 0 ? wall.nearest(pose, out.x[i], diameter(wall))
+                                             : wall.nearest_on_patch(pose, out.x[i], tie.patch);
+    const bool passes_edge = !tie.sharp() && near.sharp();
     if (passes_edge) {
       // The wall guides the node up to its edge: what flies off does not turn into the wall behind it.
       const Vec<d> guided = out.x[i] - (out.x[i] - near.point).dot(near.normal) * near.normal;
-      const bool attached = attached_vertex_[tie.wall][near.vertex];
+      const bool wet_behind = attached(tie.wall, near);
       near = wall.nearest(pose, out.x[i], diameter(wall));
-      if (!attached && wall.nearest(pose, guided, diameter(wall)).distance > 0) {
+      if (!wet_behind && wall.nearest(pose, guided, diameter(wall)).distance > 0) {
         out.x[i] = guided;
         out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
         out.tie[i] = {};
@@ -217,7 +300,9 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
       out.tie[i] = {};
       continue;
     }
-    out.x[i] = tie.vertex >= 0 ? wall.vertex(pose, tie.vertex) : near.point;
+    out.x[i] = tie.vertex >= 0   ? wall.vertex(pose, tie.vertex)
+               : tie.crease >= 0 ? wall.nearest_on_crease(pose, out.x[i], tie.crease)
+                                 : near.point;
     if (passes_edge) out.tie[i].patch = near.patch;
     out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
   }
@@ -225,7 +310,11 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     out.x[s.node] = poses[nodes_.tie[s.node].wall] * s.place;
     out.u[s.node] = (out.x[s.node] - nodes_.x[s.node]) / dt;
   }
-  for (const Separation& s : separations_) out.u[s.at] = out.u[s.upstream];
+  for (const Separation& s : separations_) {
+    Vec<d> sum = Vec<d>::Zero();
+    for (int n : s.upstream) sum += out.u[n];
+    out.u[s.at] = sum / static_cast<double>(s.upstream.size());
+  }
 }
 
 template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);

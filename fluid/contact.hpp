@@ -1,4 +1,4 @@
-// Where fluid meets walls: nodes that reach a wall slide on it, sharp edges and keels keep a node, nodes
+// Where fluid meets walls: nodes that reach a wall slide on it, corners and creases keep nodes, nodes
 // that pass a sharp edge or part from the wall leave it. Only fluid carries nodes: there are no dry wall
 // nodes, so no cell spans a gap and contact neither creates volume nor happens early.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace splashdown::fluid {
 
-/// Ties nodes that have reached a wall; puts nodes at wetted sharp vertices. `velocities`: of the walls.
+/// Ties nodes that have reached a wall; puts nodes at wetted corners and creases. `velocities`: of the walls.
 template <int d>
 void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
          std::span<const Twist<d>> velocities);
@@ -47,6 +47,8 @@ class WallMotion {
   const Nodes<d>& nodes_;
   std::span<const Wall<d>> walls_;
   void find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls);
+  void find_separations(const Mesh<d>& mesh);
+  bool attached(int wall, const typename Wall<d>::Near& edge) const;
 
   std::vector<int> tied_;    // and free to slide, but for vertices
   struct Stuck {
@@ -58,10 +60,12 @@ class WallMotion {
   std::vector<Stuck> stuck_;
   std::vector<char> wetted_;  // node has a wetted facet
   struct Separation {
-    int at, upstream;  // node on a sharp vertex, wetted neighbour it takes its velocity from
+    int at;                     // node on a corner or a crease where the flow separates
+    std::vector<int> upstream;  // wetted neighbours it takes its velocity from
   };
   std::vector<Separation> separations_;
   std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
+  std::vector<int> on_creases_;                     // wetted nodes there
 };
 
 extern template class WallMotion<2>;

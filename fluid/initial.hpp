@@ -13,7 +13,7 @@ struct InitialLiquid {
   std::vector<double> h;  ///< element size at the nodes [m]
 };
 
-/// Throws std::invalid_argument if no liquid remains. 3D regions are not available yet.
+/// Throws std::invalid_argument if no liquid remains.
 template <int d>
 InitialLiquid<d> fill(const FluidSpec<d>& spec, const WallsAt<d>& walls);
 

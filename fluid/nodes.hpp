@@ -7,11 +7,13 @@
 
 namespace splashdown::fluid {
 
-/// A node is free, or slides on a smooth patch of a wall, or sits on one of that wall's sharp vertices.
+/// A node is free, or slides on a smooth patch of a wall or (3D) along one of its creases, or sits on one of its corners.
 struct WallTie {
   int wall = -1;    ///< index of the wall, -1: none
   int patch = -1;   ///< smooth patch of its surface the node slides on
-  int vertex = -1;  ///< vertex of its surface the node is fixed to, -1: slides
+  int vertex = -1;  ///< corner of its surface the node is fixed to, -1: slides
+  int crease = -1;  ///< crease of its surface the node slides along
+  bool sharp() const { return vertex >= 0 || crease >= 0; }
   bool operator==(const WallTie&) const = default;
 };
 

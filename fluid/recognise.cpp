@@ -25,7 +25,8 @@ struct Opposite<3> {
 };
 
 struct Shape {
-  double radius;      // circumradius
+  double radius;    // circumradius
+  double fullness;  // volume over longest edge^d
   bool degenerate;
 };
 
@@ -40,8 +41,9 @@ Shape shape(const Mat<d>& J) {
     for (int j = 0; j < k; ++j) longest = std::max(longest, (J.col(k) - J.col(j)).squaredNorm());
   }
   const double det = J.determinant();
-  if (det <= flat * std::pow(longest, 0.5 * d)) return {0, true};
-  return {(cofactor(J) * half).norm() / det, false};
+  const double fullness = det / (factorial<d> * std::pow(longest, 0.5 * d));
+  if (fullness <= flat / factorial<d>) return {0, fullness, true};
+  return {(cofactor(J) * half).norm() / det, fullness, false};
 }
 
 // How deep the facet lies in the solid that `wall` wetted before and the cell stands on: a chord, if the hull is convex.
@@ -56,6 +58,15 @@ double chord_depth(int wall, const std::array<int, d + 1>& cell, const Nodes<d>&
     return -at.walls[wall].nearest(at.poses[wall], centre, at.walls[wall].box().diagonal().norm()).distance;
   }
   return 0;
+}
+
+// In space: flat cells between four nodes of a wall. They hold no water to speak of, and their pressure would be anything.
+template <int d>
+bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>& nodes) {
+  constexpr double thin = 0.02;  // a regular tetrahedron: 0.12
+  if (d == 2 || fullness > thin) return false;
+  const int wall = nodes.tie[cell[0]].wall;
+  return wall >= 0 && std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; });
 }
 
 // Only cells that touch a wall can lie in it. One that stands on a chord of a convex hull reaches into the hull with it;
@@ -94,7 +105,7 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
     }
     one_patch = one_patch && (patch < 0 || patch == tie.patch);
     patch = tie.patch;
-    at_vertex = at_vertex || tie.vertex >= 0;
+    at_vertex = at_vertex || tie.sharp();
   }
   if (d == 2 && !one_patch && !at_vertex) return false;  // cuts a corner
   // The chord of a convex hull lies in the solid, however deep: no air is there to be a surface to.
@@ -129,7 +140,7 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
   for (std::size_t c = 0; c < all.cells.size(); ++c) {
     const auto& cell = all.cells[c];
     const Shape s = shape<d>(edge_matrix<d>(corners(nodes.x, cell)));
-    if (s.degenerate) continue;
+    if (s.degenerate || is_film<d>(cell, s.fullness, nodes)) continue;
     double size = 0;
     bool has_inner = false;
     Vec<d> centroid = Vec<d>::Zero();

@@ -18,20 +18,33 @@ class Wall {
     Vec<d> normal;     ///< of the facet it lies on, out of the solid
     double distance;   ///< signed: negative inside the solid
     int patch;         ///< smooth patch the point lies on
-    int vertex;        ///< sharp vertex that is the closest point, -1: none
+    int vertex;        ///< corner that is the closest point, -1: none
+    int crease = -1;   ///< crease that the closest point lies on, -1: none; corners lie on none
+    bool sharp() const { return vertex >= 0 || crease >= 0; }
   };
 
   /// Closest point of the wall in the given pose; distance = +reach where nothing is nearer.
   Near nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
   /// The same on one smooth patch alone, wherever x is.
   Near nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const;
+  /// Closest point of a crease.
+  Vec<d> nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
+  struct Crossing {
+    int crease = -1;
+    Vec<d> point = Vec<d>::Zero();  ///< of the crease, world frame
+    double distance = 0;            ///< from there to the segment
+    double share = 0;               ///< of the segment, from `from` to its point nearest to the crease
+  };
+  /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
+  Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
+  bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
   bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
     return turned_inside_out_ || box_.squaredExteriorDistance(pose.inverse() * x) <= margin * margin;
   }
   double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
   Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
-  const std::vector<int>& sharp_vertices() const { return sharp_; }
+  const std::vector<int>& corners() const { return corners_; }
   const WallSpec<d>& spec() const { return spec_; }
   /// A vertex of a smooth patch that is curved there.
   struct Bend {
@@ -39,12 +52,17 @@ class Wall {
     double radius;  ///< of curvature, the smallest along the edges that meet there [m]
   };
   const std::vector<Bend>& bends() const { return bends_; }
+  bool encloses_fluid() const { return turned_inside_out_; }  ///< a tank
   /// Box around the surface in the wall frame.
   const Eigen::AlignedBox<double, d>& box() const { return box_; }
 
  private:
-  void find_patches(double crease);
+  void find_normals();
+  void find_creases();
+  void find_corners();
+  void find_patches();
   void find_bends();
+  bool is_crease(int f, int g) const;
   Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
 
   WallSpec<d> spec_;
@@ -53,13 +71,16 @@ class Wall {
   std::vector<std::vector<int>> patch_facets_;
   std::vector<int> patch_of_;
   Eigen::Matrix<double, d, Eigen::Dynamic> normal_;         // of facets, unit
-  Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // sum over the facets around a vertex
+  Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // mean over the facets around a vertex, by their angles
   std::vector<std::vector<int>> facets_of_;
-  std::vector<int> sharp_;
+  Eigen::Matrix<int, d, Eigen::Dynamic> across_;     // 3D: facet beyond the edge from corner k to the next
+  Eigen::Matrix<int, d, Eigen::Dynamic> crease_of_;  // 3D: crease that this edge is part of, -1: smooth
+  std::vector<std::vector<std::array<int, 2>>> creases_;  // edges of each
+  std::vector<int> corners_;
   std::vector<Bend> bends_;
-  std::vector<char> is_sharp_;
+  std::vector<char> is_corner_, is_sharp_;  // of vertices; sharp: a corner or on a crease
   Eigen::AlignedBox<double, d> box_;
-  bool turned_inside_out_;  // a tank: the solid is outside the box
+  bool turned_inside_out_;  // the solid is outside
   double tiny_;  // length below which points coincide
 };
 

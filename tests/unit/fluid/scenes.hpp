@@ -36,13 +36,40 @@ inline Surface<2> ellipse(double a, double b, int segments, const Vec<2>& centre
   }
   return outline(p);
 }
-inline Surface<2> turned_inside_out(Surface<2> s) {
+/// The box between two corners.
+inline Surface<3> block(const Vec<3>& min, const Vec<3>& max) {
+  Surface<3> s{Eigen::Matrix3Xd(3, 8), Eigen::Matrix3Xi(3, 12)};
+  for (int v = 0; v < 8; ++v)
+    s.vertices.col(v) << (v & 1 ? max : min).x(), (v & 2 ? max : min).y(), (v & 4 ? max : min).z();
+  s.facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
+      2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,          //
+      3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
+  return s;
+}
+
+/// Tip at the origin, axis up: height and radius of the base, which is flat.
+inline Surface<3> cone(double radius, double height, int segments) {
+  Surface<3> s{Eigen::Matrix3Xd(3, segments + 2), Eigen::Matrix3Xi(3, 2 * segments)};
+  s.vertices.col(segments).setZero();
+  s.vertices.col(segments + 1) << 0, 0, height;
+  for (int i = 0; i < segments; ++i) {
+    const double angle = 2 * std::numbers::pi * i / segments;
+    s.vertices.col(i) << radius * std::cos(angle), radius * std::sin(angle), height;
+    s.facets.col(2 * i) << segments, (i + 1) % segments, i;
+    s.facets.col(2 * i + 1) << segments + 1, i, (i + 1) % segments;
+  }
+  return s;
+}
+
+template <int d>
+Surface<d> turned_inside_out(Surface<d> s) {
   s.facets.row(0).swap(s.facets.row(1));
   return s;
 }
 
-inline WallSpec<2> wall(const std::string& name, Surface<2> surface, double size) {
-  WallSpec<2> w;
+template <int d>
+WallSpec<d> wall(const std::string& name, Surface<d> surface, double size) {
+  WallSpec<d> w;
   w.name = name;
   w.surface = std::move(surface);
   w.size = size;

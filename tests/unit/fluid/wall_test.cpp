@@ -92,11 +92,11 @@ TEST(WallNearest, beyond_reach_is_reach) {
 }
 
 TEST(WallCreases, above_thirty_degrees_are_sharp) {
-  EXPECT_EQ(Wall<2>(scenes::wall("square", scenes::rectangle({0, 0}, {1, 1}), 1)).sharp_vertices().size(),
+  EXPECT_EQ(Wall<2>(scenes::wall("square", scenes::rectangle({0, 0}, {1, 1}), 1)).corners().size(),
             4u);
-  EXPECT_EQ(Wall<2>(scenes::wall("circle", scenes::ellipse(1, 1, 64), 1)).sharp_vertices().size(), 0u);
-  EXPECT_EQ(Wall<2>(scenes::wall("dodecagon+", scenes::ellipse(1, 1, 13), 1)).sharp_vertices().size(), 0u);
-  EXPECT_EQ(Wall<2>(scenes::wall("hendecagon", scenes::ellipse(1, 1, 11), 1)).sharp_vertices().size(), 11u);
+  EXPECT_EQ(Wall<2>(scenes::wall("circle", scenes::ellipse(1, 1, 64), 1)).corners().size(), 0u);
+  EXPECT_EQ(Wall<2>(scenes::wall("dodecagon+", scenes::ellipse(1, 1, 13), 1)).corners().size(), 0u);
+  EXPECT_EQ(Wall<2>(scenes::wall("hendecagon", scenes::ellipse(1, 1, 11), 1)).corners().size(), 11u);
 }
 
 TEST(WallCreases, divide_the_surface_into_smooth_patches) {
@@ -148,13 +148,8 @@ TEST(WallMayTouch, is_never_false_within_the_margin) {
 }
 
 TEST(WallOfTriangles, knows_the_side_of_a_cube) {
-  Surface<3> cube{Eigen::Matrix3Xd(3, 8), Eigen::Matrix3Xi(3, 12)};
-  for (int v = 0; v < 8; ++v) cube.vertices.col(v) << (v & 1 ? 1 : -1), (v & 2 ? 1 : -1), (v & 4 ? 1 : -1);
-  cube.facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
-      2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,             //
-      3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
-  const Wall<3> wall({"cube", cube, Isometry<3>::Identity(), Twist<3>::Zero(), 1});
-  EXPECT_EQ(wall.sharp_vertices().size(), 8u);
+  const Wall<3> wall(scenes::wall("cube", scenes::block({-1, -1, -1}, {1, 1, 1}), 1));
+  EXPECT_EQ(wall.corners().size(), 8u);
   std::mt19937 random(10);
   for (int sample = 0; sample < 2000; ++sample) {
     const Vec<3> x = 2 * scenes::random_vector<Vec<3>>(random, {});
@@ -163,6 +158,37 @@ TEST(WallOfTriangles, knows_the_side_of_a_cube) {
     const double exact = inside > 0 ? -inside : beyond.norm();
     EXPECT_NEAR(wall.nearest(Isometry<3>::Identity(), x, 10).distance, exact, 20 * eps) << x.transpose();
   }
+}
+
+TEST(WallOfTriangles, creases_run_between_corners) {
+  const Isometry<3> pose = Isometry<3>::Identity();
+  const Wall<3> cube(scenes::wall("cube", scenes::block({-1, -1, -1}, {1, 1, 1}), 1));
+  EXPECT_TRUE(cube.has_creases());
+  const auto on_edge = cube.nearest(pose, {2, 2, 0.3}, 9);
+  EXPECT_EQ(on_edge.vertex, -1);
+  ASSERT_GE(on_edge.crease, 0);
+  EXPECT_EQ(cube.nearest(pose, {2, 2, -0.9}, 9).crease, on_edge.crease);
+  EXPECT_NE(cube.nearest(pose, {2, 0.3, 2}, 9).crease, on_edge.crease);
+  EXPECT_EQ(cube.nearest(pose, {2, 0.1, 0.3}, 9).crease, -1) << "on a face";
+  EXPECT_LE((cube.nearest_on_crease(pose, {3, 0, 0.5}, on_edge.crease) - Vec<3>(1, 1, 0.5)).norm(), 4 * eps);
+  EXPECT_LE((cube.nearest_on_crease(pose, {1, 1, 7}, on_edge.crease) - Vec<3>(1, 1, 1)).norm(), 4 * eps) << "its end";
+
+  const auto passed = cube.nearest_crease(pose, {1, 0.8, 0}, {0.6, 1, 0});
+  EXPECT_EQ(passed.crease, on_edge.crease);
+  EXPECT_LE((passed.point - Vec<3>(1, 1, 0)).norm(), 1e-12);
+}
+
+TEST(WallOfTriangles, a_cone_has_a_tip_and_one_ring) {
+  const Isometry<3> pose = Isometry<3>::Identity();
+  const Wall<3> cone(scenes::wall("cone", scenes::cone(1, 0.5, 64), 1));
+  EXPECT_EQ(cone.corners(), std::vector<int>{64});
+  const int ring = cone.nearest(pose, {2, 0.01, 0.5}, 9).crease;
+  ASSERT_GE(ring, 0);
+  for (double angle : {0.3, 1.7, 3.3, 5.9})
+    EXPECT_EQ(cone.nearest(pose, {2 * std::cos(angle), 2 * std::sin(angle), 0.5}, 9).crease, ring);
+  EXPECT_EQ(cone.nearest(pose, {0.5, 0, 0}, 9).crease, -1);
+  EXPECT_EQ(cone.nearest(pose, {0, 0, -1}, 9).vertex, 64);
+  EXPECT_EQ(Wall<3>(scenes::wall("flat cone", scenes::cone(1, 0.1, 64), 1)).corners().size(), 0u) << "blunter than 30";
 }
 
 }  // namespace

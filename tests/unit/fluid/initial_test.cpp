@@ -1,0 +1,92 @@
+#include "fluid/initial.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fluid/size_field.hpp"
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+using scenes::eps;
+
+struct Basin {
+  explicit Basin(double h) {
+    spec.size = {.surface = h, .far = h};
+    spec.liquids.push_back({scenes::block({-1, -1, -1}, {1, 1, 0}), {}});
+    spec.walls.push_back(scenes::wall("tank", scenes::turned_inside_out(scenes::block({-1, -1, -1}, {1, 1, 1})), h));
+  }
+  InitialLiquid<3> fill() const {
+    std::vector<Wall<3>> walls;
+    std::vector<Isometry<3>> poses;
+    for (const auto& w : spec.walls) walls.emplace_back(w), poses.push_back(w.pose);
+    return fluid::fill<3>(spec, {walls, poses});
+  }
+  FluidSpec<3> spec;
+};
+
+double volume_of(const InitialLiquid<3>& liquid) {
+  double sum = 0;
+  for (const auto& cell : liquid.mesh.cells) sum += volume<3>(corners(liquid.nodes.x, cell));
+  return sum;
+}
+
+double area_of(const InitialLiquid<3>& liquid, int wall) {
+  double sum = 0;
+  for (const auto& f : liquid.mesh.boundary)
+    if (f.wall == wall) sum += area_vector_of<3>(f, liquid.nodes.x).norm();
+  return sum;
+}
+
+TEST(InitialLiquidInSpace, a_basin_is_filled_to_its_edges) {
+  const auto liquid = Basin(0.3).fill();
+  const double roundoff = 1e3 * eps;  // of some hundred facets
+  EXPECT_NEAR(volume_of(liquid), 4, 4 * roundoff);
+  EXPECT_NEAR(enclosed_volume(liquid.mesh.boundary, liquid.nodes.x), 4, 4 * roundoff);
+  EXPECT_NEAR(area_of(liquid, -1), 4, 4 * roundoff);
+  EXPECT_NEAR(area_of(liquid, 0), 12, 12 * roundoff);
+  for (std::size_t i = 0; i < liquid.nodes.size(); ++i) {
+    const Vec<3>& x = liquid.nodes.x[i];
+    const int sides = (std::abs(x.x()) == 1) + (std::abs(x.y()) == 1) + (x.z() == -1);
+    const WallTie& tie = liquid.nodes.tie[i];
+    EXPECT_EQ(tie.wall >= 0, sides > 0);
+    EXPECT_EQ(tie.crease >= 0, sides == 2) << x.transpose();
+    EXPECT_EQ(tie.vertex >= 0, sides == 3) << x.transpose();
+    EXPECT_FALSE(liquid.nodes.spray[i]);
+  }
+}
+
+TEST(InitialLiquidInSpace, edges_are_as_long_as_the_size_field_says) {
+  const auto liquid = Basin(0.2).fill();
+  double sum = 0;
+  int count = 0;
+  for (const auto& cell : liquid.mesh.cells)
+    for (int i = 0; i < 3; ++i)
+      for (int j = i + 1; j <= 3; ++j, ++count) sum += (liquid.nodes.x[cell[i]] - liquid.nodes.x[cell[j]]).norm();
+  // Regular tetrahedra do not fill space: edges of the best meshes spread by a fifth.
+  EXPECT_NEAR(sum / count, 0.2, 0.2 * 0.2);
+}
+
+TEST(InitialLiquidInSpace, bodies_are_cut_out) {
+  for (double depth : {0.5, 0.1, 0.0}) {  // inside, through the surface, touching it
+    Basin basin(0.3);
+    const Vec<3> corner(0.4, 0.3, 0.2), centre(0.05, 0, 0.1 - depth);
+    auto box = scenes::wall("box", scenes::block(-0.5 * corner, 0.5 * corner), 0.1);
+    box.pose.translation() = centre;
+    basin.spec.walls.push_back(box);
+    const auto liquid = basin.fill();
+    const double immersed = std::min(depth, 0.2);
+    EXPECT_NEAR(volume_of(liquid), 4 - 0.4 * 0.3 * immersed, 1e-12) << depth;
+    const double wet = 0.4 * 0.3 * (depth > 0.2 ? 2 : 1) + 2 * (0.4 + 0.3) * immersed;
+    EXPECT_NEAR(area_of(liquid, 1), wet, 1e-12) << depth;
+  }
+}
+
+TEST(InitialLiquidInSpace, no_liquid_is_told) {
+  Basin basin(0.3);
+  basin.spec.liquids[0].boundary = scenes::block({3, 3, 3}, {4, 4, 4});
+  EXPECT_THROW(basin.fill(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace splashdown::fluid
