@@ -14,7 +14,9 @@ struct Cost {
 };
 
 /// Nodes: the integral over the liquid of 2/(sqrt(3) h^2), what equilateral triangles of side h have, in three
-/// dimensions of 1/h^3. Sizes are those of t = 0: what `hollow` adds and `wetted_fraction` saves later is not in it.
+/// dimensions of sqrt(2)/h^3, the closest packing. Boundaries, which have half a layer more, are not counted: a box of
+/// 4 m x 4 m x 1 m at h = 0.1 m starts with 26534 nodes instead of 22627. Sizes are those
+/// of t = 0: what `hollow` adds and `wetted_fraction` saves later is not in it.
 template <int d>
 Cost predicted_cost(const Scene& scene);
 

@@ -361,7 +361,7 @@ TEST(SpatialScales, count_heights_along_z) {
 TEST(SpatialCost, counts_the_nodes_of_a_uniform_box) {
   auto scene = scene_of(landing_with("far = 0.3\n", ""));
   scene.bodies.clear();
-  EXPECT_NEAR(predicted_cost<3>(scene).nodes, 16 / std::pow(0.05, 3), 1);
+  EXPECT_NEAR(predicted_cost<3>(scene).nodes, 16 * std::sqrt(2.) / std::pow(0.05, 3), 1);
 }
 
 TEST(SpatialWorld, a_body_in_flight_falls_freely) {
