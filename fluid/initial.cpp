@@ -15,7 +15,9 @@ namespace {
 constexpr double on_wall = 1e-9;      // over the wall's size: roundoff of the clipping
 // While nodes are still few, cells are large for their size field and only the outline tells what is fluid.
 constexpr Alpha outline_decides{std::numeric_limits<double>::infinity(), 0.0, 0.0};
-constexpr int smoothing_sweeps = 30;  // until the node spacing no longer changes visibly
+// Until the node spacing no longer changes visibly; Mesh_3 has done most of it in space.
+template <int d>
+constexpr int smoothing_sweeps = d == 2 ? 30 : 4;
 
 template <int d>
 class Filler {
@@ -60,10 +62,10 @@ class Filler {
     const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
     wet<d>(out_.nodes, h, out_.mesh, walls_, at_rest);
     sizes();
-    for (int sweep = 0, settled = 0; settled < smoothing_sweeps; ++sweep) {
+    for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
       do out_.mesh = recognise<d>(out_.nodes, h, out_.mesh.boundary, walls_, outline_decides);
       while (drop_lost());
-      if (settled + 1 == smoothing_sweeps) return;
+      if (settled + 1 == smoothing_sweeps<d>) return;
       const auto report = adapt(out_.nodes, h, out_.mesh, walls_);
       const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
       if (quiet || sweep > 60) ++settled;

@@ -49,12 +49,17 @@ struct LinearSolver::Cholmod {
   Cholmod& operator=(const Cholmod&) = delete;
 };
 
-LinearSolver::LinearSolver() : c_(std::make_unique<Cholmod>()) {}
+LinearSolver::LinearSolver(int most_direct) : most_direct_(most_direct), c_(std::make_unique<Cholmod>()) {}
 LinearSolver::~LinearSolver() = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
 bool LinearSolver::factor(const SymmetricMatrix& matrix) {
+  multigrid_.reset();
+  if (!is_direct(matrix)) {
+    multigrid_ = std::make_unique<Multigrid>(matrix);
+    return true;
+  }
   auto& m = const_cast<SymmetricMatrix&>(matrix);  // CHOLMOD's C structs have no const; it does not write
   cholmod_sparse a{};
   a.nrow = a.ncol = static_cast<std::size_t>(m.size());
@@ -77,7 +82,13 @@ bool LinearSolver::factor(const SymmetricMatrix& matrix) {
   return c_->common.status == CHOLMOD_OK && c_->factor->minor == c_->factor->n;
 }
 
-bool LinearSolver::solve(std::span<double> rhs, int columns) {
+bool LinearSolver::solve(std::span<double> rhs, int columns, double tolerance) {
+  if (multigrid_) {
+    const std::size_t rows = rhs.size() / static_cast<std::size_t>(columns);
+    for (std::size_t c = 0; c < rhs.size(); c += rows)
+      if (!multigrid_->solve(rhs.subspan(c, rows), tolerance)) return false;
+    return true;
+  }
   if (c_->factor == nullptr) return false;
   const OneThread here;
   cholmod_dense b{};

@@ -17,7 +17,7 @@
 //   surface(q, phi) = sum_i - q_i A_i . g_i(phi) - phi_i A_i . g_i(q) + 2 n_i q_i phi_i sum_f |A_f / d|^2 / m_i
 //
 // n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Spikes and contact
-// lines keep phi = 0.
+// lines keep phi = 0; in space steep contact lines do not.
 // B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
 // Bodies that the equation solves for, s = s_0 + Z y with M y = Z^T B phi + e, are of low rank and eliminated on the
 // factor (Woodbury):
@@ -27,6 +27,7 @@
 // No M is inverted: the water's inertia is enough (docs/theory.md).
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -62,8 +63,9 @@ class PressureEquation {
   /// r in motion form at positions `x` for displacement velocities u.
   void motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::vector<double>& r) const;
 
-  /// Solves in place for walls that stand still; `respond` lets those that do not move.
-  bool solve(std::vector<double>& r);
+  /// Solves in place for walls that stand still; `respond` lets those that do not move. `tolerance`: of the residual over
+  /// r, for large systems, which are solved iteratively.
+  bool solve(std::vector<double>& r, double tolerance = 1e-8);
   /// Lets the motions answer to impulses phi that held bodies would get, and to a further impulse on them: changes
   /// phi, adds to the twists, and returns y.
   Eigen::VectorXd respond(std::vector<double>& phi, std::span<Twist<d>> s, const Eigen::VectorXd& further) const;
@@ -100,6 +102,7 @@ class PressureEquation {
  private:
   void measure(double density);
   void choose_unknowns();
+  bool at_contact_line(int node) const;
   void assemble();
   bool factored();
   void wall_modes(std::span<const Vec<d>> centres);
@@ -118,7 +121,9 @@ class PressureEquation {
   std::vector<int> unknown_, node_;
   Assembly<d, double> assembly_;
   SymmetricMatrix matrix_;
-  LinearSolver solver_;
+  // In space the factor of 10 k unknowns costs as much as multigrid's setup and all solves of a step (docs/theory.md).
+  static constexpr int most_direct = d == 2 ? std::numeric_limits<int>::max() : 8000;
+  LinearSolver solver_{most_direct};
   struct Mode {
     int unknown;
     Wrench<d> row;  // column of B

@@ -50,6 +50,30 @@ TEST(LinearSolver, leaves_a_residual_of_roundoff) {
   }
 }
 
+TEST(LinearSolver, multigrid_leaves_the_residual_it_was_asked_for) {
+  const int n = 400;
+  const auto A = laplacian(n, 0.01);
+  for (double tolerance : {1e-2, 1e-6, 1e-10}) {
+    const Eigen::MatrixXd b = Eigen::MatrixXd::Random(n, 3);
+    Eigen::MatrixXd x = b;
+    LinearSolver solver(0);
+    ASSERT_TRUE(solver.factor(lower(A)));
+    ASSERT_TRUE(solver.solve({x.data(), static_cast<std::size_t>(x.size())}, 3, tolerance));
+    for (int k = 0; k < 3; ++k) EXPECT_LE((A * x.col(k) - b.col(k)).norm(), (tolerance + 1e3 * eps) * b.col(k).norm());
+  }
+}
+
+TEST(LinearSolver, multigrid_tells_where_it_fails) {
+  const auto A = laplacian(100, 0.01);
+  LinearSolver solver(0);
+  ASSERT_TRUE(solver.factor(lower(A)));
+  Eigen::VectorXd b = Eigen::VectorXd::Random(100);
+  b[7] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(solver.solve({b.data(), 100}));
+  Eigen::VectorXd again = Eigen::VectorXd::Random(100);
+  EXPECT_TRUE(solver.solve({again.data(), 100})) << "and goes on";
+}
+
 TEST(LinearSolver, columns_together_are_columns_alone) {
   const auto A = laplacian(200, 0.01);
   Eigen::MatrixXd together = Eigen::MatrixXd::Random(200, 4), alone = together;

@@ -75,6 +75,9 @@ WallSpec<d> wall(const std::string& name, Surface<d> surface, double size) {
   w.size = size;
   return w;
 }
+inline WallSpec<2> wall(const std::string& name, Surface<2> surface, double size) {
+  return wall<2>(name, std::move(surface), size);
+}
 
 inline std::vector<std::unique_ptr<Term<2>>> no_terms() { return {}; }
 inline std::vector<std::unique_ptr<Term<2>>> gravity(const Vec<2>& g) {
