@@ -5,6 +5,7 @@
 
 #include "fluid/boundary_edges.hpp"
 #include "fluid/inside.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -278,7 +279,8 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
   out.u.assign(v.begin(), v.end());
   out.tie = nodes_.tie;
   for (std::size_t i = 0; i < count; ++i) out.x[i] = nodes_.x[i] + dt * v[i];
-  for (int i : tied_) {
+  in_parallel(tied_.size(), [&](std::size_t k) {
+    const int i = tied_[k];
     const WallTie tie = nodes_.tie[i];
     const Wall<d>& wall = walls_[tie.wall];
     const Isometry<d>& pose = poses[tie.wall];
@@ -294,18 +296,18 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
         out.x[i] = guided;
         out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
         out.tie[i] = {};
-        continue;
+        return;
       }
     } else if (!wetted_[i] && near.distance > 0) {
       out.tie[i] = {};
-      continue;
+      return;
     }
     out.x[i] = tie.vertex >= 0   ? wall.vertex(pose, tie.vertex)
                : tie.crease >= 0 ? wall.nearest_on_crease(pose, out.x[i], tie.crease)
                                  : near.point;
     if (passes_edge) out.tie[i].patch = near.patch;
     out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
-  }
+  });
   for (const Stuck& s : stuck_) {
     out.x[s.node] = poses[nodes_.tie[s.node].wall] * s.place;
     out.u[s.node] = (out.x[s.node] - nodes_.x[s.node]) / dt;

@@ -72,7 +72,8 @@ void FacetTree<d>::build(int branch, int first, int count, std::vector<Vec<d>>& 
 }
 
 template <int d>
-typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach) const {
+typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, double slack) const {
+  const double loose = (1 + slack) * (1 + slack);
   Hit best;
   best.squared_distance = reach * reach;
   if (branches_.empty()) return best;
@@ -81,7 +82,7 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach) 
   stack[top++] = {branches_[0].box.squaredExteriorDistance(x), 0};
   while (top > 0) {
     const auto [lower, index] = stack[--top];
-    if (lower > best.squared_distance) continue;
+    if (lower * loose > best.squared_distance) continue;
     const Branch& b = branches_[index];
     if (b.count > 0) {
       for (int i = b.first; i < b.first + b.count; ++i) {

@@ -25,8 +25,9 @@ class FacetTree {
   FacetTree(Eigen::Matrix<double, d, Eigen::Dynamic> vertices, Eigen::Matrix<int, d, Eigen::Dynamic> facets);
 
   bool empty() const { return order_.empty(); }
-  /// Closest point nearer than `reach`; facet = -1 if there is none.
-  Hit nearest(const Vec<d>& x, double reach) const;
+  /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,
+  /// relative: far from a curved surface all facets are about as near, and telling which one is takes long.
+  Hit nearest(const Vec<d>& x, double reach, double slack = 0) const;
 
  private:
   using Box = Eigen::AlignedBox<double, d>;

@@ -7,6 +7,7 @@
 #include "fluid/adapt.hpp"
 #include "fluid/contact.hpp"
 #include "fluid/initial_parts.hpp"
+#include "fluid/parallel.hpp"
 #include "fluid/size_field.hpp"
 
 namespace splashdown::fluid {
@@ -56,7 +57,7 @@ class Filler {
     auto sizes = [&] {
       const SizeField<d> field(spec_.size, walls_, dry_, out_.nodes.x, out_.mesh);
       h.resize(out_.nodes.size());
-      for (std::size_t i = 0; i < h.size(); ++i) h[i] = field(out_.nodes.x[i]);
+      in_parallel(h.size(), [&](std::size_t i) { h[i] = field(out_.nodes.x[i]); });
     };
     sizes();
     const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());

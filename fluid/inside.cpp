@@ -1,5 +1,8 @@
 #include "fluid/inside.hpp"
 
+#include <cmath>
+#include <numeric>
+
 namespace splashdown::fluid {
 namespace {
 
@@ -36,39 +39,62 @@ int crossing(const std::array<Vec<3>, 3>& f, const Vec<3>& c) {
 }  // namespace
 
 template <int d>
+void InsideTest<d>::Bins::fill(std::span<const int> items, const std::vector<std::array<double, 2>>& range,
+                               std::size_t per_bin) {
+  std::vector<double> lower;
+  lower.reserve(items.size());
+  for (int i : items) lower.push_back(range[i][0]);
+  std::sort(lower.begin(), lower.end());
+  edges.clear();
+  for (std::size_t i = per_bin; i < lower.size(); i += per_bin) edges.push_back(lower[i]);
+  start.assign(edges.size() + 2, 0);
+  for (int i : items)
+    for (std::size_t b = of(range[i][0]), last = of(range[i][1]); b <= last; ++b) ++start[b + 1];
+  for (std::size_t b = 1; b < start.size(); ++b) start[b] += start[b - 1];
+  member.resize(start.back());
+  std::vector<int> next(start.begin(), start.end() - 1);
+  for (int i : items)
+    for (std::size_t b = of(range[i][0]), last = of(range[i][1]); b <= last; ++b) member[next[b]++] = i;
+}
+
+template <int d>
 InsideTest<d>::InsideTest(std::span<const Vec<d>> x, const std::vector<Facet<d>>& facets) {
-  std::vector<double> across;
   corners_.reserve(facets.size());
-  across.reserve(facets.size());
+  std::array<std::vector<std::array<double, 2>>, 3> range;
   for (const auto& f : facets) {
     std::array<Vec<d>, d> corner;
     for (int k = 0; k < d; ++k) corner[k] = x[f.nodes[k]];
     corners_.push_back(corner);
-    across.push_back(corner[0][1]);
+    for (int axis = 1; axis < d; ++axis) {
+      double low = corner[0][axis], high = low;
+      for (const auto& c : corner) low = std::min(low, c[axis]), high = std::max(high, c[axis]);
+      range[axis].push_back({low, high});
+    }
   }
-  std::sort(across.begin(), across.end());
+  std::vector<int> all(facets.size());
+  std::iota(all.begin(), all.end(), 0);
   constexpr std::size_t facets_per_bin = 4;
-  for (std::size_t i = facets_per_bin; i < across.size(); i += facets_per_bin) edges_.push_back(across[i]);
-  std::vector<std::array<std::size_t, 2>> range(facets.size());
-  start_.assign(edges_.size() + 2, 0);
-  for (std::size_t f = 0; f < corners_.size(); ++f) {
-    double lo = corners_[f][0][1], hi = lo;
-    for (const auto& c : corners_[f]) lo = std::min(lo, c[1]), hi = std::max(hi, c[1]);
-    range[f] = {bin(lo), bin(hi)};
-    for (std::size_t b = range[f][0]; b <= range[f][1]; ++b) ++start_[b + 1];
+  if constexpr (d == 2) {
+    slabs_.fill(all, range[1], facets_per_bin);
+  } else {
+    // As many slabs as bins in a slab.
+    slabs_.fill(all, range[1], std::max(facets_per_bin, static_cast<std::size_t>(std::sqrt(facets_per_bin * facets.size()))));
+    cells_.resize(slabs_.count());
+    for (std::size_t s = 0; s < cells_.size(); ++s) cells_[s].fill(slabs_[s], range[2], facets_per_bin);
   }
-  for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
-  member_.resize(start_.back());
-  std::vector<int> next(start_.begin(), start_.end() - 1);
-  for (std::size_t f = 0; f < corners_.size(); ++f)
-    for (std::size_t b = range[f][0]; b <= range[f][1]; ++b) member_[next[b]++] = static_cast<int>(f);
+}
+
+template <int d>
+std::span<const int> InsideTest<d>::near(const Vec<d>& point) const {
+  const std::size_t slab = slabs_.of(point[1]);
+  if constexpr (d == 2) return slabs_[slab];
+  return cells_[slab][cells_[slab].of(point[d - 1])];
 }
 
 template <int d>
 bool InsideTest<d>::operator()(const Vec<d>& point) const {
-  const std::size_t b = bin(point[1]);
   int winding = 0;
-  for (int i = start_[b]; i < start_[b + 1]; ++i) winding += crossing(corners_[member_[i]], point);
+  for (int i : near(point)) winding += crossing(corners_[i], point);
   return winding > 0;
 }
 

@@ -1,7 +1,7 @@
 // Is a point inside a closed set of oriented facets? Winding number by ray crossing.
 //
 // Facets are binned by the quantiles of their corners in the directions across the ray, so that graded
-// boundaries cost O(log n) a query where facets do not pile up.
+// boundaries cost O(log n) a query where facets do not pile up behind each other.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +21,23 @@ class InsideTest {
   bool operator()(const Vec<d>& point) const;
 
  private:
-  std::size_t bin(double across) const {
-    return std::upper_bound(edges_.begin(), edges_.end(), across) - edges_.begin();
-  }
+  /// Items by the bins, along one axis, that they reach into.
+  struct Bins {
+    std::vector<double> edges;
+    std::vector<int> start, member;
+    /// `range`: of an item along the axis; the bins hold equal numbers of lower ends.
+    void fill(std::span<const int> items, const std::vector<std::array<double, 2>>& range, std::size_t per_bin);
+    std::size_t of(double at) const { return std::upper_bound(edges.begin(), edges.end(), at) - edges.begin(); }
+    std::span<const int> operator[](std::size_t bin) const {
+      return std::span(member).subspan(start[bin], start[bin + 1] - start[bin]);
+    }
+    std::size_t count() const { return start.size() - 1; }
+  };
+  std::span<const int> near(const Vec<d>& point) const;
+
   std::vector<std::array<Vec<d>, d>> corners_;
-  std::vector<double> edges_;  // bin boundaries along axis 1
-  std::vector<int> start_, member_;
+  Bins slabs_;               // along axis 1
+  std::vector<Bins> cells_;  // 3D: of each slab along axis 2
 };
 
 extern template class InsideTest<2>;

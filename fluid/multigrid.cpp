@@ -1,5 +1,6 @@
 #include "fluid/multigrid.hpp"
 
+#define OMPI_SKIP_MPICXX  // deprecated C++ bindings
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>
 #include <HYPRE_parcsr_ls.h>
@@ -103,12 +104,13 @@ struct Multigrid::Hypre {
     matrix = static_cast<HYPRE_ParCSRMatrix>(object);
 
     HYPRE_BoomerAMGCreate(&amg);
-    HYPRE_BoomerAMGSetCoarsenType(amg, 8);     // PMIS
-    HYPRE_BoomerAMGSetAggNumLevels(amg, 1);    // aggressive on the finest level
-    HYPRE_BoomerAMGSetInterpType(amg, 6);      // extended+i
+    HYPRE_BoomerAMGSetCoarsenType(amg, 8);   // PMIS
+    HYPRE_BoomerAMGSetAggNumLevels(amg, 1);  // aggressive on the finest level
+    HYPRE_BoomerAMGSetInterpType(amg, 6);    // extended+i
     HYPRE_BoomerAMGSetPMaxElmts(amg, 4);
-    HYPRE_BoomerAMGSetStrongThreshold(amg, 0.5);
-    HYPRE_BoomerAMGSetRelaxType(amg, 8);       // l1 symmetric Gauss-Seidel
+    HYPRE_BoomerAMGSetStrongThreshold(amg, 0.25);
+    HYPRE_BoomerAMGSetCycleRelaxType(amg, 13, 1);  // l1 Gauss-Seidel, forward on the way down ...
+    HYPRE_BoomerAMGSetCycleRelaxType(amg, 14, 2);  // ... and backward on the way up: symmetric
     HYPRE_BoomerAMGSetMaxIter(amg, 1);
     HYPRE_BoomerAMGSetTol(amg, 0);
     HYPRE_ParCSRPCGCreate(MPI_COMM_SELF, &cg);

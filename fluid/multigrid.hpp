@@ -1,6 +1,6 @@
 // Conjugate gradients on symmetric positive definite systems, preconditioned by one V-cycle of algebraic multigrid:
 // hypre's BoomerAMG (Henson, Yang 2002) with one level of aggressive coarsening, extended+i interpolation and l1
-// symmetric Gauss-Seidel smoothing. Setup and iterations cost O(rows): docs/theory.md has figures.
+// Gauss-Seidel smoothing, forward on the way down and backward on the way up. Setup and iterations cost O(rows): docs/theory.md has figures.
 #pragma once
 
 #include <memory>

@@ -4,6 +4,7 @@
 
 #include "fluid/delaunay.hpp"
 #include "fluid/inside.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -137,10 +138,10 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
     if (nodes.spray[i]) inner[i] = 0;
 
   std::vector<char> is_fluid(all.cells.size());
-  for (std::size_t c = 0; c < all.cells.size(); ++c) {
+  in_parallel(all.cells.size(), [&](std::size_t c) {
     const auto& cell = all.cells[c];
     const Shape s = shape<d>(edge_matrix<d>(corners(nodes.x, cell)));
-    if (s.degenerate || is_film<d>(cell, s.fullness, nodes)) continue;
+    if (s.degenerate || is_film<d>(cell, s.fullness, nodes)) return;
     double size = 0;
     bool has_inner = false;
     Vec<d> centroid = Vec<d>::Zero();
@@ -153,7 +154,7 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
     is_fluid[c] = alpha <= limit.never &&
                   ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&
                   !in_solid<d>(cell, centroid, size, nodes, old_boundary, walls);
-  }
+  });
 
   Mesh<d> mesh;
   mesh.cells.reserve(all.cells.size());
@@ -168,12 +169,13 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
       if (other >= 0 && is_fluid[other]) continue;
       Facet<d> f;
       for (int j = 0; j < d; ++j) f.nodes[j] = all.cells[c][Opposite<d>::nodes[k][j]];
-      f.wall = wall_of(f, nodes, walls);
-      if (f.wall < 0)
-        for (int n : f.nodes) nodes.surface[n] = 1;
       mesh.boundary.push_back(f);
     }
   }
+  in_parallel(mesh.boundary.size(), [&](std::size_t f) { mesh.boundary[f].wall = wall_of(mesh.boundary[f], nodes, walls); });
+  for (const auto& f : mesh.boundary)
+    if (f.wall < 0)
+      for (int n : f.nodes) nodes.surface[n] = 1;
   return mesh;
 }
 

@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace splashdown::fluid {
+namespace {
+// Of distances, relative. In the plane exact ones cost next to nothing.
+template <int d>
+constexpr double slack = d == 2 ? 0.0 : 0.02;
+}  // namespace
 
 double size_at_bend(const SizeSpec& spec, double wall_size, double radius) {
   constexpr double least = 0.25;
@@ -96,7 +101,7 @@ double SizeField<d>::operator()(const Vec<d>& point) const {
   for (std::size_t w = 0; w < wall_size_.size(); ++w) {
     const double reach = (h - wall_size_[w]) / spec_.growth;
     if (reach <= 0) continue;
-    h = wall_size_[w] + spec_.growth * walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach);
+    h = wall_size_[w] + spec_.growth * walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach, slack<d>);
   }
   for (const Source& s : points_) {
     const double reach = (h - s.size) / spec_.growth;
@@ -105,7 +110,7 @@ double SizeField<d>::operator()(const Vec<d>& point) const {
   }
   const double reach = (h - spec_.surface) / spec_.growth;
   if (!surface_.empty() && reach > 0)
-    h = spec_.surface + spec_.growth * std::sqrt(surface_.nearest(point, reach).squared_distance);
+    h = spec_.surface + spec_.growth * std::sqrt(surface_.nearest(point, reach, slack<d>).squared_distance);
   return h;
 }
 

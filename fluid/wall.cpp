@@ -256,8 +256,8 @@ typename Wall<d>::Crossing Wall<d>::nearest_crease(const Isometry<d>& pose, cons
 }
 
 template <int d>
-double Wall<d>::distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach) const {
-  return std::sqrt(tree_.nearest(pose.inverse() * x, reach).squared_distance);
+double Wall<d>::distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack) const {
+  return std::sqrt(tree_.nearest(pose.inverse() * x, reach, slack).squared_distance);
 }
 
 template class Wall<2>;

@@ -42,7 +42,8 @@ class Wall {
   bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
     return turned_inside_out_ || box_.squaredExteriorDistance(pose.inverse() * x) <= margin * margin;
   }
-  double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
+  /// `slack`: relative error allowed.
+  double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
   Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
   const std::vector<int>& corners() const { return corners_; }
   const WallSpec<d>& spec() const { return spec_; }
