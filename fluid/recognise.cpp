@@ -61,15 +61,6 @@ double chord_depth(int wall, const std::array<int, d + 1>& cell, const Nodes<d>&
   return 0;
 }
 
-// In space: flat cells between four nodes of a wall. They hold no water to speak of, and their pressure would be anything.
-template <int d>
-bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>& nodes) {
-  constexpr double thin = 0.02;  // a regular tetrahedron: 0.12
-  if (d == 2 || fullness > thin) return false;
-  const int wall = nodes.tie[cell[0]].wall;
-  return wall >= 0 && std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; });
-}
-
 // Only cells that touch a wall can lie in it. One that stands on a chord of a convex hull reaches into the hull with it;
 // one with all its nodes on the wall lies between a chord and the hull.
 template <int d>
@@ -88,10 +79,18 @@ bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double
   return false;
 }
 
+template <int d>
+double longest_edge(const Facet<d>& f, const Nodes<d>& nodes) {
+  double longest = 0;
+  for (int a = 0; a < d; ++a)
+    for (int b = a + 1; b < d; ++b) longest = std::max(longest, (nodes.x[f.nodes[b]] - nodes.x[f.nodes[a]]).norm());
+  return longest;
+}
+
 // The facet lies on `wall`: its nodes are tied to it, or to another wall and sit where both meet.
 template <int d>
 bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
-  const double length = (nodes.x[f.nodes[1]] - nodes.x[f.nodes[0]]).norm();
+  const double length = longest_edge(f, nodes);
   Vec<d> centre = Vec<d>::Zero();
   int patch = -1;
   bool one_patch = true, at_vertex = false;
@@ -111,6 +110,26 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
   if (d == 2 && !one_patch && !at_vertex) return false;  // cuts a corner
   // The chord of a convex hull lies in the solid, however deep: no air is there to be a surface to.
   return at.walls[wall].nearest(at.poses[wall], centre, length).distance < facet_sag * length;
+}
+
+template <int d>
+Facet<d> facet_of(const std::array<int, d + 1>& cell, int opposite) {
+  Facet<d> f;
+  for (int j = 0; j < d; ++j) f.nodes[j] = cell[Opposite<d>::nodes[opposite][j]];
+  return f;
+}
+
+// In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
+// their pressure would be anything. One across a crease would leave a hole in the water.
+template <int d>
+bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>& nodes, const WallsAt<d>& at) {
+  constexpr double thin = 0.02;  // a regular tetrahedron: 0.12
+  if (d == 2 || fullness > thin) return false;
+  const int wall = nodes.tie[cell[0]].wall;
+  if (wall < 0 || !std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; })) return false;
+  for (int k = 0; k <= d; ++k)
+    if (!lies_on(wall, facet_of<d>(cell, k), nodes, at)) return false;
+  return true;
 }
 
 template <int d>
@@ -141,7 +160,7 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
   in_parallel(all.cells.size(), [&](std::size_t c) {
     const auto& cell = all.cells[c];
     const Shape s = shape<d>(edge_matrix<d>(corners(nodes.x, cell)));
-    if (s.degenerate || is_film<d>(cell, s.fullness, nodes)) return;
+    if (s.degenerate || is_film<d>(cell, s.fullness, nodes, walls)) return;
     double size = 0;
     bool has_inner = false;
     Vec<d> centroid = Vec<d>::Zero();
@@ -167,9 +186,7 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
       nodes.spray[all.cells[c][k]] = 0;
       const int other = all.neighbours[c][k];
       if (other >= 0 && is_fluid[other]) continue;
-      Facet<d> f;
-      for (int j = 0; j < d; ++j) f.nodes[j] = all.cells[c][Opposite<d>::nodes[k][j]];
-      mesh.boundary.push_back(f);
+      mesh.boundary.push_back(facet_of<d>(all.cells[c], k));
     }
   }
   in_parallel(mesh.boundary.size(), [&](std::size_t f) { mesh.boundary[f].wall = wall_of(mesh.boundary[f], nodes, walls); });

@@ -216,5 +216,23 @@ TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
   EXPECT_NEAR(enclosed_volume(mesh.boundary, cube.nodes.x), sum, 1e4 * eps);
 }
 
+// A flat cell across a crease of a tank is water: without it there is a hole with p = 0 at the bottom. One between a
+// hull and its chords is a film.
+TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it) {
+  const std::vector<Wall<3>> tank{
+      Wall<3>(scenes::wall("tank", scenes::turned_inside_out(scenes::block({-1, -1, -1}, {1, 1, 1})), 0.5))};
+  const std::vector<Isometry<3>> poses{Isometry<3>::Identity()};
+  auto cells = [&](const std::array<Vec<3>, 4>& corner) {
+    Nodes<3> nodes;
+    for (const auto& x : corner) nodes.add(x, Vec<3>::Zero(), 0, WallTie{0}, false);
+    const std::vector<Facet<3>> outside{{{1, 2, 3}, -1}, {{0, 3, 2}, -1}, {{0, 1, 3}, -1}, {{0, 2, 1}, -1}};
+    EXPECT_GT(enclosed_volume(outside, nodes.x), 0);
+    return recognise<3>(nodes, std::vector<double>(4, 0.5), outside, {tank, poses}).cells.size();
+  };
+  EXPECT_EQ(cells({Vec<3>(0, -1, -1), {0.03, -1, -1}, {0, -0.6, -1}, {0, -1, -0.6}}), 1u);
+  const double sag = 0.01;
+  EXPECT_EQ(cells({Vec<3>(0, 0, -1), {0, 0.4, sag - 1}, {0.4, 0, sag - 1}, {0.4, 0.4, -1}}), 0u);
+}
+
 }  // namespace
 }  // namespace splashdown::fluid
