@@ -21,7 +21,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> out;
   std::optional<double> until;
   std::optional<double> budget;
-  int threads = 1;
+  std::optional<int> threads;
   bool resume = false;
   bool quiet = false;
 };

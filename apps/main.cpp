@@ -35,9 +35,8 @@ int command_line(int argc, char** argv) {
   run_app->add_option("scene", run.scene, scene_help)->required();
   run_app->add_option("--out", run.out, "folder for the files (default: out/<scene>)");
   run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
-  run_app->add_option("--threads", run.threads, "threads of the linear algebra")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
+      ->check(CLI::Range(1, 1024));
   run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")
       ->check(CLI::PositiveNumber);
   run_app

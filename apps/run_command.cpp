@@ -175,7 +175,7 @@ int run_command(const RunOptions& options) {
   } catch (const SceneError& error) {
     return bad_input(error.what());
   }
-  set_threads(options.threads);
+  set_threads(options.threads, start.file.scene.dimension);
   return start.file.scene.dimension == 2 ? run_scene<2>(options, std::move(start))
                                          : run_scene<3>(options, std::move(start));
 }

@@ -1,9 +1,12 @@
-// Threads of the linear algebra, the only part that uses several.
+// Threads of a run. Its results do not depend on their number.
 #pragma once
+
+#include <optional>
 
 namespace splashdown::apps {
 
-/// One thread is fastest below some 50 000 nodes and makes the same bits on every machine.
-void set_threads(int count);
+/// Not asked for: one in the plane, where runs are small and studies run side by side; all cores in space. BLAS gets
+/// several only if asked for: direct solves of some 50 000 unknowns are the smallest that gain.
+void set_threads(std::optional<int> count, int dimension);
 
 }  // namespace splashdown::apps

@@ -10,6 +10,7 @@
 
 #include "fluid/adapt.hpp"
 #include "fluid/contact.hpp"
+#include "fluid/delaunay.hpp"
 #include "fluid/initial.hpp"
 #include "fluid/landing.hpp"
 #include "fluid/parallel.hpp"
@@ -191,6 +192,11 @@ struct Fluid<d>::State {
     size_nodes();
     wet<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
     if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
+    if constexpr (d == 3) {
+      // Along a space-filling curve: neighbours are near in memory, and in the same block of the smoother.
+      const auto order = spatial_order<d>(work.nodes.x);
+      keep({order.begin(), order.end()}, work.nodes, work.h, work.mesh.boundary);
+    }
     const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
     const std::vector<char> was_spray = work.nodes.spray;
     work.mesh = recognise<d>(work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));

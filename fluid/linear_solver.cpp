@@ -83,12 +83,7 @@ bool LinearSolver::factor(const SymmetricMatrix& matrix) {
 }
 
 bool LinearSolver::solve(std::span<double> rhs, int columns, double tolerance) {
-  if (multigrid_) {
-    const std::size_t rows = rhs.size() / static_cast<std::size_t>(columns);
-    for (std::size_t c = 0; c < rhs.size(); c += rows)
-      if (!multigrid_->solve(rhs.subspan(c, rows), tolerance)) return false;
-    return true;
-  }
+  if (multigrid_) return multigrid_->solve(rhs, columns, tolerance);
   if (c_->factor == nullptr) return false;
   const OneThread here;
   cholmod_dense b{};

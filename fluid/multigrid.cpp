@@ -1,157 +1,232 @@
 #include "fluid/multigrid.hpp"
 
-#define OMPI_SKIP_MPICXX  // deprecated C++ bindings
-#include <HYPRE.h>
-#include <HYPRE_IJ_mv.h>
-#include <HYPRE_parcsr_ls.h>
-#include <mpi.h>
-
+#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cstdlib>
-#include <numeric>
+#include <array>
+#include <cmath>
+#include <utility>
 #include <vector>
+
+#include "fluid/amg_levels.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
 
 constexpr int most_iterations = 200;  // ten times what meshes of the validation cases need
+constexpr int most_blocks = 4;        // of Gauss-Seidel; between them it is Jacobi, which converges more slowly
+constexpr int rows_a_block = 1000;    // at least; also of partial sums
 
-// hypre is built upon MPI, which this program uses for itself alone.
-class Mpi {
- public:
-  static void need() { static const Mpi here; }
+/// visit(first, last, number) for a division of rows that does not depend on threads.
+template <class Visit>
+void in_blocks(int rows, int size, Visit visit) {
+  const int blocks = (rows + size - 1) / size;
+  in_pieces(static_cast<std::size_t>(blocks), 1, [&](std::size_t from, std::size_t to) {
+    for (int b = static_cast<int>(from); b < static_cast<int>(to); ++b) visit(b * size, std::min(rows, (b + 1) * size), b);
+  });
+}
+int smoothing_block(int rows) { return std::max(rows_a_block, (rows + most_blocks - 1) / most_blocks); }
 
- private:
-  Mpi() {
-    int running = 0;
-    MPI_Initialized(&running);
-    if (!running) {
-      setenv("OMPI_MCA_btl", "self", 0);  // no search for networks
-      MPI_Init(nullptr, nullptr);
-      std::atexit([] { MPI_Finalize(); });
+Rows<float> transposed(const Rows<float>& m, int columns) {
+  Rows<float> t;
+  t.start.assign(columns + 1, 0);
+  for (int j : m.column) ++t.start[j + 1];
+  for (int j = 0; j < columns; ++j) t.start[j + 1] += t.start[j];
+  std::vector<int> next(t.start.begin(), t.start.end() - 1);
+  t.column.resize(m.column.size());
+  t.value.resize(m.value.size());
+  for (int i = 0; i < m.size(); ++i)
+    for (int k = m.start[i]; k < m.start[i + 1]; ++k) {
+      t.column[next[m.column[k]]] = i;
+      t.value[next[m.column[k]]++] = m.value[k];
     }
-    HYPRE_Init();
-  }
-};
+  return t;
+}
 
-// Rows of the whole matrix from its lower triangle.
-struct Rows {
-  explicit Rows(const SymmetricMatrix& m) : count(m.size(), 0) {
-    const int n = m.size();
-    for (int j = 0; j < n; ++j)
-      for (int k = m.column_start[j]; k < m.column_start[j + 1]; ++k) {
-        ++count[j];
-        if (m.row[k] != j) ++count[m.row[k]];
-      }
-    std::vector<int> next(n, 0);
-    for (int i = 1; i < n; ++i) next[i] = next[i - 1] + count[i - 1];
-    column.resize(2 * m.row.size() - n);
-    value.resize(column.size());
-    auto put = [&](int i, int j, double v) { column[next[i]] = j, value[next[i]++] = v; };
-    // Ascending: left of the diagonal comes from earlier columns.
-    for (int j = 0; j < n; ++j)
-      for (int k = m.column_start[j]; k < m.column_start[j + 1]; ++k) {
-        put(j, m.row[k], m.value[k]);
-        if (m.row[k] != j) put(m.row[k], j, m.value[k]);
-      }
-  }
-  std::vector<int> count, column;
-  std::vector<double> value;
-};
+// y = sign * M x + y for K columns side by side.
+template <int K, class Real>
+void add_product(const Rows<Real>& m, Real sign, const Real* x, Real* y) {
+  in_blocks(m.size(), rows_a_block, [&](int first, int last, int) {
+    for (int i = first; i < last; ++i) {
+      std::array<Real, K> sum{};
+      for (int k = m.start[i]; k < m.start[i + 1]; ++k)
+        for (int c = 0; c < K; ++c) sum[c] += m.value[k] * x[m.column[k] * K + c];
+      for (int c = 0; c < K; ++c) y[i * K + c] += sign * sum[c];
+    }
+  });
+}
 
-class Vector {
- public:
-  explicit Vector(int n) : n_(n), index_(n) {
-    std::iota(index_.begin(), index_.end(), 0);
-    HYPRE_IJVectorCreate(MPI_COMM_SELF, 0, n - 1, &ij_);
-    HYPRE_IJVectorSetObjectType(ij_, HYPRE_PARCSR);
-    HYPRE_IJVectorInitialize(ij_);
-    HYPRE_IJVectorAssemble(ij_);
-  }
-  ~Vector() { HYPRE_IJVectorDestroy(ij_); }
-  Vector(const Vector&) = delete;
-  Vector& operator=(const Vector&) = delete;
-  void set(const double* values) { HYPRE_IJVectorSetValues(ij_, n_, index_.data(), values); }
-  void get(double* values) const { HYPRE_IJVectorGetValues(ij_, n_, index_.data(), values); }
-  HYPRE_ParVector par() const {
-    void* object = nullptr;
-    HYPRE_IJVectorGetObject(ij_, &object);
-    return static_cast<HYPRE_ParVector>(object);
-  }
-
- private:
-  int n_;
-  std::vector<int> index_;
-  HYPRE_IJVector ij_ = nullptr;
-};
+template <int K>
+std::array<double, K> dot(int rows, const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<std::array<double, K>> part((rows + rows_a_block - 1) / rows_a_block);
+  in_blocks(rows, rows_a_block, [&](int first, int last, int block) {
+    std::array<double, K> sum{};
+    for (int i = first; i < last; ++i)
+      for (int c = 0; c < K; ++c) sum[c] += a[i * K + c] * b[i * K + c];
+    part[block] = sum;
+  });
+  std::array<double, K> sum{};
+  for (const auto& p : part)
+    for (int c = 0; c < K; ++c) sum[c] += p[c];
+  return sum;
+}
 
 }  // namespace
 
-struct Multigrid::Hypre {
-  explicit Hypre(const SymmetricMatrix& m) : b(m.size()), x(m.size()) {
-    const int n = m.size();
-    const Rows rows(m);
-    std::vector<int> index(n), count = rows.count;
-    std::iota(index.begin(), index.end(), 0);
-    HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, n - 1, 0, n - 1, &ij);
-    HYPRE_IJMatrixSetObjectType(ij, HYPRE_PARCSR);
-    HYPRE_IJMatrixSetRowSizes(ij, count.data());
-    HYPRE_IJMatrixInitialize(ij);
-    HYPRE_IJMatrixSetValues(ij, n, count.data(), index.data(), rows.column.data(), rows.value.data());
-    HYPRE_IJMatrixAssemble(ij);
-    void* object = nullptr;
-    HYPRE_IJMatrixGetObject(ij, &object);
-    matrix = static_cast<HYPRE_ParCSRMatrix>(object);
+struct Multigrid::Level {
+  Rows<float> matrix, interpolation, restriction;  // to this level and from it
+  std::vector<float> per_diagonal;                 // 1 / (a_ii + sum of |a_ij| beyond the block)
+  std::vector<float> b, x, before;
 
-    HYPRE_BoomerAMGCreate(&amg);
-    HYPRE_BoomerAMGSetCoarsenType(amg, 8);   // PMIS
-    HYPRE_BoomerAMGSetAggNumLevels(amg, 1);  // aggressive on the finest level
-    HYPRE_BoomerAMGSetInterpType(amg, 6);    // extended+i
-    HYPRE_BoomerAMGSetPMaxElmts(amg, 4);
-    HYPRE_BoomerAMGSetStrongThreshold(amg, 0.25);
-    HYPRE_BoomerAMGSetCycleRelaxType(amg, 13, 1);  // l1 Gauss-Seidel, forward on the way down ...
-    HYPRE_BoomerAMGSetCycleRelaxType(amg, 14, 2);  // ... and backward on the way up: symmetric
-    HYPRE_BoomerAMGSetMaxIter(amg, 1);
-    HYPRE_BoomerAMGSetTol(amg, 0);
-    HYPRE_ParCSRPCGCreate(MPI_COMM_SELF, &cg);
-    HYPRE_PCGSetMaxIter(cg, most_iterations);
-    HYPRE_PCGSetTwoNorm(cg, 1);
-    HYPRE_PCGSetPrecond(cg, reinterpret_cast<HYPRE_PtrToSolverFcn>(HYPRE_BoomerAMGSolve),
-                        reinterpret_cast<HYPRE_PtrToSolverFcn>(HYPRE_BoomerAMGSetup), amg);
-    HYPRE_ParCSRPCGSetup(cg, matrix, b.par(), x.par());
-    HYPRE_ClearAllErrors();
+  void find_diagonal() {
+    per_diagonal.resize(matrix.size());
+    in_blocks(matrix.size(), smoothing_block(matrix.size()), [&](int first, int last, int) {
+      for (int i = first; i < last; ++i) {
+        float sum = 0;
+        for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
+          const int j = matrix.column[k];
+          if (j == i) sum += matrix.value[k];
+          if (j < first || j >= last) sum += std::abs(matrix.value[k]);
+        }
+        per_diagonal[i] = sum > 0 ? 1 / sum : 0;
+      }
+    });
   }
-  ~Hypre() {
-    HYPRE_ParCSRPCGDestroy(cg);
-    HYPRE_BoomerAMGDestroy(amg);
-    HYPRE_IJMatrixDestroy(ij);
-  }
-  Hypre(const Hypre&) = delete;
-  Hypre& operator=(const Hypre&) = delete;
 
-  HYPRE_IJMatrix ij = nullptr;
-  HYPRE_ParCSRMatrix matrix = nullptr;
-  HYPRE_Solver amg = nullptr, cg = nullptr;
-  Vector b, x;
+  template <int K>
+  void smooth(bool forward) {
+    before = x;
+    in_blocks(matrix.size(), smoothing_block(matrix.size()), [&](int first, int last, int) {
+      for (int step = 0; step < last - first; ++step) {
+        const int i = forward ? first + step : last - 1 - step;
+        std::array<float, K> r;
+        for (int c = 0; c < K; ++c) r[c] = b[i * K + c];
+        for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
+          const int j = matrix.column[k];
+          const float* at = (j < first || j >= last ? before.data() : x.data()) + j * K;
+          for (int c = 0; c < K; ++c) r[c] -= matrix.value[k] * at[c];
+        }
+        for (int c = 0; c < K; ++c) x[i * K + c] += per_diagonal[i] * r[c];
+      }
+    });
+  }
 };
 
-Multigrid::Multigrid(const SymmetricMatrix& matrix) {
-  Mpi::need();
-  h_ = std::make_unique<Hypre>(matrix);
-}
+struct Multigrid::Hierarchy {
+  Rows<double> matrix;
+  std::vector<Level> levels;
+  Eigen::LDLT<Eigen::MatrixXd> coarsest;
+  std::vector<double> r, z, p, q, x;
+
+  explicit Hierarchy(const SymmetricMatrix& m) : matrix(whole(m)) {
+    AmgLevels built = amg_levels(matrix);
+    levels.resize(built.matrix.size());
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+      levels[l].matrix = std::move(built.matrix[l]);
+      levels[l].find_diagonal();
+      if (l + 1 == levels.size()) continue;
+      levels[l].interpolation = std::move(built.interpolation[l]);
+      levels[l].restriction = transposed(levels[l].interpolation, built.matrix[l + 1].size());
+    }
+    const auto& last = levels.back().matrix;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(last.size(), last.size());
+    for (int i = 0; i < last.size(); ++i)
+      for (int k = last.start[i]; k < last.start[i + 1]; ++k) dense(i, last.column[k]) += last.value[k];
+    coarsest.compute(dense);
+  }
+
+  // levels[l].x = M^-1 levels[l].b
+  template <int K>
+  void cycle(std::size_t l) {
+    Level& level = levels[l];
+    const int n = level.matrix.size();
+    level.x.assign(level.b.size(), 0);
+    if (l + 1 == levels.size()) {
+      using Columns = Eigen::Matrix<float, Eigen::Dynamic, K, K == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+      const Eigen::Map<const Columns> b(level.b.data(), n, K);
+      Eigen::Map<Columns>(level.x.data(), n, K) = coarsest.solve(b.template cast<double>()).template cast<float>();
+      return;
+    }
+    level.template smooth<K>(true);
+    level.before = level.b;  // the residual
+    add_product<K, float>(level.matrix, -1, level.x.data(), level.before.data());
+    Level& coarser = levels[l + 1];
+    coarser.b.assign(static_cast<std::size_t>(coarser.matrix.size()) * K, 0);
+    add_product<K, float>(level.restriction, 1, level.before.data(), coarser.b.data());
+    cycle<K>(l + 1);
+    add_product<K, float>(level.interpolation, 1, coarser.x.data(), level.x.data());
+    level.template smooth<K>(false);
+  }
+
+  // z = M^-1 r. Residuals are scaled to their largest size: single precision ends at 1e-38.
+  template <int K>
+  void precondition() {
+    double largest = 0;
+    for (double value : r) largest = std::max(largest, std::abs(value));
+    const double up = largest > 0 ? 1 / largest : 1;
+    auto& finest = levels.front();
+    finest.b.resize(r.size());
+    in_parallel(r.size(), [&](std::size_t i) { finest.b[i] = static_cast<float>(up * r[i]); });
+    cycle<K>(0);
+    in_parallel(r.size(), [&](std::size_t i) { z[i] = finest.x[i] / up; });
+  }
+
+  /// K systems side by side; each stops for itself.
+  template <int K>
+  bool solve(double* rhs, double tolerance) {
+    const int n = matrix.size();
+    const std::size_t count = static_cast<std::size_t>(n) * K;
+    for (auto* v : {&r, &z, &p, &q, &x}) v->assign(count, 0.0);
+    for (int c = 0; c < K; ++c)
+      for (int i = 0; i < n; ++i) r[static_cast<std::size_t>(i) * K + c] = rhs[static_cast<std::size_t>(c) * n + i];
+    std::array<double, K> goal = dot<K>(n, r, r), rz{};
+    for (double& g : goal) g *= tolerance * tolerance;
+    bool done = false;
+    for (int iteration = 0; iteration <= most_iterations; ++iteration) {
+      const auto rr = dot<K>(n, r, r);
+      std::array<bool, K> open;
+      done = true;
+      for (int c = 0; c < K; ++c) {
+        open[c] = !(rr[c] <= goal[c]);
+        done = done && !open[c];
+        if (!std::isfinite(rr[c])) return false;
+      }
+      if (done) break;
+      precondition<K>();
+      const auto rz_next = dot<K>(n, r, z);
+      std::array<double, K> beta, alpha;
+      for (int c = 0; c < K; ++c) beta[c] = iteration > 0 && rz[c] > 0 ? rz_next[c] / rz[c] : 0;
+      rz = rz_next;
+      in_parallel(static_cast<std::size_t>(n), [&](std::size_t i) {
+        for (int c = 0; c < K; ++c) p[i * K + c] = z[i * K + c] + beta[c] * p[i * K + c], q[i * K + c] = 0;
+      });
+      add_product<K, double>(matrix, 1, p.data(), q.data());
+      const auto pq = dot<K>(n, p, q);
+      for (int c = 0; c < K; ++c) alpha[c] = open[c] && pq[c] > 0 ? rz[c] / pq[c] : 0;
+      in_parallel(static_cast<std::size_t>(n), [&](std::size_t i) {
+        for (int c = 0; c < K; ++c) x[i * K + c] += alpha[c] * p[i * K + c], r[i * K + c] -= alpha[c] * q[i * K + c];
+      });
+    }
+    for (int c = 0; c < K; ++c)
+      for (int i = 0; i < n; ++i) rhs[static_cast<std::size_t>(c) * n + i] = x[static_cast<std::size_t>(i) * K + c];
+    return done;
+  }
+};
+
+Multigrid::Multigrid(const SymmetricMatrix& matrix) : h_(std::make_unique<Hierarchy>(matrix)) {}
 Multigrid::~Multigrid() = default;
 
-bool Multigrid::solve(std::span<double> rhs, double tolerance) {
-  if (std::all_of(rhs.begin(), rhs.end(), [](double r) { return r == 0; })) return true;
-  h_->b.set(rhs.data());
-  HYPRE_ParVectorSetConstantValues(h_->x.par(), 0);
-  HYPRE_PCGSetTol(h_->cg, tolerance);
-  HYPRE_ParCSRPCGSolve(h_->cg, h_->matrix, h_->b.par(), h_->x.par());
-  int converged = 0;
-  HYPRE_PCGGetConverged(h_->cg, &converged);
-  HYPRE_ClearAllErrors();
-  h_->x.get(rhs.data());
-  return converged != 0;
+bool Multigrid::solve(std::span<double> rhs, int columns, double tolerance) {
+  const std::size_t rows = rhs.size() / static_cast<std::size_t>(columns);
+  constexpr int together = 6;  // the freedoms of a body
+  int c = 0;
+  for (; columns - c >= together; c += together)
+    if (!h_->solve<together>(rhs.data() + rows * c, tolerance)) return false;
+  for (; columns - c >= 3; c += 3)
+    if (!h_->solve<3>(rhs.data() + rows * c, tolerance)) return false;
+  for (; c < columns; ++c)
+    if (!h_->solve<1>(rhs.data() + rows * c, tolerance)) return false;
+  return true;
 }
 
 }  // namespace splashdown::fluid

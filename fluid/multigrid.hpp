@@ -1,6 +1,10 @@
-// Conjugate gradients on symmetric positive definite systems, preconditioned by one V-cycle of algebraic multigrid:
-// hypre's BoomerAMG (Henson, Yang 2002) with one level of aggressive coarsening, extended+i interpolation and l1
-// Gauss-Seidel smoothing, forward on the way down and backward on the way up. Setup and iterations cost O(rows): docs/theory.md has figures.
+// Conjugate gradients on symmetric positive definite systems, preconditioned by one V-cycle of algebraic multigrid.
+//
+// hypre's BoomerAMG builds the levels (Henson, Yang 2002; PMIS coarsening, aggressive at first, extended+i interpolation).
+// The cycles are run here, on all threads and for several right-hand sides at once, in single precision: hypre as
+// Debian builds it has neither. Smoother: l1 Gauss-Seidel within a fixed number of blocks of rows, forward on the way down,
+// backward on the way up (Baker, Falgout, Kolev, Yang 2011), so that results do not depend on the number of threads.
+// Setup and iterations cost O(rows): docs/theory.md has figures.
 #pragma once
 
 #include <memory>
@@ -14,12 +18,14 @@ class Multigrid {
  public:
   explicit Multigrid(const SymmetricMatrix& matrix);
   ~Multigrid();
-  /// Solves in place to a residual of `tolerance` |rhs|; false if it does not converge.
-  bool solve(std::span<double> rhs, double tolerance);
+  /// Solves in place for `columns` right-hand sides stored one after the other, to residuals of `tolerance` |rhs| each;
+  /// false if one does not converge.
+  bool solve(std::span<double> rhs, int columns, double tolerance);
 
  private:
-  struct Hypre;
-  std::unique_ptr<Hypre> h_;
+  struct Level;
+  struct Hierarchy;
+  std::unique_ptr<Hierarchy> h_;
 };
 
 }  // namespace splashdown::fluid

@@ -1,16 +1,36 @@
-// Loops whose turns do not depend on each other: the same result for any number of threads.
+// Loops whose turns do not depend on each other: the same result for any number of threads. (TBB: OpenMP's threads spin
+// while they wait, and a busy machine stands still.)
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cstddef>
 
 namespace splashdown::fluid {
 
-/// visit(i) for 0 <= i < count, on all threads of OpenMP; visit may not throw.
+/// Threads that loops run on from here on; 0: all cores.
+void use_threads(int count);
+
+/// visit(first, last) for pieces of [0, count) of at least `grain`.
+template <class Visit>
+void in_pieces(std::size_t count, std::size_t grain, Visit visit) {
+  if (count <= grain) {
+    visit(std::size_t{0}, count);
+    return;
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                    [&](const tbb::blocked_range<std::size_t>& piece) { visit(piece.begin(), piece.end()); });
+}
+
+/// visit(i) for 0 <= i < count.
 template <class Visit>
 void in_parallel(std::size_t count, Visit visit) {
-  constexpr std::size_t worthwhile = 2000;  // below, waking a thread costs more than it saves
-#pragma omp parallel for schedule(static) if (count >= worthwhile)
-  for (std::size_t i = 0; i < count; ++i) visit(i);
+  constexpr std::size_t worthwhile = 1000;  // for less, waking a thread costs more than it saves
+  in_pieces(count, worthwhile, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) visit(i);
+  });
 }
 
 }  // namespace splashdown::fluid
