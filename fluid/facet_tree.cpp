@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace splashdown::fluid {
 
@@ -33,26 +32,57 @@ Vec<3> closest_on(const std::array<Vec<3>, 3>& f, const Vec<3>& x) {
 }
 
 template <int d>
-FacetTree<d>::FacetTree(Eigen::Matrix<double, d, Eigen::Dynamic> vertices, Eigen::Matrix<int, d, Eigen::Dynamic> facets)
-    : vertices_(std::move(vertices)), facets_(std::move(facets)), order_(facets_.cols()) {
-  if (order_.empty()) return;
-  std::iota(order_.begin(), order_.end(), 0);
-  std::vector<Vec<d>> centre(order_.size());
-  for (std::size_t f = 0; f < order_.size(); ++f) {
-    centre[f].setZero();
-    for (int k = 0; k < d; ++k) centre[f] += vertices_.col(facets_(k, f)) / d;
-  }
-  branches_.reserve(order_.size());
-  branches_.emplace_back();
-  build(0, 0, static_cast<int>(order_.size()), centre);
+Vec<d> FacetTree<d>::Piece::centre() const {
+  Vec<d> sum = Vec<d>::Zero();
+  for (const auto& c : corner) sum += c / d;
+  return sum;
 }
 
 template <int d>
-void FacetTree<d>::build(int branch, int first, int count, std::vector<Vec<d>>& centre) {
+FacetTree<d>::FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
+                        const Eigen::Matrix<int, d, Eigen::Dynamic>& facets) {
+  if (facets.cols() == 0) return;
+  constexpr double part = 1.0 / 64;  // of the whole surface: needles are not cut into shorter pieces
+  const double size = (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
+  for (int f = 0; f < facets.cols(); ++f) {
+    Piece piece{{}, f};
+    for (int k = 0; k < d; ++k) piece.corner[k] = vertices.col(facets(k, f));
+    cut(piece, part * size);
+  }
+  branches_.reserve(pieces_.size());
+  branches_.emplace_back();
+  build(0, 0, static_cast<int>(pieces_.size()));
+}
+
+template <int d>
+void FacetTree<d>::cut(const Piece& piece, double shortest) {
+  if constexpr (d == 3) {
+    constexpr double slender = 4;  // longest edge over height
+    const auto& c = piece.corner;
+    int longest = 0;
+    const auto edge = [&](int k) { return Vec<d>(c[(k + 1) % 3] - c[k]); };
+    for (int k = 1; k < 3; ++k)
+      if (edge(k).squaredNorm() > edge(longest).squaredNorm()) longest = k;
+    const double length = edge(longest).norm(), height = edge(0).cross(edge(1)).norm() / length;
+    if (length > shortest && length > slender * height) {
+      const Vec<d> middle = 0.5 * (c[longest] + c[(longest + 1) % 3]);
+      for (int end : {longest, (longest + 1) % 3}) {
+        Piece half = piece;
+        half.corner[end] = middle;
+        cut(half, shortest);
+      }
+      return;
+    }
+  }
+  pieces_.push_back(piece);
+}
+
+template <int d>
+void FacetTree<d>::build(int branch, int first, int count) {
   Box box, centres;
   for (int i = first; i < first + count; ++i) {
-    for (int k = 0; k < d; ++k) box.extend(vertices_.col(facets_(k, order_[i])));
-    centres.extend(centre[order_[i]]);
+    for (const auto& c : pieces_[i].corner) box.extend(c);
+    centres.extend(pieces_[i].centre());
   }
   constexpr int leaf_size = 4;
   if (count <= leaf_size) {
@@ -62,13 +92,13 @@ void FacetTree<d>::build(int branch, int first, int count, std::vector<Vec<d>>& 
   int axis;
   centres.sizes().maxCoeff(&axis);
   const int half = count / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
-                   [&](int a, int b) { return centre[a][axis] < centre[b][axis]; });
+  std::nth_element(pieces_.begin() + first, pieces_.begin() + first + half, pieces_.begin() + first + count,
+                   [&](const Piece& a, const Piece& b) { return a.centre()[axis] < b.centre()[axis]; });
   const int child = static_cast<int>(branches_.size());
   branches_.resize(branches_.size() + 2);
   branches_[branch] = {box, child, 0};
-  build(child, first, half, centre);
-  build(child + 1, first + half, count - half, centre);
+  build(child, first, half);
+  build(child + 1, first + half, count - half);
 }
 
 template <int d>
@@ -86,11 +116,9 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
     const Branch& b = branches_[index];
     if (b.count > 0) {
       for (int i = b.first; i < b.first + b.count; ++i) {
-        std::array<Vec<d>, d> f;
-        for (int k = 0; k < d; ++k) f[k] = vertices_.col(facets_(k, order_[i]));
-        const Vec<d> c = closest_on(f, x);
+        const Vec<d> c = closest_on(pieces_[i].corner, x);
         const double r = (c - x).squaredNorm();
-        if (r < best.squared_distance || (best.facet < 0 && r <= best.squared_distance)) best = {order_[i], c, r};
+        if (r < best.squared_distance || (best.facet < 0 && r <= best.squared_distance)) best = {pieces_[i].facet, c, r};
       }
       continue;
     }

@@ -22,9 +22,9 @@ class FacetTree {
   };
 
   FacetTree() = default;
-  FacetTree(Eigen::Matrix<double, d, Eigen::Dynamic> vertices, Eigen::Matrix<int, d, Eigen::Dynamic> facets);
+  FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices, const Eigen::Matrix<int, d, Eigen::Dynamic>& facets);
 
-  bool empty() const { return order_.empty(); }
+  bool empty() const { return pieces_.empty(); }
   /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,
   /// relative: far from a curved surface all facets are about as near, and telling which one is takes long.
   Hit nearest(const Vec<d>& x, double reach, double slack = 0) const;
@@ -33,13 +33,17 @@ class FacetTree {
   using Box = Eigen::AlignedBox<double, d>;
   struct Branch {
     Box box;
-    int first, count;  // leaf: facets order_[first, first + count); else count = 0, children first, first + 1
+    int first, count;  // leaf: pieces [first, first + count); else count = 0, children first, first + 1
   };
-  void build(int branch, int first, int count, std::vector<Vec<d>>& centre);
+  struct Piece {
+    std::array<Vec<d>, d> corner;
+    int facet;
+    Vec<d> centre() const;
+  };
+  void cut(const Piece& piece, double shortest);
+  void build(int branch, int first, int count);
 
-  Eigen::Matrix<double, d, Eigen::Dynamic> vertices_;
-  Eigen::Matrix<int, d, Eigen::Dynamic> facets_;
-  std::vector<int> order_;
+  std::vector<Piece> pieces_;  // needles come in several: boxes around whole ones hardly tell them apart
   std::vector<Branch> branches_;
 };
 
