@@ -57,7 +57,8 @@ void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
   const Eigen::MatrixXd scaled = unit.asDiagonal() * total * unit.asDiagonal();
   const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
-  elimination_ = lifted * (0.5 * (inverse + inverse.transpose())) * lifted.transpose();
+  // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
+  elimination_ = lifted * inverse * lifted.transpose();
 }
 
 template <int d>
