@@ -58,7 +58,8 @@ void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
   const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
   // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
-  elimination_ = lifted * inverse * lifted.transpose();
+  const bool exact = size() <= most_direct;
+  elimination_ = lifted * (exact ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse) * lifted.transpose();
 }
 
 template <int d>
