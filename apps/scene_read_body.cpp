@@ -2,7 +2,7 @@
 #include <cctype>
 
 #include "apps/scene_parts.hpp"
-#include "rigid/surface_file.hpp"
+#include "fluid/surface_file.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -62,11 +62,11 @@ struct ReadShape {
     auto& problems = reader.context().problems;
     if (problems.found_in(reader.path())) return;
     try {
-      auto file = rigid::read_surface_file(surface.file);
-      file.surface.vertices *= surface.scale;
+      const auto file = fluid::read_surface_file(surface.file);
+      const rigid::Surface<3> hull{surface.scale * file.surface.vertices, file.surface.facets};
       surface.parts = file.parts;
-      surface.read = std::make_shared<rigid::Shape<3>>(file.surface, rigid::mass_properties<3>(file.surface));
-    } catch (const rigid::SurfaceFileError& error) {
+      surface.read = std::make_shared<rigid::Shape<3>>(hull, rigid::mass_properties<3>(hull));
+    } catch (const fluid::SurfaceFileError& error) {
       problems.add(reader.key("file"), error.what(), error.cure());
     }
   }

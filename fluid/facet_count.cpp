@@ -1,4 +1,6 @@
-#include "rigid/facet_count.hpp"
+#include "fluid/facet_count.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -11,10 +13,9 @@
 #include <string>
 #include <string_view>
 
-#include "rigid/message.hpp"
-#include "rigid/surface_file.hpp"
+#include "fluid/surface_file.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::fluid {
 namespace {
 
 const std::string decimate =
@@ -24,7 +25,7 @@ const std::string export_again = "Export it again as STL or OBJ.";
 
 void refuse_too_many(long facets, const char* more) {
   if (facets > most_facets)
-    throw SurfaceFileError(message("has ", facets, more, " facets; ", most_facets, " are the most that are read"),
+    throw SurfaceFileError(fmt::format("has {}{} facets; {} are the most that are read", facets, more, most_facets),
                            decimate);
 }
 
@@ -88,9 +89,10 @@ long count_lines(std::istream& file, int (*facets_of)(std::string_view), const c
     const std::string_view line(buffer.data());
     const int found = file.fail() ? -1 : facets_of(line);
     if (found < 0)
-      throw SurfaceFileError(message("is not a mesh: line ", number, ", '", shown(line), "', is no line of ", format,
-                                     " (numbers with a point, not a comma)"),
-                             export_again);
+      throw SurfaceFileError(
+          fmt::format("is not a mesh: line {}, '{}', is no line of {} (numbers with a point, not a comma)", number,
+                      shown(line), format),
+          export_again);
     facets += found;
     refuse_too_many(facets, " or more");
   }
@@ -104,10 +106,10 @@ FacetCount count_facets(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   if (extension != ".stl" && extension != ".obj")
-    throw SurfaceFileError(message("must be an .stl or .obj file, not '", extension, "'"), export_again);
+    throw SurfaceFileError(fmt::format("must be an .stl or .obj file, not '{}'", extension), export_again);
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path))
-    throw SurfaceFileError(message("cannot be read: ", file ? "it is a folder" : std::strerror(errno)),
+    throw SurfaceFileError(fmt::format("cannot be read: {}", file ? "it is a folder" : std::strerror(errno)),
                            "Name a file; relative names begin at the folder of the scene.");
   if (extension == ".obj") return {SurfaceFormat::obj, count_lines(file, obj_facets, "OBJ")};
 
@@ -128,9 +130,10 @@ FacetCount count_facets(const std::filesystem::path& path) {
   const bool printable =
       std::none_of(head.begin(), head.begin() + std::min(size, header), [](char c) { return c == '\0'; });
   if (text || printable) return {SurfaceFormat::stl_ascii, count_lines(file, stl_facets, "STL")};
-  throw SurfaceFileError(message("is not a mesh: as a binary STL of ", facets, " facets it would have ",
-                                 header + record * facets, " bytes, not ", size),
-                         export_again);
+  throw SurfaceFileError(
+      fmt::format("is not a mesh: as a binary STL of {} facets it would have {} bytes, not {}", facets,
+                  header + record * facets, size),
+      export_again);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::fluid

@@ -1,4 +1,4 @@
-#include "rigid/surface_file.hpp"
+#include "fluid/surface_file.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OBJ.h>
@@ -12,6 +12,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -19,10 +20,9 @@
 #include <optional>
 #include <vector>
 
-#include "rigid/facet_count.hpp"
-#include "rigid/message.hpp"
+#include "fluid/facet_count.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::fluid {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
@@ -58,7 +58,7 @@ struct Soup {
   }
 };
 
-std::string text(const Vec<3>& x) { return message("(", x.x(), ", ", x.y(), ", ", x.z(), ")"); }
+std::string text(const Vec<3>& x) { return fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()); }
 
 Soup read_soup(const std::filesystem::path& path) {
   const auto expected = count_facets(path);
@@ -72,14 +72,13 @@ Soup read_soup(const std::filesystem::path& path) {
     triangles += static_cast<long>(polygon.size()) - 2;
     for (const auto point : polygon) whole = whole && point < soup.points.size();
   }
-  for (const auto& point : soup.points)
-    whole = whole && text({point.x(), point.y(), point.z()}).find('n') == std::string::npos;
+  for (std::size_t i = 0; i < soup.points.size(); ++i) whole = whole && soup.at(i).allFinite();
   if (!whole || triangles != expected.facets)
     throw SurfaceFileError(
-        message("is not a whole mesh: ", triangles, " of ", expected.facets, " facets could be read"),
+        fmt::format("is not a whole mesh: {} of {} facets could be read", triangles, expected.facets),
         "Export it again as STL or OBJ.");
   if (triangles < 4)
-    throw SurfaceFileError(message("has ", triangles, " facets; a closed surface has at least 4"), close);
+    throw SurfaceFileError(fmt::format("has {} facets; a closed surface has at least 4", triangles), close);
   return soup;
 }
 
@@ -129,7 +128,8 @@ void refuse_without_area(const Soup& soup) {
       longest = std::max(longest, (b - a).norm());
     }
     if (2 * area.norm() <= flat * longest)
-      throw SurfaceFileError(message("has a facet without area: number ", f + 1, " at ", text(soup.centre(f))), clean);
+      throw SurfaceFileError(fmt::format("has a facet without area: number {} at {}", f + 1, text(soup.centre(f))),
+                             clean);
   }
 }
 
@@ -158,19 +158,20 @@ void refuse_disagreement(Soup& soup) {
   pmp::orient_polygon_soup(soup.points, soup.polygons, CGAL::parameters::visitor(Listener(findings)));
   if (findings.crowded_edge) {
     const auto& [a, b, facets] = *findings.crowded_edge;
-    throw SurfaceFileError(message("is not the surface of a solid: ", facets, " facets meet at the edge from ",
-                                   text(given.at(a)), " to ", text(given.at(b)), "; two must"),
-                           unite);
+    throw SurfaceFileError(
+        fmt::format("is not the surface of a solid: {} facets meet at the edge from {} to {}; two must", facets,
+                    text(given.at(a)), text(given.at(b))),
+        unite);
   }
   if (findings.crowded_point)
-    throw SurfaceFileError(message("is not the surface of a solid: parts of it touch in the point ",
-                                   text(given.at(*findings.crowded_point))),
+    throw SurfaceFileError(fmt::format("is not the surface of a solid: parts of it touch in the point {}",
+                                       text(given.at(*findings.crowded_point))),
                            unite);
   if (findings.turned.empty()) return;
   const std::size_t turned = std::min(findings.turned.size(), given.polygons.size() - findings.turned.size());
   const auto first = findings.turned.front();
-  throw SurfaceFileError(message("has facets turned against their neighbours, ", turned, " of ", given.polygons.size(),
-                                 ", at ", text(given.centre(first)), " (facet ", first + 1, ")"),
+  throw SurfaceFileError(fmt::format("has facets turned against their neighbours, {} of {}, at {} (facet {})", turned,
+                                     given.polygons.size(), text(given.centre(first)), first + 1),
                          flip);
 }
 
@@ -197,9 +198,9 @@ void refuse_holes(const Mesh& mesh) {
   std::string where;
   const std::size_t most = 3;
   for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
-    where += message(", around ", text(found[i].centre), " with ", found[i].edges, " edges");
-  throw SurfaceFileError(message("is not closed: ", found.size(), found.size() == 1 ? " hole" : " holes", where),
-                         close);
+    where += fmt::format(", around {} with {} edges", text(found[i].centre), found[i].edges);
+  const char* holes_are = found.size() == 1 ? "hole" : "holes";
+  throw SurfaceFileError(fmt::format("is not closed: {} {}{}", found.size(), holes_are, where), close);
 }
 
 void refuse_crossings(const Mesh& mesh) {
@@ -209,8 +210,8 @@ void refuse_crossings(const Mesh& mesh) {
   Vec<3> where = Vec<3>::Zero();
   for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(crossings.front().first), mesh))
     where += Vec<3>(mesh.point(corner).x(), mesh.point(corner).y(), mesh.point(corner).z()) / 3;
-  throw SurfaceFileError(message("crosses itself: ", crossings.size(), " pairs of facets, the first at ", text(where)),
-                         unite);
+  throw SurfaceFileError(
+      fmt::format("crosses itself: {} pairs of facets, the first at {}", crossings.size(), text(where)), unite);
 }
 
 /// Every closed part is turned outward, and none is inside another one.
@@ -224,7 +225,7 @@ int checked_parts(const Mesh& mesh) {
   for (const auto& part : parts)
     if (pmp::volume(part) <= 0)
       throw SurfaceFileError(parts.size() == 1 ? "is inside out: all its normals point inward"
-                                               : message("has a part that is inside out, at ", text(place(part))),
+                                               : fmt::format("has a part that is inside out, at {}", text(place(part))),
                              flip);
   for (const auto& outer : parts) {
     if (parts.size() == 1) break;
@@ -232,7 +233,7 @@ int checked_parts(const Mesh& mesh) {
     for (const auto& inner : parts)
       if (&inner != &outer && side(inner.point(*inner.vertices().begin())) == CGAL::ON_BOUNDED_SIDE)
         throw SurfaceFileError(
-            message("has a part inside another one, at ", text(place(inner))),
+            fmt::format("has a part inside another one, at {}", text(place(inner))),
             "Remove it: no water gets there; what it means for the mass goes into mass and inertia.");
   }
   return static_cast<int>(parts.size());
@@ -268,4 +269,4 @@ SurfaceFile read_surface_file(const std::filesystem::path& path) {
   return file;
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::fluid

@@ -1,9 +1,9 @@
-// A first look at a surface file, in one pass and bounded memory. Internal to the rigid-body room.
+// A first look at a surface file, in one pass and bounded memory. Internal to the fluid room.
 #pragma once
 
 #include <filesystem>
 
-namespace splashdown::rigid {
+namespace splashdown::fluid {
 
 enum class SurfaceFormat { stl_ascii, stl_binary, obj };
 
@@ -15,4 +15,4 @@ struct FacetCount {
 /// Throws SurfaceFileError at the first line that is none of the format, and beyond `most_facets`.
 FacetCount count_facets(const std::filesystem::path& path);
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::fluid

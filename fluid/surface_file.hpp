@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "rigid/types.hpp"
+#include "fluid/types.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::fluid {
 
 /// More are refused before they are read. A hull of 10 m has facets of 2 cm with this many.
 inline constexpr long most_facets = 1'000'000;
@@ -37,4 +37,4 @@ struct SurfaceFile {
 /// Throws SurfaceFileError. Coordinates in messages are those of the file.
 SurfaceFile read_surface_file(const std::filesystem::path& path);
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::fluid
