@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "rigid/bodies.hpp"
@@ -62,5 +64,18 @@ bool identical(const BodyState<d>& a, const BodyState<d>& b) {
 }
 
 inline double angle(const Isometry<2>& pose) { return std::atan2(pose(1, 0), pose(0, 0)); }
+
+/// What `make` is refused with; empty: it is not.
+template <class Make>
+std::string failure(Make make) {
+  try {
+    make();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace splashdown::rigid

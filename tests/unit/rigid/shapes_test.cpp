@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "tests/unit/rigid/scenes.hpp"
@@ -16,16 +15,6 @@ namespace {
 using std::numbers::pi;
 using Points = std::vector<Vec<2>>;
 
-template <class Make>
-std::string failure(Make make) {
-  try {
-    make();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 std::string polygon_failure(const Points& points) {
   return failure([&] { polygon(points); });
 }
@@ -35,8 +24,6 @@ Points vertices(const Shape<2>& shape) {
   for (const auto& x : shape.surface.vertices.colwise()) points.emplace_back(x);
   return points;
 }
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

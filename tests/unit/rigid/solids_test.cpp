@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "tests/unit/rigid/scenes.hpp"
@@ -17,18 +16,6 @@ namespace {
 
 using std::numbers::pi;
 using Profile = std::vector<Vec<2>>;
-
-template <class Make>
-std::string failure(Make make) {
-  try {
-    make();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const Profile& buoy() {
   static const Profile profile{{0, 0}, {0.5, 0.1}, {0.8, 0.6}, {0.3, 0.7}, {0.3, 1.5}};
