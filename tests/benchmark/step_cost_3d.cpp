@@ -11,56 +11,30 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/steppers.hpp"
 #include "fluid/delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure.hpp"
-#include "rigid/solids.hpp"
+#include "tests/unit/coupling/ball_in_tank.hpp"
 
 namespace {
 
 using namespace splashdown;
+namespace scenes = coupling::scenes;
 using fluid::Vec;
 
 coupling::Simultaneous<3> sinking_ball(int nodes) {
-  const double radius = 0.5, half = 2;
+  constexpr double half = scenes::BallInTank::half;
   // 2 half x 2 half x half of water with elements of h holds about 1.6 (2 half)^3 / 2 h^3 nodes.
   const double size = std::cbrt(1.6 * 4 * half * half * half / nodes);
-  fluid::FluidSpec<3> spec;
-  spec.size = {.surface = size, .far = size};
-  spec.step = {.cfl = 0.5, .dt_max = 1e-2};
-  const auto ball = rigid::sphere(radius);
-  fluid::WallSpec<3> hull, tank;
-  hull.name = "ball";
-  hull.surface = {ball.surface.vertices, ball.surface.facets};
-  hull.size = size;
-  hull.velocity[2] = -1;
-  tank.name = "tank";
-  const auto block = rigid::box({2 * half, 2 * half, 2 * half}).surface;
-  tank.surface = {block.vertices, block.facets};
-  tank.surface.facets.row(0).swap(tank.surface.facets.row(1));
-  tank.size = size;
-  spec.walls = {hull, tank};
-  fluid::LiquidSpec<3> water;
-  water.boundary = {block.vertices, block.facets};
-  water.boundary.vertices.row(2) = water.boundary.vertices.row(2).cwiseMin(0);
-  spec.liquids.push_back(water);
-
-  rigid::BodySpec<3> body;
-  body.name = "ball";
-  body.surface = ball.surface;
-  body.mass = 1;
-  body.motion = rigid::Motion::prescribed;
-  body.velocity[2] = -1;
-  body.path = [](double time) {
+  auto scene = scenes::ball_in_tank(1, 0, 1, size, size);
+  scene.fluid.step = {.cfl = 0.5, .dt_max = 1e-2};
+  scene.ball.motion = rigid::Motion::prescribed;
+  scene.ball.path = [](double time) {
     rigid::Isometry<3> pose = rigid::Isometry<3>::Identity();
     pose.translation().z() = -time;
     return pose;
   };
-  std::vector<std::unique_ptr<fluid::Term<3>>> terms;
-  terms.push_back(std::make_unique<fluid::Gravity<3>>(Vec<3>(0, 0, -9.81)));
-  return {std::make_unique<fluid::Fluid<3>>(std::move(spec), std::move(terms)),
-          std::make_unique<rigid::Bodies<3>>(std::vector{body}, std::vector<std::unique_ptr<rigid::Force<3>>>{})};
+  return {scenes::water_of(scene), scenes::bodies_of(scene)};
 }
 
 double seconds(const std::function<void()>& work) {
