@@ -139,4 +139,17 @@ inline int run(Stepper& stepper, int steps, double dt_first = 1e-4) {
   return passes;
 }
 
+/// `resumed` takes over from `whole`, and both make some steps of dt. True: none is refused, and they end with the same
+/// bits.
+inline bool go_on_alike(Stepper& whole, Stepper& resumed, int steps, double dt) {
+  std::istringstream file(saved(whole));
+  resumed.load(file);
+  for (auto* stepper : {&whole, &resumed})
+    for (int i = 0; i < steps; ++i) {
+      if (!stepper->attempt(dt).ok()) return false;
+      stepper->commit();
+    }
+  return saved(whole) == saved(resumed);
+}
+
 }  // namespace splashdown::coupling::scenes
