@@ -1,12 +1,10 @@
 // The checker on a stand-in for the splashdown command that leaves known numbers behind.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "tests/scratch_folder.hpp"
 #include "tests/validation/check.hpp"
 #include "tests/validation/judge.hpp"
 #include "tests/validation/report.hpp"
@@ -18,16 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Checker : public testing::Test {
+class Checker : public testing::Test, protected ScratchFolder {
  protected:
   Checker() {
-    std::string pattern = (fs::temp_directory_path() / "checker-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    example_ = folder_ / "falling";
-    fs::create_directories(example_);
     write(example_ / "reference.csv", "# exact\nseries,time,y\nup,0,9\ndown,0,0\ndown,1,-0.5\ndown,2,-2\n");
     // run SCENE --out DIR --threads 1 ...: two bodies, one of which falls with unit acceleration.
-    write(folder_ / "command",
+    write("command",
           "#!/bin/sh\n"
           "echo \"$@\"\n"
           "case \"$*\" in *broken=1*) echo 'it broke'; exit 3;; esac\n"
@@ -36,15 +30,7 @@ class Checker : public testing::Test {
           "bodies.csv\n"
           "echo '{\"steps\": 2, \"bodies\": {\"a\": {\"impulse\": [0, 7.5]}}, \"status\": \"done\"}' > "
           "summary.json\n");
-    fs::permissions(folder_ / "command", fs::perms::owner_all);
-  }
-  ~Checker() override { fs::remove_all(folder_); }
-
-  static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
-  static std::string read(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
+    fs::permissions(path() / "command", fs::perms::owner_all);
   }
 
   Example example(const std::string& checks) {
@@ -57,13 +43,13 @@ class Checker : public testing::Test {
   }
 
   std::vector<Verdict> verdicts(const std::string& checks) {
-    Judge judge(example(checks), Runner(folder_ / "command", folder_ / "scratch", false));
+    Judge judge(example(checks), Runner(path() / "command", path() / "scratch", false));
     std::vector<Verdict> result;
     for (const CheckSpec& check : judge.example().checks) result.push_back(judge.judge(check));
     return result;
   }
 
-  fs::path folder_, example_;
+  const fs::path example_ = path() / "falling";
 };
 
 std::string check(const std::string& lines) {
@@ -115,7 +101,7 @@ TEST_F(Checker, nan_never_passes) {
 TEST_F(Checker, expected_failure_of_a_run_is_a_result_and_an_unexpected_one_an_error) {
   const auto v = verdicts(check("run = \"broken\"\nquantity = \"exit_code\"\nexpected = 3\ntolerance = 0"));
   EXPECT_TRUE(v[0].passed) << v[0].error;
-  write(folder_ / "command", "#!/bin/sh\necho 'no water'\nexit 2\n");
+  write("command", "#!/bin/sh\necho 'no water'\nexit 2\n");
   const auto w = verdicts(check("quantity = \"1\"\nexpected = 1\ntolerance = 0"));
   EXPECT_FALSE(w[0].passed);
   EXPECT_NE(w[0].error.find("no water"), std::string::npos);
@@ -124,7 +110,7 @@ TEST_F(Checker, expected_failure_of_a_run_is_a_result_and_an_unexpected_one_an_e
 TEST_F(Checker, a_run_is_made_once_and_gets_its_arguments) {
   verdicts(check("quantity = \"1\"") + "[[check]]\nname = \"d\"\nwhy = \"law\"\nquantity = \"2\"\n" +
            "[[check]]\nname = \"e\"\nwhy = \"law\"\nrun = \"broken\"\nquantity = \"3\"\n");
-  const std::string log = read(folder_ / "scratch" / "falling" / "broken.log");
+  const std::string log = text(fs::path("scratch") / "falling" / "broken.log");
   EXPECT_NE(log.find("--set broken=1"), std::string::npos);
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 2);
 }
@@ -154,7 +140,7 @@ TEST_F(Checker, misspelt_keys_and_missing_tolerances_are_refused_with_their_line
 }
 
 TEST_F(Checker, page_shows_the_newest_row_of_each_check_and_keeps_its_text) {
-  const auto csv = folder_ / "validation.csv", page = folder_ / "page.md";
+  const auto csv = path() / "validation.csv", page = path() / "page.md";
   write(page, "before\n<!-- validation table: begin -->\nold\n<!-- validation table: end -->\nafter\n");
   Verdict verdict{.example = "falling",
                   .check = "c",
@@ -172,23 +158,23 @@ TEST_F(Checker, page_shows_the_newest_row_of_each_check_and_keeps_its_text) {
   verdict.passed = true;
   append_row(csv, verdict);
   write_page(csv, page);
-  const std::string text = read(page);
-  EXPECT_EQ(text.find("before\n"), 0u);
-  EXPECT_NE(text.find("\nafter\n"), std::string::npos);
-  EXPECT_EQ(text.find("old"), std::string::npos);
-  EXPECT_EQ(text.find("FAIL"), std::string::npos);
-  EXPECT_NE(text.find("| c | 2 | 2 | 1 % | m | pass | one; two |"), std::string::npos) << text;
+  const std::string written = text(page);
+  EXPECT_EQ(written.find("before\n"), 0u);
+  EXPECT_NE(written.find("\nafter\n"), std::string::npos);
+  EXPECT_EQ(written.find("old"), std::string::npos);
+  EXPECT_EQ(written.find("FAIL"), std::string::npos);
+  EXPECT_NE(written.find("| c | 2 | 2 | 1 % | m | pass | one; two |"), std::string::npos) << written;
 }
 
 TEST_F(Checker, torn_tables_are_refused_with_file_and_line) {
-  write(folder_ / "torn.csv", "# note\na,b\n1,2\n3\n");
+  write("torn.csv", "# note\na,b\n1,2\n3\n");
   try {
-    quantity::read_table(folder_, "torn.csv");
+    quantity::read_table(path(), "torn.csv");
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("torn.csv:4: 1 cells under 2"), std::string::npos);
   }
-  EXPECT_THROW(quantity::read_table(folder_, "none.csv"), std::runtime_error);
+  EXPECT_THROW(quantity::read_table(path(), "none.csv"), std::runtime_error);
 }
 
 }  // namespace

@@ -2,13 +2,13 @@
 #include "apps/checkpoint.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "apps/resume.hpp"
 #include "apps/scene_read.hpp"
 #include "scenes.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -17,11 +17,8 @@ namespace fs = std::filesystem;
 
 class CheckpointFolder : public ::testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-  const fs::path folder =
-      fs::temp_directory_path() / ("splashdown_" + std::to_string(::getpid()) + "_" +
-                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  const ScratchFolder scratch;
+  const fs::path folder = scratch.path() / "checkpoint";
 };
 
 Checkpoint at(double time) {

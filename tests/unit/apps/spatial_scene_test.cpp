@@ -1,10 +1,8 @@
 // Scenes in three dimensions: what they are read to, what is refused and how, what a World is built from.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "apps/build.hpp"
@@ -13,6 +11,7 @@
 #include "apps/scene_read.hpp"
 #include "apps/solid.hpp"
 #include "scenes.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -304,22 +303,16 @@ TEST(SpatialSolids, touching_is_not_overlapping) {
 }
 
 /// A folder with a hull: a tetrahedron with edges of 0.3 m along the axes, in millimetres.
-class SurfaceSceneTest : public ::testing::Test {
+class SurfaceSceneTest : public ::testing::Test, protected ScratchFolder {
  protected:
   SurfaceSceneTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scene-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    std::ofstream(folder_ / "hull.obj") << "v 0 0 0\nv 300 0 0\nv 0 300 0\nv 0 0 300\n"
-                                        << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-    std::ofstream(folder_ / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                        << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 1 4 3\n";
+    write("hull.obj", "v 0 0 0\nv 300 0 0\nv 0 300 0\nv 0 0 300\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 1 4 3\n");
   }
-  ~SurfaceSceneTest() override { std::filesystem::remove_all(folder_); }
   SceneFile read(const std::string& shape) const {
     return read_scene_text(landing_with("{ type = \"sphere\", radius = 0.3 }", shape),
-                           (folder_ / "scene.toml").string());
+                           (path() / "scene.toml").string());
   }
-  std::filesystem::path folder_;
 };
 
 TEST_F(SurfaceSceneTest, a_hull_from_a_file_is_found_beside_the_scene_and_scaled_to_metres) {

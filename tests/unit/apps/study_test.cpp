@@ -3,7 +3,6 @@
 #include "apps/study.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include "apps/study_slurm.hpp"
 #include "apps/study_table.hpp"
 #include "scenes.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -56,23 +56,11 @@ series = "scheme"
 y = ["passes_mean", "speed_error"]
 )toml";
 
-class StudyTest : public ::testing::Test {
+class StudyTest : public ::testing::Test, protected ScratchFolder {
  protected:
-  StudyTest() {
-    std::string pattern = (fs::temp_directory_path() / "study-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    write("scene.toml", testing::wedge_drop);
-  }
-  ~StudyTest() override { fs::remove_all(folder_); }
+  StudyTest() { write("scene.toml", testing::wedge_drop); }
 
-  void write(const fs::path& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-  }
-  Study read(const std::string& text = good_study) const {
-    write("study.toml", text);
-    return read_study(folder_ / "study.toml");
-  }
+  Study read(const std::string& text = good_study) const { return read_study(write("study.toml", text)); }
   std::vector<std::string> messages_of(const std::string& text) const {
     try {
       const auto study = read(text);
@@ -98,7 +86,6 @@ class StudyTest : public ::testing::Test {
     return runs;
   }
 
-  fs::path folder_;
 };
 
 TEST_F(StudyTest, has_every_combination_once_with_the_last_axis_fastest) {
@@ -135,7 +122,7 @@ TEST_F(StudyTest, runs_count_by_what_their_folders_say) {
   using enum Outcome::Status;
   const auto study = read();
   const auto runs = resolved(study);
-  const auto status = [&](const StudyRun& run) { return outcome_of(study, run, folder_ / run.name).status; };
+  const auto status = [&](const StudyRun& run) { return outcome_of(study, run, path() / run.name).status; };
   EXPECT_EQ(status(runs[0]), waiting);
   const std::vector<std::tuple<const char*, const char*, Outcome::Status>> ends = {
       {"done", "", converged},
@@ -150,7 +137,7 @@ TEST_F(StudyTest, runs_count_by_what_their_folders_say) {
   }
   auto more_patient = study;
   more_patient.budget = 60;
-  EXPECT_EQ(outcome_of(more_patient, runs[0], folder_ / runs[0].name).status, interrupted) << "it may go on";
+  EXPECT_EQ(outcome_of(more_patient, runs[0], path() / runs[0].name).status, interrupted) << "it may go on";
 }
 
 TEST_F(StudyTest, a_folder_of_another_scene_is_no_run_of_this_one) {
@@ -160,11 +147,11 @@ TEST_F(StudyTest, a_folder_of_another_scene_is_no_run_of_this_one) {
   auto changed = good_study;
   changed.replace(changed.find("0.01"), 4, "0.02");
   const auto now = resolved(read(changed));
-  EXPECT_EQ(outcome_of(study, now[0], folder_ / now[0].name).status, Outcome::Status::waiting);
-  prepare(runs[0], folder_ / runs[0].name);
-  EXPECT_TRUE(fs::exists(folder_ / runs[0].name / "summary.json")) << "its own scene: kept";
-  prepare(now[0], folder_ / now[0].name);
-  EXPECT_FALSE(fs::exists(folder_ / now[0].name)) << "begun anew";
+  EXPECT_EQ(outcome_of(study, now[0], path() / now[0].name).status, Outcome::Status::waiting);
+  prepare(runs[0], path() / runs[0].name);
+  EXPECT_TRUE(fs::exists(path() / runs[0].name / "summary.json")) << "its own scene: kept";
+  prepare(now[0], path() / now[0].name);
+  EXPECT_FALSE(fs::exists(path() / now[0].name)) << "begun anew";
 }
 
 TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions) {
@@ -174,8 +161,8 @@ TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions)
   leave(runs[1], "done", "", 4);  // ratio 1, exact: the reference
   leave(runs[2], "failed", "the coupling diverged: so", 9);
   std::vector<Outcome> outcomes;
-  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder_ / run.name));
-  EXPECT_TRUE(measure(study, runs, folder_, outcomes).empty());
+  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, path() / run.name));
+  EXPECT_TRUE(measure(study, runs, path(), outcomes).empty());
   EXPECT_DOUBLE_EQ(outcomes[0].numbers.at("speed"), 5);
   EXPECT_DOUBLE_EQ(outcomes[0].numbers.at("speed_error"), 0.25);
   EXPECT_DOUBLE_EQ(outcomes[1].numbers.at("speed_error"), 0);
@@ -184,8 +171,8 @@ TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions)
   EXPECT_DOUBLE_EQ(outcomes[2].numbers.at("passes_mean"), 3.5);
   EXPECT_FALSE(outcomes[2].numbers.contains("speed")) << "a run that broke down has no final state";
 
-  write_tables(study, runs, outcomes, folder_);
-  std::ifstream csv(folder_ / "study.csv");
+  write_tables(study, runs, outcomes, path());
+  std::ifstream csv(path() / "study.csv");
   std::string header, first;
   std::getline(csv, header);
   std::getline(csv, first);
@@ -204,8 +191,8 @@ TEST_F(StudyTest, a_run_whose_error_exceeds_its_limit_has_diverged) {
   leave(runs[0], "done", "", 3.9);  // ratio 1: |3.9/9.81 - 1| = 0.602
   leave(runs[1], "done", "", 4);    // 0.592
   std::vector<Outcome> outcomes;
-  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder_ / run.name));
-  EXPECT_TRUE(measure(study, runs, folder_, outcomes).empty());
+  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, path() / run.name));
+  EXPECT_TRUE(measure(study, runs, path(), outcomes).empty());
   EXPECT_EQ(outcomes[0].status, Outcome::Status::diverged);
   EXPECT_EQ(outcomes[0].cause, "fall_error = 0.602 exceeds 0.6");
   EXPECT_EQ(outcomes[1].status, Outcome::Status::converged);
@@ -219,8 +206,8 @@ TEST_F(StudyTest, a_quantity_without_a_value_is_told_once) {
   leave(runs[0], "done", "", 5);
   leave(runs[1], "done", "", 5);
   std::vector<Outcome> outcomes;
-  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder_ / run.name));
-  const auto notes = measure(study, runs, folder_, outcomes);
+  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, path() / run.name));
+  const auto notes = measure(study, runs, path(), outcomes);
   ASSERT_EQ(notes.size(), 2u) << "speed, and fall which uses it";
   EXPECT_NE(notes[0].find("unknown name 'vz'"), std::string::npos) << notes[0];
 }
@@ -230,8 +217,8 @@ TEST_F(StudyTest, slurm_gets_one_task_a_run_that_is_not_finished) {
   const auto runs = resolved(study);
   leave(runs[1], "done", "", 5);
   std::vector<Outcome> outcomes;
-  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder_ / run.name));
-  const auto script = slurm_script(study, runs, outcomes, folder_, 3);
+  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, path() / run.name));
+  const auto script = slurm_script(study, runs, outcomes, path(), 3);
   EXPECT_NE(script.find("#SBATCH --array=0-4%3\n"), std::string::npos) << script;
   EXPECT_EQ(script.find("ratio-1_exact"), std::string::npos) << "is finished";
   EXPECT_NE(script.find("  1) exec "), std::string::npos);
@@ -249,7 +236,7 @@ TEST_P(BadStudyIsRefused, with_place_key_and_rule) {
   text.replace(text.find(bad.from), std::string(bad.from).size(), bad.to);
   const auto messages = messages_of(text);
   ASSERT_FALSE(messages.empty()) << "was accepted";
-  testing::expect_told(messages[0], (folder_ / "study.toml").string(), bad);
+  testing::expect_told(messages[0], (path() / "study.toml").string(), bad);
 }
 
 const std::vector<Mistake> studies = {

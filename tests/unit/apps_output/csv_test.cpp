@@ -8,7 +8,7 @@
 #include <random>
 
 #include "apps/recorder_rows.hpp"
-#include "scratch_folder.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/plane_picture.hpp"
-#include "scratch_folder.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {

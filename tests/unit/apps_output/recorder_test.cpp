@@ -7,8 +7,8 @@
 
 #include "apps/recorder_rows.hpp"
 #include "apps/report_data.hpp"
-#include "scratch_folder.hpp"
 #include "stand_ins.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "apps/gnuplot.hpp"
 #include "apps/report_words.hpp"
-#include "scratch_folder.hpp"
 #include "stand_ins.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -9,8 +9,8 @@
 #include "apps/recorder_view.hpp"
 #include "apps/report.hpp"
 #include "apps/report_data.hpp"
-#include "scratch_folder.hpp"
 #include "stand_ins.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scratch_folder.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -2,14 +2,13 @@
 #include "fluid/surface_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <functional>
 
+#include "tests/scratch_folder.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -17,21 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SurfaceFileTest : public ::testing::Test {
+class SurfaceFileTest : public ::testing::Test, protected ScratchFolder {
  protected:
-  SurfaceFileTest() {
-    std::string pattern = (fs::temp_directory_path() / "surface-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~SurfaceFileTest() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
-  std::string told(const fs::path& path) const {
+  std::string told(const fs::path& file) const {
     try {
-      read_surface_file(path);
+      read_surface_file(file);
     } catch (const SurfaceFileError& error) {
       EXPECT_FALSE(error.cure().empty());
       EXPECT_EQ(error.cure().back(), '.');
@@ -40,8 +29,6 @@ class SurfaceFileTest : public ::testing::Test {
     return "was accepted";
   }
   std::string told(const std::string& stl) const { return told(write("hull.stl", stl)); }
-
-  fs::path folder_;
 };
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -219,7 +206,7 @@ TEST_F(SurfaceFileTest, a_file_that_was_cut_off_is_told_with_its_length) {
 }
 
 TEST_F(SurfaceFileTest, a_file_that_is_none_is_told_with_the_cause) {
-  EXPECT_TRUE(says(told(folder_ / "none.stl"), "cannot be read: No such file"));
+  EXPECT_TRUE(says(told(path() / "none.stl"), "cannot be read: No such file"));
   EXPECT_TRUE(says(told(write("hull.step", "")), "must be an .stl or .obj file, not '.step'"));
 }
 
@@ -228,10 +215,10 @@ TEST_F(SurfaceFileTest, ten_million_facets_are_refused_before_they_are_read) {
   const std::uint32_t facets = 10'000'000;
   std::string head(80, ' ');
   head.append(reinterpret_cast<const char*>(&facets), 4);
-  const auto path = write("fine.stl", head);
-  fs::resize_file(path, 84 + 50ull * facets);
+  const auto file = write("fine.stl", head);
+  fs::resize_file(file, 84 + 50ull * facets);
   const auto start = std::chrono::steady_clock::now();
-  const auto text = told(path);
+  const auto text = told(file);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
   EXPECT_EQ(text, "has 10000000 facets; 1000000 are the most that are read");
 }
