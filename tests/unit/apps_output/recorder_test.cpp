@@ -7,14 +7,10 @@
 
 #include "apps/recorder_rows.hpp"
 #include "apps/report_data.hpp"
-#include "stand_ins.hpp"
-#include "tests/scratch_folder.hpp"
+#include "recorded_runs.hpp"
 
 namespace splashdown::apps {
 namespace {
-
-constexpr int steps = 60;
-constexpr double dt = drop_end / steps;
 
 RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
   RecorderSettings<2> settings;
@@ -34,51 +30,12 @@ RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
   return settings;
 }
 
-void record_steps(Recorder<2>& recorder, int from, int to, bool last) {
-  StandInDrop drop;
-  for (int n = from; n <= to; ++n) {
-    RecordInput<2> input = drop.at(n * dt, dt);
-    input.last = last && n == to;
-    recorder.record(input);
-  }
-}
-
-std::string summary_of_run(const Recorder<2>& recorder) {
-  Summary summary;
-  summary.coupling = CouplingSummary{};
-  recorder.summarise(summary);
-  return to_json(summary);
-}
-
-constexpr const char* recorded_files[] = {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv",
-                                          "added_mass.csv", "frames.pvd", "hull_wedge.vtu"};
-
 class ResumedAt : public testing::TestWithParam<int> {};
 
-// A run killed `extra` steps after its checkpoint and resumed leaves the same bytes and the same statistics.
 TEST_P(ResumedAt, leaves_what_an_undisturbed_run_leaves) {
-  ScratchFolder whole, broken;
-  Recorder<2> undisturbed(settings_in(whole.path()));
-  record_steps(undisturbed, 0, steps, true);
-  undisturbed.finish();
-
-  std::stringstream checkpoint;
-  {
-    Recorder<2> recorder(settings_in(broken.path()));
-    record_steps(recorder, 0, GetParam(), false);
-    recorder.save(checkpoint);
-    record_steps(recorder, GetParam() + 1, GetParam() + 7, false);
-  }
-  std::ofstream(broken.path() / "bodies.csv", std::ios::app) << "0.1,wedge,0,0";  // a torn last row
-  Recorder<2> recorder(settings_in(broken.path()));
-  recorder.load(checkpoint);
-  record_steps(recorder, GetParam() + 1, steps, true);
-  recorder.finish();
-
-  for (const char* file : recorded_files) EXPECT_EQ(broken.text(file), whole.text(file)) << file;
-  for (const char* picture : {"frames/000003.vtu", "snapshots/start.vtu", "snapshots/peak.vtu"})
-    EXPECT_EQ(broken.text(picture), whole.text(picture)) << picture;
-  EXPECT_EQ(summary_of_run(recorder), summary_of_run(undisturbed));
+  expect_resumable<2>(settings_in, GetParam(),
+                      {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
+                       "hull_wedge.vtu", "frames/000003.vtu", "snapshots/start.vtu", "snapshots/peak.vtu"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, ResumedAt, testing::Values(0, 10, 29, 30, 31, 50));
@@ -91,7 +48,7 @@ TEST(Recorder, a_summary_can_be_given_right_after_a_resume) {
   recorder.save(checkpoint);
   Recorder<2> resumed(settings_in(folder.path()));
   resumed.load(checkpoint);
-  EXPECT_EQ(summary_of_run(resumed), summary_of_run(recorder));
+  EXPECT_EQ(summary_of(resumed), summary_of(recorder));
 }
 
 TEST(Recorder, a_missing_file_stops_a_resume) {

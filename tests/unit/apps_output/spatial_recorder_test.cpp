@@ -3,20 +3,15 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "apps/plane_picture.hpp"
 #include "apps/recorder_view.hpp"
 #include "apps/report.hpp"
 #include "apps/report_data.hpp"
-#include "stand_ins.hpp"
-#include "tests/scratch_folder.hpp"
+#include "recorded_runs.hpp"
 
 namespace splashdown::apps {
 namespace {
-
-constexpr int steps = 40;
-constexpr double dt = drop_end / steps;
 
 RecorderSettings<3> settings_in(const std::filesystem::path& directory) {
   RecorderSettings<3> settings;
@@ -35,31 +30,12 @@ RecorderSettings<3> settings_in(const std::filesystem::path& directory) {
   return settings;
 }
 
-void record_steps(Recorder<3>& recorder, int from, int to, bool last) {
-  StandInPress press;
-  for (int n = from; n <= to; ++n) {
-    RecordInput<3> input = press.at(n * dt, dt);
-    input.last = last && n == to;
-    recorder.record(input);
-    if (input.last) recorder.snapshot("end", input);
-  }
-}
-
-nlohmann::json summary_of(const Recorder<3>& recorder, const std::filesystem::path& directory) {
-  Summary summary;
-  summary.status = "done";
-  summary.simulated_time = drop_end;
-  recorder.summarise(summary);
-  write_summary(directory, summary);
-  return nlohmann::json::parse(to_json(summary));
-}
-
 TEST(SpatialRecorder, reads_patch_map_gauge_and_point_as_they_are) {
   ScratchFolder folder;
   Recorder<3> recorder(settings_in(folder.path()));
   record_steps(recorder, 0, steps, true);
   recorder.finish();
-  const auto summary = summary_of(recorder, folder.path());
+  const auto summary = nlohmann::json::parse(summary_of(recorder));
   const double peak = press_at(drop_end / 2);  // a step is there; the bottom is level, at z = 0
   EXPECT_NEAR(summary["patches"]["panel"]["peak_pressure"]["value"], peak, 1e-12 * peak);
   EXPECT_NEAR(summary["patches"]["panel"]["peak_pressure"]["time"], drop_end / 2, 1e-15);
@@ -93,25 +69,10 @@ TEST(SpatialRecorder, files_have_the_columns_of_three_dimensions) {
 }
 
 TEST(SpatialRecorder, a_resumed_run_leaves_what_an_undisturbed_one_leaves) {
-  ScratchFolder whole, broken;
-  Recorder<3> undisturbed(settings_in(whole.path()));
-  record_steps(undisturbed, 0, steps, true);
-  undisturbed.finish();
-  std::stringstream checkpoint;
-  {
-    Recorder<3> recorder(settings_in(broken.path()));
-    record_steps(recorder, 0, 21, false);  // just beyond the peak
-    recorder.save(checkpoint);
-    record_steps(recorder, 22, 25, false);
-  }
-  Recorder<3> recorder(settings_in(broken.path()));
-  recorder.load(checkpoint);
-  record_steps(recorder, 22, steps, true);
-  recorder.finish();
-  for (const char* file : {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
-                           "hull_box.vtu", "frames/000002.vtu", "snapshots/peak.vtu"})
-    EXPECT_EQ(broken.text(file), whole.text(file)) << file;
-  EXPECT_EQ(summary_of(recorder, broken.path()), summary_of(undisturbed, whole.path()));
+  const int beyond_the_peak = steps / 2 + 1;
+  expect_resumable<3>(settings_in, beyond_the_peak,
+                      {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
+                       "hull_box.vtu", "frames/000002.vtu", "snapshots/peak.vtu"});
 }
 
 TEST(SpatialReport, shows_curves_slices_and_the_hull) {
@@ -119,7 +80,7 @@ TEST(SpatialReport, shows_curves_slices_and_the_hull) {
   Recorder<3> recorder(settings_in(folder.path()));
   record_steps(recorder, 0, steps, true);
   recorder.finish();
-  summary_of(recorder, folder.path());
+  folder.write("summary.json", summary_of(recorder));
   const ReportResult result = write_report(folder.path());
   if (!result.warnings.empty() && result.warnings[0].find("not installed") != std::string::npos)
     GTEST_SKIP() << "gnuplot is not installed";
