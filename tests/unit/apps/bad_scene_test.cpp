@@ -7,27 +7,16 @@
 namespace splashdown::apps {
 namespace {
 
+using testing::messages_of;
 using testing::Mistake;
-
-std::vector<std::string> messages_of(const std::string& text, std::vector<std::string> overrides = {}) {
-  try {
-    read_scene_text(text, "scene.toml", overrides);
-  } catch (const SceneError& error) {
-    return error.messages();
-  }
-  return {};
-}
 
 class BadSceneIsRefused : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(BadSceneIsRefused, with_place_key_and_rule) {
   const auto& bad = GetParam();
-  ASSERT_NE(testing::wedge_drop.find(bad.from), std::string::npos) << "the test's own text is out of date";
   const auto messages = messages_of(testing::wedge_drop_with(bad.from, bad.to));
-  ASSERT_FALSE(messages.empty()) << "was accepted";
   EXPECT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
-  testing::expect_told(messages[0], "scene.toml", bad);
-  EXPECT_EQ(messages[0].find('\n'), std::string::npos) << messages[0];
+  testing::expect_told(messages, "scene.toml", bad);
 }
 
 const std::vector<Mistake> scenes = {
@@ -281,8 +270,8 @@ TEST(BadScene, an_empty_file_lacks_an_end_time_and_content) {
 
 TEST(BadScene, all_problems_are_told_at_once_in_the_order_of_the_file) {
   auto text = testing::wedge_drop_with("density = 1000", "density = -1");
-  text.replace(text.find("end = 0.02"), 10, "end = -1");
-  text.replace(text.find("mass = 241"), 10, "mas = 241 ");
+  text = testing::replaced(text, "end = 0.02", "end = -1");
+  text = testing::replaced(text, "mass = 241", "mas = 241 ");
   const auto messages = messages_of(text);
   ASSERT_EQ(messages.size(), 4u) << ::testing::PrintToString(messages);
   EXPECT_TRUE(messages[0].starts_with("scene.toml:3: time.end = -1"));
@@ -293,21 +282,16 @@ TEST(BadScene, all_problems_are_told_at_once_in_the_order_of_the_file) {
 }
 
 TEST(BadScene, a_missing_file_is_named_with_the_cause) {
-  try {
-    read_scene("/no/such/scene.toml");
-    FAIL();
-  } catch (const SceneError& error) {
-    EXPECT_NE(error.messages().at(0).find("/no/such/scene.toml: cannot be read: No such file"),
-              std::string::npos)
-        << error.what();
-  }
+  const auto messages = testing::refusal_of([] { read_scene("/no/such/scene.toml"); });
+  ASSERT_FALSE(messages.empty());
+  EXPECT_NE(messages[0].find("/no/such/scene.toml: cannot be read: No such file"), std::string::npos) << messages[0];
   EXPECT_THROW(read_scene("/"), SceneError);
 }
 
 TEST(BadScene, a_body_without_mass_must_be_solved_with_the_pressure) {
   auto text = testing::wedge_drop_with("mass = 241", "mass = 0");
-  text.replace(text.find("position = [0, 0.01]"), 20, "position = [0, -0.5]");
-  text.replace(text.find("[output]"), 8, "[coupling]\ninterface_term = \"none\"\n[output]");
+  text = testing::replaced(text, "position = [0, 0.01]", "position = [0, -0.5]");
+  text = testing::replaced(text, "[output]", "[coupling]\ninterface_term = \"none\"\n[output]");
   const auto messages = messages_of(text);
   ASSERT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
   EXPECT_TRUE(messages[0].starts_with("scene.toml:20: body.wedge.mass = 0: a free body without mass needs "

@@ -5,6 +5,9 @@
 
 #include <ostream>
 #include <string>
+#include <vector>
+
+#include "apps/scene_read.hpp"
 
 namespace splashdown::apps::testing {
 
@@ -43,10 +46,30 @@ body = "wedge"
 point = [0, 0]
 )";
 
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << "the test's own text is out of date: " << from;
+  return place == std::string::npos ? text : text.replace(place, from.size(), to);
+}
+
 /// The same with one piece of text replaced by another.
 inline std::string wedge_drop_with(const std::string& from, const std::string& to) {
-  std::string text = wedge_drop;
-  return text.replace(text.find(from), from.size(), to);
+  return replaced(wedge_drop, from, to);
+}
+
+/// What `read` is refused with; none: it is not.
+template <class Read>
+std::vector<std::string> refusal_of(Read read) {
+  try {
+    read();
+  } catch (const SceneError& error) {
+    return error.messages();
+  }
+  return {};
+}
+
+inline std::vector<std::string> messages_of(const std::string& scene, const std::vector<std::string>& overrides = {}) {
+  return refusal_of([&] { read_scene_text(scene, "scene.toml", overrides); });
 }
 
 /// A mistake in a good text, and what the message about it has to say.
@@ -61,12 +84,15 @@ struct Mistake {
 
 inline void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
 
-/// `file`: as messages name it.
-inline void expect_told(const std::string& message, const std::string& file, const Mistake& mistake) {
+/// The first message tells the mistake, in one line. `file`: as messages name it.
+inline void expect_told(const std::vector<std::string>& messages, const std::string& file, const Mistake& mistake) {
+  ASSERT_FALSE(messages.empty()) << "was accepted";
+  const auto& message = messages[0];
   const auto start = file + ":" + std::to_string(mistake.line) + ": " + mistake.key;
   EXPECT_TRUE(message.starts_with(start)) << message << "\nshould start with " << start;
   EXPECT_NE(message.find(mistake.rule), std::string::npos) << message << "\nshould contain " << mistake.rule;
   EXPECT_TRUE(std::string(".?'").find(message.back()) != std::string::npos) << "no cure: " << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
 }  // namespace splashdown::apps::testing

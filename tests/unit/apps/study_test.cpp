@@ -62,14 +62,11 @@ class StudyTest : public ::testing::Test, protected ScratchFolder {
 
   Study read(const std::string& text = good_study) const { return read_study(write("study.toml", text)); }
   std::vector<std::string> messages_of(const std::string& text) const {
-    try {
+    return testing::refusal_of([&] {
       const auto study = read(text);
       auto runs = expand(study);
       resolve(study, runs);
-    } catch (const SceneError& error) {
-      return error.messages();
-    }
-    return {};
+    });
   }
   /// What a run of this scene would leave behind.
   void leave(const StudyRun& run, const std::string& status, const std::string& cause, double speed) const {
@@ -100,9 +97,9 @@ TEST_F(StudyTest, has_every_combination_once_with_the_last_axis_fastest) {
 
 TEST_F(StudyTest, folders_have_names_of_their_own_without_surprises_for_a_shell) {
   auto text = good_study;
-  text.replace(text.find("\"plain\""), 7, "\"a b\"");
-  text.replace(text.find("\"exact\"\nset"), 7, "\"a/b\"");
-  text.replace(text.find("{scheme = \"exact\"}"), 18, "{scheme = \"a b\"}");
+  text = testing::replaced(text, "\"plain\"", "\"a b\"");
+  text = testing::replaced(text, "\"exact\"\nset", "\"a/b\"\nset");
+  text = testing::replaced(text, "{scheme = \"exact\"}", "{scheme = \"a b\"}");
   std::set<std::string> names;
   for (const auto& run : expand(read(text))) {
     EXPECT_EQ(run.name.find_first_of(" /"), std::string::npos) << run.name;
@@ -185,7 +182,7 @@ TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions)
 
 TEST_F(StudyTest, a_run_whose_error_exceeds_its_limit_has_diverged) {
   auto text = good_study;
-  text.replace(text.find("scale = \"2*g\""), 13, "limit = 0.6");
+  text = testing::replaced(text, "scale = \"2*g\"", "limit = 0.6");
   const auto study = read(text);
   const auto runs = resolved(study);
   leave(runs[0], "done", "", 3.9);  // ratio 1: |3.9/9.81 - 1| = 0.602
@@ -200,7 +197,7 @@ TEST_F(StudyTest, a_run_whose_error_exceeds_its_limit_has_diverged) {
 
 TEST_F(StudyTest, a_quantity_without_a_value_is_told_once) {
   auto text = good_study;
-  text.replace(text.find("last(vy)"), 8, "last(vz)");
+  text = testing::replaced(text, "last(vy)", "last(vz)");
   const auto study = read(text);
   const auto runs = resolved(study);
   leave(runs[0], "done", "", 5);
@@ -231,12 +228,8 @@ class BadStudyIsRefused : public StudyTest, public ::testing::WithParamInterface
 
 TEST_P(BadStudyIsRefused, with_place_key_and_rule) {
   const auto& bad = GetParam();
-  auto text = good_study;
-  ASSERT_NE(text.find(bad.from), std::string::npos) << "the test's own text is out of date";
-  text.replace(text.find(bad.from), std::string(bad.from).size(), bad.to);
-  const auto messages = messages_of(text);
-  ASSERT_FALSE(messages.empty()) << "was accepted";
-  testing::expect_told(messages[0], (path() / "study.toml").string(), bad);
+  const auto messages = messages_of(testing::replaced(good_study, bad.from, bad.to));
+  testing::expect_told(messages, (path() / "study.toml").string(), bad);
 }
 
 const std::vector<Mistake> studies = {
