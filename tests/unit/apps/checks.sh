@@ -34,6 +34,16 @@ exits() {  # exits CODE COMMAND...: the command ends with this code
   return 1
 }
 
+killed_after() {  # killed_after SECONDS COMMAND...
+  local seconds=$1
+  shift
+  "$@" &
+  local pid=$!
+  sleep "$seconds"
+  kill -s KILL $pid 2>/dev/null
+  wait $pid 2>/dev/null
+}
+
 wedge_scene() {  # wedge_scene PITCH_DEG: a coarse wedge that falls on water; its [output] stands last, to be gone on with
   cat <<SCENE
 title = "coarse wedge"

@@ -83,11 +83,7 @@ check "the summary says so" grep -q '"status": "failed"' failed/summary.json
 
 # Killed at any time, many times
 for pause in 0.05 0.3 0.11 0.17 0.23 0.08 0.29 0.41 0.13 0.19 0.37 0.07 0.31 0.21 0.15 0.45 0.09 0.27 0.33 0.25; do
-  "$splashdown" run scene.toml --quiet --out killed --resume &
-  pid=$!
-  sleep $pause
-  kill -s KILL $pid 2>/dev/null
-  wait $pid 2>/dev/null
+  killed_after $pause "$splashdown" run scene.toml --quiet --out killed --resume
 done
 check "a run killed twenty times is finished" exits 0 run --out killed --resume
 check "bit for bit" same_run whole killed

@@ -72,11 +72,7 @@ check "and nothing in its runs is touched" cmp before <(prints_of_finished whole
 
 # Killed in the middle, with every child dead or dying, until it gets no further
 for pause in 0.2 0.4 0.6 0.3 0.8; do
-  "$splashdown" study study.toml --quiet --out killed --jobs 2 &
-  pid=$!
-  sleep $pause
-  kill -s KILL $pid 2>/dev/null
-  wait $pid 2>/dev/null
+  killed_after $pause "$splashdown" study study.toml --quiet --out killed --jobs 2
 done
 "$splashdown" study study.toml --quiet --out killed &
 pid=$!
