@@ -140,6 +140,13 @@ void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
   std::vector<char> touched(nodes.size(), 0);
   for (const Pass& pass : passes) {
     if (touched[pass.a] || touched[pass.b]) continue;
+    bool taken = false;  // by a third node of the facets at the edge
+    edges.around(mesh.boundary, pass.a, pass.b, [&](int f) {
+      for (int n : mesh.boundary[f].nodes)
+        taken = taken || (nodes.tie[n].wall == pass.wall && nodes.tie[n].crease == pass.at.crease &&
+                          (nodes.x[n] - pass.at.point).norm() < snap * h[n]);
+    });
+    if (taken) continue;
     const WallTie tie{pass.wall, -1, -1, pass.at.crease};
     const int closest = pass.at.share < 0.5 ? pass.a : pass.b;
     if ((nodes.x[closest] - pass.at.point).norm() < snap * h[closest] && !nodes.tie[closest].sharp()) {
@@ -186,8 +193,51 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<c
 }
 
 template <int d>
+void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& at,
+              std::span<const Twist<d>> velocities, double gravity) {
+  constexpr double one_side = 0.866;  // cos 30 degrees
+  struct Edge {
+    Vec<d> normal = Vec<d>::Zero();
+    bool both_sides = false;
+    double squared_speed = 0;  // sum
+    int upstream = 0;
+  };
+  std::vector<int> index(nodes.size(), -1);
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes.separates[i] = nodes.surface[i] && nodes.tie[i].sharp();
+    if (!nodes.separates[i] || nodes.tie[i].crease < 0) continue;
+    index[i] = static_cast<int>(edges.size());
+    edges.emplace_back();
+  }
+  if (edges.empty()) return;
+  for (const auto& f : mesh.boundary) {
+    if (f.wall < 0) continue;
+    const Vec<d> normal = area_vector_of<d>(f, nodes.x).normalized();
+    for (int n : f.nodes) {
+      if (index[n] < 0 || nodes.tie[n].wall != f.wall) continue;
+      Edge& e = edges[index[n]];
+      if (e.normal.isZero(0)) e.normal = normal;
+      e.both_sides = e.both_sides || e.normal.dot(normal) < one_side;
+      for (int other : f.nodes) {
+        if (nodes.surface[other]) continue;
+        const Vec<d> arm = nodes.x[other] - at.poses[f.wall].translation();
+        e.squared_speed += (nodes.v[other] - rigid_velocity<d>(velocities[f.wall], arm)).squaredNorm();
+        ++e.upstream;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (index[i] < 0) continue;
+    const Edge& e = edges[index[i]];
+    const bool calm = e.upstream > 0 && 0.5 * e.squared_speed <= e.upstream * gravity * h[i];
+    if (e.both_sides || calm) nodes.separates[i] = 0;
+  }
+}
+
+template <int d>
 WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls)
-    : nodes_(nodes), walls_(walls.walls), wetted_(nodes.size(), 0), attached_vertex_(walls.walls.size()) {
+    : nodes_(nodes), mesh_(mesh), walls_(walls.walls), wetted_(nodes.size(), 0), attached_vertex_(walls.walls.size()) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes.tie[i].wall >= 0) tied_.push_back(static_cast<int>(i));
   for (const auto& f : mesh.boundary) {
@@ -199,6 +249,7 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
     attached_vertex_[w].assign(walls_[w].spec().surface.vertices.cols(), 0);
   for (int i : tied_)
     if (nodes.tie[i].sharp() && wetted_[i]) {
+      if (nodes.tie[i].crease >= 0 && !nodes.separates[i]) on_edges_.push_back({i, nodes.x[i] - walls.poses[nodes.tie[i].wall].translation()});
       if (nodes.tie[i].vertex >= 0) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = !nodes.surface[i];
       else on_creases_.push_back(i);
     }
@@ -208,7 +259,7 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
 
 template <int d>
 void WallMotion<d>::find_separations(const Mesh<d>& mesh) {
-  auto separates = [&](int n) { return nodes_.tie[n].sharp() && nodes_.surface[n]; };
+  auto separates = [&](int n) { return nodes_.separates[n] != 0; };
   std::vector<int> index(nodes_.size(), -1);
   for (bool inner : {true, false})  // neighbours at the edge themselves serve where there are no others
     for (const auto& f : mesh.boundary) {
@@ -217,11 +268,14 @@ void WallMotion<d>::find_separations(const Mesh<d>& mesh) {
         if (!separates(n) || (!inner && index[n] >= 0)) continue;
         for (int other : f.nodes) {
           if (other == n || separates(other) == inner) continue;
-          if (index[n] < 0) index[n] = static_cast<int>(separations_.size()), separations_.push_back({n, {}});
+          if (index[n] < 0) index[n] = static_cast<int>(separations_.size()), separations_.push_back({n, {}, Vec<d>::Zero()});
           separations_[index[n]].upstream.push_back(other);
         }
       }
     }
+  for (const auto& f : mesh.boundary)
+    for (int n : f.nodes)
+      if (index[n] >= 0) separations_[index[n]].area += area_vector_of<d>(f, nodes_.x);
 }
 
 // The water wets both sides of the edge there: at the node on it that is nearest.
@@ -237,6 +291,21 @@ bool WallMotion<d>::attached(int wall, const typename Wall<d>::Near& edge) const
     wet = !nodes_.surface[i];
   }
   return wet;
+}
+
+template <int d>
+bool WallMotion<d>::is_chord(const Facet<d>& f, std::span<const WallTie> tie) const {
+  if (f.wall < 0) return false;
+  int patch = -1;
+  bool curved = false;
+  for (int n : f.nodes) {
+    if (tie[n].wall != f.wall || nodes_.separates[n]) return false;
+    if (tie[n].sharp()) continue;
+    curved = curved || (patch >= 0 && tie[n].patch != patch) || tie[n].patch < 0 ||
+             !walls_[f.wall].is_flat(tie[n].patch);
+    patch = tie[n].patch;
+  }
+  return curved;
 }
 
 template <int d>
@@ -270,6 +339,8 @@ void WallMotion<d>::drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, s
     const Vec<d> lost = mass[s.node] * (v[s.node] - u[s.node]);
     on_walls[nodes_.tie[s.node].wall] += wrench_of<d>(s.arm, lost - lost.dot(s.normal) * s.normal);
   }
+  for (const OnEdge& e : on_edges_)
+    on_walls[nodes_.tie[e.node].wall] += wrench_of<d>(e.arm, mass[e.node] * (v[e.node] - u[e.node]));
 }
 
 template <int d>
@@ -315,14 +386,22 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
   for (const Separation& s : separations_) {
     Vec<d> sum = Vec<d>::Zero();
     for (int n : s.upstream) sum += out.u[n];
-    out.u[s.at] = sum / static_cast<double>(s.upstream.size());
+    Vec<d> past = sum / static_cast<double>(s.upstream.size()) - out.u[s.at];
+    if (d == 3 && !s.area.isZero(0)) past -= past.dot(s.area) / s.area.squaredNorm() * s.area;
+    out.u[s.at] += past;
   }
+  out.slides.resize(mesh_.boundary.size());
+  in_parallel(mesh_.boundary.size(), [&](std::size_t k) {
+    out.slides[k] = is_chord(mesh_.boundary[k], nodes_.tie) && is_chord(mesh_.boundary[k], out.tie);
+  });
 }
 
 template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
 template void wet(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
 template void ventilate(Nodes<2>&, const Mesh<2>&, double, std::span<const Twist<2>>, std::span<const Isometry<2>>);
 template void ventilate(Nodes<3>&, const Mesh<3>&, double, std::span<const Twist<3>>, std::span<const Isometry<3>>);
+template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
+template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
 template class WallMotion<2>;
 template class WallMotion<3>;
 

@@ -21,6 +21,13 @@ template <int d>
 void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Twist<d>> velocities,
                std::span<const Isometry<d>> poses);
 
+/// Finds the nodes at edges of walls where the flow leaves them (Nodes::separates): corners on the free surface, and
+/// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
+/// stands at a crease like at any other place of a wall. `h`: element sizes, `velocities`: of the walls, `gravity`: g.
+template <int d>
+void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
+              std::span<const Twist<d>> velocities, double gravity);
+
 /// What ties nodes to walls on one mesh.
 template <int d>
 class WallMotion {
@@ -32,22 +39,26 @@ class WallMotion {
     std::vector<Vec<d>> u;      ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
                                 ///< velocity at an edge where the flow separates
     std::vector<WallTie> tie;   ///< at t_{n+1}: nodes may leave their wall or turn a corner
+    std::vector<char> slides;   ///< of boundary facets, 1: a chord of its curved wall and stays one
   };
   /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
   void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
 
-  /// Some nodes keep their place on a wall: WallSpec::sticks, away from the contact line.
-  bool sticks() const { return !stuck_.empty(); }
-  /// Impulses on the walls, about their origins, of what sticking takes from the velocities v along the walls:
-  /// u is the motion that `move` made of v, `mass` that of the nodes.
+  /// Walls take some nodes along in more than one direction: edges that are wetted on both sides, and WallSpec::sticks
+  /// away from the contact line.
+  bool drags() const { return !stuck_.empty() || !on_edges_.empty(); }
+  /// Impulses on the walls, about their origins, of what that takes from the velocities v: u is the motion that `move`
+  /// made of v, `mass` that of the nodes. Along the normal of a smooth wall it is the pressure's.
   void drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, std::span<const double> mass,
             std::vector<Wrench<d>>& on_walls) const;
 
  private:
   const Nodes<d>& nodes_;
+  const Mesh<d>& mesh_;
   std::span<const Wall<d>> walls_;
   void find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls);
   void find_separations(const Mesh<d>& mesh);
+  bool is_chord(const Facet<d>& f, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 
   std::vector<int> tied_;    // and free to slide, but for vertices
@@ -60,10 +71,16 @@ class WallMotion {
   std::vector<Stuck> stuck_;
   std::vector<char> wetted_;  // node has a wetted facet
   struct Separation {
-    int at;                     // node on a corner or a crease where the flow separates
+    int at;
     std::vector<int> upstream;  // wetted neighbours it takes its velocity from
+    Vec<d> area;                // of the boundary around it
   };
   std::vector<Separation> separations_;
+  struct OnEdge {
+    int node;
+    Vec<d> arm;  // from the wall's origin, at t_n
+  };
+  std::vector<OnEdge> on_edges_;  // where the flow stays at the wall
   std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
   std::vector<int> on_creases_;                     // wetted nodes there
 };

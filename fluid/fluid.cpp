@@ -59,7 +59,7 @@ template <class Archive, int d>
 void archive_present(Archive& archive, Present<d>& s) {
   archive(s.time, s.dt, s.acceleration_dt, cereal::binary_data(&s.ledger, sizeof(Ledger)));
   raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p), raw(archive, s.nodes.q), raw(archive, s.nodes.tie);
-  raw(archive, s.nodes.surface), raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
+  raw(archive, s.nodes.surface), raw(archive, s.nodes.separates), raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
   raw(archive, s.mesh.cells), raw(archive, s.mesh.boundary);
   raw(archive, s.poses), raw(archive, s.velocity), raw(archive, s.wetted);
 }
@@ -112,6 +112,7 @@ struct Fluid<d>::State {
   std::vector<double> carried_p;             // pressure at the nodes before the step
   std::vector<WallLoad<d>> loads;
   std::vector<Twist<d>> imbalance;
+  double power_on_walls = 0;
   double energy_carried = 0, energy_before = 0, energy_repaired = 0;  // before remeshing, after, repaired
 
   WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
@@ -171,6 +172,14 @@ struct Fluid<d>::State {
     return 0.5 * spec.density * e;
   }
 
+  // |grad| of all effects' potential energy per mass; effects that have one are uniform fields.
+  double gravity() const {
+    Vec<d> g = Vec<d>::Zero();
+    for (const auto& term : terms)
+      for (int k = 0; k < d; ++k) g[k] += term->potential(Vec<d>::Unit(k)) - term->potential(Vec<d>::Zero());
+    return g.norm();
+  }
+
   void size_nodes() {
     const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh);
     work.h.resize(work.nodes.size());
@@ -201,6 +210,7 @@ struct Fluid<d>::State {
     const std::vector<char> was_spray = work.nodes.spray;
     work.mesh = recognise<d>(work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
     book_spray(was_spray);
+    separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity());
     land(work.nodes, work.mesh);
     carried_p = work.nodes.p;
     const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
@@ -403,9 +413,10 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
     equation.accelerate(phi, v_after);
     wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
     if (k == corrections) break;
-    if (wall_motion->sticks()) stick(trial.dragged);
+    if (wall_motion->drags()) stick(trial.dragged);
     for (std::size_t i = 0; i < count; ++i) trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]);
     equation.motion_residual(trial.x_mid, moved.u, r);
+    equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides, r);
     lag(r, previous, phi);
     if (!solve_with_bodies(r, s_after, roughly)) return {"the pressure solve failed"};
     for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
@@ -434,6 +445,10 @@ void Fluid<d>::State::weigh() {
     equation.move(equation.response(equation.on_motions(by_pressure) + trial.known - equation.inertia() * trial.answer),
                   imbalance);
   Ledger& ledger = work.ledger;
+  power_on_walls = 0;
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    power_on_walls += loads[w].total().dot(0.5 * (s_after[w] + work.velocity[w]));
+  ledger.work_on_walls = now.ledger.work_on_walls + 0.5 * work.dt * power_on_walls;
   ledger.kinetic_energy = ledger.potential_energy = 0;
   for (std::size_t i = 0; i < trial.v.size(); ++i) {
     work.nodes.p[i] = equation.unknown()[i] < 0 ? 0.0 : phi[equation.unknown()[i]] / kick;
@@ -503,8 +518,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   ledger.time_integration += ledger.volume - before;
   ledger.energy_repair += s.energy_repaired - s.energy_before;
   ledger.energy_remesh += s.energy_before - s.energy_carried;
-  for (std::size_t w = 0; w < s.walls.size(); ++w)
-    ledger.work_on_walls += s.kick * s.loads[w].total().dot(0.5 * (s.s_after[w] + s.work.velocity[w]));
+  ledger.work_on_walls = s.now.ledger.work_on_walls + s.kick * s.power_on_walls;
   s.work.acceleration_dt = acceleration_dt;
   s.work.time += s.dt;
   s.work.dt = s.dt;

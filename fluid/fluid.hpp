@@ -47,7 +47,7 @@ struct Ledger {
   double kinetic_energy = 0, potential_energy = 0;
   double energy_remesh = 0;      ///< kinetic energy changed by node insertion and removal
   double energy_repair = 0;      ///< kinetic energy taken by repair impulses
-  double work_on_walls = 0;      ///< integral of load . wall velocity
+  double work_on_walls = 0;      ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
 };
 
 /// How the motions of WallResponse are driven in a step.

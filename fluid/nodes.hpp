@@ -25,6 +25,7 @@ struct Nodes {
   std::vector<double> q;       ///< part of p that the corrections found [Pa]; the next step starts from it
   std::vector<WallTie> tie;    ///< wall contact
   std::vector<char> surface;   ///< 1: on the free surface (p = 0)
+  std::vector<char> separates; ///< 1: at an edge of a wall where the flow leaves it
   std::vector<char> spray;     ///< 1: belongs to no cell, flies ballistically
   std::vector<double> volume;  ///< share of the cells around it after the last move; spray keeps its own [m^d]
 
@@ -37,6 +38,7 @@ struct Nodes {
     q.push_back(0);
     tie.push_back(t);
     surface.push_back(on_surface);
+    separates.push_back(0);
     spray.push_back(0);
     volume.push_back(0);
     return static_cast<int>(x.size()) - 1;
@@ -49,7 +51,7 @@ struct Nodes {
       for (std::size_t i = 0; i < order.size(); ++i) picked[i] = values[order[i]];
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(spray), pick(volume);
+    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(separates), pick(spray), pick(volume);
   }
 };
 

@@ -110,7 +110,7 @@ bool PressureEquation<d>::at_contact_line(int node) const {
   constexpr double steep = 0.3;  // volume over surface^(3/2): 0.6 at a right angle, 0.2 at 30 degrees
   const WallTie& tie = nodes_->tie[node];
   if (tie.wall < 0) return false;
-  return d == 2 || tie.sharp() || lumped_[node] < steep * std::pow(free_measure_[node], d / (d - 1.0));
+  return d == 2 || nodes_->separates[node] || lumped_[node] < steep * std::pow(free_measure_[node], d / (d - 1.0));
 }
 
 template <int d>
@@ -194,18 +194,22 @@ void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<con
     for (int k = 0; k <= d; ++k)
       if (unknown_[cell[k]] >= 0) r[unknown_[cell[k]]] += g.col(k).dot(mean);
   }
-  for (const auto& f : mesh_->boundary) {
-    const Vec<d> area = area_vector_of<d>(f, x) / (d * (d + 1));
-    Vec<d> sum = Vec<d>::Zero();
-    std::array<Vec<d>, d> w;
-    for (int k = 0; k < d; ++k) {
-      const int n = f.nodes[k];
-      w[k] = f.wall < 0 ? v[n] : rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]);
-      sum += w[k];
-    }
-    for (int k = 0; k < d; ++k)
-      if (unknown_[f.nodes[k]] >= 0) r[unknown_[f.nodes[k]]] -= area.dot(sum + w[k]);
-  }
+  for (const auto& f : mesh_->boundary)
+    add_flux(f, x, [&](int n) -> Vec<d> {
+      return f.wall < 0 ? Vec<d>(-v[n]) : Vec<d>(-rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]));
+    }, r);
+}
+
+// r(q) += int_f q w.n dA, w linear between the facet's nodes.
+template <int d>
+template <class Velocity>
+void PressureEquation<d>::add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const {
+  const Vec<d> area = area_vector_of<d>(f, x) / (d * (d + 1));
+  Vec<d> sum = Vec<d>::Zero();
+  std::array<Vec<d>, d> w;
+  for (int k = 0; k < d; ++k) sum += w[k] = velocity(f.nodes[k]);
+  for (int k = 0; k < d; ++k)
+    if (unknown_[f.nodes[k]] >= 0) r[unknown_[f.nodes[k]]] += area.dot(sum + w[k]);
 }
 
 template <int d>
@@ -220,6 +224,17 @@ void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<c
     for (int n : cell)
       if (unknown_[n] >= 0) r[unknown_[n]] -= rate;
   }
+}
+
+template <int d>
+void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
+                                         std::span<const Vec<d>> centres, std::span<const char> slides,
+                                         std::vector<double>& r) const {
+  for (std::size_t k = 0; k < mesh_->boundary.size(); ++k)
+    if (slides[k]) {
+      const auto& f = mesh_->boundary[k];
+      add_flux(f, x, [&](int n) -> Vec<d> { return u[n] - rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]); }, r);
+    }
 }
 
 template <int d>

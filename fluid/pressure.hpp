@@ -6,8 +6,10 @@
 //
 //   flux form    r(q) = int grad q . v - int_wall q w.n - int_surface q v.n   walls through their flux
 //   motion form  r(q) = - int q div u                       u = actual displacement / dt, walls included
+//                       + int_slides q (u - w).n
 //
-// Both are evaluated at the middle of the motion, where they are the exact change of volume in 2D.
+// Facets that slide along a curved wall are chords of it, and longer ones reach deeper into it: not the water's motion, and
+// the next node on the chord takes it back. There the wall's flux counts. Both are evaluated at the middle of the motion, where they are the exact change of volume in 2D.
 //
 // q and phi are linear. On the free surface p = 0 is the natural condition of the momentum equation: impulses
 // there push on the surface, and the volume around a surface node is kept like any other's. Held to zero,
@@ -62,6 +64,9 @@ class PressureEquation {
                      std::span<const Vec<d>> centres, std::vector<double>& r) const;
   /// r in motion form at positions `x` for displacement velocities u.
   void motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::vector<double>& r) const;
+  /// Adds what the motion form owes to boundary facets that slide along their wall; s, `centres`: as above.
+  void slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
+                      std::span<const Vec<d>> centres, std::span<const char> slides, std::vector<double>& r) const;
 
   /// Solves in place for walls that stand still; `respond` lets those that do not move. `tolerance`: of the residual over
   /// r, for large systems, which are solved iteratively.
@@ -100,6 +105,8 @@ class PressureEquation {
   const SymmetricMatrix& matrix() const { return matrix_; }
 
  private:
+  template <class Velocity>
+  void add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const;
   void measure(double density);
   void choose_unknowns();
   bool at_contact_line(int node) const;

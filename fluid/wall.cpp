@@ -157,6 +157,10 @@ void Wall<d>::find_patches() {
     Eigen::Matrix<int, d, Eigen::Dynamic> own(d, members.size());
     for (std::size_t i = 0; i < members.size(); ++i) own.col(i) = facets.col(members[i]);
     patch_tree_.emplace_back(spec_.surface.vertices, std::move(own));
+    constexpr double roundoff = 1e-12;
+    is_flat_.push_back(std::all_of(members.begin(), members.end(), [&](int f) {
+      return (normal_.col(f) - normal_.col(seed)).squaredNorm() < roundoff;
+    }));
     patch_facets_.push_back(std::move(members));
   }
 }

@@ -37,6 +37,7 @@ class Wall {
   };
   /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
   Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
+  bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
   bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
@@ -71,6 +72,7 @@ class Wall {
   std::vector<FacetTree<d>> patch_tree_;
   std::vector<std::vector<int>> patch_facets_;
   std::vector<int> patch_of_;
+  std::vector<char> is_flat_;  // of patches
   Eigen::Matrix<double, d, Eigen::Dynamic> normal_;         // of facets, unit
   Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // mean over the facets around a vertex, by their angles
   std::vector<std::vector<int>> facets_of_;
