@@ -14,4 +14,8 @@ void use_threads(int count) {
                                                 static_cast<std::size_t>(threads));
 }
 
+int threads() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
 }  // namespace splashdown::fluid

@@ -12,6 +12,7 @@ namespace splashdown::fluid {
 
 /// Threads that loops run on from here on; 0: all cores.
 void use_threads(int count);
+int threads();
 
 /// visit(first, last) for pieces of [0, count) of at least `grain`.
 template <class Visit>

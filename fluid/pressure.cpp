@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "fluid/parallel.hpp"
+
 namespace splashdown::fluid {
 template <int d>
 bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density,
@@ -12,6 +14,7 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   nodes_ = &nodes;
   mesh_ = &mesh;
   response_ = response;
+  around_.build(mesh.cells, nodes.size());
   measure(density);
   choose_unknowns();
   wall_modes(centres);
@@ -68,13 +71,17 @@ void PressureEquation<d>::measure(double density) {
   lumped_.assign(count, 0.0);
   gradients_.resize(mesh_->cells.size());
   per_mass_.resize(mesh_->cells.size());
-  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
+  rate_.resize(mesh_->cells.size());
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
     const auto at = corners(nodes_->x, mesh_->cells[c]);
     gradients_[c] = volume_gradients<d>(at);
     const double volume = (at(d) - at(0)).dot(gradients_[c].col(d));
     per_mass_[c] = 1 / (density * volume);
-    for (int n : mesh_->cells[c]) lumped_[n] += volume / (d + 1);
-  }
+    rate_[c] = volume / (d + 1);
+  });
+  in_parallel(count, [&](std::size_t i) {
+    for (const auto [c, k] : around_.around(i)) lumped_[i] += rate_[c];
+  });
   // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour.
   constexpr double lightest = 0.02;
   std::vector<double> heaviest(count, 0.0);
@@ -167,11 +174,13 @@ bool PressureEquation<d>::factored() {
 
 template <int d>
 void PressureEquation<d>::assemble() {
-  assembly_.build(mesh_->cells, unknown_, size(), [&](int c, int a, int b) {
+  assembly_.build(mesh_->cells, around_, unknown_, node_, [&](int c, int a, int b) {
     const int i = mesh_->cells[c][a], j = mesh_->cells[c][b];
     const auto of_a = gradients_[c].col(a), of_b = gradients_[c].col(b);
-    return of_a.dot(of_b) * per_mass_[c] - free_area_[i].dot(of_b) * per_nodal_mass_[i] -
-           free_area_[j].dot(of_a) * per_nodal_mass_[j];
+    double entry = of_a.dot(of_b) * per_mass_[c];
+    if (nodes_->surface[i]) entry -= free_area_[i].dot(of_b) * per_nodal_mass_[i];
+    if (nodes_->surface[j]) entry -= free_area_[j].dot(of_a) * per_nodal_mass_[j];
+    return entry;
   });
   matrix_.column_start.swap(assembly_.column_start);
   matrix_.row.swap(assembly_.row);
@@ -185,15 +194,19 @@ template <int d>
 void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v,
                                         std::span<const Twist<d>> s, std::span<const Vec<d>> centres,
                                         std::vector<double>& r) const {
-  r.assign(size(), 0.0);
-  for (const auto& cell : mesh_->cells) {
+  of_corner_.resize(mesh_->cells.size());
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
+    const auto& cell = mesh_->cells[c];
     const auto g = volume_gradients<d>(corners(x, cell));
     Vec<d> mean = Vec<d>::Zero();
     for (int n : cell) mean += v[n];
     mean /= d + 1;
-    for (int k = 0; k <= d; ++k)
-      if (unknown_[cell[k]] >= 0) r[unknown_[cell[k]]] += g.col(k).dot(mean);
-  }
+    for (int k = 0; k <= d; ++k) of_corner_[c][k] = g.col(k).dot(mean);
+  });
+  r.assign(size(), 0.0);
+  in_parallel(node_.size(), [&](std::size_t i) {
+    for (const auto [c, k] : around_.around(node_[i])) r[i] += of_corner_[c][k];
+  });
   for (const auto& f : mesh_->boundary)
     add_flux(f, x, [&](int n) -> Vec<d> {
       return f.wall < 0 ? Vec<d>(-v[n]) : Vec<d>(-rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]));
@@ -215,15 +228,18 @@ void PressureEquation<d>::add_flux(const Facet<d>& f, std::span<const Vec<d>> x,
 template <int d>
 void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u,
                                           std::vector<double>& r) const {
-  r.assign(size(), 0.0);
-  for (const auto& cell : mesh_->cells) {
+  rate_.resize(mesh_->cells.size());
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
+    const auto& cell = mesh_->cells[c];
     const auto g = volume_gradients<d>(corners(x, cell));
     double rate = 0;
     for (int k = 0; k <= d; ++k) rate += g.col(k).dot(u[cell[k]]);
-    rate /= d + 1;
-    for (int n : cell)
-      if (unknown_[n] >= 0) r[unknown_[n]] -= rate;
-  }
+    rate_[c] = rate / (d + 1);
+  });
+  r.assign(size(), 0.0);
+  in_parallel(node_.size(), [&](std::size_t i) {
+    for (const auto [c, k] : around_.around(node_[i])) r[i] -= rate_[c];
+  });
 }
 
 template <int d>
@@ -315,13 +331,15 @@ Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> 
 template <int d>
 void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<d>> v) const {
   auto impulse_at = [&](int n) { return unknown_[n] < 0 ? 0.0 : phi[unknown_[n]]; };
+  of_cell_.resize(mesh_->cells.size());
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
+    of_cell_[c].setZero();
+    for (int k = 0; k <= d; ++k) of_cell_[c] += gradients_[c].col(k) * impulse_at(mesh_->cells[c][k]);
+  });
   change_.assign(v.size(), Vec<d>::Zero());
-  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
-    const auto& cell = mesh_->cells[c];
-    Vec<d> gradient = Vec<d>::Zero();
-    for (int k = 0; k <= d; ++k) gradient += gradients_[c].col(k) * impulse_at(cell[k]);
-    for (int n : cell) change_[n] -= per_nodal_mass_[n] * gradient;
-  }
+  in_parallel(v.size(), [&](std::size_t i) {
+    for (const auto [c, k] : around_.around(i)) change_[i] -= per_nodal_mass_[i] * of_cell_[c];
+  });
   for (const auto& f : mesh_->boundary) {
     if (f.wall >= 0) continue;
     const Vec<d> share = area_vector_of<d>(f, nodes_->x) / d;
@@ -329,15 +347,18 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     for (int n : f.nodes) sum += impulse_at(n);
     for (int n : f.nodes) change_[n] += per_nodal_mass_[n] * (sum + impulse_at(n)) * share;
   }
-  weighted_.assign(v.size(), Vec<d>::Zero());  // M_L^-1 M_C change
-  for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {
-    const auto& cell = mesh_->cells[c];
-    Vec<d> sum = Vec<d>::Zero();
-    for (int n : cell) sum += change_[n];
-    const double share = 1 / ((d + 2) * per_mass_[c]);
-    for (int n : cell) weighted_[n] += share * per_nodal_mass_[n] * (sum + change_[n]);
-  }
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 2 * change_[i] - weighted_[i];
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
+    of_cell_[c].setZero();
+    for (int n : mesh_->cells[c]) of_cell_[c] += change_[n];
+  });
+  in_parallel(v.size(), [&](std::size_t i) {
+    Vec<d> weighted = Vec<d>::Zero();  // M_L^-1 M_C change
+    for (const auto [c, k] : around_.around(i)) {
+      const double share = 1 / ((d + 2) * per_mass_[c]);
+      weighted += share * per_nodal_mass_[i] * (of_cell_[c] + change_[i]);
+    }
+    v[i] += 2 * change_[i] - weighted;
+  });
 }
 
 template <int d>

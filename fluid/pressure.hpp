@@ -124,8 +124,11 @@ class PressureEquation {
   std::vector<Vec<d>> free_area_;       // of nodes: area vector of the free surface around them
   std::vector<double> free_spread_;     // of nodes: n_i sum_f |A_f / d|^2
   std::vector<double> free_measure_;    // of nodes: sum_f |A_f| / d
-  mutable std::vector<Vec<d>> change_, weighted_;  // scratch of accelerate()
+  mutable std::vector<Vec<d>> change_, of_cell_;  // scratch: of nodes, of cells
+  mutable std::vector<std::array<double, d + 1>> of_corner_;
+  mutable std::vector<double> rate_;
   std::vector<int> unknown_, node_;
+  NodeCells<d> around_;
   Assembly<d, double> assembly_;
   SymmetricMatrix matrix_;
   // In space the factor of 10 k unknowns costs as much as multigrid's setup and all solves of a step (docs/theory.md).

@@ -76,7 +76,8 @@ void Viscosity<d>::assemble(const StepView<d>& step) {
     volume_[c] = (at(d) - at(0)).dot(gradients_[c].col(d));
   }
   const int n = static_cast<int>(node_.size());
-  blocks_.build(cells, unknown_, n, [&](int c, int a, int b) -> Mat<d> {
+  around_.build(cells, unknown_.size());
+  blocks_.build(cells, around_, unknown_, node_, [&](int c, int a, int b) -> Mat<d> {
     const auto& g = gradients_[c];
     const double scale = mu_ * step.kick / volume_[c];
     return scale * (g.col(a).dot(g.col(b)) * Mat<d>::Identity() + g.col(b) * g.col(a).transpose());

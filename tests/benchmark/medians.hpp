@@ -1,5 +1,5 @@
-// What the benchmarks share: one thread, medians of processor time over interleaved repetitions, and a bar that the
-// nightly tests hold.
+// What the benchmarks share: medians over interleaved repetitions, of processor time on one thread or of wall time on
+// several, and a bar that the nightly tests hold.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -18,7 +18,9 @@ class Medians : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     ConsoleReporter::ReportRuns(runs);
     for (const auto& run : runs)
-      if (run.aggregate_name == "median") seconds_[run.run_name.function_name] = run.GetAdjustedCPUTime();
+      if (run.aggregate_name == "median")
+        seconds_[run.run_name.function_name] =
+            run.run_name.time_type.empty() ? run.GetAdjustedCPUTime() : run.GetAdjustedRealTime();
   }
   double of(const std::string& name, int nodes) const {
     const auto found = seconds_.find(name + "/" + std::to_string(nodes));
@@ -56,8 +58,8 @@ inline bool begin(int argc, char** argv, double& max_ratio) {
 }
 
 template <class Run>
-void add(const std::string& name, int nodes, Run run) {
-  benchmark::RegisterBenchmark((name + "/" + std::to_string(nodes)).c_str(), run)
+benchmark::internal::Benchmark* add(const std::string& name, int nodes, Run run) {
+  return benchmark::RegisterBenchmark((name + "/" + std::to_string(nodes)).c_str(), run)
       ->Unit(benchmark::kMillisecond)
       ->Repetitions(9)
       ->ReportAggregatesOnly();

@@ -1,19 +1,18 @@
 // What a step in space costs, beside what no step can do without: one Delaunay triangulation of the nodes and one pressure
-// solve (multigrid's setup, solve to the pressure's own tolerance); and what a second thread gains. Wall time, medians of
-// interleaved repetitions. A tank of still water with a ball that sinks into it at constant speed.
-//   step_cost_3d [NODES]
-#include <algorithm>
-#include <chrono>
+// solve (multigrid's setup, solve to the pressure's own tolerance); what a second thread gains; and what a direct solve of
+// the same matrix would cost. Wall time, medians over interleaved repetitions. A tank of still water with a ball that
+// sinks into it at constant speed.
+//   step_cost_3d [--max_ratio=R] [--benchmark_...]     exit 1 if a step on two threads costs more than R of both
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
+#include <map>
 #include <memory>
-#include <vector>
 
 #include "fluid/delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure.hpp"
+#include "tests/benchmark/medians.hpp"
 #include "tests/unit/coupling/ball_in_tank.hpp"
 
 namespace {
@@ -21,8 +20,9 @@ namespace {
 using namespace splashdown;
 namespace scenes = coupling::scenes;
 using fluid::Vec;
+using Stepper = coupling::Simultaneous<3>;
 
-coupling::Simultaneous<3> sinking_ball(int nodes) {
+Stepper sinking_ball(int nodes) {
   constexpr double half = scenes::BallInTank::half;
   // 2 half x 2 half x half of water with elements of h holds about 1.6 (2 half)^3 / 2 h^3 nodes.
   const double size = std::cbrt(1.6 * 4 * half * half * half / nodes);
@@ -37,58 +37,84 @@ coupling::Simultaneous<3> sinking_ball(int nodes) {
   return {scenes::water_of(scene), scenes::bodies_of(scene)};
 }
 
-double seconds(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+void attempt(Stepper& stepper) {
+  if (const auto status = stepper.attempt(stepper.stable_dt()); !status.ok()) {
+    std::fprintf(stderr, "a step was refused: %s\n", status.cause.c_str());
+    std::exit(1);
+  }
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
+// Steps are made once for all that is measured, and one more is under way: its nodes and mesh are those of a step.
+Stepper& moving(int nodes) {
+  static std::map<int, Stepper> cases;
+  const auto found = cases.find(nodes);
+  if (found != cases.end()) return found->second;
+  Stepper& made = cases.emplace(nodes, sinking_ball(nodes)).first->second;
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) made.commit();
+    attempt(made);
+  }
+  return made;
 }
 
-void step(coupling::Simultaneous<3>& stepper) {
-  if (!stepper.attempt(stepper.stable_dt()).ok()) std::abort();
-  stepper.commit();
+void step(benchmark::State& state, int nodes, int threads) {
+  Stepper& stepper = moving(nodes);
+  fluid::use_threads(threads);
+  for (auto _ : state) {
+    stepper.commit();
+    attempt(stepper);
+  }
+  state.counters["nodes"] = static_cast<double>(stepper.fluid().nodes().size());
 }
 
-void triangulate(const fluid::Fluid<3>& water) {
-  volatile std::size_t cells = fluid::delaunay<3>(water.nodes().x, {}).cells.size();
-  static_cast<void>(cells);
+void triangulate(benchmark::State& state, int nodes) {
+  const auto& x = moving(nodes).fluid().nodes().x;
+  fluid::use_threads(2);
+  for (auto _ : state) benchmark::DoNotOptimize(fluid::delaunay<3>(x, {}));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const int nodes = argc > 1 ? std::atoi(argv[1]) : 100000;
-  constexpr int repetitions = 5;
-  auto stepper = sinking_ball(nodes);
-  step(stepper), step(stepper);
-  const auto& water = stepper.fluid();
+void solve(benchmark::State& state, int nodes, int most_direct, double tolerance) {
+  const auto& water = moving(nodes).fluid();
   const std::vector<Vec<3>> centres(2, Vec<3>::Zero());
   fluid::PressureEquation<3> equation;
   equation.build(water.nodes(), water.mesh(), water.spec().density, centres, {});
   std::vector<double> rhs(static_cast<std::size_t>(equation.size()));
   for (int i = 0; i < equation.size(); ++i) rhs[static_cast<std::size_t>(i)] = std::sin(0.01 * i);
-
-  std::vector<double> delaunay, solve, one, two;
-  for (int k = 0; k < repetitions; ++k) {
-    fluid::use_threads(2);
-    delaunay.push_back(seconds([&] { triangulate(water); }));
-    solve.push_back(seconds([&] {
-      fluid::LinearSolver solver(0);
-      auto x = rhs;
-      if (!solver.factor(equation.matrix()) || !solver.solve(x, 1, 1e-4)) std::abort();
-    }));
-    two.push_back(seconds([&] { step(stepper); }));
-    fluid::use_threads(1);
-    one.push_back(seconds([&] { step(stepper); }));
+  fluid::use_threads(2);
+  for (auto _ : state) {
+    fluid::LinearSolver solver(most_direct);
+    auto x = rhs;
+    if (!solver.factor(equation.matrix()) || !solver.solve(x, 1, tolerance)) state.SkipWithError("not solved");
   }
-  const double bare = median(delaunay) + median(solve);
-  std::printf("%zu nodes: Delaunay %.3f s, pressure solve %.3f s, step %.3f s on two threads (%.1f us a node), %.3f s on one\n",
-              water.nodes().size(), median(delaunay), median(solve), median(two),
-              1e6 * median(two) / static_cast<double>(water.nodes().size()), median(one));
-  std::printf("step / (Delaunay + pressure solve) = %.2f, one thread / two = %.2f\n", median(two) / bare,
-              median(one) / median(two));
+  state.counters["unknowns"] = equation.size();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  double max_ratio = 0;
+  if (!measured::begin(argc, argv, max_ratio)) return 2;
+  constexpr int sizes[] = {20000, 100000};
+  constexpr int all = std::numeric_limits<int>::max(), most_factored = 20000;  // more takes minutes and gigabytes
+  constexpr double closely = 1e-4;
+  for (const int nodes : sizes) {
+    auto in_wall_time = [&](const char* name, auto run) { measured::add(name, nodes, run)->UseRealTime(); };
+    in_wall_time("delaunay", [=](benchmark::State& state) { triangulate(state, nodes); });
+    in_wall_time("multigrid", [=](benchmark::State& state) { solve(state, nodes, 0, closely); });
+    if (nodes <= most_factored) in_wall_time("cholesky", [=](benchmark::State& state) { solve(state, nodes, all, closely); });
+    in_wall_time("step_on_1_thread", [=](benchmark::State& state) { step(state, nodes, 1); });
+    in_wall_time("step_on_2_threads", [=](benchmark::State& state) { step(state, nodes, 2); });
+  }
+  measured::Medians medians;
+  benchmark::RunSpecifiedBenchmarks(&medians);
+
+  bool holds = true;
+  for (const int nodes : sizes) {
+    const double bare = medians.of("delaunay", nodes) + medians.of("multigrid", nodes);
+    const double two = medians.of("step_on_2_threads", nodes), ratio = two / bare;
+    std::printf("%d nodes: step / (Delaunay + multigrid) = %.2f, one thread / two = %.2f, %.1f us a node on two\n", nodes, ratio,
+                medians.of("step_on_1_thread", nodes) / two, 1e3 * two / nodes);
+    holds = holds && !(ratio > max_ratio);
+  }
+  return holds ? 0 : 1;
 }

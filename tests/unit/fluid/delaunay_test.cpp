@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "fluid/parallel.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -150,6 +151,26 @@ TEST(Delaunay2, facets_that_cross_are_left_out) {
   const auto t = delaunay<2>(x, {{{0, 2}, -1}, {{1, 3}, -1}});
   EXPECT_EQ(t.cells.size(), 2u);
   EXPECT_TRUE(edges_of(t).contains({0, 2})) << "the first one is kept";
+}
+
+// Enough points to be inserted by several threads.
+TEST(DelaunayInSpace, is_the_same_on_any_number_of_threads) {
+  auto lattice = [] {
+    std::vector<Vec<3>> x;
+    for (int i = 0; i < 25 * 25 * 25; ++i) x.emplace_back(i % 25, i / 25 % 25, i / 625);
+    return x;
+  };
+  auto doubled = lattice();
+  doubled.push_back(doubled[1000]);
+  for (const auto& x : {cloud<3>(20000), lattice(), doubled}) {
+    use_threads(1);
+    const auto one = delaunay<3>(std::span<const Vec<3>>(x), {});
+    use_threads(2);
+    const auto two = delaunay<3>(std::span<const Vec<3>>(x), {});
+    use_threads(0);
+    EXPECT_EQ(one.cells, two.cells);
+    EXPECT_EQ(one.neighbours, two.neighbours);
+  }
 }
 
 }  // namespace
