@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <unordered_set>
+#include <numeric>
 
 #include "fluid/boundary_edges.hpp"
 
@@ -26,13 +26,16 @@ template <int d>
 class Adapter {
  public:
   Adapter(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls)
-      : nodes_(nodes), h_(h), mesh_(mesh), walls_(walls), edges_(mesh.boundary, nodes.size()), on_boundary_(nodes.size(), 0), into_(nodes.size()) {
-    for (std::size_t i = 0; i < into_.size(); ++i) into_[i] = static_cast<int>(i);
+      : nodes_(nodes),
+        h_(h),
+        mesh_(mesh),
+        walls_(walls),
+        edges_(mesh.boundary, nodes.size()),
+        on_boundary_(nodes.size(), 0),
+        into_(nodes.size()) {
+    std::iota(into_.begin(), into_.end(), 0);
     for (const auto& f : mesh.boundary)
-      for (int a = 0; a < d; ++a) {
-        on_boundary_[f.nodes[a]] = 1;
-        for (int b = a + 1; b < d; ++b) boundary_edges_.insert(key(f.nodes[a], f.nodes[b]));
-      }
+      for (int n : f.nodes) on_boundary_[n] = 1;
   }
 
   AdaptReport<d> run() {
@@ -48,7 +51,9 @@ class Adapter {
 
  private:
   bool is_boundary_edge(int a, int b) const {
-    return on_boundary_[a] && on_boundary_[b] && boundary_edges_.contains(key(a, b));
+    bool found = false;
+    if (on_boundary_[a] && on_boundary_[b]) edges_.around(mesh_.boundary, a, b, [&](int) { found = true; });
+    return found;
   }
 
   // Each inner edge is met in several cells; only candidates are kept, duplicates fall to `touched_`.
@@ -207,7 +212,6 @@ class Adapter {
   BoundaryEdges<d> edges_;  // of the boundary as it is now
   std::vector<char> on_boundary_, touched_;
   std::vector<int> into_;
-  std::unordered_set<std::uint64_t> boundary_edges_;
   std::vector<Edge> long_, short_;
   AdaptReport<d> report_;
 };

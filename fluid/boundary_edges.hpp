@@ -21,10 +21,6 @@ class BoundaryEdges {
       for (int n : boundary[f].nodes) facet_[next[n]++] = static_cast<int>(f);
   }
 
-  bool on_boundary(int node) const {
-    return node + 1 < static_cast<int>(start_.size()) && start_[node] < start_[node + 1];
-  }
-
   /// Calls visit(facet index) for the facets that hold both nodes.
   template <class Visit>
   void around(const std::vector<Facet<d>>& boundary, int a, int b, Visit visit) const {

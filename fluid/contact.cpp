@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "fluid/boundary_edges.hpp"
 #include "fluid/inside.hpp"
@@ -39,24 +40,55 @@ void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& 
   }
 }
 
+// The liquid's boundary, as corners of walls ask for it: what answers them is built once, and anew when the boundary has changed.
 template <int d>
-struct FacetHit {
-  int facet = -1;
-  double distance = 0;
-};
-
-// Few vertices are asked for, so looking at all facets is cheaper than building a tree.
-template <int d>
-FacetHit<d> nearest_facet(const Nodes<d>& nodes, const Mesh<d>& mesh, const Vec<d>& point) {
-  FacetHit<d> best{-1, std::numeric_limits<double>::max()};
-  for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = nodes.x[mesh.boundary[f].nodes[k]];
-    const double distance = (closest_on(corner, point) - point).norm();
-    if (distance < best.distance) best = {static_cast<int>(f), distance};
+class Shore {
+ public:
+  Shore(const Nodes<d>& nodes, const Mesh<d>& mesh) : nodes_(nodes), mesh_(mesh) {}
+  struct Hit {
+    int facet = -1;
+    double distance = std::numeric_limits<double>::max();
+  };
+  /// The nearest facet within `reach`. In the plane few corners ask, and looking at all facets is cheaper than a tree.
+  Hit nearest(const Vec<d>& point, double reach) {
+    Hit best;
+    if constexpr (d == 2) {
+      for (std::size_t f = 0; f < mesh_.boundary.size(); ++f) {
+        std::array<Vec<d>, d> corner;
+        for (int k = 0; k < d; ++k) corner[k] = nodes_.x[mesh_.boundary[f].nodes[k]];
+        const double distance = (closest_on(corner, point) - point).norm();
+        if (distance < best.distance) best = {static_cast<int>(f), distance};
+      }
+    } else {
+      if (tree_.empty()) plant();
+      if (const auto hit = tree_.nearest(point, reach); hit.facet >= 0) best = {hit.facet, std::sqrt(hit.squared_distance)};
+    }
+    return best;
   }
-  return best;
-}
+  bool encloses(const Vec<d>& point) {
+    if (!inside_) inside_.emplace(nodes_.x, mesh_.boundary);
+    return (*inside_)(point);
+  }
+  void changed() {
+    tree_ = {};
+    inside_.reset();
+  }
+
+ private:
+  void plant() {
+    Eigen::Matrix<double, d, Eigen::Dynamic> vertices(d, nodes_.size());
+    Eigen::Matrix<int, d, Eigen::Dynamic> facets(d, mesh_.boundary.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) vertices.col(i) = nodes_.x[i];
+    for (std::size_t f = 0; f < mesh_.boundary.size(); ++f)
+      for (int k = 0; k < d; ++k) facets(k, f) = mesh_.boundary[f].nodes[k];
+    tree_ = FacetTree<d>(std::move(vertices), std::move(facets));
+  }
+
+  const Nodes<d>& nodes_;
+  const Mesh<d>& mesh_;
+  FacetTree<d> tree_;
+  std::optional<InsideTest<d>> inside_;
+};
 
 template <int d>
 void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int facet, const Vec<d>& point, WallTie tie) {
@@ -78,6 +110,9 @@ void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int fac
 
 template <int d>
 void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+  constexpr double near = 2;  // corners farther than this from the boundary, over h, have not been passed by it in a step
+  Shore<d> shore(nodes, mesh);
+  const double reach = near * *std::max_element(h.begin(), h.end());
   for (std::size_t w = 0; w < at.walls.size(); ++w) {
     std::vector<char> taken(at.walls[w].spec().surface.vertices.cols(), 0);
     for (const WallTie& t : nodes.tie)
@@ -85,7 +120,7 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
     for (int v : at.walls[w].corners()) {
       if (taken[v]) continue;
       const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
-      const auto hit = nearest_facet(nodes, mesh, point);
+      const auto hit = shore.nearest(point, reach);
       if (hit.facet < 0) continue;
       const Facet<d>& f = mesh.boundary[hit.facet];
       int closest = f.nodes[0];
@@ -96,7 +131,7 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
       }
       const double size = h[closest];
       const bool arrived = hit.distance < (touches ? on_facet : 1e-9) * size ||
-                           (hit.distance < 2 * size && InsideTest<d>(nodes.x, mesh.boundary)(point));
+                           (hit.distance < near * size && shore.encloses(point));
       if (!arrived) continue;
       const WallTie tie{static_cast<int>(w), -1, v};
       if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
@@ -105,6 +140,7 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
       } else {
         split_facet(nodes, h, mesh, hit.facet, point, tie);
       }
+      shore.changed();
     }
   }
 }
