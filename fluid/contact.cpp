@@ -231,7 +231,6 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<c
 template <int d>
 void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& at,
               std::span<const Twist<d>> velocities, double gravity) {
-  constexpr double one_side = 0.866;  // cos 30 degrees
   struct Edge {
     Vec<d> normal = Vec<d>::Zero();
     bool both_sides = false;
@@ -254,7 +253,7 @@ void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, c
       if (index[n] < 0 || nodes.tie[n].wall != f.wall) continue;
       Edge& e = edges[index[n]];
       if (e.normal.isZero(0)) e.normal = normal;
-      e.both_sides = e.both_sides || e.normal.dot(normal) < one_side;
+      e.both_sides = e.both_sides || e.normal.dot(normal) < least_smooth_cosine;
       for (int other : f.nodes) {
         if (nodes.surface[other]) continue;
         const Vec<d> arm = nodes.x[other] - at.poses[f.wall].translation();
@@ -285,7 +284,8 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
     attached_vertex_[w].assign(walls_[w].spec().surface.vertices.cols(), 0);
   for (int i : tied_)
     if (nodes.tie[i].sharp() && wetted_[i]) {
-      if (nodes.tie[i].crease >= 0 && !nodes.separates[i]) on_edges_.push_back({i, nodes.x[i] - walls.poses[nodes.tie[i].wall].translation()});
+      if (nodes.tie[i].crease >= 0 && !nodes.separates[i])
+        on_edges_.push_back({i, nodes.x[i] - walls.poses[nodes.tie[i].wall].translation()});
       if (nodes.tie[i].vertex >= 0) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = !nodes.surface[i];
       else on_creases_.push_back(i);
     }

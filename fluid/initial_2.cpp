@@ -4,7 +4,6 @@
 #include <CGAL/Polygon_set_2.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "fluid/initial_parts.hpp"
 
@@ -71,7 +70,7 @@ class Outliner {
     std::vector<std::size_t> corner;
     for (std::size_t i = 0; i < n; ++i) {
       const Vec<2> before = (p[i] - p[(i + n - 1) % n]).normalized(), after = (p[(i + 1) % n] - p[i]).normalized();
-      const bool sharp = before.dot(after) < std::cos(30.0 * std::numbers::pi / 180.0);
+      const bool sharp = before.dot(after) < least_smooth_cosine;
       if (sharp || tie[i].vertex >= 0 || wall[i] != wall[(i + n - 1) % n]) corner.push_back(i);
     }
     if (corner.empty()) corner.push_back(0);

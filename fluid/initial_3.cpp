@@ -14,7 +14,6 @@
 #include <boost/graph/adjacency_list.hpp>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
 #include "fluid/initial_parts.hpp"
@@ -32,7 +31,6 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::C
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 constexpr double speck = 1e-10;  // over the liquid's size: shorter edges are roundoff
-const double crease = std::cos(30.0 * std::numbers::pi / 180.0);
 
 Vec<3> vec(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -148,14 +146,14 @@ Curves curves_of(const Skin& skin, const WallsAt<3>& walls) {
     const auto half = mesh.halfedge(e);
     const auto f = mesh.face(half), g = mesh.face(mesh.opposite(half));
     const bool free = skin.on[f].first < 0 && skin.on[g].first < 0;
-    if (skin.on[f] != skin.on[g] || (free && normal(f).dot(normal(g)) < crease))
+    if (skin.on[f] != skin.on[g] || (free && normal(f).dot(normal(g)) < least_smooth_cosine))
       boost::add_edge(node(mesh.source(half)), node(mesh.target(half)), graph);
   }
   auto is_end = [&](std::size_t v, const Graph& g) {
     if (boost::degree(v, g) != 2) return true;
     const auto [first, last] = boost::adjacent_vertices(v, g);
     const Vec<3> x = vec(g[v]), a = vec(g[*first]), b = vec(g[*std::next(first)]);
-    return (x - a).normalized().dot((b - x).normalized()) < crease;
+    return (x - a).normalized().dot((b - x).normalized()) < least_smooth_cosine;
   };
   Curves curves;
   LineCollector collector{graph, curves.lines};

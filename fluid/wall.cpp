@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "fluid/geometry.hpp"
 
 namespace splashdown::fluid {
 namespace {
-
-// An edge of more than 30 degrees is a crease of the body, less is a facet of a curved surface.
-const double crease = std::cos(30.0 * std::numbers::pi / 180.0);
 
 double angle_at(const std::array<Vec<2>, 2>&, int) { return 1; }
 double angle_at(const std::array<Vec<3>, 3>& c, int k) {
@@ -65,7 +61,7 @@ void Wall<d>::find_normals() {
 
 template <int d>
 bool Wall<d>::is_crease(int f, int g) const {
-  return normal_.col(f).dot(normal_.col(g)) < crease;
+  return normal_.col(f).dot(normal_.col(g)) < least_smooth_cosine;
 }
 
 // Edges between facets, and chains of those that are creases.
@@ -93,7 +89,7 @@ void Wall<d>::find_creases() {
       const auto& edges = of_vertex[v];
       const int at = static_cast<int>(v);
       is_sharp_[v] = !edges.empty();
-      is_corner_[v] = !edges.empty() && (edges.size() != 2 || along(other_end(edges[0]), at).dot(along(at, other_end(edges[1]))) < crease);
+      is_corner_[v] = !edges.empty() && (edges.size() != 2 || along(other_end(edges[0]), at).dot(along(at, other_end(edges[1]))) < least_smooth_cosine);
     }
     auto follow = [&](int from, int index) {
       for (auto edge = of_vertex[from][index];;) {

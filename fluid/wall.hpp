@@ -1,12 +1,16 @@
 // A wall in motion: closest points and sides of its rigid surface, its sharp vertices.
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "fluid/facet_tree.hpp"
 #include "fluid/spec.hpp"
 
 namespace splashdown::fluid {
+
+/// cos 30 degrees. Facets, and lines, that turn by more meet at a crease or a corner; by less they follow a curve.
+constexpr double least_smooth_cosine = 0.5 * std::numbers::sqrt3;
 
 template <int d>
 class Wall {
