@@ -31,11 +31,8 @@ class Adapter {
         mesh_(mesh),
         walls_(walls),
         edges_(mesh.boundary, nodes.size()),
-        on_boundary_(nodes.size(), 0),
         into_(nodes.size()) {
     std::iota(into_.begin(), into_.end(), 0);
-    for (const auto& f : mesh.boundary)
-      for (int n : f.nodes) on_boundary_[n] = 1;
   }
 
   AdaptReport<d> run() {
@@ -52,7 +49,7 @@ class Adapter {
  private:
   bool is_boundary_edge(int a, int b) const {
     bool found = false;
-    if (on_boundary_[a] && on_boundary_[b]) edges_.around(mesh_.boundary, a, b, [&](int) { found = true; });
+    edges_.around(mesh_.boundary, a, b, [&](int) { found = true; });
     return found;
   }
 
@@ -84,7 +81,7 @@ class Adapter {
     for (const auto& cell : mesh_.cells) {
       int inner = -1, count = 0;
       for (int k = 0; k <= d; ++k)
-        if (!on_boundary_[cell[k]]) inner = k, ++count;
+        if (!edges_.on_boundary(cell[k])) inner = k, ++count;
       if (count != 1 || touched_[cell[inner]]) continue;
       bool facet_on_boundary = true;
       for (int i = 0; i <= d; ++i)
@@ -104,7 +101,7 @@ class Adapter {
     if (tie.vertex >= 0) return corner;
     if (tie.crease >= 0) return nodes_.surface[i] ? separation_line : crease;
     if (tie.wall >= 0 && nodes_.surface[i]) return contact_line;
-    return on_boundary_[i] ? boundary : within;
+    return edges_.on_boundary(i) ? boundary : within;
   }
   bool may_merge_with_its_like(Rank rank, const Edge& e) const {
     if (!(nodes_.tie[e.a] == nodes_.tie[e.b]) || rank == corner) return false;
@@ -210,7 +207,7 @@ class Adapter {
   Mesh<d>& mesh_;
   const WallsAt<d>& walls_;
   BoundaryEdges<d> edges_;  // of the boundary as it is now
-  std::vector<char> on_boundary_, touched_;
+  std::vector<char> touched_;
   std::vector<int> into_;
   std::vector<Edge> long_, short_;
   AdaptReport<d> report_;

@@ -21,6 +21,8 @@ class BoundaryEdges {
       for (int n : boundary[f].nodes) facet_[next[n]++] = static_cast<int>(f);
   }
 
+  bool on_boundary(int node) const { return start_[node + 1] > start_[node]; }
+
   /// Calls visit(facet index) for the facets that hold both nodes.
   template <class Visit>
   void around(const std::vector<Facet<d>>& boundary, int a, int b, Visit visit) const {

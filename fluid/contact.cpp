@@ -40,7 +40,8 @@ void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& 
   }
 }
 
-// The liquid's boundary, as corners of walls ask for it: what answers them is built once, and anew when the boundary has changed.
+// The liquid's boundary, as corners of walls ask for it: what answers them is built once, and anew when the boundary
+// has changed.
 template <int d>
 class Shore {
  public:
@@ -54,13 +55,15 @@ class Shore {
     Hit best;
     if constexpr (d == 2) {
       for (std::size_t f = 0; f < mesh_.boundary.size(); ++f) {
-        std::array<Vec<d>, d> corner;
-        for (int k = 0; k < d; ++k) corner[k] = nodes_.x[mesh_.boundary[f].nodes[k]];
-        const double distance = (closest_on(corner, point) - point).norm();
+        const double distance = (closest_on(corners_of(mesh_.boundary[f], nodes_.x), point) - point).norm();
         if (distance < best.distance) best = {static_cast<int>(f), distance};
       }
     } else {
-      if (tree_.empty()) plant();
+      if (tree_.empty()) {
+        std::vector<std::array<Vec<d>, d>> facets;
+        for (const auto& f : mesh_.boundary) facets.push_back(corners_of(f, nodes_.x));
+        tree_ = FacetTree<d>(facets);
+      }
       if (const auto hit = tree_.nearest(point, reach); hit.facet >= 0) best = {hit.facet, std::sqrt(hit.squared_distance)};
     }
     return best;
@@ -75,15 +78,6 @@ class Shore {
   }
 
  private:
-  void plant() {
-    Eigen::Matrix<double, d, Eigen::Dynamic> vertices(d, nodes_.size());
-    Eigen::Matrix<int, d, Eigen::Dynamic> facets(d, mesh_.boundary.size());
-    for (std::size_t i = 0; i < nodes_.size(); ++i) vertices.col(i) = nodes_.x[i];
-    for (std::size_t f = 0; f < mesh_.boundary.size(); ++f)
-      for (int k = 0; k < d; ++k) facets(k, f) = mesh_.boundary[f].nodes[k];
-    tree_ = FacetTree<d>(std::move(vertices), std::move(facets));
-  }
-
   const Nodes<d>& nodes_;
   const Mesh<d>& mesh_;
   FacetTree<d> tree_;
@@ -283,12 +277,14 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
   for (std::size_t w = 0; w < walls_.size(); ++w)
     attached_vertex_[w].assign(walls_[w].spec().surface.vertices.cols(), 0);
   for (int i : tied_)
-    if (nodes.tie[i].sharp() && wetted_[i]) {
-      if (nodes.tie[i].crease >= 0 && !nodes.separates[i])
-        on_edges_.push_back({i, nodes.x[i] - walls.poses[nodes.tie[i].wall].translation()});
-      if (nodes.tie[i].vertex >= 0) attached_vertex_[nodes.tie[i].wall][nodes.tie[i].vertex] = !nodes.surface[i];
-      else on_creases_.push_back(i);
+    if (const WallTie& tie = nodes.tie[i]; tie.sharp() && wetted_[i]) {
+      if (tie.vertex >= 0)
+        attached_vertex_[tie.wall][tie.vertex] = !nodes.surface[i];
+      else
+        on_creases_.push_back({i, nodes.x[i] - walls.poses[tie.wall].translation()});
     }
+  for (int f = 0; f < static_cast<int>(mesh.boundary.size()); ++f)
+    if (is_chord(f, nodes.tie)) chords_.push_back(f);
   if (std::any_of(walls_.begin(), walls_.end(), [](const Wall<d>& w) { return w.spec().sticks; }))
     find_stuck(mesh, walls);
 }
@@ -320,17 +316,18 @@ bool WallMotion<d>::attached(int wall, const typename Wall<d>::Near& edge) const
   if (edge.vertex >= 0) return attached_vertex_[wall][edge.vertex];
   double least = std::numeric_limits<double>::infinity();
   bool wet = false;
-  for (int i : on_creases_) {
-    const double distance = (nodes_.x[i] - edge.point).squaredNorm();
-    if (nodes_.tie[i].wall != wall || nodes_.tie[i].crease != edge.crease || distance >= least) continue;
+  for (const OnCrease& at : on_creases_) {
+    const double distance = (nodes_.x[at.node] - edge.point).squaredNorm();
+    if (nodes_.tie[at.node].wall != wall || nodes_.tie[at.node].crease != edge.crease || distance >= least) continue;
     least = distance;
-    wet = !nodes_.surface[i];
+    wet = !nodes_.surface[at.node];
   }
   return wet;
 }
 
 template <int d>
-bool WallMotion<d>::is_chord(const Facet<d>& f, std::span<const WallTie> tie) const {
+bool WallMotion<d>::is_chord(int facet, std::span<const WallTie> tie) const {
+  const Facet<d>& f = mesh_.boundary[facet];
   if (f.wall < 0) return false;
   int patch = -1;
   bool curved = false;
@@ -368,15 +365,16 @@ void WallMotion<d>::find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls) {
 }
 
 template <int d>
-void WallMotion<d>::drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, std::span<const double> mass,
-                         std::vector<Wrench<d>>& on_walls) const {
+void WallMotion<d>::drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, double density,
+                         std::span<const double> volume, std::vector<Wrench<d>>& on_walls) const {
   on_walls.assign(walls_.size(), Wrench<d>::Zero());
+  auto lost = [&](int n) -> Vec<d> { return density * volume[n] * (v[n] - u[n]); };
   for (const Stuck& s : stuck_) {
-    const Vec<d> lost = mass[s.node] * (v[s.node] - u[s.node]);
-    on_walls[nodes_.tie[s.node].wall] += wrench_of<d>(s.arm, lost - lost.dot(s.normal) * s.normal);
+    const Vec<d> impulse = lost(s.node);
+    on_walls[nodes_.tie[s.node].wall] += wrench_of<d>(s.arm, impulse - impulse.dot(s.normal) * s.normal);
   }
-  for (const OnEdge& e : on_edges_)
-    on_walls[nodes_.tie[e.node].wall] += wrench_of<d>(e.arm, mass[e.node] * (v[e.node] - u[e.node]));
+  for (const OnCrease& at : on_creases_)
+    if (!nodes_.separates[at.node]) on_walls[nodes_.tie[at.node].wall] += wrench_of<d>(at.arm, lost(at.node));
 }
 
 template <int d>
@@ -426,10 +424,9 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     if (d == 3 && !s.area.isZero(0)) past -= past.dot(s.area) / s.area.squaredNorm() * s.area;
     out.u[s.at] += past;
   }
-  out.slides.resize(mesh_.boundary.size());
-  in_parallel(mesh_.boundary.size(), [&](std::size_t k) {
-    out.slides[k] = is_chord(mesh_.boundary[k], nodes_.tie) && is_chord(mesh_.boundary[k], out.tie);
-  });
+  out.slides.clear();
+  for (int f : chords_)
+    if (is_chord(f, out.tie)) out.slides.push_back(f);
 }
 
 template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);

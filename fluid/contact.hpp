@@ -39,17 +39,17 @@ class WallMotion {
     std::vector<Vec<d>> u;      ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
                                 ///< velocity at an edge where the flow separates
     std::vector<WallTie> tie;   ///< at t_{n+1}: nodes may leave their wall or turn a corner
-    std::vector<char> slides;   ///< of boundary facets, 1: a chord of its curved wall and stays one
+    std::vector<int> slides;    ///< boundary facets that are chords of their curved wall and stay so
   };
   /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
   void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
 
   /// Walls take some nodes along in more than one direction: edges that are wetted on both sides, and WallSpec::sticks
   /// away from the contact line.
-  bool drags() const { return !stuck_.empty() || !on_edges_.empty(); }
+  bool drags() const { return !stuck_.empty() || !on_creases_.empty(); }
   /// Impulses on the walls, about their origins, of what that takes from the velocities v: u is the motion that `move`
-  /// made of v, `mass` that of the nodes. Along the normal of a smooth wall it is the pressure's.
-  void drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, std::span<const double> mass,
+  /// made of v, `volume` that of the nodes. Along the normal of a smooth wall it is the pressure's.
+  void drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, double density, std::span<const double> volume,
             std::vector<Wrench<d>>& on_walls) const;
 
  private:
@@ -58,7 +58,7 @@ class WallMotion {
   std::span<const Wall<d>> walls_;
   void find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls);
   void find_separations(const Mesh<d>& mesh);
-  bool is_chord(const Facet<d>& f, std::span<const WallTie> tie) const;
+  bool is_chord(int facet, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 
   std::vector<int> tied_;    // and free to slide, but for vertices
@@ -76,13 +76,13 @@ class WallMotion {
     Vec<d> area;                // of the boundary around it
   };
   std::vector<Separation> separations_;
-  struct OnEdge {
+  std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
+  struct OnCrease {
     int node;
     Vec<d> arm;  // from the wall's origin, at t_n
   };
-  std::vector<OnEdge> on_edges_;  // where the flow stays at the wall
-  std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
-  std::vector<int> on_creases_;                     // wetted nodes there
+  std::vector<OnCrease> on_creases_;  // wetted
+  std::vector<int> chords_;           // facets, at t_n
 };
 
 extern template class WallMotion<2>;

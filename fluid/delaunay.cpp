@@ -1,5 +1,6 @@
 #include "fluid/delaunay.hpp"
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -10,7 +11,6 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
-#include <CGAL/bounding_box.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
@@ -71,7 +71,8 @@ struct Cgal<3> {
   static void keep(Triangulation&, const std::vector<Triangulation::Vertex_handle>&, const std::vector<Facet<3>>&) {}
 
   // Two threads insert in two thirds of the time that one takes; alone, this one takes a third more.
-  using Parallel = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell, CGAL::Parallel_tag>>;
+  using Parallel =
+      CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell, CGAL::Parallel_tag>>;
 };
 
 template <int d>
@@ -90,8 +91,8 @@ std::vector<std::size_t> order_of(const std::vector<typename Cgal<d>::Point>& po
   return order;
 }
 
-// Corners of each cell ascend, but for the last two where orientation asks for it, and so do cells: where nodes follow a
-// space-filling curve, cells near each other are near in memory.
+// Corners of each cell ascend, but for the last two where orientation asks for it, and so do cells: where nodes
+// follow a space-filling curve, cells near each other are near in memory.
 void sort_by_nodes(Delaunay<3>& mesh, std::size_t nodes) {
   using Cell = std::array<int, 4>;
   const std::size_t count = mesh.cells.size();
@@ -109,7 +110,8 @@ void sort_by_nodes(Delaunay<3>& mesh, std::size_t nodes) {
   std::vector<int> next(start.begin(), start.end() - 1);
   for (std::size_t c = 0; c < count; ++c) order[next[mesh.cells[c][0]]++] = static_cast<int>(c);
   in_parallel(nodes, [&](std::size_t n) {
-    std::sort(order.begin() + start[n], order.begin() + start[n + 1], [&](int a, int b) { return mesh.cells[a] < mesh.cells[b]; });
+    std::sort(order.begin() + start[n], order.begin() + start[n + 1],
+              [&](int a, int b) { return mesh.cells[a] < mesh.cells[b]; });
     for (int k = start[n]; k < start[n + 1]; ++k) place[order[k]] = k;
   });
   Delaunay<3> sorted;
@@ -124,6 +126,7 @@ void sort_by_nodes(Delaunay<3>& mesh, std::size_t nodes) {
   });
   mesh = std::move(sorted);
 }
+void sort_by_nodes(Delaunay<2>&, std::size_t) {}  // triangles are few
 
 template <int d, class Triangulation, class Handles>
 void read_cells(const Triangulation& t, const Handles& handles, Delaunay<d>& out) {
@@ -160,6 +163,7 @@ bool triangulated_in_parallel(const std::vector<Kernel::Point_3>& cloud, Delauna
   sort_by_nodes(out, cloud.size());
   return true;
 }
+bool triangulated_in_parallel(const std::vector<Kernel::Point_2>&, Delaunay<2>&) { return false; }  // CGAL's 2D is serial
 
 }  // namespace
 
@@ -172,10 +176,8 @@ template <int d>
 Delaunay<d> delaunay(std::span<const Vec<d>> points, const std::vector<Facet<d>>& facets) {
   using C = Cgal<d>;
   const auto cloud = cgal_points<d>(points);
-  if constexpr (d == 3) {
-    Delaunay<d> out;
-    if (in_parallel_pays(points.size()) && triangulated_in_parallel(cloud, out)) return out;
-  }
+  Delaunay<d> out;
+  if (in_parallel_pays(points.size()) && triangulated_in_parallel(cloud, out)) return out;
   typename C::Triangulation t;
   typename C::Handle hint;
   std::vector<typename C::Triangulation::Vertex_handle> at(points.size());
@@ -186,11 +188,10 @@ Delaunay<d> delaunay(std::span<const Vec<d>> points, const std::vector<Facet<d>>
     at[i] = v;
     hint = C::of(v);
   }
-  Delaunay<d> out;
-  if (t.dimension() < d) return out;
+  if (t.dimension() < d) return {};
   C::keep(t, at, facets);
   read_cells(t, C::all(t), out);
-  if constexpr (d == 3) sort_by_nodes(out, points.size());
+  sort_by_nodes(out, points.size());
   return out;
 }
 

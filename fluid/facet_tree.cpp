@@ -38,17 +38,31 @@ Vec<d> FacetTree<d>::Piece::centre() const {
   return sum;
 }
 
+namespace {
+template <int d>
+std::vector<std::array<Vec<d>, d>> corners_of(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
+                                              const Eigen::Matrix<int, d, Eigen::Dynamic>& facets) {
+  std::vector<std::array<Vec<d>, d>> out(static_cast<std::size_t>(facets.cols()));
+  for (std::size_t f = 0; f < out.size(); ++f)
+    for (int k = 0; k < d; ++k) out[f][k] = vertices.col(facets(k, static_cast<Eigen::Index>(f)));
+  return out;
+}
+}  // namespace
+
 template <int d>
 FacetTree<d>::FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
-                        const Eigen::Matrix<int, d, Eigen::Dynamic>& facets) {
-  if (facets.cols() == 0) return;
+                        const Eigen::Matrix<int, d, Eigen::Dynamic>& facets)
+    : FacetTree(corners_of<d>(vertices, facets)) {}
+
+template <int d>
+FacetTree<d>::FacetTree(const std::vector<std::array<Vec<d>, d>>& facets) {
+  if (facets.empty()) return;
   constexpr double part = 1.0 / 64;  // of the whole surface: needles are not cut into shorter pieces
-  const double size = (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
-  for (int f = 0; f < facets.cols(); ++f) {
-    Piece piece{{}, f};
-    for (int k = 0; k < d; ++k) piece.corner[k] = vertices.col(facets(k, f));
-    cut(piece, part * size);
-  }
+  Box whole;
+  for (const auto& f : facets)
+    for (const auto& corner : f) whole.extend(corner);
+  const double size = whole.diagonal().norm();
+  for (std::size_t f = 0; f < facets.size(); ++f) cut({facets[f], static_cast<int>(f)}, part * size);
   branches_.reserve(pieces_.size());
   branches_.emplace_back();
   build(0, 0, static_cast<int>(pieces_.size()));

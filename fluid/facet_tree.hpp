@@ -22,6 +22,7 @@ class FacetTree {
   };
 
   FacetTree() = default;
+  explicit FacetTree(const std::vector<std::array<Vec<d>, d>>& facets);
   FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices, const Eigen::Matrix<int, d, Eigen::Dynamic>& facets);
 
   bool empty() const { return pieces_.empty(); }

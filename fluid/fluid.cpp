@@ -136,10 +136,8 @@ struct Fluid<d>::State {
   // Nodes that stick hand what the pressure and the forces left along their wall over to it. Part of the
   // corrections: bodies that respond get the new part of it. Returns the impulses on all walls.
   void stick(std::vector<Wrench<d>>& impulses) {
-    std::vector<double> mass(equation.lumped_volume().begin(), equation.lumped_volume().end());
-    for (double& m : mass) m *= spec.density;
     std::vector<Wrench<d>> now_on_walls;
-    wall_motion->drag(v_after, moved.u, mass, now_on_walls);
+    wall_motion->drag(v_after, moved.u, spec.density, equation.lumped_volume(), now_on_walls);
     for (std::size_t w = 0; w < walls.size(); ++w) impulses[w] = now_on_walls[w] - impulses[w];
     push(equation.on_motions(impulses));
     impulses = std::move(now_on_walls);

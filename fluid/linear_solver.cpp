@@ -56,7 +56,7 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
 bool LinearSolver::factor(const SymmetricMatrix& matrix) {
   multigrid_.reset();
-  if (!is_direct(matrix)) {
+  if (matrix.size() > most_direct_) {
     multigrid_ = std::make_unique<Multigrid>(matrix);
     return true;
   }

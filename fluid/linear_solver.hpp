@@ -19,6 +19,8 @@ class LinearSolver {
   LinearSolver(LinearSolver&&) noexcept;
   LinearSolver& operator=(LinearSolver&&) noexcept;
 
+  /// The present factor solves to roundoff.
+  bool is_direct() const { return multigrid_ == nullptr; }
   /// False if the matrix is not positive definite or memory ran out.
   bool factor(const SymmetricMatrix& matrix);
   /// Solves in place for `columns` right-hand sides stored one after the other: to roundoff if direct, else to a residual
@@ -26,8 +28,6 @@ class LinearSolver {
   bool solve(std::span<double> rhs, int columns = 1, double tolerance = 1e-8);
 
  private:
-  bool is_direct(const SymmetricMatrix& matrix) const { return matrix.size() <= most_direct_; }
-
   struct Cholmod;
   int most_direct_;
   std::unique_ptr<Cholmod> c_;

@@ -27,10 +27,15 @@ auto corners(const Positions& x, const Indices& nodes) {
 }
 
 template <int d, class Positions>
-Vec<d> area_vector_of(const Facet<d>& f, const Positions& x) {
+std::array<Vec<d>, d> corners_of(const Facet<d>& f, const Positions& x) {
   std::array<Vec<d>, d> corner;
   for (int k = 0; k < d; ++k) corner[k] = x[f.nodes[k]];
-  return area_vector(corner);
+  return corner;
+}
+
+template <int d, class Positions>
+Vec<d> area_vector_of(const Facet<d>& f, const Positions& x) {
+  return area_vector(corners_of(f, x));
 }
 
 /// Wetted measure of each of `walls` walls: length (2D) [m], area (3D) [m^2].

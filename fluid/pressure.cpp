@@ -39,8 +39,8 @@ bool PressureEquation<d>::add_bodies() {
   Eigen::MatrixXd answers = loads;
   // The motions obey Newton's law with whatever answers these are; what they leave of the flux the corrections find.
   constexpr double enough = 1e-4;
-  if (!wet.empty() && !solver_.solve({answers.data(), static_cast<std::size_t>(answers.size())}, static_cast<int>(wet.size()), enough))
-    return false;
+  const std::span<double> systems(answers.data(), static_cast<std::size_t>(answers.size()));
+  if (!wet.empty() && !solver_.solve(systems, static_cast<int>(wet.size()), enough)) return false;
   Y_(Eigen::all, wet) = answers;
   added_mass_.setZero(motions(), motions());
   added_mass_(wet, wet) = loads.transpose() * answers;
@@ -61,8 +61,7 @@ void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
   const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
   // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
-  const bool exact = size() <= most_direct;
-  elimination_ = lifted * (exact ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse) * lifted.transpose();
+  elimination_ = lifted * (solver_.is_direct() ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse) * lifted.transpose();
 }
 
 template <int d>
@@ -244,13 +243,12 @@ void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<c
 
 template <int d>
 void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
-                                         std::span<const Vec<d>> centres, std::span<const char> slides,
+                                         std::span<const Vec<d>> centres, std::span<const int> slides,
                                          std::vector<double>& r) const {
-  for (std::size_t k = 0; k < mesh_->boundary.size(); ++k)
-    if (slides[k]) {
-      const auto& f = mesh_->boundary[k];
-      add_flux(f, x, [&](int n) -> Vec<d> { return u[n] - rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]); }, r);
-    }
+  for (int k : slides) {
+    const auto& f = mesh_->boundary[k];
+    add_flux(f, x, [&](int n) -> Vec<d> { return u[n] - rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]); }, r);
+  }
 }
 
 template <int d>

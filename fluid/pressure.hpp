@@ -8,8 +8,9 @@
 //   motion form  r(q) = - int q div u                       u = actual displacement / dt, walls included
 //                       + int_slides q (u - w).n
 //
-// Facets that slide along a curved wall are chords of it, and longer ones reach deeper into it: not the water's motion, and
-// the next node on the chord takes it back. There the wall's flux counts. Both are evaluated at the middle of the motion, where they are the exact change of volume in 2D.
+// Facets that slide along a curved wall are chords of it, and longer ones reach deeper into it: not the water's
+// motion, and the next node on the chord takes it back. There the wall's flux counts. Both are evaluated at the
+// middle of the motion, where they are the exact change of volume in 2D.
 //
 // q and phi are linear. On the free surface p = 0 is the natural condition of the momentum equation: impulses
 // there push on the surface, and the volume around a surface node is kept like any other's. Held to zero,
@@ -66,7 +67,7 @@ class PressureEquation {
   void motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::vector<double>& r) const;
   /// Adds what the motion form owes to boundary facets that slide along their wall; s, `centres`: as above.
   void slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
-                      std::span<const Vec<d>> centres, std::span<const char> slides, std::vector<double>& r) const;
+                      std::span<const Vec<d>> centres, std::span<const int> slides, std::vector<double>& r) const;
 
   /// Solves in place for walls that stand still; `respond` lets those that do not move. `tolerance`: of the residual over
   /// r, for large systems, which are solved iteratively.

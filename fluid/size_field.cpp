@@ -27,18 +27,10 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
   find_bends();
   if (std::isfinite(spec.hollow)) find_hollows(x, mesh);
   if (spec.surface >= spec.far) return;  // the far size already resolves the surface
-  std::vector<const Facet<d>*> free;
+  std::vector<std::array<Vec<d>, d>> free;
   for (const auto& f : mesh.boundary)
-    if (f.wall < 0) free.push_back(&f);
-  Eigen::Matrix<double, d, Eigen::Dynamic> vertices(d, d * free.size());
-  Eigen::Matrix<int, d, Eigen::Dynamic> facets(d, free.size());
-  for (std::size_t f = 0; f < free.size(); ++f)
-    for (int k = 0; k < d; ++k) {
-      const int at = static_cast<int>(d * f) + k;
-      vertices.col(at) = x[free[f]->nodes[k]];
-      facets(k, f) = at;
-    }
-  surface_ = FacetTree<d>(std::move(vertices), std::move(facets));
+    if (f.wall < 0) free.push_back(corners_of(f, x));
+  surface_ = FacetTree<d>(free);
 }
 
 template <int d>

@@ -89,7 +89,10 @@ void Wall<d>::find_creases() {
       const auto& edges = of_vertex[v];
       const int at = static_cast<int>(v);
       is_sharp_[v] = !edges.empty();
-      is_corner_[v] = !edges.empty() && (edges.size() != 2 || along(other_end(edges[0]), at).dot(along(at, other_end(edges[1]))) < least_smooth_cosine);
+      auto turns = [&] {
+        return along(other_end(edges[0]), at).dot(along(at, other_end(edges[1]))) < least_smooth_cosine;
+      };
+      is_corner_[v] = !edges.empty() && (edges.size() != 2 || turns());
     }
     auto follow = [&](int from, int index) {
       for (auto edge = of_vertex[from][index];;) {
