@@ -14,8 +14,7 @@ template <int d>
 std::vector<char> wet_bodies(const fluid::Fluid<d>& fluid, std::size_t count) {
   std::vector<char> wet(count, 0);
   for (const auto& facet : fluid.mesh().boundary)
-    if (facet.wall >= 0 && static_cast<std::size_t>(facet.wall) < count)
-      wet[static_cast<std::size_t>(facet.wall)] = 1;
+    if (facet.wall >= 0 && static_cast<std::size_t>(facet.wall) < count) wet[static_cast<std::size_t>(facet.wall)] = 1;
   return wet;
 }
 

@@ -45,8 +45,7 @@ Waypoint between(const Waypoint& a, const Waypoint& b, double time) {
 
 /// Piecewise linear between the waypoints, at rest after the last.
 Waypoint on_path(const std::vector<Waypoint>& path, double time) {
-  const auto next =
-      std::find_if(path.begin(), path.end(), [&](const Waypoint& point) { return point.time > time; });
+  const auto next = std::find_if(path.begin(), path.end(), [&](const Waypoint& point) { return point.time > time; });
   if (next == path.begin()) return path.front();
   return next == path.end() ? path.back() : between(*(next - 1), *next, time);
 }
@@ -117,8 +116,8 @@ rigid::BodySpec<d> body_spec(const Body& body) {
   spec.velocity << vec<d>(body.velocity), body.spin_deg.tail<rigid::rotations<d>>() * radians;
   if (body.motion == Motion::prescribed) {
     if (!body.path.empty()) spec.velocity = first_velocity<d>(body.path, properties.centre);
-    spec.path = body.path.empty() ? steady_motion<d>(spec.pose, spec.velocity)
-                                  : pose_along<d>(body.path, properties.centre);
+    spec.path =
+        body.path.empty() ? steady_motion<d>(spec.pose, spec.velocity) : pose_along<d>(body.path, properties.centre);
   }
   return spec;
 }
@@ -149,8 +148,7 @@ std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene) {
 template <int d>
 std::vector<std::unique_ptr<rigid::Force<d>>> body_forces(const Scene& scene) {
   std::vector<std::unique_ptr<rigid::Force<d>>> forces;
-  if (scene.gravity)
-    forces.push_back(std::make_unique<rigid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
+  if (scene.gravity) forces.push_back(std::make_unique<rigid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
   return forces;
 }
 

@@ -81,14 +81,13 @@ fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
 template <int d>
 std::vector<std::unique_ptr<fluid::Term<d>>> fluid_terms(const Scene& scene) {
   std::vector<std::unique_ptr<fluid::Term<d>>> terms;
-  if (scene.gravity)
-    terms.push_back(std::make_unique<fluid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
-  if (scene.fluid->viscosity)
-    terms.push_back(std::make_unique<fluid::Viscosity<d>>(scene.fluid->viscosity->dynamic));
+  if (scene.gravity) terms.push_back(std::make_unique<fluid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
+  if (scene.fluid->viscosity) terms.push_back(std::make_unique<fluid::Viscosity<d>>(scene.fluid->viscosity->dynamic));
   if (scene.fluid->absorber)
-    terms.push_back(std::make_unique<fluid::Absorber<d>>(
-        fluid::AbsorberSpec{.from = scene.tank->min.x(), .to = scene.tank->max.x(),
-                            .width = scene.fluid->absorber->width, .rate = scene.fluid->absorber->rate}));
+    terms.push_back(std::make_unique<fluid::Absorber<d>>(fluid::AbsorberSpec{.from = scene.tank->min.x(),
+                                                                             .to = scene.tank->max.x(),
+                                                                             .width = scene.fluid->absorber->width,
+                                                                             .rate = scene.fluid->absorber->rate}));
   return terms;
 }
 

@@ -34,7 +34,8 @@ void print_ties(const Scene& scene) {
     row(joint.type, fmt::format("{} to {}{}", scene.bodies[joint.body].name, other, where));
   }
   if (scene.contact)
-    row("contact", fmt::format("bodies touch each other{}; no rebound, no friction", scene.tank ? " and the tank" : ""));
+    row("contact",
+        fmt::format("bodies touch each other{}; no rebound, no friction", scene.tank ? " and the tank" : ""));
 }
 
 template <int d>
@@ -45,17 +46,15 @@ void print_liquid(const Scene& scene) {
   row("density", fmt::format("{:g} kg/m^3", fluid.density));
   row("regions", fmt::format("{}", fluid.regions.size()));
   if (scene.gravity) row("still water level", fmt::format("{:.6g} m", *still_water_level<d>(scene)));
-  row("element sizes", fmt::format("{:g} m at the surface, {:g} m at most, growing {:g} per metre",
-                                   fluid.size.surface, fluid.size.far, fluid.size.growth));
-  if (scene.tank)
-    row("tank", text<d>(extents<d>(*scene.tank)) + " m");
+  row("element sizes", fmt::format("{:g} m at the surface, {:g} m at most, growing {:g} per metre", fluid.size.surface,
+                                   fluid.size.far, fluid.size.growth));
+  if (scene.tank) row("tank", text<d>(extents<d>(*scene.tank)) + " m");
 }
 
 template <int d>
 void print_effects(const Scene& scene) {
   fmt::print("effects\n");
-  for (const auto& note : effect_notes<d>(scene))
-    row((note.active ? "on   " : "off  ") + note.name, note.reason);
+  for (const auto& note : effect_notes<d>(scene)) row((note.active ? "on   " : "off  ") + note.name, note.reason);
   for (const auto& note : neglected<d>(scene)) row("-    " + note.name, note.reason);
   if (!scene.coupling) return;
   const auto& c = *scene.coupling;
@@ -70,8 +69,8 @@ template <int d>
 void print_cost(const Scene& scene) {
   const auto cost = predicted_cost<d>(scene);
   fmt::print("cost (predicted)\n");
-  row("steps", fmt::format("about {} to t = {:g} s; dt about {}, at most {}", rough(cost.steps),
-                           scene.time.end, with_unit(cost.dt, "s"), with_unit(scene.time.dt_max, "s")));
+  row("steps", fmt::format("about {} to t = {:g} s; dt about {}, at most {}", rough(cost.steps), scene.time.end,
+                           with_unit(cost.dt, "s"), with_unit(scene.time.dt_max, "s")));
   if (!scene.fluid) return;
   row("nodes", fmt::format("about {} at the start", rough(cost.nodes)));
   row("memory", fmt::format("about {}", with_unit(cost.bytes, "B")));

@@ -22,8 +22,8 @@ constexpr char magic[] = "splashdown checkpoint 2";  // the number changes with 
 
 template <class Archive, class State>
 void archive_all(Archive& archive, State& c) {
-  archive(c.scene, c.loop.dt_previous, c.loop.dt_cap, c.loop.steps, c.loop.rejected, c.time, c.wall_seconds,
-          c.phases, c.stepper, c.recorder);
+  archive(c.scene, c.loop.dt_previous, c.loop.dt_cap, c.loop.steps, c.loop.rejected, c.time, c.wall_seconds, c.phases,
+          c.stepper, c.recorder);
 }
 
 /// FNV-1a (Fowler, Noll, Vo): finds a file that was cut or changed; not meant against malice.

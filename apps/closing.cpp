@@ -12,9 +12,7 @@
 namespace splashdown::apps {
 namespace {
 
-std::string row(const std::string& head, const std::string& text) {
-  return fmt::format("  {:<12}{}\n", head, text);
-}
+std::string row(const std::string& head, const std::string& text) { return fmt::format("  {:<12}{}\n", head, text); }
 
 std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
 
@@ -28,8 +26,7 @@ std::string impact_text(const BodySummary& body, int dimension) {
   double total = 0, repair = 0;
   for (const double value : body.impulse) total += value * value;
   for (const double value : body.impulse_repair) repair += value * value;
-  if (total > 0)
-    text += fmt::format(", repair share of the impulse {:.2g} %", 100 * std::sqrt(repair / total));
+  if (total > 0) text += fmt::format(", repair share of the impulse {:.2g} %", 100 * std::sqrt(repair / total));
   return text;
 }
 
@@ -75,8 +72,9 @@ std::string body_rows(const std::string& name, const BodySummary& body, int dime
   if (const auto pulse = pulse_text(body.acceleration); !pulse.empty()) text += row("", pulse);
   if (body.landing.first_contact >= 0) text += row("", landing_text(body));
   if (const auto& highest = body.maximum_pressure)
-    text += row("", fmt::format("maximum pressure {}{}, at ({:.3g}) m of its shape", with_unit(highest->peak.value, "Pa"),
-                                at(highest->peak), fmt::join(highest->point, ", ")));
+    text +=
+        row("", fmt::format("maximum pressure {}{}, at ({:.3g}) m of its shape", with_unit(highest->peak.value, "Pa"),
+                            at(highest->peak), fmt::join(highest->point, ", ")));
   return text;
 }
 
@@ -136,10 +134,10 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 std::string closing_text(const Summary& summary, const std::filesystem::path& directory) {
-  auto text = fmt::format("{}: {} {} in {} steps, {} of wall time\n", summary.scene, summary.status,
-                          with_unit(summary.simulated_time, "s"), summary.steps,
-                          summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds)
-                                                    : clock_text(summary.wall_seconds));
+  auto text = fmt::format(
+      "{}: {} {} in {} steps, {} of wall time\n", summary.scene, summary.status, with_unit(summary.simulated_time, "s"),
+      summary.steps,
+      summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds) : clock_text(summary.wall_seconds));
   for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
   for (const auto& [name, point] : summary.equipment) text += row(name, equipment_text(point));
   for (const auto& [name, patch] : summary.patches)

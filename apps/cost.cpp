@@ -159,8 +159,7 @@ Cost predicted_cost(const Scene& scene) {
   }
   cost.steps = scene.time.end / cost.dt;
   cost.bytes = bytes_of_program + Share<d>::bytes_a_node * cost.nodes;
-  cost.seconds_per_step =
-      cost.nodes * (Share<d>::seconds_a_node + (scene.coupling ? 2 * Share<d>::seconds_a_pass : 0));
+  cost.seconds_per_step = cost.nodes * (Share<d>::seconds_a_node + (scene.coupling ? 2 * Share<d>::seconds_a_pass : 0));
   return cost;
 }
 

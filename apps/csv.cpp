@@ -26,8 +26,7 @@ void write_all(int descriptor, std::string_view bytes, const std::filesystem::pa
 
 }  // namespace
 
-CsvFile::CsvFile(std::filesystem::path path, std::string header)
-    : path_(std::move(path)), header_(std::move(header)) {}
+CsvFile::CsvFile(std::filesystem::path path, std::string header) : path_(std::move(path)), header_(std::move(header)) {}
 
 CsvFile::~CsvFile() {
   if (descriptor_ < 0) return;
@@ -55,8 +54,8 @@ void CsvFile::reopen(std::uint64_t length) {
   const off_t present = ::lseek(descriptor_, 0, SEEK_END);
   if (present < 0) fail("seek");
   if (static_cast<std::uint64_t>(present) < length)
-    throw std::runtime_error(fmt::format("{}: cannot resume: {} bytes long, the checkpoint needs {}",
-                                         path_.string(), present, length));
+    throw std::runtime_error(
+        fmt::format("{}: cannot resume: {} bytes long, the checkpoint needs {}", path_.string(), present, length));
   if (::ftruncate(descriptor_, static_cast<off_t>(length)) != 0) fail("truncate");
   if (::lseek(descriptor_, 0, SEEK_END) < 0) fail("seek");
   length_ = length;

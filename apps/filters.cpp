@@ -60,8 +60,8 @@ std::vector<double> filtered_with_margins(std::span<const double> samples, doubl
 double longest_interval(const IntervalHistory& history, double from, double to) {
   const auto& ends = history.ends;
   double longest = 0;
-  for (std::size_t i = static_cast<std::size_t>(std::ranges::lower_bound(ends, from) - ends.begin());
-       i < ends.size(); ++i) {
+  for (std::size_t i = static_cast<std::size_t>(std::ranges::lower_bound(ends, from) - ends.begin()); i < ends.size();
+       ++i) {
     const double begin = i == 0 ? history.begin : ends[i - 1];
     if (begin > to) break;
     longest = std::max(longest, ends[i] - begin);

@@ -14,8 +14,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
   if (errno != EWOULDBLOCK) return;  // file systems without locks
   ::close(descriptor_);
-  throw std::runtime_error(folder.string() +
-                           ": another run is writing here. Wait for it, or use another --out.");
+  throw std::runtime_error(folder.string() + ": another run is writing here. Wait for it, or use another --out.");
 }
 
 FolderLock::~FolderLock() {

@@ -150,8 +150,7 @@ void write_surface(const std::filesystem::path& path, double time, const fluid::
 
 template <int d>
 std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesystem::path& directory,
-                                                              const std::string& stem,
-                                                              const Frame<d>& frame) {
+                                                              const std::string& stem, const Frame<d>& frame) {
   std::filesystem::create_directories(directory);
   std::vector<std::pair<std::string, std::string>> pieces;
   if (!frame.x.empty()) {
@@ -179,18 +178,16 @@ void FrameSeries::write_index() const {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
   for (const auto& entry : entries_)
-    xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
-                       entry.time, entry.index, xml_escaped(entry.part), xml_escaped(entry.file));
+    xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", entry.time,
+                       entry.index, xml_escaped(entry.part), xml_escaped(entry.file));
   xml += "  </Collection>\n</VTKFile>\n";
   write_file_atomically(directory_ / "frames.pvd", xml);
 }
 
 template std::vector<std::pair<std::string, std::string>> write_pieces<2>(const std::filesystem::path&,
-                                                                          const std::string&,
-                                                                          const Frame<2>&);
+                                                                          const std::string&, const Frame<2>&);
 template std::vector<std::pair<std::string, std::string>> write_pieces<3>(const std::filesystem::path&,
-                                                                          const std::string&,
-                                                                          const Frame<3>&);
+                                                                          const std::string&, const Frame<3>&);
 template void write_surface<2>(const std::filesystem::path&, double, const fluid::Surface<2>&, const PointData&,
                                const fluid::Vec<2>&);
 template void write_surface<3>(const std::filesystem::path&, double, const fluid::Surface<3>&, const PointData&,

@@ -52,11 +52,14 @@ std::string plot_command(const Figure& figure) {
     const Curve& curve = figure.curves[i];
     if (!has_points(curve)) continue;
     if (!plots.empty()) plots += ", \\\n  ";
-    plots += fmt::format(
-        "'{}.dat' index {} using 1:2 {} with {} lw {} lc rgb '{}' {}", figure.name, i,
-        curve.right_axis ? "axes x1y2" : "", curve.points ? "points pt 7 ps 0.25" : curve.steps ? "steps" : "lines",
-        curve.width, curve.colour,
-        curve.label.empty() ? std::string("notitle") : "title \"" + gnuplot_escaped(curve.label) + "\"");
+    plots +=
+        fmt::format("'{}.dat' index {} using 1:2 {} with {} lw {} lc rgb '{}' {}", figure.name, i,
+                    curve.right_axis ? "axes x1y2" : "",
+                    curve.points  ? "points pt 7 ps 0.25"
+                    : curve.steps ? "steps"
+                                  : "lines",
+                    curve.width, curve.colour,
+                    curve.label.empty() ? std::string("notitle") : "title \"" + gnuplot_escaped(curve.label) + "\"");
   }
   return plots;
 }
@@ -187,14 +190,12 @@ std::string script_of(const std::filesystem::path& folder, const std::vector<Fig
   return script;
 }
 
-std::vector<GnuplotResult> run_gnuplot(const std::filesystem::path& folder,
-                                       const std::vector<std::string>& scripts) {
+std::vector<GnuplotResult> run_gnuplot(const std::filesystem::path& folder, const std::vector<std::string>& scripts) {
   const std::size_t at_a_time = std::max(1u, std::thread::hardware_concurrency());
   std::vector<Process> processes;
   std::vector<GnuplotResult> results;
   for (const auto& script : scripts) {
-    if (processes.size() >= results.size() + at_a_time)
-      results.push_back(wait_for(processes[results.size()]));
+    if (processes.size() >= results.size() + at_a_time) results.push_back(wait_for(processes[results.size()]));
     processes.push_back(start(folder, script));
   }
   while (results.size() < processes.size()) results.push_back(wait_for(processes[results.size()]));

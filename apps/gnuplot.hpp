@@ -13,7 +13,7 @@ struct Curve {
   std::string colour;  ///< #rrggbb
   double width = 1.6;
   bool right_axis = false;
-  bool steps = false;  ///< constant until the next point
+  bool steps = false;   ///< constant until the next point
   bool points = false;  ///< dots, not joined
 };
 
@@ -42,8 +42,7 @@ std::string script_of(const std::filesystem::path& folder, const std::vector<Fig
 enum class GnuplotResult { drawn, missing, failed };
 /// Runs gnuplot on each script (file names in `folder`) with the folder as working directory, output to
 /// SCRIPT.log; as many at a time as there are cores.
-std::vector<GnuplotResult> run_gnuplot(const std::filesystem::path& folder,
-                                       const std::vector<std::string>& scripts);
+std::vector<GnuplotResult> run_gnuplot(const std::filesystem::path& folder, const std::vector<std::string>& scripts);
 
 /// Text for a gnuplot string in double quotes, without markup.
 std::string gnuplot_escaped(const std::string& text);

@@ -47,8 +47,7 @@ void divide(const FacetCorners<d>& facet, const std::map<Edge, int>& middles, co
     for (std::size_t l = k + 1; l < d; ++l) {
       const auto found = middles.find(std::minmax(int{facet[k]}, int{facet[l]}));
       if (found == middles.end()) continue;
-      const double length =
-          (x[static_cast<std::size_t>(facet[k])] - x[static_cast<std::size_t>(facet[l])]).norm();
+      const double length = (x[static_cast<std::size_t>(facet[k])] - x[static_cast<std::size_t>(facet[l])]).norm();
       if (length > longest) longest = length, at = {k, l}, middle = found->second;
     }
   if (middle < 0) return pieces.push_back(facet);
@@ -121,7 +120,8 @@ struct HullMap<d>::Locator {
     vtkNew<vtkPoints> coordinates;
     coordinates->SetDataTypeToDouble();
     for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i)
-      coordinates->InsertNextPoint(surface.vertices(0, i), surface.vertices(1, i), d == 3 ? surface.vertices(d - 1, i) : 0);
+      coordinates->InsertNextPoint(surface.vertices(0, i), surface.vertices(1, i),
+                                   d == 3 ? surface.vertices(d - 1, i) : 0);
     points->SetPoints(coordinates);
     tree->SetDataSet(points);
     tree->BuildLocator();
@@ -154,8 +154,8 @@ template <int d>
 HullMap<d>::HullMap(HullMap&&) noexcept = default;
 
 template <int d>
-void HullMap<d>::add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall,
-                     const fluid::Isometry<d>& pose, double time) {
+void HullMap<d>::add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const fluid::Isometry<d>& pose,
+                     double time) {
   // Facets are chords: beside a convex edge there is a gap of sagitta times angle, h/8 (h/R)^2 < rim h for h < R/4.
   constexpr double rim = 0.01;
   // Cosine of the angle between normals: a point beside a right-angled edge does not face as the other side does, the edge

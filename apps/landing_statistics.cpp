@@ -7,7 +7,7 @@ namespace splashdown::apps {
 
 namespace {
 
-constexpr double calm_share = 0.02;           // the usual band of settling times, of the Froude speed sqrt(g L)
+constexpr double calm_share = 0.02;  // the usual band of settling times, of the Froude speed sqrt(g L)
 
 /// Speed of heave, roll and pitch of the hull's farthest point.
 template <int d>
@@ -41,8 +41,10 @@ void LandingStatistics<d>::add(double time, const LandingReading<d>& reading, co
   settled_window_ = 2 * std::numbers::pi * std::sqrt(extent.length / standard_gravity);
 
   const double tilt = tilt_deg<d>(reading.rotation);
-  if (!(tilt > 90)) over_since_ = -1;
-  else if (over_since_ < 0) over_since_ = time;
+  if (!(tilt > 90))
+    over_since_ = -1;
+  else if (over_since_ < 0)
+    over_since_ = time;
 
   const bool wet = reading.wetted > 0;
   if (first_contact_ < 0) {
@@ -58,8 +60,10 @@ void LandingStatistics<d>::add(double time, const LandingReading<d>& reading, co
   }
   tilt_.offer(tilt, time);
   const bool calm = oscillation<d>(reading.velocity, extent.reach) < settled_below_;
-  if (!calm) calm_since_ = -1;
-  else if (calm_since_ < 0) calm_since_ = time;
+  if (!calm)
+    calm_since_ = -1;
+  else if (calm_since_ < 0)
+    calm_since_ = time;
 }
 
 template <int d>

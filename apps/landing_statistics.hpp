@@ -51,8 +51,8 @@ class LandingStatistics {
   bool begun_ = false, free_ = true;
   double time_ = 0, first_contact_ = -1;
   Angles now_{};
-  std::array<Peak, 3> lowest_, highest_;  ///< of the angles since first contact [deg]; lowest with reversed sign
-  Peak tilt_;                             ///< since first contact [deg]
+  std::array<Peak, 3> lowest_, highest_;      ///< of the angles since first contact [deg]; lowest with reversed sign
+  Peak tilt_;                                 ///< since first contact [deg]
   double over_since_ = -1, calm_since_ = -1;  ///< negative: not now
   std::vector<std::array<double, 2>> dry_;    ///< [s]; end negative: still dry
   double settled_below_ = 0, settled_window_ = 0;

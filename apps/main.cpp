@@ -39,9 +39,7 @@ int command_line(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")
       ->check(CLI::PositiveNumber);
-  run_app
-      ->add_option("--budget", run.budget,
-                   "wall seconds after which to stop with a checkpoint (exit code 130)")
+  run_app->add_option("--budget", run.budget, "wall seconds after which to stop with a checkpoint (exit code 130)")
       ->check(CLI::PositiveNumber);
   run_app->add_flag("--resume", run.resume, "continue from the folder's checkpoint");
   run_app->add_flag("--quiet", run.quiet, "print errors only");
@@ -56,9 +54,7 @@ int command_line(int argc, char** argv) {
   auto* study_app = app.add_subcommand("study", "Run every combination of a scene's values");
   study_app->add_option("study", study.study, "study file (TOML; docs/study.md)")->required();
   study_app->add_option("--out", study.out, "folder for the runs and tables (default: out/<study>)");
-  study_app->add_option("--jobs", study.jobs, "runs at a time")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  study_app->add_option("--jobs", study.jobs, "runs at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   study_app->add_option("--on", study.on, "where the runs are made")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();

@@ -81,9 +81,7 @@ struct Piece {
 template <int d>
 Piece<d> cut(const Piece<d>& piece, const typename PatchRegion<d>::Side& side) {
   Piece<d> rest;
-  const auto excess = [&](std::size_t i) {
-    return side.normal.dot(piece.corners[i].template head<d>()) - side.offset;
-  };
+  const auto excess = [&](std::size_t i) { return side.normal.dot(piece.corners[i].template head<d>()) - side.offset; };
   // A segment has one edge, a polygon as many as corners.
   for (std::size_t i = 0; i < piece.size; ++i) {
     const double here = excess(i);

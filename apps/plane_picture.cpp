@@ -100,8 +100,8 @@ double signed_volume(const Grid& grid) {
     if (cell.size() == 2) volume += a[0] * b[1] - a[1] * b[0];
     if (cell.size() != 3) continue;
     const auto& c = grid.points[index(cell[2])];
-    volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-              a[2] * (b[0] * c[1] - b[1] * c[0]);
+    volume +=
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
   return volume;
 }
@@ -238,16 +238,13 @@ Raster rasterise(const PlanePicture& picture, PlanePoint low, PlanePoint high, i
                 std::vector<float>(index(width) * index(height), std::numeric_limits<float>::quiet_NaN())};
   const double dx = (high[0] - low[0]) / width, dy = (high[1] - low[1]) / height;
   for (const auto& t : picture.triangles) {
-    const auto &a = picture.points[index(t[0])], &b = picture.points[index(t[1])],
-               &c = picture.points[index(t[2])];
+    const auto &a = picture.points[index(t[0])], &b = picture.points[index(t[1])], &c = picture.points[index(t[2])];
     const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     if (!(std::abs(area) > 0)) continue;
     const auto column = [&](double x) { return (x - low[0]) / dx - 0.5; };
     const auto row = [&](double y) { return (y - low[1]) / dy - 0.5; };
     // Clamped before the conversion: corners far outside the view do not fit into an int.
-    const auto clamped = [](double v, int limit) {
-      return static_cast<int>(std::clamp(v, -1.0, limit + 0.0));
-    };
+    const auto clamped = [](double v, int limit) { return static_cast<int>(std::clamp(v, -1.0, limit + 0.0)); };
     const int x0 = std::max(0, clamped(std::ceil(column(std::min({a[0], b[0], c[0]}))), width));
     const int x1 = std::min(width - 1, clamped(std::floor(column(std::max({a[0], b[0], c[0]}))), width));
     const int y0 = std::max(0, clamped(std::ceil(row(std::min({a[1], b[1], c[1]}))), height));
@@ -260,8 +257,8 @@ Raster rasterise(const PlanePicture& picture, PlanePoint low, PlanePoint high, i
         const double wc = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
         if (wb < -1e-9 || wc < -1e-9 || wb + wc > 1 + 1e-9) continue;
         raster.values[index(j) * index(width) + index(i)] =
-            static_cast<float>((1 - wb - wc) * picture.pressure[index(t[0])] +
-                               wb * picture.pressure[index(t[1])] + wc * picture.pressure[index(t[2])]);
+            static_cast<float>((1 - wb - wc) * picture.pressure[index(t[0])] + wb * picture.pressure[index(t[1])] +
+                               wc * picture.pressure[index(t[2])]);
       }
     }
   }

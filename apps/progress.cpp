@@ -11,9 +11,7 @@ constexpr double seconds_between_lines = 5;
 constexpr double seconds_between_renewals = 0.2;
 constexpr double seconds_of_memory = 5;  // of the speed that the time left is judged by
 
-double seconds(std::chrono::steady_clock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
+double seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 }  // namespace
 
@@ -24,8 +22,8 @@ std::string clock_text(double wall) {
 }
 
 std::string progress_text(const ProgressPoint& point, double left) {
-  auto text = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  step {}  dt {:.2g} s",
-                          100 * point.time / point.stop, point.time, point.stop, point.steps, point.dt);
+  auto text = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  step {}  dt {:.2g} s", 100 * point.time / point.stop,
+                          point.time, point.stop, point.steps, point.dt);
   if (point.nodes) text += fmt::format("  nodes {}", *point.nodes);
   if (point.passes) text += fmt::format("  passes {}", *point.passes);
   if (left >= 0) text += fmt::format("  left {}", clock_text(left));
@@ -56,8 +54,7 @@ void Progress::show(const ProgressPoint& point) {
     last_ = now;
     time_left(point);
     if (style_ == Style::plain) return;
-  } else if (seconds(now - *last_) <
-             (style_ == Style::plain ? seconds_between_lines : seconds_between_renewals)) {
+  } else if (seconds(now - *last_) < (style_ == Style::plain ? seconds_between_lines : seconds_between_renewals)) {
     return;
   }
   last_ = now;

@@ -153,9 +153,8 @@ template <int d>
 void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     write_row(file("bodies.csv", bodies_header),
-              BodyRow<d>{input.time, input.bodies->spec(b).name, input.bodies->state(b).pose,
-                         input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b],
-                         submergence[b]});
+              BodyRow<d>{input.time, input.bodies->spec(b).name, input.bodies->state(b).pose, input.body_velocity_n[b],
+                         input.body_acceleration_n[b], input.body_load[b], submergence[b]});
   if (input.fluid) {
     const auto& fluid = *input.fluid;
     auto effects = effect_columns(fluid);
@@ -280,8 +279,7 @@ void Recorder<d>::summarise(Summary& summary) const {
     summary.coupling->passes_mean = static_cast<double>(s.run.passes_sum) / static_cast<double>(s.run.steps);
     summary.coupling->passes_max = s.run.passes_max;
   }
-  for (std::size_t b = 0; b < s.body_names.size(); ++b)
-    summary.bodies[s.body_names[b]] = s.bodies[b].summary();
+  for (std::size_t b = 0; b < s.body_names.size(); ++b) summary.bodies[s.body_names[b]] = s.bodies[b].summary();
   for (std::size_t i = 0; i < s.equipment.size(); ++i)
     summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary(standard_gravity);
   s.hulls.summarise(summary);

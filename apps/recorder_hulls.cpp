@@ -46,7 +46,8 @@ void HullReadings<d>::summarise(Summary& summary) const {
     const auto& p = maps_[i].pressure();
     const auto top = static_cast<std::size_t>(std::ranges::max_element(p) - p.begin());
     if (!(maps_[i].time()[top] >= 0)) continue;  // never wet
-    const fluid::Vec<d> at = maps_[i].surface().vertices.col(static_cast<Eigen::Index>(top)) + centre_of_mass(settings_, body);
+    const fluid::Vec<d> at =
+        maps_[i].surface().vertices.col(static_cast<Eigen::Index>(top)) + centre_of_mass(settings_, body);
     summary.bodies[body].maximum_pressure =
         MaximumPressure{{p[top], maps_[i].time()[top]}, std::vector<double>(at.data(), at.data() + d)};
   }

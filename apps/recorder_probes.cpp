@@ -76,8 +76,7 @@ std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const flui
 }
 
 template <int d>
-std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                    const Vec<d>& point) {
+std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, const Vec<d>& point) {
   std::optional<double> pressure;
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& facet : mesh.boundary) {
@@ -167,9 +166,8 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 }
 
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes,
-                                                      const fluid::Mesh<d>& mesh, int wall,
-                                                      const SurfaceRuler<d>& ruler,
+std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
+                                                      int wall, const SurfaceRuler<d>& ruler,
                                                       const fluid::Isometry<d>& pose) {
   std::vector<int> wetted;
   for (const auto& facet : mesh.boundary)
@@ -188,17 +186,15 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nod
   return points;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                    \
-  template std::optional<double> surface_elevation<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, \
-                                                      const Eigen::Matrix<double, d - 1, 1>&);       \
-  template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,     \
-                                                  const Vec<d>&);                                    \
-  template double patch_force<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, int,                 \
-                                 const fluid::Isometry<d>&, const PatchRegion<d>&);                  \
-  template class SurfaceRuler<d>;                                                                    \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                 \
-      const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const SurfaceRuler<d>&,                    \
-      const fluid::Isometry<d>&);
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                \
+  template std::optional<double> surface_elevation<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,             \
+                                                      const Eigen::Matrix<double, d - 1, 1>&);                   \
+  template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, const Vec<d>&); \
+  template double patch_force<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const fluid::Isometry<d>&,  \
+                                 const PatchRegion<d>&);                                                         \
+  template class SurfaceRuler<d>;                                                                                \
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                             \
+      const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const SurfaceRuler<d>&, const fluid::Isometry<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

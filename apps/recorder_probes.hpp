@@ -55,9 +55,8 @@ class SurfaceRuler {
 
 /// Wetted nodes of a wall, ordered by s.
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes,
-                                                      const fluid::Mesh<d>& mesh, int wall,
-                                                      const SurfaceRuler<d>& ruler,
+std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
+                                                      int wall, const SurfaceRuler<d>& ruler,
                                                       const fluid::Isometry<d>& pose);
 
 }  // namespace splashdown::apps

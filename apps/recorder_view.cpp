@@ -122,8 +122,7 @@ EffectColumns effect_columns(const fluid::Fluid<d>& fluid) {
 template <int d>
 double max_speed(const fluid::Fluid<d>& fluid) {
   double squared = 0;
-  for (std::size_t i = 0; i < fluid.nodes().size(); ++i)
-    squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
+  for (std::size_t i = 0; i < fluid.nodes().size(); ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
   return std::sqrt(squared);
 }
 
@@ -133,20 +132,19 @@ double water_level(const fluid::Fluid<d>& fluid) {
   double level = std::numeric_limits<double>::quiet_NaN();
   for (const auto& facet : fluid.mesh().boundary) {
     if (facet.wall >= 0) continue;
-    for (const int node : facet.nodes)
-      level = std::fmax(level, nodes.x[static_cast<std::size_t>(node)](d - 1));
+    for (const int node : facet.nodes) level = std::fmax(level, nodes.x[static_cast<std::size_t>(node)](d - 1));
   }
   return level;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                  \
-  template Frame<d> take_frame<d>(const RecordInput<d>&);                          \
-  template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);          \
-  template int wall_called<d>(const fluid::Fluid<d>&, const std::string&);         \
-  template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&); \
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
+  template Frame<d> take_frame<d>(const RecordInput<d>&);                                                          \
+  template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);                                          \
+  template int wall_called<d>(const fluid::Fluid<d>&, const std::string&);                                         \
+  template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&);                                 \
   template rigid::Vec<d> acceleration_at<d>(const rigid::Vec<d>&, const rigid::Twist<d>&, const rigid::Twist<d>&); \
-  template EffectColumns effect_columns<d>(const fluid::Fluid<d>&);                \
-  template double max_speed<d>(const fluid::Fluid<d>&);                            \
+  template EffectColumns effect_columns<d>(const fluid::Fluid<d>&);                                                \
+  template double max_speed<d>(const fluid::Fluid<d>&);                                                            \
   template double water_level<d>(const fluid::Fluid<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)

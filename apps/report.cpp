@@ -12,8 +12,8 @@
 #include "apps/report_data.hpp"
 #include "apps/report_field.hpp"
 #include "apps/report_figures.hpp"
-#include "apps/report_hull.hpp"
 #include "apps/report_html.hpp"
+#include "apps/report_hull.hpp"
 #include "apps/report_page.hpp"
 #include "apps/report_study.hpp"
 
@@ -31,8 +31,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 void remove_old_images(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> images;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".svg" || entry.path().extension() == ".png")
-      images.push_back(entry.path());
+    if (entry.path().extension() == ".svg" || entry.path().extension() == ".png") images.push_back(entry.path());
   for (const auto& image : images) std::filesystem::remove(image);
 }
 
@@ -49,15 +48,13 @@ void draw(const std::filesystem::path& folder, const std::vector<Figure>& curves
   if (std::ranges::count(results, GnuplotResult::missing) > 0) warnings.emplace_back(no_gnuplot);
   for (std::size_t i = 0; i < results.size(); ++i)
     if (results[i] == GnuplotResult::failed)
-      warnings.push_back(
-          fmt::format("gnuplot could not draw all figures: see {}.log", (folder / scripts[i]).string()));
+      warnings.push_back(fmt::format("gnuplot could not draw all figures: see {}.log", (folder / scripts[i]).string()));
 }
 
 }  // namespace
 
 ReportResult write_report(const std::filesystem::path& directory) {
-  if (!std::filesystem::is_directory(directory))
-    throw std::runtime_error(directory.string() + ": is not a folder");
+  if (!std::filesystem::is_directory(directory)) throw std::runtime_error(directory.string() + ": is not a folder");
   if (holds_study(directory)) return write_study_report(directory);
   const RunData data = read_run(directory);
   const auto folder = directory / "report";
@@ -69,8 +66,7 @@ ReportResult write_report(const std::filesystem::path& directory) {
   if (auto hulls = hull_curves(directory); !hulls.figures.empty())
     page.groups.insert(page.groups.end() - (page.groups.empty() ? 0 : 1), std::move(hulls));  // before the numerics
   std::vector<Figure> curves;
-  for (const auto& group : page.groups)
-    curves.insert(curves.end(), group.figures.begin(), group.figures.end());
+  for (const auto& group : page.groups) curves.insert(curves.end(), group.figures.begin(), group.figures.end());
   FieldFigures fields = prepare_field_figures(directory, folder), hulls = prepare_hull_figures(directory, folder);
   result.warnings = fields.warnings;
   result.warnings.insert(result.warnings.end(), hulls.warnings.begin(), hulls.warnings.end());

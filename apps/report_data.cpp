@@ -39,9 +39,7 @@ std::string unquoted(std::string_view field) {
 double number(std::string_view field) {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  return error == std::errc() && end == field.data() + field.size()
-             ? value
-             : std::numeric_limits<double>::quiet_NaN();
+  return error == std::errc() && end == field.data() + field.size() ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -85,8 +83,7 @@ NamedTables read_csv(const std::filesystem::path& path, const std::string& group
     const std::string key = group < fields.size() ? unquoted(fields[group]) : std::string();
     auto table = std::ranges::find(tables, key, &NamedTables::value_type::first);
     if (table == tables.end())
-      table =
-          tables.insert(tables.end(), {key, Table{names, std::vector<std::vector<double>>(names.size())}});
+      table = tables.insert(tables.end(), {key, Table{names, std::vector<std::vector<double>>(names.size())}});
     for (std::size_t k = 0; k < fields.size(); ++k) table->second.columns[k].push_back(number(fields[k]));
   }
   return tables;
@@ -105,17 +102,15 @@ double RunData::end_time() const {
 RunData read_run(const std::filesystem::path& directory) {
   RunData run;
   run.directory = directory;
-  if (std::filesystem::exists(directory / "summary.json"))
-    run.summary = read_json(directory / "summary.json");
+  if (std::filesystem::exists(directory / "summary.json")) run.summary = read_json(directory / "summary.json");
   run.bodies = read_csv(directory / "bodies.csv", "body");
   run.probes = read_csv(directory / "probes.csv", "probe");
   run.surface_pressure = read_csv(directory / "surface_pressure.csv", "body");
   auto fluid = read_csv(directory / "fluid.csv");
   if (!fluid.empty()) run.fluid = std::move(fluid.front().second);
   if (run.summary.is_null() && run.bodies.empty() && run.fluid.empty())
-    throw std::runtime_error(
-        directory.string() +
-        ": holds neither a run (summary.json, bodies.csv or fluid.csv) nor a study (study.json)");
+    throw std::runtime_error(directory.string() +
+                             ": holds neither a run (summary.json, bodies.csv or fluid.csv) nor a study (study.json)");
   return run;
 }
 

@@ -25,7 +25,7 @@ using NamedTables = std::vector<std::pair<std::string, Table>>;  ///< in order o
 /// Reads a csv file, split by the text in `group_column` (empty: one table named ""). No file: no tables.
 NamedTables read_csv(const std::filesystem::path& path, const std::string& group_column = {});
 
-std::string read_text(const std::filesystem::path& path);  ///< all bytes; nothing if there is no file
+std::string read_text(const std::filesystem::path& path);             ///< all bytes; nothing if there is no file
 nlohmann::ordered_json read_json(const std::filesystem::path& path);  ///< throws if it is not JSON
 
 struct RunData {

@@ -43,16 +43,15 @@ std::vector<Instant> choose_instants(const std::filesystem::path& run, std::vect
   };
   for (const auto& [stem, title] :
        {std::pair{"start", "Start"}, {"peak", "Largest load"}, {"end", "End"}, {"failed", "Last good state"}})
-    if (std::filesystem::exists(run / "snapshots" / (std::string(stem) + ".vtu")))
-      add("snapshots", stem, title);
+    if (std::filesystem::exists(run / "snapshots" / (std::string(stem) + ".vtu"))) add("snapshots", stem, title);
 
   const auto frames = listed_frames(run);
   double last = frames.empty() ? 0 : frames.back().first;
   for (const auto& instant : instants) last = std::max(last, instant.picture.time);
   for (std::size_t k = 1; k <= frames_between && !frames.empty(); ++k) {
     const double wanted = last * static_cast<double>(k) / (frames_between + 1);
-    const auto nearest = std::ranges::min_element(
-        frames, {}, [&](const auto& frame) { return std::abs(frame.first - wanted); });
+    const auto nearest =
+        std::ranges::min_element(frames, {}, [&](const auto& frame) { return std::abs(frame.first - wanted); });
     const bool shown = std::ranges::any_of(instants, [&](const Instant& instant) {
       return std::abs(instant.picture.time - nearest->first) < 0.04 * last;
     });
@@ -124,8 +123,7 @@ FieldFigures prepare_field_figures(const std::filesystem::path& run, const std::
 
 void remove_field_data(const std::filesystem::path& folder, const FieldFigures& figures) {
   for (const auto& figure : figures.figures)
-    for (const char* extension : {".bin", ".lines"})
-      std::filesystem::remove(folder / (figure.name + extension));
+    for (const char* extension : {".bin", ".lines"}) std::filesystem::remove(folder / (figure.name + extension));
 }
 
 }  // namespace splashdown::apps

@@ -83,8 +83,7 @@ struct BodyPlotter {
   char vertical() const { return dimension == 2 ? 'y' : 'z'; }
 
   /// Total, physical and repair part of one component.
-  Figure load(char axis, const std::string& prefix, const std::string& base_unit,
-              const std::string& what) const {
+  Figure load(char axis, const std::string& prefix, const std::string& base_unit, const std::string& what) const {
     const std::string column = prefix + axis;
     const Values &total = table[column], &repair = table[column + "_repair"];
     const Unit unit = si_unit(largest(total), base_unit);
@@ -98,13 +97,12 @@ struct BodyPlotter {
       impulse += 0.5 * dt * (total[i] + total[i - 1]);
       if (repair.size() == t.size()) repair_impulse += 0.5 * dt * (repair[i] + repair[i - 1]);
     }
-    const auto top =
-        std::ranges::max_element(total, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
+    const auto top = std::ranges::max_element(total, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
     if (top != total.end() && std::isfinite(*top)) {
       const auto i = static_cast<std::size_t>(top - total.begin());
-      figure.marks = {{t[i], *top * unit.scale,
-                       fmt::format("{} {} at {} {}", digits(*top * unit.scale, 4), unit.unit, digits(t[i], 4),
-                                   time.unit)}};
+      figure.marks = {
+          {t[i], *top * unit.scale,
+           fmt::format("{} {} at {} {}", digits(*top * unit.scale, 4), unit.unit, digits(t[i], 4), time.unit)}};
     }
     figure.caption = fmt::format(
         "{} of the water on the body, unfiltered, one value a recorded step. The repair part is what "
@@ -181,8 +179,8 @@ struct BodyPlotter {
                                     : "Attitude of the body: roll about its long axis, pitch nose up, heading "
                                       "counter-clockwise from above.");
     }
-    add_components(figures, "wetted", dimension == 2 ? "wetted length / m" : "wetted area / m²",
-                   {table["wetted"]}, {"wetted"}, "Part of the body's surface that touches water.");
+    add_components(figures, "wetted", dimension == 2 ? "wetted length / m" : "wetted area / m²", {table["wetted"]},
+                   {"wetted"}, "Part of the body's surface that touches water.");
     add_components(figures, "submergence", "submergence / m", {table["submergence"]}, {"lowest point"},
                    "Depth of the hull's lowest point below the level of the water at the start; negative above it.");
     return figures;
@@ -222,8 +220,7 @@ FigureGroup fluid_figures(const RunData& run) {
   const Values& work = table["work_on_walls"];
   Values balance(kinetic.size());
   for (std::size_t i = 0; i < balance.size(); ++i)
-    balance[i] =
-        kinetic[i] - kinetic[0] + potential[i] - potential[0] + (i < work.size() ? work[i] - work[0] : 0);
+    balance[i] = kinetic[i] - kinetic[0] + potential[i] - potential[0] + (i < work.size() ? work[i] - work[0] : 0);
   const Unit energy = si_unit(std::max({largest(scaled(kinetic, 1, first_of(kinetic))),
                                         largest(scaled(potential, 1, first_of(potential))), largest(work)}),
                               energy_unit(run.dimension()));
@@ -270,8 +267,7 @@ FigureGroup surface_figures(const RunData& run) {
     figure.y_label = "pressure / " + unit.unit;
     for (std::size_t k = 0; k < count; ++k) {
       const double instant = instants[count == 1 ? 0 : k * (instants.size() - 1) / (count - 1)];
-      Curve curve{
-          fmt::format("{} {}", digits(instant * time.scale, 3), time.unit), {}, {}, series_colours[k], 1.4};
+      Curve curve{fmt::format("{} {}", digits(instant * time.scale, 3), time.unit), {}, {}, series_colours[k], 1.4};
       for (std::size_t i = 0; i < table.rows(); ++i) {
         if (table["time"][i] != instant) continue;
         curve.x.push_back(table["s"][i]);

@@ -32,9 +32,7 @@ std::string title_of(const RunData& run) {
 
 std::string tiles(const RunData& run) {
   std::string html;
-  const auto tile = [&](const std::string& value, const std::string& what) {
-    html += html_tile(value, what);
-  };
+  const auto tile = [&](const std::string& value, const std::string& what) { html += html_tile(value, what); };
   const auto& bodies = member(run.summary, "bodies");
   const bool several = bodies.size() > 1;
   for (const auto& [name, body] : bodies.items()) {
@@ -62,8 +60,8 @@ std::string phase_bar(const RunData& run) {
   std::string bar, legend;
   std::size_t k = 0;
   const auto part = [&](const std::string& name, double seconds, const char* colour) {
-    bar += fmt::format("<div style=\"width:{:.3f}%;background:{}\" title=\"{}: {}\"></div>",
-                       100 * seconds / whole, colour, html_escaped(name), seconds_text(seconds));
+    bar += fmt::format("<div style=\"width:{:.3f}%;background:{}\" title=\"{}: {}\"></div>", 100 * seconds / whole,
+                       colour, html_escaped(name), seconds_text(seconds));
     legend += fmt::format("<li><i style=\"background:{}\"></i>{} <b>{}</b> · {:.1f} %</li>\n", colour,
                           html_escaped(name), seconds_text(seconds), 100 * seconds / whole);
   };
@@ -71,8 +69,8 @@ std::string phase_bar(const RunData& run) {
     if (seconds.is_number() && seconds.get<double>() > 0)
       part(name, seconds.get<double>(), phase_colours[k++ % phase_colours.size()]);
   if (whole - sum > 1e-3 * whole) part("not accounted for", whole - sum, "#cfd8df");
-  return "<h2>Where the time went</h2>\n<div class=\"bar\">" + bar + "</div>\n<ul class=\"legend\">" +
-         legend + "</ul>\n";
+  return "<h2>Where the time went</h2>\n<div class=\"bar\">" + bar + "</div>\n<ul class=\"legend\">" + legend +
+         "</ul>\n";
 }
 
 std::string figures(const ReportPage& page) {
@@ -97,8 +95,7 @@ std::string figures(const ReportPage& page) {
 }
 
 double last_component(const nlohmann::ordered_json& body, const char* key) {
-  if (!body.contains(key) || !body[key].is_array() || body[key].empty() || !body[key].back().is_number())
-    return NAN;
+  if (!body.contains(key) || !body[key].is_array() || body[key].empty() || !body[key].back().is_number()) return NAN;
   return body[key].back().get<double>();
 }
 
@@ -111,8 +108,8 @@ const nlohmann::ordered_json& shown_pulse(const nlohmann::ordered_json& accelera
 
 std::string angle_text(const nlohmann::ordered_json& angle) {
   const auto degrees = [](double value) { return std::isfinite(value) ? fmt::format("{:.1f}°", value) : "–"; };
-  return fmt::format("{} ({} to {})", degrees(number_at(angle, {"end"})), degrees(number_at(angle, {"minimum", "value"})),
-                     degrees(number_at(angle, {"maximum", "value"})));
+  return fmt::format("{} ({} to {})", degrees(number_at(angle, {"end"})),
+                     degrees(number_at(angle, {"minimum", "value"})), degrees(number_at(angle, {"maximum", "value"})));
 }
 
 std::string body_table(const RunData& run) {
@@ -128,9 +125,7 @@ std::string body_table(const RunData& run) {
   };
   using Body = nlohmann::ordered_json;
   const int d = run.dimension();
-  row("peak load", [&](const Body& b) {
-    return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d));
-  });
+  row("peak load", [&](const Body& b) { return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d)); });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"peak_force", "time"})); });
   row("peak acceleration, raw", [](const Body& b) {
     return digits(number_at(b, {"peak_acceleration_g", "raw", "value"}), 3) + " g";
@@ -184,7 +179,8 @@ std::string body_table(const RunData& run) {
   return html +
          "</tbody></table></div>\n<p class=\"where\">Accelerations are those of the centre of mass in "
          "multiples of "
-         "9.80665 m/s², raw and filtered by the channel frequency classes of SAE J211. The pulse is that of CFC 180, or of the "
+         "9.80665 m/s², raw and filtered by the channel frequency classes of SAE J211. The pulse is that of CFC 180, "
+         "or of the "
          "lowest class there is: rise time from 10 to 90 % of its peak, duration above 10 %.</p>\n";
 }
 
@@ -194,17 +190,18 @@ std::string equipment_table(const RunData& run) {
   std::string html =
       "<h2>Equipment</h2>\n<div class=\"scroll\"><table><thead><tr><th>point</th><th>peak g, "
       "raw</th><th>at</th>"
-      "<th>CFC 1000</th><th>CFC 600</th><th>CFC 180</th><th>CFC 60</th><th>rise time</th><th>duration</th><th>change of "
+      "<th>CFC 1000</th><th>CFC 600</th><th>CFC 180</th><th>CFC 60</th><th>rise time</th><th>duration</th><th>change "
+      "of "
       "velocity</th></tr></thead><tbody>\n";
   for (const auto& [name, point] : points.items()) {
     html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", html_escaped(name),
-                        digits(number_at(point, {"raw", "value"}), 3),
-                        seconds_text(number_at(point, {"raw", "time"})));
+                        digits(number_at(point, {"raw", "value"}), 3), seconds_text(number_at(point, {"raw", "time"})));
     for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"})
       html += "<td>" + digits(number_at(point, {cfc, "value"}), 3) + "</td>";
     const auto& pulse = shown_pulse(point);
-    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", seconds_text(number_at(pulse, {"rise_time"})),
-                        seconds_text(number_at(pulse, {"duration"})), with_unit(number_at(pulse, {"delta_v"}), "m/s", 3));
+    html +=
+        fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", seconds_text(number_at(pulse, {"rise_time"})),
+                    seconds_text(number_at(pulse, {"duration"})), with_unit(number_at(pulse, {"delta_v"}), "m/s", 3));
   }
   return html + "</tbody></table></div>\n";
 }
@@ -232,8 +229,8 @@ std::string ledger_table(const RunData& run) {
                                   {"work_on_walls", "work done on bodies and walls"},
                                   {"energy_remesh", "kinetic energy changed by inserting and removing nodes"},
                                   {"energy_repair", "kinetic energy taken by repairs"}})
-    html += fmt::format("<tr><td>{}</td><td>{}</td><td></td></tr>\n", name,
-                        with_unit(number_at(ledger, {key}), energy));
+    html +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td></td></tr>\n", name, with_unit(number_at(ledger, {key}), energy));
   return html + "</tbody></table></div>\n";
 }
 
@@ -249,9 +246,8 @@ std::string effects_table(const RunData& run) {
     html += fmt::format("<tr><td><b>{}</b></td><td>{}</td><td>{}</td><td></td></tr>\n", html_escaped(name),
                         seconds_text(number_at(effect, {"seconds"})), percent(number_at(effect, {"share"})));
   for (const auto& [name, reason] : inactive.items())
-    html +=
-        fmt::format("<tr><td>{}</td><td>–</td><td>–</td><td class=\"text\">{}</td></tr>\n",
-                    html_escaped(name), reason.is_string() ? html_escaped(reason.get<std::string>()) : "");
+    html += fmt::format("<tr><td>{}</td><td>–</td><td>–</td><td class=\"text\">{}</td></tr>\n", html_escaped(name),
+                        reason.is_string() ? html_escaped(reason.get<std::string>()) : "");
   return html + "</tbody></table></div>\n";
 }
 
@@ -271,12 +267,11 @@ std::string refusals_table(const RunData& run) {
 
 std::string html_of(const ReportPage& page) {
   const auto title = title_of(page.run);
-  return html_page(
-      title, html_header(title, page.run.directory, page.verdict, page.warnings) + tiles(page.run) +
-                 phase_bar(page.run) + figures(page) + body_table(page.run) + equipment_table(page.run) +
-                 ledger_table(page.run) + effects_table(page.run) + refusals_table(page.run) +
-                 "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
-                 "in <code>report/</code>.</footer>\n");
+  return html_page(title, html_header(title, page.run.directory, page.verdict, page.warnings) + tiles(page.run) +
+                              phase_bar(page.run) + figures(page) + body_table(page.run) + equipment_table(page.run) +
+                              ledger_table(page.run) + effects_table(page.run) + refusals_table(page.run) +
+                              "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
+                              "in <code>report/</code>.</footer>\n");
 }
 
 }  // namespace splashdown::apps

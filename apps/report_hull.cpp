@@ -21,7 +21,8 @@ std::vector<std::pair<std::string, std::filesystem::path>> hull_files(const std:
   std::vector<std::pair<std::string, std::filesystem::path>> files;
   for (const auto& entry : std::filesystem::directory_iterator(run)) {
     const auto name = entry.path().stem().string();
-    if (entry.path().extension() == ".vtu" && name.starts_with("hull_")) files.emplace_back(name.substr(5), entry.path());
+    if (entry.path().extension() == ".vtu" && name.starts_with("hull_"))
+      files.emplace_back(name.substr(5), entry.path());
   }
   std::ranges::sort(files);
   return files;
@@ -79,8 +80,10 @@ Box room_around(const PlanePicture& picture) {
   const double margin = 0.06 * std::max(box.width(), box.height());
   for (std::size_t k = 0; k < 2; ++k) box.low[k] -= margin, box.high[k] += margin;
   // Between 0.3 and 0.85 as high as wide, growing the short side to both ends.
-  if (const double lack = 0.3 * box.width() - box.height(); lack > 0) box.low[1] -= 0.5 * lack, box.high[1] += 0.5 * lack;
-  if (const double lack = box.height() / 0.85 - box.width(); lack > 0) box.low[0] -= 0.5 * lack, box.high[0] += 0.5 * lack;
+  if (const double lack = 0.3 * box.width() - box.height(); lack > 0)
+    box.low[1] -= 0.5 * lack, box.high[1] += 0.5 * lack;
+  if (const double lack = box.height() / 0.85 - box.width(); lack > 0)
+    box.low[0] -= 0.5 * lack, box.high[0] += 0.5 * lack;
   return box;
 }
 
@@ -111,8 +114,9 @@ FigureGroup hull_curves(const std::filesystem::path& run) {
     figure.x_label = "s / m";
     figure.y_label = "highest pressure / " + unit.unit;
     figure.curves = {std::move(curve)};
-    figure.caption = fmt::format("The highest pressure of the run on <b>{}</b> over the distance along its outline from the keel.",
-                                 html_escaped(name));
+    figure.caption =
+        fmt::format("The highest pressure of the run on <b>{}</b> over the distance along its outline from the keel.",
+                    html_escaped(name));
     group.figures.push_back(std::move(figure));
   }
   return group;
@@ -126,7 +130,8 @@ FieldFigures prepare_hull_figures(const std::filesystem::path& run, const std::f
       if (!is_surface(hull)) continue;
       for (const auto& view : views) {
         const PlanePicture picture = seen(hull, view);
-        auto figure = figure_of(folder, "hull_" + name + "_" + view.name, picture, room_around(picture), "highest pressure");
+        auto figure =
+            figure_of(folder, "hull_" + name + "_" + view.name, picture, room_around(picture), "highest pressure");
         figure.title = name + " " + view.title;
         figure.caption += ", of all instants until t = " + seconds_text(hull.time) + ".";
         result.figures.push_back(std::move(figure));

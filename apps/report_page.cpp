@@ -72,12 +72,12 @@ std::string folder_name(const std::filesystem::path& directory) {
   return (folder.filename().empty() ? folder.parent_path() : folder).filename().string();
 }
 
-std::string html_header(const std::string& title, const std::filesystem::path& directory,
-                        const Verdict& verdict, const std::vector<std::string>& warnings) {
-  std::string html = fmt::format(
-      "<h1>{}</h1>\n<p class=\"where\">{}</p>\n<section class=\"verdict {}\"><strong>{}</strong>\n",
-      html_escaped(title), html_escaped(std::filesystem::absolute(directory).lexically_normal().string()),
-      css_class(verdict.mood), html_escaped(verdict.headline));
+std::string html_header(const std::string& title, const std::filesystem::path& directory, const Verdict& verdict,
+                        const std::vector<std::string>& warnings) {
+  std::string html =
+      fmt::format("<h1>{}</h1>\n<p class=\"where\">{}</p>\n<section class=\"verdict {}\"><strong>{}</strong>\n",
+                  html_escaped(title), html_escaped(std::filesystem::absolute(directory).lexically_normal().string()),
+                  css_class(verdict.mood), html_escaped(verdict.headline));
   for (const auto& sentence : verdict.sentences) html += "<p>" + sentence + "</p>\n";
   html += "</section>\n";
   for (const auto& warning : warnings) html += "<div class=\"note\">" + warning + "</div>\n";
@@ -109,8 +109,7 @@ std::string inline_svg(const std::string& svg, const std::string& name) {
     replace_all(element, fmt::format("href='#{}", id), fmt::format("href='#{}_{}", name, id));
     replace_all(element, fmt::format("url(#{}", id), fmt::format("url(#{}_{}", name, id));
   }
-  replace_all(element, "font-family=\"Helvetica\"",
-              "font-family=\"system-ui,Helvetica Neue,Arial,sans-serif\"");
+  replace_all(element, "font-family=\"Helvetica\"", "font-family=\"system-ui,Helvetica Neue,Arial,sans-serif\"");
   return element;
 }
 
@@ -122,11 +121,9 @@ std::string inline_png(const std::string& bytes, const std::string& alternative_
     unsigned group = 0;
     for (std::size_t k = 0; k < 3; ++k)
       group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k < bytes.size() + 1 ? alphabet[group >> (18 - 6 * k) & 63u] : '=';
+    for (std::size_t k = 0; k < 4; ++k) text += i + k < bytes.size() + 1 ? alphabet[group >> (18 - 6 * k) & 63u] : '=';
   }
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", html_escaped(alternative_text),
-                     text);
+  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", html_escaped(alternative_text), text);
 }
 
 std::string html_page(const std::string& title, const std::string& content) {

@@ -19,8 +19,8 @@ inline constexpr const char* no_gnuplot =
 std::string html_page(const std::string& title, const std::string& content);
 
 /// Title, folder, verdict, then warnings (HTML).
-std::string html_header(const std::string& title, const std::filesystem::path& directory,
-                        const Verdict& verdict, const std::vector<std::string>& warnings);
+std::string html_header(const std::string& title, const std::filesystem::path& directory, const Verdict& verdict,
+                        const std::vector<std::string>& warnings);
 
 std::string html_tile(const std::string& value, const std::string& what);
 std::string html_tiles(const std::string& tiles);  ///< around them; nothing if there are none

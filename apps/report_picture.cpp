@@ -32,8 +32,8 @@ bool touches(const Segment& segment, const Box& view) {
   return true;
 }
 
-void append(fmt::memory_buffer& text, const std::vector<Segment>& segments, const Box& view,
-            double shortest = 0, double longest = INFINITY) {
+void append(fmt::memory_buffer& text, const std::vector<Segment>& segments, const Box& view, double shortest = 0,
+            double longest = INFINITY) {
   for (const auto& [a, b] : segments) {
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     if (!touches({a, b}, view) || length < shortest || length >= longest) continue;
@@ -54,8 +54,7 @@ void write_lines(const std::filesystem::path& path, const PlanePicture& picture,
   for (const auto& outline : picture.outlines)
     if (!outline.encloses_solid) tanks.insert(tanks.end(), outline.segments.begin(), outline.segments.end());
   append(text, tanks, view);
-  for (const auto& drop : picture.drops)
-    fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", drop[0], drop[1]);
+  for (const auto& drop : picture.drops) fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", drop[0], drop[1]);
   text.append(std::string_view("NaN NaN\n\n\n"));
   for (const auto& outline : picture.outlines) {
     if (!outline.encloses_solid) continue;
@@ -89,9 +88,8 @@ Range pressure_range(const Raster& raster) {
   return range;
 }
 
-std::string plot_of(const std::string& name, const Raster& raster, const Box& view,
-                    const PlanePicture& picture, const Range& range, const Unit& unit,
-                    const std::string& colour_label) {
+std::string plot_of(const std::string& name, const Raster& raster, const Box& view, const PlanePicture& picture,
+                    const Range& range, const Unit& unit, const std::string& colour_label) {
   const double dx = view.width() / raster.width, dy = view.height() / raster.height;
   std::string plots = fmt::format(
       "plot '{0}.bin' binary array=({1},{2}) format='%float' dx={3:.9g} dy={4:.9g} origin=({5:.9g},{6:.9g}) "

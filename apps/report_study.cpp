@@ -28,8 +28,7 @@ struct StatusWords {
 constexpr std::array<StatusWords, 6> all_status = {{
     {"converged", Mood::good, "reached their end"},
     {"diverged", Mood::bad, "diverged: the coupling's residual grew, or an error exceeds its limit"},
-    {"stalled", Mood::bad,
-     "stalled: the coupling did not converge within its passes, or the budget was spent"},
+    {"stalled", Mood::bad, "stalled: the coupling did not converge within its passes, or the budget was spent"},
     {"failed", Mood::bad, "failed for another reason"},
     {"interrupted", Mood::fair, "are interrupted; the same command continues them"},
     {"waiting", Mood::fair, "are waiting; the same command makes them"},
@@ -69,11 +68,10 @@ StudyData read_study_folder(const fs::path& directory) {
 
 Verdict verdict_of(const StudyData& study) {
   const std::size_t all = study.runs().size();
-  const std::size_t open = study.count("waiting") + study.count("interrupted"),
-                    failed = study.count("failed");
+  const std::size_t open = study.count("waiting") + study.count("interrupted"), failed = study.count("failed");
   Verdict verdict{failed > 0 ? Mood::bad : open > 0 ? Mood::fair : Mood::good, {}, {}};
-  verdict.headline = open > 0 ? fmt::format("{} of {} runs have ended", all - open, all)
-                              : fmt::format("All {} runs have ended", all);
+  verdict.headline =
+      open > 0 ? fmt::format("{} of {} runs have ended", all - open, all) : fmt::format("All {} runs have ended", all);
   for (const auto& [status, mood, meaning] : all_status)
     if (const auto number = study.count(status); number > 0)
       verdict.sentences.push_back(fmt::format("<b>{}</b> {}.", number, meaning));
@@ -86,9 +84,8 @@ Verdict verdict_of(const StudyData& study) {
     if (seconds >= longest) longest = seconds, longest_run = text_at(run, "run");
   }
   if (sum > 0)
-    verdict.sentences.push_back(
-        fmt::format("The runs took <b>{}</b> of wall time together; the longest, {}, {}.", seconds_text(sum),
-                    html_escaped(longest_run), seconds_text(longest)));
+    verdict.sentences.push_back(fmt::format("The runs took <b>{}</b> of wall time together; the longest, {}, {}.",
+                                            seconds_text(sum), html_escaped(longest_run), seconds_text(longest)));
   return verdict;
 }
 
@@ -105,16 +102,15 @@ std::string chart_of(const fs::path& directory, std::vector<std::string>& warnin
     const auto result = run_gnuplot(directory, {"study.gnuplot"}).front();
     if (result == GnuplotResult::missing) warnings.emplace_back(no_gnuplot);
     if (result == GnuplotResult::failed)
-      warnings.push_back(fmt::format("gnuplot could not draw the chart: see {}",
-                                     (directory / "study.gnuplot.log").string()));
+      warnings.push_back(
+          fmt::format("gnuplot could not draw the chart: see {}", (directory / "study.gnuplot.log").string()));
     if (result == GnuplotResult::drawn) fs::remove(directory / "study.gnuplot.log");
   }
   if (!fs::exists(directory / "study.svg")) return {};
   return "<h2>Chart</h2>\n" +
-         html_figure(
-             in_its_width(inline_svg(read_text(directory / "study.svg"), "study")),
-             "Runs that broke down stand as crosses in the red band, in the colour of their curve. Where "
-             "curves coincide their points stand a little beside each other.");
+         html_figure(in_its_width(inline_svg(read_text(directory / "study.svg"), "study")),
+                     "Runs that broke down stand as crosses in the red band, in the colour of their curve. Where "
+                     "curves coincide their points stand a little beside each other.");
 }
 
 std::string axes_table(const StudyData& study) {
@@ -127,10 +123,9 @@ std::string axes_table(const StudyData& study) {
     std::string values;
     for (const auto& value : list_at(axis, "values"))
       values += (values.empty() ? "" : ", ") + html_escaped(value.get<std::string>());
-    html += fmt::format(
-        "<tr><td><b>{}</b></td><td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
-        html_escaped(text_at(axis, "name")), html_escaped(text_at(axis, "label")),
-        list_at(axis, "values").size(), values);
+    html += fmt::format("<tr><td><b>{}</b></td><td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
+                        html_escaped(text_at(axis, "name")), html_escaped(text_at(axis, "label")),
+                        list_at(axis, "values").size(), values);
   }
   return html + "</tbody></table></div>\n";
 }
@@ -155,16 +150,14 @@ std::string number_cell(double value) {
 
 std::string status_cell(const std::string& status) {
   for (const auto& words : all_status)
-    if (words.status == status)
-      return fmt::format("<td class=\"{}\"><b>{}</b></td>", css_class(words.mood), status);
+    if (words.status == status) return fmt::format("<td class=\"{}\"><b>{}</b></td>", css_class(words.mood), status);
   return "<td>" + html_escaped(status) + "</td>";
 }
 
 std::string runs_table(const StudyData& study) {
   const auto columns = columns_of(study);
   std::string html = "<h2>Runs</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th>", rows;
-  for (const auto& axis : list_at(study.root, "axes"))
-    html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
+  for (const auto& axis : list_at(study.root, "axes")) html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
   html += "<th>status</th>";
   for (const auto& [name, label] : columns) html += "<th>" + html_escaped(label) + "</th>";
   html += "</tr></thead><tbody>\n";
@@ -173,18 +166,16 @@ std::string runs_table(const StudyData& study) {
     const auto name = html_escaped(text_at(run, "run"));
     const bool has_page = fs::exists(study.directory / text_at(run, "run") / "report.html");
     linked |= has_page;
-    rows += has_page ? fmt::format("<tr><td><a href=\"{0}/report.html\">{0}</a></td>", name)
-                     : "<tr><td>" + name + "</td>";
+    rows +=
+        has_page ? fmt::format("<tr><td><a href=\"{0}/report.html\">{0}</a></td>", name) : "<tr><td>" + name + "</td>";
     for (const auto& axis : list_at(study.root, "axes")) {
       const auto& value = run.at("axes").at(text_at(axis, "name"));
       rows += "<td>" +
-              (value.is_number() ? fmt::format("{:g}", value.get<double>())
-                                 : html_escaped(value.get<std::string>())) +
+              (value.is_number() ? fmt::format("{:g}", value.get<double>()) : html_escaped(value.get<std::string>())) +
               "</td>";
     }
     rows += status_cell(text_at(run, "status"));
-    for (const auto& [column, label] : columns)
-      rows += number_cell(number_at(run, {"numbers", column.c_str()}));
+    for (const auto& [column, label] : columns) rows += number_cell(number_at(run, {"numbers", column.c_str()}));
     rows += "</tr>\n";
   }
   html += rows + "</tbody></table></div>\n";
@@ -196,9 +187,8 @@ std::string causes_table(const StudyData& study) {
   std::string rows;
   for (const auto& run : study.runs())
     if (const auto cause = text_at(run, "cause"); !cause.empty())
-      rows +=
-          fmt::format("<tr><td>{}</td>{}<td class=\"text\">{}</td></tr>\n", html_escaped(text_at(run, "run")),
-                      status_cell(text_at(run, "status")), html_escaped(cause));
+      rows += fmt::format("<tr><td>{}</td>{}<td class=\"text\">{}</td></tr>\n", html_escaped(text_at(run, "run")),
+                          status_cell(text_at(run, "status")), html_escaped(cause));
   if (rows.empty()) return rows;
   return "<h2>Why runs stopped</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th><th>status</th><th "
          "class=\"text\">cause</th></tr></thead><tbody>\n" +
@@ -217,11 +207,10 @@ ReportResult write_study_report(const fs::path& directory) {
   for (const auto& warning : result.warnings) notes.push_back(html_escaped(warning));
   write_file_atomically(
       result.page,
-      html_page(study.title(),
-                html_header(study.title(), directory, verdict_of(study), notes) + chart + axes_table(study) +
-                    runs_table(study) + causes_table(study) +
-                    "<footer>Made by Splashdown from <code>study.json</code> in this folder; the same "
-                    "as a table: <code>study.csv</code>.</footer>\n"));
+      html_page(study.title(), html_header(study.title(), directory, verdict_of(study), notes) + chart +
+                                   axes_table(study) + runs_table(study) + causes_table(study) +
+                                   "<footer>Made by Splashdown from <code>study.json</code> in this folder; the same "
+                                   "as a table: <code>study.csv</code>.</footer>\n"));
   return result;
 }
 

@@ -16,8 +16,7 @@ constexpr double volume_error_good = 0.005;  // the bar of all examples (docs/va
 std::string superscript(int exponent) {
   constexpr std::array raised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "⁻" : "";
-  for (const char digit : std::to_string(std::abs(exponent)))
-    text += raised[static_cast<std::size_t>(digit - '0')];
+  for (const char digit : std::to_string(std::abs(exponent))) text += raised[static_cast<std::size_t>(digit - '0')];
   return text;
 }
 
@@ -30,8 +29,7 @@ std::string status_sentence(const nlohmann::ordered_json& summary) {
 }
 
 void add_body_sentences(const RunData& run, std::vector<std::string>& sentences) {
-  const auto& bodies =
-      run.summary.contains("bodies") ? run.summary["bodies"] : nlohmann::ordered_json::object();
+  const auto& bodies = run.summary.contains("bodies") ? run.summary["bodies"] : nlohmann::ordered_json::object();
   for (const auto& [name, body] : bodies.items()) {
     const double force = number_at(body, {"peak_force", "value"});
     if (!(force > 0)) continue;
@@ -78,8 +76,8 @@ std::string digits(double value, int count) {
   const std::string sign = value < 0 ? "−" : "";
   if (magnitude >= -4 && magnitude <= 6)
     return sign + fmt::format("{:.{}f}", std::abs(value), std::max(0, count - 1 - magnitude));
-  return sign + fmt::format("{:.{}f}·10{}", std::abs(value) * std::pow(10.0, -magnitude), count - 1,
-                            superscript(magnitude));
+  return sign +
+         fmt::format("{:.{}f}·10{}", std::abs(value) * std::pow(10.0, -magnitude), count - 1, superscript(magnitude));
 }
 
 std::string with_unit(double value, const std::string& unit, int count) {
@@ -134,12 +132,11 @@ double number_at(const nlohmann::ordered_json& json, std::initializer_list<const
 
 Verdict verdict_of(const RunData& run) {
   if (!run.summary.is_object())
-    return {
-        Mood::fair,
-        "No summary yet",
-        {fmt::format("There is no summary.json: the run is still going on, or it was killed. Its files reach "
-                     "to t = {}.",
-                     seconds_text(run.end_time()))}};
+    return {Mood::fair,
+            "No summary yet",
+            {fmt::format("There is no summary.json: the run is still going on, or it was killed. Its files reach "
+                         "to t = {}.",
+                         seconds_text(run.end_time()))}};
   const auto& summary = run.summary;
   const std::string status = summary.value("status", "");
   Verdict verdict{status == "done"     ? Mood::good
@@ -164,10 +161,10 @@ Verdict verdict_of(const RunData& run) {
   const double passes = number_at(summary, {"coupling", "passes_mean"});
   if (std::isfinite(passes)) {
     const double rejected = number_at(summary, {"coupling", "rejected_steps"});
-    verdict.sentences.push_back(fmt::format(
-        "The coupling took {} passes a step on average and {} at most; {}.", digits(passes, 3),
-        count_text(number_at(summary, {"coupling", "passes_max"})),
-        rejected > 0 ? count_text(rejected) + " steps were refused and repeated" : "no step was refused"));
+    verdict.sentences.push_back(
+        fmt::format("The coupling took {} passes a step on average and {} at most; {}.", digits(passes, 3),
+                    count_text(number_at(summary, {"coupling", "passes_max"})),
+                    rejected > 0 ? count_text(rejected) + " steps were refused and repeated" : "no step was refused"));
   }
   return verdict;
 }

@@ -24,7 +24,7 @@ std::string energy_unit(int dimension);  ///< J/m or J
 /// `count` significant digits, with a power of ten outside 1e-4 to 1e7; "–" for nan.
 std::string digits(double value, int count = 4);
 std::string with_unit(double value, const std::string& unit, int digits = 4);  ///< with an SI prefix
-std::string seconds_text(double seconds);  ///< "840 ms", "13.2 s", "2 h 05 min"
+std::string seconds_text(double seconds);                                      ///< "840 ms", "13.2 s", "2 h 05 min"
 std::string percent(double share);
 std::string count_text(double count);
 

@@ -31,8 +31,7 @@ std::map<std::string, std::string> values_of(const std::string& resolved) {
   flatten(toml::parse(resolved), {}, values);
   std::erase_if(values, [](const auto& entry) {
     const auto& key = entry.first;
-    return key == "title" || key == "output.checkpoint" || key.starts_with("time.") ||
-           key.starts_with("coupling.");
+    return key == "title" || key == "output.checkpoint" || key.starts_with("time.") || key.starts_with("coupling.");
   });
   return values;
 }
@@ -54,8 +53,7 @@ std::vector<std::string> differences(const std::string& resolved_now, const std:
   return result;
 }
 
-std::optional<Checkpoint> find_checkpoint(const std::filesystem::path& directory,
-                                          const std::string& resolved) {
+std::optional<Checkpoint> find_checkpoint(const std::filesystem::path& directory, const std::string& resolved) {
   auto checkpoint = read_checkpoint(directory / "checkpoint");
   if (!checkpoint) return {};
   std::vector<std::string> messages;

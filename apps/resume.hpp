@@ -16,7 +16,6 @@ std::vector<std::string> differences(const std::string& resolved_now, const std:
 
 /// The newest good checkpoint of the run in a folder; nothing if there is none. Throws SceneError if it was
 /// written by another scene.
-std::optional<Checkpoint> find_checkpoint(const std::filesystem::path& directory,
-                                          const std::string& resolved);
+std::optional<Checkpoint> find_checkpoint(const std::filesystem::path& directory, const std::string& resolved);
 
 }  // namespace splashdown::apps

@@ -56,8 +56,7 @@ const char* status_word(const LoopEnd& end) {
 }  // namespace
 
 template <int d>
-Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, RunPlan plan,
-            Progress& progress)
+Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, RunPlan plan, Progress& progress)
     : scene_(scene),
       world_(std::move(world)),
       recorder_(std::move(settings)),
@@ -93,8 +92,7 @@ LoopEnd Run<d>::go() {
 template <int d>
 double Run<d>::dt_bound() const {
   const double dt_max = scene_.time.dt_max;
-  return world_.fluid && world_.bodies ? std::min(dt_max, approach_dt(*world_.fluid, *world_.bodies))
-                                       : dt_max;
+  return world_.fluid && world_.bodies ? std::min(dt_max, approach_dt(*world_.fluid, *world_.bodies)) : dt_max;
 }
 
 template <int d>
@@ -138,8 +136,7 @@ template <int d>
 void Run<d>::refused(double time, double dt, const std::string& cause) {
   if (refused_at_ == time) return;  // the same step, halved once more
   refused_at_ = time;
-  progress_.say(
-      fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s, tried again with half: {}", time, dt, cause));
+  progress_.say(fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s, tried again with half: {}", time, dt, cause));
 }
 
 template <int d>

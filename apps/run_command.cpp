@@ -29,9 +29,9 @@ Progress::Style progress_style(bool quiet) {
 double stop_time(const RunOptions& options, const Scene& scene) {
   if (!options.until) return scene.time.end;
   if (*options.until > scene.time.end)
-    throw SceneError({fmt::format(
-        "--until {:g}: must not exceed time.end = {:g} s. Use --set time.end={:g} for a longer run.",
-        *options.until, scene.time.end, *options.until)});
+    throw SceneError(
+        {fmt::format("--until {:g}: must not exceed time.end = {:g} s. Use --set time.end={:g} for a longer run.",
+                     *options.until, scene.time.end, *options.until)});
   return *options.until;
 }
 
@@ -58,8 +58,8 @@ std::string failure_text(const LoopEnd& end, const Run<d>& run, const fs::path& 
 
 /// Writes summary.json and report.html.
 template <int d>
-Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene_name,
-                 const RunOptions& options, const fs::path& directory) {
+Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene_name, const RunOptions& options,
+                 const fs::path& directory) {
   auto summary = run.summary(end);
   summary.scene = scene_name;
   write_summary(directory, summary);
@@ -86,8 +86,7 @@ int go(Run<d>& run, const std::string& scene_name, const RunOptions& options, co
   if (end.status == LoopEnd::Status::failed) fmt::print(stderr, "{}\n", failure_text(end, run, directory));
   if (options.quiet) return exit_code_of(end);
   fmt::print("{}", closing_text(summary, directory));
-  if (end.status == LoopEnd::Status::interrupted)
-    fmt::print("stopped: {}; continue with --resume\n", end.cause);
+  if (end.status == LoopEnd::Status::interrupted) fmt::print("stopped: {}; continue with --resume\n", end.cause);
   if (end.status == LoopEnd::Status::done)
     fmt::print("next: open {} in a browser{}\n", (directory / "report.html").string(),
                fs::exists(directory / "frames.pvd") ? ", frames.pvd in ParaView" : "");
@@ -160,8 +159,8 @@ int run_scene(const RunOptions& options, Start start) {
     return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
   } catch (const std::exception& error) {
     progress.clear();
-    fmt::print(stderr, "error: {}\nThe last good state is in {}; --resume continues from there.\n",
-               error.what(), (directory / "checkpoint").string());
+    fmt::print(stderr, "error: {}\nThe last good state is in {}; --resume continues from there.\n", error.what(),
+               (directory / "checkpoint").string());
     return exit_code::cannot_go_on;
   }
 }

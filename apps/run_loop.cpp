@@ -32,8 +32,7 @@ coupling::StepReport attempt(coupling::Stepper& stepper, double dt) {
 }
 
 /// Halves dt until the step is accepted, or not worth trying.
-Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterion, LoopState& state,
-                          LoopHost& host) {
+Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterion, LoopState& state, LoopHost& host) {
   for (;; dt *= 0.5) {
     auto report = attempt(stepper, dt);
     if (report.ok()) return {std::move(report), dt};

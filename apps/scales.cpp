@@ -23,8 +23,7 @@ double fastest(const Region& region) {
   double speed = 0;
   for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) {
     const rigid::Vec<d> x = surface.vertices.col(i) - vec<d>(region.velocity_origin);
-    speed = std::max(speed,
-                     (vec<d>(region.velocity) + region.velocity_gradient.topLeftCorner<d, d>() * x).norm());
+    speed = std::max(speed, (vec<d>(region.velocity) + region.velocity_gradient.topLeftCorner<d, d>() * x).norm());
   }
   return speed;
 }
@@ -52,21 +51,17 @@ std::string number(double value) { return fmt::format("{:.3g}", value); }
 EffectNote gravity_note(const Scene& scene, const Scales& s) {
   const double g = s.gravity > 0 ? s.gravity : 9.81, froude = s.speed / std::sqrt(g * s.length);
   return {"gravity", scene.gravity.has_value(),
-          fmt::format(
-              "Fr = U/sqrt(g L) = {}: {}", number(froude),
-              froude > 3 ? "inertia rules at first; waves and floating need it" : "waves and weight matter")};
+          fmt::format("Fr = U/sqrt(g L) = {}: {}", number(froude),
+                      froude > 3 ? "inertia rules at first; waves and floating need it" : "waves and weight matter")};
 }
 
 EffectNote viscosity_note(const Scene& scene, const Scales& s) {
   const auto& viscosity = scene.fluid->viscosity;
-  const double mu = viscosity ? viscosity->dynamic : water_viscosity,
-               reynolds = s.density * s.speed * s.length / mu;
-  return {
-      "viscosity", viscosity.has_value(),
-      fmt::format(
-          "Re = rho U L/mu = {}{}: laminar boundary layer of {} L, friction of {} of the dynamic pressure",
-          number(reynolds), viscosity ? "" : " (water)", number(5 / std::sqrt(reynolds)),
-          number(1.33 / std::sqrt(reynolds)))};  // Blasius, flat plate
+  const double mu = viscosity ? viscosity->dynamic : water_viscosity, reynolds = s.density * s.speed * s.length / mu;
+  return {"viscosity", viscosity.has_value(),
+          fmt::format("Re = rho U L/mu = {}{}: laminar boundary layer of {} L, friction of {} of the dynamic pressure",
+                      number(reynolds), viscosity ? "" : " (water)", number(5 / std::sqrt(reynolds)),
+                      number(1.33 / std::sqrt(reynolds)))};  // Blasius, flat plate
 }
 
 template <int d>
@@ -78,10 +73,9 @@ EffectNote absorber_note(const Scene& scene, const Scales& s) {
   }
   const double depth = std::max(0., *still_water_level<d>(scene) - scene.tank->min[d - 1]);
   const double there_and_back = (scene.tank->max.x() - scene.tank->min.x()) / std::sqrt(s.gravity * depth);
-  note.reason =
-      fmt::format("the fastest waves cross the tank in {} s, the run lasts {} s: {}", number(there_and_back),
-                  number(scene.time.end),
-                  there_and_back > scene.time.end ? "no echo returns" : "echoes return from the ends");
+  note.reason = fmt::format("the fastest waves cross the tank in {} s, the run lasts {} s: {}", number(there_and_back),
+                            number(scene.time.end),
+                            there_and_back > scene.time.end ? "no echo returns" : "echoes return from the ends");
   return note;
 }
 
@@ -134,11 +128,10 @@ std::vector<EffectNote> neglected(const Scene& scene) {
   const auto s = scales<d>(scene);
   if (!scene.fluid || s.speed == 0) return {};
   const double weber = s.density * s.speed * s.speed * s.length / water_surface_tension;
-  return {
-      {"surface tension", false, fmt::format("We = rho U^2 L/sigma = {} (water)", number(weber))},
-      {"compressibility", false, fmt::format("U/c = {} (water)", number(s.speed / water_sound_speed))},
-      {"air", false,
-       fmt::format("rho_air/rho = {}; cushions form under flat bottoms", number(air_density / s.density))}};
+  return {{"surface tension", false, fmt::format("We = rho U^2 L/sigma = {} (water)", number(weber))},
+          {"compressibility", false, fmt::format("U/c = {} (water)", number(s.speed / water_sound_speed))},
+          {"air", false,
+           fmt::format("rho_air/rho = {}; cushions form under flat bottoms", number(air_density / s.density))}};
 }
 
 template std::optional<double> still_water_level<2>(const Scene&);

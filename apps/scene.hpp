@@ -54,11 +54,11 @@ struct RevolvedShape {
   std::vector<std::array<double, 2>> profile;  ///< (r, z), turned about the z axis; reference point: r = z = 0
 };
 struct SurfaceShape {
-  std::string file;   ///< STL or OBJ, absolute
-  double scale = 1;   ///< metres per unit of the file
-  int parts = 1;      ///< closed surfaces beside each other
+  std::string file;                             ///< STL or OBJ, absolute
+  double scale = 1;                             ///< metres per unit of the file
+  int parts = 1;                                ///< closed surfaces beside each other
   std::shared_ptr<const rigid::Shape<3>> read;  ///< in metres; null: could not be read
-};                    ///< reference point: the origin of the file's coordinates
+};                                              ///< reference point: the origin of the file's coordinates
 /// The capsule exists in two and in three dimensions, the shapes before it in two and those after it in three.
 using Shape = std::variant<PolygonShape, WedgeShape, RectangleShape, CircleShape, EllipseShape, CapsuleShape, BoxShape,
                            SphereShape, ConeShape, RevolvedShape, SurfaceShape>;
@@ -88,10 +88,9 @@ struct SphereRegion {
 
 struct Region {
   std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion, SphereRegion> shape;
-  Point velocity = Point::Zero();  ///< at t = 0 [m/s]
-  Eigen::Matrix3d velocity_gradient =
-      Eigen::Matrix3d::Zero();            ///< v = velocity + gradient (x - origin) [1/s]
-  Point velocity_origin = Point::Zero();  ///< default: the region's centre, 0 for polygons
+  Point velocity = Point::Zero();                               ///< at t = 0 [m/s]
+  Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();  ///< v = velocity + gradient (x - origin) [1/s]
+  Point velocity_origin = Point::Zero();                        ///< default: the region's centre, 0 for polygons
 };
 
 struct Sizes {
@@ -101,7 +100,7 @@ struct Sizes {
   double wetted_fraction = 0;  ///< h at a wall is at least this fraction of its wetted half length
   /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
   std::optional<double> hollow;
-  double hollow_min = 0;  ///< ... but not below this [m]; needed with `hollow`
+  double hollow_min = 0;   ///< ... but not below this [m]; needed with `hollow`
   double curvature = 0.5;  ///< h at a hull over the outline's radius of curvature, at most
 };
 

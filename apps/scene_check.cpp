@@ -37,8 +37,7 @@ void check_scene(const Scene& read, const SceneLabels& labels, Problems& problem
   if (!read.fluid && read.bodies.empty() && !problems.found_in("fluid") && !problems.found_in("body"))
     problems.add("", "the scene is empty: it has neither [fluid] nor [[body]]", "Add one of them.");
   if (read.fluid && read.fluid->absorber && !read.tank && !problems.found_in("tank"))
-    problems.add("fluid.absorber", "needs a [tank]: it acts along the tank's ends",
-                 "Add [tank] or remove the table.");
+    problems.add("fluid.absorber", "needs a [tank]: it acts along the tank's ends", "Add [tank] or remove the table.");
   // What could not be read must not be judged by its default.
   Scene scene = read;
   if (scene.tank && !problems.found_in("tank")) check_tank(scene, problems);

@@ -20,8 +20,7 @@ void check_name(const Scene& scene, std::size_t i, const std::string& label, Pro
 void check_mass(const Scene& scene, const Body& body, const std::string& label, Problems& problems) {
   if (problems.found_in(label + ".mass") || problems.found_in(label + ".density")) return;
   const bool mass = problems.noted(label + ".mass"), density = problems.noted(label + ".density");
-  if (mass && density)
-    problems.add(label + ".density", "mass and density exclude each other", "Remove one of them.");
+  if (mass && density) problems.add(label + ".density", "mass and density exclude each other", "Remove one of them.");
   if (body.motion == Motion::free && !mass && !density)
     problems.add_missing(
         label + ".mass",
@@ -46,7 +45,8 @@ void check_inertia(const Scene& scene, const Body& body, const std::string& labe
   if (principal[2] > (1 + digits) * (principal[0] + principal[1]))
     problems.add(key,
                  fmt::format("no body has moments {:g}, {:g}, {:g} kg m^2 about its principal axes: the largest must "
-                             "not exceed the sum of the others", principal[0], principal[1], principal[2]),
+                             "not exceed the sum of the others",
+                             principal[0], principal[1], principal[2]),
                  cure);
 }
 
@@ -83,16 +83,15 @@ void check_path(const Body& body, const std::string& label, Problems& problems) 
   if (path.front().time != 0) problems.add(key, "must begin at time 0", "Put the initial pose first.");
   for (std::size_t i = 1; i < path.size(); ++i)
     if (path[i].time <= path[i - 1].time)
-      return problems.add(key,
-                          fmt::format("times must increase: row {} has {:g} s after {:g} s", i + 1,
-                                      path[i].time, path[i - 1].time),
-                          "Sort the rows.");
+      return problems.add(
+          key,
+          fmt::format("times must increase: row {} has {:g} s after {:g} s", i + 1, path[i].time, path[i - 1].time),
+          "Sort the rows.");
 }
 
 /// The shape's outline in its own frame; nothing, and a problem, if there is none.
 template <int d>
-std::optional<rigid::Surface<d>> checked_shape(const Body& body, const std::string& label,
-                                               Problems& problems) {
+std::optional<rigid::Surface<d>> checked_shape(const Body& body, const std::string& label, Problems& problems) {
   if (const auto* wedge = std::get_if<WedgeShape>(&body.shape); wedge && wedge->height) {
     const double chine = wedge->breadth / 2 * std::tan(wedge->deadrise_deg * radians);
     if (*wedge->height < (1 - 1e-6) * chine) {
@@ -114,8 +113,8 @@ std::optional<rigid::Surface<d>> checked_shape(const Body& body, const std::stri
 }
 
 template <int d>
-void check_inside_tank(const Scene& scene, const Body& body, const rigid::Surface<d>& shape,
-                       const std::string& label, Problems& problems) {
+void check_inside_tank(const Scene& scene, const Body& body, const rigid::Surface<d>& shape, const std::string& label,
+                       Problems& problems) {
   if (!scene.tank) return;
   const Extents<d> tank = extents<d>(*scene.tank);
   if (tank.isEmpty()) return;
@@ -128,16 +127,15 @@ void check_inside_tank(const Scene& scene, const Body& body, const rigid::Surfac
     moved.vertices = shape_pose<d>(place.position, place.attitude) * shape.vertices;
     const auto box = extents<d>(moved);
     if (wide.contains(box)) continue;
-    return problems.add(
-        label + (body.path.empty() ? ".position" : ".path"),
-        fmt::format("the body spans {} m and leaves the tank {} m", text<d>(box), text<d>(tank)),
-        "Move the body or enlarge the tank.");
+    return problems.add(label + (body.path.empty() ? ".position" : ".path"),
+                        fmt::format("the body spans {} m and leaves the tank {} m", text<d>(box), text<d>(tank)),
+                        "Move the body or enlarge the tank.");
   }
 }
 
 template <int d>
-void check_size(const Scene& scene, const Body& body, const rigid::Surface<d>& shape,
-                const std::string& label, Problems& problems) {
+void check_size(const Scene& scene, const Body& body, const rigid::Surface<d>& shape, const std::string& label,
+                Problems& problems) {
   const double extent = extents<d>(shape).sizes().maxCoeff();
   if (scene.fluid && body.size > extent)
     problems.add(label + ".size", fmt::format("must not exceed the body's extent of {:g} m", extent),
@@ -170,8 +168,7 @@ void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& probl
     solids[i].emplace(*shape);
     for (std::size_t j = 0; j < i; ++j)
       if (solids[j] && overlap<d>(*solids[i], *solids[j]))
-        problems.add(label + ".position", "overlaps " + labels.bodies[j],
-                     "Bodies may touch, but not share space.");
+        problems.add(label + ".position", "overlaps " + labels.bodies[j], "Bodies may touch, but not share space.");
   }
 }
 

@@ -42,8 +42,8 @@ void check_sizes(const Scene& scene, Problems& problems) {
 }
 
 template <int d>
-void check_region(const Scene& scene, const Region& region, const std::string& label,
-                  std::optional<Solid<d>>& boundary, Problems& problems) {
+void check_region(const Scene& scene, const Region& region, const std::string& label, std::optional<Solid<d>>& boundary,
+                  Problems& problems) {
   const double trace = region.velocity_gradient.trace(), scale = region.velocity_gradient.norm();
   // Digits that people write: a trace of a millionth of the rates is meant to be zero.
   if (std::abs(trace) > 1e-6 * scale)
@@ -59,15 +59,13 @@ void check_region(const Scene& scene, const Region& region, const std::string& l
   }
   const auto& box = boundary->extents();
   if (scene.fluid->size.surface > box.sizes().minCoeff())
-    problems.add(
-        "fluid.size.surface",
-        fmt::format("must not exceed the smallest extent of {}, {:g} m", label, box.sizes().minCoeff()),
-        "Use e.g. a twentieth of it.");
+    problems.add("fluid.size.surface",
+                 fmt::format("must not exceed the smallest extent of {}, {:g} m", label, box.sizes().minCoeff()),
+                 "Use e.g. a twentieth of it.");
   if (!scene.tank) return;
   const Extents<d> tank = extents<d>(*scene.tank);
   if (!tank.isEmpty() && (tank.intersection(box).sizes().array() <= 0).any())
-    problems.add(label,
-                 fmt::format("lies outside the tank, which spans {} m", text<d>(tank)),
+    problems.add(label, fmt::format("lies outside the tank, which spans {} m", text<d>(tank)),
                  "Move the region or enlarge the tank.");
 }
 
@@ -88,8 +86,7 @@ void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& proble
     check_region<d>(scene, regions[i], labels.regions[i], outlines[i], problems);
     for (std::size_t j = 0; j < i; ++j)
       if (outlines[i] && outlines[j] && overlap<d>(*outlines[i], *outlines[j]))
-        problems.add(labels.regions[i], "overlaps " + labels.regions[j],
-                     "Regions may touch, but not share water.");
+        problems.add(labels.regions[i], "overlaps " + labels.regions[j], "Regions may touch, but not share water.");
   }
 }
 

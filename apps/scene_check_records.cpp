@@ -33,10 +33,9 @@ class RecordChecker {
       const double extent = hull.extents().diagonal().norm(), depth = -hull.signed_distance(point);
       // A sensor flush with the hull, up to the digits people write.
       if (depth > 1e-3 * extent)
-        problems_.add(
-            label_ + ".point",
-            fmt::format("lies {:g} m inside the body '{}', where there is never water", depth, body.name),
-            "Put it on the hull (coordinates of the shape's frame).");
+        problems_.add(label_ + ".point",
+                      fmt::format("lies {:g} m inside the body '{}', where there is never water", depth, body.name),
+                      "Put it on the hull (coordinates of the shape's frame).");
     } catch (const std::invalid_argument&) {  // the body's own check has reported it
     }
   }
@@ -100,8 +99,7 @@ class RecordChecker {
     if (!scene_.tank) return;
     const Extents<d> box = extents<d>(*scene_.tank);
     if (box.isEmpty() || box.exteriorDistance(point) <= 1e-9 * box.diagonal().norm()) return;
-    problems_.add(label_ + key,
-                  fmt::format("{} m lies outside the tank {} m", text<d>(point), text<d>(box)),
+    problems_.add(label_ + key, fmt::format("{} m lies outside the tank {} m", text<d>(point), text<d>(box)),
                   "Move it inside.");
   }
 

@@ -25,8 +25,7 @@ std::vector<std::string> words_of(const std::string& path) {
 
 bool is_bare_word(const std::string& text) {
   return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
 /// The value under the key "value" of a table whose nodes carry `source` as their place.
@@ -50,8 +49,7 @@ std::vector<std::string> names_in(const toml::array& array) {
 
 toml::node* element_of(toml::array& array, const std::string& word) {
   for (auto& element : array)
-    if (auto* table = element.as_table(); table && (*table)["name"].value<std::string>() == word)
-      return &element;
+    if (auto* table = element.as_table(); table && (*table)["name"].value<std::string>() == word) return &element;
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
   const bool whole = error == std::errc() && end == word.data() + word.size();
@@ -77,8 +75,7 @@ void apply_override(toml::table& root, const std::string& argument, Problems& pr
   const bool removes = equals + 1 == argument.size();
   auto value = parsed(removes ? "{}" : argument.substr(equals + 1), source);
   if (!value)
-    return refuse(
-        "the value is not TOML. Use a number, a word, true, [1, 2] or \"a text\" (mind the shell's quotes).");
+    return refuse("the value is not TOML. Use a number, a word, true, [1, 2] or \"a text\" (mind the shell's quotes).");
 
   toml::node* node = &root;
   std::string path;
@@ -87,8 +84,7 @@ void apply_override(toml::table& root, const std::string& argument, Problems& pr
     const bool last = i + 1 == words.size();
     if (auto* table = node->as_table()) {
       if (last && removes) {
-        if (table->erase(word) == 0)
-          refuse("there is no such key to remove. Give a value behind the equals sign.");
+        if (table->erase(word) == 0) refuse("there is no such key to remove. Give a value behind the equals sign.");
         return;
       }
       if (last) return put(*table, word, std::move(*value));
@@ -100,10 +96,9 @@ void apply_override(toml::table& root, const std::string& argument, Problems& pr
         const auto names = names_in(*array);
         const auto near = nearest(word, names);
         return refuse(fmt::format("no {} is called '{}'. {}", path, word,
-                                  !near.empty() ? "Did you mean '" + near + "'?"
-                                  : names.empty()
-                                      ? fmt::format("Use an index from 0 to {}.", array->size() - 1)
-                                      : "There is " + listing(names) + "."));
+                                  !near.empty()   ? "Did you mean '" + near + "'?"
+                                  : names.empty() ? fmt::format("Use an index from 0 to {}.", array->size() - 1)
+                                                  : "There is " + listing(names) + "."));
       }
       if (last) return refuse(fmt::format("{} '{}' is a whole table. Name one of its keys.", path, word));
     } else {

@@ -7,9 +7,7 @@
 namespace splashdown::apps {
 namespace {
 
-std::string joined(const std::vector<std::string>& messages) {
-  return fmt::format("{}", fmt::join(messages, "\n"));
-}
+std::string joined(const std::vector<std::string>& messages) { return fmt::format("{}", fmt::join(messages, "\n")); }
 
 /// Insertions, deletions, substitutions and swaps of neighbours (Damerau, restricted).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -55,8 +53,7 @@ void Problems::add(const std::string& key, const std::string& rule, const std::s
   const auto found = notes_.find(key);
   const std::string value = found == notes_.end() ? std::string() : found->second.value;
   const std::string subject = value.empty() ? key : key + " = " + value;
-  problems_.push_back(
-      {key, place_of(key), fmt::format("{}{}{}. {}", subject, key.empty() ? "" : ": ", rule, cure)});
+  problems_.push_back({key, place_of(key), fmt::format("{}{}{}. {}", subject, key.empty() ? "" : ": ", rule, cure)});
 }
 
 void Problems::add_missing(const std::string& key, const std::string& meaning, const std::string& cure) {
@@ -67,18 +64,15 @@ void Problems::add_unknown(const std::string& key, const std::vector<std::string
   const auto cut = key.find_last_of('.');
   const std::string near = nearest(cut == std::string::npos ? key : key.substr(cut + 1), valid);
   if (valid.empty()) return add(key, "unknown key", "This table has no keys: remove it.");
-  add(key, "unknown key",
-      near.empty() ? "Valid here: " + listing(valid) + "." : "Did you mean '" + near + "'?");
+  add(key, "unknown key", near.empty() ? "Valid here: " + listing(valid) + "." : "Did you mean '" + near + "'?");
 }
 
-void Problems::add_at(const Place& place, const std::string& message) {
-  problems_.push_back({{}, place, message});
-}
+void Problems::add_at(const Place& place, const std::string& message) { problems_.push_back({{}, place, message}); }
 
 bool Problems::found_in(const std::string& key) const {
   return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& problem) {
-    return problem.key.starts_with(key) && (problem.key.size() == key.size() ||
-                                            problem.key[key.size()] == '.' || problem.key[key.size()] == '[');
+    return problem.key.starts_with(key) &&
+           (problem.key.size() == key.size() || problem.key[key.size()] == '.' || problem.key[key.size()] == '[');
   });
 }
 

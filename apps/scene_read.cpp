@@ -130,13 +130,12 @@ toml::table read_toml(const std::string& text, const std::string& name) {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
     const auto& place = error.source().begin;
-    throw SceneError({fmt::format("{}:{}: not TOML: {} (column {}). See https://toml.io for the syntax.",
-                                  name, place.line, error.description(), place.column)});
+    throw SceneError({fmt::format("{}:{}: not TOML: {} (column {}). See https://toml.io for the syntax.", name,
+                                  place.line, error.description(), place.column)});
   }
 }
 
-SceneFile read_scene_text(const std::string& text, const std::string& name,
-                          std::span<const std::string> overrides) {
+SceneFile read_scene_text(const std::string& text, const std::string& name, std::span<const std::string> overrides) {
   Problems problems(name);
   auto table = read_toml(text, name);
   for (const auto& argument : overrides) apply_override(table, argument, problems);

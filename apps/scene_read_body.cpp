@@ -21,16 +21,13 @@ struct ReadShape {
   void operator()(WedgeShape& wedge) const {
     deadrise(wedge.deadrise_deg, "Use e.g. 30; a flat bottom is a box.");
     reader.number("breadth", wedge.breadth, extent, Need::required);
-    reader.number("height", wedge.height,
-                  positive("m", "Use at least breadth/2 tan(deadrise), or leave it out."));
+    reader.number("height", wedge.height, positive("m", "Use at least breadth/2 tan(deadrise), or leave it out."));
   }
   void operator()(RectangleShape& box) const {
     reader.number("width", box.width, extent, Need::required);
     reader.number("height", box.height, extent, Need::required);
   }
-  void operator()(CircleShape& circle) const {
-    reader.number("radius", circle.radius, extent, Need::required);
-  }
+  void operator()(CircleShape& circle) const { reader.number("radius", circle.radius, extent, Need::required); }
   void operator()(EllipseShape& ellipse) const {
     reader.point("semi_axes", ellipse.semi_axes, positive("m", "Use e.g. [1.0, 0.5]."), Need::required);
   }
@@ -81,9 +78,9 @@ struct ShapeType {
 
 const std::vector<ShapeType>& shape_types() {
   static const std::vector<ShapeType> types = {
-      {2, "polygon", PolygonShape{}}, {2, "wedge", WedgeShape{}},     {2, "box", RectangleShape{}},
-      {2, "circle", CircleShape{}},   {2, "ellipse", EllipseShape{}}, {2, "capsule", CapsuleShape{}},
-      {3, "sphere", SphereShape{}},   {3, "box", BoxShape{}},         {3, "cone", ConeShape{}},
+      {2, "polygon", PolygonShape{}}, {2, "wedge", WedgeShape{}},       {2, "box", RectangleShape{}},
+      {2, "circle", CircleShape{}},   {2, "ellipse", EllipseShape{}},   {2, "capsule", CapsuleShape{}},
+      {3, "sphere", SphereShape{}},   {3, "box", BoxShape{}},           {3, "cone", ConeShape{}},
       {3, "capsule", CapsuleShape{}}, {3, "revolved", RevolvedShape{}}, {3, "surface", SurfaceShape{}}};
   return types;
 }
@@ -111,10 +108,8 @@ void read_mass(Reader& reader, Body& body) {
 
 bool is_good_name(const std::string& name) {
   const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-  return name != "tank" &&
-         !std::all_of(name.begin(), name.end(), digit) &&  // digits alone: an index in --set
-         std::all_of(name.begin(), name.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+  return name != "tank" && !std::all_of(name.begin(), name.end(), digit) &&  // digits alone: an index in --set
+         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
 void read_name(Reader& reader, std::string& name) {
@@ -123,8 +118,7 @@ void read_name(Reader& reader, std::string& name) {
   const auto key = reader.key("name");
   auto& problems = reader.context().problems;
   if (!problems.found_in(key) && !is_good_name(name))
-    problems.add(key, "must be made of letters, digits, _ and -, not of digits alone, and not be 'tank'",
-                 cure);
+    problems.add(key, "must be made of letters, digits, _ and -, not of digits alone, and not be 'tank'", cure);
 }
 
 Motion read_motion(Reader& reader) {
@@ -171,9 +165,8 @@ struct Angle {
 };
 std::vector<Angle> angles(int dimension) {
   if (dimension == 2) return {{"pitch_deg", &Attitude::pitch_deg}};
-  return {{"heading_deg", &Attitude::heading_deg},
-          {"pitch_deg", &Attitude::pitch_deg},
-          {"roll_deg", &Attitude::roll_deg}};
+  return {
+      {"heading_deg", &Attitude::heading_deg}, {"pitch_deg", &Attitude::pitch_deg}, {"roll_deg", &Attitude::roll_deg}};
 }
 
 }  // namespace

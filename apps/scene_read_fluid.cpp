@@ -18,12 +18,9 @@ struct ReadRegionShape {
   void wave(BoxRegion& box) const {
     reader.number("surface_amplitude", box.surface_amplitude,
                   any("m", "Use e.g. 0.01; leave it out for a flat surface."));
-    if (box.surface_amplitude == 0 && !reader.holds("surface_wavelength") &&
-        !reader.holds("surface_phase_deg"))
-      return;
+    if (box.surface_amplitude == 0 && !reader.holds("surface_wavelength") && !reader.holds("surface_phase_deg")) return;
     reader.number("surface_wavelength", box.surface_wavelength,
-                  positive("m", "Use e.g. twice the tank's length for the first sloshing mode."),
-                  Need::required);
+                  positive("m", "Use e.g. twice the tank's length for the first sloshing mode."), Need::required);
     reader.number("surface_phase_deg", box.surface_phase_deg, any("deg", "Use degrees, e.g. 90."));
   }
   void operator()(CircleRegion& circle) const { round(circle); }
@@ -72,14 +69,13 @@ void read_region(Reader& reader, Region& region) {
 }
 
 void read_sizes(Reader& reader, Sizes& size) {
-  reader.number("surface", size.surface, positive("m", "Use e.g. a fiftieth of the body's breadth."),
-                Need::required);
+  reader.number("surface", size.surface, positive("m", "Use e.g. a fiftieth of the body's breadth."), Need::required);
   size.far = size.surface;
   reader.number("far", size.far, positive("m", "Use fluid.size.surface or more."));
   reader.number("growth", size.growth, share("Use 0.1 to 0.2: the element size's growth per unit distance."));
-  reader.number("wetted_fraction", size.wetted_fraction,
-                within(0, 0.5, "",
-                       "Use 0 (off) or 0.004 to 0.01: h over the wetted half length, for starting impacts."));
+  reader.number(
+      "wetted_fraction", size.wetted_fraction,
+      within(0, 0.5, "", "Use 0 (off) or 0.004 to 0.01: h over the wetted half length, for starting impacts."));
   reader.number("hollow", size.hollow,
                 positive("", "Use e.g. 0.2, or leave it out: h over the radius of a jet's root."));
   if (size.hollow)
@@ -110,8 +106,7 @@ void read_fluid(Reader& reader, Fluid& fluid) {
     auto& target = fluid.absorber.emplace();
     absorber->number("width", target.width, positive("m", "Use one to two of the longest wavelengths."),
                      Need::required);
-    absorber->number("rate", target.rate, positive("1/s", "Use about the wave's angular frequency."),
-                     Need::required);
+    absorber->number("rate", target.rate, positive("1/s", "Use about the wave's angular frequency."), Need::required);
   }
 }
 
@@ -122,9 +117,8 @@ void read_coupling(Reader& reader, Coupling& coupling) {
   reader.number("relaxation", coupling.relaxation, share("Use 1 unless the coupling diverges."));
   reader.integer("depth", coupling.depth, within(1, 10000, "", "Use e.g. 50: passes that anderson remembers."));
   reader.integer("reuse", coupling.reuse, within(0, 100, "", "Use 0 to 8: past steps that iqn_ils learns from."));
-  reader.number(
-      "tolerance", coupling.tolerance,
-      within(1e-14, 0.1, "", "Use e.g. 1e-8: change of the bodies' velocities from pass to pass, relative."));
+  reader.number("tolerance", coupling.tolerance,
+                within(1e-14, 0.1, "", "Use e.g. 1e-8: change of the bodies' velocities from pass to pass, relative."));
   reader.integer("max_passes", coupling.max_passes, within(1, 10000, "", "Use e.g. 50."));
 }
 

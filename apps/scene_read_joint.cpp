@@ -19,8 +19,8 @@ std::optional<Joint> read_joint(Reader& reader, const Scene& scene) {
   if (slides || turns_in_space) {
     joint.axis = Point::Zero();
     const std::string what = slides ? "direction of the motion" : "axis that it turns about";
-    reader.point("axis", joint.axis,
-                 any("", "Use the " + what + ", e.g. " + axis_example(scene.dimension, 1) + "."), Need::required);
+    reader.point("axis", joint.axis, any("", "Use the " + what + ", e.g. " + axis_example(scene.dimension, 1) + "."),
+                 Need::required);
   }
   return body ? std::optional(joint) : std::nullopt;
 }

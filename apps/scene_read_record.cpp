@@ -12,8 +12,7 @@ void read_instants(Reader& reader, Entry& entry) {
   reader.number("interval", entry.interval, not_negative("s", "Use e.g. 0.001, or 0 for every step."));
   reader.numbers("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
   if (entry.interval && !entry.times.empty())
-    reader.context().problems.add(reader.key("times"), "interval and times exclude each other",
-                                  "Remove one of them.");
+    reader.context().problems.add(reader.key("times"), "interval and times exclude each other", "Remove one of them.");
   if (!entry.interval && entry.times.empty()) entry.interval = 0;
 }
 

@@ -59,8 +59,7 @@ Place place_of(const toml::node& node) {
   return {*source.path, source.path->starts_with("--set") ? 0 : static_cast<long>(source.begin.line)};
 }
 
-Reader::Reader(ReadContext& context, const toml::table& table, std::string path, std::string header,
-               bool in_array)
+Reader::Reader(ReadContext& context, const toml::table& table, std::string path, std::string header, bool in_array)
     : context_(&context),
       table_(&table),
       path_(std::move(path)),
@@ -102,8 +101,7 @@ std::string Reader::header_of(std::string_view name) const {
   return header_.empty() ? std::string(name) : fmt::format("{}.{}", header_, name);
 }
 
-const toml::node* Reader::find(std::string_view name, Need need, const std::string& meaning,
-                               const std::string& cure) {
+const toml::node* Reader::find(std::string_view name, Need need, const std::string& meaning, const std::string& cure) {
   known_.emplace(name);
   const toml::node* node = table_->get(name);
   if (node)
@@ -135,8 +133,8 @@ std::optional<double> Reader::number_of(const toml::node& node, const std::strin
   return value;
 }
 
-std::optional<std::vector<double>> Reader::list_of(const toml::node& node, const std::string& key,
-                                                   std::size_t length, const Rule& rule) {
+std::optional<std::vector<double>> Reader::list_of(const toml::node& node, const std::string& key, std::size_t length,
+                                                   const Rule& rule) {
   const auto* array = node.as_array();
   if (!array || (length > 0 && array->size() != length)) {
     const auto wanted = length > 0 ? fmt::format("a list of {} numbers", length) : "a list of numbers";
@@ -337,8 +335,7 @@ void Reader::matrix(std::string_view name, Eigen::Matrix3d& target, const Rule& 
     return;
   }
   for (std::size_t i = 0; i < d; ++i)
-    for (std::size_t j = 0; j < d; ++j)
-      target(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = list[i][j];
+    for (std::size_t j = 0; j < d; ++j) target(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = list[i][j];
 }
 
 std::optional<Reader> Reader::table(std::string_view name, Need need) {

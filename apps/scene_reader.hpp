@@ -40,8 +40,7 @@ class Reader {
   using Names = std::vector<std::string>;
 
   /// `path` is the table's dotted name in messages, `header` its name in a TOML header.
-  Reader(ReadContext& context, const toml::table& table, std::string path, std::string header,
-         bool in_array = false);
+  Reader(ReadContext& context, const toml::table& table, std::string path, std::string header, bool in_array = false);
   Reader(Reader&& other) noexcept;
   Reader& operator=(Reader&&) = delete;
   ~Reader();
@@ -77,14 +76,13 @@ class Reader {
   void inertia(std::string_view name, std::optional<Eigen::Matrix3d>& target, const Rule& rule);
   void matrix(std::string_view name, Eigen::Matrix3d& target, const Rule& rule);
   /// A list of lists, each with `columns` numbers.
-  void rows(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns,
-            const Rule& rule, Need need = Need::optional);
+  void rows(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns, const Rule& rule,
+            Need need = Need::optional);
 
   /// A list of strings.
   void texts(std::string_view name, Names& target, const std::string& cure, Need need = Need::optional);
   /// The node itself, for values that only the caller can judge; null when absent.
-  const toml::node* node(std::string_view name, Need need, const std::string& meaning,
-                         const std::string& cure) {
+  const toml::node* node(std::string_view name, Need need, const std::string& meaning, const std::string& cure) {
     return find(name, need, meaning, cure);
   }
 
@@ -96,14 +94,12 @@ class Reader {
 
  private:
   /// The node, with its place and value noted; nothing, and a problem if it was needed, when absent.
-  const toml::node* find(std::string_view name, Need need, const std::string& meaning,
-                         const std::string& cure);
+  const toml::node* find(std::string_view name, Need need, const std::string& meaning, const std::string& cure);
   std::optional<double> number_of(const toml::node& node, const std::string& key, const Rule& rule);
-  std::optional<std::vector<double>> list_of(const toml::node& node, const std::string& key,
-                                             std::size_t length, const Rule& rule);
+  std::optional<std::vector<double>> list_of(const toml::node& node, const std::string& key, std::size_t length,
+                                             const Rule& rule);
   std::optional<Point> point_of(const toml::node& node, const std::string& key, const Rule& rule);
-  void wrong_type(const std::string& key, const std::string& wanted, const toml::node& node,
-                  const std::string& cure);
+  void wrong_type(const std::string& key, const std::string& wanted, const toml::node& node, const std::string& cure);
   std::string echo_of(const Point& point) const;
   template <class Value>
   void echo(std::string_view name, const Value& value) {

@@ -27,9 +27,7 @@ Rule not_negative(std::string unit, std::string cure) {
   return {.unit = std::move(unit), .cure = std::move(cure), .low = 0};
 }
 
-Rule share(std::string cure) {
-  return {.unit = "", .cure = std::move(cure), .low = 0, .high = 1, .low_open = true};
-}
+Rule share(std::string cure) { return {.unit = "", .cure = std::move(cure), .low = 0, .high = 1, .low_open = true}; }
 
 std::string axis_example(int dimension, double value) {
   std::vector<double> vector(static_cast<std::size_t>(dimension));

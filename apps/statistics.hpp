@@ -44,7 +44,7 @@ struct BodyReading {
   double submergence;                    ///< of the lowest point; nan without a water level [m]
   Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
   HullExtent extent;
-  bool free;                             ///< the water moves it
+  bool free;  ///< the water moves it
 };
 
 template <int d>

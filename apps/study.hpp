@@ -39,7 +39,7 @@ struct StudyQuantity {
   /// Axis -> index of the value at which the reference run stands, the other axes being equal.
   std::map<std::size_t, std::size_t> reference;
 
-  std::string scale;  ///< expression that a deviation is divided by; empty: the reference's magnitude
+  std::string scale;            ///< expression that a deviation is divided by; empty: the reference's magnitude
   std::optional<double> limit;  ///< a run with a larger error has diverged, whatever its coupling thought
 
   bool has_error() const { return exact || !reference.empty(); }

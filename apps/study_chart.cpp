@@ -41,8 +41,7 @@ struct Scale {
   Range range;
   bool log = false;
   double at(double share) const {
-    return log ? range.low * std::pow(range.high / range.low, share)
-               : range.low + share * (range.high - range.low);
+    return log ? range.low * std::pow(range.high / range.low, share) : range.low + share * (range.high - range.low);
   }
   double moved(double x, double share) const {
     return log ? x * std::pow(range.high / range.low, share) : x + share * (range.high - range.low);
@@ -52,8 +51,7 @@ struct Scale {
 Scale widened(Range range, bool log, double below, double above) {
   if (range.empty()) range = {1, 1};
   if (log && range.low <= 0) range.low = range.high > 0 ? 1e-3 * range.high : 1;
-  if (range.high <= range.low)
-    log ? (range.low *= 0.5, range.high *= 2) : (range.low -= 0.5, range.high += 0.5);
+  if (range.high <= range.low) log ? (range.low *= 0.5, range.high *= 2) : (range.low -= 0.5, range.high += 0.5);
   const Scale scale{range, log};
   return {{scale.at(-below), scale.at(1 + above)}, log};
 }
@@ -118,9 +116,9 @@ class Chart {
   Scale y_scale(std::size_t row) const {
     Range range;
     for (const auto& outcome : outcomes_)
-      if (const auto found = outcome.numbers.find(chart_.y[row]);
-          outcome.status == Outcome::Status::converged && found != outcome.numbers.end() &&
-          !(chart_.log_y && found->second <= 0))
+      if (const auto found = outcome.numbers.find(chart_.y[row]); outcome.status == Outcome::Status::converged &&
+                                                                  found != outcome.numbers.end() &&
+                                                                  !(chart_.log_y && found->second <= 0))
         range.add(found->second);
     return widened(range, chart_.log_y, 0.08, 0.08 + (has_band() ? 1.16 * band / (1 - band) : 0));
   }
@@ -147,8 +145,7 @@ class Chart {
 
   std::string panel(std::size_t row, std::size_t column) const {
     const double w = width(), h = height();
-    const double x0 = left + double(column) * (panel_width + gap),
-                 y0 = top + double(row) * (panel_height + gap);
+    const double x0 = left + double(column) * (panel_width + gap), y0 = top + double(row) * (panel_height + gap);
     const bool last_row = row + 1 == chart_.y.size();
     const Scale y = y_scale(row);
     std::string text = fmt::format(
@@ -198,8 +195,7 @@ class Chart {
       const double height = 1 - band + 0.68 * band * (double(series() - 1 - curve) + 0.5) / double(series());
       for (std::size_t i = 0; i < runs_.size(); ++i) {
         if (!belongs(runs_[i], column, curve)) continue;
-        if (broke(i))
-          crosses[outcomes_[i].status] += fmt::format("{:.8g} {:.8g}\n", x_of(i, curve), y.at(height));
+        if (broke(i)) crosses[outcomes_[i].status] += fmt::format("{:.8g} {:.8g}\n", x_of(i, curve), y.at(height));
         const auto found = outcomes_[i].numbers.find(chart_.y[row]);
         if (outcomes_[i].status == Outcome::Status::converged && found != outcomes_[i].numbers.end() &&
             std::isfinite(found->second))
@@ -237,8 +233,8 @@ class Chart {
         "samplen 2 font ',14' textcolor rgb '#24313d'\nplot ",
         1 - 45. / height());
     for (std::size_t i = 0; i < axis.values.size(); ++i)
-      text += fmt::format("{}NaN with linespoints {} title \"{}\" noenhanced", i ? ", \\\n  " : "",
-                          style_of(i), gnuplot_escaped(axis.values[i].text));
+      text += fmt::format("{}NaN with linespoints {} title \"{}\" noenhanced", i ? ", \\\n  " : "", style_of(i),
+                          gnuplot_escaped(axis.values[i].text));
     return text + "\n";
   }
 
@@ -257,13 +253,11 @@ constexpr const char* common =
 
 }  // namespace
 
-std::string chart_script(const Study& study, const std::vector<StudyRun>& runs,
-                         const std::vector<Outcome>& outcomes) {
+std::string chart_script(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes) {
   const Chart chart(study, runs, outcomes);
   std::string text = "set encoding utf8\n";
-  text +=
-      fmt::format("set terminal svg size {},{} font 'Helvetica,14' enhanced rounded background rgb 'white'\n",
-                  chart.width(), chart.height());
+  text += fmt::format("set terminal svg size {},{} font 'Helvetica,14' enhanced rounded background rgb 'white'\n",
+                      chart.width(), chart.height());
   text += fmt::format("set output 'study.svg'\n{}{}", common, chart.body());
   // Twice the pixels, for screens that have them.
   text += fmt::format(

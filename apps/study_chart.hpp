@@ -12,12 +12,10 @@ namespace splashdown::apps {
 
 /// The gnuplot script that draws study.svg and study.png. Runs that broke down stand as crosses in a band at
 /// the top of their panel.
-std::string chart_script(const Study& study, const std::vector<StudyRun>& runs,
-                         const std::vector<Outcome>& outcomes);
+std::string chart_script(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes);
 
 /// Draws the chart into FOLDER; a note if it could not.
 std::optional<std::string> draw_chart(const Study& study, const std::vector<StudyRun>& runs,
-                                      const std::vector<Outcome>& outcomes,
-                                      const std::filesystem::path& folder);
+                                      const std::vector<Outcome>& outcomes, const std::filesystem::path& folder);
 
 }  // namespace splashdown::apps

@@ -17,8 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Outcome> outcomes_in(const Study& study, const std::vector<StudyRun>& runs,
-                                 const fs::path& folder) {
+std::vector<Outcome> outcomes_in(const Study& study, const std::vector<StudyRun>& runs, const fs::path& folder) {
   std::vector<Outcome> outcomes;
   for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder / run.name));
   return outcomes;
@@ -45,9 +44,8 @@ void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector
   for (const auto& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (quiet) return;
   fmt::print("{}: {} runs: {}\n  files       {}/: report.html study.csv study.json{}\n",
-             study.title.empty() ? folder.filename().string() : study.title, runs.size(),
-             counts_text(outcomes), folder.string(),
-             fs::exists(folder / "study.svg") ? " study.svg study.png" : "");
+             study.title.empty() ? folder.filename().string() : study.title, runs.size(), counts_text(outcomes),
+             folder.string(), fs::exists(folder / "study.svg") ? " study.svg study.png" : "");
 }
 
 int exit_code_of(const std::vector<Outcome>& outcomes, bool interrupted) {

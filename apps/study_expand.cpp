@@ -92,8 +92,7 @@ std::size_t reference_run(const Study& study, const StudyQuantity& quantity, con
   std::size_t index = 0;
   for (std::size_t a = 0; a < study.axes.size(); ++a) {
     const auto fixed = quantity.reference.find(a);
-    index = index * study.axes[a].values.size() +
-            (fixed == quantity.reference.end() ? run.value[a] : fixed->second);
+    index = index * study.axes[a].values.size() + (fixed == quantity.reference.end() ? run.value[a] : fixed->second);
   }
   return index;
 }

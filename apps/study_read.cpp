@@ -51,8 +51,7 @@ void read_values(Reader& reader, Axis& axis, const std::string& key) {
   const auto* node = reader.node("values", Need::required, "the values that the key takes", cure);
   if (!node) return;
   const auto* array = node->as_array();
-  if (!array || array->empty())
-    return problems.add(reader.key("values"), "must be a list of at least one value", cure);
+  if (!array || array->empty()) return problems.add(reader.key("values"), "must be a list of at least one value", cure);
   for (const auto& entry : *array) {
     if (entry.is_table())
       return problems.add(reader.key("values"), "holds a table", "Use [[axis.case]] with set instead.");
@@ -74,8 +73,7 @@ void read_case(Reader& reader, Axis& axis) {
   reader.texts("set", value.set, set_cure, Need::required);
   value.place = {reader.place("name").source, reader.place("name").line};
   if (!value.text.empty() && axis.find(value.text))
-    reader.context().problems.add(reader.key("name"), "there is a case of this name already",
-                                  "Use another name.");
+    reader.context().problems.add(reader.key("name"), "there is a case of this name already", "Use another name.");
   axis.values.push_back(std::move(value));
 }
 
@@ -89,8 +87,7 @@ void read_axis(Reader& reader, Study& study, Columns& columns) {
     reader.text("key", key, "Name a key of the scene as for --set, e.g. body.wedge.mass.", Need::required);
     read_values(reader, axis, key);
   }
-  if (listed && cases)
-    problems.add(reader.path(), "has both a key with values and cases", "Use one of the two.");
+  if (listed && cases) problems.add(reader.path(), "has both a key with values and cases", "Use one of the two.");
   reader.each_table("case", [&](Reader& one) { read_case(one, axis); });
   axis.label = axis.name;
   reader.text("label", axis.label, "Use a short text with the unit, e.g. \"body density (kg/m^3)\".");
@@ -120,8 +117,7 @@ void read_reference(Reader& reader, const Study& study, StudyQuantity& quantity)
     if (const auto found = axis.find(text))
       quantity.reference[a] = *found;
     else
-      reader.context().problems.add(table->key(axis.name), "is no value of this axis",
-                                    "Use " + listing(valid) + ".");
+      reader.context().problems.add(table->key(axis.name), "is no value of this axis", "Use " + listing(valid) + ".");
   }
 }
 
@@ -150,8 +146,7 @@ void read_quantity(Reader& reader, Study& study, Columns& columns) {
   check_expression(reader, "scale", quantity.scale);
   if (!quantity.scale.empty() && !reader.holds("exact") && !reader.holds("reference"))
     reader.context().problems.add(reader.key("scale"), "has nothing to scale", "Add exact or reference.");
-  reader.number("limit", quantity.limit,
-                positive("", "Use the largest error that is still a solution, e.g. 1."));
+  reader.number("limit", quantity.limit, positive("", "Use the largest error that is still a solution, e.g. 1."));
   if (quantity.limit && !reader.holds("exact") && !reader.holds("reference"))
     reader.context().problems.add(reader.key("limit"), "has nothing to limit", "Add exact or reference.");
   if (quantity.exact && reader.holds("reference"))
@@ -177,8 +172,7 @@ void read_constants(Reader& reader, Study& study) {
 }
 
 /// The axis of a name, or a problem.
-std::optional<std::size_t> read_axis_name(Reader& reader, std::string_view key, const Study& study,
-                                          Need need) {
+std::optional<std::size_t> read_axis_name(Reader& reader, std::string_view key, const Study& study, Need need) {
   std::vector<std::string> valid;
   for (const auto& axis : study.axes) valid.push_back(axis.name);
   std::string name;
@@ -208,11 +202,9 @@ void read_chart(Reader& reader, Study& study) {
   reader.choice("scale_y", scale_y, {"log", "linear"});
   chart.log_x = scale_x == "log";
   chart.log_y = scale_y == "log";
-  if (chart.log_x &&
-      std::ranges::any_of(study.axes.empty() ? std::vector<AxisValue>{} : study.axes[chart.x].values,
-                          [](const auto& v) { return v.number && *v.number <= 0; }))
-    problems.add(reader.key("x"), "has values that a logarithmic scale cannot show",
-                 "Use scale_x = \"linear\".");
+  if (chart.log_x && std::ranges::any_of(study.axes.empty() ? std::vector<AxisValue>{} : study.axes[chart.x].values,
+                                         [](const auto& v) { return v.number && *v.number <= 0; }))
+    problems.add(reader.key("x"), "has values that a logarithmic scale cannot show", "Use scale_x = \"linear\".");
 }
 
 }  // namespace

@@ -24,9 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A run that outlived a killed study still writes in its folder, until it has saved its checkpoint.
 bool is_busy(const fs::path& folder) {
@@ -50,8 +48,8 @@ std::string last_line(const fs::path& log) {
 
 class Runner {
  public:
-  Runner(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
-         fs::path folder, int jobs, bool quiet)
+  Runner(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes, fs::path folder,
+         int jobs, bool quiet)
       : study_(study),
         runs_(runs),
         outcomes_(outcomes),
@@ -65,8 +63,7 @@ class Runner {
   }
 
   RunnerEnd go() {
-    if (before_ > 0)
-      say(fmt::format("{} of {} runs are finished and stay as they are", before_, runs_.size()));
+    if (before_ > 0) say(fmt::format("{} of {} runs are finished and stay as they are", before_, runs_.size()));
     write_tables(study_, runs_, outcomes_, folder_);
     while (!running_.empty() || !queue_.empty()) {
       if (interrupt_received() && !end_.interrupted) stop();
@@ -118,9 +115,8 @@ class Runner {
     auto& outcome = outcomes_[i];
     outcome = outcome_of(study_, runs_[i], folder_ / name);
     if (!outcome.finished() && end.code != exit_code::interrupted) {
-      outcome.cause = end.signal != 0
-                          ? fmt::format("ended by signal {} ({})", end.signal, ::strsignal(end.signal))
-                          : fmt::format("exit code {}: {}", end.code, last_line(log_of(i)));
+      outcome.cause = end.signal != 0 ? fmt::format("ended by signal {} ({})", end.signal, ::strsignal(end.signal))
+                                      : fmt::format("exit code {}: {}", end.code, last_line(log_of(i)));
       // Whoever kills a run, the machine when memory is short included, may want it to go on later.
       outcome.status = end.signal != 0 ? Outcome::Status::interrupted : Outcome::Status::failed;
       end_.unable.push_back(name + ": " + outcome.cause);
@@ -157,12 +153,11 @@ class Runner {
   void show() {
     if (quiet_ || !terminal_ || seconds_since(shown_at_) < 0.2) return;
     shown_at_ = Clock::now();
-    auto text = fmt::format("{:3.0f} %  {} of {} runs, {} at work",
-                            100. * double(before_ + made_) / double(runs_.size()), before_ + made_,
-                            runs_.size(), running_.size());
+    auto text =
+        fmt::format("{:3.0f} %  {} of {} runs, {} at work", 100. * double(before_ + made_) / double(runs_.size()),
+                    before_ + made_, runs_.size(), running_.size());
     if (made_ > 0)
-      text += "  left " +
-              clock_text(seconds_since(started_) * double(queue_.size() + running_.size()) / double(made_));
+      text += "  left " + clock_text(seconds_since(started_) * double(queue_.size() + running_.size()) / double(made_));
     if (running_.empty() && !queue_.empty()) text += "  (waiting for runs of a study that was killed)";
     fmt::print("\r\x1b[K{}", text);
     std::fflush(stdout);

@@ -53,14 +53,14 @@ std::string sbatch(std::vector<std::string> arguments, const fs::path& folder) {
 
 }  // namespace
 
-std::string slurm_script(const Study& study, const std::vector<StudyRun>& runs,
-                         const std::vector<Outcome>& outcomes, const fs::path& folder, int jobs) {
+std::string slurm_script(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
+                         const fs::path& folder, int jobs) {
   std::string commands;
   std::size_t count = 0;
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (!outcomes[i].finished())
-      commands += fmt::format("  {}) exec {} ;;\n", count++,
-                              line_of(command_of(study, runs[i], folder / runs[i].name)));
+      commands +=
+          fmt::format("  {}) exec {} ;;\n", count++, line_of(command_of(study, runs[i], folder / runs[i].name)));
   return fmt::format(
       "#!/bin/bash\n"
       "# Runs of {}: one task each. A task that is submitted again continues from its checkpoint.\n"

@@ -10,8 +10,8 @@
 namespace splashdown::apps {
 
 /// The batch script for the runs that are not finished, `jobs` of them at a time.
-std::string slurm_script(const Study& study, const std::vector<StudyRun>& runs,
-                         const std::vector<Outcome>& outcomes, const std::filesystem::path& folder, int jobs);
+std::string slurm_script(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
+                         const std::filesystem::path& folder, int jobs);
 
 /// Writes FOLDER/study.sbatch and hands it to sbatch with the gathering job behind it. Returns what sbatch
 /// said; throws std::runtime_error with its message if it refuses.

@@ -56,15 +56,13 @@ quantity::Lookup names_of(const Study& study, const StudyRun& run, const Outcome
 }
 
 /// Deviation of one measured value from what it is held against.
-double error_of(const StudyQuantity& quantity, double value, double reference,
-                const quantity::Lookup& names) {
-  const double scale =
-      quantity.scale.empty() ? std::abs(reference) : quantity::evaluate_number(quantity.scale, names);
+double error_of(const StudyQuantity& quantity, double value, double reference, const quantity::Lookup& names) {
+  const double scale = quantity.scale.empty() ? std::abs(reference) : quantity::evaluate_number(quantity.scale, names);
   return std::abs(value - reference) / scale;
 }
 
-void measure_one(const Study& study, const StudyQuantity& quantity, const StudyRun& run,
-                 const fs::path& folder, Outcome& outcome) {
+void measure_one(const Study& study, const StudyQuantity& quantity, const StudyRun& run, const fs::path& folder,
+                 Outcome& outcome) {
   const auto summary = quantity::read_summary(folder);
   quantity::Table table;
   const auto names = names_of(study, run, outcome, summary, table);
@@ -80,8 +78,7 @@ void measure_one(const Study& study, const StudyQuantity& quantity, const StudyR
 /// The error that refers to another run; nothing unless both have a value.
 void compare_one(const Study& study, const StudyQuantity& quantity, const StudyRun& run, const Outcome& there,
                  Outcome& outcome) {
-  const auto mine = std::as_const(outcome.numbers).find(quantity.name),
-             other = there.numbers.find(quantity.name);
+  const auto mine = std::as_const(outcome.numbers).find(quantity.name), other = there.numbers.find(quantity.name);
   if (mine == outcome.numbers.end() || other == there.numbers.end()) return;
   const nlohmann::json no_summary = nlohmann::json::object();
   const quantity::Table no_table;
@@ -92,12 +89,10 @@ void compare_one(const Study& study, const StudyQuantity& quantity, const StudyR
 /// Coupling passes can agree on velocities that have nothing to do with the motion.
 void judge(const StudyQuantity& quantity, Outcome& outcome) {
   const auto error = outcome.numbers.find(quantity.error_name());
-  if (outcome.status != Outcome::Status::converged || !quantity.limit || error == outcome.numbers.end())
-    return;
+  if (outcome.status != Outcome::Status::converged || !quantity.limit || error == outcome.numbers.end()) return;
   if (error->second <= *quantity.limit) return;  // nan is not
   outcome.status = Outcome::Status::diverged;
-  outcome.cause =
-      fmt::format("{} = {:.3g} exceeds {:g}", quantity.error_name(), error->second, *quantity.limit);
+  outcome.cause = fmt::format("{} = {:.3g} exceeds {:g}", quantity.error_name(), error->second, *quantity.limit);
 }
 
 /// Those of numbers, in the order of study.csv.
@@ -119,8 +114,7 @@ std::string cell(const std::string& text) {
   return quoted;
 }
 
-std::string csv_of(const Study& study, const std::vector<StudyRun>& runs,
-                   const std::vector<Outcome>& outcomes) {
+std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes) {
   const auto numbers = all_number_columns(study);
   std::string text = "run";
   const auto add = [&](const std::string& entry) { text.append(1, ',').append(cell(entry)); };
@@ -174,8 +168,7 @@ nlohmann::ordered_json json_of(const Study& study, const std::vector<StudyRun>& 
     entry["set"] = runs[i].set;
     entry["status"] = word(outcomes[i].status);
     if (!outcomes[i].cause.empty()) entry["cause"] = outcomes[i].cause;
-    for (const auto& [name, number] : outcomes[i].numbers)
-      entry["numbers"][name] = number;  // nan becomes null
+    for (const auto& [name, number] : outcomes[i].numbers) entry["numbers"][name] = number;  // nan becomes null
   }
   return root;
 }
@@ -213,8 +206,7 @@ std::string column_label(const Study& study, const std::string& column) {
       {"simulated_time", "simulated time (s)"}, {"wall_seconds", "wall time (s)"}};
   if (const auto found = known.find(column); found != known.end()) return found->second;
   for (const auto& quantity : study.quantities) {
-    if (quantity.name == column)
-      return quantity.label + (quantity.unit == "-" ? "" : " (" + quantity.unit + ")");
+    if (quantity.name == column) return quantity.label + (quantity.unit == "-" ? "" : " (" + quantity.unit + ")");
     if (quantity.error_name() == column) return "error of " + quantity.label;
   }
   return column;
@@ -239,17 +231,16 @@ Outcome outcome_of(const Study& study, const StudyRun& run, const fs::path& fold
   outcome.cause = summary.value("cause", "");
   outcome.status = status_of(summary.value("status", ""), outcome.cause);
   for (const auto& [name, path] : from_summary)
-    if (const auto value = quantity::find_entry(summary, path))
-      outcome.numbers[name] = value->numbers.front();
+    if (const auto value = quantity::find_entry(summary, path)) outcome.numbers[name] = value->numbers.front();
   // With a larger budget it goes on.
-  if (outcome.status == Outcome::Status::interrupted && study.budget &&
-      outcome.cause.starts_with("the budget") && summary.value("wall_seconds", 0.) >= *study.budget)
+  if (outcome.status == Outcome::Status::interrupted && study.budget && outcome.cause.starts_with("the budget") &&
+      summary.value("wall_seconds", 0.) >= *study.budget)
     outcome.status = Outcome::Status::stalled;
   return outcome;
 }
 
-std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>& runs,
-                                 const fs::path& folder, std::vector<Outcome>& outcomes) {
+std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>& runs, const fs::path& folder,
+                                 std::vector<Outcome>& outcomes) {
   std::vector<std::string> notes;
   for (const auto& quantity : study.quantities) {
     bool told = false;  // one note a quantity: what fails once usually fails everywhere

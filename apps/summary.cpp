@@ -122,9 +122,8 @@ Json json_of(const CouplingSummary& coupling) {
 Json json_of_effects(const Summary& summary) {
   Json active = Json::object(), inactive = Json::object();
   for (const auto& effect : summary.effects)
-    active[effect.name] = {
-        {"seconds", number(effect.seconds)},
-        {"share", number(summary.wall_seconds > 0 ? effect.seconds / summary.wall_seconds : 0)}};
+    active[effect.name] = {{"seconds", number(effect.seconds)},
+                           {"share", number(summary.wall_seconds > 0 ? effect.seconds / summary.wall_seconds : 0)}};
   for (const auto& effect : summary.inactive_effects) inactive[effect.name] = effect.reason;
   return {{"active", active}, {"inactive", inactive}};
 }

@@ -55,13 +55,13 @@ struct AngleSummary {
 
 /// What became of a body on the water (landing_statistics.hpp). Times [s] are negative for what did not happen.
 struct LandingSummary {
-  double first_contact = -1;                                    ///< first wetting
-  std::vector<std::pair<std::string, AngleSummary>> attitude;   ///< 2D: pitch alone
-  Peak maximum_tilt;                                            ///< since first contact [deg]
-  double capsized_since = -1;                                   ///< over until the end of the record
+  double first_contact = -1;                                   ///< first wetting
+  std::vector<std::pair<std::string, AngleSummary>> attitude;  ///< 2D: pitch alone
+  Peak maximum_tilt;                                           ///< since first contact [deg]
+  double capsized_since = -1;                                  ///< over until the end of the record
   double settled = -1;
-  double settled_below = 0, settled_window = 0;                 ///< speed [m/s] and time [s] that `settled` asks for
-  std::vector<std::array<double, 2>> dry_intervals;             ///< after first contact; the last may have no end
+  double settled_below = 0, settled_window = 0;      ///< speed [m/s] and time [s] that `settled` asks for
+  std::vector<std::array<double, 2>> dry_intervals;  ///< after first contact; the last may have no end
 };
 
 struct MaximumPressure {

@@ -15,8 +15,8 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
 }
 
 std::string provenance_toml() {
-  auto text = fmt::format("[provenance]\nversion = {}\ngit = {}\nlibraries = {{ ", toml_text(version()),
-                          toml_text(git_hash()));
+  auto text =
+      fmt::format("[provenance]\nversion = {}\ngit = {}\nlibraries = {{ ", toml_text(version()), toml_text(git_hash()));
   const char* separator = "";
   for (const auto& [name, number] : library_versions()) {
     text += fmt::format("{}{} = {}", separator, name, toml_text(number));

@@ -15,8 +15,7 @@ namespace splashdown::apps {
 
 Grid read_grid(const std::filesystem::path& path, const std::string& scalar) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!reader->CanReadFile(path.c_str()))
-    throw std::runtime_error(path.string() + ": is not a readable .vtu file");
+  if (!reader->CanReadFile(path.c_str())) throw std::runtime_error(path.string() + ": is not a readable .vtu file");
   reader->SetFileName(path.c_str());
   reader->Update();
   vtkUnstructuredGrid* data = reader->GetOutput();

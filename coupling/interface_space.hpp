@@ -25,8 +25,7 @@ struct Interface {
 template <int d>
 class InterfaceSpace {
  public:
-  InterfaceSpace(const rigid::Bodies<d>& bodies, std::span<const fluid::InterfacePiece> pieces,
-                 double fluid_density);
+  InterfaceSpace(const rigid::Bodies<d>& bodies, std::span<const fluid::InterfacePiece> pieces, double fluid_density);
   Eigen::VectorXd vector(const Interface<d>& interface) const;
   Eigen::VectorXd velocities(const std::vector<fluid::Twist<d>>& twists) const;
   /// A slope between entries of Interface, as one between vectors.

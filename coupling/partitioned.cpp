@@ -17,8 +17,9 @@ constexpr double diverged = 1e6;
 
 std::string no_agreement(const char* what, int passes, double residual, const std::string& term) {
   std::ostringstream text;
-  text << "the coupling " << what << ": residual " << residual << " after " << passes << " passes with interface_term = \""
-       << term << "\"; use interface_term = \"rigid\", or accelerator = \"probe\"";
+  text << "the coupling " << what << ": residual " << residual << " after " << passes
+       << " passes with interface_term = \"" << term
+       << "\"; use interface_term = \"rigid\", or accelerator = \"probe\"";
   return text.str();
 }
 
@@ -136,7 +137,8 @@ void Partitioned<d>::commit() {
 
 template <int d>
 void Partitioned<d>::save(std::ostream& out) const {
-  for (const auto& a : acceleration_) out.write(reinterpret_cast<const char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
+  for (const auto& a : acceleration_)
+    out.write(reinterpret_cast<const char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
   Coupled<d>::save(out);
   accelerator_->save(out);
 }

@@ -46,8 +46,8 @@ class IqnIls final : public Accelerator {
  private:
   double factor_;
   std::size_t reuse_;
-  Secants secants_;             // of this step
-  std::deque<Secants> past_;    // of committed steps, newest first
+  Secants secants_;           // of this step
+  std::deque<Secants> past_;  // of committed steps, newest first
   Eigen::VectorXd residual_, image_;
 };
 

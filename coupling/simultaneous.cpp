@@ -33,7 +33,8 @@ StepReport Simultaneous<d>::attempt(double dt) {
   const std::size_t count = bodies_->size();
   rigid::Mobility<d> bodies = bodies_->mobility();
   fluid::WallResponse<d> response;
-  response.modes.setZero(static_cast<Eigen::Index>(fluid_->spec().walls.size()) * fluid::freedoms<d>, bodies.modes.cols());
+  response.modes.setZero(static_cast<Eigen::Index>(fluid_->spec().walls.size()) * fluid::freedoms<d>,
+                         bodies.modes.cols());
   response.modes.topRows(bodies.modes.rows()) = bodies.modes;
   response.inertia = bodies.inertia;
   if (const auto status = fluid_->begin(kick_, dt, response); !status.ok()) return {.cause = status.cause};
@@ -68,7 +69,8 @@ StepReport Simultaneous<d>::attempt(double dt) {
   for (std::size_t b = 0; b < count && report.ok(); ++b) {
     const auto& spec = bodies_->spec(b);
     if (spec.motion == rigid::Motion::free && spec.mass == 0 && fluid_->loads()[b].wetted == 0)
-      report.cause = "body \"" + spec.name + "\" has no mass and is out of the water, which had inertia for it; give it a mass";
+      report.cause =
+          "body \"" + spec.name + "\" has no mass and is out of the water, which had inertia for it; give it a mass";
   }
   if (report.ok()) report.cause = fluid_->verdict().cause;
   return report;

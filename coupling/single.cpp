@@ -1,8 +1,8 @@
 // Steppers with one part, and the clock that all share.
-#include "coupling/steppers.hpp"
-
 #include <istream>
 #include <ostream>
+
+#include "coupling/steppers.hpp"
 
 namespace splashdown::coupling {
 

@@ -134,8 +134,7 @@ template <int d>
 class Partitioned final : public Coupled<d> {
  public:
   Partitioned(std::unique_ptr<fluid::Fluid<d>> fluid, std::unique_ptr<rigid::Bodies<d>> bodies,
-              std::unique_ptr<InterfaceTerm<d>> term, std::unique_ptr<Accelerator> accelerator,
-              CouplingLimits limits);
+              std::unique_ptr<InterfaceTerm<d>> term, std::unique_ptr<Accelerator> accelerator, CouplingLimits limits);
   StepReport attempt(double dt) override;
   void commit() override;
   void save(std::ostream& out) const override;

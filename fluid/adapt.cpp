@@ -26,12 +26,7 @@ template <int d>
 class Adapter {
  public:
   Adapter(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls)
-      : nodes_(nodes),
-        h_(h),
-        mesh_(mesh),
-        walls_(walls),
-        edges_(mesh.boundary, nodes.size()),
-        into_(nodes.size()) {
+      : nodes_(nodes), h_(h), mesh_(mesh), walls_(walls), edges_(mesh.boundary, nodes.size()), into_(nodes.size()) {
     std::iota(into_.begin(), into_.end(), 0);
   }
 

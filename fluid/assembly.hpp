@@ -93,7 +93,8 @@ class Assembly {
 
   void join() {
     std::vector<int> before(blocks_.size() + 1, 0);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) before[b + 1] = before[b] + static_cast<int>(blocks_[b].row.size());
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      before[b + 1] = before[b] + static_cast<int>(blocks_[b].row.size());
     row.resize(before.back());
     value.resize(before.back());
     in_pieces(blocks_.size(), 1, [&](std::size_t from, std::size_t to) {

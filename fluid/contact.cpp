@@ -64,7 +64,8 @@ class Shore {
         for (const auto& f : mesh_.boundary) facets.push_back(corners_of(f, nodes_.x));
         tree_ = FacetTree<d>(facets);
       }
-      if (const auto hit = tree_.nearest(point, reach); hit.facet >= 0) best = {hit.facet, std::sqrt(hit.squared_distance)};
+      if (const auto hit = tree_.nearest(point, reach); hit.facet >= 0)
+        best = {hit.facet, std::sqrt(hit.squared_distance)};
     }
     return best;
   }
@@ -104,7 +105,7 @@ void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int fac
 
 template <int d>
 void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
-  constexpr double near = 2;  // corners farther than this from the boundary, over h, have not been passed by it in a step
+  constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
   Shore<d> shore(nodes, mesh);
   const double reach = near * *std::max_element(h.begin(), h.end());
   for (std::size_t w = 0; w < at.walls.size(); ++w) {
@@ -124,8 +125,8 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
         if ((nodes.x[n] - point).norm() < (nodes.x[closest] - point).norm()) closest = n;
       }
       const double size = h[closest];
-      const bool arrived = hit.distance < (touches ? on_facet : 1e-9) * size ||
-                           (hit.distance < near * size && shore.encloses(point));
+      const bool arrived =
+          hit.distance < (touches ? on_facet : 1e-9) * size || (hit.distance < near * size && shore.encloses(point));
       if (!arrived) continue;
       const WallTie tie{static_cast<int>(w), -1, v};
       if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
@@ -141,8 +142,8 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
 
 // The edge leaves a smooth patch of the wall over one of its creases.
 template <int d>
-bool passes_crease(const Nodes<d>& nodes, std::span<const double> h, const Wall<d>& wall, const Isometry<d>& pose, int w,
-                   int a, int b, typename Wall<d>::Crossing& at) {
+bool passes_crease(const Nodes<d>& nodes, std::span<const double> h, const Wall<d>& wall, const Isometry<d>& pose,
+                   int w, int a, int b, typename Wall<d>::Crossing& at) {
   const WallTie &tie_a = nodes.tie[a], &tie_b = nodes.tie[b];
   if (tie_a.wall != w || tie_a.sharp()) return false;
   const bool turns = tie_b.wall == w;
@@ -300,7 +301,8 @@ void WallMotion<d>::find_separations(const Mesh<d>& mesh) {
         if (!separates(n) || (!inner && index[n] >= 0)) continue;
         for (int other : f.nodes) {
           if (other == n || separates(other) == inner) continue;
-          if (index[n] < 0) index[n] = static_cast<int>(separations_.size()), separations_.push_back({n, {}, Vec<d>::Zero()});
+          if (index[n] < 0)
+            index[n] = static_cast<int>(separations_.size()), separations_.push_back({n, {}, Vec<d>::Zero()});
           separations_[index[n]].upstream.push_back(other);
         }
       }
@@ -334,8 +336,8 @@ bool WallMotion<d>::is_chord(int facet, std::span<const WallTie> tie) const {
   for (int n : f.nodes) {
     if (tie[n].wall != f.wall || nodes_.separates[n]) return false;
     if (tie[n].sharp()) continue;
-    curved = curved || (patch >= 0 && tie[n].patch != patch) || tie[n].patch < 0 ||
-             !walls_[f.wall].is_flat(tie[n].patch);
+    curved =
+        curved || (patch >= 0 && tie[n].patch != patch) || tie[n].patch < 0 || !walls_[f.wall].is_flat(tie[n].patch);
     patch = tie[n].patch;
   }
   return curved;
@@ -433,8 +435,10 @@ template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, 
 template void wet(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
 template void ventilate(Nodes<2>&, const Mesh<2>&, double, std::span<const Twist<2>>, std::span<const Isometry<2>>);
 template void ventilate(Nodes<3>&, const Mesh<3>&, double, std::span<const Twist<3>>, std::span<const Isometry<3>>);
-template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
-template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
+template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
+                       double);
+template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
+                       double);
 template class WallMotion<2>;
 template class WallMotion<3>;
 

@@ -35,11 +35,11 @@ class WallMotion {
   WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls);
 
   struct Moved {
-    std::vector<Vec<d>> x;      ///< at t_{n+1}
-    std::vector<Vec<d>> u;      ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
-                                ///< velocity at an edge where the flow separates
-    std::vector<WallTie> tie;   ///< at t_{n+1}: nodes may leave their wall or turn a corner
-    std::vector<int> slides;    ///< boundary facets that are chords of their curved wall and stay so
+    std::vector<Vec<d>> x;     ///< at t_{n+1}
+    std::vector<Vec<d>> u;     ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
+                               ///< velocity at an edge where the flow separates
+    std::vector<WallTie> tie;  ///< at t_{n+1}: nodes may leave their wall or turn a corner
+    std::vector<int> slides;   ///< boundary facets that are chords of their curved wall and stay so
   };
   /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
   void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
@@ -61,7 +61,7 @@ class WallMotion {
   bool is_chord(int facet, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 
-  std::vector<int> tied_;    // and free to slide, but for vertices
+  std::vector<int> tied_;  // and free to slide, but for vertices
   struct Stuck {
     int node;
     Vec<d> place;   // in the wall's frame

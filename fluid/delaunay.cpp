@@ -30,7 +30,8 @@ struct Cgal;
 template <>
 struct Cgal<2> {
   using Vertex = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-  using Cell = CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+  using Cell =
+      CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
   using Triangulation =
       CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Cell>,
                                                  CGAL::No_constraint_intersection_tag>;
@@ -59,8 +60,7 @@ template <>
 struct Cgal<3> {
   using Vertex = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
   using Cell = CGAL::Triangulation_cell_base_with_info_3<int, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-  using Triangulation =
-      CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
+  using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
   using Point = Kernel::Point_3;
   using Handle = Triangulation::Cell_handle;
   template <class Map>
@@ -87,7 +87,8 @@ std::vector<std::size_t> order_of(const std::vector<typename Cgal<d>::Point>& po
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   using Map = typename CGAL::Pointer_property_map<typename Cgal<d>::Point>::const_type;
-  CGAL::spatial_sort(order.begin(), order.end(), typename Cgal<d>::template SortTraits<Map>(CGAL::make_property_map(points)));
+  CGAL::spatial_sort(order.begin(), order.end(),
+                     typename Cgal<d>::template SortTraits<Map>(CGAL::make_property_map(points)));
   return order;
 }
 
@@ -163,7 +164,8 @@ bool triangulated_in_parallel(const std::vector<Kernel::Point_3>& cloud, Delauna
   sort_by_nodes(out, cloud.size());
   return true;
 }
-bool triangulated_in_parallel(const std::vector<Kernel::Point_2>&, Delaunay<2>&) { return false; }  // CGAL's 2D is serial
+// CGAL inserts in parallel in space only.
+bool triangulated_in_parallel(const std::vector<Kernel::Point_2>&, Delaunay<2>&) { return false; }
 
 }  // namespace
 

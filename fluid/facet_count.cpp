@@ -130,10 +130,9 @@ FacetCount count_facets(const std::filesystem::path& path) {
   const bool printable =
       std::none_of(head.begin(), head.begin() + std::min(size, header), [](char c) { return c == '\0'; });
   if (text || printable) return {SurfaceFormat::stl_ascii, count_lines(file, stl_facets, "STL")};
-  throw SurfaceFileError(
-      fmt::format("is not a mesh: as a binary STL of {} facets it would have {} bytes, not {}", facets,
-                  header + record * facets, size),
-      export_again);
+  throw SurfaceFileError(fmt::format("is not a mesh: as a binary STL of {} facets it would have {} bytes, not {}",
+                                     facets, header + record * facets, size),
+                         export_again);
 }
 
 }  // namespace splashdown::fluid

@@ -132,7 +132,8 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
       for (int i = b.first; i < b.first + b.count; ++i) {
         const Vec<d> c = closest_on(pieces_[i].corner, x);
         const double r = (c - x).squaredNorm();
-        if (r < best.squared_distance || (best.facet < 0 && r <= best.squared_distance)) best = {pieces_[i].facet, c, r};
+        if (r < best.squared_distance || (best.facet < 0 && r <= best.squared_distance))
+          best = {pieces_[i].facet, c, r};
       }
       continue;
     }

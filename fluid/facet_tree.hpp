@@ -23,7 +23,8 @@ class FacetTree {
 
   FacetTree() = default;
   explicit FacetTree(const std::vector<std::array<Vec<d>, d>>& facets);
-  FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices, const Eigen::Matrix<int, d, Eigen::Dynamic>& facets);
+  FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
+            const Eigen::Matrix<int, d, Eigen::Dynamic>& facets);
 
   bool empty() const { return pieces_.empty(); }
   /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,

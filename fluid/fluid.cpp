@@ -1,9 +1,8 @@
 #include "fluid/fluid.hpp"
 
+#include <algorithm>
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/vector.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -39,10 +38,10 @@ struct Present {
 // What one solve works with.
 template <int d>
 struct Trial {
-  std::vector<Vec<d>> v;                    // of nodes, before the pressure
-  std::vector<Twist<d>> s_before;           // of walls, repaired
-  std::vector<Vec<d>> x_mid;                // where a motion is judged
-  std::vector<double> r, repaired;          // residual, repair impulse
+  std::vector<Vec<d>> v;                     // of nodes, before the pressure
+  std::vector<Twist<d>> s_before;            // of walls, repaired
+  std::vector<Vec<d>> x_mid;                 // where a motion is judged
+  std::vector<double> r, repaired;           // residual, repair impulse
   std::vector<Wrench<d>> on_walls, dragged;  // impulses of effects and of sticking
   Eigen::VectorXd known, answer;             // impulses on the motions besides the pressure's, and what they did
 };
@@ -58,8 +57,9 @@ void raw(Archive& archive, std::vector<T>& values) {
 template <class Archive, int d>
 void archive_present(Archive& archive, Present<d>& s) {
   archive(s.time, s.dt, s.acceleration_dt, cereal::binary_data(&s.ledger, sizeof(Ledger)));
-  raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p), raw(archive, s.nodes.q), raw(archive, s.nodes.tie);
-  raw(archive, s.nodes.surface), raw(archive, s.nodes.separates), raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
+  raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p), raw(archive, s.nodes.q);
+  raw(archive, s.nodes.tie), raw(archive, s.nodes.surface), raw(archive, s.nodes.separates);
+  raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
   raw(archive, s.mesh.cells), raw(archive, s.mesh.boundary);
   raw(archive, s.poses), raw(archive, s.velocity), raw(archive, s.wetted);
 }
@@ -95,9 +95,9 @@ struct Fluid<d>::State {
   std::vector<Wall<d>> walls;
   PhaseTimer timer{{"mesh", "assemble", "momentum", "pressure", "move"}};
 
-  Present<d> now;          // committed
-  Present<d> work;         // now, remeshed
-  bool prepared = false;   // work belongs to now
+  Present<d> now;         // committed
+  Present<d> work;        // now, remeshed
+  bool prepared = false;  // work belongs to now
 
   double kick = 0, dt = 0;
   PressureEquation<d> equation;
@@ -385,8 +385,7 @@ Status Fluid<d>::State::predict() {
 template <int d>
 Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const double> previous) {
   s_after.assign(given.begin(), given.end());
-  for (std::size_t w = 0; w < walls.size(); ++w)
-    s_after[w] += trial.s_before[w] - work.velocity[w];
+  for (std::size_t w = 0; w < walls.size(); ++w) s_after[w] += trial.s_before[w] - work.velocity[w];
   middle(trial.v, 0.5 * dt);
   equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
   if (!previous.empty()) equation.laplacian().add(previous, phi);

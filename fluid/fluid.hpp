@@ -40,14 +40,14 @@ struct WallLoad {
 /// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D].
 struct Ledger {
   double volume_initial = 0, volume = 0;
-  double time_integration = 0;   ///< volume change by moving nodes
-  double remesh_created = 0;     ///< volume gained when the boundary was recognised anew
-  double remesh_deleted = 0;     ///< volume lost there (negative)
-  double spray = 0;              ///< volume now carried by separated drops
+  double time_integration = 0;  ///< volume change by moving nodes
+  double remesh_created = 0;    ///< volume gained when the boundary was recognised anew
+  double remesh_deleted = 0;    ///< volume lost there (negative)
+  double spray = 0;             ///< volume now carried by separated drops
   double kinetic_energy = 0, potential_energy = 0;
-  double energy_remesh = 0;      ///< kinetic energy changed by node insertion and removal
-  double energy_repair = 0;      ///< kinetic energy taken by repair impulses
-  double work_on_walls = 0;      ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
+  double energy_remesh = 0;  ///< kinetic energy changed by node insertion and removal
+  double energy_repair = 0;  ///< kinetic energy taken by repair impulses
+  double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
 };
 
 /// How the motions of WallResponse are driven in a step.
@@ -76,8 +76,8 @@ class Fluid {
   /// first guess, after `solve` its result.
   std::span<const double> interface_impulse() const;
   std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
-  std::span<const WallLoad<d>> loads() const;          ///< of the last solve
-  std::span<const Twist<d>> wall_velocities() const;   ///< half-step velocities the last solve ended with
+  std::span<const WallLoad<d>> loads() const;                ///< of the last solve
+  std::span<const Twist<d>> wall_velocities() const;         ///< half-step velocities the last solve ended with
   /// Instantaneous added mass G = B A^-1 B^T of some walls together at t_n [kg, kg m, kg m^2; 2D: per metre]: world
   /// frame, about the walls' reference points, d(d+1)/2 rows a wall. From `begin` to `commit`.
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const;

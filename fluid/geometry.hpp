@@ -24,7 +24,7 @@ inline Mat<3> cofactor(const Mat<3>& J) {
 }
 
 template <int d>
-inline constexpr double factorial = d == 0 ? 1.0 : d * factorial<(d > 0 ? d - 1 : 0)>;
+inline constexpr double factorial = d == 0 ? 1.0 : d* factorial<(d > 0 ? d - 1 : 0)>;
 template <>
 inline constexpr double factorial<0> = 1.0;
 
@@ -55,17 +55,11 @@ VolumeGradients<d> volume_gradients(const Corner& corner) {
 }
 
 // Area vector (normal times measure) of an oriented facet.
-inline Vec<2> area_vector(const std::array<Vec<2>, 2>& f) {
-  return {f[1].y() - f[0].y(), f[0].x() - f[1].x()};
-}
-inline Vec<3> area_vector(const std::array<Vec<3>, 3>& f) {
-  return 0.5 * (f[1] - f[0]).cross(f[2] - f[0]);
-}
+inline Vec<2> area_vector(const std::array<Vec<2>, 2>& f) { return {f[1].y() - f[0].y(), f[0].x() - f[1].x()}; }
+inline Vec<3> area_vector(const std::array<Vec<3>, 3>& f) { return 0.5 * (f[1] - f[0]).cross(f[2] - f[0]); }
 
 // w x r and r x f with the rotation vector's own number of entries.
-inline Vec<2> cross(const Eigen::Matrix<double, 1, 1>& w, const Vec<2>& r) {
-  return {-w[0] * r.y(), w[0] * r.x()};
-}
+inline Vec<2> cross(const Eigen::Matrix<double, 1, 1>& w, const Vec<2>& r) { return {-w[0] * r.y(), w[0] * r.x()}; }
 inline Vec<3> cross(const Vec<3>& w, const Vec<3>& r) { return w.cross(r); }
 inline Eigen::Matrix<double, 1, 1> moment(const Vec<2>& r, const Vec<2>& f) {
   return Eigen::Matrix<double, 1, 1>(r.x() * f.y() - r.y() * f.x());

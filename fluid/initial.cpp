@@ -13,7 +13,7 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double on_wall = 1e-9;      // over the wall's size: roundoff of the clipping
+constexpr double on_wall = 1e-9;  // over the wall's size: roundoff of the clipping
 // While nodes are still few, cells are large for their size field and only the outline tells what is fluid.
 constexpr Alpha outline_decides{std::numeric_limits<double>::infinity(), 0.0, 0.0};
 // Until the node spacing no longer changes visibly; Mesh_3 has done most of it in space.
@@ -44,7 +44,8 @@ class Filler {
     Vec<d> v = Vec<d>::Zero();
     for (const auto& liquid : spec_.liquids) {
       const Wall<d> outline_wall({"", liquid.boundary, Isometry<d>::Identity(), Twist<d>::Zero(), 0});
-      const auto near = outline_wall.nearest(Isometry<d>::Identity(), x, 2 * outline_wall.box().diagonal().norm() + 1e3);
+      const auto near =
+          outline_wall.nearest(Isometry<d>::Identity(), x, 2 * outline_wall.box().diagonal().norm() + 1e3);
       if (near.distance >= best) continue;
       best = near.distance;
       v = liquid.velocity ? liquid.velocity(x) : Vec<d>::Zero();
@@ -121,7 +122,8 @@ WallTie tie_at(const Vec<d>& x, const WallsAt<d>& walls) {
   for (std::size_t w = 0; w < walls.walls.size(); ++w) {
     const double tiny = on_wall * walls.walls[w].box().diagonal().norm();
     const auto near = walls.walls[w].nearest(walls.poses[w], x, 2 * tiny);
-    if (std::abs(near.distance) < tiny) return {static_cast<int>(w), near.sharp() ? -1 : near.patch, near.vertex, near.crease};
+    if (std::abs(near.distance) < tiny)
+      return {static_cast<int>(w), near.sharp() ? -1 : near.patch, near.vertex, near.crease};
   }
   return {};
 }

@@ -96,8 +96,7 @@ class Outliner {
       }
     }
     const int count = static_cast<int>(ring_wall.size());
-    for (int i = 0; i < count; ++i)
-      out_.mesh.boundary.push_back({{first + i, first + (i + 1) % count}, ring_wall[i]});
+    for (int i = 0; i < count; ++i) out_.mesh.boundary.push_back({{first + i, first + (i + 1) % count}, ring_wall[i]});
   }
 
   void add_corner(const Vec<2>& x, WallTie tie) { out_.nodes.add(x, Vec<2>::Zero(), 0, tie, false); }

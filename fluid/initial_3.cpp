@@ -99,7 +99,8 @@ Skin skin_of(const Exact& region, const WallsAt<3>& walls) {
   for (auto f : region.faces()) {
     std::array<Rounded::Vertex_index, 3> corner;
     int k = 0;
-    for (auto v : region.vertices_around_face(region.halfedge(f))) box.extend(vec(skin.mesh.point(corner[k++] = at[v])));
+    for (auto v : region.vertices_around_face(region.halfedge(f)))
+      box.extend(vec(skin.mesh.point(corner[k++] = at[v])));
     skin.mesh.add_face(corner[0], corner[1], corner[2]);
   }
   collapse_specks(skin.mesh, speck * box.diagonal().norm());
@@ -203,7 +204,8 @@ void append(const Complex& complex, const WallsAt<3>& walls, InitialLiquid<3>& o
     const auto [known, fresh] = at.try_emplace(v, 0);
     if (fresh) {
       const Vec<3> x = vec(triangulation.point(v).point());
-      known->second = out.nodes.add(x, Vec<3>::Zero(), 0, v->in_dimension() < 3 ? tie_at<3>(x, walls) : WallTie{}, false);
+      known->second =
+          out.nodes.add(x, Vec<3>::Zero(), 0, v->in_dimension() < 3 ? tie_at<3>(x, walls) : WallTie{}, false);
     }
     return known->second;
   };

@@ -78,7 +78,8 @@ InsideTest<d>::InsideTest(std::span<const Vec<d>> x, const std::vector<Facet<d>>
     slabs_.fill(all, range[1], facets_per_bin);
   } else {
     // As many slabs as bins in a slab.
-    slabs_.fill(all, range[1], std::max(facets_per_bin, static_cast<std::size_t>(std::sqrt(facets_per_bin * facets.size()))));
+    slabs_.fill(all, range[1],
+                std::max(facets_per_bin, static_cast<std::size_t>(std::sqrt(facets_per_bin * facets.size()))));
     cells_.resize(slabs_.count());
     for (std::size_t s = 0; s < cells_.size(); ++s) cells_[s].fill(slabs_[s], range[2], facets_per_bin);
   }

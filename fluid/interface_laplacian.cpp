@@ -173,8 +173,7 @@ void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh,
     for (const auto& border : hull.borders) {
       const int a = places[border.a].piece, b = border.b < 0 ? -1 : places[border.b].piece;
       if (a < 0 || a == b) continue;
-      const double distance =
-          (centre[a] - border.centre).norm() + (b < 0 ? 0.0 : (centre[b] - border.centre).norm());
+      const double distance = (centre[a] - border.centre).norm() + (b < 0 ? 0.0 : (centre[b] - border.centre).norm());
       if (distance > 0) link(a, b, border.measure / distance);
     }
     scale(stand_in.laplacian);

@@ -93,8 +93,7 @@ bool LinearSolver::solve(std::span<double> rhs, int columns, double tolerance) {
   b.x = rhs.data();
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
-  if (!cholmod_solve2(CHOLMOD_A, c_->factor, &b, nullptr, &c_->x, nullptr, &c_->y, &c_->e, &c_->common))
-    return false;
+  if (!cholmod_solve2(CHOLMOD_A, c_->factor, &b, nullptr, &c_->x, nullptr, &c_->y, &c_->e, &c_->common)) return false;
   const double* solution = static_cast<const double*>(c_->x->x);
   std::copy(solution, solution + rhs.size(), rhs.begin());
   return true;

@@ -22,7 +22,8 @@ template <class Visit>
 void in_blocks(int rows, int size, Visit visit) {
   const int blocks = (rows + size - 1) / size;
   in_pieces(static_cast<std::size_t>(blocks), 1, [&](std::size_t from, std::size_t to) {
-    for (int b = static_cast<int>(from); b < static_cast<int>(to); ++b) visit(b * size, std::min(rows, (b + 1) * size), b);
+    for (int b = static_cast<int>(from); b < static_cast<int>(to); ++b)
+      visit(b * size, std::min(rows, (b + 1) * size), b);
   });
 }
 int smoothing_block(int rows) { return std::max(rows_a_block, (rows + most_blocks - 1) / most_blocks); }

@@ -19,15 +19,15 @@ struct WallTie {
 
 template <int d>
 struct Nodes {
-  std::vector<Vec<d>> x;       ///< position at t_n [m]
-  std::vector<Vec<d>> v;       ///< velocity at t_{n-1/2} [m/s]
-  std::vector<double> p;       ///< pressure at t_n [Pa]
-  std::vector<double> q;       ///< part of p that the corrections found [Pa]; the next step starts from it
-  std::vector<WallTie> tie;    ///< wall contact
-  std::vector<char> surface;   ///< 1: on the free surface (p = 0)
-  std::vector<char> separates; ///< 1: at an edge of a wall where the flow leaves it
-  std::vector<char> spray;     ///< 1: belongs to no cell, flies ballistically
-  std::vector<double> volume;  ///< share of the cells around it after the last move; spray keeps its own [m^d]
+  std::vector<Vec<d>> x;        ///< position at t_n [m]
+  std::vector<Vec<d>> v;        ///< velocity at t_{n-1/2} [m/s]
+  std::vector<double> p;        ///< pressure at t_n [Pa]
+  std::vector<double> q;        ///< part of p that the corrections found [Pa]; the next step starts from it
+  std::vector<WallTie> tie;     ///< wall contact
+  std::vector<char> surface;    ///< 1: on the free surface (p = 0)
+  std::vector<char> separates;  ///< 1: at an edge of a wall where the flow leaves it
+  std::vector<char> spray;      ///< 1: belongs to no cell, flies ballistically
+  std::vector<double> volume;   ///< share of the cells around it after the last move; spray keeps its own [m^d]
 
   std::size_t size() const { return x.size(); }
 

@@ -61,7 +61,8 @@ void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
   const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
   // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
-  elimination_ = lifted * (solver_.is_direct() ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse) * lifted.transpose();
+  elimination_ = lifted * (solver_.is_direct() ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse) *
+                 lifted.transpose();
 }
 
 template <int d>
@@ -207,15 +208,19 @@ void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<con
     for (const auto [c, k] : around_.around(node_[i])) r[i] += of_corner_[c][k];
   });
   for (const auto& f : mesh_->boundary)
-    add_flux(f, x, [&](int n) -> Vec<d> {
-      return f.wall < 0 ? Vec<d>(-v[n]) : Vec<d>(-rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]));
-    }, r);
+    add_flux(
+        f, x,
+        [&](int n) -> Vec<d> {
+          return f.wall < 0 ? Vec<d>(-v[n]) : Vec<d>(-rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]));
+        },
+        r);
 }
 
 // r(q) += int_f q w.n dA, w linear between the facet's nodes.
 template <int d>
 template <class Velocity>
-void PressureEquation<d>::add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const {
+void PressureEquation<d>::add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity,
+                                   std::vector<double>& r) const {
   const Vec<d> area = area_vector_of<d>(f, x) / (d * (d + 1));
   Vec<d> sum = Vec<d>::Zero();
   std::array<Vec<d>, d> w;
@@ -242,12 +247,13 @@ void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<c
 }
 
 template <int d>
-void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
-                                         std::span<const Vec<d>> centres, std::span<const int> slides,
-                                         std::vector<double>& r) const {
+void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u,
+                                         std::span<const Twist<d>> s, std::span<const Vec<d>> centres,
+                                         std::span<const int> slides, std::vector<double>& r) const {
   for (int k : slides) {
     const auto& f = mesh_->boundary[k];
-    add_flux(f, x, [&](int n) -> Vec<d> { return u[n] - rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]); }, r);
+    add_flux(
+        f, x, [&](int n) -> Vec<d> { return u[n] - rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]); }, r);
   }
 }
 

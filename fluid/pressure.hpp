@@ -47,7 +47,7 @@ template <int d>
 struct WallResponse {
   /// Motions that are solved with the pressure: twists of all walls, one below the other, a column each. Empty: none.
   Eigen::MatrixXd modes;
-  Eigen::MatrixXd inertia;  ///< of these motions; symmetric, not negative
+  Eigen::MatrixXd inertia;         ///< of these motions; symmetric, not negative
   std::vector<StandIn> stand_ins;  ///< of each wall: local operators instead; empty: none at all
 };
 
@@ -120,11 +120,11 @@ class PressureEquation {
   const Mesh<d>* mesh_ = nullptr;
   std::vector<VolumeGradients<d>> gradients_;  // at t_n
   std::vector<double> lumped_;
-  std::vector<double> per_mass_;        // of cells: 1 / mass
-  std::vector<double> per_nodal_mass_;  // of nodes: 1 / ((d + 1) lumped mass)
-  std::vector<Vec<d>> free_area_;       // of nodes: area vector of the free surface around them
-  std::vector<double> free_spread_;     // of nodes: n_i sum_f |A_f / d|^2
-  std::vector<double> free_measure_;    // of nodes: sum_f |A_f| / d
+  std::vector<double> per_mass_;                  // of cells: 1 / mass
+  std::vector<double> per_nodal_mass_;            // of nodes: 1 / ((d + 1) lumped mass)
+  std::vector<Vec<d>> free_area_;                 // of nodes: area vector of the free surface around them
+  std::vector<double> free_spread_;               // of nodes: n_i sum_f |A_f / d|^2
+  std::vector<double> free_measure_;              // of nodes: sum_f |A_f| / d
   mutable std::vector<Vec<d>> change_, of_cell_;  // scratch: of nodes, of cells
   mutable std::vector<std::array<double, d + 1>> of_corner_;
   mutable std::vector<double> rate_;

@@ -126,7 +126,8 @@ bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>
   constexpr double thin = 0.02;  // a regular tetrahedron: 0.12
   if (d == 2 || fullness > thin) return false;
   const int wall = nodes.tie[cell[0]].wall;
-  if (wall < 0 || !std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; })) return false;
+  if (wall < 0 || !std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; }))
+    return false;
   for (int k = 0; k <= d; ++k)
     if (!lies_on(wall, facet_of<d>(cell, k), nodes, at)) return false;
   return true;
@@ -189,14 +190,17 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
       mesh.boundary.push_back(facet_of<d>(all.cells[c], k));
     }
   }
-  in_parallel(mesh.boundary.size(), [&](std::size_t f) { mesh.boundary[f].wall = wall_of(mesh.boundary[f], nodes, walls); });
+  in_parallel(mesh.boundary.size(),
+              [&](std::size_t f) { mesh.boundary[f].wall = wall_of(mesh.boundary[f], nodes, walls); });
   for (const auto& f : mesh.boundary)
     if (f.wall < 0)
       for (int n : f.nodes) nodes.surface[n] = 1;
   return mesh;
 }
 
-template Mesh<2> recognise(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, const WallsAt<2>&, const Alpha&);
-template Mesh<3> recognise(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, const WallsAt<3>&, const Alpha&);
+template Mesh<2> recognise(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, const WallsAt<2>&,
+                           const Alpha&);
+template Mesh<3> recognise(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, const WallsAt<3>&,
+                           const Alpha&);
 
 }  // namespace splashdown::fluid

@@ -16,8 +16,8 @@ template <int d>
 class SizeField {
  public:
   /// `wetted`: wetted measure of each wall [m in 2D]; `mesh`: its free boundary is a source.
-  SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted,
-            std::span<const Vec<d>> x, const Mesh<d>& mesh);
+  SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted, std::span<const Vec<d>> x,
+            const Mesh<d>& mesh);
   double operator()(const Vec<d>& point) const;
   double at_wall(std::size_t wall) const { return wall_size_[wall]; }
 

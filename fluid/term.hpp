@@ -27,7 +27,7 @@ struct StepView {
   double kick;                            ///< [s]
   std::span<const double> lumped_volume;  ///< of nodes [m^d]
   std::span<const WallSpec<d>> walls;
-  std::span<const Isometry<d>> poses;     ///< of walls, at t_n
+  std::span<const Isometry<d>> poses;  ///< of walls, at t_n
 };
 
 /// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
@@ -40,8 +40,8 @@ struct Carried {
 /// What effects add to.
 template <int d>
 struct Predicted {
-  std::span<Vec<d>> v;               ///< of nodes [m/s]
-  std::span<Wrench<d>> on_walls;     ///< impulse on each wall about its origin [N s]
+  std::span<Vec<d>> v;            ///< of nodes [m/s]
+  std::span<Wrench<d>> on_walls;  ///< impulse on each wall about its origin [N s]
 };
 
 /// Name and value of a number worth recording.

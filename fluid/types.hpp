@@ -17,7 +17,7 @@ template <int d>
 using Isometry = Eigen::Transform<double, d, Eigen::Isometry>;
 
 template <int d>
-inline constexpr int rotations = d * (d - 1) / 2;
+inline constexpr int rotations = d*(d - 1) / 2;
 template <int d>
 inline constexpr int freedoms = d + rotations<d>;
 

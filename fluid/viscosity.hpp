@@ -51,7 +51,7 @@ class Viscosity final : public Term<d> {
   std::vector<VolumeGradients<d>> gradients_;
   std::vector<double> volume_;  // of cells
   std::vector<Held> held_;
-  std::vector<int> held_at_;    // of a node, -1: free
+  std::vector<int> held_at_;  // of a node, -1: free
   NodeCells<d> around_;
   Assembly<d, Mat<d>> blocks_;
   SymmetricMatrix matrix_;

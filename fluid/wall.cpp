@@ -193,7 +193,8 @@ typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& l
   int vertex = -1, on_crease = -1;
   const auto at = [&](int k) { return Vec<d>(spec_.surface.vertices.col(spec_.surface.facets(k % d, facet))); };
   for (int k = 0; k < d && d == 3; ++k) {
-    if (across_(k, facet) < 0 || (closest_on_segment<d>(at(k), at(k + 1), hit.point) - hit.point).norm() > tiny_) continue;
+    if (across_(k, facet) < 0 || (closest_on_segment<d>(at(k), at(k + 1), hit.point) - hit.point).norm() > tiny_)
+      continue;
     normal = normal_.col(facet) + normal_.col(across_(k, facet));
     if (crease_of_(k, facet) >= 0) on_crease = crease_of_(k, facet);
   }
@@ -204,8 +205,12 @@ typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& l
     if (is_corner_[v]) vertex = v;
   }
   const double side = (local - hit.point).dot(normal) < 0 ? -1.0 : 1.0;
-  return {pose * hit.point, pose.linear() * Vec<d>(normal_.col(facet)), side * std::sqrt(hit.squared_distance),
-          patch_of_[facet], vertex, vertex >= 0 ? -1 : on_crease};
+  return {pose * hit.point,
+          pose.linear() * Vec<d>(normal_.col(facet)),
+          side * std::sqrt(hit.squared_distance),
+          patch_of_[facet],
+          vertex,
+          vertex >= 0 ? -1 : on_crease};
 }
 
 template <int d>
@@ -236,14 +241,16 @@ Vec<d> Wall<d>::nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int 
 }
 
 template <int d>
-typename Wall<d>::Crossing Wall<d>::nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const {
+typename Wall<d>::Crossing Wall<d>::nearest_crease(const Isometry<d>& pose, const Vec<d>& from,
+                                                   const Vec<d>& to) const {
   const Vec<d> a = pose.inverse() * from, along = pose.inverse() * to - a;
   Crossing best;
   best.distance = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < creases_.size(); ++c)
     for (const auto& [i, j] : creases_[c]) {
       // Closest points of two segments (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
-      const Vec<d> b = spec_.surface.vertices.col(i), edge = spec_.surface.vertices.col(j) - spec_.surface.vertices.col(i);
+      const Vec<d> b = spec_.surface.vertices.col(i),
+                   edge = spec_.surface.vertices.col(j) - spec_.surface.vertices.col(i);
       const Vec<d> r = a - b;
       const double aa = along.squaredNorm(), ee = edge.squaredNorm(), ae = along.dot(edge);
       const double ar = along.dot(r), er = edge.dot(r), det = aa * ee - ae * ae;

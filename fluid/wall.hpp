@@ -18,12 +18,12 @@ class Wall {
   explicit Wall(const WallSpec<d>& spec);
 
   struct Near {
-    Vec<d> point;      ///< closest point of the wall, world frame
-    Vec<d> normal;     ///< of the facet it lies on, out of the solid
-    double distance;   ///< signed: negative inside the solid
-    int patch;         ///< smooth patch the point lies on
-    int vertex;        ///< corner that is the closest point, -1: none
-    int crease = -1;   ///< crease that the closest point lies on, -1: none; corners lie on none
+    Vec<d> point;     ///< closest point of the wall, world frame
+    Vec<d> normal;    ///< of the facet it lies on, out of the solid
+    double distance;  ///< signed: negative inside the solid
+    int patch;        ///< smooth patch the point lies on
+    int vertex;       ///< corner that is the closest point, -1: none
+    int crease = -1;  ///< crease that the closest point lies on, -1: none; corners lie on none
     bool sharp() const { return vertex >= 0 || crease >= 0; }
   };
 
@@ -76,19 +76,19 @@ class Wall {
   std::vector<FacetTree<d>> patch_tree_;
   std::vector<std::vector<int>> patch_facets_;
   std::vector<int> patch_of_;
-  std::vector<char> is_flat_;  // of patches
+  std::vector<char> is_flat_;                               // of patches
   Eigen::Matrix<double, d, Eigen::Dynamic> normal_;         // of facets, unit
   Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // mean over the facets around a vertex, by their angles
   std::vector<std::vector<int>> facets_of_;
-  Eigen::Matrix<int, d, Eigen::Dynamic> across_;     // 3D: facet beyond the edge from corner k to the next
-  Eigen::Matrix<int, d, Eigen::Dynamic> crease_of_;  // 3D: crease that this edge is part of, -1: smooth
+  Eigen::Matrix<int, d, Eigen::Dynamic> across_;          // 3D: facet beyond the edge from corner k to the next
+  Eigen::Matrix<int, d, Eigen::Dynamic> crease_of_;       // 3D: crease that this edge is part of, -1: smooth
   std::vector<std::vector<std::array<int, 2>>> creases_;  // edges of each
   std::vector<int> corners_;
   std::vector<Bend> bends_;
   std::vector<char> is_corner_, is_sharp_;  // of vertices; sharp: a corner or on a crease
   Eigen::AlignedBox<double, d> box_;
   bool turned_inside_out_;  // the solid is outside
-  double tiny_;  // length below which points coincide
+  double tiny_;             // length below which points coincide
 };
 
 extern template class Wall<2>;

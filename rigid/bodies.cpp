@@ -236,8 +236,7 @@ void Bodies<d>::begin(double kick, double dt) {
   w.kick = kick;
   w.dt = dt;
   for (std::size_t i = 0; i < size(); ++i) {
-    if (w.movers[i])
-      w.movers[i]->begin(lifted_state(w.states[i]), embedding<d>() * (kick * w.known_force(i)), dt);
+    if (w.movers[i]) w.movers[i]->begin(lifted_state(w.states[i]), embedding<d>() * (kick * w.known_force(i)), dt);
     if (w.specs[i].motion == Motion::prescribed) w.trials[i] = w.prescribed(i);
   }
   w.find_motions();

@@ -30,8 +30,7 @@ void check(const BodySpec<d>& spec) {
 
   require(std::isfinite(spec.mass) && spec.mass >= 0, "mass is ", spec.mass,
           "; a body that moves freely needs a positive mass, or none and the water's inertia");
-  if (spec.mass == 0)
-    return require(spec.inertia.isZero(0), "it has a moment of inertia and no mass");
+  if (spec.mass == 0) return require(spec.inertia.isZero(0), "it has a moment of inertia and no mass");
   require(spec.inertia.allFinite() && spec.inertia.isApprox(spec.inertia.transpose(), round_off),
           "the moment of inertia is not a finite symmetric tensor");
   const double smallest = spec.inertia.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();

@@ -26,7 +26,7 @@ struct BodySpec {
   double mass = 0;
   Inertia<d> inertia = Inertia<d>::Identity();
   Motion motion = Motion::free;
-  std::array<bool, freedoms<d>> free{};  ///< which of (V, w) may change, world axes; used when motion = free
+  std::array<bool, freedoms<d>> free{};        ///< which of (V, w) may change, world axes; used when motion = free
   Isometry<d> pose = Isometry<d>::Identity();  ///< body frame to world at t = 0
   Twist<d> velocity = Twist<d>::Zero();        ///< at t = 0
   /// Pose at time t for motion = prescribed [world frame].

@@ -40,14 +40,16 @@ std::unique_ptr<btTypedConstraint> made(const JointSpec& joint, btRigidBody& a, 
   if (joint.type == JointType::weld)
     return std::make_unique<btFixedConstraint>(a, b, seen_from(a, joint, 0), seen_from(b, joint, 0));
   if (joint.type == JointType::slider) {
-    auto slider = std::make_unique<btSliderConstraint>(a, b, seen_from(a, joint, 0), seen_from(b, joint, 0), frame_of_first);
+    auto slider =
+        std::make_unique<btSliderConstraint>(a, b, seen_from(a, joint, 0), seen_from(b, joint, 0), frame_of_first);
     slider->setUseFrameOffset(false);
     constexpr double none = 1;  // lower limit above the upper one
     slider->setLowerLinLimit(none), slider->setUpperLinLimit(-none);
     slider->setLowerAngLimit(0), slider->setUpperAngLimit(0);
     return slider;
   }
-  auto hinge = std::make_unique<btHingeConstraint>(a, b, seen_from(a, joint, 2), seen_from(b, joint, 2), frame_of_first);
+  auto hinge =
+      std::make_unique<btHingeConstraint>(a, b, seen_from(a, joint, 2), seen_from(b, joint, 2), frame_of_first);
   hinge->setUseFrameOffset(false);
   return hinge;
 }
@@ -71,15 +73,14 @@ struct BulletWorld::Objects {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
 };
 
-BulletWorld::BulletWorld() : objects_(std::make_unique<Objects>()) {
-  objects_->world.setGravity(btVector3(0, 0, 0));
-}
+BulletWorld::BulletWorld() : objects_(std::make_unique<Objects>()) { objects_->world.setGravity(btVector3(0, 0, 0)); }
 
 BulletWorld::~BulletWorld() = default;
 
 std::size_t BulletWorld::add(bool moves) {
   const double any_mass = moves ? 1 : 0;  // 0: stays where it is placed
-  btRigidBody::btRigidBodyConstructionInfo info(any_mass, nullptr, &objects_->shape, btVector3(any_mass, any_mass, any_mass));
+  btRigidBody::btRigidBodyConstructionInfo info(any_mass, nullptr, &objects_->shape,
+                                                btVector3(any_mass, any_mass, any_mass));
   info.m_linearDamping = 0;
   info.m_angularDamping = 0;
   info.m_additionalDamping = false;

@@ -33,8 +33,8 @@ Hull<d> hull_of(const BodySpec<d>& body, const BodyState<d>& state, double dt) {
   hull.low = x.rowwise().minCoeff();
   hull.high = x.rowwise().maxCoeff();
   hull.size = (hull.high - hull.low).norm();
-  hull.moves = dt * (state.velocity.template head<d>().norm() +
-                     hull.size * state.velocity.template tail<rotations<d>>().norm());
+  hull.moves =
+      dt * (state.velocity.template head<d>().norm() + hull.size * state.velocity.template tail<rotations<d>>().norm());
   hull.neighbours.resize(static_cast<std::size_t>(x.cols()));
   const auto& facets = body.surface.facets;
   for (Eigen::Index f = 0; f < facets.cols(); ++f)

@@ -19,8 +19,6 @@ void FreeBody::begin(const BodyState<3>& state, const Wrench<3>& impulse, double
   impulse_.tail<3>() = spin.inertia * (spin.velocity - before.velocity);
 }
 
-void FreeBody::commit(const Twist<3>& velocity) {
-  momentum = matrix_.bottomRightCorner<3, 3>() * velocity.tail<3>();
-}
+void FreeBody::commit(const Twist<3>& velocity) { momentum = matrix_.bottomRightCorner<3, 3>() * velocity.tail<3>(); }
 
 }  // namespace splashdown::rigid

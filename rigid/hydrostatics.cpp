@@ -56,8 +56,7 @@ Floating<d> assess(const Surface<d>& surface, const Isometry<d>& pose, double wa
   f.pose = pose;
   f.submerged = submerged<d>(surface, pose, water_level);
   f.draft = water_level - lowest<d>(surface, pose);
-  const double weakest =
-      f.submerged.waterline_moment.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+  const double weakest = f.submerged.waterline_moment.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
   f.metacentric_height = f.submerged.centre(d - 1) + weakest / f.submerged.volume - pose.translation()(d - 1);
   return f;
 }
@@ -95,11 +94,10 @@ Submerged<d> submerged(const Surface<d>& surface, const Isometry<d>& pose, doubl
 }
 
 template <int d>
-std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>& pose, double mass,
-                                    double density, double water_level) {
+std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>& pose, double mass, double density,
+                                    double water_level) {
   if (!(mass > 0 && density > 0 && std::isfinite(mass) && std::isfinite(density)))
-    throw std::invalid_argument(
-        message("floating: mass ", mass, " and density ", density, " must be positive"));
+    throw std::invalid_argument(message("floating: mass ", mass, " and density ", density, " must be positive"));
   const auto heights = (pose.linear() * surface.vertices).row(d - 1).eval();
   double wet = water_level - heights.maxCoeff(), dry = water_level - heights.minCoeff();
   Isometry<d> trial = pose;
@@ -239,10 +237,8 @@ std::vector<Heeled> righting_levers(const Surface<3>& surface, const Floating<3>
 
 template Submerged<2> submerged<2>(const Surface<2>&, const Isometry<2>&, double);
 template Submerged<3> submerged<3>(const Surface<3>&, const Isometry<3>&, double);
-template std::optional<Floating<2>> floating<2>(const Surface<2>&, const Isometry<2>&, double, double,
-                                                double);
-template std::optional<Floating<3>> floating<3>(const Surface<3>&, const Isometry<3>&, double, double,
-                                                double);
+template std::optional<Floating<2>> floating<2>(const Surface<2>&, const Isometry<2>&, double, double, double);
+template std::optional<Floating<3>> floating<3>(const Surface<3>&, const Isometry<3>&, double, double, double);
 
 template double metacentric_height<2>(const Floating<2>&, const Slope<2>&);
 template double metacentric_height<3>(const Floating<3>&, const Slope<3>&);

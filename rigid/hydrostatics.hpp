@@ -38,8 +38,8 @@ struct Floating {
 
 /// Where the body floats if it keeps its orientation; nothing if it sinks. pose keeps the horizontal place.
 template <int d>
-std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>& pose, double mass,
-                                    double density, double water_level);
+std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>& pose, double mass, double density,
+                                    double water_level);
 
 /// Horizontal direction in which a heeled body rises [rad]: to the right in the plane, x and y in space.
 template <int d>
@@ -59,8 +59,8 @@ std::optional<Floating<d>> floating_stable(const Surface<d>& surface, const Isom
 
 /// A point of a curve of static stability.
 struct Heeled {
-  double heel = 0;          ///< [rad]
-  double lever = 0;         ///< GZ, of the moment that rights the body over its weight [m]
+  double heel = 0;   ///< [rad]
+  double lever = 0;  ///< GZ, of the moment that rights the body over its weight [m]
   Floating<3> floating;
 };
 

@@ -28,15 +28,15 @@ Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 class Motions {
  public:
   struct Problem {
-    Eigen::VectorXd before;         ///< s_before
-    Eigen::VectorXd unit;           ///< lengths that make all velocities m/s: 1, or m/rad
-    Eigen::MatrixXd equalities;     ///< E
-    Eigen::VectorXd equal;          ///< a
-    Eigen::MatrixXd contacts;       ///< D
-    Eigen::VectorXd least;          ///< b
-    double resolution = 0;          ///< of D s - b: smaller violations are roundoff [m/s]
-    Eigen::MatrixXd inertia;        ///< M
-    Eigen::VectorXd impulse;        ///< known already [N s]
+    Eigen::VectorXd before;      ///< s_before
+    Eigen::VectorXd unit;        ///< lengths that make all velocities m/s: 1, or m/rad
+    Eigen::MatrixXd equalities;  ///< E
+    Eigen::VectorXd equal;       ///< a
+    Eigen::MatrixXd contacts;    ///< D
+    Eigen::VectorXd least;       ///< b
+    double resolution = 0;       ///< of D s - b: smaller violations are roundoff [m/s]
+    Eigen::MatrixXd inertia;     ///< M
+    Eigen::VectorXd impulse;     ///< known already [N s]
   };
   Motions() = default;
   explicit Motions(const Problem& problem);
@@ -55,14 +55,14 @@ class Motions {
   void restrict();
   Eigen::VectorXd amplitudes(const Eigen::VectorXd& velocity) const;
 
-  Eigen::VectorXd unit_, origin_, known_;   // s_0; Z^T (impulse - M (s_0 - s_before))
-  Eigen::MatrixXd modes_, basis_, inertia_; // basis: Z in scaled velocities, orthonormal
-  Eigen::MatrixXd contacts_;                // D Z
-  Eigen::VectorXd least_;                   // b - D s_0
+  Eigen::VectorXd unit_, origin_, known_;    // s_0; Z^T (impulse - M (s_0 - s_before))
+  Eigen::MatrixXd modes_, basis_, inertia_;  // basis: Z in scaled velocities, orthonormal
+  Eigen::MatrixXd contacts_;                 // D Z
+  Eigen::VectorXd least_;                    // b - D s_0
   double resolution_ = 0;
   std::vector<char> closed_;
-  int settled_ = 0;                         // how often contacts changed
-  Eigen::VectorXd pushed_;                  // amplitudes that closed contacts ask for
+  int settled_ = 0;         // how often contacts changed
+  Eigen::VectorXd pushed_;  // amplitudes that closed contacts ask for
   Eigen::MatrixXd directions_;
 };
 

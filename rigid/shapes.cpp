@@ -24,8 +24,7 @@ void require_positive(const char* shape, const char* what, double value) {
 
 void require_segments(const char* shape, int segments) {
   const int fewest = 8;  // an octagon is the coarsest thing that may be called round
-  if (segments < fewest)
-    throw std::invalid_argument(message(shape, ": ", segments, " segments; at least ", fewest));
+  if (segments < fewest) throw std::invalid_argument(message(shape, ": ", segments, " segments; at least ", fewest));
 }
 
 Surface<2> closed_polyline(std::span<const Vec<2>> points) {
@@ -60,8 +59,7 @@ bool meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& e, do
   const bool apart = (a.cwiseMax(b).array() + tolerance < c.cwiseMin(e).array()).any() ||
                      (c.cwiseMax(e).array() + tolerance < a.cwiseMin(b).array()).any();
   if (apart) return false;
-  if (cross(b - a, c - a) * cross(b - a, e - a) < 0 && cross(e - c, a - c) * cross(e - c, b - c) < 0)
-    return true;
+  if (cross(b - a, c - a) * cross(b - a, e - a) < 0 && cross(e - c, a - c) * cross(e - c, b - c) < 0) return true;
   return std::min({distance(a, c, e), distance(b, c, e), distance(c, a, b), distance(e, a, b)}) <= tolerance;
 }
 
@@ -72,12 +70,12 @@ void require_simple(std::span<const Vec<2>> points, double tolerance) {
     const std::size_t next = (i + 1) % n;
     if (distance(end(next), points[i], end(i)) <= tolerance ||
         distance(points[i], points[next], end(next)) <= tolerance)
-      throw std::invalid_argument(message("polygon: the outline folds back onto itself at point ", next + 1,
-                                          " ", text(points[next])));
+      throw std::invalid_argument(
+          message("polygon: the outline folds back onto itself at point ", next + 1, " ", text(points[next])));
     for (std::size_t j = i + 2; j < n; ++j) {
       if ((j + 1) % n == i || !meet(points[i], end(i), points[j], end(j), tolerance)) continue;
-      throw std::invalid_argument(message("polygon: edges ", i + 1, " ", text(points[i]), "-", text(end(i)),
-                                          " and ", j + 1, " ", text(points[j]), "-", text(end(j)),
+      throw std::invalid_argument(message("polygon: edges ", i + 1, " ", text(points[i]), "-", text(end(i)), " and ",
+                                          j + 1, " ", text(points[j]), "-", text(end(j)),
                                           " touch or cross; an outline must not meet itself"));
     }
   }
@@ -87,8 +85,7 @@ void require_distinct(std::span<const Vec<2>> points, double tolerance) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = i + 1; j < points.size(); ++j) {
       if ((points[i] - points[j]).norm() > tolerance) continue;
-      throw std::invalid_argument(message("polygon: points ", i + 1, " and ", j + 1, " are the same, ",
-                                          text(points[i]),
+      throw std::invalid_argument(message("polygon: points ", i + 1, " and ", j + 1, " are the same, ", text(points[i]),
                                           "; the outline closes by itself and repeats no point"));
     }
   }

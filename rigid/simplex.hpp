@@ -14,8 +14,7 @@ using FacetCorners = std::array<Vec<d>, static_cast<std::size_t>(d)>;
 template <int d>
 FacetCorners<d> facet_corners(const Surface<d>& surface, Eigen::Index facet) {
   FacetCorners<d> corners;
-  for (int k = 0; k < d; ++k)
-    corners[static_cast<std::size_t>(k)] = surface.vertices.col(surface.facets(k, facet));
+  for (int k = 0; k < d; ++k) corners[static_cast<std::size_t>(k)] = surface.vertices.col(surface.facets(k, facet));
   return corners;
 }
 

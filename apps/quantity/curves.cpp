@@ -17,8 +17,7 @@ using Column = std::vector<double>;
 void require_increasing(const Column& x) {
   for (std::size_t i = 1; i < x.size(); ++i)
     if (!(x[i] > x[i - 1]))
-      throw std::runtime_error(
-          fmt::format("x does not increase from row {} ({}) to the next ({})", i, x[i - 1], x[i]));
+      throw std::runtime_error(fmt::format("x does not increase from row {} ({}) to the next ({})", i, x[i - 1], x[i]));
 }
 
 /// Index i with x[i] <= at <= x[i+1]; at has to lie within x.
@@ -93,8 +92,7 @@ Column window_means(const Column& y, const Column& x, double width) {
   if (x.size() < 2) throw std::runtime_error("a window needs two rows");
   require_increasing(x);
   Column running(x.size(), 0.0);
-  for (std::size_t i = 1; i < x.size(); ++i)
-    running[i] = running[i - 1] + 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
+  for (std::size_t i = 1; i < x.size(); ++i) running[i] = running[i - 1] + 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
   const auto integral_to = [&](double at) {
     const std::size_t i = interval_of(x, at);
     return running[i] + 0.5 * (y[i] + value_at(x, y, at)) * (at - x[i]);
@@ -113,8 +111,7 @@ Column upward_crossings(const Column& y, const Column& x) {
   Column result;
   for (std::size_t i = 1; i < y.size(); ++i) {
     if (std::isnan(y[i - 1]) && y[i] > 0) result.push_back(x[i]);
-    if (y[i - 1] <= 0 && y[i] > 0)
-      result.push_back(x[i - 1] + (x[i] - x[i - 1]) * (0 - y[i - 1]) / (y[i] - y[i - 1]));
+    if (y[i - 1] <= 0 && y[i] > 0) result.push_back(x[i - 1] + (x[i] - x[i - 1]) * (0 - y[i - 1]) / (y[i] - y[i - 1]));
   }
   return result;
 }
@@ -134,8 +131,7 @@ Column peak_heights(const Column& y, const Column& x) {
 
 Column bin_centres(double low, double high, std::size_t count) {
   Column result;
-  for (std::size_t i = 0; i < count; ++i)
-    result.push_back(low + (double(i) + 0.5) * (high - low) / double(count));
+  for (std::size_t i = 0; i < count; ++i) result.push_back(low + (double(i) + 0.5) * (high - low) / double(count));
   return result;
 }
 
@@ -143,8 +139,7 @@ Column bin_means(const Column& y, const Column& x, double low, double high, std:
   Column sums(count, 0.0), rows(count, 0.0);
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(x[i] >= low && x[i] < high)) continue;
-    const auto bin =
-        std::min(count - 1, static_cast<std::size_t>((x[i] - low) / (high - low) * double(count)));
+    const auto bin = std::min(count - 1, static_cast<std::size_t>((x[i] - low) / (high - low) * double(count)));
     sums[bin] += y[i];
     rows[bin] += 1;
   }

@@ -26,7 +26,7 @@ std::vector<double> upward_crossings(const std::vector<double>& y, const std::ve
 std::vector<double> peak_heights(const std::vector<double>& y, const std::vector<double>& x);
 
 std::vector<double> bin_centres(double low, double high, std::size_t count);
-std::vector<double> bin_means(const std::vector<double>& y, const std::vector<double>& x, double low,
-                              double high, std::size_t count);
+std::vector<double> bin_means(const std::vector<double>& y, const std::vector<double>& x, double low, double high,
+                              std::size_t count);
 
 }  // namespace splashdown::quantity

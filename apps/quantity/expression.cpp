@@ -155,17 +155,14 @@ class Parser {
 
 }  // namespace
 
-Value evaluate(const std::string& expression, const Lookup& lookup) {
-  return Parser(expression, &lookup).parse();
-}
+Value evaluate(const std::string& expression, const Lookup& lookup) { return Parser(expression, &lookup).parse(); }
 
 void check_syntax(const std::string& expression) { Parser(expression, nullptr).parse(); }
 
 double evaluate_number(const std::string& expression, const Lookup& lookup) {
   const Value value = evaluate(expression, lookup);
   if (value.numbers.size() != 1)
-    throw std::runtime_error(
-        fmt::format("\"{}\" gives {} numbers instead of one", expression, value.numbers.size()));
+    throw std::runtime_error(fmt::format("\"{}\" gives {} numbers instead of one", expression, value.numbers.size()));
   return value.numbers.front();
 }
 

@@ -134,8 +134,7 @@ const std::map<std::string, Function>& functions() {
           const Column& x = a[1].numbers;
           return Value::number(integral(a[0].numbers, x) / (x.back() - x.front()));
         }}},
-      {"slope",
-       of_pair(0, [](const Arguments& a) { return Value::number(slope(a[0].numbers, a[1].numbers)); })},
+      {"slope", of_pair(0, [](const Arguments& a) { return Value::number(slope(a[0].numbers, a[1].numbers)); })},
       {"argmax", of_pair(0,
                          [](const Arguments& a) {
                            return Value::number(a[1].numbers[place_of(a[0].numbers, std::greater<>())]);
@@ -144,38 +143,29 @@ const std::map<std::string, Function>& functions() {
                          [](const Arguments& a) {
                            return Value{interpolated(a[0].numbers, a[1].numbers, a[2].numbers), a[2].scalar};
                          })},
-      {"smooth", of_pair(1,
-                         [](const Arguments& a) {
-                           return Value::column(smoothed(a[0].numbers, a[1].numbers, scalar(a[2])));
-                         })},
+      {"smooth",
+       of_pair(1,
+               [](const Arguments& a) { return Value::column(smoothed(a[0].numbers, a[1].numbers, scalar(a[2]))); })},
       {"windows", of_pair(1,
                           [](const Arguments& a) {
                             return Value::column(window_means(a[0].numbers, a[1].numbers, scalar(a[2])));
                           })},
-      {"crossings", of_pair(0,
-                            [](const Arguments& a) {
-                              return Value::column(upward_crossings(a[0].numbers, a[1].numbers));
-                            })},
-      {"peaks",
-       of_pair(0,
-               [](const Arguments& a) { return Value::column(peak_heights(a[0].numbers, a[1].numbers)); })},
+      {"crossings",
+       of_pair(0, [](const Arguments& a) { return Value::column(upward_crossings(a[0].numbers, a[1].numbers)); })},
+      {"peaks", of_pair(0, [](const Arguments& a) { return Value::column(peak_heights(a[0].numbers, a[1].numbers)); })},
       {"group_max",
-       of_pair(0,
-               [](const Arguments& a) { return group_extremes(a[0].numbers, a[1].numbers, a[0].numbers); })},
+       of_pair(0, [](const Arguments& a) { return group_extremes(a[0].numbers, a[1].numbers, a[0].numbers); })},
       {"group_argmax",
-       of_pair(1,
-               [](const Arguments& a) { return group_extremes(a[0].numbers, a[1].numbers, a[2].numbers); })},
+       of_pair(1, [](const Arguments& a) { return group_extremes(a[0].numbers, a[1].numbers, a[2].numbers); })},
       {"bins", of_pair(3,
                        [](const Arguments& a) {
-                         return Value::column(bin_means(a[0].numbers, a[1].numbers, scalar(a[2]),
-                                                        scalar(a[3]),
+                         return Value::column(bin_means(a[0].numbers, a[1].numbers, scalar(a[2]), scalar(a[3]),
                                                         static_cast<std::size_t>(scalar(a[4]))));
                        })},
       {"bin_centres",
        {3, 3,
         [](const Arguments& a) {
-          return Value::column(
-              bin_centres(scalar(a[0]), scalar(a[1]), static_cast<std::size_t>(scalar(a[2]))));
+          return Value::column(bin_centres(scalar(a[0]), scalar(a[1]), static_cast<std::size_t>(scalar(a[2]))));
         }}},
       {"column", {1, std::numeric_limits<std::size_t>::max(), gathered}},
       {"index", {1, 1, [](const Arguments& a) { return counted(a[0].numbers); }}},

@@ -61,8 +61,8 @@ Table read_table(const std::filesystem::path& folder, const std::string& file_an
       continue;
     }
     if (cells.size() != table.names.size())
-      throw std::runtime_error(fmt::format("{}:{}: {} cells under {} column names", path.string(), number,
-                                           cells.size(), table.names.size()));
+      throw std::runtime_error(fmt::format("{}:{}: {} cells under {} column names", path.string(), number, cells.size(),
+                                           table.names.size()));
     if (!key.empty() && std::find(cells.begin(), cells.end(), key) == cells.end()) continue;
     for (std::size_t i = 0; i < cells.size(); ++i) table.columns[i].push_back(number_or_nan(cells[i]));
   }
@@ -76,8 +76,7 @@ Table select_rows(const Table& table, const std::vector<double>& mask) {
   Table selected{table.names, std::vector<std::vector<double>>(table.columns.size())};
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (mask[row] == 0) continue;
-    for (std::size_t i = 0; i < table.columns.size(); ++i)
-      selected.columns[i].push_back(table.columns[i][row]);
+    for (std::size_t i = 0; i < table.columns.size(); ++i) selected.columns[i].push_back(table.columns[i][row]);
   }
   return selected;
 }

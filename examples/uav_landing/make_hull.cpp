@@ -69,8 +69,8 @@ int main() {
                                                             CGAL::parameters::relative_error_bound = 1e-6);
   const Criteria criteria(CGAL::parameters::facet_angle = 25, CGAL::parameters::facet_size = 0.08,
                           CGAL::parameters::facet_distance = 0.004);
-  const Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, CGAL::parameters::no_perturb(),
-                                                     CGAL::parameters::no_exude());
+  const Complex complex =
+      CGAL::make_mesh_3<Complex>(domain, criteria, CGAL::parameters::no_perturb(), CGAL::parameters::no_exude());
   CGAL::Surface_mesh<Kernel::Point_3> surface;
   CGAL::facets_in_complex_3_to_triangle_mesh(complex, surface);
 

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   measured::Medians medians;
   benchmark::RunSpecifiedBenchmarks(&medians);
   const double ratio = medians.of("free", nodes) / medians.of("held", nodes);
-  std::printf("%zu nodes: pressure part of a step, body free / body held = %.3f\n", held->fluid().nodes().size(), ratio);
+  std::printf("%zu nodes: pressure part of a step, body free / body held = %.3f\n", held->fluid().nodes().size(),
+              ratio);
   return ratio > max_ratio ? 1 : 0;
 }

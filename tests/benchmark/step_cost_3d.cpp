@@ -101,7 +101,8 @@ int main(int argc, char** argv) {
     auto in_wall_time = [&](const char* name, auto run) { measured::add(name, nodes, run)->UseRealTime(); };
     in_wall_time("delaunay", [=](benchmark::State& state) { triangulate(state, nodes); });
     in_wall_time("multigrid", [=](benchmark::State& state) { solve(state, nodes, 0, closely); });
-    if (nodes <= most_factored) in_wall_time("cholesky", [=](benchmark::State& state) { solve(state, nodes, all, closely); });
+    if (nodes <= most_factored)
+      in_wall_time("cholesky", [=](benchmark::State& state) { solve(state, nodes, all, closely); });
     in_wall_time("step_on_1_thread", [=](benchmark::State& state) { step(state, nodes, 1); });
     in_wall_time("step_on_2_threads", [=](benchmark::State& state) { step(state, nodes, 2); });
   }
@@ -112,8 +113,8 @@ int main(int argc, char** argv) {
   for (const int nodes : sizes) {
     const double bare = medians.of("delaunay", nodes) + medians.of("multigrid", nodes);
     const double two = medians.of("step_on_2_threads", nodes), ratio = two / bare;
-    std::printf("%d nodes: step / (Delaunay + multigrid) = %.2f, one thread / two = %.2f, %.1f us a node on two\n", nodes, ratio,
-                medians.of("step_on_1_thread", nodes) / two, 1e3 * two / nodes);
+    std::printf("%d nodes: step / (Delaunay + multigrid) = %.2f, one thread / two = %.2f, %.1f us a node on two\n",
+                nodes, ratio, medians.of("step_on_1_thread", nodes) / two, 1e3 * two / nodes);
     holds = holds && !(ratio > max_ratio);
   }
   return holds ? 0 : 1;

@@ -44,7 +44,7 @@ constexpr int steps = 8;
 constexpr double dt = 1e-3, tolerance = 1e-8;
 
 std::unique_ptr<Coupled<2>> released(const Scheme& s, double ratio, double h = 0.12,
-                                         const fluid::Twist<2>& velocity = fluid::Twist<2>::Zero()) {
+                                     const fluid::Twist<2>& velocity = fluid::Twist<2>::Zero()) {
   auto scene = scenes::submerged_circle(ratio, h);
   scene.set_velocity(0, velocity);
   return s.couple(scene, {.tolerance = tolerance});

@@ -90,8 +90,7 @@ TEST_P(Value, in_a_body_refuses_the_step_and_leaves_no_trace) {
   EXPECT_EQ(saved(*stepper), saved(*undisturbed));
 }
 
-INSTANTIATE_TEST_SUITE_P(NotFinite, Value,
-                         testing::Values(nan, std::numeric_limits<double>::infinity(), 1e300));
+INSTANTIATE_TEST_SUITE_P(NotFinite, Value, testing::Values(nan, std::numeric_limits<double>::infinity(), 1e300));
 
 TEST(Wall, asked_about_a_point_that_is_not_finite_gives_an_answer) {
   const fluid::Wall<2> wall(fluid::scenes::wall("", fluid::scenes::rectangle({0, 0}, {1, 1}), 1));
@@ -144,10 +143,9 @@ TEST(Start, of_a_body_in_the_air_far_from_water_is_free_fall) {
 TEST(Liquid, that_is_a_single_droplet_flies) {
   fluid::FluidSpec<2> spec;
   spec.size = {.surface = 1, .far = 1};
-  spec.liquids.push_back({fluid::scenes::outline({{0, 0}, {0.1, 0}, {0.05, 0.08}}),
-                          [](const auto&) { return fluid::Vec<2>(1, 2); }});
-  coupling::FluidOnly<2> stepper(
-      std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::gravity({0, -scenes::g})));
+  spec.liquids.push_back(
+      {fluid::scenes::outline({{0, 0}, {0.1, 0}, {0.05, 0.08}}), [](const auto&) { return fluid::Vec<2>(1, 2); }});
+  coupling::FluidOnly<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::gravity({0, -scenes::g})));
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(stepper.attempt(1e-3).ok());
     stepper.commit();

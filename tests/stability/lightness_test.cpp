@@ -43,8 +43,7 @@ double displaced() {
   const fluid::Fluid<2> f(scenes::submerged_circle(1).fluid, fluid::scenes::no_terms());
   double hull = 0;
   for (const auto& facet : f.mesh().boundary)
-    if (facet.wall == 0)
-      hull -= f.nodes().x[facet.nodes[0]].dot(fluid::area_vector_of<2>(facet, f.nodes().x)) / 2;
+    if (facet.wall == 0) hull -= f.nodes().x[facet.nodes[0]].dot(fluid::area_vector_of<2>(facet, f.nodes().x)) / 2;
   return water * hull;
 }
 
@@ -131,8 +130,7 @@ TEST(NoTerm, amplifies_an_error_by_added_mass_over_mass_a_pass) {
   EXPECT_NEAR(M_a, added_mass(dt), 1e-3 * M_a);
   // Hence G' = -M_a / m: divergence for all bodies lighter than their added mass, whatever dt.
   for (double ratio : {0.1, 1.0 / 3, 0.9}) {
-    const auto none =
-        scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>());
+    const auto none = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>());
     for (double step : {1e-3, 1e-5}) EXPECT_FALSE(none->attempt(step).ok()) << ratio << ' ' << step;
   }
   const auto heavy = scenes::coupled(scenes::submerged_circle(3), std::make_unique<coupling::NoTerm<2>>());
@@ -147,10 +145,9 @@ TEST(NoTerm, amplifies_a_residual_by_added_mass_over_mass_a_pass) {
   const double dt = 1e-4, M_a = added_mass(1e-6);
   for (double ratio : {1.0 / 3, 0.1}) {
     const auto residual_after = [&](int passes) {
-      const auto stepper =
-          scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>(),
-                          std::make_unique<coupling::ConstantRelaxation>(1.0),
-                          {.tolerance = 1e-14, .max_passes = passes});
+      const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>(),
+                                           std::make_unique<coupling::ConstantRelaxation>(1.0),
+                                           {.tolerance = 1e-14, .max_passes = passes});
       return stepper->attempt(dt).residual;
     };
     const double m = ratio * scenes::submerged_circle(1).bodies[0].mass;
@@ -169,8 +166,8 @@ std::unique_ptr<coupling::Accelerator> accelerator(const std::string& name) {
 template <class Term>
 std::pair<coupling::StepReport, fluid::Twist<2>> first_step(double ratio, double dt, const std::string& name,
                                                             double tolerance = 1e-6) {
-  const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<Term>(),
-                                       accelerator(name), {.tolerance = tolerance, .max_passes = 200});
+  const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<Term>(), accelerator(name),
+                                       {.tolerance = tolerance, .max_passes = 200});
   const auto report = stepper->attempt(dt);
   EXPECT_TRUE(report.ok()) << name << ' ' << ratio << ": " << report.cause;
   return {report, stepper->trial()[0].velocity};
@@ -261,9 +258,8 @@ TEST(LaplacianTerm, converges_with_aitken_too) {
 TEST(Aitken, makes_plain_exchange_converge_for_a_light_body) {
   for (double first : {0.3, 0.1, 0.02})
     for (double dt : {1e-3, 1e-3 / 16}) {
-      const auto stepper =
-          scenes::coupled(scenes::submerged_circle(0.1), std::make_unique<coupling::NoTerm<2>>(),
-                          std::make_unique<coupling::Aitken>(first));
+      const auto stepper = scenes::coupled(scenes::submerged_circle(0.1), std::make_unique<coupling::NoTerm<2>>(),
+                                           std::make_unique<coupling::Aitken>(first));
       const auto report = stepper->attempt(dt);
       EXPECT_TRUE(report.ok()) << report.cause;
       EXPECT_LE(report.passes, 30);

@@ -54,9 +54,7 @@ scenes::Scene box_over_water(const Vec& centre, double pitch, const rigid::Twist
   return s;
 }
 
-TEST(LightBox, that_skips_obliquely_keeps_the_books) {
-  survives(box_over_water({-0.9, 0.12}, 0.15, {5, -1, 0}), 0.15);
-}
+TEST(LightBox, that_skips_obliquely_keeps_the_books) { survives(box_over_water({-0.9, 0.12}, 0.15, {5, -1, 0}), 0.15); }
 
 TEST(LightBox, that_cartwheels_into_the_water_keeps_the_books) {
   survives(box_over_water({-0.5, 0.25}, 0.5, {2, -2, -10}), 0.2);

@@ -72,7 +72,8 @@ TEST(Hinged, pair_of_a_light_and_a_heavy_body_swings) {
   s.set_velocity(1, {0.3, 0, 0});
   const auto stepper = scenes::coupled(s);
   EXPECT_EQ(scenes::run(*stepper, 100), 1) << "passes of a step; -1: one was refused";
-  const Vec upper = stepper->bodies().state(0).pose * Vec(0, -0.35), lower = stepper->bodies().state(1).pose * Vec(0, 0.35);
+  const Vec upper = stepper->bodies().state(0).pose * Vec(0, -0.35),
+            lower = stepper->bodies().state(1).pose * Vec(0, 0.35);
   EXPECT_LE((upper - lower).norm(), 1e-4);
 }
 

@@ -52,8 +52,14 @@ TEST(Cup, in_water_and_full_of_it_carries_its_own_displacement) {
   const Vec low(-0.3, -0.5), high(0.3, 0.2);
   const double t = 0.02;
   const Vec in_low = low + Vec(t, t), in_high = high - Vec(t, 0);
-  const auto outline = fluid::scenes::outline({low, {high.x(), low.y()}, high, in_high, {in_high.x(), in_low.y()},
-                                               in_low, {in_low.x(), high.y()}, {low.x(), high.y()}});
+  const auto outline = fluid::scenes::outline({low,
+                                               {high.x(), low.y()},
+                                               high,
+                                               in_high,
+                                               {in_high.x(), in_low.y()},
+                                               in_low,
+                                               {in_low.x(), high.y()},
+                                               {low.x(), high.y()}});
   spec.walls.insert(spec.walls.begin(), fluid::scenes::wall("cup", outline, 0.1));
   const auto stepper = at_rest(spec);
   still_for(*stepper, 20);
@@ -65,9 +71,11 @@ TEST(Cup, carries_the_weight_of_its_water) {
   fluid::FluidSpec<2> spec;
   spec.size = {.surface = 0.05, .far = 0.05};
   // Walls of less than half an element; the hollow makes the body concave.
-  spec.walls.push_back(fluid::scenes::wall("cup", fluid::scenes::outline({{-0.32, -0.02}, {0.32, -0.02}, {0.32, 0.5},
-                                                                          {0.3, 0.5}, {0.3, 0}, {-0.3, 0}, {-0.3, 0.5},
-                                                                          {-0.32, 0.5}}), 0.05));
+  spec.walls.push_back(fluid::scenes::wall(
+      "cup",
+      fluid::scenes::outline(
+          {{-0.32, -0.02}, {0.32, -0.02}, {0.32, 0.5}, {0.3, 0.5}, {0.3, 0}, {-0.3, 0}, {-0.3, 0.5}, {-0.32, 0.5}}),
+      0.05));
   spec.liquids.push_back({fluid::scenes::rectangle({-0.3, 0}, {0.3, 0.4}), {}});
   const auto stepper = at_rest(spec);
   still_for(*stepper, 20);

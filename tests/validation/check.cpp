@@ -133,8 +133,8 @@ CheckSpec read_check(const Section& section, const Example& example) {
   check.unit = section.text("unit", "-");
   check.why = section.required_text("why");
   check.label = read_label(section);
-  const bool known = std::any_of(example.runs.begin(), example.runs.end(),
-                                 [&](const RunSpec& run) { return run.name == check.run; });
+  const bool known =
+      std::any_of(example.runs.begin(), example.runs.end(), [&](const RunSpec& run) { return run.name == check.run; });
   if (!known) section.fail(*section.table().get("run"), fmt::format("there is no [[run]] '{}'", check.run));
   if (example.run(check.run).label == Label::nightly) check.label = Label::nightly;
   return check;
@@ -156,8 +156,7 @@ std::map<std::string, double> read_constants(const Section& section) {
 }  // namespace
 
 const RunSpec& Example::run(const std::string& name) const {
-  const auto found =
-      std::find_if(runs.begin(), runs.end(), [&](const RunSpec& run) { return run.name == name; });
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const RunSpec& run) { return run.name == name; });
   if (found == runs.end()) throw std::runtime_error(fmt::format("there is no [[run]] '{}'", name));
   return *found;
 }
@@ -168,8 +167,7 @@ Example read_example(const std::filesystem::path& folder) {
   try {
     root = toml::parse_file(file.string());
   } catch (const toml::parse_error& error) {
-    throw std::runtime_error(
-        fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()));
+    throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()));
   }
   const Section top(root, file);
   top.allow_only({"title", "constants", "run", "check"});

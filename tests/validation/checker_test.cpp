@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "apps/quantity/table.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/validation/check.hpp"
 #include "tests/validation/judge.hpp"
 #include "tests/validation/report.hpp"
 #include "tests/validation/runner.hpp"
-#include "apps/quantity/table.hpp"
 
 namespace splashdown::validation {
 namespace {
@@ -52,9 +52,7 @@ class Checker : public testing::Test, protected ScratchFolder {
   const fs::path example_ = path() / "falling";
 };
 
-std::string check(const std::string& lines) {
-  return "[[check]]\nname = \"c\"\nwhy = \"law\"\n" + lines + "\n";
-}
+std::string check(const std::string& lines) { return "[[check]]\nname = \"c\"\nwhy = \"law\"\n" + lines + "\n"; }
 
 TEST_F(Checker, columns_of_one_body_are_compared_with_one_series_of_the_reference) {
   const auto v =
@@ -116,20 +114,18 @@ TEST_F(Checker, a_run_is_made_once_and_gets_its_arguments) {
 }
 
 TEST_F(Checker, a_check_of_a_nightly_run_is_nightly) {
-  const Example read =
-      example(check("quantity = \"1\"\nrun = \"broken\"") +
-              "[[check]]\nname = \"d\"\nwhy = \"law\"\nquantity = \"2\"\n" +
-              "[[check]]\nname = \"e\"\nwhy = \"law\"\nquantity = \"3\"\nlabel = \"nightly\"\n");
+  const Example read = example(check("quantity = \"1\"\nrun = \"broken\"") +
+                               "[[check]]\nname = \"d\"\nwhy = \"law\"\nquantity = \"2\"\n" +
+                               "[[check]]\nname = \"e\"\nwhy = \"law\"\nquantity = \"3\"\nlabel = \"nightly\"\n");
   EXPECT_EQ(read.checks[0].label, Label::nightly);
   EXPECT_EQ(read.checks[1].label, Label::ci);
   EXPECT_EQ(read.checks[2].label, Label::nightly);
 }
 
 TEST_F(Checker, misspelt_keys_and_missing_tolerances_are_refused_with_their_line) {
-  for (const char* lines :
-       {"quantity = \"1\"\ntolerence = 1", "quantity = \"1\"\nexpected = 1", "at_most = 1",
-        "quantity = \"1\"\ntolerance = 1", "quantity = \"1\"\nrun = \"nope\"", "quantity = 3",
-        "quantity = \"1\"\nat_most = \"x\""})
+  for (const char* lines : {"quantity = \"1\"\ntolerence = 1", "quantity = \"1\"\nexpected = 1", "at_most = 1",
+                            "quantity = \"1\"\ntolerance = 1", "quantity = \"1\"\nrun = \"nope\"", "quantity = 3",
+                            "quantity = \"1\"\nat_most = \"x\""})
     EXPECT_THROW(example(check(lines)), std::runtime_error) << lines;
   try {
     example(check("quantity = \"1\"\ntolerence = 1"));

@@ -14,8 +14,7 @@ constexpr double rounding = 1e-12;  // a few thousand operations on numbers of o
 
 Column uneven_grid(std::size_t n) {
   Column x;
-  for (std::size_t i = 0; i < n; ++i)
-    x.push_back(double(i) / double(n) + 0.3 / double(n) * std::sin(double(i)));
+  for (std::size_t i = 0; i < n; ++i) x.push_back(double(i) / double(n) + 0.3 / double(n) * std::sin(double(i)));
   return x;
 }
 

@@ -38,8 +38,8 @@ double Judge::measure(const CheckSpec& check, Verdict& verdict) {
   const RunSpec& run = example_.run(check.run);
   const Outcome& outcome = runner_.outcome(example_, run);
   if (outcome.exit_code != run.exit_code)
-    throw std::runtime_error(fmt::format("the run ended with {} instead of {}:\n{}", outcome.exit_code,
-                                         run.exit_code, outcome.log_tail));
+    throw std::runtime_error(
+        fmt::format("the run ended with {} instead of {}:\n{}", outcome.exit_code, run.exit_code, outcome.log_tail));
   const nlohmann::json summary = read_summary(outcome.folder);
   Table reference, table;
   const Lookup lookup = [&](const std::string& name) -> std::optional<Value> {
@@ -47,8 +47,7 @@ double Judge::measure(const CheckSpec& check, Verdict& verdict) {
     if (const auto path = after("summary", name)) return find_entry(summary, *path);
     if (auto column = find_column(table, name)) return column;
     if (name == "exit_code") return Value::number(outcome.exit_code);
-    if (const auto found = measured_.find(name); found != measured_.end())
-      return Value::number(found->second);
+    if (const auto found = measured_.find(name); found != measured_.end()) return Value::number(found->second);
     const auto found = example_.constants.find(name);
     if (found == example_.constants.end()) return std::nullopt;
     return Value::number(found->second);

@@ -60,8 +60,8 @@ std::string page_table(const std::filesystem::path& csv) {
   for (const auto& [example, checks] : order)
     for (const auto& check : checks) {
       const auto& row = newest[example][check];
-      text += fmt::format("| [{0}](../examples/{0}/README.md) | {1} | {2} | {3} | {4} | {5} | {6} | {7} |\n",
-                          row[0], row[1], row[3], row[4], row[5], row[6], row[7], row[8]);
+      text += fmt::format("| [{0}](../examples/{0}/README.md) | {1} | {2} | {3} | {4} | {5} | {6} | {7} |\n", row[0],
+                          row[1], row[3], row[4], row[5], row[6], row[7], row[8]);
     }
   return text;
 }
@@ -69,9 +69,8 @@ std::string page_table(const std::filesystem::path& csv) {
 }  // namespace
 
 std::string line_of(const Verdict& verdict) {
-  std::string line =
-      fmt::format("{:<34} measured {:>12.6g}  expected {:>12}  allowed {:>8}  [{}]  {}", verdict.check,
-                  verdict.measured, verdict.expected, verdict.allowed, verdict.unit, word_of(verdict));
+  std::string line = fmt::format("{:<34} measured {:>12.6g}  expected {:>12}  allowed {:>8}  [{}]  {}", verdict.check,
+                                 verdict.measured, verdict.expected, verdict.allowed, verdict.unit, word_of(verdict));
   if (!verdict.error.empty()) line += "\n  " + verdict.error;
   return line;
 }
@@ -81,9 +80,9 @@ void append_row(const std::filesystem::path& csv, const Verdict& verdict) {
   if (file < 0) throw std::runtime_error(fmt::format("{}: cannot be written", csv.string()));
   ::flock(file, LOCK_EX);
   std::string text = ::lseek(file, 0, SEEK_END) == 0 ? header : "";
-  text += fmt::format("{},{},{},{:.6g},{},{},{},{},{}\n", verdict.example, verdict.check, verdict.run,
-                      verdict.measured, as_cell(verdict.expected), as_cell(verdict.allowed),
-                      as_cell(verdict.unit), word_of(verdict), as_cell(verdict.why));
+  text += fmt::format("{},{},{},{:.6g},{},{},{},{},{}\n", verdict.example, verdict.check, verdict.run, verdict.measured,
+                      as_cell(verdict.expected), as_cell(verdict.allowed), as_cell(verdict.unit), word_of(verdict),
+                      as_cell(verdict.why));
   const auto written = ::write(file, text.data(), text.size());
   ::close(file);  // releases the lock
   if (written != static_cast<ssize_t>(text.size()))
@@ -98,8 +97,7 @@ void write_page(const std::filesystem::path& csv, const std::filesystem::path& p
   std::string text = content.str();
   const auto from = text.find(begin), to = text.find(end);
   if (from == std::string::npos || to == std::string::npos)
-    throw std::runtime_error(
-        fmt::format("{}: the markers of the validation table are missing", page.string()));
+    throw std::runtime_error(fmt::format("{}: the markers of the validation table are missing", page.string()));
   text.replace(from + begin.size(), to - from - begin.size(), page_table(csv));
   std::ofstream(page) << text;
 }

@@ -52,13 +52,13 @@ void register_example(const std::filesystem::path& folder, const Options& option
   // Canonical: a trailing slash would leave the folder without a name.
   const Example example = read_example(std::filesystem::canonical(folder));
   const bool nightly = options.label == "nightly";
-  const auto judge =
-      std::make_shared<Judge>(example, Runner(std::filesystem::absolute(options.command),
-                                              std::filesystem::absolute(options.scratch), options.reuse));
+  const auto judge = std::make_shared<Judge>(
+      example,
+      Runner(std::filesystem::absolute(options.command), std::filesystem::absolute(options.scratch), options.reuse));
   for (const CheckSpec& check : example.checks) {
     if (!nightly && check.label == Label::nightly) continue;
-    testing::RegisterTest(example.folder.filename().string().c_str(), check.name.c_str(), nullptr, nullptr,
-                          __FILE__, __LINE__, [judge, check, csv = options.csv]() -> CheckTest* {
+    testing::RegisterTest(example.folder.filename().string().c_str(), check.name.c_str(), nullptr, nullptr, __FILE__,
+                          __LINE__, [judge, check, csv = options.csv]() -> CheckTest* {
                             return new CheckTest(judge, check, csv);  // owned by GoogleTest
                           });
   }

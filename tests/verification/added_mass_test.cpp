@@ -75,8 +75,7 @@ TEST(AddedMass, of_a_circle_is_the_same_in_heave_and_sway_and_none_in_roll) {
   // To the error of the mesh, second order: (h / a)^2 = 0.04 of a circle's own.
   EXPECT_NEAR(added_mass(0.1, 100, 0), added_mass(0.1, 100, 1), 0.04 * exact);
   const double inertia = 100 * a * a / 2;
-  EXPECT_LE(std::abs(added_mass(0.1, inertia, 2)), 0.01 * exact * a * a)
-      << "the polygon's corners stir a little";
+  EXPECT_LE(std::abs(added_mass(0.1, inertia, 2)), 0.01 * exact * a * a) << "the polygon's corners stir a little";
 }
 
 TEST(AddedMass, in_a_tank_tends_to_that_in_open_water) {

@@ -13,8 +13,7 @@ using fluid::Fluid;
 
 TEST(Hydrostatic, a_column_at_rest_has_a_linear_pressure_and_stays) {
   const double depth = 1, dt = 0.01;
-  coupling::FluidOnly<2> stepper(
-      std::make_unique<Fluid<2>>(fs::still_water(1.3, depth, 0.1), fs::gravity({0, -g})));
+  coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(1.3, depth, 0.1), fs::gravity({0, -g})));
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(stepper.attempt(dt).ok());
     const auto& nodes = stepper.fluid().nodes();
@@ -29,8 +28,7 @@ TEST(Hydrostatic, a_column_at_rest_has_a_linear_pressure_and_stays) {
 }
 
 TEST(Hydrostatic, a_jump_of_the_step_leaves_the_pressure_alone) {
-  coupling::FluidOnly<2> stepper(
-      std::make_unique<Fluid<2>>(fs::still_water(1, 1, 0.15), fs::gravity({0, -g})));
+  coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(1, 1, 0.15), fs::gravity({0, -g})));
   for (double dt : {1e-2, 1e-5, 1e-2, 1e-7, 3e-3}) {
     ASSERT_TRUE(stepper.attempt(dt).ok());
     const auto& nodes = stepper.fluid().nodes();
@@ -41,8 +39,7 @@ TEST(Hydrostatic, a_jump_of_the_step_leaves_the_pressure_alone) {
 }
 
 TEST(Hydrostatic, walls_carry_the_weight_of_the_water) {
-  coupling::FluidOnly<2> stepper(
-      std::make_unique<Fluid<2>>(fs::still_water(2, 1, 0.2), fs::gravity({0, -g})));
+  coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(2, 1, 0.2), fs::gravity({0, -g})));
   ASSERT_TRUE(stepper.attempt(1e-2).ok());
   const auto& load = stepper.fluid().loads()[0];
   EXPECT_NEAR(load.total()[1], -water * g * 2, 1e-8 * water * g);
@@ -105,8 +102,7 @@ TEST(Hydrostatic, a_box_afloat_by_archimedes_is_at_rest) {
     for (int i = 0; i < 5; ++i) {
       ASSERT_TRUE(stepper->attempt(0.005).ok());
       const double weight = 0.4 * water * 0.48 * g;
-      EXPECT_LE((stepper->fluid().loads()[0].total() - fluid::Wrench<2>(0, weight, 0)).norm(), 1e-8 * weight)
-          << i;
+      EXPECT_LE((stepper->fluid().loads()[0].total() - fluid::Wrench<2>(0, weight, 0)).norm(), 1e-8 * weight) << i;
       stepper->commit();
     }
     EXPECT_LE(stepper->bodies().state(0).velocity.norm(), 1e-8);

@@ -25,9 +25,7 @@ Impact impact(double mass, double size, double dt, double growth = 0.1) {
   scene.fluid.size = {.surface = 10 * growth, .far = 15 * growth, .growth = growth};
   scene.fluid.liquids.push_back({fluid::scenes::rectangle({-half_tank, -half_tank}, {half_tank, 0}), {}});
   scene.fluid.walls.push_back(fluid::scenes::wall(
-      "tank",
-      fluid::scenes::turned_inside_out(fluid::scenes::rectangle({-half_tank, -half_tank}, {half_tank, 1})),
-      1));
+      "tank", fluid::scenes::turned_inside_out(fluid::scenes::rectangle({-half_tank, -half_tank}, {half_tank, 1})), 1));
   scene.add_body(rigid::box(2 * c, 0.1), mass, {0, 0.05}, size);
   scene.bodies[0].free = {false, true, false};
   scene.set_velocity(0, {0, -1, 0});
@@ -54,8 +52,7 @@ TEST(FlatPlate, converges_to_the_impulse_of_open_water) {
 
 TEST(FlatPlate, velocity_jumps_as_the_masses_say) {
   for (double ratio : {0.1, 1.0, 10.0})
-    EXPECT_NEAR(-impact(ratio * open_water, 0.003, 1e-5).velocity, ratio / (ratio + 1),
-                0.01 * ratio / (ratio + 1))
+    EXPECT_NEAR(-impact(ratio * open_water, 0.003, 1e-5).velocity, ratio / (ratio + 1), 0.01 * ratio / (ratio + 1))
         << ratio;
 }
 

@@ -154,13 +154,13 @@ TEST(World, has_the_parts_its_scene_has) {
   EXPECT_TRUE(both.bodies);
   const auto flight =
       build_world<2>(scene_of("[time]\nend = 1\n[[body]]\nname = \"a\"\nmass = 1\nshape = {type = \"box\", "
-                           "width = 1, height = 1}\n"));
+                              "width = 1, height = 1}\n"));
   EXPECT_FALSE(flight.fluid);
   EXPECT_EQ(flight.bodies->size(), 1u);
   const auto drop =
       build_world<2>(scene_of("[time]\nend = 1\n[fluid]\ndensity = 1000\nsize = {surface = "
-                           "0.2}\n[[fluid.region]]\nshape = \"circle\"\ncentre = [0, "
-                           "0]\nradius = 1\n"));
+                              "0.2}\n[[fluid.region]]\nshape = \"circle\"\ncentre = [0, "
+                              "0]\nradius = 1\n"));
   EXPECT_TRUE(drop.fluid);
   EXPECT_FALSE(drop.bodies);
 }
@@ -169,11 +169,9 @@ TEST(Approach, a_dry_hull_moves_by_a_share_of_its_elements_or_half_the_gap) {
   // Keel 0.01 m above the water, h = 0.005 m, cfl = 0.5: half the gap is more.
   const auto near = build_world<2>(scene_of(testing::wedge_drop));
   EXPECT_NEAR(approach_dt(*near.fluid, *near.bodies), 0.005 / 6.15, 1e-12);
-  const auto touching =
-      build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, 0]")));
+  const auto touching = build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, 0]")));
   EXPECT_NEAR(approach_dt(*touching.fluid, *touching.bodies), 0.5 * 0.005 / 6.15, 1e-12);
-  const auto wet =
-      build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, -0.05]")));
+  const auto wet = build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, -0.05]")));
   EXPECT_EQ(approach_dt(*wet.fluid, *wet.bodies), std::numeric_limits<double>::infinity());
 }
 

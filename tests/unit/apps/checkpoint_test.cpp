@@ -89,9 +89,9 @@ std::string resolved(std::vector<std::string> overrides) {
 
 TEST(Resume, tells_scenes_apart_by_what_the_state_depends_on) {
   EXPECT_TRUE(differences(resolved({}), resolved({})).empty());
-  EXPECT_TRUE(differences(resolved({"time.end=1", "title=other", "time.cfl=0.2", "coupling.tolerance=1e-4"}),
-                          resolved({}))
-                  .empty());
+  EXPECT_TRUE(
+      differences(resolved({"time.end=1", "title=other", "time.cfl=0.2", "coupling.tolerance=1e-4"}), resolved({}))
+          .empty());
   const auto found = differences(resolved({"body.wedge.mass=100"}), resolved({}));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0], "body[0].mass = 100.0, in the checkpoint 241.0");

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "apps/solid.hpp"
 #include "apps/scene_read.hpp"
+#include "apps/solid.hpp"
 #include "scenes.hpp"
 
 namespace splashdown::apps {
@@ -67,8 +67,8 @@ TEST(GoodScene, is_coupled_where_a_free_body_meets_a_fluid) {
   const auto fixed = scene_of(testing::wedge_drop_with(
       "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]", "motion = \"fixed\""));
   EXPECT_FALSE(fixed.coupling);
-  const auto flight = scene_of(
-      "[time]\nend = 1\n[[body]]\nname = \"a\"\nmass = 1\nshape = {type = \"box\", width = 1, height = 1}\n");
+  const auto flight =
+      scene_of("[time]\nend = 1\n[[body]]\nname = \"a\"\nmass = 1\nshape = {type = \"box\", width = 1, height = 1}\n");
   EXPECT_FALSE(flight.coupling);
   EXPECT_FALSE(flight.fluid);
 }
@@ -90,9 +90,9 @@ velocity_gradient = [[-100, 0], [0, 100]]
 }
 
 TEST(GoodScene, reads_a_prescribed_path) {
-  const auto scene = scene_of(
-      testing::wedge_drop_with("mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]",
-                               "motion = \"prescribed\"\npath = [[0, 0.1, 0.2, 3], [0.5, 0.1, 0.1, 4]]"));
+  const auto scene =
+      scene_of(testing::wedge_drop_with("mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]",
+                                        "motion = \"prescribed\"\npath = [[0, 0.1, 0.2, 3], [0.5, 0.1, 0.1, 4]]"));
   const auto& body = scene.bodies[0];
   EXPECT_EQ(body.motion, Motion::prescribed);
   ASSERT_EQ(body.path.size(), 2u);
@@ -240,15 +240,14 @@ TEST(ResolvedScene, reads_to_itself) {
 
 TEST(ResolvedScene, holds_the_defaults_in_force) {
   const auto text = read_scene_text(testing::wedge_drop, "scene.toml").resolved;
-  for (const auto* line : {"growth = 0.15\n", "cfl = 0.5\n", "[body.shape]\n", "[coupling]\n",
-                           "tolerance = 1e-08\n", "motion = \"free\"\n", "[[body]]\n", "[body.shape]\n"})
+  for (const auto* line : {"growth = 0.15\n", "cfl = 0.5\n", "[body.shape]\n", "[coupling]\n", "tolerance = 1e-08\n",
+                           "motion = \"free\"\n", "[[body]]\n", "[body.shape]\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "is not in\n" << text;
   EXPECT_EQ(text.find("viscosity"), std::string::npos) << "an absent effect has no table";
 }
 
 TEST(ResolvedScene, may_carry_its_provenance) {
-  EXPECT_NO_THROW(
-      read_scene_text("[provenance]\nversion = \"1\"\n" + testing::wedge_drop.substr(16), "scene.toml"));
+  EXPECT_NO_THROW(read_scene_text("[provenance]\nversion = \"1\"\n" + testing::wedge_drop.substr(16), "scene.toml"));
 }
 
 TEST(SceneGeometry, a_body_turns_about_its_reference_point) {
@@ -293,8 +292,7 @@ TEST(SceneGeometry, touching_is_not_overlapping) {
 
 TEST(SceneGeometry, a_wavy_region_has_the_stated_elevation) {
   Region region;
-  region.shape =
-      BoxRegion{.min = {0, -1, 0}, .max = {2, 0, 0}, .surface_amplitude = 0.1, .surface_wavelength = 4};
+  region.shape = BoxRegion{.min = {0, -1, 0}, .max = {2, 0, 0}, .surface_amplitude = 0.1, .surface_wavelength = 4};
   const auto surface = outline<2>(region);
   double highest = -1, area = 0;
   for (int i = 0; i < surface.facets.cols(); ++i) {

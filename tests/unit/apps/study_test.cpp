@@ -71,26 +71,23 @@ class StudyTest : public ::testing::Test, protected ScratchFolder {
   /// What a run of this scene would leave behind.
   void leave(const StudyRun& run, const std::string& status, const std::string& cause, double speed) const {
     write(fs::path(run.name) / "scene.resolved.toml", run.resolved + "\n[provenance]\n");
-    write(fs::path(run.name) / "bodies.csv",
-          "time,body,vy\n0,wedge,0\n1,wedge," + std::to_string(speed) + "\n");
-    write(fs::path(run.name) / "summary.json",
-          R"({"status": ")" + status + R"(", "cause": ")" + cause +
-              R"(", "wall_seconds": 31, "coupling": {"passes_mean": 3.5}})");
+    write(fs::path(run.name) / "bodies.csv", "time,body,vy\n0,wedge,0\n1,wedge," + std::to_string(speed) + "\n");
+    write(fs::path(run.name) / "summary.json", R"({"status": ")" + status + R"(", "cause": ")" + cause +
+                                                   R"(", "wall_seconds": 31, "coupling": {"passes_mean": 3.5}})");
   }
   std::vector<StudyRun> resolved(const Study& study) const {
     auto runs = expand(study);
     resolve(study, runs);
     return runs;
   }
-
 };
 
 TEST_F(StudyTest, has_every_combination_once_with_the_last_axis_fastest) {
   const auto runs = expand(read());
   std::vector<std::string> names;
   for (const auto& run : runs) names.push_back(run.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"ratio-1_plain", "ratio-1_exact", "ratio-0.5_plain",
-                                             "ratio-0.5_exact", "ratio-0.1_plain", "ratio-0.1_exact"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"ratio-1_plain", "ratio-1_exact", "ratio-0.5_plain", "ratio-0.5_exact",
+                                             "ratio-0.1_plain", "ratio-0.1_exact"}));
   EXPECT_EQ(runs[2].set, (std::vector<std::string>{"time.end=0.01", "body.wedge.mass=50.0",
                                                    "coupling.interface_term=none", "coupling.relaxation=1"}));
 }
@@ -173,10 +170,9 @@ TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions)
   std::string header, first;
   std::getline(csv, header);
   std::getline(csv, first);
-  EXPECT_EQ(
-      header,
-      "run,ratio,scheme,status,passes_mean,passes_max,rejected_steps,steps,simulated_time,wall_seconds,speed,"
-      "speed_error,fall,fall_error,cause");
+  EXPECT_EQ(header,
+            "run,ratio,scheme,status,passes_mean,passes_max,rejected_steps,steps,simulated_time,wall_seconds,speed,"
+            "speed_error,fall,fall_error,cause");
   EXPECT_TRUE(first.starts_with("ratio-1_plain,1,plain,converged,3.5,,,,,31,5,0.25,")) << first;
 }
 
@@ -236,8 +232,7 @@ const std::vector<Mistake> studies = {
     {"syntax", "budget = 30", "budget = = 30", 4, "not TOML", "toml.io"},
     {"unknown_key", "budget = 30", "budgte = 30", 4, "budgte = 30: unknown key", "Did you mean 'budget'?"},
     {"no_scene", "scene = \"scene.toml\"\n", "", 1, "scene is missing", "Name the scene file"},
-    {"scene_that_is_not_there", "\"scene.toml\"", "\"none.toml\"", 2, "scene = \"none.toml\"",
-     "no such file"},
+    {"scene_that_is_not_there", "\"scene.toml\"", "\"none.toml\"", 2, "scene = \"none.toml\"", "no such file"},
     {"set_of_numbers", "[\"time.end=0.01\"]", "[3]", 3, "set = [3]", "must be a list of strings"},
     {"negative_budget", "budget = 30", "budget = -1", 4, "budget = -1", "must be positive (s)"},
     {"constant_as_text", "g = 9.81", "g = \"x\"", 6, "constants.g = \"x\"", "must be a number"},
@@ -253,8 +248,8 @@ const std::vector<Mistake> studies = {
     {"key_beside_cases", "name = \"scheme\"\n", "name = \"scheme\"\nkey = \"title\"\nvalues = [\"x\"]\n", 12,
      "axis.scheme", "both"},
     {"case_twice", "\"exact\"\nset", "\"plain\"\nset", 18, "axis.scheme.case[1].name = \"plain\"", "already"},
-    {"case_without_set", "set = [\"coupling.interface_term=rigid\"]\n", "", 17,
-     "axis.scheme.case.exact.set is missing", "--set"},
+    {"case_without_set", "set = [\"coupling.interface_term=rigid\"]\n", "", 17, "axis.scheme.case.exact.set is missing",
+     "--set"},
     {"quantity_with_a_torn_expression", "last(vy)", "last(vy", 22, "quantity.speed.quantity", "expected ')'"},
     {"quantity_twice", "\"fall\"", "\"speed\"", 26, "quantity[1].name = \"speed\"", "already"},
     {"reference_at_no_axis", "{scheme = \"exact\"}", "{shceme = \"exact\"}", 24,
@@ -264,8 +259,7 @@ const std::vector<Mistake> studies = {
     {"exact_beside_a_reference", "exact = \"ratio\"", "exact = 1\nreference = {scheme = \"exact\"}", 29,
      "quantity.fall.reference", "must not stand beside exact"},
     {"scale_of_nothing", "exact = \"ratio\"\n", "", 28, "quantity.fall.scale", "nothing to scale"},
-    {"limit_of_nothing",
-     "quantity = \"last(vy)\"\ntable = \"bodies.csv:wedge\"\nreference = {scheme = \"exact\"}",
+    {"limit_of_nothing", "quantity = \"last(vy)\"\ntable = \"bodies.csv:wedge\"\nreference = {scheme = \"exact\"}",
      "quantity = \"last(vy)\"\nlimit = 1", 23, "quantity.speed.limit", "nothing to limit"},
     {"chart_of_no_axis", "x = \"ratio\"", "x = \"rato\"", 31, "chart.x = \"rato\"", "Did you mean 'ratio'?"},
     {"chart_over_words", "x = \"ratio\"", "x = \"scheme\"", 31, "chart.x = \"scheme\"", "axis of numbers"},

@@ -34,9 +34,8 @@ TEST(Words, progress_says_where_the_run_is) {
   for (const auto* piece :
        {" 25 %", "t = 0.005 of 0.02 s", "step 50", "dt 0.0001 s", "nodes 1234", "passes 2", "left 1:01"})
     EXPECT_NE(text.find(piece), std::string::npos) << piece << " is not in: " << text;
-  EXPECT_EQ(
-      progress_text({.time = 0, .stop = 1, .dt = 1, .steps = 0, .nodes = {}, .passes = {}}, -1).find("nodes"),
-      std::string::npos);
+  EXPECT_EQ(progress_text({.time = 0, .stop = 1, .dt = 1, .steps = 0, .nodes = {}, .passes = {}}, -1).find("nodes"),
+            std::string::npos);
 }
 
 TEST(Words, a_run_is_named_after_its_folder_or_its_file) {
@@ -48,8 +47,8 @@ TEST(Scales, follow_the_fastest_thing_in_the_scene) {
   const auto falling = scales<2>(scene_of(testing::wedge_drop));
   EXPECT_DOUBLE_EQ(falling.length, 0.5);
   EXPECT_DOUBLE_EQ(falling.speed, std::sqrt(6.15 * 6.15 + 2 * 9.81 * 0.01));
-  const auto resting = scales<2>(scene_of(
-      testing::wedge_drop_with("position = [0, 0.01]\nvelocity = [0, -6.15]", "position = [0, -0.01]")));
+  const auto resting = scales<2>(
+      scene_of(testing::wedge_drop_with("position = [0, 0.01]\nvelocity = [0, -6.15]", "position = [0, -0.01]")));
   EXPECT_DOUBLE_EQ(resting.speed, std::sqrt(9.81 * 0.5));
 }
 
@@ -76,8 +75,7 @@ TEST(Cost, counts_the_nodes_of_a_uniform_box) {
 
 TEST(Cost, finer_elements_at_the_body_cost_nodes) {
   const double coarse = predicted_cost<2>(scene_of(testing::wedge_drop)).nodes;
-  const double fine =
-      predicted_cost<2>(scene_of(testing::wedge_drop_with("size = 0.005", "size = 0.001"))).nodes;
+  const double fine = predicted_cost<2>(scene_of(testing::wedge_drop_with("size = 0.005", "size = 0.001"))).nodes;
   EXPECT_GT(fine, coarse);
   EXPECT_GT(coarse, 400);    // the surface alone: 4 m of elements of 0.01 m
   EXPECT_LT(coarse, 46000);  // all of it at 0.01 m

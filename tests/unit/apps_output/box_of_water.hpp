@@ -37,7 +37,7 @@ fluid::Surface<d> unit_box() {
     for (int i = 0; i < 8; ++i) box.vertices.col(i) << (i & 1) - 0.5, ((i >> 1) & 1) - 0.5, (i >> 2) - 0.5;
     box.facets.resize(3, 12);
     box.facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
-        3, 2, 5, 7, 1, 5, 7, 6, 4, 6, 3, 7,        //
+        3, 2, 5, 7, 1, 5, 7, 6, 4, 6, 3, 7,            //
         1, 3, 7, 6, 5, 4, 3, 7, 6, 2, 7, 5;
   }
   return box;
@@ -72,8 +72,10 @@ BoxOfWater<d> box_of_water(const fluid::Isometry<d>& pose, int cuts = 200) {
     for (std::size_t k = 0; k < d; ++k) {
       auto piece = whole;
       piece[k] = node;
-      if (k == 0) facets[f] = piece;
-      else facets.push_back(piece);
+      if (k == 0)
+        facets[f] = piece;
+      else
+        facets.push_back(piece);
     }
   }
   for (auto facet : facets) {

@@ -1,10 +1,10 @@
-#include "apps/pulse.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "apps/pulse.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -67,8 +67,7 @@ TEST(Cfc, a_pulse_is_not_shifted_in_time) {
 
 TEST(Cfc, a_constant_stays_as_it_is) {
   // Coefficients of size wa^2 = (pi 2.0775 60 1e-5)^2 = 1.5e-5 leave eps / wa^2 = 1.5e-11 of rounding.
-  for (const double value : cfc_filter(std::vector<double>(500, 3.5), 1e-5, 60))
-    EXPECT_NEAR(value, 3.5, 1e-9);
+  for (const double value : cfc_filter(std::vector<double>(500, 3.5), 1e-5, 60)) EXPECT_NEAR(value, 3.5, 1e-9);
 }
 
 TEST(Resampling, keeps_the_velocity_change_of_uneven_steps) {

@@ -15,8 +15,7 @@ Frame<2> square() {
   frame.x = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {3, 3}};
   frame.v = {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {5, 5}};
   frame.p = {4, 3, 2, 1, 0};
-  frame.kind = {NodeKind::wall_vertex, NodeKind::wall, NodeKind::free_surface, NodeKind::free_surface,
-                NodeKind::drop};
+  frame.kind = {NodeKind::wall_vertex, NodeKind::wall, NodeKind::free_surface, NodeKind::free_surface, NodeKind::drop};
   frame.wall = {0, 0, -1, -1, -1};
   frame.cells = {{0, 1, 2}, {0, 2, 3}};
   Outline<2> body{"hull", {}};
@@ -65,10 +64,9 @@ TEST(Frames, the_index_lists_every_piece_with_its_time) {
   frame.time = 0.25;
   series.add(frame);
   const std::string index = folder.text("frames.pvd");
-  for (const char* entry :
-       {"timestep=\"0.125\" group=\"\" part=\"0\" name=\"fluid\" file=\"frames/000000.vtu\"",
-        "timestep=\"0.125\" group=\"\" part=\"1\" name=\"hull\" file=\"frames/000000_hull.vtu\"",
-        "timestep=\"0.25\" group=\"\" part=\"0\" name=\"fluid\" file=\"frames/000001.vtu\""})
+  for (const char* entry : {"timestep=\"0.125\" group=\"\" part=\"0\" name=\"fluid\" file=\"frames/000000.vtu\"",
+                            "timestep=\"0.125\" group=\"\" part=\"1\" name=\"hull\" file=\"frames/000000_hull.vtu\"",
+                            "timestep=\"0.25\" group=\"\" part=\"0\" name=\"fluid\" file=\"frames/000001.vtu\""})
     EXPECT_NE(index.find(entry), std::string::npos) << entry << " in\n" << index;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "frames/000001_hull.vtu"));
 }
@@ -108,8 +106,7 @@ TEST(Vtu, a_spatial_mesh_is_cut_in_the_middle_of_its_body) {
   ASSERT_FALSE(picture.triangles.empty());
   double area = 0;
   for (const auto& t : picture.triangles) {
-    const auto &a = picture.points[static_cast<std::size_t>(t[0])],
-               &b = picture.points[static_cast<std::size_t>(t[1])],
+    const auto &a = picture.points[static_cast<std::size_t>(t[0])], &b = picture.points[static_cast<std::size_t>(t[1])],
                &c = picture.points[static_cast<std::size_t>(t[2])];
     area += 0.5 * std::abs((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]));
   }

@@ -57,9 +57,7 @@ TEST(PointAcceleration, of_a_turning_body_is_towards_its_axis) {
 TEST(PointAcceleration, is_the_second_derivative_of_the_points_path) {
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3, r(0.4, -0.3, 0.9);
   const double w = 4, alpha = 1.5, dt = 1e-4;
-  const auto at = [&](double t) -> Eigen::Vector3d {
-    return Eigen::AngleAxisd(w * t + 0.5 * alpha * t * t, axis) * r;
-  };
+  const auto at = [&](double t) -> Eigen::Vector3d { return Eigen::AngleAxisd(w * t + 0.5 * alpha * t * t, axis) * r; };
   rigid::Twist<3> velocity = rigid::Twist<3>::Zero(), acceleration = rigid::Twist<3>::Zero();
   velocity.tail<3>() = w * axis;
   acceleration.tail<3>() = alpha * axis;
@@ -126,7 +124,7 @@ LandingSummary roll(double until, double end) {
 }
 
 TEST(Capsizing, is_a_tilt_beyond_ninety_degrees_that_lasts_until_the_end) {
-  const auto over = roll(100, 25);  // 250 degrees: on its way up again
+  const auto over = roll(100, 25);              // 250 degrees: on its way up again
   EXPECT_NEAR(over.capsized_since, 9.1, 1e-9);  // the first step beyond 9 s
   EXPECT_NEAR(over.maximum_tilt.value, 180, 1e-9);
   EXPECT_NEAR(over.attitude[0].second.end, 250, 1e-9) << "no jump at 180 degrees";
@@ -140,8 +138,7 @@ TEST(Skips, are_the_dry_intervals_after_first_contact) {
   LandingStatistics<2> landing;
   //                      0  1  2  3  4  5  6  7  8
   const double wetted[] = {0, 0, 1, 1, 0, 0, 1, 2, 0};
-  for (int n = 0; n < 9; ++n)
-    landing.add(n, {Eigen::Matrix2d::Identity(), rigid::Twist<2>::Zero(), wetted[n]}, {1, 1});
+  for (int n = 0; n < 9; ++n) landing.add(n, {Eigen::Matrix2d::Identity(), rigid::Twist<2>::Zero(), wetted[n]}, {1, 1});
   const auto summary = landing.summary();
   EXPECT_EQ(summary.first_contact, 2);
   ASSERT_EQ(summary.dry_intervals.size(), 2u);

@@ -31,7 +31,8 @@ IntervalHistory landing() {
 // err by k dt^2 / 8 s < 1e-9 s; staircase values err by one kick in begin and end at most.
 TEST(Pulse, of_a_half_sine_after_free_fall_has_its_rise_time_duration_and_change) {
   const Pulse pulse = pulse_of(landing());
-  const double to_tenth = std::asin(0.1) * width / std::numbers::pi, to_nine = std::asin(0.9) * width / std::numbers::pi;
+  const double to_tenth = std::asin(0.1) * width / std::numbers::pi,
+               to_nine = std::asin(0.9) * width / std::numbers::pi;
   EXPECT_NEAR(pulse.value, height, 1e-4);
   EXPECT_NEAR(pulse.time, start + width / 2, step);
   EXPECT_NEAR(pulse.rise_time, to_nine - to_tenth, 1e-7);
@@ -42,7 +43,9 @@ TEST(Pulse, of_a_half_sine_after_free_fall_has_its_rise_time_duration_and_change
 
 // The change is the integral of the interval averages, whatever their lengths: v(end) - v(begin) of the motion.
 TEST(Pulse, change_is_the_difference_of_velocity) {
-  const auto v = [](double t) { return height * width / std::numbers::pi * (1 - std::cos(std::numbers::pi * t / width)); };
+  const auto v = [](double t) {
+    return height * width / std::numbers::pi * (1 - std::cos(std::numbers::pi * t / width));
+  };
   IntervalHistory history{1, 0, {0.01}, {0.0}};
   double t = 0;
   for (int i = 0; t < width; ++i) {

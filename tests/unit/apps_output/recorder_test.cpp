@@ -17,8 +17,7 @@ RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
   settings.directory = directory;
   settings.frames = 0.005;
   settings.pressure_probes = {{"keel", {0.02, -0.09}, "wedge"}, {"air", {0.0, 0.4}, ""}};
-  settings.gauges = {{"gauge", Eigen::Matrix<double, 1, 1>(0.4)},
-                     {"outside", Eigen::Matrix<double, 1, 1>(9)}};
+  settings.gauges = {{"gauge", Eigen::Matrix<double, 1, 1>(0.4)}, {"outside", Eigen::Matrix<double, 1, 1>(9)}};
   settings.equipment = {{"seat", "wedge", {0.1, 0}}};
   settings.surface_pressure = {{"wedge", {}, {0.01, 0.02}}};
   settings.added_mass = {{"wedge", 0.004, {}}};
@@ -77,8 +76,8 @@ TEST(Recorder, a_new_run_clears_what_an_earlier_one_left_and_nothing_else) {
   bare.directory = folder.path();
   Recorder<2> recorder(bare);
   record_steps(recorder, 0, 3, true);
-  for (const char* gone : {"probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
-                           "frames/000000.vtu", "hull_wedge.vtu"})
+  for (const char* gone :
+       {"probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd", "frames/000000.vtu", "hull_wedge.vtu"})
     EXPECT_FALSE(std::filesystem::exists(folder.path() / gone)) << gone;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "frames" / "mine.txt"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "mine.csv"));
@@ -114,8 +113,7 @@ TEST(Recorder, impulse_is_the_sum_over_kicks_whatever_the_interval) {
   record_steps(recorder, 0, steps, true);
   StandInDrop drop;
   double impulse = 0;
-  for (int n = 0; n <= steps; ++n)
-    impulse += drop.at(n * dt, dt).body_load[0].total()(1) * (n == 0 ? 0.5 * dt : dt);
+  for (int n = 0; n <= steps; ++n) impulse += drop.at(n * dt, dt).body_load[0].total()(1) * (n == 0 ? 0.5 * dt : dt);
   Summary summary;
   recorder.summarise(summary);
   EXPECT_NEAR(summary.bodies.at("wedge").impulse[1], impulse, 1e-12 * impulse);

@@ -41,9 +41,7 @@ void make_run(const std::filesystem::path& directory, const std::string& status 
 /// Sets PATH for the life of a test, so that gnuplot is found or not.
 class PathVariable {
  public:
-  explicit PathVariable(const std::string& value) : old_(std::getenv("PATH")) {
-    setenv("PATH", value.c_str(), 1);
-  }
+  explicit PathVariable(const std::string& value) : old_(std::getenv("PATH")) { setenv("PATH", value.c_str(), 1); }
   ~PathVariable() { setenv("PATH", old_.c_str(), 1); }
   PathVariable(const PathVariable&) = delete;
   PathVariable& operator=(const PathVariable&) = delete;
@@ -62,8 +60,7 @@ TEST(Report, is_one_page_without_links_to_elsewhere) {
   EXPECT_NE(page.find("A &lt;wedge&gt; drop"), std::string::npos);
   for (const char* outside : {"src=\"http", "href=\"http", "<script", "@import", "src=\"//"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
-  for (const auto& warning : result.warnings)
-    EXPECT_NE(warning.find("gnuplot"), std::string::npos) << warning;
+  for (const auto& warning : result.warnings) EXPECT_NE(warning.find("gnuplot"), std::string::npos) << warning;
 }
 
 TEST(Report, shows_curves_and_fields_where_gnuplot_is_installed) {

@@ -190,8 +190,7 @@ StandInDrop::StandInDrop(int nodes_across) : nodes_across_(nodes_across) {
   body.surface = {wedge().vertices, wedge().facets};
   body.mass = 241;
   std::vector<rigid::BodySpec<2>> bodies{body};
-  bodies_ =
-      std::make_unique<rigid::Bodies<2>>(std::move(bodies), std::vector<std::unique_ptr<rigid::Force<2>>>());
+  bodies_ = std::make_unique<rigid::Bodies<2>>(std::move(bodies), std::vector<std::unique_ptr<rigid::Force<2>>>());
   input_.fluid = fluid_.get();
   input_.bodies = bodies_.get();
 }
@@ -225,9 +224,8 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
       nodes.v.emplace_back(0.2 * x, motion.velocity * std::exp(-4 * std::hypot(x, y)));
       const bool x_is_dry = std::abs(x) >= wetted;
       const double r = std::hypot(std::abs(x) - wetted, 2 * (y - top)) / 0.08;
-      nodes.p.push_back(1000 * 9.81 * (top - y) +
-                        (x_is_dry ? 1 - std::exp(-60 * s) : 1.0) * motion.load *
-                            (3 * std::exp(-r * r) + std::exp(-std::pow(x / 0.3, 2) - 6 * s)));
+      nodes.p.push_back(1000 * 9.81 * (top - y) + (x_is_dry ? 1 - std::exp(-60 * s) : 1.0) * motion.load *
+                                                      (3 * std::exp(-r * r) + std::exp(-std::pow(x / 0.3, 2) - 6 * s)));
       const bool on_wedge = j == 0 && std::abs(x) < wetted, on_tank = j == down || i == 0 || i == across;
       nodes.tie.push_back({on_wedge ? 0 : on_tank ? 1 : -1, -1});
       nodes.surface.push_back(j == 0 && !on_wedge);
@@ -260,8 +258,7 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   ledger.time_integration = -2e-6 * time / drop_end;
   ledger.remesh_created = 2e-4 * time / drop_end;
   ledger.remesh_deleted = -1e-4 * std::pow(time / drop_end, 2);
-  ledger.volume =
-      ledger.volume_initial + ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted;
+  ledger.volume = ledger.volume_initial + ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted;
   const double lost = 0.5 * 241 * (6.15 * 6.15 - motion.velocity * motion.velocity);
   ledger.kinetic_energy = 0.85 * lost;
   ledger.potential_energy = -2800 + 0.1 * lost;
@@ -284,9 +281,7 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   return input_;
 }
 
-double press_at(double time) {
-  return 20e3 * std::exp(-std::pow((time - 0.5 * drop_end) / (0.2 * drop_end), 2));
-}
+double press_at(double time) { return 20e3 * std::exp(-std::pow((time - 0.5 * drop_end) / (0.2 * drop_end), 2)); }
 
 fluid::Surface<3> StandInPress::hull() {
   auto box = unit_box<3>();
@@ -319,8 +314,7 @@ StandInPress::StandInPress(int nodes_across) {
   const auto id = [&](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
   for (int k = 0; k <= deep; ++k)
     for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i)
-        nodes.add({i * h - 1, j * h - 1, (k - deep) * h}, {0, 0, 0}, 0, {}, k == deep);
+      for (int i = 0; i <= n; ++i) nodes.add({i * h - 1, j * h - 1, (k - deep) * h}, {0, 0, 0}, 0, {}, k == deep);
   constexpr int paths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};  // of a cube's corners, bits x y z
   for (int k = 0; k < deep; ++k)
     for (int j = 0; j < n; ++j)

@@ -42,8 +42,7 @@ inline constexpr double press_half_length = 0.5, press_half_height = 0.25;  ///<
 /// Pressure under the box above that of the water's weight [Pa].
 double press_at(double time);
 
-inline constexpr double wedge_half_breadth = 0.25, wedge_height = 0.144, water_depth = 0.6,
-                        tank_half_width = 0.8;
+inline constexpr double wedge_half_breadth = 0.25, wedge_height = 0.144, water_depth = 0.6, tank_half_width = 0.8;
 inline constexpr double drop_end = 0.03;
 
 }  // namespace splashdown::apps

@@ -1,12 +1,11 @@
 // Laws that every accelerator obeys, and the passes it takes on one table of maps.
-#include "coupling/quasi_newton.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 #include <sstream>
 
+#include "coupling/quasi_newton.hpp"
 #include "tests/unit/coupling/maps.hpp"
 
 namespace splashdown::coupling {
@@ -23,12 +22,12 @@ void PrintTo(const Scheme& scheme, std::ostream* out) { *out << scheme.name; }
 class Accelerators : public testing::TestWithParam<Scheme> {};
 
 const Scheme schemes[] = {{"constant", [] { return std::make_unique<ConstantRelaxation>(0.5); }},
-                      {"aitken", [] { return std::make_unique<Aitken>(0.5); }},
-                      {"anderson", [] { return std::make_unique<Anderson>(0.5); }},
-                      {"broyden", [] { return std::make_unique<Broyden>(0.5); }},
-                      {"iqn_ils", [] { return std::make_unique<IqnIls>(0.5); }},
-                      {"iqn_ils", [] { return std::make_unique<IqnIls>(0.5, 3); }},
-                      {"probe", [] { return std::make_unique<Probe>(0.5); }}};
+                          {"aitken", [] { return std::make_unique<Aitken>(0.5); }},
+                          {"anderson", [] { return std::make_unique<Anderson>(0.5); }},
+                          {"broyden", [] { return std::make_unique<Broyden>(0.5); }},
+                          {"iqn_ils", [] { return std::make_unique<IqnIls>(0.5); }},
+                          {"iqn_ils", [] { return std::make_unique<IqnIls>(0.5, 3); }},
+                          {"probe", [] { return std::make_unique<Probe>(0.5); }}};
 
 INSTANTIATE_TEST_SUITE_P(All, Accelerators, testing::ValuesIn(schemes));
 

@@ -38,8 +38,12 @@ inline Map affine(const std::string& name, const Vector& mu, const Matrix& basis
   const Matrix A = -modes * mu.asDiagonal() * modes.inverse();
   const Vector b = Vector::Ones(A.rows()) - A * Vector::Ones(A.rows());
   const bool orthogonal = (modes.transpose() * modes).isIdentity(1e-12);
-  return {name, mu, [A, b](const Vector& x) -> Vector { return A * x + b; }, A,
-          orthogonal ? 1.0 : modes.norm() * modes.inverse().norm(), 0.0};
+  return {name,
+          mu,
+          [A, b](const Vector& x) -> Vector { return A * x + b; },
+          A,
+          orthogonal ? 1.0 : modes.norm() * modes.inverse().norm(),
+          0.0};
 }
 
 inline Map scalar(double mu) { return affine("scalar " + std::to_string(mu), Vector::Constant(1, mu)); }

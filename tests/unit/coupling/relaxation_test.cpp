@@ -1,11 +1,10 @@
 // Constant and dynamic relaxation. Laws that all accelerators obey: accelerator_test.cpp.
-#include "coupling/accelerator.hpp"
-
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 
+#include "coupling/accelerator.hpp"
 #include "tests/unit/coupling/maps.hpp"
 
 namespace splashdown::coupling {

@@ -65,8 +65,8 @@ struct Scene {
 
 inline std::unique_ptr<fluid::Fluid<2>> water_of(const Scene& scene) {
   const bool weighs = scene.gravity != Vec::Zero();
-  return std::make_unique<fluid::Fluid<2>>(
-      scene.fluid, weighs ? fluid::scenes::gravity(scene.gravity) : fluid::scenes::no_terms());
+  return std::make_unique<fluid::Fluid<2>>(scene.fluid,
+                                           weighs ? fluid::scenes::gravity(scene.gravity) : fluid::scenes::no_terms());
 }
 
 inline std::unique_ptr<rigid::Bodies<2>> bodies_of(const Scene& scene) {
@@ -83,8 +83,7 @@ inline std::unique_ptr<Coupled<2>> coupled(const Scene& scene) {
 
 inline std::unique_ptr<Coupled<2>> coupled(
     const Scene& scene, std::unique_ptr<InterfaceTerm<2>> term,
-    std::unique_ptr<Accelerator> accelerator = std::make_unique<ConstantRelaxation>(1.0),
-    CouplingLimits limits = {}) {
+    std::unique_ptr<Accelerator> accelerator = std::make_unique<ConstantRelaxation>(1.0), CouplingLimits limits = {}) {
   return std::make_unique<Partitioned<2>>(water_of(scene), bodies_of(scene), std::move(term), std::move(accelerator),
                                           limits);
 }

@@ -1,10 +1,10 @@
-#include "coupling/quasi_newton.hpp"
 #include "coupling/steppers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "coupling/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown::coupling {
@@ -37,8 +37,7 @@ TEST(BodiesOnly, flies_straight_without_a_fluid) {
   auto scene = scenes::submerged_circle(1);
   scene.set_velocity(0, {3, 2, 5});
   BodiesOnly<2> stepper(
-      std::make_unique<rigid::Bodies<2>>(scene.bodies, std::vector<std::unique_ptr<rigid::Force<2>>>{}),
-      0.01);
+      std::make_unique<rigid::Bodies<2>>(scene.bodies, std::vector<std::unique_ptr<rigid::Force<2>>>{}), 0.01);
   for (int i = 0; i < 1000; ++i) {
     ASSERT_TRUE(stepper.attempt(stepper.stable_dt()).ok());
     stepper.commit();
@@ -76,8 +75,7 @@ TEST(Partitioned, a_body_moves_as_its_load_says) {
   ASSERT_TRUE(stepper->attempt(dt).ok());  // kick = dt now
   const auto next = stepper->trial()[0].velocity;
   const auto force = stepper->fluid().loads()[0].total();
-  EXPECT_LE((mass * (next - after).head<2>() - dt * (force.head<2>() + mass * Eigen::Vector2d(0, -scenes::g)))
-                .norm(),
+  EXPECT_LE((mass * (next - after).head<2>() - dt * (force.head<2>() + mass * Eigen::Vector2d(0, -scenes::g))).norm(),
             1e-8 * dt * force.norm());
   EXPECT_GT(load.physical.norm(), 0);
   EXPECT_NE(before, after);
@@ -86,8 +84,8 @@ TEST(Partitioned, a_body_moves_as_its_load_says) {
 TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
   auto scene = scenes::submerged_circle(1);
   scene.bodies[0].motion = rigid::Motion::fixed;
-  const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm<2>>(),
-                                       std::make_unique<ConstantRelaxation>(1.0), {.fixed_passes = 1});
+  const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<ConstantRelaxation>(1.0),
+                                       {.fixed_passes = 1});
   for (int i = 0; i < 3; ++i) {
     const auto report = stepper->attempt(1e-3);
     ASSERT_TRUE(report.ok());
@@ -96,9 +94,7 @@ TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
     double hull = 0;
     for (const auto& f : stepper->fluid().mesh().boundary)
       if (f.wall == 0)
-        hull -= stepper->fluid().nodes().x[f.nodes[0]].dot(
-                    fluid::area_vector_of<2>(f, stepper->fluid().nodes().x)) /
-                2;
+        hull -= stepper->fluid().nodes().x[f.nodes[0]].dot(fluid::area_vector_of<2>(f, stepper->fluid().nodes().x)) / 2;
     const auto load = stepper->fluid().loads()[0].total();
     EXPECT_NEAR(load[1], scenes::water * scenes::g * hull, 1e-8 * load[1]);
     EXPECT_NEAR(load[0], 0, 1e-8 * load[1]);
@@ -109,8 +105,7 @@ TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
 }
 
 // Velocity after a step from rest, relative to that with the exact term.
-double departure(std::unique_ptr<InterfaceTerm<2>> term, std::unique_ptr<Accelerator> accelerator,
-                 double dt) {
+double departure(std::unique_ptr<InterfaceTerm<2>> term, std::unique_ptr<Accelerator> accelerator, double dt) {
   const auto scene = scenes::submerged_circle(3);  // heavy enough for plain Dirichlet-Neumann
   const auto after_step = [&](const std::unique_ptr<Coupled<2>>& stepper) {
     const auto report = stepper->attempt(dt);
@@ -118,8 +113,7 @@ double departure(std::unique_ptr<InterfaceTerm<2>> term, std::unique_ptr<Acceler
     return stepper->trial()[0].velocity;
   };
   const auto exact = after_step(scenes::coupled(scene));
-  const auto found =
-      after_step(scenes::coupled(scene, std::move(term), std::move(accelerator), {.tolerance = 1e-7}));
+  const auto found = after_step(scenes::coupled(scene, std::move(term), std::move(accelerator), {.tolerance = 1e-7}));
   return (found - exact).norm() / exact.norm();
 }
 
@@ -127,8 +121,7 @@ double departure(std::unique_ptr<InterfaceTerm<2>> term, std::unique_ptr<Acceler
 // the interface Laplacian in the matrix each of them is a smaller one.
 TEST(Partitioned, all_terms_and_accelerators_have_the_same_limit) {
   for (double dt : {1e-3, 5e-4}) {
-    const double relaxed =
-        departure(std::make_unique<NoTerm<2>>(), std::make_unique<ConstantRelaxation>(0.5), dt);
+    const double relaxed = departure(std::make_unique<NoTerm<2>>(), std::make_unique<ConstantRelaxation>(0.5), dt);
     const double aitken = departure(std::make_unique<NoTerm<2>>(), std::make_unique<Aitken>(0.5), dt);
     const double laplacian =
         departure(std::make_unique<LaplacianTerm<2>>(), std::make_unique<ConstantRelaxation>(1.0), dt);
@@ -144,8 +137,8 @@ TEST(Partitioned, refuses_a_step_without_agreement_and_leaves_the_present_alone)
   const auto before = saved(*bold);
   EXPECT_FALSE(bold->attempt(1e-3).ok());
   EXPECT_EQ(saved(*bold), before);
-  const auto patient = scenes::coupled(scene, std::make_unique<NoTerm<2>>(),
-                                       std::make_unique<ConstantRelaxation>(0.01), {.max_passes = 5});
+  const auto patient = scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<ConstantRelaxation>(0.01),
+                                       {.max_passes = 5});
   const auto report = patient->attempt(1e-3);
   EXPECT_EQ(report.passes, 5);
   EXPECT_NE(report.cause.find("did not converge"), std::string::npos) << report.cause;
@@ -191,8 +184,8 @@ TEST(Partitioned, names_a_cause_when_passes_stand_still_or_end_in_nothing) {
   for (double factor : {1.0, nan, infinity}) {
     auto scene = scenes::submerged_circle(0.1);
     scene.set_velocity(0, {0.1, 0, 0});  // a first guess that is not zero
-    const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<Stuck>(factor),
-                                         {.max_passes = 7});
+    const auto stepper =
+        scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<Stuck>(factor), {.max_passes = 7});
     const auto before = saved(*stepper);
     const auto report = stepper->attempt(1e-3);
     EXPECT_FALSE(report.ok()) << factor;
@@ -216,8 +209,7 @@ TEST(Phases, are_those_of_the_parts_and_effects_a_stepper_has) {
       std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 1, 0.2), fluid::scenes::no_terms()));
   EXPECT_FALSE(has(fluid, "rigid") || has(fluid, "coupling"));
   EXPECT_FALSE(has(fluid, "gravity")) << "an absent effect has no timer";
-  for (const auto& phase : both->phase_seconds())
-    EXPECT_EQ(phase.second, 0) << phase.first << " before the first step";
+  for (const auto& phase : both->phase_seconds()) EXPECT_EQ(phase.second, 0) << phase.first << " before the first step";
 }
 
 TEST(Gravity, that_a_scene_does_not_name_leaves_no_trace) {

@@ -12,8 +12,7 @@ namespace {
 using scenes::eps;
 
 struct Tank {
-  explicit Tank(double h0)
-      : spec(scenes::still_water(1, 1, h0)), placed(spec), liquid(fill<2>(spec, placed.at())) {}
+  explicit Tank(double h0) : spec(scenes::still_water(1, 1, h0)), placed(spec), liquid(fill<2>(spec, placed.at())) {}
 
   AdaptReport<2> sweep() {
     const auto report = adapt<2>(liquid.nodes, liquid.h, liquid.mesh, placed.at());
@@ -114,8 +113,7 @@ TEST_P(Towards, a_linear_velocity_field_and_its_momentum_are_kept) {
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes.v[i] = field(nodes.x[i]);
   tank.retarget(GetParam());
   for (int sweep = 0; sweep < 6; ++sweep) tank.sweep();
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    EXPECT_LE((nodes.v[i] - field(nodes.x[i])).norm(), 100 * eps);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_LE((nodes.v[i] - field(nodes.x[i])).norm(), 100 * eps);
   Vec<2> momentum = Vec<2>::Zero();
   for (const auto& cell : tank.liquid.mesh.cells)
     for (int n : cell) momentum += volume<2>(corners(nodes.x, cell)) / 3 * nodes.v[n];

@@ -124,9 +124,8 @@ TEST(Delaunay2, keeps_the_facets_of_a_thin_wedge) {
   for (int i = 0; i <= 10; ++i) x.push_back({i / 10.0, -1});
   const auto missing = [&](const std::vector<Facet<2>>& kept) {
     const auto edges = edges_of(delaunay<2>(x, kept));
-    return std::count_if(ring.begin(), ring.end(), [&](const Facet<2>& f) {
-      return !edges.contains(std::minmax(f.nodes[0], f.nodes[1]));
-    });
+    return std::count_if(ring.begin(), ring.end(),
+                         [&](const Facet<2>& f) { return !edges.contains(std::minmax(f.nodes[0], f.nodes[1])); });
   };
   EXPECT_GT(missing({}), 0) << "the wedge is no test";
   EXPECT_EQ(missing(ring), 0);

@@ -17,8 +17,7 @@ struct Boundary {
 void add_ring(Boundary<2>& b, const Surface<2>& s) {
   const int first = static_cast<int>(b.x.size());
   for (int v = 0; v < s.vertices.cols(); ++v) b.x.push_back(s.vertices.col(v));
-  for (int f = 0; f < s.facets.cols(); ++f)
-    b.facets.push_back({{first + s.facets(0, f), first + s.facets(1, f)}, -1});
+  for (int f = 0; f < s.facets.cols(); ++f) b.facets.push_back({{first + s.facets(0, f), first + s.facets(1, f)}, -1});
 }
 
 // How often the boundary runs around the point, from the angles under which its facets are seen.

@@ -1,12 +1,12 @@
 #include "fluid/linear_solver.hpp"
 
-#include "fluid/parallel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 #include <random>
+
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {

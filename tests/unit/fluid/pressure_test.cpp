@@ -49,8 +49,7 @@ struct Problem {
     Eigen::MatrixXd A(a.size(), a.size());
     A.setZero();
     for (int j = 0; j < a.size(); ++j)
-      for (int k = a.column_start[j]; k < a.column_start[j + 1]; ++k)
-        A(a.row[k], j) = A(j, a.row[k]) = a.value[k];
+      for (int k = a.column_start[j]; k < a.column_start[j + 1]; ++k) A(a.row[k], j) = A(j, a.row[k]) = a.value[k];
     return A;
   }
   Eigen::MatrixXd B() const {
@@ -337,11 +336,13 @@ TYPED_TEST(Pressure, added_mass_of_a_wall_is_one_matrix_whatever_the_wall_answer
   const Eigen::MatrixXd A = p.dense(), exact = p.B() * A.ldlt().solve(p.B().transpose());
   const double condition = A.norm() * A.inverse().norm();
   for (const WallResponse<d>& answer :
-       {WallResponse<d>{}, p.body(p.any_inertia()), WallResponse<d>{{}, {}, {{.laplacian = 0.7}}}, WallResponse<d>{{}, {}, {{.laplacian = 1e3}}}}) {
+       {WallResponse<d>{}, p.body(p.any_inertia()), WallResponse<d>{{}, {}, {{.laplacian = 0.7}}},
+        WallResponse<d>{{}, {}, {{.laplacian = 1e3}}}}) {
     ASSERT_TRUE(p.build(answer));
     const Eigen::MatrixXd G = p.equation.added_mass_of(wall);
     // A Laplacian of this size makes A + K stiffer by K / A ~ 1e3 times its size, which is lost when taken out again.
-    const double laplacian = answer.stand_ins.empty() ? 0.0 : answer.stand_ins[0].laplacian, stiffer = 1 + laplacian * density;
+    const double laplacian = answer.stand_ins.empty() ? 0.0 : answer.stand_ins[0].laplacian,
+                 stiffer = 1 + laplacian * density;
     EXPECT_LE((G - exact).norm(), 10 * eps * condition * stiffer * exact.norm()) << laplacian;
     EXPECT_LE((G - G.transpose()).norm(), 10 * eps * condition * stiffer * exact.norm()) << laplacian;
     EXPECT_GE(smallest_eigenvalue(G), -10 * eps * condition * stiffer * exact.norm()) << laplacian;

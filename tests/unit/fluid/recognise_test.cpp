@@ -33,8 +33,7 @@ struct Liquid {
 // Corners of a rectangle's outline, n per unit length, counter-clockwise.
 std::vector<Vec<2>> ring(double x0, double y0, double x1, double y1, int n) {
   std::vector<Vec<2>> p;
-  const int across = static_cast<int>(std::lround((x1 - x0) * n)),
-            up = static_cast<int>(std::lround((y1 - y0) * n));
+  const int across = static_cast<int>(std::lround((x1 - x0) * n)), up = static_cast<int>(std::lround((y1 - y0) * n));
   for (int i = 0; i < across; ++i) p.push_back({x0 + (x1 - x0) * i / across, y0});
   for (int i = 0; i < up; ++i) p.push_back({x1, y0 + (y1 - y0) * i / up});
   for (int i = 0; i < across; ++i) p.push_back({x1 - (x1 - x0) * i / across, y1});
@@ -145,8 +144,7 @@ TEST(Recognise, drops_that_overlap_join) {
   l.h = 0.05;
   const auto mesh = l.recognised();
   // Their union, but for cells across the ends of the overlap: two of at most R = 0.3 h, pi R^2 each.
-  EXPECT_NEAR(area(mesh, l.nodes), 0.5 - 0.013 * (0.5 - 0.013),
-              2 * std::numbers::pi * std::pow(0.3 * 0.05, 2));
+  EXPECT_NEAR(area(mesh, l.nodes), 0.5 - 0.013 * (0.5 - 0.013), 2 * std::numbers::pi * std::pow(0.3 * 0.05, 2));
   EXPECT_TRUE(scenes::closed(mesh.boundary, l.nodes.size()));
 }
 
@@ -167,8 +165,7 @@ TEST(Recognise, facets_are_wetted_where_both_ends_lie_on_the_wall_and_the_wall_b
   auto liquid = fill<2>(spec, placed.at());
   const auto mesh = recognise<2>(liquid.nodes, liquid.h, liquid.mesh.boundary, placed.at());
   double wetted = 0, free = 0;
-  for (const auto& f : mesh.boundary)
-    (f.wall == 0 ? wetted : free) += area_vector_of<2>(f, liquid.nodes.x).norm();
+  for (const auto& f : mesh.boundary) (f.wall == 0 ? wetted : free) += area_vector_of<2>(f, liquid.nodes.x).norm();
   EXPECT_NEAR(wetted, 2, 100 * eps);
   EXPECT_NEAR(free, 1, 100 * eps);
   EXPECT_NEAR(enclosed_volume(mesh.boundary, liquid.nodes.x), 0.5, 100 * eps);

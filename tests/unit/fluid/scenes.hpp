@@ -92,8 +92,7 @@ inline FluidSpec<2> still_water(double width, double depth, double h) {
   spec.size = {.surface = h, .far = h};
   spec.liquids.push_back({rectangle({-0.5 * width, -depth}, {0.5 * width, 0}), {}});
   const double freeboard = depth;
-  spec.walls.push_back(
-      wall("tank", turned_inside_out(rectangle({-0.5 * width, -depth}, {0.5 * width, freeboard})), h));
+  spec.walls.push_back(wall("tank", turned_inside_out(rectangle({-0.5 * width, -depth}, {0.5 * width, freeboard})), h));
   return spec;
 }
 

@@ -14,8 +14,7 @@ struct Pool {
     spec.size = size;
     spec.liquids.push_back({scenes::rectangle({-2, -2}, {2, 0}), {}});
     spec.walls.push_back(scenes::wall("buoy", scenes::ellipse(0.3, 0.3, 32, {0.5, -0.4}), 0.02));
-    spec.walls.push_back(
-        scenes::wall("tank", scenes::turned_inside_out(scenes::rectangle({-2, -2}, {2, 1})), 0.4));
+    spec.walls.push_back(scenes::wall("tank", scenes::turned_inside_out(scenes::rectangle({-2, -2}, {2, 1})), 0.4));
     placed.emplace(spec);
     // The surface alone is what the size field looks at; its facets are long here.
     for (double x : {-2.0, -1.0, 0.0, 1.0, 2.0}) nodes.push_back({-x, 0});
@@ -54,8 +53,7 @@ TEST(SizeField, is_the_smallest_of_all_sources) {
     const double to_buoy = std::abs(buoy.nearest(Isometry<2>::Identity(), x, 100).distance);
     const double to_tank = std::min({2 - std::abs(x.x()), x.y() + 2, 1 - x.y()});
     if (to_tank < 0) continue;
-    const double expected =
-        std::min({0.3, 0.02 + 0.15 * to_buoy, 0.4 + 0.15 * to_tank, 0.05 + 0.15 * std::abs(x.y())});
+    const double expected = std::min({0.3, 0.02 + 0.15 * to_buoy, 0.4 + 0.15 * to_tank, 0.05 + 0.15 * std::abs(x.y())});
     EXPECT_NEAR(h(x), expected, 10 * eps);
   }
 }
@@ -92,7 +90,7 @@ struct Notched {
     std::vector<double> h;
     for (int i = 0; i < count; ++i) mesh.boundary.push_back({{i, (i + 1) % count}, -1});
     nodes.add({0, -0.3}, Vec<2>::Zero(), 0, {}, false);  // an inner node: this is bulk, not a sheet
-    h.assign(nodes.size(), 0.3);  // narrow cells across the notch do not join its sides
+    h.assign(nodes.size(), 0.3);                         // narrow cells across the notch do not join its sides
     mesh = recognise<2>(nodes, h, mesh.boundary, WallsAt<2>{});
   }
   SizeField<2> field() const { return {size, WallsAt<2>{}, {}, nodes.x, mesh}; }

@@ -25,8 +25,7 @@ Isometry<2> somewhere() {
 bool encloses(const Surface<2>& s, const Vec<2>& x) {
   double angle = 0;
   for (int f = 0; f < s.facets.cols(); ++f) {
-    const Vec<2> a = Vec<2>(s.vertices.col(s.facets(0, f))) - x,
-                 b = Vec<2>(s.vertices.col(s.facets(1, f))) - x;
+    const Vec<2> a = Vec<2>(s.vertices.col(s.facets(0, f))) - x, b = Vec<2>(s.vertices.col(s.facets(1, f))) - x;
     angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
   }
   return std::abs(angle) > std::numbers::pi;
@@ -37,8 +36,7 @@ double distance_by_all(const Surface<2>& s, const Vec<2>& x) {
   for (int f = 0; f < s.facets.cols(); ++f)
     best = std::min(
         best,
-        (closest_on({Vec<2>(s.vertices.col(s.facets(0, f))), Vec<2>(s.vertices.col(s.facets(1, f)))}, x) - x)
-            .norm());
+        (closest_on({Vec<2>(s.vertices.col(s.facets(0, f))), Vec<2>(s.vertices.col(s.facets(1, f)))}, x) - x).norm());
   return best;
 }
 
@@ -47,9 +45,7 @@ Surface<2> arrow() { return outline({{0, 0}, {2, 2}, {-2, 0}, {2, -2}}); }  // t
 Surface<2> blade() { return outline({{-2, 0}, {2, -1e-2}, {2, 1e-2}}); }
 
 struct Sided : testing::TestWithParam<int> {
-  static Surface<2> shape(int i) {
-    return std::array{letter_l(), arrow(), blade(), scenes::ellipse(1, 2, 64)}[i];
-  }
+  static Surface<2> shape(int i) { return std::array{letter_l(), arrow(), blade(), scenes::ellipse(1, 2, 64)}[i]; }
 };
 
 TEST_P(Sided, a_point_in_the_solid_has_a_negative_distance_and_no_other) {
@@ -92,8 +88,7 @@ TEST(WallNearest, beyond_reach_is_reach) {
 }
 
 TEST(WallCreases, above_thirty_degrees_are_sharp) {
-  EXPECT_EQ(Wall<2>(scenes::wall("square", scenes::rectangle({0, 0}, {1, 1}), 1)).corners().size(),
-            4u);
+  EXPECT_EQ(Wall<2>(scenes::wall("square", scenes::rectangle({0, 0}, {1, 1}), 1)).corners().size(), 4u);
   EXPECT_EQ(Wall<2>(scenes::wall("circle", scenes::ellipse(1, 1, 64), 1)).corners().size(), 0u);
   EXPECT_EQ(Wall<2>(scenes::wall("dodecagon+", scenes::ellipse(1, 1, 13), 1)).corners().size(), 0u);
   EXPECT_EQ(Wall<2>(scenes::wall("hendecagon", scenes::ellipse(1, 1, 11), 1)).corners().size(), 11u);

@@ -36,7 +36,8 @@ TEST(Absorber, still_water_stays_still) {
   auto stepper = testing::water(Basin{.length = 2, .size = 0.1}, testing::gravity(),
                                 std::make_unique<Absorber<2>>(AbsorberSpec{0, 2, 0.5, 10}));
   double fastest = 0;
-  ASSERT_TRUE(testing::run(stepper, 0.5, [&](const auto& fluid, double) { fastest = std::max(fastest, testing::max_speed(fluid)); }));
+  ASSERT_TRUE(testing::run(stepper, 0.5,
+                           [&](const auto& fluid, double) { fastest = std::max(fastest, testing::max_speed(fluid)); }));
   EXPECT_LT(fastest, 1e-10);  // sqrt(g h) times roundoff of some fifty direct solves
 }
 
@@ -44,9 +45,9 @@ double energy_left(double rate) {
   const Basin basin{.length = 2, .depth = 0.5, .size = 0.08, .amplitude = 0.01};
   const double omega = std::sqrt(9.81 * std::numbers::pi * std::tanh(std::numbers::pi * 0.5));
   const double period = 2 * std::numbers::pi / omega;
-  auto stepper = rate > 0 ? testing::water(basin, testing::gravity(),
-                                           std::make_unique<Absorber<2>>(AbsorberSpec{0, 2, 1.0, rate}))
-                          : testing::water(basin, testing::gravity());
+  auto stepper =
+      rate > 0 ? testing::water(basin, testing::gravity(), std::make_unique<Absorber<2>>(AbsorberSpec{0, 2, 1.0, rate}))
+               : testing::water(basin, testing::gravity());
   double last_half_period = 0, at = 0;
   testing::run(stepper, 2.25 * period, [&](const auto& fluid, double) {
     at = fluid.time() / period;

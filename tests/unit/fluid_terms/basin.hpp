@@ -85,8 +85,7 @@ bool run(coupling::FluidOnly<2>& stepper, double end, Look look) {
 
 inline double max_speed(const Fluid<2>& fluid) {
   double squared = 0;
-  for (std::size_t i = 0; i < fluid.nodes().size(); ++i)
-    squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
+  for (std::size_t i = 0; i < fluid.nodes().size(); ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
   return std::sqrt(squared);
 }
 

@@ -15,7 +15,8 @@ TEST(NoSlip, still_water_stays_still) {
   auto stepper =
       testing::water(Basin{.size = 0.1, .sticks = true}, testing::gravity(), std::make_unique<Viscosity<2>>(1.0));
   double fastest = 0;
-  ASSERT_TRUE(testing::run(stepper, 0.5, [&](const auto& fluid, double) { fastest = std::max(fastest, testing::max_speed(fluid)); }));
+  ASSERT_TRUE(testing::run(stepper, 0.5,
+                           [&](const auto& fluid, double) { fastest = std::max(fastest, testing::max_speed(fluid)); }));
   EXPECT_LT(fastest, 1e-10);  // sqrt(g h) times roundoff of some fifty direct solves
 }
 

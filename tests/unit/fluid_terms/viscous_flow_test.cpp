@@ -41,8 +41,7 @@ double exact_decay(double nu) {
   const double rate = nu * k * k;
   std::complex<double> n(-2 * rate, omega);
   for (int pass = 0; pass < 100; ++pass)  // contracts by about (rate / omega)^(3/2)
-    n = -2 * rate + std::complex<double>(0, 1) *
-                        std::sqrt(omega * omega - 4 * rate * rate * std::sqrt(1.0 + n / rate));
+    n = -2 * rate + std::complex<double>(0, 1) * std::sqrt(omega * omega - 4 * rate * rate * std::sqrt(1.0 + n / rate));
   return -n.real();
 }
 

@@ -137,8 +137,7 @@ TEST(Checkpoint, continues_bit_for_bit) {
   advance(undisturbed, 30, 60);
   advance(resumed, 30, 60);
   EXPECT_EQ(undisturbed.time(), resumed.time());
-  for (const std::size_t body : {0u, 1u})
-    EXPECT_TRUE(identical(undisturbed.state(body), resumed.state(body)));
+  for (const std::size_t body : {0u, 1u}) EXPECT_TRUE(identical(undisturbed.state(body), resumed.state(body)));
 }
 
 TEST(Checkpoint, of_another_scene_or_cut_short_is_refused) {
@@ -151,8 +150,7 @@ TEST(Checkpoint, of_another_scene_or_cut_short_is_refused) {
 }
 
 TEST(Solve, answers_a_load_that_is_not_finite_by_a_state_that_is_not_and_recovers) {
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Bodies<2> bodies = alone(planar_body()), calm = alone(planar_body());
     bodies.begin(1e-2, 1e-2);
     EXPECT_FALSE(bodies.solve(std::vector<Wrench<2>>{Wrench<2>(bad, 0, 0)})[0].velocity.allFinite());

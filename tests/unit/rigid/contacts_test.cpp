@@ -54,7 +54,8 @@ TEST(Contact, is_a_plastic_impact_that_keeps_momentum) {
     EXPECT_NEAR(bodies.state(i).velocity[0], common, 1e-9);
     EXPECT_NEAR(bodies.state(i).velocity.tail<2>().norm(), 0, 1e-9);
   }
-  EXPECT_NEAR(bodies.state(1).pose.translation().x() - bodies.state(0).pose.translation().x(), 1, 1e-9) << "no gap, no overlap";
+  EXPECT_NEAR(bodies.state(1).pose.translation().x() - bodies.state(0).pose.translation().x(), 1, 1e-9)
+      << "no gap, no overlap";
 }
 
 TEST(Contact, only_pushes) {

@@ -31,8 +31,7 @@ TEST(Flight, plane_spin_turns_by_w_t) {
     for (int i = 0; i < n; ++i) step(bodies, dt, dt);
     EXPECT_EQ(bodies.state(0).velocity(2), w);
     // Quaternion product and back: a few eps a step, whatever w.
-    EXPECT_NEAR(std::remainder(angle(bodies.state(0).pose) - w * n * dt, 2 * std::numbers::pi), 0,
-                8 * n * eps);
+    EXPECT_NEAR(std::remainder(angle(bodies.state(0).pose) - w * n * dt, 2 * std::numbers::pi), 0, 8 * n * eps);
   }
 }
 

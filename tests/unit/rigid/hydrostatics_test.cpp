@@ -63,8 +63,7 @@ TEST(Box, floats_at_its_density_ratio_with_the_textbook_metacentre) {
 
 TEST(Submerged, of_a_dry_and_of_a_drowned_body_is_nothing_and_all) {
   const Shape<2> shape = wedge(0.5, 1, 0.3);
-  const Submerged<2> dry = submerged(shape.surface, at(0, 0.1), 0.),
-                     wet = submerged(shape.surface, at(1, -5), 0.);
+  const Submerged<2> dry = submerged(shape.surface, at(0, 0.1), 0.), wet = submerged(shape.surface, at(1, -5), 0.);
   EXPECT_EQ(dry.volume, 0);
   EXPECT_EQ(dry.waterline, 0);
   EXPECT_NEAR(wet.volume, shape.at_unit_density.mass, 10 * eps);
@@ -97,8 +96,8 @@ TEST(Submerged, brick_has_the_moments_of_its_water_plane) {
   EXPECT_NEAR(s.volume, 2 * 0.2, 20 * eps);
   EXPECT_NEAR((s.centre - Vec<3>(5, -3, -0.1)).norm(), 0, 50 * eps);
   EXPECT_NEAR(s.waterline, 2, 20 * eps);
-  EXPECT_NEAR((s.waterline_moment - Eigen::Matrix2d(Eigen::Vector2d(8. / 12, 2. / 12).asDiagonal())).norm(),
-              0, 50 * eps);
+  EXPECT_NEAR((s.waterline_moment - Eigen::Matrix2d(Eigen::Vector2d(8. / 12, 2. / 12).asDiagonal())).norm(), 0,
+              50 * eps);
   const auto f = floating(brick(2, 1, 0.6), pose, 400., rho, 0.);
   ASSERT_TRUE(f);
   EXPECT_NEAR(f->draft, 0.2, 50 * eps);
@@ -109,8 +108,7 @@ TEST(Submerged, changes_with_height_at_the_rate_of_the_waterline) {
   const Surface<2> s = ellipse(1, 0.4).surface;
   const double step = 1e-4;
   for (const double turn : {0., 0.4, 1.3}) {
-    const double up = submerged(s, at(0, step, turn), 0.1).volume,
-                 down = submerged(s, at(0, -step, turn), 0.1).volume;
+    const double up = submerged(s, at(0, step, turn), 0.1).volume, down = submerged(s, at(0, -step, turn), 0.1).volume;
     EXPECT_NEAR((down - up) / (2 * step), submerged(s, at(0, 0, turn), 0.1).waterline, 1e-4);
   }
 }
@@ -171,8 +169,7 @@ TEST(FloatingStable, capsule_rolled_by_ten_degrees_comes_back) {
 
 TEST(FloatingStable, circle_stays_as_it_is) {
   const Shape<2> shape = circle(0.5);
-  const auto f =
-      floating_stable<2>(shape.surface, at(0, 0, 0.1), 0.3 * rho * shape.at_unit_density.mass, rho, 0.);
+  const auto f = floating_stable<2>(shape.surface, at(0, 0, 0.1), 0.3 * rho * shape.at_unit_density.mass, rho, 0.);
   ASSERT_TRUE(f);
   EXPECT_NEAR(f->metacentric_height, 0, 1e-3);
   EXPECT_NEAR(angle(f->pose), 0.1, 2 * pi / default_segments);
@@ -205,7 +202,7 @@ TEST(SpatialFloatingStable, sphere_turns_its_heavy_side_down) {
   const Vec<3> centre = low * Vec<3>(1, 2, -2) / 3;
   const auto shape = sphere(radius);
   const auto f = floating_stable<3>(centred<3>(shape.surface, centre), posed(0.3, 0.5, -0.2),
-                                 0.3 * rho * shape.at_unit_density.mass, rho, 0.);
+                                    0.3 * rho * shape.at_unit_density.mass, rho, 0.);
   ASSERT_TRUE(f);
   // Of a sphere GM is the distance of both centres; facets of 360 deg / 128 spoil it by (2 pi / 128)^2 / 8 radii.
   const double facets = std::pow(2 * pi / 128, 2) / 8 * radius;

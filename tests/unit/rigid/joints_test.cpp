@@ -37,7 +37,8 @@ double kinetic(const BodySpec<2>& spec, const Twist<2>& s) {
 
 TEST(Hinge, holds_a_pendulum_with_its_period_to_second_order) {
   // Physical pendulum, small swing: T = 2 pi sqrt((I + m l^2) / (m g l)) (1 + a^2 / 16).
-  const double swing = 0.02, l = 0.5, exact = 2 * pi * std::sqrt((1. / 12 + l * l) / (g * l)) * (1 + swing * swing / 16);
+  const double swing = 0.02, l = 0.5,
+               exact = 2 * pi * std::sqrt((1. / 12 + l * l) / (g * l)) * (1 + swing * swing / 16);
   std::vector<double> error;
   for (double dt : {0.02, 0.01, 0.005}) {
     Bodies<2> bodies({rod(swing)}, gravity(), {{.point = {0, 0, 0}}});
@@ -198,7 +199,8 @@ TEST(Hinge, in_space_leaves_the_turn_about_its_axis) {
   const auto c = compliance(bodies);
   Twist<3> turn;
   turn << axis.cross(spec.pose.translation()), axis;
-  const double about_axis = axis.dot(spec.inertia * axis) + spec.mass * axis.cross(spec.pose.translation()).squaredNorm();
+  const double about_axis =
+      axis.dot(spec.inertia * axis) + spec.mass * axis.cross(spec.pose.translation()).squaredNorm();
   EXPECT_NEAR((c - turn * turn.transpose() / about_axis).norm(), 0, 1e3 * eps);
 }
 

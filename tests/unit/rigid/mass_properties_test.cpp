@@ -21,9 +21,8 @@ void expect_same(const MassProperties<2>& a, const MassProperties<2>& b, double 
 }
 
 Surface<2> moved(const Surface<2>& surface, const Isometry<2>& by) {
-  return {
-      by.linear() * surface.vertices + by.translation() * Eigen::RowVectorXd::Ones(surface.vertices.cols()),
-      surface.facets};
+  return {by.linear() * surface.vertices + by.translation() * Eigen::RowVectorXd::Ones(surface.vertices.cols()),
+          surface.facets};
 }
 
 /// The unit cube's corner tetrahedron, edges a, b, c along the axes.
@@ -44,9 +43,8 @@ TEST(MassProperties, of_polygons_are_those_of_the_formulas) {
 }
 
 TEST(MassProperties, of_curved_outlines_tend_to_the_formulas_at_second_order) {
-  for (const auto& shape_of :
-       {+[](int n) { return circle(0.7, n); }, +[](int n) { return ellipse(2, 0.3, n); },
-        +[](int n) { return capsule(0.5, 1.3, n); }}) {
+  for (const auto& shape_of : {+[](int n) { return circle(0.7, n); }, +[](int n) { return ellipse(2, 0.3, n); },
+                               +[](int n) { return capsule(0.5, 1.3, n); }}) {
     const auto error = [&](int n) {
       const Shape<2> s = shape_of(n);
       const MassProperties<2> p = mass_properties(s.surface);

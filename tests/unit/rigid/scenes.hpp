@@ -27,8 +27,7 @@ inline BodySpec<2> planar_body() { return free_body<2>(3, Inertia<2>(0.7)); }
 
 /// 3D body with three different moments of inertia about axes that are not the body axes.
 inline BodySpec<3> skew_body() {
-  const Eigen::Matrix3d axes =
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   return free_body<3>(2, axes * Eigen::Vector3d(1, 2, 2.6).asDiagonal() * axes.transpose());
 }
 

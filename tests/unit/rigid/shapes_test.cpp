@@ -89,11 +89,9 @@ TEST(Polygon, that_is_none_is_refused_with_rule_and_value) {
   EXPECT_TRUE(says(polygon_failure({{0, 0}, {1, 0}}), "2 points; an outline needs at least 3"));
   EXPECT_TRUE(says(polygon_failure({{0, 0}, {1, 0}, {1, 1}, {0, 0}}), "points 1 and 4 are the same, (0, 0)"));
   EXPECT_TRUE(says(polygon_failure({{0, 0}, {1, 0}, {2, 0}}), "area of 0 m^2"));
-  EXPECT_TRUE(
-      says(polygon_failure({{0, 0}, {2, 1}, {2, 0}, {0, 3}}), "edges 1 (0, 0)-(2, 1) and 3 (2, 0)-(0, 3)"));
+  EXPECT_TRUE(says(polygon_failure({{0, 0}, {2, 1}, {2, 0}, {0, 3}}), "edges 1 (0, 0)-(2, 1) and 3 (2, 0)-(0, 3)"));
   EXPECT_TRUE(says(polygon_failure({{0, 0}, {2, 0}, {2, 2}, {1, 0}, {0, 2}}), "touch or cross"));
-  EXPECT_TRUE(
-      says(polygon_failure({{0, 0}, {2, 0}, {2, 2}, {2, 1}, {0, 1}}), "folds back onto itself at point 3"));
+  EXPECT_TRUE(says(polygon_failure({{0, 0}, {2, 0}, {2, 2}, {2, 1}, {0, 1}}), "folds back onto itself at point 3"));
   EXPECT_TRUE(says(polygon_failure({{0, 0}, {1, 0}, {1, std::nan("")}}), "point 3"));
 }
 

@@ -47,9 +47,8 @@ int main() {
   terms.push_back(std::make_unique<sp::fluid::Gravity<2>>(g));
   std::vector<std::unique_ptr<sp::rigid::Force<2>>> forces;
   forces.push_back(std::make_unique<sp::rigid::Gravity<2>>(g));
-  sp::coupling::Simultaneous<2> stepper(
-      std::make_unique<sp::fluid::Fluid<2>>(spec, std::move(terms)),
-      std::make_unique<sp::rigid::Bodies<2>>(std::vector{body}, std::move(forces)));
+  sp::coupling::Simultaneous<2> stepper(std::make_unique<sp::fluid::Fluid<2>>(spec, std::move(terms)),
+                                        std::make_unique<sp::rigid::Bodies<2>>(std::vector{body}, std::move(forces)));
   const auto report = stepper.attempt(1e-3);
   if (!report.ok()) return std::puts(report.cause.c_str()), 1;
   stepper.commit();
