@@ -1,6 +1,9 @@
 #include "fluid/recognise.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "fluid/delaunay.hpp"
 #include "fluid/inside.hpp"
@@ -112,6 +115,14 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
   return at.walls[wall].nearest(at.poses[wall], centre, length).distance < facet_sag * length;
 }
 
+// Drops join what is as near as they are large, however coarse the mesh that they fly over: the size of elements whose
+// nodes, sqrt(2)/h^3 where they are packed most closely, hold this volume each. In the plane drops stay where they fly
+// off, among elements of their size.
+template <int d>
+double drop_size(double volume) {
+  return d == 2 ? std::numeric_limits<double>::infinity() : std::cbrt(std::numbers::sqrt2 * volume);
+}
+
 template <int d>
 Facet<d> facet_of(const std::array<int, d + 1>& cell, int opposite) {
   Facet<d> f;
@@ -157,6 +168,10 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes.spray[i]) inner[i] = 0;
 
+  std::vector<double> size_at(h.begin(), h.end());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes.spray[i]) size_at[i] = std::min(h[i], drop_size<d>(nodes.volume[i]));
+
   std::vector<char> is_fluid(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) {
     const auto& cell = all.cells[c];
@@ -166,7 +181,7 @@ Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<
     bool has_inner = false;
     Vec<d> centroid = Vec<d>::Zero();
     for (int n : cell) {
-      size += h[n] / (d + 1);
+      size += size_at[n] / (d + 1);
       centroid += nodes.x[n] / (d + 1);
       has_inner = has_inner || inner[n];
     }
