@@ -1,10 +1,13 @@
 #include "fluid/adapt.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 
 #include "fluid/boundary_edges.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -48,16 +51,25 @@ class Adapter {
     return found;
   }
 
-  // Each inner edge is met in several cells; only candidates are kept, duplicates fall to `touched_`.
+  // Each inner edge is met in several cells; only candidates are kept, duplicates fall to `touched_`. The order in
+  // which threads find them is lost in sorting.
   void collect() {
-    for (const auto& cell : mesh_.cells)
+    tbb::enumerable_thread_specific<std::pair<std::vector<Edge>, std::vector<Edge>>> found;
+    in_parallel(mesh_.cells.size(), [&](std::size_t c) {
+      const auto& cell = mesh_.cells[c];
+      auto& [long_ones, short_ones] = found.local();
       for (int i = 0; i < d; ++i)
         for (int j = i + 1; j <= d; ++j) {
           const int a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
           const double ratio = (nodes_.x[a] - nodes_.x[b]).norm() / (0.5 * (h_[a] + h_[b]));
-          if (ratio > split_above) long_.push_back({a, b, ratio});
-          if (ratio < merge_below) short_.push_back({a, b, ratio});
+          if (ratio > split_above) long_ones.push_back({a, b, ratio});
+          if (ratio < merge_below) short_ones.push_back({a, b, ratio});
         }
+    });
+    for (const auto& [long_ones, short_ones] : found) {
+      long_.insert(long_.end(), long_ones.begin(), long_ones.end());
+      short_.insert(short_.end(), short_ones.begin(), short_ones.end());
+    }
     auto order = [](const Edge& p, const Edge& q) {
       return p.ratio != q.ratio ? p.ratio < q.ratio : key(p.a, p.b) < key(q.a, q.b);
     };

@@ -23,8 +23,8 @@ double diameter(const Wall<d>& wall) {
 template <int d>
 void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& at,
                   std::span<const Twist<d>> velocities) {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes.tie[i].wall >= 0) continue;
+  in_parallel(nodes.size(), [&](std::size_t i) {
+    if (nodes.tie[i].wall >= 0) return;
     for (std::size_t w = 0; w < at.walls.size(); ++w) {
       if (!at.walls[w].may_touch(at.poses[w], nodes.x[i], 0)) continue;
       // Drops may cross more than an element in a step, nodes of the liquid may not.
@@ -37,7 +37,7 @@ void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& 
       nodes.tie[i] = {static_cast<int>(w), near.patch, -1};
       break;
     }
-  }
+  });
 }
 
 // The liquid's boundary, as corners of walls ask for it: what answers them is built once, and anew when the boundary

@@ -145,8 +145,8 @@ void read_cells(const Triangulation& t, const Handles& handles, Delaunay<d>& out
 }
 
 bool in_parallel_pays(std::size_t points) {
-  constexpr std::size_t worthwhile = 10000;
-  return threads() > 1 && points >= worthwhile;
+  constexpr std::size_t enough = 10000;
+  return threads() > 1 && points >= enough;
 }
 
 // The triangulation is that of one thread: CGAL perturbs points that are not in general position by their coordinates, not

@@ -65,10 +65,14 @@ void archive_present(Archive& archive, Present<d>& s) {
 }
 
 template <int d>
-void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh) {
-  const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (!nodes.spray[i]) nodes.volume[i] = volumes[i];
+void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around) {
+  std::vector<double> share(mesh.cells.size());
+  in_parallel(share.size(), [&](std::size_t c) { share[c] = volume<d>(corners(nodes.x, mesh.cells[c])) / (d + 1); });
+  in_parallel(nodes.size(), [&](std::size_t i) {
+    if (nodes.spray[i]) return;
+    nodes.volume[i] = 0;
+    for (const auto [c, k] : around.around(i)) nodes.volume[i] += share[c];
+  });
 }
 
 // Shorter edges are merged or lie across a film, and limit no time step.
@@ -130,7 +134,8 @@ struct Fluid<d>::State {
   }
 
   StepView<d> view() const {
-    return {work.nodes, work.mesh, spec.density, kick, equation.lumped_volume(), spec.walls, work.poses};
+    return {work.nodes,        work.mesh,  spec.density, kick, equation.lumped_volume(),
+            equation.around(), spec.walls, work.poses};
   }
 
   // Nodes that stick hand what the pressure and the forces left along their wall over to it. Part of the
@@ -220,12 +225,13 @@ struct Fluid<d>::State {
     prepared = true;
   }
 
-  // The first guess of the interface impulses is the pressure of the last step.
-  void guess_interface() {
+  // The first guess of impulses is the pressure of the last step, with what the corrections found and without.
+  std::vector<double> carried_impulse(bool corrected) const {
     std::vector<double> carried(equation.size());
     for (std::size_t i = 0; i < carried_p.size(); ++i)
-      if (equation.unknown()[i] >= 0) carried[equation.unknown()[i]] = kick * carried_p[i];
-    interface = equation.laplacian().means(carried);
+      if (const int k = equation.unknown()[i]; k >= 0)
+        carried[k] = kick * (corrected ? carried_p[i] : carried_p[i] - work.nodes.q[i]);
+    return carried;
   }
 
   Status solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
@@ -257,7 +263,9 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms) 
   now.nodes = std::move(liquid.nodes);
   now.mesh = std::move(liquid.mesh);
   now.h = std::move(liquid.h);
-  share_volumes(now.nodes, now.mesh);
+  NodeCells<d> around;
+  around.build(now.mesh.cells, now.nodes.size());
+  share_volumes(now.nodes, now.mesh, around);
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }
@@ -273,17 +281,20 @@ double Fluid<d>::time() const {
 template <int d>
 double Fluid<d>::stable_dt() const {
   const auto& now = s_->now;
-  double squared = std::numeric_limits<double>::infinity();
-  for (const auto& cell : now.mesh.cells) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const double squared = least_in_parallel(now.mesh.cells.size(), [&](std::size_t c) {
+    const auto& cell = now.mesh.cells[c];
     // Sheets may deform by more than this; verdict() refuses steps in which they turn over.
-    if (std::all_of(cell.begin(), cell.end(), [&](int n) { return now.nodes.surface[n]; })) continue;
+    if (std::all_of(cell.begin(), cell.end(), [&](int n) { return now.nodes.surface[n]; })) return never;
+    double least = never;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
         const double rate = (now.nodes.v[cell[i]] - now.nodes.v[cell[j]]).squaredNorm();
         const double length = squared_length(now, cell[i], cell[j]);
-        if (length < squared * rate) squared = length / rate;
+        if (length < least * rate) least = length / rate;
       }
-  }
+    return least;
+  });
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
   dt = std::min(dt, now.acceleration_dt);
   for (const auto& t : s_->terms) dt = std::min(dt, t->stable_dt());
@@ -301,7 +312,7 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
     if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response))
       return {"the pressure matrix could not be factored"};
     s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses));
-    s.guess_interface();
+    s.interface = s.equation.laplacian().means(s.carried_impulse(true));
   }
   for (std::size_t t = 0; t < s.terms.size(); ++t) {
     const auto scope = s.timer.scope(effects + t);
@@ -389,7 +400,8 @@ Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const d
   middle(trial.v, 0.5 * dt);
   equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
   if (!previous.empty()) equation.laplacian().add(previous, phi);
-  if (!solve_with_bodies(phi, s_after, closely)) return {"the pressure solve failed"};
+  if (!equation.solve(phi, closely, carried_impulse(false))) return {"the pressure solve failed"};
+  answer_to(phi, s_after);
   push(equation.on_motions(trial.on_walls));
   return {};
 }
@@ -468,15 +480,18 @@ bool Fluid<d>::State::finite() const {
 template <int d>
 bool Fluid<d>::State::orderly() const {
   constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
-  for (const auto& cell : work.mesh.cells) {
-    if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) continue;
+  const double margin = least_in_parallel(work.mesh.cells.size(), [&](std::size_t c) {
+    double least = std::numeric_limits<double>::infinity();
+    const auto& cell = work.mesh.cells[c];
+    if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) return least;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
         const double change = dt / most * (moved.u[cell[i]] - moved.u[cell[j]]).norm();
-        if (change * change > squared_length(work, cell[i], cell[j])) return false;
+        least = std::min(least, squared_length(work, cell[i], cell[j]) - change * change);
       }
-  }
-  return true;
+    return least;
+  });
+  return margin >= 0;
 }
 
 template <int d>
@@ -509,7 +524,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
     nodes.tie[i] = s.moved.tie[i];
     nodes.q[i] = s.found_by_corrections[i];
   }
-  share_volumes(s.work.nodes, s.work.mesh);
+  share_volumes(s.work.nodes, s.work.mesh, s.equation.around());
   ventilate<d>(s.work.nodes, s.work.mesh, s.spec.density, s.s_after, poses);
   ledger.volume = enclosed_volume(s.work.mesh.boundary, s.work.nodes.x);
   ledger.time_integration += ledger.volume - before;

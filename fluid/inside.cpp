@@ -6,7 +6,10 @@
 namespace splashdown::fluid {
 namespace {
 
-// Signed crossing of the ray from `c` along +x: +1 where it leaves through the facet, -1 where it enters.
+const Vec<2>& turned(const Vec<2>& x) { return x; }
+Vec<3> turned(const Vec<3>& x) { return {x.z(), x.x(), x.y()}; }
+
+// Signed crossing of the ray from `c` along axis 0: +1 where it leaves through the facet, -1 where it enters.
 int crossing(const std::array<Vec<2>, 2>& f, const Vec<2>& c) {
   const bool below0 = f[0].y() <= c.y(), below1 = f[1].y() <= c.y();
   if (below0 == below1) return 0;
@@ -63,7 +66,7 @@ InsideTest<d>::InsideTest(std::span<const Vec<d>> x, const std::vector<Facet<d>>
   std::array<std::vector<std::array<double, 2>>, 3> range;
   for (const auto& f : facets) {
     std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = x[f.nodes[k]];
+    for (int k = 0; k < d; ++k) corner[k] = turned(x[f.nodes[k]]);
     corners_.push_back(corner);
     for (int axis = 1; axis < d; ++axis) {
       double low = corner[0][axis], high = low;
@@ -93,7 +96,8 @@ std::span<const int> InsideTest<d>::near(const Vec<d>& point) const {
 }
 
 template <int d>
-bool InsideTest<d>::operator()(const Vec<d>& point) const {
+bool InsideTest<d>::operator()(const Vec<d>& x) const {
+  const Vec<d> point = turned(x);
   int winding = 0;
   for (int i : near(point)) winding += crossing(corners_[i], point);
   return winding > 0;

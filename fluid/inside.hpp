@@ -1,7 +1,8 @@
 // Is a point inside a closed set of oriented facets? Winding number by ray crossing.
 //
 // Facets are binned by the quantiles of their corners in the directions across the ray, so that graded
-// boundaries cost O(log n) a query where facets do not pile up behind each other.
+// boundaries cost O(log n) a query where facets do not pile up behind each other. In space rays go upwards: along a
+// water surface they would meet a row of its facets.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@ class InsideTest {
  public:
   InsideTest(std::span<const Vec<d>> x, const std::vector<Facet<d>>& facets);
   /// Overlapping parts of the boundary count as inside (winding number 2), gaps between them do not.
-  bool operator()(const Vec<d>& point) const;
+  bool operator()(const Vec<d>& x) const;
 
  private:
   /// Items by the bins, along one axis, that they reach into.
@@ -35,9 +36,9 @@ class InsideTest {
   };
   std::span<const int> near(const Vec<d>& point) const;
 
-  std::vector<std::array<Vec<d>, d>> corners_;
-  Bins slabs_;               // along axis 1
-  std::vector<Bins> cells_;  // 3D: of each slab along axis 2
+  std::vector<std::array<Vec<d>, d>> corners_;  // axes turned: rays go along axis 0
+  Bins slabs_;                                  // along axis 1
+  std::vector<Bins> cells_;                     // 3D: of each slab along axis 2
 };
 
 extern template class InsideTest<2>;

@@ -49,14 +49,14 @@ struct LinearSolver::Cholmod {
   Cholmod& operator=(const Cholmod&) = delete;
 };
 
-LinearSolver::LinearSolver(int most_direct) : most_direct_(most_direct), c_(std::make_unique<Cholmod>()) {}
+LinearSolver::LinearSolver(int largest_direct) : largest_direct_(largest_direct), c_(std::make_unique<Cholmod>()) {}
 LinearSolver::~LinearSolver() = default;
 LinearSolver::LinearSolver(LinearSolver&&) noexcept = default;
 LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
 bool LinearSolver::factor(const SymmetricMatrix& matrix) {
   multigrid_.reset();
-  if (matrix.size() > most_direct_) {
+  if (matrix.size() > largest_direct_) {
     multigrid_ = std::make_unique<Multigrid>(matrix);
     return true;
   }
@@ -82,8 +82,8 @@ bool LinearSolver::factor(const SymmetricMatrix& matrix) {
   return c_->common.status == CHOLMOD_OK && c_->factor->minor == c_->factor->n;
 }
 
-bool LinearSolver::solve(std::span<double> rhs, int columns, double tolerance) {
-  if (multigrid_) return multigrid_->solve(rhs, columns, tolerance);
+bool LinearSolver::solve(std::span<double> rhs, int columns, double tolerance, std::span<const double> guess) {
+  if (multigrid_) return multigrid_->solve(rhs, columns, tolerance, guess);
   if (c_->factor == nullptr) return false;
   const OneThread here;
   cholmod_dense b{};

@@ -11,10 +11,14 @@
 
 namespace splashdown::fluid {
 
+/// In space the factor of 10 k unknowns costs as much as multigrid's setup and all solves of a step (docs/theory.md).
+template <int d>
+inline constexpr int most_direct = d == 2 ? std::numeric_limits<int>::max() : 8000;
+
 class LinearSolver {
  public:
   /// Larger systems are solved by multigrid.
-  explicit LinearSolver(int most_direct = std::numeric_limits<int>::max());
+  explicit LinearSolver(int largest_direct = std::numeric_limits<int>::max());
   ~LinearSolver();
   LinearSolver(LinearSolver&&) noexcept;
   LinearSolver& operator=(LinearSolver&&) noexcept;
@@ -24,12 +28,12 @@ class LinearSolver {
   /// False if the matrix is not positive definite or memory ran out.
   bool factor(const SymmetricMatrix& matrix);
   /// Solves in place for `columns` right-hand sides stored one after the other: to roundoff if direct, else to a residual
-  /// of `tolerance` times the right-hand side.
-  bool solve(std::span<double> rhs, int columns = 1, double tolerance = 1e-8);
+  /// of `tolerance` times the right-hand side, from `guess` (empty: zero) on.
+  bool solve(std::span<double> rhs, int columns = 1, double tolerance = 1e-8, std::span<const double> guess = {});
 
  private:
   struct Cholmod;
-  int most_direct_;
+  int largest_direct_;
   std::unique_ptr<Cholmod> c_;
   std::unique_ptr<Multigrid> multigrid_;  // in use: not null
 };

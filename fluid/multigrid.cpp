@@ -13,6 +13,8 @@
 namespace splashdown::fluid {
 namespace {
 
+// Where the diagonal dominates no row depends on others, and levels end early: smoothing solves such systems.
+constexpr int most_dense = 1000;
 constexpr int most_iterations = 200;  // ten times what meshes of the validation cases need
 constexpr int most_blocks = 4;        // of Gauss-Seidel; between them it is Jacobi, which converges more slowly
 constexpr int rows_a_block = 1000;    // at least; also of partial sums
@@ -76,30 +78,63 @@ std::array<double, K> dot(int rows, const std::vector<double>& a, const std::vec
 
 struct Multigrid::Level {
   Rows<float> matrix, interpolation, restriction;  // to this level and from it
-  std::vector<float> per_diagonal;                 // 1 / (a_ii + sum of |a_ij| beyond the block)
+  std::vector<int> rest;                           // of a row: its entries before are those of [block's first, i)
+  std::vector<float> diagonal, per_diagonal;       // a_ii + sum of |a_ij| beyond the block, and one over it
   std::vector<float> b, x, before;
 
-  void find_diagonal() {
+  void prepare_smoothing() {
+    rest.resize(matrix.size());
+    diagonal.resize(matrix.size());
     per_diagonal.resize(matrix.size());
     in_blocks(matrix.size(), smoothing_block(matrix.size()), [&](int first, int last, int) {
       for (int i = first; i < last; ++i) {
+        rest[i] = matrix.start[i];
+        for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
+          if (matrix.column[k] < first || matrix.column[k] >= i) continue;
+          std::swap(matrix.column[k], matrix.column[rest[i]]);
+          std::swap(matrix.value[k], matrix.value[rest[i]++]);
+        }
         float sum = 0;
         for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
           const int j = matrix.column[k];
           if (j == i) sum += matrix.value[k];
           if (j < first || j >= last) sum += std::abs(matrix.value[k]);
         }
+        diagonal[i] = sum;
         per_diagonal[i] = sum > 0 ? 1 / sum : 0;
       }
     });
   }
 
+  /// x after a forward sweep from zero, and what it leaves of b in `before`: together one pass over the matrix.
   template <int K>
-  void smooth(bool forward) {
+  void smooth_forward() {
+    in_blocks(matrix.size(), smoothing_block(matrix.size()), [&](int first, int last, int) {
+      for (int i = first; i < last; ++i) {
+        std::array<float, K> r;
+        for (int c = 0; c < K; ++c) r[c] = b[i * K + c];
+        for (int k = matrix.start[i]; k < rest[i]; ++k)
+          for (int c = 0; c < K; ++c) r[c] -= matrix.value[k] * x[matrix.column[k] * K + c];
+        for (int c = 0; c < K; ++c) x[i * K + c] = per_diagonal[i] * r[c];
+      }
+    });
+    before.resize(x.size());
+    in_blocks(matrix.size(), rows_a_block, [&](int first, int last, int) {
+      for (int i = first; i < last; ++i) {
+        std::array<float, K> r;
+        for (int c = 0; c < K; ++c) r[c] = diagonal[i] * x[i * K + c];  // what was left when its turn came
+        for (int k = rest[i]; k < matrix.start[i + 1]; ++k)
+          for (int c = 0; c < K; ++c) r[c] -= matrix.value[k] * x[matrix.column[k] * K + c];
+        for (int c = 0; c < K; ++c) before[i * K + c] = r[c];
+      }
+    });
+  }
+
+  template <int K>
+  void smooth_backward() {
     before = x;
     in_blocks(matrix.size(), smoothing_block(matrix.size()), [&](int first, int last, int) {
-      for (int step = 0; step < last - first; ++step) {
-        const int i = forward ? first + step : last - 1 - step;
+      for (int i = last - 1; i >= first; --i) {
         std::array<float, K> r;
         for (int c = 0; c < K; ++c) r[c] = b[i * K + c];
         for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
@@ -124,12 +159,13 @@ struct Multigrid::Hierarchy {
     levels.resize(built.matrix.size());
     for (std::size_t l = 0; l < levels.size(); ++l) {
       levels[l].matrix = std::move(built.matrix[l]);
-      levels[l].find_diagonal();
+      levels[l].prepare_smoothing();
       if (l + 1 == levels.size()) continue;
       levels[l].interpolation = std::move(built.interpolation[l]);
       levels[l].restriction = transposed(levels[l].interpolation, built.matrix[l + 1].size());
     }
     const auto& last = levels.back().matrix;
+    if (last.size() > most_dense) return;
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(last.size(), last.size());
     for (int i = 0; i < last.size(); ++i)
       for (int k = last.start[i]; k < last.start[i + 1]; ++k) dense(i, last.column[k]) += last.value[k];
@@ -141,22 +177,25 @@ struct Multigrid::Hierarchy {
   void cycle(std::size_t l) {
     Level& level = levels[l];
     const int n = level.matrix.size();
-    level.x.assign(level.b.size(), 0);
+    level.x.resize(level.b.size());
+    if (l + 1 == levels.size() && n > most_dense) {
+      level.template smooth_forward<K>();
+      level.template smooth_backward<K>();
+      return;
+    }
     if (l + 1 == levels.size()) {
       using Columns = Eigen::Matrix<float, Eigen::Dynamic, K, K == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
       const Eigen::Map<const Columns> b(level.b.data(), n, K);
       Eigen::Map<Columns>(level.x.data(), n, K) = coarsest.solve(b.template cast<double>()).template cast<float>();
       return;
     }
-    level.template smooth<K>(true);
-    level.before = level.b;  // the residual
-    add_product<K, float>(level.matrix, -1, level.x.data(), level.before.data());
+    level.template smooth_forward<K>();
     Level& coarser = levels[l + 1];
     coarser.b.assign(static_cast<std::size_t>(coarser.matrix.size()) * K, 0);
     add_product<K, float>(level.restriction, 1, level.before.data(), coarser.b.data());
     cycle<K>(l + 1);
     add_product<K, float>(level.interpolation, 1, coarser.x.data(), level.x.data());
-    level.template smooth<K>(false);
+    level.template smooth_backward<K>();
   }
 
   // z = M^-1 r. Residuals are scaled to their largest size: single precision ends at 1e-38.
@@ -174,13 +213,28 @@ struct Multigrid::Hierarchy {
 
   /// K systems side by side; each stops for itself.
   template <int K>
-  bool solve(double* rhs, double tolerance) {
+  bool solve(double* rhs, double tolerance, const double* guess) {
     const int n = matrix.size();
     const std::size_t count = static_cast<std::size_t>(n) * K;
     for (auto* v : {&r, &z, &p, &q, &x}) v->assign(count, 0.0);
-    for (int c = 0; c < K; ++c)
-      for (int i = 0; i < n; ++i) r[static_cast<std::size_t>(i) * K + c] = rhs[static_cast<std::size_t>(c) * n + i];
+    auto side_by_side = [&](const double* columns, std::vector<double>& rows) {
+      for (int c = 0; c < K; ++c)
+        for (int i = 0; i < n; ++i)
+          rows[static_cast<std::size_t>(i) * K + c] = columns[static_cast<std::size_t>(c) * n + i];
+    };
+    side_by_side(rhs, r);
     std::array<double, K> goal = dot<K>(n, r, r), rz{};
+    if (guess != nullptr) {
+      side_by_side(guess, x);
+      add_product<K, double>(matrix, -1, x.data(), r.data());
+      const auto left = dot<K>(n, r, r);
+      for (int c = 0; c < K; ++c)
+        if (!(left[c] < goal[c])) {  // it is no better than zero
+          side_by_side(rhs, r);
+          x.assign(count, 0.0);
+          break;
+        }
+    }
     for (double& g : goal) g *= tolerance * tolerance;
     bool done = false;
     for (int iteration = 0; iteration <= most_iterations; ++iteration) {
@@ -217,16 +271,17 @@ struct Multigrid::Hierarchy {
 Multigrid::Multigrid(const SymmetricMatrix& matrix) : h_(std::make_unique<Hierarchy>(matrix)) {}
 Multigrid::~Multigrid() = default;
 
-bool Multigrid::solve(std::span<double> rhs, int columns, double tolerance) {
+bool Multigrid::solve(std::span<double> rhs, int columns, double tolerance, std::span<const double> guess) {
   const std::size_t rows = rhs.size() / static_cast<std::size_t>(columns);
+  auto from = [&](int column) { return guess.empty() ? nullptr : guess.data() + rows * column; };
   constexpr int together = 6;  // the freedoms of a body
   int c = 0;
   for (; columns - c >= together; c += together)
-    if (!h_->solve<together>(rhs.data() + rows * c, tolerance)) return false;
+    if (!h_->solve<together>(rhs.data() + rows * c, tolerance, from(c))) return false;
   for (; columns - c >= 3; c += 3)
-    if (!h_->solve<3>(rhs.data() + rows * c, tolerance)) return false;
+    if (!h_->solve<3>(rhs.data() + rows * c, tolerance, from(c))) return false;
   for (; c < columns; ++c)
-    if (!h_->solve<1>(rhs.data() + rows * c, tolerance)) return false;
+    if (!h_->solve<1>(rhs.data() + rows * c, tolerance, from(c))) return false;
   return true;
 }
 

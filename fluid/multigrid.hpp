@@ -18,9 +18,9 @@ class Multigrid {
  public:
   explicit Multigrid(const SymmetricMatrix& matrix);
   ~Multigrid();
-  /// Solves in place for `columns` right-hand sides stored one after the other, to residuals of `tolerance` |rhs| each;
-  /// false if one does not converge.
-  bool solve(std::span<double> rhs, int columns, double tolerance);
+  /// Solves in place for `columns` right-hand sides stored one after the other, to residuals of `tolerance` |rhs| each,
+  /// starting from `guess` (as long as rhs; empty: zero); false if one does not converge.
+  bool solve(std::span<double> rhs, int columns, double tolerance, std::span<const double> guess = {});
 
  private:
   struct Level;

@@ -4,9 +4,11 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace splashdown::fluid {
 
@@ -25,13 +27,27 @@ void in_pieces(std::size_t count, std::size_t grain, Visit visit) {
                     [&](const tbb::blocked_range<std::size_t>& piece) { visit(piece.begin(), piece.end()); });
 }
 
+/// Turns of a short loop: for less, waking a thread costs more than it saves.
+inline constexpr std::size_t worthwhile = 1000;
+
 /// visit(i) for 0 <= i < count.
 template <class Visit>
 void in_parallel(std::size_t count, Visit visit) {
-  constexpr std::size_t worthwhile = 1000;  // for less, waking a thread costs more than it saves
   in_pieces(count, worthwhile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) visit(i);
   });
+}
+
+/// The least value(i) for 0 <= i < count, infinity for none.
+template <class Value>
+double least_in_parallel(std::size_t count, Value value) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, count, worthwhile), std::numeric_limits<double>::infinity(),
+      [&](const tbb::blocked_range<std::size_t>& piece, double least) {
+        for (std::size_t i = piece.begin(); i < piece.end(); ++i) least = std::min(least, value(i));
+        return least;
+      },
+      [](double a, double b) { return std::min(a, b); });
 }
 
 }  // namespace splashdown::fluid

@@ -84,15 +84,16 @@ void PressureEquation<d>::measure(double density) {
   });
   // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour.
   constexpr double lightest = 0.02;
-  std::vector<double> heaviest(count, 0.0);
-  for (const auto& cell : mesh_->cells) {
-    double largest = 0;
-    for (int n : cell) largest = std::max(largest, lumped_[n]);
-    for (int n : cell) heaviest[n] = std::max(heaviest[n], largest);
-  }
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
+    rate_[c] = 0;
+    for (int n : mesh_->cells[c]) rate_[c] = std::max(rate_[c], lumped_[n]);
+  });
   per_nodal_mass_.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
-    per_nodal_mass_[i] = 1 / (density * (d + 1) * std::max(lumped_[i], lightest * heaviest[i]));
+  in_parallel(count, [&](std::size_t i) {
+    double heaviest = 0;
+    for (const auto [c, k] : around_.around(i)) heaviest = std::max(heaviest, rate_[c]);
+    per_nodal_mass_[i] = 1 / (density * (d + 1) * std::max(lumped_[i], lightest * heaviest));
+  });
   free_area_.assign(count, Vec<d>::Zero());
   free_measure_.assign(count, 0.0);
   free_spread_.assign(count, 0.0);
@@ -258,8 +259,15 @@ void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<co
 }
 
 template <int d>
-bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance) {
-  return size() == 0 || solver_.solve(r, 1, tolerance);
+bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance, std::vector<double> guess) {
+  if (size() == 0) return true;
+  // Least error in the energy norm: G y = Y^T (r - A guess), and A Y = B^T Z.
+  if (!guess.empty() && motions() > 0 && !solver_.is_direct()) {
+    const Eigen::Map<const Eigen::VectorXd> rhs(r.data(), size());
+    const Eigen::VectorXd left = Y_.transpose() * rhs - on_motions(impulses(guess));
+    Eigen::Map<Eigen::VectorXd>(guess.data(), size()) += Y_ * added_mass_.completeOrthogonalDecomposition().solve(left);
+  }
+  return solver_.solve(r, 1, tolerance, guess);
 }
 
 template <int d>
@@ -284,9 +292,7 @@ template <int d>
 Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s,
                                              const Eigen::VectorXd& further) const {
   if (motions() == 0) return {};
-  std::vector<Wrench<d>> loads;
-  for (std::size_t w = 0; w < modes_.size(); ++w) loads.push_back(impulse(w, phi));
-  const Eigen::VectorXd y = response(on_motions(loads) + further);
+  const Eigen::VectorXd y = response(on_motions(impulses(phi)) + further);
   Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * y;
   move(y, s);
   return y;
@@ -363,6 +369,13 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     }
     v[i] += 2 * change_[i] - weighted;
   });
+}
+
+template <int d>
+std::vector<Wrench<d>> PressureEquation<d>::impulses(std::span<const double> phi) const {
+  std::vector<Wrench<d>> loads;
+  for (std::size_t w = 0; w < modes_.size(); ++w) loads.push_back(impulse(w, phi));
+  return loads;
 }
 
 template <int d>

@@ -70,8 +70,9 @@ class PressureEquation {
                       std::span<const Vec<d>> centres, std::span<const int> slides, std::vector<double>& r) const;
 
   /// Solves in place for walls that stand still; `respond` lets those that do not move. `tolerance`: of the residual over
-  /// r, for large systems, which are solved iteratively.
-  bool solve(std::vector<double>& r, double tolerance = 1e-8);
+  /// r, for large systems, which are solved iteratively: from `guess`, what phi is about after `respond`, and the
+  /// motions that fit it best.
+  bool solve(std::vector<double>& r, double tolerance = 1e-8, std::vector<double> guess = {});
   /// Lets the motions answer to impulses phi that held bodies would get, and to a further impulse on them: changes
   /// phi, adds to the twists, and returns y.
   Eigen::VectorXd respond(std::vector<double>& phi, std::span<Twist<d>> s, const Eigen::VectorXd& further) const;
@@ -90,6 +91,7 @@ class PressureEquation {
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
   /// B phi of a wall: impulse on the body about its reference point.
   Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
+  std::vector<Wrench<d>> impulses(std::span<const double> phi) const;  ///< of all walls
   /// G = Z^T B A^-1 B^T Z: the motions' added mass.
   const Eigen::MatrixXd& added_mass() const { return added_mass_; }
   /// Slope of a solve: what twists of walls and impulses that Laplacians lag on change in the walls' impulses and in
@@ -103,6 +105,7 @@ class PressureEquation {
   int size() const { return static_cast<int>(node_.size()); }
   const std::vector<int>& unknown() const { return unknown_; }  ///< of a node, -1: phi = 0
   std::span<const double> lumped_volume() const { return lumped_; }
+  const NodeCells<d>& around() const { return around_; }
   const SymmetricMatrix& matrix() const { return matrix_; }
 
  private:
@@ -132,9 +135,7 @@ class PressureEquation {
   NodeCells<d> around_;
   Assembly<d, double> assembly_;
   SymmetricMatrix matrix_;
-  // In space the factor of 10 k unknowns costs as much as multigrid's setup and all solves of a step (docs/theory.md).
-  static constexpr int most_direct = d == 2 ? std::numeric_limits<int>::max() : 8000;
-  LinearSolver solver_{most_direct};
+  LinearSolver solver_{most_direct<d>};
   struct Mode {
     int unknown;
     Wrench<d> row;  // column of B

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fluid/mesh.hpp"
+#include "fluid/node_cells.hpp"
 #include "fluid/nodes.hpp"
 #include "fluid/spec.hpp"
 #include "fluid/status.hpp"
@@ -26,6 +27,7 @@ struct StepView {
   double density;                         ///< [kg/m^3]
   double kick;                            ///< [s]
   std::span<const double> lumped_volume;  ///< of nodes [m^d]
+  const NodeCells<d>& around;             ///< the cells around each node
   std::span<const WallSpec<d>> walls;
   std::span<const Isometry<d>> poses;  ///< of walls, at t_n
 };

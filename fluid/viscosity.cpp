@@ -70,14 +70,13 @@ void Viscosity<d>::assemble(const StepView<d>& step) {
   const auto& cells = step.mesh.cells;
   gradients_.resize(cells.size());
   volume_.resize(cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c) {
+  in_parallel(cells.size(), [&](std::size_t c) {
     const auto at = corners(step.nodes.x, cells[c]);
     gradients_[c] = volume_gradients<d>(at);
     volume_[c] = (at(d) - at(0)).dot(gradients_[c].col(d));
-  }
+  });
   const int n = static_cast<int>(node_.size());
-  around_.build(cells, unknown_.size());
-  blocks_.build(cells, around_, unknown_, node_, [&](int c, int a, int b) -> Mat<d> {
+  blocks_.build(cells, step.around, unknown_, node_, [&](int c, int a, int b) -> Mat<d> {
     const auto& g = gradients_[c];
     const double scale = mu_ * step.kick / volume_[c];
     return scale * (g.col(a).dot(g.col(b)) * Mat<d>::Identity() + g.col(b) * g.col(a).transpose());
@@ -112,14 +111,17 @@ void Viscosity<d>::assemble(const StepView<d>& step) {
 
 template <int d>
 void Viscosity<d>::stress(const StepView<d>& step, std::span<const Vec<d>> v, std::vector<Vec<d>>& force) const {
-  force.assign(v.size(), Vec<d>::Zero());
-  for (std::size_t c = 0; c < step.mesh.cells.size(); ++c) {
+  stress_.resize(step.mesh.cells.size());
+  in_parallel(stress_.size(), [&](std::size_t c) {
     const auto& cell = step.mesh.cells[c];
     Mat<d> gradient = Mat<d>::Zero();
     for (int k = 0; k <= d; ++k) gradient += v[cell[k]] * gradients_[c].col(k).transpose();
-    const Mat<d> sigma = mu_ / volume_[c] * (gradient + gradient.transpose());
-    for (int k = 0; k <= d; ++k) force[cell[k]] += sigma * gradients_[c].col(k);
-  }
+    stress_[c] = mu_ / volume_[c] * (gradient + gradient.transpose());
+  });
+  force.assign(v.size(), Vec<d>::Zero());
+  in_parallel(v.size(), [&](std::size_t i) {
+    for (const auto [c, k] : step.around.around(i)) force[i] += stress_[c] * gradients_[c].col(k);
+  });
 }
 
 // dv = c + P y: c is given by sticking walls, y solves what P leaves of the equation.

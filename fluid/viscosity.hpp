@@ -10,9 +10,9 @@
 //   no slip  v + dv = the wall's velocity, except where the free surface meets the wall: a contact line that
 //            sticks cannot move (Huh, Scriven, J. Colloid Interface Sci. 35, 1971), so its nodes slip
 //
-// Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any
-// kick; one Cholesky factor of d unknowns a node per step. A free body feels the reaction of its velocity
-// before the kick: its mass has to exceed that of the water the kick drags along.
+// Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any kick;
+// one system of d unknowns a node per step, factored or, if large and in space, solved by multigrid. A free body feels
+// the reaction of its velocity before the kick: its mass has to exceed that of the water the kick drags along.
 #pragma once
 
 #include "fluid/assembly.hpp"
@@ -50,12 +50,12 @@ class Viscosity final : public Term<d> {
   std::vector<int> unknown_, node_;  // unknown of a node, node of an unknown
   std::vector<VolumeGradients<d>> gradients_;
   std::vector<double> volume_;  // of cells
+  mutable std::vector<Mat<d>> stress_;
   std::vector<Held> held_;
   std::vector<int> held_at_;  // of a node, -1: free
-  NodeCells<d> around_;
   Assembly<d, Mat<d>> blocks_;
   SymmetricMatrix matrix_;
-  LinearSolver solver_;
+  LinearSolver solver_{most_direct<d>};
   std::vector<Vec<d>> change_, moved_, force_;
   std::vector<double> rhs_;
   double power_ = 0;

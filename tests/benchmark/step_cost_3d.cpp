@@ -73,7 +73,7 @@ void triangulate(benchmark::State& state, int nodes) {
   for (auto _ : state) benchmark::DoNotOptimize(fluid::delaunay<3>(x, {}));
 }
 
-void solve(benchmark::State& state, int nodes, int most_direct, double tolerance) {
+void solve(benchmark::State& state, int nodes, int largest_direct, double tolerance) {
   const auto& water = moving(nodes).fluid();
   const std::vector<Vec<3>> centres(2, Vec<3>::Zero());
   fluid::PressureEquation<3> equation;
@@ -82,7 +82,7 @@ void solve(benchmark::State& state, int nodes, int most_direct, double tolerance
   for (int i = 0; i < equation.size(); ++i) rhs[static_cast<std::size_t>(i)] = std::sin(0.01 * i);
   fluid::use_threads(2);
   for (auto _ : state) {
-    fluid::LinearSolver solver(most_direct);
+    fluid::LinearSolver solver(largest_direct);
     auto x = rhs;
     if (!solver.factor(equation.matrix()) || !solver.solve(x, 1, tolerance)) state.SkipWithError("not solved");
   }

@@ -39,6 +39,19 @@ Eigen::MatrixXd laplacian(int n, double shift, unsigned seed = 1) {
   return A;
 }
 
+// -1 to four neighbours on a strip.
+SymmetricMatrix band(int n, double diagonal) {
+  SymmetricMatrix m;
+  m.column_start = {0};
+  for (int j = 0; j < n; ++j) {
+    m.row.push_back(j), m.value.push_back(diagonal);
+    for (int i : {j + 1, j + 70})
+      if (i < n) m.row.push_back(i), m.value.push_back(-1);
+    m.column_start.push_back(static_cast<int>(m.row.size()));
+  }
+  return m;
+}
+
 TEST(LinearSolver, leaves_a_residual_of_roundoff) {
   for (int n : {1, 2, 50, 400}) {
     const auto A = laplacian(n, 0.01);
@@ -65,16 +78,39 @@ TEST(LinearSolver, multigrid_leaves_the_residual_it_was_asked_for) {
   }
 }
 
+TEST(LinearSolver, multigrid_takes_any_guess_and_profits_from_a_good_one) {
+  const int n = 400;
+  const auto A = laplacian(n, 0.01);
+  const Eigen::VectorXd solution = Eigen::VectorXd::Random(n), b = A * solution;
+  LinearSolver solver(0);
+  ASSERT_TRUE(solver.factor(lower(A)));
+  auto solved = [&](const Eigen::VectorXd& rhs, const Eigen::VectorXd& guess, double tolerance) {
+    Eigen::VectorXd x = rhs;
+    EXPECT_TRUE(solver.solve({x.data(), static_cast<std::size_t>(n)}, 1, tolerance,
+                             {guess.data(), static_cast<std::size_t>(guess.size())}));
+    return x;
+  };
+  EXPECT_TRUE(solved(b, solution, 1e-8) == solution) << "nothing is left to be done";
+  for (const Eigen::VectorXd& guess :
+       {Eigen::VectorXd(0.9 * solution), Eigen::VectorXd(1e9 * Eigen::VectorXd::Random(n))})
+    EXPECT_LE((A * solved(b, guess, 1e-8) - b).norm(), 1.01e-8 * b.norm());
+  EXPECT_TRUE(solved(Eigen::VectorXd::Zero(n), solution, 1e-8).isZero(0)) << "no right-hand side, no solution";
+}
+
+// No row depends on others there, and multigrid finds no coarser level: a factor of thousands of dense rows would take
+// minutes.
+TEST(LinearSolver, multigrid_is_quick_where_the_diagonal_dominates) {
+  const int n = 20000;
+  LinearSolver solver(0);
+  ASSERT_TRUE(solver.factor(band(n, 400)));
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(n);
+  ASSERT_TRUE(solver.solve({x.data(), static_cast<std::size_t>(n)}));
+  EXPECT_NEAR(x[n / 2], 1.0 / 396, 1e-8) << "rows inside add up to 396";
+}
+
 TEST(LinearSolver, multigrid_gives_the_same_bits_on_any_number_of_threads) {
   const int n = 5000;  // several blocks
-  SymmetricMatrix m;
-  m.column_start = {0};
-  for (int j = 0; j < n; ++j) {
-    m.row.push_back(j), m.value.push_back(4.001);
-    for (int i : {j + 1, j + 70})
-      if (i < n) m.row.push_back(i), m.value.push_back(-1);
-    m.column_start.push_back(static_cast<int>(m.row.size()));
-  }
+  const SymmetricMatrix m = band(n, 4.001);
   const Eigen::VectorXd b = Eigen::VectorXd::Random(n);
   Eigen::VectorXd first;
   for (int threads : {1, 2, 8}) {

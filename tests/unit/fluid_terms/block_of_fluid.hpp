@@ -76,7 +76,9 @@ struct Block {
 
   /// One kick: returns the new velocities, and the impulses on walls.
   std::vector<Vec<d>> predict(Term<d>& term, std::vector<Wrench<d>>* impulses = nullptr) const {
-    const StepView<d> view{nodes, mesh, density, kick, lumped_volume, walls, poses};
+    NodeCells<d> around;
+    around.build(mesh.cells, nodes.size());
+    const StepView<d> view{nodes, mesh, density, kick, lumped_volume, around, walls, poses};
     std::vector<Vec<d>> v = nodes.v;
     std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero());
     if (!term.begin(view).ok() || !term.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok()) return {};
