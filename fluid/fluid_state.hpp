@@ -1,0 +1,125 @@
+// What a fluid holds and what a step of it works with. For fluid.cpp, prepare.cpp and solve.cpp alone.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fluid/contact.hpp"
+#include "fluid/fluid.hpp"
+#include "fluid/pressure.hpp"
+#include "fluid/timer.hpp"
+
+namespace splashdown::fluid {
+
+enum Phase : std::size_t { remesh, assemble, momentum, pressure, motion, effects };  // effects: the first term
+
+// What a checkpoint holds: everything at t_n that the next step is computed from.
+template <int d>
+struct Present {
+  double time = 0, dt = 0;  // dt: of the step that led here
+  Nodes<d> nodes;
+  std::vector<double> h;  // element size at the nodes
+  Mesh<d> mesh;
+  std::vector<Isometry<d>> poses;
+  std::vector<Twist<d>> velocity;  // of walls, at t_{n-1/2}
+  std::vector<double> wetted;
+  double acceleration_dt = std::numeric_limits<double>::infinity();
+  Ledger ledger;
+};
+
+// What one solve works with.
+template <int d>
+struct Trial {
+  std::vector<Vec<d>> v;                     // of nodes, before the pressure
+  std::vector<Twist<d>> s_before;            // of walls, repaired
+  std::vector<Vec<d>> x_mid;                 // where a motion is judged
+  std::vector<double> r, repaired;           // residual, repair impulse
+  std::vector<Wrench<d>> on_walls, dragged;  // impulses of effects and of sticking
+  Eigen::VectorXd known, answer;             // impulses on the motions besides the pressure's, and what they did
+};
+
+// Shorter edges are merged or lie across a film, and limit no time step.
+constexpr double merged_below = 0.45;
+template <int d>
+double squared_length(const Present<d>& at, int i, int j) {
+  const double short_edge = merged_below * std::min(at.h[i], at.h[j]);
+  return std::max((at.nodes.x[i] - at.nodes.x[j]).squaredNorm(), short_edge * short_edge);
+}
+
+template <int d>
+struct Fluid<d>::State {
+  FluidSpec<d> spec;
+  std::vector<std::unique_ptr<Term<d>>> terms;
+  std::vector<Wall<d>> walls;
+  PhaseTimer timer{{"mesh", "assemble", "momentum", "pressure", "move"}};
+
+  Present<d> now;         // committed
+  Present<d> work;        // now, remeshed
+  bool prepared = false;  // work belongs to now
+
+  double kick = 0, dt = 0;
+  PressureEquation<d> equation;
+  std::optional<WallMotion<d>> wall_motion;
+  typename WallMotion<d>::Moved moved;
+  Trial<d> trial;
+  std::vector<Vec<d>> v_after;
+  std::vector<Twist<d>> s_after;
+  std::vector<double> found_by_corrections;  // nodes' next q
+  std::vector<double> phi;                   // physical impulse
+  std::vector<double> interface;             // physical impulse on the pieces of walls with a Laplacian
+  std::vector<double> carried_p;             // pressure at the nodes before the step
+  std::vector<WallLoad<d>> loads;
+  std::vector<Twist<d>> imbalance;
+  double power_on_walls = 0;
+  double energy_carried = 0, energy_before = 0, energy_repaired = 0;  // before remeshing, after, repaired
+
+  WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
+
+  std::vector<Vec<d>> centres(const std::vector<Isometry<d>>& poses) const {
+    std::vector<Vec<d>> c;
+    for (const auto& p : poses) c.push_back(p.translation());
+    return c;
+  }
+
+  std::vector<Isometry<d>> moved_poses(std::span<const Twist<d>> s, double by) const {
+    std::vector<Isometry<d>> out;
+    for (std::size_t w = 0; w < walls.size(); ++w) out.push_back(fluid::moved<d>(work.poses[w], s[w], by));
+    return out;
+  }
+
+  StepView<d> view() const {
+    return {work.nodes,        work.mesh,  spec.density, kick, equation.lumped_volume(),
+            equation.around(), spec.walls, work.poses};
+  }
+
+  // The mesh of a step (prepare.cpp).
+  void prepare();
+  void size_nodes();
+  void book_spray(const std::vector<char>& was_spray);
+  double gravity() const;
+
+  // The motion over it (solve.cpp).
+  Status solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
+  Status repair();
+  Status predict();
+  Status press(std::span<const Twist<d>> given, std::span<const double> previous);
+  Status correct(std::span<const double> previous);
+  void weigh();
+  void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
+  void stick(std::vector<Wrench<d>>& impulses);
+  void push(const Eigen::VectorXd& impulse);
+  bool solve_with_bodies(std::vector<double>& r, std::vector<Twist<d>>& s, double tolerance);
+  void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s);
+  double kinetic_energy(std::span<const Vec<d>> v) const;
+  std::vector<double> carried_impulse(bool corrected) const;
+  void middle(std::span<const Vec<d>> u, double by) {
+    for (std::size_t i = 0; i < u.size(); ++i) trial.x_mid[i] = work.nodes.x[i] + by * u[i];
+  }
+  bool finite() const;
+  bool orderly() const;
+};
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,68 @@
+// The mesh of a step: sizes, contact, nodes, the triangulation and which of its cells are fluid.
+#include "fluid/adapt.hpp"
+#include "fluid/delaunay.hpp"
+#include "fluid/fluid_state.hpp"
+#include "fluid/landing.hpp"
+#include "fluid/parallel.hpp"
+#include "fluid/size_field.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+void Fluid<d>::State::size_nodes() {
+  const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh);
+  work.h.resize(work.nodes.size());
+  in_parallel(work.h.size(), [&](std::size_t i) { work.h[i] = field(work.nodes.x[i]); });
+}
+
+// A node that leaves the mesh carries its share of volume; one that comes back brings it.
+template <int d>
+void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
+  for (std::size_t i = 0; i < was_spray.size(); ++i)
+    work.ledger.spray += (work.nodes.spray[i] - was_spray[i]) * work.nodes.volume[i];
+}
+
+// |grad| of all effects' potential energy per mass; effects that have one are uniform fields.
+template <int d>
+double Fluid<d>::State::gravity() const {
+  Vec<d> g = Vec<d>::Zero();
+  for (const auto& term : terms)
+    for (int k = 0; k < d; ++k) g[k] += term->potential(Vec<d>::Unit(k)) - term->potential(Vec<d>::Zero());
+  return g.norm();
+}
+
+template <int d>
+void Fluid<d>::State::prepare() {
+  const auto scope = timer.scope(remesh);
+  work = now;
+  energy_carried = 0;
+  for (std::size_t i = 0; i < now.nodes.size(); ++i)
+    energy_carried += 0.5 * spec.density * now.nodes.volume[i] * now.nodes.v[i].squaredNorm();
+  size_nodes();
+  wet<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
+  if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
+  if constexpr (d == 3) {
+    // Along a space-filling curve: neighbours are near in memory, and in the same block of the smoother.
+    const auto order = spatial_order<d>(work.nodes.x);
+    keep({order.begin(), order.end()}, work.nodes, work.h, work.mesh.boundary);
+  }
+  const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
+  const std::vector<char> was_spray = work.nodes.spray;
+  work.mesh = recognise<d>(work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
+  book_spray(was_spray);
+  separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity());
+  land(work.nodes, work.mesh);
+  carried_p = work.nodes.p;
+  const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
+  const double adapted = before - now.ledger.volume;
+  (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
+  (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
+  work.ledger.volume = after;
+  work.wetted = wetted_measures(work.mesh, work.nodes.x, walls.size());
+  prepared = true;
+}
+
+template struct Fluid<2>::State;
+template struct Fluid<3>::State;
+
+}  // namespace splashdown::fluid
