@@ -85,6 +85,7 @@ std::vector<typename Cgal<d>::Point> cgal_points(std::span<const Vec<d>> points)
 template <int d>
 std::vector<std::size_t> order_of(const std::vector<typename Cgal<d>::Point>& points) {
   std::vector<std::size_t> order(points.size());
+  if (points.empty()) return order;
   std::iota(order.begin(), order.end(), 0);
   using Map = typename CGAL::Pointer_property_map<typename Cgal<d>::Point>::const_type;
   CGAL::spatial_sort(order.begin(), order.end(),
