@@ -28,7 +28,7 @@ struct Share<2> {
 template <>
 struct Share<3> {
   static constexpr double bytes_a_node = 1e4;
-  static constexpr double seconds_a_node = 1.3e-5;  // two threads
+  static constexpr double seconds_a_node = 2e-5;
   static constexpr double seconds_a_pass = 5e-6;
   static double nodes(double h) { return std::numbers::sqrt2 / (h * h * h); }
 };

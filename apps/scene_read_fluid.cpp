@@ -73,9 +73,10 @@ void read_sizes(Reader& reader, Sizes& size) {
   size.far = size.surface;
   reader.number("far", size.far, positive("m", "Use fluid.size.surface or more."));
   reader.number("growth", size.growth, share("Use 0.1 to 0.2: the element size's growth per unit distance."));
-  reader.number(
-      "wetted_fraction", size.wetted_fraction,
-      within(0, 0.5, "", "Use 0 (off) or 0.004 to 0.01: h over the wetted half length, for starting impacts."));
+  reader.number("wetted_fraction", size.wetted_fraction,
+                within(0, 0.5, "",
+                       "Use 0 (off), 0.004 to 0.01 in the plane or 0.03 in space: h over the wetted half length, for "
+                       "starting impacts."));
   reader.number("hollow", size.hollow,
                 positive("", "Use e.g. 0.2, or leave it out: h over the radius of a jet's root."));
   if (size.hollow)
