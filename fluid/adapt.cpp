@@ -13,7 +13,6 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double split_above = 1.5;
-constexpr double merge_below = 0.45;
 constexpr double crowd_below = 0.25;  // height of an inner node over a boundary facet, over h
 
 struct Edge {

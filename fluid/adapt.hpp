@@ -12,6 +12,8 @@
 
 namespace splashdown::fluid {
 
+inline constexpr double merge_below = 0.45;  ///< length of an edge over h
+
 template <int d>
 struct AdaptReport {
   int inserted = 0, removed = 0;

@@ -60,9 +60,7 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms) 
   now.nodes = std::move(liquid.nodes);
   now.mesh = std::move(liquid.mesh);
   now.h = std::move(liquid.h);
-  NodeCells<d> around;
-  around.build(now.mesh.cells, now.nodes.size());
-  share_volumes(now.nodes, now.mesh, around);
+  now.nodes.volume = nodal_volumes(now.mesh, now.nodes.x);
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }

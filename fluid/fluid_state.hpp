@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "fluid/adapt.hpp"
 #include "fluid/contact.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/pressure.hpp"
@@ -41,11 +42,10 @@ struct Trial {
   Eigen::VectorXd known, answer;             // impulses on the motions besides the pressure's, and what they did
 };
 
-// Shorter edges are merged or lie across a film, and limit no time step.
-constexpr double merged_below = 0.45;
+// Edges that are short enough to be merged, or lie across a film, limit no time step.
 template <int d>
 double squared_length(const Present<d>& at, int i, int j) {
-  const double short_edge = merged_below * std::min(at.h[i], at.h[j]);
+  const double short_edge = merge_below * std::min(at.h[i], at.h[j]);
   return std::max((at.nodes.x[i] - at.nodes.x[j]).squaredNorm(), short_edge * short_edge);
 }
 

@@ -1,5 +1,4 @@
 // The mesh of a step: sizes, contact, nodes, the triangulation and which of its cells are fluid.
-#include "fluid/adapt.hpp"
 #include "fluid/delaunay.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/landing.hpp"

@@ -116,8 +116,8 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
 }
 
 // Drops join what is as near as they are large, however coarse the mesh that they fly over: the size of elements whose
-// nodes, sqrt(2)/h^3 where they are packed most closely, hold this volume each. In the plane drops stay where they fly
-// off, among elements of their size.
+// nodes, sqrt(2)/h^3 where they are packed most closely, hold this volume each. In the plane scenes keep their volume
+// without that.
 template <int d>
 double drop_size(double volume) {
   return d == 2 ? std::numeric_limits<double>::infinity() : std::cbrt(std::numbers::sqrt2 * volume);
