@@ -3,26 +3,22 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "fluid/parallel.hpp"
+#include "fluid/triangulation_3.hpp"
 
 namespace splashdown::fluid {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 template <int d>
 struct Cgal;
@@ -36,43 +32,30 @@ struct Cgal<2> {
       CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Cell>,
                                                  CGAL::No_constraint_intersection_tag>;
   using Point = Kernel::Point_2;
-  using Handle = Triangulation::Face_handle;
   template <class Map>
   using SortTraits = CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>;
   static Point point(const Vec<2>& x) { return {x.x(), x.y()}; }
-  static Handle of(Triangulation::Vertex_handle v) { return v->face(); }
-  static auto all(Triangulation& t) { return t.all_face_handles(); }
-  static void keep(Triangulation& t, const std::vector<Triangulation::Vertex_handle>& at,
-                   const std::vector<Facet<2>>& facets) {
-    for (const auto& f : facets) {
-      const auto a = at[f.nodes[0]], b = at[f.nodes[1]];
-      if (a == nullptr || b == nullptr || a == b || t.is_edge(a, b)) continue;
-      try {
-        t.insert_constraint(a, b);
-      } catch (const Triangulation::Intersection_of_constraints_exception&) {
-        // Two surfaces have met: the winding number decides what lies between them.
-      }
+};
+
+void keep(Cgal<2>::Triangulation& t, const std::vector<Cgal<2>::Triangulation::Vertex_handle>& at,
+          const std::vector<Facet<2>>& facets) {
+  for (const auto& f : facets) {
+    const auto a = at[f.nodes[0]], b = at[f.nodes[1]];
+    if (a == nullptr || b == nullptr || a == b || t.is_edge(a, b)) continue;
+    try {
+      t.insert_constraint(a, b);
+    } catch (const Cgal<2>::Triangulation::Intersection_of_constraints_exception&) {
+      // Two surfaces have met: the winding number decides what lies between them.
     }
   }
-};
+}
 
 template <>
 struct Cgal<3> {
-  using Vertex = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
-  using Cell = CGAL::Triangulation_cell_base_with_info_3<int, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-  using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
   using Point = Kernel::Point_3;
-  using Handle = Triangulation::Cell_handle;
   template <class Map>
   using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>;
-  static Point point(const Vec<3>& x) { return {x.x(), x.y(), x.z()}; }
-  static Handle of(Triangulation::Vertex_handle v) { return v->cell(); }
-  static auto all(Triangulation& t) { return t.all_cell_handles(); }
-  static void keep(Triangulation&, const std::vector<Triangulation::Vertex_handle>&, const std::vector<Facet<3>>&) {}
-
-  // Two threads insert in two thirds of the time that one takes; alone, this one takes a third more.
-  using Parallel =
-      CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell, CGAL::Parallel_tag>>;
+  static Point point(const Vec<3>& x) { return cgal_point(x); }
 };
 
 template <int d>
@@ -93,56 +76,27 @@ std::vector<std::size_t> order_of(const std::vector<typename Cgal<d>::Point>& po
   return order;
 }
 
-// Corners of each cell ascend, but for the last two where orientation asks for it, and so do cells: where nodes
-// follow a space-filling curve, cells near each other are near in memory.
-void sort_by_nodes(Delaunay<3>& mesh, std::size_t nodes) {
-  using Cell = std::array<int, 4>;
-  const std::size_t count = mesh.cells.size();
-  in_parallel(count, [&](std::size_t c) {
-    Cell &cell = mesh.cells[c], &beyond = mesh.neighbours[c];
-    bool even = true;
-    for (int last = 3; last > 0; --last)
-      for (int k = 0; k < last; ++k)
-        if (cell[k] > cell[k + 1]) std::swap(cell[k], cell[k + 1]), std::swap(beyond[k], beyond[k + 1]), even = !even;
-    if (!even) std::swap(cell[2], cell[3]), std::swap(beyond[2], beyond[3]);
-  });
-  std::vector<int> start(nodes + 1, 0), order(count), place(count);
-  for (const Cell& cell : mesh.cells) ++start[cell[0] + 1];
-  for (std::size_t n = 0; n < nodes; ++n) start[n + 1] += start[n];
-  std::vector<int> next(start.begin(), start.end() - 1);
-  for (std::size_t c = 0; c < count; ++c) order[next[mesh.cells[c][0]]++] = static_cast<int>(c);
-  in_parallel(nodes, [&](std::size_t n) {
-    std::sort(order.begin() + start[n], order.begin() + start[n + 1],
-              [&](int a, int b) { return mesh.cells[a] < mesh.cells[b]; });
-    for (int k = start[n]; k < start[n + 1]; ++k) place[order[k]] = k;
-  });
-  Delaunay<3> sorted;
-  sorted.cells.resize(count);
-  sorted.neighbours.resize(count);
-  in_parallel(count, [&](std::size_t k) {
-    sorted.cells[k] = mesh.cells[order[k]];
-    for (int i = 0; i < 4; ++i) {
-      const int beyond = mesh.neighbours[order[k]][i];
-      sorted.neighbours[k][i] = beyond < 0 ? -1 : place[beyond];
-    }
-  });
-  mesh = std::move(sorted);
-}
-void sort_by_nodes(Delaunay<2>&, std::size_t) {}  // triangles are few
-
-template <int d, class Triangulation, class Handles>
-void read_cells(const Triangulation& t, const Handles& handles, Delaunay<d>& out) {
-  int count = 0;
-  for (auto c : handles) c->info() = t.is_infinite(c) ? -1 : count++;
-  out.cells.resize(count);
-  out.neighbours.resize(count);
-  for (auto c : handles) {
-    if (c->info() < 0) continue;
-    for (int k = 0; k <= d; ++k) {
-      out.cells[c->info()][k] = c->vertex(k)->info();
-      out.neighbours[c->info()][k] = c->neighbor(k)->info();
-    }
+template <class Triangulation>
+ClosedDelaunay read(const Triangulation& t, std::size_t points) {
+  ClosedDelaunay out;
+  out.complete = t.number_of_vertices() == points + ClosedDelaunay::far;
+  t.infinite_vertex()->info() = static_cast<int>(points) + ClosedDelaunay::far;
+  std::vector<typename Triangulation::Cell_handle> handles;
+  handles.reserve(t.number_of_cells());
+  for (auto c : t.all_cell_handles()) {
+    c->info() = static_cast<int>(handles.size());
+    handles.push_back(c);
   }
+  out.cells.resize(handles.size());
+  out.neighbours.resize(handles.size());
+  in_parallel(handles.size(), [&](std::size_t i) {
+    for (int k = 0; k < 4; ++k) {
+      out.cells[i][k] = handles[i]->vertex(k)->info();
+      out.neighbours[i][k] = handles[i]->neighbor(k)->info();
+    }
+  });
+  sort_cells(out, points);
+  return out;
 }
 
 bool in_parallel_pays(std::size_t points) {
@@ -151,22 +105,34 @@ bool in_parallel_pays(std::size_t points) {
 }
 
 // The triangulation is that of one thread: CGAL perturbs points that are not in general position by their coordinates, not
-// by the order of their insertion. False where points coincide: which of them stays does depend on the order.
-bool triangulated_in_parallel(const std::vector<Kernel::Point_3>& cloud, Delaunay<3>& out) {
-  using Triangulation = Cgal<3>::Parallel;
+// by the order of their insertion. Where points coincide, which of them stays does depend on the order.
+ClosedDelaunay triangulated_in_parallel(const std::vector<Kernel::Point_3>& cloud) {
+  using Triangulation = TriangulationInSpace<CGAL::Parallel_tag>;
   std::vector<std::pair<Kernel::Point_3, int>> numbered;
   numbered.reserve(cloud.size());
   for (const auto& point : cloud) numbered.emplace_back(point, static_cast<int>(numbered.size()));
   constexpr int cells_of_the_lock_grid = 20;  // along an axis; 10 to 50 make no difference
-  Triangulation::Lock_data_structure lock(CGAL::bbox_3(cloud.begin(), cloud.end()), cells_of_the_lock_grid);
-  Triangulation t(numbered.begin(), numbered.end(), &lock);
-  if (t.number_of_vertices() != cloud.size() || t.dimension() < 3) return false;
-  read_cells(t, t.all_cell_handles(), out);
-  sort_by_nodes(out, cloud.size());
-  return true;
+  const std::size_t points = cloud.size() - ClosedDelaunay::far;
+  Triangulation::Lock_data_structure lock(CGAL::bbox_3(cloud.begin(), cloud.end() - ClosedDelaunay::far),
+                                          cells_of_the_lock_grid);
+  const Triangulation t(numbered.begin(), numbered.end(), &lock);
+  return read(t, points);
 }
-// CGAL inserts in parallel in space only.
-bool triangulated_in_parallel(const std::vector<Kernel::Point_2>&, Delaunay<2>&) { return false; }
+
+ClosedDelaunay triangulated(const std::vector<Kernel::Point_3>& cloud) {
+  if (in_parallel_pays(cloud.size()))
+    if (auto mesh = triangulated_in_parallel(cloud); mesh.complete) return mesh;
+  using Triangulation = TriangulationInSpace<CGAL::Sequential_tag>;
+  Triangulation t;
+  Triangulation::Cell_handle hint;
+  for (std::size_t i : order_of<3>(cloud)) {
+    const std::size_t before = t.number_of_vertices();
+    const auto v = t.insert(cloud[i], hint);
+    if (t.number_of_vertices() > before) v->info() = static_cast<int>(i);
+    hint = v->cell();
+  }
+  return read(t, cloud.size() - ClosedDelaunay::far);
+}
 
 }  // namespace
 
@@ -175,31 +141,115 @@ std::vector<std::size_t> spatial_order(std::span<const Vec<d>> points) {
   return order_of<d>(cgal_points<d>(points));
 }
 
-template <int d>
-Delaunay<d> delaunay(std::span<const Vec<d>> points, const std::vector<Facet<d>>& facets) {
-  using C = Cgal<d>;
-  const auto cloud = cgal_points<d>(points);
-  Delaunay<d> out;
-  if (in_parallel_pays(points.size()) && triangulated_in_parallel(cloud, out)) return out;
-  typename C::Triangulation t;
-  typename C::Handle hint;
-  std::vector<typename C::Triangulation::Vertex_handle> at(points.size());
-  for (std::size_t i : order_of<d>(cloud)) {
+template <>
+Delaunay<2> delaunay<2>(std::span<const Vec<2>> points, const std::vector<Facet<2>>& facets) {
+  using Triangulation = Cgal<2>::Triangulation;
+  const auto cloud = cgal_points<2>(points);
+  Triangulation t;
+  Triangulation::Face_handle hint;
+  std::vector<Triangulation::Vertex_handle> at(points.size());
+  for (std::size_t i : order_of<2>(cloud)) {
     const std::size_t before = t.number_of_vertices();
     const auto v = t.insert(cloud[i], hint);
     if (t.number_of_vertices() > before) v->info() = static_cast<int>(i);
     at[i] = v;
-    hint = C::of(v);
+    hint = v->face();
   }
-  if (t.dimension() < d) return {};
-  C::keep(t, at, facets);
-  read_cells(t, C::all(t), out);
-  sort_by_nodes(out, points.size());
+  Delaunay<2> out;
+  if (t.dimension() < 2) return out;
+  keep(t, at, facets);
+  int count = 0;
+  for (auto c : t.all_face_handles()) c->info() = t.is_infinite(c) ? -1 : count++;
+  out.cells.resize(count);
+  out.neighbours.resize(count);
+  for (auto c : t.all_face_handles()) {
+    if (c->info() < 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      out.cells[c->info()][k] = c->vertex(k)->info();
+      out.neighbours[c->info()][k] = c->neighbor(k)->info();
+    }
+  }
   return out;
 }
 
-template Delaunay<2> delaunay<2>(std::span<const Vec<2>>, const std::vector<Facet<2>>&);
-template Delaunay<3> delaunay<3>(std::span<const Vec<3>>, const std::vector<Facet<3>>&);
+template <>
+Delaunay<3> delaunay<3>(std::span<const Vec<3>> points, const std::vector<Facet<3>>&) {
+  return near_part(closed_delaunay(points));
+}
+
+ClosedDelaunay closed_delaunay(std::span<const Vec<3>> points) {
+  const double extent = extent_of(points);
+  auto cloud = cgal_points<3>(points);
+  for (const auto& x : far_points(extent)) cloud.push_back(cgal_point(x));
+  ClosedDelaunay mesh = triangulated(cloud);
+  mesh.extent = extent;
+  return mesh;
+}
+
+double extent_of(std::span<const Vec<3>> points) {
+  double largest = 0;
+  for (const auto& x : points) largest = std::max(largest, x.lpNorm<Eigen::Infinity>());
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, exponent);
+}
+
+// A tetrahedron that holds a ball of five extents; no symmetry that points in a row or a lattice might share.
+std::array<Vec<3>, ClosedDelaunay::far> far_points(double extent) {
+  return {extent * Vec<3>(16, 13, 11), extent * Vec<3>(-13, -16, 12), extent * Vec<3>(-11, 14, -15),
+          extent * Vec<3>(12, -11, -14)};
+}
+
+// Corners ascend, but for the last two where orientation asks for it.
+void sort_cells(ClosedDelaunay& mesh, std::size_t points) {
+  using Cell = std::array<int, 4>;
+  in_parallel(mesh.cells.size(), [&](std::size_t c) {
+    Cell &cell = mesh.cells[c], &beyond = mesh.neighbours[c];
+    if (cell[0] == ClosedDelaunay::gone) return;
+    bool even = true;
+    for (int last = 3; last > 0; --last)
+      for (int k = 0; k < last; ++k)
+        if (cell[k] > cell[k + 1]) std::swap(cell[k], cell[k + 1]), std::swap(beyond[k], beyond[k + 1]), even = !even;
+    if (!even) std::swap(cell[2], cell[3]), std::swap(beyond[2], beyond[3]);
+  });
+  // A bucket for each first corner, and the last one for cells that reach far away.
+  const int last = static_cast<int>(points);
+  auto bucket = [&](const Cell& cell) { return std::max(cell[2], cell[3]) >= last ? last : cell[0]; };
+  std::vector<int> start(points + 2, 0), place(mesh.cells.size());
+  for (const Cell& cell : mesh.cells)
+    if (cell[0] != ClosedDelaunay::gone) ++start[bucket(cell) + 1];
+  for (std::size_t n = 0; n <= points; ++n) start[n + 1] += start[n];
+  std::vector<int> next(start.begin(), start.end() - 1), order(start.back());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (mesh.cells[c][0] != ClosedDelaunay::gone) order[next[bucket(mesh.cells[c])]++] = static_cast<int>(c);
+  in_parallel(points + 1, [&](std::size_t n) {
+    std::sort(order.begin() + start[n], order.begin() + start[n + 1],
+              [&](int a, int b) { return mesh.cells[a] < mesh.cells[b]; });
+    for (int k = start[n]; k < start[n + 1]; ++k) place[order[k]] = k;
+  });
+  std::vector<Cell> cells(order.size()), neighbours(order.size());
+  in_parallel(order.size(), [&](std::size_t k) {
+    cells[k] = mesh.cells[order[k]];
+    for (int i = 0; i < 4; ++i) neighbours[k][i] = place[mesh.neighbours[order[k]][i]];
+  });
+  mesh.cells = std::move(cells);
+  mesh.neighbours = std::move(neighbours);
+  mesh.near = static_cast<std::size_t>(start[points]);
+}
+
+Delaunay<3> near_part(const ClosedDelaunay& mesh) {
+  Delaunay<3> out;
+  out.cells.assign(mesh.cells.begin(), mesh.cells.begin() + static_cast<std::ptrdiff_t>(mesh.near));
+  out.neighbours.resize(mesh.near);
+  in_parallel(mesh.near, [&](std::size_t c) {
+    for (int k = 0; k < 4; ++k) {
+      const int beyond = mesh.neighbours[c][k];
+      out.neighbours[c][k] = static_cast<std::size_t>(beyond) < mesh.near ? beyond : -1;
+    }
+  });
+  return out;
+}
+
 template std::vector<std::size_t> spatial_order<2>(std::span<const Vec<2>>);
 template std::vector<std::size_t> spatial_order<3>(std::span<const Vec<3>>);
 

@@ -255,6 +255,7 @@ template <int d>
 void Fluid<d>::load(std::istream& in) {
   cereal::BinaryInputArchive archive(in);
   archive_present(archive, s_->now);
+  s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
   s_->prepared = false;
 }
 

@@ -10,6 +10,7 @@
 #include "fluid/adapt.hpp"
 #include "fluid/contact.hpp"
 #include "fluid/fluid.hpp"
+#include "fluid/moving_delaunay.hpp"
 #include "fluid/pressure.hpp"
 #include "fluid/timer.hpp"
 
@@ -59,6 +60,7 @@ struct Fluid<d>::State {
   Present<d> now;         // committed
   Present<d> work;        // now, remeshed
   bool prepared = false;  // work belongs to now
+  MovingDelaunay<d> triangulation;
 
   double kick = 0, dt = 0;
   PressureEquation<d> equation;

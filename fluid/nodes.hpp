@@ -27,6 +27,7 @@ struct Nodes {
   std::vector<char> surface;    ///< 1: on the free surface (p = 0)
   std::vector<char> separates;  ///< 1: at an edge of a wall where the flow leaves it
   std::vector<char> spray;      ///< 1: belongs to no cell, flies ballistically
+  std::vector<int> vertex;      ///< number in the last triangulation, -1: was not there
   std::vector<double> volume;   ///< share of the cells around it after the last move; spray keeps its own [m^d]
 
   std::size_t size() const { return x.size(); }
@@ -40,6 +41,7 @@ struct Nodes {
     surface.push_back(on_surface);
     separates.push_back(0);
     spray.push_back(0);
+    vertex.push_back(-1);
     volume.push_back(0);
     return static_cast<int>(x.size()) - 1;
   }
@@ -51,7 +53,7 @@ struct Nodes {
       for (std::size_t i = 0; i < order.size(); ++i) picked[i] = values[order[i]];
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(separates), pick(spray), pick(volume);
+    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex), pick(volume);
   }
 };
 

@@ -1,5 +1,6 @@
 // The mesh of a step: sizes, contact, nodes, the triangulation and which of its cells are fluid.
-#include "fluid/delaunay.hpp"
+#include <numeric>
+
 #include "fluid/fluid_state.hpp"
 #include "fluid/landing.hpp"
 #include "fluid/parallel.hpp"
@@ -47,7 +48,9 @@ void Fluid<d>::State::prepare() {
   }
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const std::vector<char> was_spray = work.nodes.spray;
-  work.mesh = recognise<d>(work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
+  const Delaunay<d> cells = triangulation.follow(work.nodes.x, work.nodes.vertex, work.mesh.boundary);
+  std::iota(work.nodes.vertex.begin(), work.nodes.vertex.end(), 0);
+  work.mesh = recognise<d>(cells, work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
   book_spray(was_spray);
   separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity());
   land(work.nodes, work.mesh);

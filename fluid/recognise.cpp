@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "fluid/delaunay.hpp"
 #include "fluid/inside.hpp"
 #include "fluid/parallel.hpp"
 
@@ -160,7 +159,12 @@ int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
 template <int d>
 Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
                   const WallsAt<d>& walls, const Alpha& limit) {
-  const Delaunay<d> all = delaunay<d>(nodes.x, old_boundary);
+  return recognise<d>(delaunay<d>(nodes.x, old_boundary), nodes, h, old_boundary, walls, limit);
+}
+
+template <int d>
+Mesh<d> recognise(const Delaunay<d>& all, Nodes<d>& nodes, std::span<const double> h,
+                  const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit) {
   const InsideTest<d> inside(nodes.x, old_boundary);
   std::vector<char> inner(nodes.size(), 1);
   for (const auto& f : old_boundary)

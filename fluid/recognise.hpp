@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "fluid/delaunay.hpp"
 #include "fluid/mesh.hpp"
 #include "fluid/nodes.hpp"
 #include "fluid/wall.hpp"
@@ -31,8 +32,13 @@ struct Alpha {
   double join = 0.3;   ///< ... joins two surfaces; 0.8 would fill the cavity under a jet
 };
 
-/// Triangulates the nodes, finds the fluid cells and labels boundary facets; sets nodes.surface and
-/// nodes.spray. `h`: element size at the nodes [m]; `old_boundary`: closed facets between the same nodes.
+/// Finds the fluid cells among `all` and labels boundary facets; sets nodes.surface and nodes.spray. `h`: element size at
+/// the nodes [m]; `old_boundary`: closed facets between the same nodes.
+template <int d>
+Mesh<d> recognise(const Delaunay<d>& all, Nodes<d>& nodes, std::span<const double> h,
+                  const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit = {});
+
+/// Among the cells of the nodes' triangulation.
 template <int d>
 Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
                   const WallsAt<d>& walls, const Alpha& limit = {});

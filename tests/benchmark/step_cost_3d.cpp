@@ -8,8 +8,9 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <numeric>
 
-#include "fluid/delaunay.hpp"
+#include "fluid/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure.hpp"
 #include "tests/benchmark/medians.hpp"
@@ -73,6 +74,24 @@ void triangulate(benchmark::State& state, int nodes) {
   for (auto _ : state) benchmark::DoNotOptimize(fluid::delaunay<3>(x, {}));
 }
 
+// The triangulation of nodes that move to and fro by a step.
+void follow(benchmark::State& state, int nodes) {
+  const Stepper& stepper = moving(nodes);
+  const auto& water = stepper.fluid().nodes();
+  std::vector<int> numbers(water.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  auto there = water.x;
+  for (std::size_t i = 0; i < there.size(); ++i) there[i] += stepper.stable_dt() * water.v[i];
+  fluid::MovingDelaunay<3> triangulation;
+  triangulation.follow(water.x, numbers, {});
+  fluid::use_threads(2);
+  bool away = false;
+  for (auto _ : state) {
+    away = !away;
+    benchmark::DoNotOptimize(triangulation.follow(away ? there : water.x, numbers, {}));
+  }
+}
+
 void solve(benchmark::State& state, int nodes, int largest_direct, double tolerance) {
   const auto& water = moving(nodes).fluid();
   const std::vector<Vec<3>> centres(2, Vec<3>::Zero());
@@ -100,6 +119,7 @@ int main(int argc, char** argv) {
   for (const int nodes : sizes) {
     auto in_wall_time = [&](const char* name, auto run) { measured::add(name, nodes, run)->UseRealTime(); };
     in_wall_time("delaunay", [=](benchmark::State& state) { triangulate(state, nodes); });
+    in_wall_time("follow", [=](benchmark::State& state) { follow(state, nodes); });
     in_wall_time("multigrid", [=](benchmark::State& state) { solve(state, nodes, 0, closely); });
     if (nodes <= most_factored)
       in_wall_time("cholesky", [=](benchmark::State& state) { solve(state, nodes, all, closely); });
@@ -113,8 +133,11 @@ int main(int argc, char** argv) {
   for (const int nodes : sizes) {
     const double bare = medians.of("delaunay", nodes) + medians.of("multigrid", nodes);
     const double two = medians.of("step_on_2_threads", nodes), ratio = two / bare;
-    std::printf("%d nodes: step / (Delaunay + multigrid) = %.2f, one thread / two = %.2f, %.1f us a node on two\n",
-                nodes, ratio, medians.of("step_on_1_thread", nodes) / two, 1e3 * two / nodes);
+    std::printf(
+        "%d nodes: step / (Delaunay + multigrid) = %.2f, one thread / two = %.2f, %.1f us a node on two, "
+        "Delaunay that follows / from nothing = %.2f\n",
+        nodes, ratio, medians.of("step_on_1_thread", nodes) / two, 1e3 * two / nodes,
+        medians.of("follow", nodes) / medians.of("delaunay", nodes));
     holds = holds && !(ratio > max_ratio);
   }
   return holds ? 0 : 1;

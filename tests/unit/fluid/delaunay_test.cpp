@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
 
+#include "fluid/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
@@ -169,6 +171,137 @@ TEST(DelaunayInSpace, is_the_same_on_any_number_of_threads) {
     use_threads(0);
     EXPECT_EQ(one.cells, two.cells);
     EXPECT_EQ(one.neighbours, two.neighbours);
+  }
+}
+
+// ---- nodes that move
+
+struct Moving {
+  std::vector<Vec<3>> x;
+  std::vector<int> before = std::vector<int>(x.size(), -1);
+  MovingDelaunay<3> triangulation{};
+
+  // Has the bits of a triangulation from nothing.
+  void expect_followed(const char* what) {
+    const auto followed = triangulation.follow(x, before, {});
+    const auto anew = delaunay<3>(std::span<const Vec<3>>(x), {});
+    EXPECT_TRUE(followed.cells == anew.cells) << what;
+    EXPECT_TRUE(followed.neighbours == anew.neighbours) << what;
+    before.resize(x.size());
+    std::iota(before.begin(), before.end(), 0);
+  }
+  void jiggle(std::mt19937& random, double by) {
+    for (auto& p : x) p += by * scenes::random_vector<Vec<3>>(random, {});
+  }
+};
+
+// A triangulation starts anew where the power of two changes that coordinates stay below.
+std::vector<Vec<3>> within(double extent, std::vector<Vec<3>> x) {
+  for (auto& p : x) p *= extent;
+  return x;
+}
+
+TEST(MovingDelaunayInSpace, follows_points_that_move) {
+  std::mt19937 random(3);
+  for (const double by : {0.0, 1e-9, 1e-5, 3e-4, 1e-3}) {  // a cell: 0.1
+    Moving m{within(0.9, cloud<3>(3000))};
+    m.expect_followed("at first");
+    for (int step = 0; step < 5; ++step) {
+      m.jiggle(random, by);
+      m.expect_followed("moved");
+    }
+    EXPECT_EQ(m.triangulation.followed(), 5) << by;
+  }
+}
+
+TEST(MovingDelaunayInSpace, starts_anew_where_much_has_changed) {
+  std::mt19937 random(3);
+  Moving m{cloud<3>(1000)};
+  m.expect_followed("at first");
+  m.jiggle(random, 0.1);
+  m.expect_followed("moved far");
+  m.x = cloud<3>(500, 9);
+  m.before.assign(500, -1);
+  m.expect_followed("others");
+  m.before.assign(500, 7);
+  m.expect_followed("numbers that make no sense");
+  m.x.resize(3), m.before.resize(3);
+  m.expect_followed("no cells");
+  EXPECT_EQ(m.triangulation.followed(), 0);
+}
+
+// Walls: the hull is made of planes, and nodes slide on them.
+TEST(MovingDelaunayInSpace, follows_points_on_planes_and_lattices) {
+  std::mt19937 random(4);
+  for (const bool lattice : {false, true}) {
+    Moving m;
+    for (int i = 0; i < 3000; ++i) {
+      Vec<3> p = lattice ? Vec<3>(i % 15, i / 15 % 15, i / 225) / 15 : scenes::random_vector<Vec<3>>(random, {});
+      if (!lattice && i < 1000) p[i % 3] = i % 2 == 0 ? -1 : 1;
+      m.x.push_back(p);
+    }
+    m.before.assign(m.x.size(), -1);
+    m.expect_followed("at first");
+    std::vector<Vec<3>> fixed = m.x;
+    for (int step = 0; step < 8; ++step) {
+      m.jiggle(random, lattice ? 1e-3 : 3e-4);
+      for (std::size_t i = 0; i < m.x.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+          if (lattice ? step % 2 == 0 && fixed[i][k] < 0.5 : std::abs(fixed[i][k]) == 1) m.x[i][k] = fixed[i][k];
+      m.expect_followed("slid");
+    }
+    // Of a lattice nothing is left once it moves: its nodes have been in special position.
+    if (!lattice) {
+      EXPECT_EQ(m.triangulation.followed(), 8);
+    }
+  }
+}
+
+TEST(MovingDelaunayInSpace, follows_points_that_come_and_go) {
+  std::mt19937 random(5);
+  Moving m{within(0.9, cloud<3>(3000))};
+  m.expect_followed("at first");
+  for (int step = 0; step < 10; ++step) {
+    m.jiggle(random, 1e-4);
+    for (int k = 0; k < 8; ++k) {
+      const auto gone = static_cast<std::ptrdiff_t>(random() % m.x.size());
+      m.x.erase(m.x.begin() + gone), m.before.erase(m.before.begin() + gone);
+      const std::size_t at = random() % m.x.size();
+      // In the cloud, beyond its hull, or half way between two of its points.
+      const Vec<3> p = k < 4    ? scenes::random_vector<Vec<3>>(random, {})
+                       : k == 4 ? Vec<3>(0.99 * Vec<3>::Unit(static_cast<int>(random() % 3)))
+                                : Vec<3>(0.5 * (m.x[at] + m.x[(at + 1) % m.x.size()]));
+      m.x.insert(m.x.begin() + static_cast<std::ptrdiff_t>(at), p);
+      m.before.insert(m.before.begin() + static_cast<std::ptrdiff_t>(at), -1);
+    }
+    if (step == 5) std::swap(m.x[7], m.x[2900]), std::swap(m.before[7], m.before[2900]);  // other numbers
+    m.expect_followed("came and went");
+  }
+  EXPECT_EQ(m.triangulation.followed(), 10);
+}
+
+TEST(MovingDelaunayInSpace, knows_points_that_meet) {
+  Moving m{cloud<3>(500)};
+  m.expect_followed("at first");
+  m.x[3] = m.x[400];
+  m.expect_followed("one upon another");
+  m.x[3] = Vec<3>::Zero();
+  m.expect_followed("apart again");
+  m.x.push_back(m.x[9]), m.before.push_back(-1);
+  m.expect_followed("a new one upon another");
+}
+
+// A sheet that waves through a plane: beyond it all cells of the hull change.
+TEST(MovingDelaunayInSpace, follows_a_surface_that_waves) {
+  std::mt19937 random(6);
+  const auto rest = cloud<3>(2000);
+  for (const double height : {1e-6, 1e-3, 0.03}) {
+    Moving m{rest};
+    for (int step = 0; step < 10; ++step) {
+      for (std::size_t i = 0; i < 1000; ++i)
+        m.x[i].z() = 1 + height * std::sin(3 * m.x[i].x() + 2 * m.x[i].y() + 0.05 * step);
+      m.expect_followed("waved");
+    }
   }
 }
 
