@@ -71,7 +71,7 @@ std::vector<std::size_t> order_of(const std::vector<typename Cgal<d>::Point>& po
   if (points.empty()) return order;
   std::iota(order.begin(), order.end(), 0);
   using Map = typename CGAL::Pointer_property_map<typename Cgal<d>::Point>::const_type;
-  CGAL::spatial_sort(order.begin(), order.end(),
+  CGAL::spatial_sort<CGAL::Parallel_if_available_tag>(order.begin(), order.end(),
                      typename Cgal<d>::template SortTraits<Map>(CGAL::make_property_map(points)));
   return order;
 }

@@ -80,8 +80,9 @@ void follow(benchmark::State& state, int nodes) {
   const auto& water = stepper.fluid().nodes();
   std::vector<int> numbers(water.size());
   std::iota(numbers.begin(), numbers.end(), 0);
+  const double dt = stepper.stable_dt();
   auto there = water.x;
-  for (std::size_t i = 0; i < there.size(); ++i) there[i] += stepper.stable_dt() * water.v[i];
+  for (std::size_t i = 0; i < there.size(); ++i) there[i] += dt * water.v[i];
   fluid::MovingDelaunay<3> triangulation;
   triangulation.follow(water.x, numbers, {});
   fluid::use_threads(2);
