@@ -54,16 +54,18 @@ class Adapter {
   // which threads find them is lost in sorting.
   void collect() {
     tbb::enumerable_thread_specific<std::pair<std::vector<Edge>, std::vector<Edge>>> found;
-    in_parallel(mesh_.cells.size(), [&](std::size_t c) {
-      const auto& cell = mesh_.cells[c];
+    in_pieces(mesh_.cells.size(), worthwhile, [&](std::size_t first, std::size_t last) {
       auto& [long_ones, short_ones] = found.local();
-      for (int i = 0; i < d; ++i)
-        for (int j = i + 1; j <= d; ++j) {
-          const int a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
-          const double ratio = (nodes_.x[a] - nodes_.x[b]).norm() / (0.5 * (h_[a] + h_[b]));
-          if (ratio > split_above) long_ones.push_back({a, b, ratio});
-          if (ratio < merge_below) short_ones.push_back({a, b, ratio});
-        }
+      for (std::size_t c = first; c < last; ++c) {
+        const auto& cell = mesh_.cells[c];
+        for (int i = 0; i < d; ++i)
+          for (int j = i + 1; j <= d; ++j) {
+            const int a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
+            const double ratio = (nodes_.x[a] - nodes_.x[b]).norm() / (0.5 * (h_[a] + h_[b]));
+            if (ratio > split_above) long_ones.push_back({a, b, ratio});
+            if (ratio < merge_below) short_ones.push_back({a, b, ratio});
+          }
+      }
     });
     for (const auto& [long_ones, short_ones] : found) {
       long_.insert(long_.end(), long_ones.begin(), long_ones.end());
