@@ -7,9 +7,6 @@
 namespace splashdown::fluid {
 namespace {
 
-// Facet opposite each corner of a positive cell, which lies on its positive side.
-constexpr int facet_corners[4][3] = {{2, 1, 3}, {0, 2, 3}, {1, 0, 3}, {0, 1, 2}};
-
 int place_of(int value, const MovedCells::Cell& in) {
   return static_cast<int>(std::find(in.begin(), in.end(), value) - in.begin());
 }
@@ -50,9 +47,8 @@ FacetAt MovedCells::beyond(const FacetAt& f) const {
   return {cell, place_of(f.cell, mesh.neighbours[cell])};
 }
 
-std::array<int, 3> MovedCells::facet_of(const Cell& cell, int opposite) {
-  const auto& [i, j, k] = facet_corners[opposite];
-  std::array<int, 3> facet{cell[i], cell[j], cell[k]};
+std::array<int, 3> MovedCells::facet_of(const Cell& cell, int corner) {
+  auto facet = facet_nodes(cell, corner);
   std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
   return facet;
 }
@@ -76,10 +72,9 @@ int MovedCells::locate(int point, int start) const {
 // ---- patches
 
 Patches::Patches(const std::vector<FacetAt>& wrong, const ClosedDelaunay& mesh) {
-  std::unordered_map<int, int> number;
-  std::vector<int> cells, parent;
+  std::vector<int> cells, parent;  // of[cells[i]]: i, in the end its patch
   auto number_of = [&](int c) {
-    const auto [found, is_new] = number.try_emplace(c, static_cast<int>(cells.size()));
+    const auto [found, is_new] = of.try_emplace(c, static_cast<int>(cells.size()));
     if (is_new) cells.push_back(c), parent.push_back(found->second);
     return found->second;
   };

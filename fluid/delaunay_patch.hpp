@@ -48,7 +48,7 @@ class MovedCells {
   /// Cell and corner on the other side.
   FacetAt beyond(const FacetAt& f) const;
   /// Corners of the facet in the order that tells its sides apart: the other cell has them in another order.
-  static std::array<int, 3> facet_of(const Cell& cell, int opposite);
+  static std::array<int, 3> facet_of(const Cell& cell, int corner);
   /// Walks towards a point, in a triangulation that is Delaunay: the cell that holds it.
   int locate(int point, int start) const;
 

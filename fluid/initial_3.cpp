@@ -214,10 +214,8 @@ void append(const Complex& complex, const WallsAt<3>& walls, InitialLiquid<3>& o
       node(c->vertex(k));
       const auto other = c->neighbor(k);
       if (complex.is_in_complex(other)) continue;
-      // Corners of a cell's facet, counter-clockwise from outside.
-      constexpr int facet[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
       Facet<3> f;
-      for (int j = 0; j < 3; ++j) f.nodes[j] = node(c->vertex(facet[k][j]));
+      for (int j = 0; j < 3; ++j) f.nodes[j] = node(c->vertex(opposite<3>[k][j]));
       out.mesh.boundary.push_back(f);
     }
 }

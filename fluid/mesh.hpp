@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fluid/geometry.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 
@@ -13,6 +14,22 @@ struct Facet {
   std::array<int, d> nodes;  ///< oriented: the area vector points out of the fluid
   int wall = -1;             ///< the wall it is wetted by, -1: free surface
 };
+
+/// Corners of the facet opposite each corner of a positive simplex, oriented out of it.
+template <int d>
+inline constexpr std::array<std::array<int, d>, d + 1> opposite;
+template <>
+inline constexpr std::array<std::array<int, 2>, 3> opposite<2>{{{1, 2}, {2, 0}, {0, 1}}};
+template <>
+inline constexpr std::array<std::array<int, 3>, 4> opposite<3>{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+template <std::size_t corners>
+auto facet_nodes(const std::array<int, corners>& cell, int corner) {
+  constexpr int d = static_cast<int>(corners) - 1;
+  std::array<int, d> nodes;
+  for (int j = 0; j < d; ++j) nodes[j] = cell[opposite<d>[corner][j]];
+  return nodes;
+}
 
 template <int d>
 struct Mesh {
@@ -58,11 +75,10 @@ double enclosed_volume(const std::vector<Facet<d>>& facets, const Positions& x) 
 /// Volume of the cells around each node, shared equally among their corners [m^d].
 template <int d, class Positions>
 std::vector<double> nodal_volumes(const Mesh<d>& mesh, const Positions& x) {
-  std::vector<double> volumes(x.size(), 0.0);
-  for (const auto& cell : mesh.cells) {
-    const double share = volume<d>(corners(x, cell)) / (d + 1);
-    for (int n : cell) volumes[n] += share;
-  }
+  std::vector<double> volumes(x.size(), 0.0), share(mesh.cells.size());
+  in_parallel(share.size(), [&](std::size_t c) { share[c] = volume<d>(corners(x, mesh.cells[c])) / (d + 1); });
+  for (std::size_t c = 0; c < share.size(); ++c)
+    for (int n : mesh.cells[c]) volumes[n] += share[c];
   return volumes;
 }
 

@@ -115,8 +115,7 @@ class Update {
           if (!replaced_[f.cell] && (f.corner == FacetAt::whole_cell || !replaced_[moved_.beyond(f).cell]))
             wrong.push_back(f);
       for (const FacetAt& f : rims)
-        if (!MovedCells::lost_a_corner(mesh_.cells[moved_.beyond(f).cell]) && !moved_.locally_delaunay(f))
-          wrong.push_back(f);
+        if (!moved_.locally_delaunay(f)) wrong.push_back(f);
     }
     return true;
   }

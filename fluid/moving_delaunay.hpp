@@ -9,8 +9,8 @@
 // no choice. So the result has the bits of a triangulation from nothing, whatever came before. It is made from nothing
 // where too much has changed, and in the plane.
 //
-// O(n) predicates on all threads, 1 us a node and thread, and some microseconds for each node of the few patches. Cf. Guibas
-// and Russel (2004), who compare ways of updating Delaunay triangulations.
+// O(n) predicates on all threads, and O(k) for k nodes in patches. Cf. Guibas and Russel (2004), who compare ways of
+// updating Delaunay triangulations.
 #pragma once
 
 #include "fluid/delaunay.hpp"

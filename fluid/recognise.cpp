@@ -16,17 +16,6 @@ constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, 
 constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
 constexpr double facet_sag = 0.1;     // gap between a wetted facet and its wall, at most, over its length
 
-template <int d>
-struct Opposite;
-template <>
-struct Opposite<2> {
-  static constexpr int nodes[3][2] = {{1, 2}, {2, 0}, {0, 1}};
-};
-template <>
-struct Opposite<3> {
-  static constexpr int nodes[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-};
-
 struct Shape {
   double radius;    // circumradius
   double fullness;  // volume over longest edge^d
@@ -44,7 +33,7 @@ Shape shape(const Mat<d>& J) {
     for (int j = 0; j < k; ++j) longest = std::max(longest, (J.col(k) - J.col(j)).squaredNorm());
   }
   const double det = J.determinant();
-  const double fullness = det / (factorial<d> * std::pow(longest, 0.5 * d));
+  const double fullness = det / (factorial<d> * (d == 2 ? longest : longest * std::sqrt(longest)));
   if (fullness <= flat / factorial<d>) return {0, fullness, true};
   return {(cofactor(J) * half).norm() / det, fullness, false};
 }
@@ -122,13 +111,6 @@ double drop_size(double volume) {
   return d == 2 ? std::numeric_limits<double>::infinity() : std::cbrt(std::numbers::sqrt2 * volume);
 }
 
-template <int d>
-Facet<d> facet_of(const std::array<int, d + 1>& cell, int opposite) {
-  Facet<d> f;
-  for (int j = 0; j < d; ++j) f.nodes[j] = cell[Opposite<d>::nodes[opposite][j]];
-  return f;
-}
-
 // In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
 // their pressure would be anything. One across a crease would leave a hole in the water.
 template <int d>
@@ -139,7 +121,7 @@ bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>
   if (wall < 0 || !std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; }))
     return false;
   for (int k = 0; k <= d; ++k)
-    if (!lies_on(wall, facet_of<d>(cell, k), nodes, at)) return false;
+    if (!lies_on(wall, Facet<d>{facet_nodes(cell, k)}, nodes, at)) return false;
   return true;
 }
 
@@ -206,7 +188,7 @@ Mesh<d> recognise(const Delaunay<d>& all, Nodes<d>& nodes, std::span<const doubl
       nodes.spray[all.cells[c][k]] = 0;
       const int other = all.neighbours[c][k];
       if (other >= 0 && is_fluid[other]) continue;
-      mesh.boundary.push_back(facet_of<d>(all.cells[c], k));
+      mesh.boundary.push_back({facet_nodes(all.cells[c], k)});
     }
   }
   in_parallel(mesh.boundary.size(),
