@@ -2,13 +2,15 @@
 
 #define OMPI_SKIP_MPICXX  // deprecated C++ bindings
 #include <HYPRE.h>
-#include <HYPRE_IJ_mv.h>
 #include <HYPRE_parcsr_ls.h>
 #include <_hypre_parcsr_ls.h>
+#include <_hypre_parcsr_mv.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <numeric>
+
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -31,6 +33,39 @@ class Mpi {
   }
 };
 
+// The whole matrix as hypre asks for it on one process: the diagonal comes first in its row.
+class ParCsrMatrix {
+ public:
+  explicit ParCsrMatrix(const Rows<double>& rows) {
+    HYPRE_BigInt range[] = {0, rows.size()};
+    matrix_ = hypre_ParCSRMatrixCreate(MPI_COMM_SELF, rows.size(), rows.size(), range, range, 0, rows.start.back(), 0);
+    hypre_ParCSRMatrixInitialize(matrix_);
+    hypre_CSRMatrix* const local = hypre_ParCSRMatrixDiag(matrix_);
+    int* const column = hypre_CSRMatrixJ(local);
+    double* const value = hypre_CSRMatrixData(local);
+    std::copy(rows.start.begin(), rows.start.end(), hypre_CSRMatrixI(local));
+    in_parallel(static_cast<std::size_t>(rows.size()), [&](std::size_t row) {
+      const int i = static_cast<int>(row);
+      int to = rows.start[i] + 1;
+      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) {
+        const int at = rows.column[k] == i ? rows.start[i] : to++;
+        column[at] = rows.column[k];
+        value[at] = rows.value[k];
+      }
+    });
+    hypre_ParCSRMatrixSetNumNonzeros(matrix_);
+    hypre_ParCSRMatrixSetDNumNonzeros(matrix_);
+    hypre_MatvecCommPkgCreate(matrix_);
+  }
+  ~ParCsrMatrix() { hypre_ParCSRMatrixDestroy(matrix_); }
+  ParCsrMatrix(const ParCsrMatrix&) = delete;
+  ParCsrMatrix& operator=(const ParCsrMatrix&) = delete;
+  hypre_ParCSRMatrix* get() const { return matrix_; }
+
+ private:
+  hypre_ParCSRMatrix* matrix_;
+};
+
 Rows<float> rows_of(hypre_ParCSRMatrix* matrix) {
   hypre_CSRMatrix* const local = hypre_ParCSRMatrixDiag(matrix);
   const int n = hypre_CSRMatrixNumRows(local);
@@ -44,43 +79,21 @@ Rows<float> rows_of(hypre_ParCSRMatrix* matrix) {
 }  // namespace
 
 Rows<double> whole(const SymmetricMatrix& m) {
-  const int n = m.size();
   Rows<double> out;
-  out.start.assign(n + 1, 0);
-  for (int j = 0; j < n; ++j)
+  const auto size = static_cast<std::size_t>(m.size());
+  sort_entries(size, size, out, [&](std::size_t j, auto put) {
+    const int column = static_cast<int>(j);
     for (int k = m.column_start[j]; k < m.column_start[j + 1]; ++k) {
-      ++out.start[j + 1];
-      if (m.row[k] != j) ++out.start[m.row[k] + 1];
+      put(column, m.row[k], m.value[k]);
+      if (m.row[k] != column) put(m.row[k], column, m.value[k]);
     }
-  for (int i = 0; i < n; ++i) out.start[i + 1] += out.start[i];
-  std::vector<int> next(out.start.begin(), out.start.end() - 1);
-  out.column.resize(out.start.back());
-  out.value.resize(out.start.back());
-  auto put = [&](int i, int j, double v) { out.column[next[i]] = j, out.value[next[i]++] = v; };
-  for (int j = 0; j < n; ++j)
-    for (int k = m.column_start[j]; k < m.column_start[j + 1]; ++k) {
-      put(j, m.row[k], m.value[k]);
-      if (m.row[k] != j) put(m.row[k], j, m.value[k]);
-    }
+  });
   return out;
 }
 
 AmgLevels amg_levels(const Rows<double>& finest) {
   Mpi::need();
-  const int n = finest.size();
-  std::vector<int> index(n), count(n);
-  std::iota(index.begin(), index.end(), 0);
-  for (int i = 0; i < n; ++i) count[i] = finest.start[i + 1] - finest.start[i];
-  HYPRE_IJMatrix ij = nullptr;
-  HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, n - 1, 0, n - 1, &ij);
-  HYPRE_IJMatrixSetObjectType(ij, HYPRE_PARCSR);
-  HYPRE_IJMatrixSetRowSizes(ij, count.data());
-  HYPRE_IJMatrixInitialize(ij);
-  HYPRE_IJMatrixSetValues(ij, n, count.data(), index.data(), finest.column.data(), finest.value.data());
-  HYPRE_IJMatrixAssemble(ij);
-  void* object = nullptr;
-  HYPRE_IJMatrixGetObject(ij, &object);
-
+  ParCsrMatrix matrix(finest);
   HYPRE_Solver amg = nullptr;
   HYPRE_BoomerAMGCreate(&amg);
   HYPRE_BoomerAMGSetCoarsenType(amg, 8);   // PMIS
@@ -90,7 +103,7 @@ AmgLevels amg_levels(const Rows<double>& finest) {
   HYPRE_BoomerAMGSetStrongThreshold(amg, 0.25);
   HYPRE_BoomerAMGSetMaxCoarseSize(amg, 50);
   HYPRE_BoomerAMGSetRelaxType(amg, 0);  // Jacobi: nothing to prepare, the cycles are run elsewhere
-  HYPRE_BoomerAMGSetup(amg, static_cast<HYPRE_ParCSRMatrix>(object), nullptr, nullptr);
+  HYPRE_BoomerAMGSetup(amg, matrix.get(), nullptr, nullptr);
 
   auto* const data = reinterpret_cast<hypre_ParAMGData*>(amg);
   AmgLevels out;
@@ -100,7 +113,6 @@ AmgLevels amg_levels(const Rows<double>& finest) {
       out.interpolation.push_back(rows_of(hypre_ParAMGDataPArray(data)[level]));
   }
   HYPRE_BoomerAMGDestroy(amg);
-  HYPRE_IJMatrixDestroy(ij);
   HYPRE_ClearAllErrors();
   return out;
 }

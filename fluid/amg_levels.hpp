@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "fluid/counting_sort.hpp"
 #include "fluid/sparse.hpp"
 
 namespace splashdown::fluid {
@@ -14,6 +15,22 @@ struct Rows {
   std::vector<Real> value;
   int size() const { return static_cast<int>(start.size()) - 1; }
 };
+
+/// Rows from entries in any order: `each(source, put)` calls put(row, column, value).
+template <class Real, class Each>
+void sort_entries(std::size_t sources, std::size_t size, Rows<Real>& out, Each each) {
+  struct Entry {
+    int column;
+    Real value;
+  };
+  counting_sort(
+      sources, size, out.start,
+      [&](std::size_t source, auto put) {
+        each(source, [&](int row, int column, Real value) { put(row, Entry{column, value}); });
+      },
+      [&](std::size_t count) { out.column.resize(count), out.value.resize(count); },
+      [&](int to, const Entry& e) { out.column[to] = e.column, out.value[to] = e.value; });
+}
 
 /// The whole matrix from its lower triangle; columns ascend.
 Rows<double> whole(const SymmetricMatrix& matrix);

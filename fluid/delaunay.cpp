@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fluid/counting_sort.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/triangulation_3.hpp"
 
@@ -35,6 +36,7 @@ struct Cgal<2> {
   template <class Map>
   using SortTraits = CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>;
   static Point point(const Vec<2>& x) { return {x.x(), x.y()}; }
+  static auto cell_of(Triangulation::Vertex_handle v) { return v->face(); }
 };
 
 void keep(Cgal<2>::Triangulation& t, const std::vector<Cgal<2>::Triangulation::Vertex_handle>& at,
@@ -56,6 +58,7 @@ struct Cgal<3> {
   template <class Map>
   using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>;
   static Point point(const Vec<3>& x) { return cgal_point(x); }
+  static auto cell_of(const auto& vertex) { return vertex->cell(); }
 };
 
 template <int d>
@@ -71,8 +74,8 @@ std::vector<std::size_t> order_of(const std::vector<typename Cgal<d>::Point>& po
   if (points.empty()) return order;
   std::iota(order.begin(), order.end(), 0);
   using Map = typename CGAL::Pointer_property_map<typename Cgal<d>::Point>::const_type;
-  CGAL::spatial_sort<CGAL::Parallel_if_available_tag>(order.begin(), order.end(),
-                     typename Cgal<d>::template SortTraits<Map>(CGAL::make_property_map(points)));
+  CGAL::spatial_sort<CGAL::Parallel_if_available_tag>(
+      order.begin(), order.end(), typename Cgal<d>::template SortTraits<Map>(CGAL::make_property_map(points)));
   return order;
 }
 
@@ -119,18 +122,26 @@ ClosedDelaunay triangulated_in_parallel(const std::vector<Kernel::Point_3>& clou
   return read(t, points);
 }
 
+// Inserts the points one after the other, each near the one before: where they went.
+template <int d, class Triangulation>
+std::vector<typename Triangulation::Vertex_handle> insert(const std::vector<typename Cgal<d>::Point>& cloud,
+                                                          Triangulation& t) {
+  std::vector<typename Triangulation::Vertex_handle> at(cloud.size());
+  decltype(Cgal<d>::cell_of(at.front())) near{};
+  for (std::size_t i : order_of<d>(cloud)) {
+    const std::size_t before = t.number_of_vertices();
+    at[i] = t.insert(cloud[i], near);
+    if (t.number_of_vertices() > before) at[i]->info() = static_cast<int>(i);
+    near = Cgal<d>::cell_of(at[i]);
+  }
+  return at;
+}
+
 ClosedDelaunay triangulated(const std::vector<Kernel::Point_3>& cloud) {
   if (in_parallel_pays(cloud.size()))
     if (auto mesh = triangulated_in_parallel(cloud); mesh.complete) return mesh;
-  using Triangulation = TriangulationInSpace<CGAL::Sequential_tag>;
-  Triangulation t;
-  Triangulation::Cell_handle hint;
-  for (std::size_t i : order_of<3>(cloud)) {
-    const std::size_t before = t.number_of_vertices();
-    const auto v = t.insert(cloud[i], hint);
-    if (t.number_of_vertices() > before) v->info() = static_cast<int>(i);
-    hint = v->cell();
-  }
+  TriangulationInSpace<CGAL::Sequential_tag> t;
+  insert<3>(cloud, t);
   return read(t, cloud.size() - ClosedDelaunay::far);
 }
 
@@ -143,18 +154,8 @@ std::vector<std::size_t> spatial_order(std::span<const Vec<d>> points) {
 
 template <>
 Delaunay<2> delaunay<2>(std::span<const Vec<2>> points, const std::vector<Facet<2>>& facets) {
-  using Triangulation = Cgal<2>::Triangulation;
-  const auto cloud = cgal_points<2>(points);
-  Triangulation t;
-  Triangulation::Face_handle hint;
-  std::vector<Triangulation::Vertex_handle> at(points.size());
-  for (std::size_t i : order_of<2>(cloud)) {
-    const std::size_t before = t.number_of_vertices();
-    const auto v = t.insert(cloud[i], hint);
-    if (t.number_of_vertices() > before) v->info() = static_cast<int>(i);
-    at[i] = v;
-    hint = v->face();
-  }
+  Cgal<2>::Triangulation t;
+  const auto at = insert<2>(cgal_points<2>(points), t);
   Delaunay<2> out;
   if (t.dimension() < 2) return out;
   keep(t, at, facets);
@@ -215,13 +216,13 @@ void sort_cells(ClosedDelaunay& mesh, std::size_t points) {
   // A bucket for each first corner, and the last one for cells that reach far away.
   const int last = static_cast<int>(points);
   auto bucket = [&](const Cell& cell) { return std::max(cell[2], cell[3]) >= last ? last : cell[0]; };
-  std::vector<int> start(points + 2, 0), place(mesh.cells.size());
-  for (const Cell& cell : mesh.cells)
-    if (cell[0] != ClosedDelaunay::gone) ++start[bucket(cell) + 1];
-  for (std::size_t n = 0; n <= points; ++n) start[n + 1] += start[n];
-  std::vector<int> next(start.begin(), start.end() - 1), order(start.back());
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    if (mesh.cells[c][0] != ClosedDelaunay::gone) order[next[bucket(mesh.cells[c])]++] = static_cast<int>(c);
+  std::vector<int> start, order, place(mesh.cells.size());
+  counting_sort(
+      mesh.cells.size(), points + 1, start,
+      [&](std::size_t c, auto put) {
+        if (const Cell& cell = mesh.cells[c]; cell[0] != ClosedDelaunay::gone) put(bucket(cell), static_cast<int>(c));
+      },
+      [&](std::size_t count) { order.resize(count); }, [&](int to, int c) { order[to] = c; });
   in_parallel(points + 1, [&](std::size_t n) {
     std::sort(order.begin() + start[n], order.begin() + start[n + 1],
               [&](int a, int b) { return mesh.cells[a] < mesh.cells[b]; });

@@ -32,17 +32,9 @@ int smoothing_block(int rows) { return std::max(rows_a_block, (rows + most_block
 
 Rows<float> transposed(const Rows<float>& m, int columns) {
   Rows<float> t;
-  t.start.assign(columns + 1, 0);
-  for (int j : m.column) ++t.start[j + 1];
-  for (int j = 0; j < columns; ++j) t.start[j + 1] += t.start[j];
-  std::vector<int> next(t.start.begin(), t.start.end() - 1);
-  t.column.resize(m.column.size());
-  t.value.resize(m.value.size());
-  for (int i = 0; i < m.size(); ++i)
-    for (int k = m.start[i]; k < m.start[i + 1]; ++k) {
-      t.column[next[m.column[k]]] = i;
-      t.value[next[m.column[k]]++] = m.value[k];
-    }
+  sort_entries(static_cast<std::size_t>(m.size()), static_cast<std::size_t>(columns), t, [&](std::size_t i, auto put) {
+    for (int k = m.start[i]; k < m.start[i + 1]; ++k) put(m.column[k], static_cast<int>(i), m.value[k]);
+  });
   return t;
 }
 
@@ -201,8 +193,7 @@ struct Multigrid::Hierarchy {
   // z = M^-1 r. Residuals are scaled to their largest size: single precision ends at 1e-38.
   template <int K>
   void precondition() {
-    double largest = 0;
-    for (double value : r) largest = std::max(largest, std::abs(value));
+    const double largest = -least_in_parallel(r.size(), [&](std::size_t i) { return -std::abs(r[i]); });
     const double up = largest > 0 ? 1 / largest : 1;
     auto& finest = levels.front();
     finest.b.resize(r.size());

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "fluid/counting_sort.hpp"
+
 namespace splashdown::fluid {
 
 template <int d>
@@ -16,14 +18,13 @@ class NodeCells {
   };
 
   void build(const std::vector<std::array<int, d + 1>>& cells, std::size_t nodes) {
-    start_.assign(nodes + 1, 0);
-    for (const auto& cell : cells)
-      for (int n : cell) ++start_[n + 1];
-    for (std::size_t n = 0; n < nodes; ++n) start_[n + 1] += start_[n];
-    corners_.resize(start_.back());
-    next_.assign(start_.begin(), start_.end() - 1);
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      for (int k = 0; k <= d; ++k) corners_[next_[cells[c][k]]++] = {static_cast<int>(c), k};
+    counting_sort(
+        cells.size(), nodes, start_,
+        [&](std::size_t c, auto put) {
+          for (int k = 0; k <= d; ++k) put(cells[c][k], Corner{static_cast<int>(c), k});
+        },
+        [&](std::size_t count) { corners_.resize(count); },
+        [&](int to, const Corner& corner) { corners_[to] = corner; });
   }
   /// In ascending order of the cells.
   std::span<const Corner> around(std::size_t node) const {
@@ -31,7 +32,7 @@ class NodeCells {
   }
 
  private:
-  std::vector<int> start_, next_;
+  std::vector<int> start_;
   std::vector<Corner> corners_;
 };
 

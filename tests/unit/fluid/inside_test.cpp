@@ -41,6 +41,7 @@ void expect_like_winding(const Boundary<2>& b, const std::vector<Vec<2>>& points
   for (const auto& p : points) {
     if (on_boundary(b, p)) continue;
     EXPECT_EQ(inside(p), winding(b, p) > 0) << p.transpose();
+    EXPECT_EQ(is_inside<2>(b.x, b.facets, p), inside(p)) << p.transpose();
   }
 }
 
@@ -114,6 +115,7 @@ void expect_cube(const std::vector<Vec<3>>& points) {
     const double depth = (Vec<3>::Constant(0.5) - (p - Vec<3>::Constant(0.5)).cwiseAbs()).minCoeff();
     if (std::abs(depth) < 1e-9) continue;
     EXPECT_EQ(inside(p), depth > 0) << p.transpose();
+    EXPECT_EQ(is_inside<3>(cube.nodes.x, cube.mesh.boundary, p), inside(p)) << p.transpose();
   }
 }
 
