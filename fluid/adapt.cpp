@@ -14,6 +14,9 @@ namespace {
 
 constexpr double split_above = 1.5;
 constexpr double crowd_below = 0.25;  // height of an inner node over a boundary facet, over h
+constexpr double surely_fits = 1 + 1e-9;
+
+double squared(double x) { return x * x; }
 
 struct Edge {
   int a, b;
@@ -61,7 +64,11 @@ class Adapter {
         for (int i = 0; i < d; ++i)
           for (int j = i + 1; j <= d; ++j) {
             const int a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
-            const double ratio = (nodes_.x[a] - nodes_.x[b]).norm() / (0.5 * (h_[a] + h_[b]));
+            const double size = 0.5 * (h_[a] + h_[b]), squared_length = (nodes_.x[a] - nodes_.x[b]).squaredNorm();
+            if (surely_fits * squared_length < squared(split_above * size) &&
+                squared_length > surely_fits * squared(merge_below * size))
+              continue;
+            const double ratio = std::sqrt(squared_length) / size;
             if (ratio > split_above) long_ones.push_back({a, b, ratio});
             if (ratio < merge_below) short_ones.push_back({a, b, ratio});
           }
@@ -86,20 +93,31 @@ class Adapter {
 
   // An inner node close to a boundary facet makes a flat cell there, the harmful sliver of PFEM.
   void uncrowd() {
-    for (const auto& cell : mesh_.cells) {
-      int inner = -1, count = 0;
-      for (int k = 0; k <= d; ++k)
-        if (!edges_.on_boundary(cell[k])) inner = k, ++count;
-      if (count != 1 || touched_[cell[inner]]) continue;
-      bool facet_on_boundary = true;
-      for (int i = 0; i <= d; ++i)
-        for (int j = i + 1; j <= d; ++j)
-          if (i != inner && j != inner) facet_on_boundary = facet_on_boundary && is_boundary_edge(cell[i], cell[j]);
-      if (!facet_on_boundary) continue;
-      const auto g = volume_gradients<d>(corners(nodes_.x, cell));
-      const double height = volume<d>(corners(nodes_.x, cell)) / g.col(inner).norm();
-      if (height < crowd_below * h_[cell[inner]]) remove(cell[inner], cell[inner == 0 ? 1 : 0]);
+    using Corner = std::pair<std::size_t, int>;
+    tbb::enumerable_thread_specific<std::vector<Corner>> found;
+    in_parallel(mesh_.cells.size(), [&](std::size_t c) {
+      if (const int inner = crowded_corner(mesh_.cells[c]); inner >= 0) found.local().emplace_back(c, inner);
+    });
+    std::vector<Corner> crowded;
+    for (const auto& part : found) crowded.insert(crowded.end(), part.begin(), part.end());
+    std::sort(crowded.begin(), crowded.end());
+    for (const auto& [c, inner] : crowded) {
+      const auto& cell = mesh_.cells[c];
+      if (!touched_[cell[inner]]) remove(cell[inner], cell[inner == 0 ? 1 : 0]);
     }
+  }
+  // The corner of the cell that is too near to the facet opposite on the boundary, -1: none.
+  int crowded_corner(const std::array<int, d + 1>& cell) const {
+    int inner = -1, count = 0;
+    for (int k = 0; k <= d; ++k)
+      if (!edges_.on_boundary(cell[k])) inner = k, ++count;
+    if (inner < 0 || count > 1) return -1;
+    for (int i = 0; i <= d; ++i)
+      for (int j = i + 1; j <= d; ++j)
+        if (i != inner && j != inner && !is_boundary_edge(cell[i], cell[j])) return -1;
+    const auto g = volume_gradients<d>(corners(nodes_.x, cell));
+    const double height = volume<d>(corners(nodes_.x, cell)) / g.col(inner).norm();
+    return height < crowd_below * h_[cell[inner]] ? inner : -1;
   }
 
   // What a node stands for. In space, lines carry as many nodes as their length asks for.

@@ -40,36 +40,30 @@ void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& 
   });
 }
 
-// The liquid's boundary, as corners of walls ask for it: what answers them is built once, and anew when the boundary
-// has changed.
+// The liquid's boundary, as corners of walls ask for it. A few look at all facets: that is cheaper than what answers many,
+// which is built once, and anew when the boundary has changed.
 template <int d>
 class Shore {
  public:
-  Shore(const Nodes<d>& nodes, const Mesh<d>& mesh) : nodes_(nodes), mesh_(mesh) {}
+  Shore(const Nodes<d>& nodes, const Mesh<d>& mesh, std::size_t questions)
+      : nodes_(nodes), mesh_(mesh), many_(questions > few) {}
   struct Hit {
     int facet = -1;
     double distance = std::numeric_limits<double>::max();
   };
-  /// The nearest facet within `reach`. In the plane few corners ask, and looking at all facets is cheaper than a tree.
+  /// The nearest facet within `reach`.
   Hit nearest(const Vec<d>& point, double reach) {
-    Hit best;
-    if constexpr (d == 2) {
-      for (std::size_t f = 0; f < mesh_.boundary.size(); ++f) {
-        const double distance = (closest_on(corners_of(mesh_.boundary[f], nodes_.x), point) - point).norm();
-        if (distance < best.distance) best = {static_cast<int>(f), distance};
-      }
-    } else {
-      if (tree_.empty()) {
-        std::vector<std::array<Vec<d>, d>> facets;
-        for (const auto& f : mesh_.boundary) facets.push_back(corners_of(f, nodes_.x));
-        tree_ = FacetTree<d>(facets);
-      }
-      if (const auto hit = tree_.nearest(point, reach); hit.facet >= 0)
-        best = {hit.facet, std::sqrt(hit.squared_distance)};
+    if (!many_) return nearest_of_all(point, reach);
+    if (tree_.empty()) {
+      std::vector<std::array<Vec<d>, d>> facets;
+      for (const auto& f : mesh_.boundary) facets.push_back(corners_of(f, nodes_.x));
+      tree_ = FacetTree<d>(facets);
     }
-    return best;
+    const auto hit = tree_.nearest(point, reach);
+    return hit.facet < 0 ? Hit{} : Hit{hit.facet, std::sqrt(hit.squared_distance)};
   }
   bool encloses(const Vec<d>& point) {
+    if (!many_) return is_inside<d>(nodes_.x, mesh_.boundary, point);
     if (!inside_) inside_.emplace(nodes_.x, mesh_.boundary);
     return (*inside_)(point);
   }
@@ -79,8 +73,23 @@ class Shore {
   }
 
  private:
+  static constexpr std::size_t few = 30;
+  Hit nearest_of_all(const Vec<d>& point, double reach) const {
+    Hit best{-1, reach};
+    for (std::size_t f = 0; f < mesh_.boundary.size(); ++f) {
+      const auto corner = corners_of(mesh_.boundary[f], nodes_.x);
+      Eigen::AlignedBox<double, d> box(corner[0]);
+      for (int k = 1; k < d; ++k) box.extend(corner[k]);
+      if (box.squaredExteriorDistance(point) > best.distance * best.distance) continue;
+      const double distance = (closest_on(corner, point) - point).norm();
+      if (distance < best.distance) best = {static_cast<int>(f), distance};
+    }
+    return best;
+  }
+
   const Nodes<d>& nodes_;
   const Mesh<d>& mesh_;
+  bool many_;
   FacetTree<d> tree_;
   std::optional<InsideTest<d>> inside_;
 };
@@ -106,37 +115,43 @@ void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int fac
 template <int d>
 void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
   constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
-  Shore<d> shore(nodes, mesh);
-  const double reach = near * *std::max_element(h.begin(), h.end());
-  for (std::size_t w = 0; w < at.walls.size(); ++w) {
+  struct Corner {
+    int wall, vertex;
+  };
+  std::vector<Corner> dry;
+  for (int w = 0; w < static_cast<int>(at.walls.size()); ++w) {
     std::vector<char> taken(at.walls[w].spec().surface.vertices.cols(), 0);
     for (const WallTie& t : nodes.tie)
-      if (t.wall == static_cast<int>(w) && t.vertex >= 0) taken[t.vertex] = 1;
-    for (int v : at.walls[w].corners()) {
-      if (taken[v]) continue;
-      const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
-      const auto hit = shore.nearest(point, reach);
-      if (hit.facet < 0) continue;
-      const Facet<d>& f = mesh.boundary[hit.facet];
-      int closest = f.nodes[0];
-      bool touches = f.wall == static_cast<int>(w);
-      for (int n : f.nodes) {
-        touches = touches || nodes.tie[n].wall == static_cast<int>(w);
-        if ((nodes.x[n] - point).norm() < (nodes.x[closest] - point).norm()) closest = n;
-      }
-      const double size = h[closest];
-      const bool arrived =
-          hit.distance < (touches ? on_facet : 1e-9) * size || (hit.distance < near * size && shore.encloses(point));
-      if (!arrived) continue;
-      const WallTie tie{static_cast<int>(w), -1, v};
-      if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
-        nodes.x[closest] = point;
-        nodes.tie[closest] = tie;
-      } else {
-        split_facet(nodes, h, mesh, hit.facet, point, tie);
-      }
-      shore.changed();
+      if (t.wall == w && t.vertex >= 0) taken[t.vertex] = 1;
+    for (int v : at.walls[w].corners())
+      if (!taken[v]) dry.push_back({w, v});
+  }
+  if (dry.empty() || h.empty()) return;
+  const double reach = near * *std::max_element(h.begin(), h.end());
+  Shore<d> shore(nodes, mesh, dry.size());
+  for (const auto [w, v] : dry) {
+    const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
+    const auto hit = shore.nearest(point, reach);
+    if (hit.facet < 0) continue;
+    const Facet<d>& f = mesh.boundary[hit.facet];
+    int closest = f.nodes[0];
+    bool touches = f.wall == w;
+    for (int n : f.nodes) {
+      touches = touches || nodes.tie[n].wall == w;
+      if ((nodes.x[n] - point).norm() < (nodes.x[closest] - point).norm()) closest = n;
     }
+    const double size = h[closest];
+    const bool arrived =
+        hit.distance < (touches ? on_facet : 1e-9) * size || (hit.distance < near * size && shore.encloses(point));
+    if (!arrived) continue;
+    const WallTie tie{w, -1, v};
+    if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
+      nodes.x[closest] = point;
+      nodes.tie[closest] = tie;
+    } else {
+      split_facet(nodes, h, mesh, hit.facet, point, tie);
+    }
+    shore.changed();
   }
 }
 
@@ -385,7 +400,7 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
   out.x.resize(count);
   out.u.assign(v.begin(), v.end());
   out.tie = nodes_.tie;
-  for (std::size_t i = 0; i < count; ++i) out.x[i] = nodes_.x[i] + dt * v[i];
+  in_parallel(count, [&](std::size_t i) { out.x[i] = nodes_.x[i] + dt * v[i]; });
   in_parallel(tied_.size(), [&](std::size_t k) {
     const int i = tied_[k];
     const WallTie tie = nodes_.tie[i];

@@ -38,6 +38,13 @@ Vec<d> FacetTree<d>::Piece::centre() const {
   return sum;
 }
 
+template <int d>
+typename FacetTree<d>::Box FacetTree<d>::Piece::box() const {
+  Box out(corner[0]);
+  for (int k = 1; k < d; ++k) out.extend(corner[k]);
+  return out;
+}
+
 namespace {
 template <int d>
 std::vector<std::array<Vec<d>, d>> corners_of(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
@@ -95,7 +102,7 @@ template <int d>
 void FacetTree<d>::build(int branch, int first, int count) {
   Box box, centres;
   for (int i = first; i < first + count; ++i) {
-    for (const auto& c : pieces_[i].corner) box.extend(c);
+    box.extend(pieces_[i].box());
     centres.extend(pieces_[i].centre());
   }
   constexpr int leaf_size = 4;
@@ -117,6 +124,7 @@ void FacetTree<d>::build(int branch, int first, int count) {
 
 template <int d>
 typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, double slack) const {
+  constexpr double surely = 1 - 1e-9;  // roundoff
   const double loose = (1 + slack) * (1 + slack);
   Hit best;
   best.squared_distance = reach * reach;
@@ -130,6 +138,7 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
     const Branch& b = branches_[index];
     if (b.count > 0) {
       for (int i = b.first; i < b.first + b.count; ++i) {
+        if (surely * pieces_[i].box().squaredExteriorDistance(x) > best.squared_distance) continue;
         const Vec<d> c = closest_on(pieces_[i].corner, x);
         const double r = (c - x).squaredNorm();
         if (r < best.squared_distance || (best.facet < 0 && r <= best.squared_distance))

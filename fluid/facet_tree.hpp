@@ -41,6 +41,7 @@ class FacetTree {
     std::array<Vec<d>, d> corner;
     int facet;
     Vec<d> centre() const;
+    Box box() const;
   };
   void cut(const Piece& piece, double shortest);
   void build(int branch, int first, int count);

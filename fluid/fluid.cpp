@@ -133,22 +133,19 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   Ledger& ledger = s.work.ledger;
   const double before = ledger.volume;
   s.wall_motion->move(s.v_after, poses, s.dt, s.moved);
-  double acceleration_dt = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < s.work.nodes.size(); ++i) {
-    Nodes<d>& nodes = s.work.nodes;
-    const Vec<d> v_next = s.moved.u[i];
-    if (!nodes.spray[i]) {
-      const double a = (v_next - nodes.v[i]).norm() / s.kick;
-      acceleration_dt = std::min(acceleration_dt, 0.5 * std::sqrt(s.work.h[i] / (a + 1e-300)));
-    }
-    nodes.x[i] = s.moved.x[i];
-    nodes.v[i] = v_next;
-    nodes.tie[i] = s.moved.tie[i];
-    nodes.q[i] = s.found_by_corrections[i];
-  }
-  share_volumes(s.work.nodes, s.work.mesh, s.equation.around());
-  ventilate<d>(s.work.nodes, s.work.mesh, s.spec.density, s.s_after, poses);
-  ledger.volume = enclosed_volume(s.work.mesh.boundary, s.work.nodes.x);
+  Nodes<d>& nodes = s.work.nodes;
+  const double acceleration_dt = least_in_parallel(nodes.size(), [&](std::size_t i) {
+    if (nodes.spray[i]) return std::numeric_limits<double>::infinity();
+    const double a = (s.moved.u[i] - nodes.v[i]).norm() / s.kick;
+    return 0.5 * std::sqrt(s.work.h[i] / (a + 1e-300));
+  });
+  nodes.x = s.moved.x;
+  nodes.v = s.moved.u;
+  nodes.tie = s.moved.tie;
+  nodes.q = s.found_by_corrections;
+  share_volumes(nodes, s.work.mesh, s.equation.around());
+  ventilate<d>(nodes, s.work.mesh, s.spec.density, s.s_after, poses);
+  ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);
   ledger.time_integration += ledger.volume - before;
   ledger.energy_repair += s.energy_repaired - s.energy_before;
   ledger.energy_remesh += s.energy_before - s.energy_carried;

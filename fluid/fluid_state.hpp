@@ -11,6 +11,7 @@
 #include "fluid/contact.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/moving_delaunay.hpp"
+#include "fluid/parallel.hpp"
 #include "fluid/pressure.hpp"
 #include "fluid/timer.hpp"
 
@@ -118,7 +119,7 @@ struct Fluid<d>::State {
   double kinetic_energy(std::span<const Vec<d>> v) const;
   std::vector<double> carried_impulse(bool corrected) const;
   void middle(std::span<const Vec<d>> u, double by) {
-    for (std::size_t i = 0; i < u.size(); ++i) trial.x_mid[i] = work.nodes.x[i] + by * u[i];
+    in_parallel(u.size(), [&](std::size_t i) { trial.x_mid[i] = work.nodes.x[i] + by * u[i]; });
   }
   bool finite() const;
   bool orderly() const;

@@ -9,6 +9,13 @@ namespace {
 const Vec<2>& turned(const Vec<2>& x) { return x; }
 Vec<3> turned(const Vec<3>& x) { return {x.z(), x.x(), x.y()}; }
 
+template <int d>
+std::array<Vec<d>, d> turned_corners(const Facet<d>& f, std::span<const Vec<d>> x) {
+  std::array<Vec<d>, d> corner;
+  for (int k = 0; k < d; ++k) corner[k] = turned(x[f.nodes[k]]);
+  return corner;
+}
+
 // Signed crossing of the ray from `c` along axis 0: +1 where it leaves through the facet, -1 where it enters.
 int crossing(const std::array<Vec<2>, 2>& f, const Vec<2>& c) {
   const bool below0 = f[0].y() <= c.y(), below1 = f[1].y() <= c.y();
@@ -19,6 +26,9 @@ int crossing(const std::array<Vec<2>, 2>& f, const Vec<2>& c) {
 }
 
 int crossing(const std::array<Vec<3>, 3>& f, const Vec<3>& c) {
+  const auto all_below = [&](int axis) { return f[0][axis] < c[axis] && f[1][axis] < c[axis] && f[2][axis] < c[axis]; };
+  const auto all_above = [&](int axis) { return f[0][axis] > c[axis] && f[1][axis] > c[axis] && f[2][axis] > c[axis]; };
+  if (all_below(0) || all_below(1) || all_above(1) || all_below(2) || all_above(2)) return 0;
   // Edge functions in the (y, z) plane. A point on an edge belongs to the facet on one side of it alone,
   // told by the edge's direction around the facet.
   std::array<double, 3> e;
@@ -65,9 +75,7 @@ InsideTest<d>::InsideTest(std::span<const Vec<d>> x, const std::vector<Facet<d>>
   corners_.reserve(facets.size());
   std::array<std::vector<std::array<double, 2>>, 3> range;
   for (const auto& f : facets) {
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = turned(x[f.nodes[k]]);
-    corners_.push_back(corner);
+    const auto& corner = corners_.emplace_back(turned_corners(f, x));
     for (int axis = 1; axis < d; ++axis) {
       double low = corner[0][axis], high = low;
       for (const auto& c : corner) low = std::min(low, c[axis]), high = std::max(high, c[axis]);
@@ -103,6 +111,16 @@ bool InsideTest<d>::operator()(const Vec<d>& x) const {
   return winding > 0;
 }
 
+template <int d>
+bool is_inside(std::span<const Vec<d>> x, const std::vector<Facet<d>>& facets, const Vec<d>& point) {
+  int winding = 0;
+  const Vec<d> from = turned(point);
+  for (const auto& f : facets) winding += crossing(turned_corners(f, x), from);
+  return winding > 0;
+}
+
+template bool is_inside<2>(std::span<const Vec<2>>, const std::vector<Facet<2>>&, const Vec<2>&);
+template bool is_inside<3>(std::span<const Vec<3>>, const std::vector<Facet<3>>&, const Vec<3>&);
 template class InsideTest<2>;
 template class InsideTest<3>;
 

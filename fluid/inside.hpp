@@ -41,6 +41,10 @@ class InsideTest {
   std::vector<Bins> cells_;                     // 3D: of each slab along axis 2
 };
 
+/// The same of one point alone: O(facets).
+template <int d>
+bool is_inside(std::span<const Vec<d>> x, const std::vector<Facet<d>>& facets, const Vec<d>& point);
+
 extern template class InsideTest<2>;
 extern template class InsideTest<3>;
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "fluid/parallel.hpp"
 #include "fluid/types.hpp"
 
 namespace splashdown::fluid {
@@ -50,10 +51,11 @@ struct Nodes {
   void select(const std::vector<int>& order) {
     auto pick = [&](auto& values) {
       std::remove_reference_t<decltype(values)> picked(order.size());
-      for (std::size_t i = 0; i < order.size(); ++i) picked[i] = values[order[i]];
+      in_parallel(order.size(), [&](std::size_t i) { picked[i] = values[order[i]]; });
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex), pick(volume);
+    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex),
+        pick(volume);
   }
 };
 

@@ -127,15 +127,18 @@ void PressureEquation<d>::choose_unknowns() {
   // 2D, would be thrown by what little is left of the volume's error. Sheets are thin by nature, and their volume is kept
   // like any other's: left to fly, they gain volume, hence energy, while they stretch.
   constexpr double spike = 0.1;
-  std::vector<char> bulk(nodes_->size(), 1);
-  for (const auto& cell : mesh_->cells)
-    if (std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes_->surface[n]; }))
-      for (int n : cell) bulk[n] = 0;
+  auto on_sheet = [&](std::size_t i) {
+    const auto around = around_.around(i);
+    return std::any_of(around.begin(), around.end(), [&](const auto& at) {
+      const auto& cell = mesh_->cells[at.cell];
+      return std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes_->surface[n]; });
+    });
+  };
   unknown_.assign(nodes_->size(), -1);
   node_.clear();
   for (std::size_t i = 0; i < nodes_->size(); ++i) {
-    const bool on_spike = bulk[i] && lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0));
-    const bool held = nodes_->surface[i] && (at_contact_line(static_cast<int>(i)) || on_spike);
+    auto on_spike = [&] { return lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0)) && !on_sheet(i); };
+    const bool held = nodes_->surface[i] && (at_contact_line(static_cast<int>(i)) || on_spike());
     if (held || nodes_->spray[i]) {
       free_area_[i].setZero();
       continue;
@@ -204,9 +207,11 @@ void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<con
     mean /= d + 1;
     for (int k = 0; k <= d; ++k) of_corner_[c][k] = g.col(k).dot(mean);
   });
-  r.assign(size(), 0.0);
+  r.resize(size());
   in_parallel(node_.size(), [&](std::size_t i) {
-    for (const auto [c, k] : around_.around(node_[i])) r[i] += of_corner_[c][k];
+    double sum = 0;
+    for (const auto [c, k] : around_.around(node_[i])) sum += of_corner_[c][k];
+    r[i] = sum;
   });
   for (const auto& f : mesh_->boundary)
     add_flux(
@@ -241,9 +246,11 @@ void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<c
     for (int k = 0; k <= d; ++k) rate += g.col(k).dot(u[cell[k]]);
     rate_[c] = rate / (d + 1);
   });
-  r.assign(size(), 0.0);
+  r.resize(size());
   in_parallel(node_.size(), [&](std::size_t i) {
-    for (const auto [c, k] : around_.around(node_[i])) r[i] -= rate_[c];
+    double sum = 0;
+    for (const auto [c, k] : around_.around(node_[i])) sum -= rate_[c];
+    r[i] = sum;
   });
 }
 
@@ -343,12 +350,16 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
   auto impulse_at = [&](int n) { return unknown_[n] < 0 ? 0.0 : phi[unknown_[n]]; };
   of_cell_.resize(mesh_->cells.size());
   in_parallel(mesh_->cells.size(), [&](std::size_t c) {
-    of_cell_[c].setZero();
-    for (int k = 0; k <= d; ++k) of_cell_[c] += gradients_[c].col(k) * impulse_at(mesh_->cells[c][k]);
+    Vec<d> sum = Vec<d>::Zero();
+    for (int k = 0; k <= d; ++k) sum += gradients_[c].col(k) * impulse_at(mesh_->cells[c][k]);
+    of_cell_[c] = sum;
   });
-  change_.assign(v.size(), Vec<d>::Zero());
+  change_.resize(v.size());
   in_parallel(v.size(), [&](std::size_t i) {
-    for (const auto [c, k] : around_.around(i)) change_[i] -= per_nodal_mass_[i] * of_cell_[c];
+    const double per_mass = per_nodal_mass_[i];
+    Vec<d> sum = Vec<d>::Zero();
+    for (const auto [c, k] : around_.around(i)) sum -= per_mass * of_cell_[c];
+    change_[i] = sum;
   });
   for (const auto& f : mesh_->boundary) {
     if (f.wall >= 0) continue;
@@ -358,16 +369,17 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     for (int n : f.nodes) change_[n] += per_nodal_mass_[n] * (sum + impulse_at(n)) * share;
   }
   in_parallel(mesh_->cells.size(), [&](std::size_t c) {
-    of_cell_[c].setZero();
-    for (int n : mesh_->cells[c]) of_cell_[c] += change_[n];
+    Vec<d> sum = Vec<d>::Zero();
+    for (int n : mesh_->cells[c]) sum += change_[n];
+    of_cell_[c] = sum;
+    rate_[c] = 1 / ((d + 2) * per_mass_[c]);
   });
   in_parallel(v.size(), [&](std::size_t i) {
+    const double per_mass = per_nodal_mass_[i];
+    const Vec<d> change = change_[i];
     Vec<d> weighted = Vec<d>::Zero();  // M_L^-1 M_C change
-    for (const auto [c, k] : around_.around(i)) {
-      const double share = 1 / ((d + 2) * per_mass_[c]);
-      weighted += share * per_nodal_mass_[i] * (of_cell_[c] + change_[i]);
-    }
-    v[i] += 2 * change_[i] - weighted;
+    for (const auto [c, k] : around_.around(i)) weighted += rate_[c] * per_mass * (of_cell_[c] + change);
+    v[i] += 2 * change - weighted;
   });
 }
 
