@@ -11,8 +11,8 @@ namespace {
 // Measured on a standing wave: with fewer its amplitude drifts by more than 0.5 % a period.
 constexpr int corrections = 3;
 constexpr int repairs = 2;
-// Tolerances of iterative solves: the pressure solve takes out what the repair leaves of the flux, the corrections what
-// the pressure solve leaves; each of them leaves a tenth of the residual anyhow.
+// Tolerances of iterative solves. Each pass of the repair and of the corrections leaves a tenth of the residual anyhow;
+// the pressure solve takes out what the repair leaves of the flux, the corrections what the pressure solve leaves.
 constexpr double closely = 1e-4, roughly = 1e-2;
 
 }  // namespace
@@ -65,7 +65,7 @@ Status Fluid<d>::State::repair() {
   for (int k = 0; k < repairs; ++k) {
     middle(v, -0.5 * work.dt);
     equation.flux_residual(trial.x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
-    if (!solve_with_bodies(r, s_before, closely)) return {"the pressure solve failed"};
+    if (!solve_with_bodies(r, s_before, roughly)) return {"the pressure solve failed"};
     equation.accelerate(r, v);
     for (int i = 0; i < equation.size(); ++i) trial.repaired[i] += r[i];
   }
@@ -119,7 +119,7 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
     wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
     if (k == corrections) break;
     if (wall_motion->drags()) stick(trial.dragged);
-    for (std::size_t i = 0; i < count; ++i) trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]);
+    in_parallel(count, [&](std::size_t i) { trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]); });
     equation.motion_residual(trial.x_mid, moved.u, r);
     equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides, r);
     lag(r, previous, phi);
@@ -176,14 +176,15 @@ bool Fluid<d>::State::finite() const {
 template <int d>
 bool Fluid<d>::State::orderly() const {
   constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
+  const double per_rate = dt / most;
   const double margin = least_in_parallel(work.mesh.cells.size(), [&](std::size_t c) {
     double least = std::numeric_limits<double>::infinity();
     const auto& cell = work.mesh.cells[c];
     if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) return least;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
-        const double change = dt / most * (moved.u[cell[i]] - moved.u[cell[j]]).norm();
-        least = std::min(least, squared_length(work, cell[i], cell[j]) - change * change);
+        const double change = per_rate * per_rate * (moved.u[cell[i]] - moved.u[cell[j]]).squaredNorm();
+        least = std::min(least, squared_length(work, cell[i], cell[j]) - change);
       }
     return least;
   });
