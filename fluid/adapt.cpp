@@ -13,8 +13,8 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double split_above = 1.5;
-constexpr double crowd_below = 0.25;  // height of an inner node over a boundary facet, over h
-constexpr double surely_fits = 1 + 1e-9;
+constexpr double crowd_below = 0.25;      // height of an inner node over a boundary facet, over h
+constexpr double surely_fits = 1 + 1e-9;  // squares of lengths: what is nearer to a limit is looked at closely
 
 double squared(double x) { return x * x; }
 

@@ -55,7 +55,6 @@ class ParCsrMatrix {
     });
     hypre_ParCSRMatrixSetNumNonzeros(matrix_);
     hypre_ParCSRMatrixSetDNumNonzeros(matrix_);
-    hypre_MatvecCommPkgCreate(matrix_);
   }
   ~ParCsrMatrix() { hypre_ParCSRMatrixDestroy(matrix_); }
   ParCsrMatrix(const ParCsrMatrix&) = delete;

@@ -23,6 +23,7 @@ inline constexpr std::array<std::array<int, 2>, 3> opposite<2>{{{1, 2}, {2, 0}, 
 template <>
 inline constexpr std::array<std::array<int, 3>, 4> opposite<3>{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
+/// Nodes of the facet opposite a corner of the cell.
 template <std::size_t corners>
 auto facet_nodes(const std::array<int, corners>& cell, int corner) {
   constexpr int d = static_cast<int>(corners) - 1;

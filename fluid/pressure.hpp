@@ -130,7 +130,7 @@ class PressureEquation {
   std::vector<double> free_measure_;              // of nodes: sum_f |A_f| / d
   mutable std::vector<Vec<d>> change_, of_cell_;  // scratch: of nodes, of cells
   mutable std::vector<std::array<double, d + 1>> of_corner_;
-  mutable std::vector<double> rate_;
+  mutable std::vector<double> rate_;  // a number of each cell
   std::vector<int> unknown_, node_;
   NodeCells<d> around_;
   Assembly<d, double> assembly_;

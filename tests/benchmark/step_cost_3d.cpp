@@ -134,6 +134,7 @@ int main(int argc, char** argv) {
   for (const int nodes : sizes) {
     const double bare = medians.of("delaunay", nodes) + medians.of("multigrid", nodes);
     const double two = medians.of("step_on_2_threads", nodes), ratio = two / bare;
+    if (std::isnan(ratio)) continue;  // filtered out
     std::printf(
         "%d nodes: step / (Delaunay + multigrid) = %.2f, one thread / two = %.2f, %.1f us a node on two, "
         "Delaunay that follows / from nothing = %.2f\n",
