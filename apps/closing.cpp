@@ -117,6 +117,37 @@ std::string files_text(const std::filesystem::path& directory, const std::map<st
   return text;
 }
 
+std::string liquid_text(const Summary& summary) {
+  const auto& ledger = *summary.ledger;
+  auto text = fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final, summary.nodes->max,
+                          100 * ledger.volume_error);
+  if (ledger.volume_error_bodies) text += fmt::format(" ({:.2g} % of the hulls)", 100 * *ledger.volume_error_bodies);
+  return text + fmt::format(", energy gain {:.2g} % of {}", 100 * ledger.energy_gain,
+                            with_unit(ledger.energy_scale, summary.dimension == 2 ? "J/m" : "J"));
+}
+
+/// ANSI (ECMA-48, 8.3.117): 31 red, 33 yellow, 32 green, 1 bold.
+const char* colour_of(Grade grade) {
+  switch (grade) {
+    case Grade::resolved:
+      return "32";
+    case Grade::doubtful:
+    case Grade::unresolved:
+      return "1;33";
+    case Grade::unphysical:
+      break;
+  }
+  return "1;31";
+}
+
+std::string verdict_rows(const Verdict& verdict, Ink ink) {
+  std::string name = name_of(verdict.grade);
+  if (ink == Ink::colour) name = fmt::format("\x1b[{}m{}\x1b[0m", colour_of(verdict.grade), name);
+  auto text = row("verdict", name);
+  for (const auto& reason : verdict.reasons) text += row("", reason);
+  return text;
+}
+
 }  // namespace
 
 std::string with_unit(double value, const std::string& unit) {
@@ -133,7 +164,7 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
-std::string closing_text(const Summary& summary, const std::filesystem::path& directory) {
+std::string closing_text(const Summary& summary, const std::filesystem::path& directory, Ink ink) {
   auto text = fmt::format(
       "{}: {} {} in {} steps, {} of wall time\n", summary.scene, summary.status, with_unit(summary.simulated_time, "s"),
       summary.steps,
@@ -143,13 +174,12 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
   for (const auto& [name, patch] : summary.patches)
     text += row(name, fmt::format("peak pressure {}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
                                   at(patch.pressure), patch.area, summary.dimension == 2 ? "m" : "m^2"));
-  if (summary.nodes && summary.ledger)
-    text += row("liquid", fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final,
-                                      summary.nodes->max, 100 * summary.ledger->volume_error));
+  if (summary.nodes && summary.ledger) text += row("liquid", liquid_text(summary));
   if (summary.coupling) text += row("coupling", coupling_text(*summary.coupling));
   if (summary.rejected_steps > 0) text += row("refused", refused_text(summary));
   if (summary.wall_seconds > 0) text += row("spent on", time_text(summary));
   text += row("files", files_text(directory, summary.bodies));
+  text += verdict_rows(summary.verdict, ink);
   return text;
 }
 

@@ -8,6 +8,7 @@ find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/attitude.cpp
   ${CMAKE_CURRENT_LIST_DIR}/csv.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/energy_statistics.cpp
   ${CMAKE_CURRENT_LIST_DIR}/filters.cpp
   ${CMAKE_CURRENT_LIST_DIR}/frames.cpp
   ${CMAKE_CURRENT_LIST_DIR}/gnuplot.cpp
@@ -16,6 +17,7 @@ add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/plane_picture.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pulse.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/recorder_energy.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_files.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_hulls.cpp
   ${CMAKE_CURRENT_LIST_DIR}/recorder_probes.cpp
@@ -33,6 +35,7 @@ add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/report_words.cpp
   ${CMAKE_CURRENT_LIST_DIR}/statistics.cpp
   ${CMAKE_CURRENT_LIST_DIR}/summary.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/verdict.cpp
   ${CMAKE_CURRENT_LIST_DIR}/vtu_grid.cpp)
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
 target_compile_options(splashdown_output PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)

@@ -11,6 +11,7 @@
 
 #include "apps/csv.hpp"
 #include "apps/frames.hpp"
+#include "apps/recorder_energy.hpp"
 #include "apps/recorder_files.hpp"
 #include "apps/recorder_hulls.hpp"
 #include "apps/recorder_probes.hpp"
@@ -45,6 +46,7 @@ struct Recorder<d>::State {
   FrameSeries frames;
   RunStatistics run;
   double max_speed_peak = 0;
+  EnergyStatistics energy;
   std::vector<BodyStatistics<d>> bodies;
   std::vector<PulseStatistics> equipment;
   HullReadings<d> hulls;
@@ -73,7 +75,7 @@ struct Recorder<d>::State {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
-            max_speed_peak, bodies, equipment, hulls, peak_force, body_names, speed, has_fluid,
+            max_speed_peak, energy, bodies, equipment, hulls, peak_force, body_names, speed, has_fluid,
             cereal::binary_data(&ledger, sizeof ledger));
   }
 
@@ -103,6 +105,7 @@ void Recorder<d>::State::start(const RecordInput<d>& input) {
   else if (input.fluid)
     still_water_level = water_level(*input.fluid);
   if (input.bodies) bodies.resize(input.bodies->size());
+  if (input.fluid) energy.begin(water_at_start(input));
   started = true;
 }
 
@@ -124,6 +127,7 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
     ledger = input.fluid->ledger();
     speed = max_speed(*input.fluid);
     max_speed_peak = std::max(max_speed_peak, speed);
+    energy.add(input.time, ledger, body_energies(input));
   }
   has_fluid = input.fluid != nullptr;
   bool new_peak = false;
@@ -158,9 +162,10 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
   if (input.fluid) {
     const auto& fluid = *input.fluid;
     auto effects = effect_columns(fluid);
-    write_row(file("fluid.csv", fluid_header(effects.names)),
-              FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(),
-                       input.passes, input.residual, input.wall_seconds, speed, std::move(effects.values)});
+    write_row(
+        file("fluid.csv", fluid_header(effects.names)),
+        FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(), input.passes,
+                 input.residual, input.wall_seconds, speed, energy.gain(), std::move(effects.values)});
   }
   write_probes(input);
 }
@@ -272,7 +277,7 @@ void Recorder<d>::summarise(Summary& summary) const {
   if (s.has_fluid) {
     summary.nodes = s.run.nodes;
     summary.elements = s.run.elements;
-    summary.ledger = summary_of(s.ledger);
+    s.energy.summarise(summary.ledger.emplace(summary_of(s.ledger)));
     summary.fluid = FluidSummary{s.speed, s.max_speed_peak};
   }
   if (summary.coupling && s.run.steps > 0) {

@@ -41,6 +41,7 @@ struct FluidRow {
   int passes;
   double residual, wall_seconds;
   double max_speed;
+  double energy_gain;                 ///< energy_statistics.hpp [J, J/m]
   std::vector<double> effect_values;  ///< in the order of the header's effect columns
 };
 

@@ -62,7 +62,7 @@ ReportResult write_report(const std::filesystem::path& directory) {
   remove_old_images(folder);
 
   ReportResult result{directory / "report.html", {}};
-  ReportPage page{data, verdict_of(data), {}, {}, figures_of(data), {}, {}};
+  ReportPage page{data, banner_of(data), {}, {}, figures_of(data), {}, {}};
   if (auto hulls = hull_curves(directory); !hulls.figures.empty())
     page.groups.insert(page.groups.end() - (page.groups.empty() ? 0 : 1), std::move(hulls));  // before the numerics
   std::vector<Figure> curves;

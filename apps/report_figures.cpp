@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "apps/attitude.hpp"
 #include "apps/frames.hpp"
 #include "apps/report_words.hpp"
 #include "apps/summary.hpp"
+#include "apps/verdict.hpp"
 
 namespace splashdown::apps {
 
@@ -234,6 +236,25 @@ FigureGroup fluid_figures(const RunData& run) {
       "The water's energy ledger. The balance, kinetic + potential + work done on walls, would stay at zero "
       "without numerical loss, viscosity and breaking waves.";
   group.figures.push_back(std::move(ledger));
+
+  const Values& gain = table["energy_gain"];
+  if (const double scale = number_at(run.summary, {"ledger", "energy_scale"}); scale > 0 && !gain.empty()) {
+    Figure relative = figure("energy_gain", "energy gain / %");
+    relative.curves = {{"gain", t, scaled(gain, 100 / scale), ink, 1.8}};
+    for (const auto& [limit, grade, colour] :
+         {std::tuple{unphysical_above, Grade::unphysical, red}, {doubtful_above, Grade::doubtful, amber}})
+      relative.curves.push_back({fmt::format("{:g} %: {}", 100 * limit, name_of(grade)),
+                                 {t.front(), t.back()},
+                                 {100 * limit, 100 * limit},
+                                 colour,
+                                 1.1});
+    relative.caption = fmt::format(
+        "The balance of the ledger over {}, the largest of what there was to give or to take. It falls by viscosity, "
+        "impacts and breaking waves; what rises comes from nowhere, and nothing after it can be trusted above the red "
+        "line.",
+        with_unit(scale, energy_unit(run.dimension())));
+    group.figures.push_back(std::move(relative));
+  }
 
   Figure step = figure("step", "passes a step");
   step.counts = true;

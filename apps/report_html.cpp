@@ -44,6 +44,10 @@ std::string tiles(const RunData& run) {
   }
   if (const double e = number_at(run.summary, {"ledger", "volume_error"}); std::isfinite(e))
     tile(percent(e), "change of volume");
+  if (const double e = number_at(run.summary, {"ledger", "volume_error_bodies"}); std::isfinite(e))
+    tile(percent(e), "change of volume over the hulls");
+  if (const double g = number_at(run.summary, {"ledger", "energy_gain"}); std::isfinite(g))
+    tile(percent(g), "energy gain of the water");
   if (const double p = number_at(run.summary, {"coupling", "passes_mean"}); std::isfinite(p))
     tile(digits(p, 3), "coupling passes a step");
   if (const double n = number_at(run.summary, {"nodes", "max"}); n > 0) tile(count_text(n), "nodes at most");
@@ -125,6 +129,11 @@ std::string body_table(const RunData& run) {
   };
   using Body = nlohmann::ordered_json;
   const int d = run.dimension();
+  row("verdict", [](const Body& b) {
+    const auto& verdict = member(b, "verdict");
+    return verdict.contains("grade") && verdict["grade"].is_string() ? html_escaped(verdict["grade"].get<std::string>())
+                                                                     : std::string("–");
+  });
   row("peak load", [&](const Body& b) { return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d)); });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"peak_force", "time"})); });
   row("peak acceleration, raw", [](const Body& b) {
@@ -228,7 +237,9 @@ std::string ledger_table(const RunData& run) {
                                   {"potential_energy", "potential energy at the end"},
                                   {"work_on_walls", "work done on bodies and walls"},
                                   {"energy_remesh", "kinetic energy changed by inserting and removing nodes"},
-                                  {"energy_repair", "kinetic energy taken by repairs"}})
+                                  {"energy_repair", "kinetic energy taken by repairs"},
+                                  {"energy_gain_joule", "largest gain that nothing explains"},
+                                  {"energy_scale", "what there was to give or to take"}})
     html +=
         fmt::format("<tr><td>{}</td><td>{}</td><td></td></tr>\n", name, with_unit(number_at(ledger, {key}), energy));
   return html + "</tbody></table></div>\n";
@@ -267,7 +278,7 @@ std::string refusals_table(const RunData& run) {
 
 std::string html_of(const ReportPage& page) {
   const auto title = title_of(page.run);
-  return html_page(title, html_header(title, page.run.directory, page.verdict, page.warnings) + tiles(page.run) +
+  return html_page(title, html_header(title, page.run.directory, page.banner, page.warnings) + tiles(page.run) +
                               phase_bar(page.run) + figures(page) + body_table(page.run) + equipment_table(page.run) +
                               ledger_table(page.run) + effects_table(page.run) + refusals_table(page.run) +
                               "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "

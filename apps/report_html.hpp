@@ -14,7 +14,7 @@ namespace splashdown::apps {
 
 struct ReportPage {
   const RunData& run;
-  Verdict verdict;
+  Banner banner;
   std::vector<FieldFigure> fields, hulls;
   std::vector<FigureGroup> groups;
   std::map<std::string, std::string> images;  ///< figure name -> <svg> or <img> element

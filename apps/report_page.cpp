@@ -20,6 +20,8 @@ h2{font-size:20px;margin:40px 0 12px;letter-spacing:-.005em}
 .verdict.good{border-left-color:#3a9d7c}.verdict.fair{border-left-color:#d98e04}.verdict.bad{border-left-color:#d1495b}
 .verdict strong{display:block;font-size:19px;margin-bottom:6px}
 .verdict p{margin:3px 0}
+.verdict b.bad{color:#b8354a}.verdict b.fair{color:#a56a00}
+.verdict.bad{background:#fdf0f1}.verdict.fair{background:#fff8e8}
 .tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(165px,1fr));gap:12px;margin:16px 0 0}
 .tile{background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}
 .tile b{display:block;font-size:22px;line-height:1.25;font-variant-numeric:tabular-nums;white-space:nowrap}
@@ -72,13 +74,13 @@ std::string folder_name(const std::filesystem::path& directory) {
   return (folder.filename().empty() ? folder.parent_path() : folder).filename().string();
 }
 
-std::string html_header(const std::string& title, const std::filesystem::path& directory, const Verdict& verdict,
+std::string html_header(const std::string& title, const std::filesystem::path& directory, const Banner& banner,
                         const std::vector<std::string>& warnings) {
   std::string html =
       fmt::format("<h1>{}</h1>\n<p class=\"where\">{}</p>\n<section class=\"verdict {}\"><strong>{}</strong>\n",
                   html_escaped(title), html_escaped(std::filesystem::absolute(directory).lexically_normal().string()),
-                  css_class(verdict.mood), html_escaped(verdict.headline));
-  for (const auto& sentence : verdict.sentences) html += "<p>" + sentence + "</p>\n";
+                  css_class(banner.mood), html_escaped(banner.headline));
+  for (const auto& sentence : banner.sentences) html += "<p>" + sentence + "</p>\n";
   html += "</section>\n";
   for (const auto& warning : warnings) html += "<div class=\"note\">" + warning + "</div>\n";
   return html;

@@ -19,7 +19,7 @@ inline constexpr const char* no_gnuplot =
 std::string html_page(const std::string& title, const std::string& content);
 
 /// Title, folder, verdict, then warnings (HTML).
-std::string html_header(const std::string& title, const std::filesystem::path& directory, const Verdict& verdict,
+std::string html_header(const std::string& title, const std::filesystem::path& directory, const Banner& banner,
                         const std::vector<std::string>& warnings);
 
 std::string html_tile(const std::string& value, const std::string& what);

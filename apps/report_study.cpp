@@ -66,15 +66,15 @@ StudyData read_study_folder(const fs::path& directory) {
   return study;
 }
 
-Verdict verdict_of(const StudyData& study) {
+Banner banner_of(const StudyData& study) {
   const std::size_t all = study.runs().size();
   const std::size_t open = study.count("waiting") + study.count("interrupted"), failed = study.count("failed");
-  Verdict verdict{failed > 0 ? Mood::bad : open > 0 ? Mood::fair : Mood::good, {}, {}};
-  verdict.headline =
+  Banner banner{failed > 0 ? Mood::bad : open > 0 ? Mood::fair : Mood::good, {}, {}};
+  banner.headline =
       open > 0 ? fmt::format("{} of {} runs have ended", all - open, all) : fmt::format("All {} runs have ended", all);
   for (const auto& [status, mood, meaning] : all_status)
     if (const auto number = study.count(status); number > 0)
-      verdict.sentences.push_back(fmt::format("<b>{}</b> {}.", number, meaning));
+      banner.sentences.push_back(fmt::format("<b>{}</b> {}.", number, meaning));
   double sum = 0, longest = 0;
   std::string longest_run;
   for (const auto& run : study.runs()) {
@@ -84,9 +84,9 @@ Verdict verdict_of(const StudyData& study) {
     if (seconds >= longest) longest = seconds, longest_run = text_at(run, "run");
   }
   if (sum > 0)
-    verdict.sentences.push_back(fmt::format("The runs took <b>{}</b> of wall time together; the longest, {}, {}.",
-                                            seconds_text(sum), html_escaped(longest_run), seconds_text(longest)));
-  return verdict;
+    banner.sentences.push_back(fmt::format("The runs took <b>{}</b> of wall time together; the longest, {}, {}.",
+                                           seconds_text(sum), html_escaped(longest_run), seconds_text(longest)));
+  return banner;
 }
 
 /// No wider than it was drawn: a chart of one panel would fill the page.
@@ -207,7 +207,7 @@ ReportResult write_study_report(const fs::path& directory) {
   for (const auto& warning : result.warnings) notes.push_back(html_escaped(warning));
   write_file_atomically(
       result.page,
-      html_page(study.title(), html_header(study.title(), directory, verdict_of(study), notes) + chart +
+      html_page(study.title(), html_header(study.title(), directory, banner_of(study), notes) + chart +
                                    axes_table(study) + runs_table(study) + causes_table(study) +
                                    "<footer>Made by Splashdown from <code>study.json</code> in this folder; the same "
                                    "as a table: <code>study.csv</code>.</footer>\n"));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -26,6 +27,29 @@ std::string status_sentence(const nlohmann::ordered_json& summary) {
   if (status == "interrupted") return "The run was interrupted and can be resumed";
   if (status == "failed") return "The run could not go on";
   return "The run stopped";
+}
+
+std::string text_at(const nlohmann::ordered_json& json, const char* key) {
+  return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
+
+Mood mood_of_grade(const std::string& grade) {
+  if (grade == "unphysical") return Mood::bad;
+  return grade == "doubtful" || grade == "unresolved" ? Mood::fair : Mood::good;
+}
+
+/// The grade into the headline and its reasons first: nothing below counts if they are bad.
+void add_verdict(const nlohmann::ordered_json& summary, Banner& banner) {
+  if (!summary.contains("verdict")) return;  // of an earlier version
+  const auto& verdict = summary["verdict"];
+  const auto grade = text_at(verdict, "grade");
+  banner.mood = std::max(banner.mood, mood_of_grade(grade));
+  if (!grade.empty()) banner.headline += ": " + grade;
+  if (!verdict.is_object() || !verdict.contains("reasons")) return;
+  for (const auto& reason : verdict["reasons"])
+    if (reason.is_string())
+      banner.sentences.push_back("<b class=\"" + std::string(mood_of_grade(grade) == Mood::bad ? "bad" : "fair") +
+                                 "\">" + html_escaped(reason.get<std::string>()) + "</b>");
 }
 
 void add_body_sentences(const RunData& run, std::vector<std::string>& sentences) {
@@ -130,7 +154,7 @@ double number_at(const nlohmann::ordered_json& json, std::initializer_list<const
   return at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-Verdict verdict_of(const RunData& run) {
+Banner banner_of(const RunData& run) {
   if (!run.summary.is_object())
     return {Mood::fair,
             "No summary yet",
@@ -139,34 +163,42 @@ Verdict verdict_of(const RunData& run) {
                          seconds_text(run.end_time()))}};
   const auto& summary = run.summary;
   const std::string status = summary.value("status", "");
-  Verdict verdict{status == "done"     ? Mood::good
-                  : status == "failed" ? Mood::bad
-                                       : Mood::fair,
-                  status_sentence(summary),
-                  {}};
-  if (summary.contains("cause") && summary["cause"].is_string())
-    verdict.sentences.push_back("Cause: " + html_escaped(summary["cause"].get<std::string>()));
-  verdict.sentences.push_back(fmt::format("<b>{}</b> were simulated in <b>{}</b> of wall time, {} steps.",
-                                          seconds_text(number_at(summary, {"simulated_time"})),
-                                          seconds_text(number_at(summary, {"wall_seconds"})),
-                                          count_text(number_at(summary, {"steps"}))));
-  add_body_sentences(run, verdict.sentences);
+  Banner banner{status == "done"     ? Mood::good
+                : status == "failed" ? Mood::bad
+                                     : Mood::fair,
+                status_sentence(summary),
+                {}};
+  add_verdict(summary, banner);
+  const bool told = status == "failed" && !banner.sentences.empty();  // the verdict's reason has it
+  if (!told && summary.contains("cause") && summary["cause"].is_string())
+    banner.sentences.push_back("Cause: " + html_escaped(summary["cause"].get<std::string>()));
+  banner.sentences.push_back(fmt::format("<b>{}</b> were simulated in <b>{}</b> of wall time, {} steps.",
+                                         seconds_text(number_at(summary, {"simulated_time"})),
+                                         seconds_text(number_at(summary, {"wall_seconds"})),
+                                         count_text(number_at(summary, {"steps"}))));
+  add_body_sentences(run, banner.sentences);
   const double error = number_at(summary, {"ledger", "volume_error"});
   if (std::isfinite(error)) {
     const bool good = std::abs(error) <= volume_error_good;
-    verdict.sentences.push_back(fmt::format("The water's volume changed by <b>{}</b>{}.", percent(error),
-                                            good ? "" : ", more than the 0.5 % that the examples keep"));
-    if (!good && verdict.mood == Mood::good) verdict.mood = Mood::fair;
+    banner.sentences.push_back(fmt::format("The water's volume changed by <b>{}</b>{}.", percent(error),
+                                           good ? "" : ", more than the 0.5 % that the examples keep"));
+    if (!good && banner.mood == Mood::good) banner.mood = Mood::fair;
   }
+  const double gain = number_at(summary, {"ledger", "energy_gain"});
+  if (std::isfinite(gain))
+    banner.sentences.push_back(fmt::format(
+        "Its energy rose unexplained by <b>{}</b> of {}, the largest of what there was to give or to take ({}).",
+        percent(gain), with_unit(number_at(summary, {"ledger", "energy_scale"}), energy_unit(run.dimension())),
+        html_escaped(text_at(summary["ledger"], "energy_scale_from"))));
   const double passes = number_at(summary, {"coupling", "passes_mean"});
   if (std::isfinite(passes)) {
     const double rejected = number_at(summary, {"coupling", "rejected_steps"});
-    verdict.sentences.push_back(
+    banner.sentences.push_back(
         fmt::format("The coupling took {} passes a step on average and {} at most; {}.", digits(passes, 3),
                     count_text(number_at(summary, {"coupling", "passes_max"})),
                     rejected > 0 ? count_text(rejected) + " steps were refused and repeated" : "no step was refused"));
   }
-  return verdict;
+  return banner;
 }
 
 }  // namespace splashdown::apps

@@ -1,4 +1,4 @@
-// Numbers with units and the verdict on a run, in words.
+// Numbers with units and the banner over a run, in words.
 #pragma once
 
 #include <string>
@@ -30,13 +30,13 @@ std::string count_text(double count);
 
 std::string html_escaped(const std::string& text);
 
-enum class Mood { good, fair, bad };
-struct Verdict {
+enum class Mood { good, fair, bad };  ///< the worse the later
+struct Banner {
   Mood mood;
   std::string headline;                ///< plain text
   std::vector<std::string> sentences;  ///< HTML
 };
-Verdict verdict_of(const RunData& run);
+Banner banner_of(const RunData& run);
 
 /// JSON value at a path such as {"ledger", "volume_error"}; nan if absent or null.
 double number_at(const nlohmann::ordered_json& json, std::initializer_list<const char*> path);

@@ -8,6 +8,7 @@
 #include "apps/approach.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/scales.hpp"
+#include "apps/verdict.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -212,6 +213,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
     coupling.rejected_steps = s.rejected_steps;
   }
   recorder_.summarise(s);
+  judge(s);
   return s;
 }
 

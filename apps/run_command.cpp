@@ -20,9 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool on_terminal() { return ::isatty(STDOUT_FILENO) != 0; }
+
 Progress::Style progress_style(bool quiet) {
   if (quiet) return Progress::Style::none;
-  return ::isatty(STDOUT_FILENO) != 0 ? Progress::Style::terminal : Progress::Style::plain;
+  return on_terminal() ? Progress::Style::terminal : Progress::Style::plain;
 }
 
 /// Throws SceneError for a stop time that the scene has no room for.
@@ -85,7 +87,7 @@ int go(Run<d>& run, const std::string& scene_name, const RunOptions& options, co
   const auto summary = conclude(run, end, scene_name, options, directory);
   if (end.status == LoopEnd::Status::failed) fmt::print(stderr, "{}\n", failure_text(end, run, directory));
   if (options.quiet) return exit_code_of(end);
-  fmt::print("{}", closing_text(summary, directory));
+  fmt::print("{}", closing_text(summary, directory, on_terminal() ? Ink::colour : Ink::plain));
   if (end.status == LoopEnd::Status::interrupted) fmt::print("stopped: {}; continue with --resume\n", end.cause);
   if (end.status == LoopEnd::Status::done)
     fmt::print("next: open {} in a browser{}\n", (directory / "report.html").string(),

@@ -50,6 +50,8 @@ Json json_of(const std::vector<double>& values) {
   return json;
 }
 
+Json json_of(const Verdict& verdict) { return {{"grade", name_of(verdict.grade)}, {"reasons", verdict.reasons}}; }
+
 Json json_of(const RangeCount& count) {
   return {{"initial", count.initial}, {"max", count.max}, {"final", count.final}};
 }
@@ -86,6 +88,7 @@ Json json_of(const BodySummary& body) {
     json["maximum_pressure"] = json_of(body.maximum_pressure->peak);
     json["maximum_pressure"]["point"] = json_of(body.maximum_pressure->point);
   }
+  json["verdict"] = json_of(body.verdict);
   return json;
 }
 
@@ -93,6 +96,7 @@ Json json_of(const LedgerSummary& ledger) {
   return {{"volume_initial", number(ledger.volume_initial)},
           {"volume_final", number(ledger.volume_final)},
           {"volume_error", number(ledger.volume_error)},
+          {"volume_error_bodies", ledger.volume_error_bodies ? number(*ledger.volume_error_bodies) : Json(nullptr)},
           {"volume_time_integration", number(ledger.time_integration)},
           {"volume_remesh_created", number(ledger.remesh_created)},
           {"volume_remesh_deleted", number(ledger.remesh_deleted)},
@@ -101,7 +105,13 @@ Json json_of(const LedgerSummary& ledger) {
           {"potential_energy", number(ledger.potential_energy)},
           {"energy_remesh", number(ledger.energy_remesh)},
           {"energy_repair", number(ledger.energy_repair)},
-          {"work_on_walls", number(ledger.work_on_walls)}};
+          {"work_on_walls", number(ledger.work_on_walls)},
+          {"energy_gain", number(ledger.energy_gain)},
+          {"energy_gain_joule", number(ledger.energy_gain_joule)},
+          {"energy_gain_time", time_or_null(ledger.energy_gain_time)},
+          {"energy_gain_since", time_or_null(ledger.energy_gain_since)},
+          {"energy_scale", number(ledger.energy_scale)},
+          {"energy_scale_from", ledger.energy_scale_from}};
 }
 
 Json json_of(const std::map<std::string, long>& counts) {
@@ -130,6 +140,20 @@ Json json_of_effects(const Summary& summary) {
 
 }  // namespace
 
+const char* name_of(Grade grade) {
+  switch (grade) {
+    case Grade::resolved:
+      return "resolved";
+    case Grade::doubtful:
+      return "doubtful";
+    case Grade::unresolved:
+      return "unresolved";
+    case Grade::unphysical:
+      break;
+  }
+  return "unphysical";
+}
+
 bool Peak::offer(double v, double t) {
   if (time >= 0 && !(v > value)) return false;
   value = v;
@@ -143,6 +167,7 @@ std::string to_json(const Summary& summary) {
   json["dimension"] = summary.dimension;
   json["status"] = summary.status;
   if (!summary.cause.empty()) json["cause"] = summary.cause;
+  json["verdict"] = json_of(summary.verdict);
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);

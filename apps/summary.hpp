@@ -22,6 +22,16 @@ struct Peak {
   bool offer(double v, double t);
 };
 
+/// How far a result may be trusted, the worse the later.
+enum class Grade { resolved, doubtful, unresolved, unphysical };
+const char* name_of(Grade grade);
+
+/// Of a run or of a body (verdict.hpp).
+struct Verdict {
+  Grade grade = Grade::resolved;
+  std::vector<std::string> reasons;  ///< sentences: what, how much, what to do
+};
+
 struct RangeCount {
   long initial = 0, max = 0, final = 0;
 };
@@ -83,13 +93,21 @@ struct BodySummary {
   Peak wetted;                         ///< wetted length or area [m, m^2]
   LandingSummary landing;
   std::optional<MaximumPressure> maximum_pressure;  ///< if a record asks for it
+  Verdict verdict;
 };
 
 struct LedgerSummary {
   double volume_initial = 0, volume_final = 0, volume_error = 0;  ///< the last one relative
+  std::optional<double> volume_error_bodies;  ///< the same change over the volume of the hulls; absent without bodies
   double time_integration = 0, remesh_created = 0, remesh_deleted = 0, spray = 0;
   double kinetic_energy = 0, potential_energy = 0;
   double energy_remesh = 0, energy_repair = 0, work_on_walls = 0;
+  double energy_gain = 0;  ///< largest gain that nothing explains, over `energy_scale` (energy_statistics.hpp)
+  double energy_gain_joule = 0, energy_gain_time = -1;  ///< the same [J, J/m], and when [s]
+  double energy_gain_since = -1;                        ///< when the gain was lowest before that [s]
+  double energy_scale = 0;                              ///< what there was to give or to take [J, J/m]
+  std::string energy_scale_from;                        ///< what sets it
+  double kinetic_deficit = 0;                           ///< lowest kinetic energy below 0, over `energy_scale`
 };
 
 struct FluidSummary {
@@ -109,6 +127,7 @@ struct Summary {
   std::string scene;   ///< name of the scene, for headings
   std::string status;  ///< "done", "failed" or "interrupted" (by a signal or a spent budget)
   std::string cause;   ///< why it failed; empty otherwise
+  Verdict verdict;
   int dimension = 2;
   double simulated_time = 0;  ///< [s]
   long steps = 0;

@@ -9,6 +9,7 @@
 #include "apps/progress.hpp"
 #include "apps/scales.hpp"
 #include "apps/scene_read.hpp"
+#include "apps/verdict.hpp"
 #include "scenes.hpp"
 
 namespace splashdown::apps {
@@ -23,6 +24,33 @@ TEST(Words, values_carry_a_metric_prefix) {
   EXPECT_EQ(with_unit(0, "s"), "0 s");
   EXPECT_EQ(with_unit(0.99999, "s"), "1 s");
   EXPECT_EQ(with_unit(1e-12, "s"), "1e-12 s");
+}
+
+TEST(Words, a_run_closes_with_its_verdict_in_red_on_a_terminal) {
+  Summary summary;
+  summary.scene = "drop";
+  summary.status = "done";
+  summary.nodes = RangeCount{10, 30, 20};
+  auto& ledger = summary.ledger.emplace();
+  ledger.volume_error = 1e-4;
+  ledger.volume_error_bodies = 0.011;
+  ledger.energy_gain = 0.34;
+  ledger.energy_scale = 2000;
+  judge(summary);
+  const auto plain = closing_text(summary, "nowhere");
+  for (const auto* piece :
+       {"20 nodes (30 at most), volume error 0.01 % (1.1 % of the hulls), energy gain 34 % of 2 kJ/m",
+        "verdict     unphysical\n", "from nowhere", "time.cfl"})
+    EXPECT_NE(plain.find(piece), std::string::npos) << piece << " is not in: " << plain;
+  EXPECT_EQ(plain.find('\x1b'), std::string::npos);
+  const auto colour = [&] { return closing_text(summary, "nowhere", Ink::colour); };
+  EXPECT_NE(colour().find("\x1b[1;31munphysical\x1b[0m"), std::string::npos);
+  summary.ledger->energy_gain = 0.03;
+  judge(summary);
+  EXPECT_NE(colour().find("\x1b[1;33mdoubtful\x1b[0m"), std::string::npos);
+  summary.ledger->energy_gain = 0;
+  judge(summary);
+  EXPECT_NE(colour().find("\x1b[32mresolved\x1b[0m"), std::string::npos);
 }
 
 TEST(Words, progress_says_where_the_run_is) {

@@ -119,6 +119,35 @@ TEST(Recorder, impulse_is_the_sum_over_kicks_whatever_the_interval) {
   EXPECT_NEAR(summary.bodies.at("wedge").impulse[1], impulse, 1e-12 * impulse);
 }
 
+// The level of the tank's water is at y = 0: what appears there counts nothing.
+TEST(Recorder, energy_gain_is_the_balance_of_the_ledger_over_what_the_body_brought) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  recorder.finish();
+  const auto rows = read_csv(folder.path() / "fluid.csv").at(0).second;
+  for (std::size_t i = 0; i < rows.rows(); ++i)
+    EXPECT_NEAR(rows["energy_gain"][i],
+                rows["kinetic_energy"][i] - rows["kinetic_energy"][0] + rows["potential_energy"][i] -
+                    rows["potential_energy"][0] + rows["work_on_walls"][i],
+                1e-9);
+  Summary summary;
+  recorder.summarise(summary);
+  EXPECT_EQ(summary.ledger->energy_gain, 0);
+  StandInDrop drop;
+  double brought = 0;  // at the last dry step
+  for (int n = 0; n <= steps; ++n) {
+    const auto& input = drop.at(n * dt, dt);
+    const double v = input.body_velocity_n[0](1);
+    brought = std::max(brought, 0.5 * 241 * v * v);
+    if (input.body_load[0].wetted > 0) break;
+  }
+  EXPECT_NEAR(summary.ledger->energy_scale, brought, 1e-9);
+  const auto& ledger = *summary.ledger;
+  EXPECT_NEAR(*ledger.volume_error_bodies,
+              (ledger.volume_final - ledger.volume_initial) / (wedge_half_breadth * wedge_height), 1e-12);
+}
+
 TEST(Recorder, probes_have_a_defined_answer_everywhere) {
   ScratchFolder folder;
   Recorder<2> recorder(settings_in(folder.path()));

@@ -7,13 +7,14 @@
 
 #include "apps/gnuplot.hpp"
 #include "apps/report_words.hpp"
+#include "apps/verdict.hpp"
 #include "stand_ins.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {
 
-void make_run(const std::filesystem::path& directory, const std::string& status = "done") {
+void make_run(const std::filesystem::path& directory, const std::string& status = "done", double energy_gain = 0) {
   RecorderSettings<2> settings;
   settings.directory = directory;
   settings.frames = 0.01;
@@ -35,6 +36,8 @@ void make_run(const std::filesystem::path& directory, const std::string& status 
   summary.phases = {{"remesh", 5}, {"pressure", 6}};
   summary.coupling = CouplingSummary{};
   recorder.summarise(summary);
+  if (energy_gain > 0) summary.ledger->energy_gain = energy_gain;
+  judge(summary);
   write_summary(directory, summary);
 }
 
@@ -74,6 +77,7 @@ TEST(Report, shows_curves_and_fields_where_gnuplot_is_installed) {
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
   EXPECT_NE(page.find("Largest load"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "report/energy_gain.svg"));
 }
 
 TEST(Report, without_gnuplot_it_has_its_words_and_says_what_to_install) {
@@ -104,6 +108,25 @@ TEST(Report, a_failed_run_says_so) {
   const PathVariable nowhere("/nonexistent");
   write_report(folder.path());
   EXPECT_NE(folder.text("report.html").find("The run could not go on"), std::string::npos);
+}
+
+TEST(Report, shows_the_verdict_in_its_colour_with_its_reason_above_all) {
+  const auto page_of = [](double energy_gain) {
+    ScratchFolder folder;
+    make_run(folder.path(), "done", energy_gain);
+    const PathVariable nowhere("/nonexistent");
+    write_report(folder.path());
+    return folder.text("report.html");
+  };
+  const auto red = page_of(0.4), amber = page_of(0.03), green = page_of(0);
+  EXPECT_NE(red.find("class=\"verdict bad\"><strong>The run finished: unphysical"), std::string::npos);
+  EXPECT_NE(amber.find("class=\"verdict fair\"><strong>The run finished: doubtful"), std::string::npos);
+  EXPECT_NE(green.find("class=\"verdict good\"><strong>The run finished: resolved"), std::string::npos);
+  const auto reason = red.find("from nowhere");
+  ASSERT_NE(reason, std::string::npos);
+  EXPECT_LT(reason, red.find("were simulated in"));
+  EXPECT_EQ(green.find("from nowhere"), std::string::npos);
+  for (const auto& page : {red, amber, green}) EXPECT_NE(page.find("energy gain of the water"), std::string::npos);
 }
 
 TEST(Report, a_folder_without_a_run_is_an_error_and_stays_as_it_is) {

@@ -21,6 +21,7 @@ Summary full() {
   summary.elements = RangeCount{12, 24, 18};
   summary.coupling = CouplingSummary{"iterated", "rigid", 1.5, 3, 2, {{"coupling diverged", 2}}};
   summary.ledger = LedgerSummary{};
+  summary.verdict = {Grade::doubtful, {"It looks odd."}};
   summary.fluid = FluidSummary{};
   BodySummary body;
   body.acceleration.raw = {12, 0.01};
@@ -65,6 +66,17 @@ TEST(Summary, has_the_keys_of_the_contract) {
                            "/ledger/kinetic_energy",
                            "/ledger/potential_energy",
                            "/ledger/work_on_walls",
+                           "/ledger/energy_gain",
+                           "/ledger/energy_gain_joule",
+                           "/ledger/energy_gain_time",
+                           "/ledger/energy_gain_since",
+                           "/ledger/energy_scale",
+                           "/ledger/energy_scale_from",
+                           "/ledger/volume_error_bodies",
+                           "/verdict/grade",
+                           "/verdict/reasons/0",
+                           "/bodies/hull/verdict/grade",
+                           "/bodies/hull/verdict/reasons",
                            "/bodies/hull/peak_acceleration_g/raw/value",
                            "/bodies/hull/peak_acceleration_g/raw/time",
                            "/bodies/hull/peak_acceleration_g/cfc600/value",
@@ -92,6 +104,8 @@ TEST(Summary, has_the_keys_of_the_contract) {
                            "/bodies/hull/maximum_submergence/time"})
     EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(path))) << path;
   EXPECT_EQ(json["effects"]["active"]["gravity"]["share"], 0.25);
+  EXPECT_EQ(json["verdict"]["grade"], "doubtful");
+  EXPECT_EQ(json["bodies"]["hull"]["verdict"]["grade"], "resolved");
 }
 
 TEST(Summary, what_a_scene_lacks_its_summary_lacks) {
@@ -103,9 +117,13 @@ TEST(Summary, what_a_scene_lacks_its_summary_lacks) {
 TEST(Summary, numbers_that_do_not_exist_are_null) {
   Summary summary = full();
   summary.ledger->volume_error = std::nan("");
+  summary.ledger->energy_gain = INFINITY;
   summary.bodies["hull"].force.raw = {};
   const auto json = nlohmann::json::parse(to_json(summary));
   EXPECT_TRUE(json["ledger"]["volume_error"].is_null());
+  EXPECT_TRUE(json["ledger"]["energy_gain"].is_null());
+  EXPECT_TRUE(json["ledger"]["energy_gain_time"].is_null());
+  EXPECT_TRUE(json["ledger"]["volume_error_bodies"].is_null()) << "a scene without bodies";
   EXPECT_TRUE(json["bodies"]["hull"]["peak_force"].is_null());
   EXPECT_TRUE(json["bodies"]["hull"]["first_contact_time"].is_null());
   EXPECT_TRUE(json["bodies"]["hull"]["settled_time"].is_null());
