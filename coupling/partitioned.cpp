@@ -95,7 +95,9 @@ StepReport Partitioned<d>::iterate(double dt) {
   double first = 0, calmest = std::numeric_limits<double>::infinity();
   for (report.passes = 1;; ++report.passes) {
     if (const auto status = fluid_->solve(this->of_walls(x.twists), x.impulses); !status.ok()) {
-      report.cause = status.cause;
+      // Velocities that grow from pass to pass end beyond what the fluid can follow.
+      const bool grew = report.passes > 2 && report.residual > first;
+      report.cause = grew ? no_agreement("diverged", report.passes, report.residual, term_->name()) : status.cause;
       return report;
     }
     move_bodies(this->total_loads());

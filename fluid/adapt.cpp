@@ -132,7 +132,10 @@ class Adapter {
   bool may_merge_with_its_like(Rank rank, const Edge& e) const {
     if (!(nodes_.tie[e.a] == nodes_.tie[e.b]) || rank == corner) return false;
     if (rank <= boundary) return true;
-    return d == 3 && (rank != contact_line || is_contact_edge(e));
+    // In the plane a contact line is a point. Two that all but coincide are one.
+    constexpr double coincide = 0.05;
+    if (d == 2) return rank == contact_line && e.ratio < coincide;
+    return rank != contact_line || is_contact_edge(e);
   }
   bool is_contact_edge(const Edge& e) const {
     bool wet = false, free = false;
@@ -153,7 +156,6 @@ class Adapter {
         nodes_.x[e.a] = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);
         nodes_.v[e.a] = 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]);
         nodes_.p[e.a] = 0.5 * (nodes_.p[e.a] + nodes_.p[e.b]);
-        nodes_.q[e.a] = 0.5 * (nodes_.q[e.a] + nodes_.q[e.b]);
         attach(e.a);
         remove(e.b, e.a);
       } else if (rank_a > rank_b) {
@@ -194,7 +196,6 @@ class Adapter {
       if (at_boundary) tie = tie_between(e, surface);
       const int m = nodes_.add(0.5 * (nodes_.x[e.a] + nodes_.x[e.b]), 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]),
                                0.5 * (nodes_.p[e.a] + nodes_.p[e.b]), tie, surface);
-      nodes_.q[m] = 0.5 * (nodes_.q[e.a] + nodes_.q[e.b]);
       h_.push_back(0.5 * (h_[e.a] + h_[e.b]));
       into_.push_back(m);
       attach(m);

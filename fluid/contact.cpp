@@ -12,7 +12,6 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double on_facet = 0.02;  // a sharp vertex this close to a wetted facet (over h) lies on it
-constexpr double suction = 0.1;    // over the dynamic pressure: above what noise in a jet reaches
 constexpr double snap = 0.3;       // a boundary node this close to a sharp vertex (over h) moves onto it
 
 template <int d>
@@ -221,24 +220,6 @@ void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d
 }
 
 template <int d>
-void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Twist<d>> velocities,
-               std::span<const Isometry<d>> poses) {
-  std::vector<int> leaving;
-  for (const auto& f : mesh.boundary) {
-    if (f.wall < 0) continue;
-    const bool at_air = std::any_of(f.nodes.begin(), f.nodes.end(), [&](int n) { return nodes.surface[n]; });
-    if (!at_air) continue;
-    for (int n : f.nodes) {
-      if (nodes.surface[n] || nodes.tie[n].wall != f.wall) continue;
-      const Vec<d> arm = nodes.x[n] - poses[f.wall].translation();
-      const double speed = (nodes.v[n] - rigid_velocity<d>(velocities[f.wall], arm)).squaredNorm();
-      if (nodes.p[n] < -suction * 0.5 * density * speed) leaving.push_back(n);
-    }
-  }
-  for (int n : leaving) nodes.tie[n] = {};
-}
-
-template <int d>
 void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& at,
               std::span<const Twist<d>> velocities, double gravity) {
   struct Edge {
@@ -297,12 +278,80 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
       if (tie.vertex >= 0)
         attached_vertex_[tie.wall][tie.vertex] = !nodes.surface[i];
       else
-        on_creases_.push_back({i, nodes.x[i] - walls.poses[tie.wall].translation()});
+        on_creases_.push_back(i);
     }
-  for (int f = 0; f < static_cast<int>(mesh.boundary.size()); ++f)
-    if (is_chord(f, nodes.tie)) chords_.push_back(f);
   if (std::any_of(walls_.begin(), walls_.end(), [](const Wall<d>& w) { return w.spec().sticks; }))
     find_stuck(mesh, walls);
+  find_edges(walls);
+}
+
+// The node at an edge moves with it; the water does where the edge is hollow or sticks, and flows around it elsewhere.
+template <int d>
+void WallMotion<d>::find_edges(const WallsAt<d>& walls) {
+  auto hold = [&](int node, const Mat<d>& directions) {
+    const int wall = nodes_.tie[node].wall;
+    held_.push_back({node, wall, nodes_.x[node] - walls.poses[wall].translation(), directions});
+  };
+  for (const Stuck& s : stuck_) hold(s.node, Mat<d>::Identity() - s.normal * s.normal.transpose());
+  slips_.assign(nodes_.size(), 0);
+  for (int i : tied_) {
+    const WallTie& tie = nodes_.tie[i];
+    if (!tie.sharp() || !wetted_[i] || nodes_.separates[i]) continue;
+    const Wall<d>& wall = walls_[tie.wall];
+    if (wall.is_convex(tie) && !wall.spec().sticks) {
+      slips_[i] = 1;
+      edges_.push_back(i);
+      continue;
+    }
+    Mat<d> directions = Mat<d>::Identity();
+    if (tie.crease >= 0) {
+      const Vec<d> along = wall.crease_direction(walls.poses[tie.wall], nodes_.x[i], tie.crease);
+      directions -= along * along.transpose();
+    }
+    hold(i, directions);
+  }
+}
+
+template <int d>
+void WallMotion<d>::meet_pressure(std::span<const int> unknown) {
+  for (int i : tied_)
+    if (!nodes_.tie[i].sharp() && wetted_[i] && unknown[i] >= 0) slips_[i] = 1;
+  for (int f = 0; f < static_cast<int>(mesh_.boundary.size()); ++f) {
+    const Facet<d>& facet = mesh_.boundary[f];
+    if (facet.wall < 0) continue;
+    if (std::any_of(facet.nodes.begin(), facet.nodes.end(), [&](int n) { return slips_[n] != 0; }))
+      by_flux_.push_back(f);
+    else if (is_chord(f, nodes_.tie))
+      chords_.push_back(f);
+  }
+}
+
+template <int d>
+void WallMotion<d>::convect(std::span<const Vec<d>> x, double dt, std::span<Vec<d>> u) const {
+  struct Inflow {
+    Vec<d> sum = Vec<d>::Zero();
+    double weight = 0, fastest = 0;
+  };
+  std::vector<int> slot(nodes_.size(), -1);
+  if (edges_.empty()) return;
+  for (std::size_t k = 0; k < edges_.size(); ++k) slot[edges_[k]] = static_cast<int>(k);
+  std::vector<Inflow> inflow(edges_.size());
+  for (int f : by_flux_) {
+    const auto& nodes = mesh_.boundary[f].nodes;
+    for (int n : nodes)
+      for (int other : nodes) {
+        if (slot[n] < 0 || slot[other] >= 0) continue;
+        const Vec<d> past = u[n] - (x[n] - nodes_.x[n]) / dt, from = x[other] - x[n];
+        const double rate = -past.dot(from) / from.squaredNorm();
+        if (rate <= 0) continue;
+        Inflow& in = inflow[slot[n]];
+        in.sum += rate * u[other], in.weight += rate, in.fastest = std::max(in.fastest, rate);
+      }
+  }
+  for (std::size_t k = 0; k < edges_.size(); ++k) {
+    const Inflow& in = inflow[k];
+    if (in.weight > 0) u[edges_[k]] += std::min(1.0, dt * in.fastest) * (in.sum / in.weight - u[edges_[k]]);
+  }
 }
 
 template <int d>
@@ -333,11 +382,11 @@ bool WallMotion<d>::attached(int wall, const typename Wall<d>::Near& edge) const
   if (edge.vertex >= 0) return attached_vertex_[wall][edge.vertex];
   double least = std::numeric_limits<double>::infinity();
   bool wet = false;
-  for (const OnCrease& at : on_creases_) {
-    const double distance = (nodes_.x[at.node] - edge.point).squaredNorm();
-    if (nodes_.tie[at.node].wall != wall || nodes_.tie[at.node].crease != edge.crease || distance >= least) continue;
+  for (int i : on_creases_) {
+    const double distance = (nodes_.x[i] - edge.point).squaredNorm();
+    if (nodes_.tie[i].wall != wall || nodes_.tie[i].crease != edge.crease || distance >= least) continue;
     least = distance;
-    wet = !nodes_.surface[at.node];
+    wet = !nodes_.surface[i];
   }
   return wet;
 }
@@ -370,7 +419,7 @@ void WallMotion<d>::find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls) {
     }
     const Isometry<d>& pose = walls.poses[w];
     stuck_at[i] = static_cast<int>(stuck_.size());
-    stuck_.push_back({i, pose.inverse() * nodes_.x[i], nodes_.x[i] - pose.translation(), Vec<d>::Zero()});
+    stuck_.push_back({i, pose.inverse() * nodes_.x[i], Vec<d>::Zero()});
   }
   tied_ = std::move(slides);
   for (const auto& f : mesh.boundary) {
@@ -379,19 +428,6 @@ void WallMotion<d>::find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls) {
       if (stuck_at[n] >= 0) stuck_[stuck_at[n]].normal += area_vector_of<d>(f, nodes_.x);
   }
   for (Stuck& s : stuck_) s.normal.normalize();
-}
-
-template <int d>
-void WallMotion<d>::drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, double density,
-                         std::span<const double> volume, std::vector<Wrench<d>>& on_walls) const {
-  on_walls.assign(walls_.size(), Wrench<d>::Zero());
-  auto lost = [&](int n) -> Vec<d> { return density * volume[n] * (v[n] - u[n]); };
-  for (const Stuck& s : stuck_) {
-    const Vec<d> impulse = lost(s.node);
-    on_walls[nodes_.tie[s.node].wall] += wrench_of<d>(s.arm, impulse - impulse.dot(s.normal) * s.normal);
-  }
-  for (const OnCrease& at : on_creases_)
-    if (!nodes_.separates[at.node]) on_walls[nodes_.tie[at.node].wall] += wrench_of<d>(at.arm, lost(at.node));
 }
 
 template <int d>
@@ -406,6 +442,19 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     const WallTie tie = nodes_.tie[i];
     const Wall<d>& wall = walls_[tie.wall];
     const Isometry<d>& pose = poses[tie.wall];
+    if (nodes_.spray[i]) {
+      // A drop on a wall slides along it: the wall takes what would carry it in, and no more.
+      const auto near = wall.nearest(pose, out.x[i], diameter(wall));
+      if (near.distance >= 0) {
+        out.tie[i] = {};
+        return;
+      }
+      out.x[i] = near.point;
+      const double inwards = std::min(0.0, (nodes_.x[i] + dt * v[i] - near.point).dot(near.normal) / dt);
+      out.u[i] -= inwards * near.normal;
+      out.tie[i] = {tie.wall, near.patch};
+      return;
+    }
     auto near = tie.sharp() || tie.patch < 0 ? wall.nearest(pose, out.x[i], diameter(wall))
                                              : wall.nearest_on_patch(pose, out.x[i], tie.patch);
     const bool passes_edge = !tie.sharp() && near.sharp();
@@ -428,7 +477,7 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
                : tie.crease >= 0 ? wall.nearest_on_crease(pose, out.x[i], tie.crease)
                                  : near.point;
     if (passes_edge) out.tie[i].patch = near.patch;
-    out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
+    if (!slips_[i]) out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
   });
   for (const Stuck& s : stuck_) {
     out.x[s.node] = poses[nodes_.tie[s.node].wall] * s.place;
@@ -441,15 +490,13 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     if (d == 3 && !s.area.isZero(0)) past -= past.dot(s.area) / s.area.squaredNorm() * s.area;
     out.u[s.at] += past;
   }
-  out.slides.clear();
+  out.slides = by_flux_;
   for (int f : chords_)
     if (is_chord(f, out.tie)) out.slides.push_back(f);
 }
 
 template void wet(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
 template void wet(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
-template void ventilate(Nodes<2>&, const Mesh<2>&, double, std::span<const Twist<2>>, std::span<const Isometry<2>>);
-template void ventilate(Nodes<3>&, const Mesh<3>&, double, std::span<const Twist<3>>, std::span<const Isometry<3>>);
 template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
                        double);
 template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "fluid/held_mass.hpp"
 #include "fluid/recognise.hpp"
 
 namespace splashdown::fluid {
@@ -14,12 +15,6 @@ namespace splashdown::fluid {
 template <int d>
 void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
          std::span<const Twist<d>> velocities);
-
-/// Lets air in: a wetted node beside the contact line or beside an edge leaves its wall under suction,
-/// p < -0.1 rho |v - w|^2 / 2. Inviscid flow would otherwise cling to a sharp edge with any suction.
-template <int d>
-void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Twist<d>> velocities,
-               std::span<const Isometry<d>> poses);
 
 /// Finds the nodes at edges of walls where the flow leaves them (Nodes::separates): corners on the free surface, and
 /// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
@@ -34,23 +29,29 @@ class WallMotion {
  public:
   WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls);
 
+  /// Nodes with a pressure of their own slip: along a wall v.n = w.n is met by facets, in the mean that the pressure can
+  /// keep, and not node by node, which would take momentum from the water that nobody gets. `unknown`: of nodes, -1: p = 0.
+  void meet_pressure(std::span<const int> unknown);
+
   struct Moved {
     std::vector<Vec<d>> x;     ///< at t_{n+1}
     std::vector<Vec<d>> u;     ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
-                               ///< velocity at an edge where the flow separates
+                               ///< velocity where it slips along a wall or separates from an edge
     std::vector<WallTie> tie;  ///< at t_{n+1}: nodes may leave their wall or turn a corner
-    std::vector<int> slides;   ///< boundary facets that are chords of their curved wall and stay so
+    std::vector<int>
+        slides;  ///< boundary facets where the wall's flux counts: those with nodes that slip, and chords of
+                 ///< their curved wall that stay so
   };
   /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
   void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
 
-  /// Walls take some nodes along in more than one direction: edges that are wetted on both sides, and WallSpec::sticks
-  /// away from the contact line.
-  bool drags() const { return !stuck_.empty() || !on_creases_.empty(); }
-  /// Impulses on the walls, about their origins, of what that takes from the velocities v: u is the motion that `move`
-  /// made of v, `volume` that of the nodes. Along the normal of a smooth wall it is the pressure's.
-  void drag(std::span<const Vec<d>> v, std::span<const Vec<d>> u, double density, std::span<const double> volume,
-            std::vector<Wrench<d>>& on_walls) const;
+  /// Nodes that walls take along in more directions than pressure keeps them in: those in hollow edges and corners that are
+  /// wetted on all sides, and those that stick (WallSpec::sticks) away from the contact line. Along the normal of a smooth
+  /// wall it is the pressure that does it.
+  const std::vector<HeldNode<d>>& held() const { return held_; }
+  /// What flows around an edge takes its place from upstream: the fluid's velocity there after the motion that `move` made of
+  /// its velocities v, in place. First-order upwind, a convex combination.
+  void convect(std::span<const Vec<d>> x, double dt, std::span<Vec<d>> u) const;
 
  private:
   const Nodes<d>& nodes_;
@@ -58,6 +59,7 @@ class WallMotion {
   std::span<const Wall<d>> walls_;
   void find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls);
   void find_separations(const Mesh<d>& mesh);
+  void find_edges(const WallsAt<d>& walls);
   bool is_chord(int facet, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 
@@ -65,7 +67,6 @@ class WallMotion {
   struct Stuck {
     int node;
     Vec<d> place;   // in the wall's frame
-    Vec<d> arm;     // from the wall's origin, at t_n
     Vec<d> normal;  // of its wetted facets, unit
   };
   std::vector<Stuck> stuck_;
@@ -77,12 +78,12 @@ class WallMotion {
   };
   std::vector<Separation> separations_;
   std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
-  struct OnCrease {
-    int node;
-    Vec<d> arm;  // from the wall's origin, at t_n
-  };
-  std::vector<OnCrease> on_creases_;  // wetted
-  std::vector<int> chords_;           // facets, at t_n
+  std::vector<int> on_creases_;                     // wetted nodes
+  std::vector<HeldNode<d>> held_;
+  std::vector<char> slips_;   // of nodes: their velocity is the water's, not that of their place on the wall
+  std::vector<int> edges_;    // those of them at edges
+  std::vector<int> by_flux_;  // facets with such a node
+  std::vector<int> chords_;   // facets, at t_n
 };
 
 extern template class WallMotion<2>;

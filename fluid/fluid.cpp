@@ -10,6 +10,8 @@
 #include "fluid/fluid_state.hpp"
 #include "fluid/initial.hpp"
 #include "fluid/parallel.hpp"
+#include "fluid/ventilation.hpp"
+#include "fluid/wave_bound.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -25,7 +27,7 @@ void raw(Archive& archive, std::vector<T>& values) {
 template <class Archive, int d>
 void archive_present(Archive& archive, Present<d>& s) {
   archive(s.time, s.dt, s.acceleration_dt, cereal::binary_data(&s.ledger, sizeof(Ledger)));
-  raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p), raw(archive, s.nodes.q);
+  raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p);
   raw(archive, s.nodes.tie), raw(archive, s.nodes.surface), raw(archive, s.nodes.separates);
   raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
   raw(archive, s.mesh.cells), raw(archive, s.mesh.boundary);
@@ -39,7 +41,7 @@ void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& aro
   in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.spray[i]) return;
     nodes.volume[i] = 0;
-    for (const auto [c, k] : around.around(i)) nodes.volume[i] += share[c];
+    for (const auto [c, k] : around.around(i)) nodes.volume[i] += std::max(0.0, share[c]);  // films may turn over
   });
 }
 
@@ -91,7 +93,7 @@ double Fluid<d>::stable_dt() const {
     return least;
   });
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
-  dt = std::min(dt, now.acceleration_dt);
+  dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity())});
   for (const auto& t : s_->terms) dt = std::min(dt, t->stable_dt());
   return dt;
 }
@@ -104,10 +106,12 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
   if (!s.prepared) s.prepare();
   {
     const auto scope = s.timer.scope(assemble);
-    if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response))
-      return {"the pressure matrix could not be factored"};
     s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses));
-    s.interface = s.equation.laplacian().means(s.carried_impulse(true));
+    if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response,
+                          s.wall_motion->held()))
+      return {"the pressure matrix could not be factored"};
+    s.wall_motion->meet_pressure(s.equation.unknown());
+    s.interface = s.equation.laplacian().means(s.carried_impulse());
   }
   for (std::size_t t = 0; t < s.terms.size(); ++t) {
     const auto scope = s.timer.scope(effects + t);
@@ -139,12 +143,12 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
     const double a = (s.moved.u[i] - nodes.v[i]).norm() / s.kick;
     return 0.5 * std::sqrt(s.work.h[i] / (a + 1e-300));
   });
+  s.wall_motion->convect(s.moved.x, s.dt, s.moved.u);
   nodes.x = s.moved.x;
   nodes.v = s.moved.u;
   nodes.tie = s.moved.tie;
-  nodes.q = s.found_by_corrections;
   share_volumes(nodes, s.work.mesh, s.equation.around());
-  ventilate<d>(nodes, s.work.mesh, s.spec.density, s.s_after, poses);
+  ventilate<d>(nodes, s.work.h, s.work.mesh, {s.walls, poses}, s.s_after, s.spec.density, s.gravity().norm());
   ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);
   ledger.time_integration += ledger.volume - before;
   ledger.energy_repair += s.energy_repaired - s.energy_before;

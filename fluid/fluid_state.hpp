@@ -36,12 +36,14 @@ struct Present {
 // What one solve works with.
 template <int d>
 struct Trial {
-  std::vector<Vec<d>> v;                     // of nodes, before the pressure
-  std::vector<Twist<d>> s_before;            // of walls, repaired
-  std::vector<Vec<d>> x_mid;                 // where a motion is judged
-  std::vector<double> r, repaired;           // residual, repair impulse
-  std::vector<Wrench<d>> on_walls, dragged;  // impulses of effects and of sticking
-  Eigen::VectorXd known, answer;             // impulses on the motions besides the pressure's, and what they did
+  std::vector<Vec<d>> v;                         // of nodes, before the pressure
+  std::vector<Twist<d>> s_before;                // of walls, repaired
+  std::vector<Vec<d>> x_mid;                     // where a motion is judged
+  std::vector<double> r, repaired;               // residual, repair impulse
+  std::vector<Wrench<d>> on_walls;               // impulses of effects
+  std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
+  Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
+  Eigen::VectorXd unanswered;                    // impulses of effects that did not let the motions answer
 };
 
 // Edges that are short enough to be merged, or lie across a film, limit no time step.
@@ -70,10 +72,9 @@ struct Fluid<d>::State {
   Trial<d> trial;
   std::vector<Vec<d>> v_after;
   std::vector<Twist<d>> s_after;
-  std::vector<double> found_by_corrections;  // nodes' next q
-  std::vector<double> phi;                   // physical impulse
-  std::vector<double> interface;             // physical impulse on the pieces of walls with a Laplacian
-  std::vector<double> carried_p;             // pressure at the nodes before the step
+  std::vector<double> phi;        // physical impulse
+  std::vector<double> interface;  // physical impulse on the pieces of walls with a Laplacian
+  std::vector<double> carried_p;  // pressure at the nodes before the step
   std::vector<WallLoad<d>> loads;
   std::vector<Twist<d>> imbalance;
   double power_on_walls = 0;
@@ -93,31 +94,36 @@ struct Fluid<d>::State {
     return out;
   }
 
-  StepView<d> view() const {
-    return {work.nodes,        work.mesh,  spec.density, kick, equation.lumped_volume(),
-            equation.around(), spec.walls, work.poses};
+  StepView<d> view(const MotionView* motions = nullptr) const {
+    return {work.nodes,        work.mesh,  spec.density, kick,   equation.lumped_volume(),
+            equation.around(), spec.walls, work.poses,   motions};
   }
 
   // The mesh of a step (prepare.cpp).
   void prepare();
   void size_nodes();
+  void collect_drops();
+  std::size_t put_drops_last();
   void book_spray(const std::vector<char>& was_spray);
-  double gravity() const;
+  Vec<d> gravity() const;
 
   // The motion over it (solve.cpp).
   Status solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
   Status repair();
-  Status predict();
+  Status predict(const MotionDrive& drive);
   Status press(std::span<const Twist<d>> given, std::span<const double> previous);
   Status correct(std::span<const double> previous);
   void weigh();
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
-  void stick(std::vector<Wrench<d>>& impulses);
   void push(const Eigen::VectorXd& impulse);
   bool solve_with_bodies(std::vector<double>& r, std::vector<Twist<d>>& s, double tolerance);
-  void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s);
+  void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further);
+  void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s) {
+    answer_to(impulses, s, Eigen::VectorXd::Zero(equation.motions()));
+  }
   double kinetic_energy(std::span<const Vec<d>> v) const;
-  std::vector<double> carried_impulse(bool corrected) const;
+  double work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0, std::span<const Twist<d>> s_1) const;
+  std::vector<double> carried_impulse() const;
   void middle(std::span<const Vec<d>> u, double by) {
     in_parallel(u.size(), [&](std::size_t i) { trial.x_mid[i] = work.nodes.x[i] + by * u[i]; });
   }

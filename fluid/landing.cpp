@@ -25,7 +25,7 @@ void land(Nodes<d>& nodes, const Mesh<d>& mesh) {
     if (weight[n] == 0) continue;  // drops that meet in the air
     const Vec<d> around = momentum[n] / weight[n];
     nodes.v[n] = around + nodes.volume[n] / now[n] * (nodes.v[n] - around);
-    nodes.q[n] = 0;
+    nodes.p[n] = 0;
   }
 }
 

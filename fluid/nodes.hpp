@@ -23,7 +23,6 @@ struct Nodes {
   std::vector<Vec<d>> x;        ///< position at t_n [m]
   std::vector<Vec<d>> v;        ///< velocity at t_{n-1/2} [m/s]
   std::vector<double> p;        ///< pressure at t_n [Pa]
-  std::vector<double> q;        ///< part of p that the corrections found [Pa]; the next step starts from it
   std::vector<WallTie> tie;     ///< wall contact
   std::vector<char> surface;    ///< 1: on the free surface (p = 0)
   std::vector<char> separates;  ///< 1: at an edge of a wall where the flow leaves it
@@ -37,7 +36,6 @@ struct Nodes {
     x.push_back(position);
     v.push_back(velocity);
     p.push_back(pressure);
-    q.push_back(0);
     tie.push_back(t);
     surface.push_back(on_surface);
     separates.push_back(0);
@@ -54,8 +52,7 @@ struct Nodes {
       in_parallel(order.size(), [&](std::size_t i) { picked[i] = values[order[i]]; });
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(q), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex),
-        pick(volume);
+    pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex), pick(volume);
   }
 };
 

@@ -1,6 +1,7 @@
 // The mesh of a step: sizes, contact, nodes, the triangulation and which of its cells are fluid.
 #include <numeric>
 
+#include "fluid/droplets.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/landing.hpp"
 #include "fluid/parallel.hpp"
@@ -22,13 +23,50 @@ void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
     work.ledger.spray += (work.nodes.spray[i] - was_spray[i]) * work.nodes.volume[i];
 }
 
-// |grad| of all effects' potential energy per mass; effects that have one are uniform fields.
+// What all effects' potential energy per mass, -g.x, pulls with; effects that have one are uniform fields.
 template <int d>
-double Fluid<d>::State::gravity() const {
+Vec<d> Fluid<d>::State::gravity() const {
   Vec<d> g = Vec<d>::Zero();
   for (const auto& term : terms)
-    for (int k = 0; k < d; ++k) g[k] += term->potential(Vec<d>::Unit(k)) - term->potential(Vec<d>::Zero());
-  return g.norm();
+    for (int k = 0; k < d; ++k) g[k] -= term->potential(Vec<d>::Unit(k)) - term->potential(Vec<d>::Zero());
+  return g;
+}
+
+template <int d>
+void Fluid<d>::State::collect_drops() {
+  Nodes<d>& nodes = work.nodes;
+  auto carried = [&](const std::vector<char>& by) {
+    double volume = 0;
+    for (std::size_t i = 0; i < by.size(); ++i) volume += nodes.spray[i] * by[i] * nodes.volume[i];
+    return volume;
+  };
+  std::vector<char> left = join_drops(nodes, work.h);
+  const double flying = carried(left);
+  absorb_drops(nodes, work.h, work.mesh.boundary, left);
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (left[i]) kept.push_back(static_cast<int>(i));
+  if (kept.size() == nodes.size()) return;
+  work.ledger.spray -= flying - carried(left);
+  keep(kept, nodes, work.h, work.mesh.boundary);
+}
+
+// The nodes that are corners of cells come first, in space along a space-filling curve: neighbours are near in memory, and
+// in the same block of the smoother. How many they are.
+template <int d>
+std::size_t Fluid<d>::State::put_drops_last() {
+  std::vector<int> order(work.nodes.size());
+  if constexpr (d == 3) {
+    const auto curve = spatial_order<d>(work.nodes.x);
+    order.assign(curve.begin(), curve.end());
+  } else {
+    std::iota(order.begin(), order.end(), 0);
+  }
+  const auto is_liquid = [&](int i) { return !work.nodes.spray[i]; };
+  const auto beyond = std::stable_partition(order.begin(), order.end(), is_liquid);
+  const auto liquid = static_cast<std::size_t>(beyond - order.begin());
+  if (d == 3 || !std::is_sorted(order.begin(), order.end())) keep(order, work.nodes, work.h, work.mesh.boundary);
+  return liquid;
 }
 
 template <int d>
@@ -41,18 +79,17 @@ void Fluid<d>::State::prepare() {
   size_nodes();
   wet<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
   if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
-  if constexpr (d == 3) {
-    // Along a space-filling curve: neighbours are near in memory, and in the same block of the smoother.
-    const auto order = spatial_order<d>(work.nodes.x);
-    keep({order.begin(), order.end()}, work.nodes, work.h, work.mesh.boundary);
-  }
+  collect_drops();
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
+  const std::size_t liquid = put_drops_last();
   const std::vector<char> was_spray = work.nodes.spray;
-  const Delaunay<d> cells = triangulation.follow(work.nodes.x, work.nodes.vertex, work.mesh.boundary);
-  std::iota(work.nodes.vertex.begin(), work.nodes.vertex.end(), 0);
+  const Delaunay<d> cells = triangulation.follow(std::span(work.nodes.x).first(liquid),
+                                                 std::span(work.nodes.vertex).first(liquid), work.mesh.boundary);
+  std::iota(work.nodes.vertex.begin(), work.nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), 0);
+  std::fill(work.nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), work.nodes.vertex.end(), -1);
   work.mesh = recognise<d>(cells, work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
   book_spray(was_spray);
-  separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity());
+  separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   land(work.nodes, work.mesh);
   carried_p = work.nodes.p;
   const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);

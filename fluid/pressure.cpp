@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fluid/parallel.hpp"
@@ -10,7 +11,8 @@
 namespace splashdown::fluid {
 template <int d>
 bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density,
-                                std::span<const Vec<d>> centres, const WallResponse<d>& response) {
+                                std::span<const Vec<d>> centres, const WallResponse<d>& response,
+                                std::vector<HeldNode<d>> held) {
   nodes_ = &nodes;
   mesh_ = &mesh;
   response_ = response;
@@ -18,9 +20,41 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   measure(density);
   choose_unknowns();
   wall_modes(centres);
+  hold_mass(std::move(held), density);
   laplacian_.build(nodes, mesh, unknown_, response.stand_ins);
-  assemble();
+  assemble(matrix_);
+  laplacian_.add_to(matrix_);
   return (size() == 0 || factored()) && add_bodies();
+}
+
+template <int d>
+bool PressureEquation<d>::responds(std::size_t wall) const {
+  constexpr int m = freedoms<d>;
+  return motions() > 0 && !response_.modes.middleRows(static_cast<Eigen::Index>(wall) * m, m).isZero(0);
+}
+
+template <int d>
+void PressureEquation<d>::hold_mass(std::vector<HeldNode<d>> held, double density) {
+  held_.build(std::move(held), modes_.size(), density, lumped_);
+  held_modes_.assign(modes_.size(), {});
+  if (held_.empty()) return;
+  std::vector<double> share(per_mass_.size());
+  for (std::size_t c = 0; c < share.size(); ++c) share[c] = 1 / ((d + 2) * per_mass_[c]);
+  const AccelerationWeights<d> weights{*mesh_, nodes_->x, around_, gradients_, share, per_nodal_mass_};
+  for (std::size_t w = 0; w < modes_.size(); ++w) {
+    if (!responds(w)) continue;
+    for (const auto& column : held_.load(w, weights))
+      if (unknown_[column.node] >= 0) held_modes_[w].push_back({unknown_[column.node], column.wrench});
+  }
+}
+
+// Z^T R phi
+template <int d>
+Eigen::VectorXd PressureEquation<d>::of_held(std::span<const double> phi) const {
+  std::vector<Wrench<d>> loads(held_modes_.size(), Wrench<d>::Zero());
+  for (std::size_t w = 0; w < loads.size(); ++w)
+    for (const Mode& mode : held_modes_[w]) loads[w] += mode.row * phi[mode.unknown];
+  return on_motions(loads);
 }
 
 template <int d>
@@ -44,6 +78,15 @@ bool PressureEquation<d>::add_bodies() {
   Y_(Eigen::all, wet) = answers;
   added_mass_.setZero(motions(), motions());
   added_mass_(wet, wet) = loads.transpose() * answers;
+  held_inertia_.setZero(motions(), motions());
+  for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
+    if (!responds(w)) continue;
+    const Eigen::MatrixXd moves = response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    held_inertia_ += moves.transpose() * held_.inertia(w) * moves;
+  }
+  if (!held_.empty())
+    for (int k = 0; k < motions(); ++k)
+      held_inertia_.col(k) += of_held({Y_.col(k).data(), static_cast<std::size_t>(size())});
   allow(Eigen::MatrixXd::Identity(motions(), motions()));
   return true;
 }
@@ -53,7 +96,7 @@ template <int d>
 void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
   elimination_.setZero(motions(), motions());
   if (directions.cols() == 0) return;
-  const Eigen::MatrixXd total = directions.transpose() * (response_.inertia + added_mass_) * directions;
+  const Eigen::MatrixXd total = directions.transpose() * (response_.inertia + added_mass_ + held_inertia_) * directions;
   const Eigen::VectorXd diagonal = total.diagonal();
   Eigen::VectorXd unit(diagonal.size());
   for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = diagonal[i] > 0 ? 1 / std::sqrt(diagonal[i]) : 0.0;
@@ -61,8 +104,11 @@ void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
   const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
   // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
-  elimination_ = lifted * (solver_.is_direct() ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse) *
-                 lifted.transpose();
+  elimination_ =
+      lifted *
+      (solver_.is_direct() && held_inertia_.isZero(0) ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose()))
+                                                      : inverse) *
+      lifted.transpose();
 }
 
 template <int d>
@@ -111,14 +157,15 @@ void PressureEquation<d>::measure(double density) {
   for (std::size_t i = 0; i < count; ++i) free_spread_[i] *= facets[i];
 }
 
-// Contact lines keep phi = 0 where the water is a thin wedge there or separates. In space they hold much of the surface,
-// and steep ones keep their volume like the rest of it.
+// Contact lines keep phi = 0 where the water is a thin wedge there or separates. Steep ones keep their volume like the rest
+// of the surface: held to p = 0 they push still water about.
 template <int d>
 bool PressureEquation<d>::at_contact_line(int node) const {
-  constexpr double steep = 0.3;  // volume over surface^(3/2): 0.6 at a right angle, 0.2 at 30 degrees
+  // Volume over surface^(d/(d-1)): 0.7 to 1.3 (plane), 0.6 (space) at a right angle, 0.3, 0.2 at 30 degrees.
+  constexpr double steep = 0.3;
   const WallTie& tie = nodes_->tie[node];
   if (tie.wall < 0) return false;
-  return d == 2 || nodes_->separates[node] || lumped_[node] < steep * std::pow(free_measure_[node], d / (d - 1.0));
+  return nodes_->separates[node] || lumped_[node] < steep * std::pow(free_measure_[node], d / (d - 1.0));
 }
 
 template <int d>
@@ -126,7 +173,6 @@ void PressureEquation<d>::choose_unknowns() {
   // All surface nodes but those on a spike of the bulk: a volume this small for its surface, 0.43 on a flat one in
   // 2D, would be thrown by what little is left of the volume's error. Sheets are thin by nature, and their volume is kept
   // like any other's: left to fly, they gain volume, hence energy, while they stretch.
-  constexpr double spike = 0.1;
   auto on_sheet = [&](std::size_t i) {
     const auto around = around_.around(i);
     return std::any_of(around.begin(), around.end(), [&](const auto& at) {
@@ -137,7 +183,9 @@ void PressureEquation<d>::choose_unknowns() {
   unknown_.assign(nodes_->size(), -1);
   node_.clear();
   for (std::size_t i = 0; i < nodes_->size(); ++i) {
-    auto on_spike = [&] { return lumped_[i] < spike * std::pow(free_measure_[i], d / (d - 1.0)) && !on_sheet(i); };
+    auto on_spike = [&] {
+      return lumped_[i] < lightest_on_surface * std::pow(free_measure_[i], d / (d - 1.0)) && !on_sheet(i);
+    };
     const bool held = nodes_->surface[i] && (at_contact_line(static_cast<int>(i)) || on_spike());
     if (held || nodes_->spray[i]) {
       free_area_[i].setZero();
@@ -177,7 +225,7 @@ bool PressureEquation<d>::factored() {
 }
 
 template <int d>
-void PressureEquation<d>::assemble() {
+void PressureEquation<d>::assemble(SymmetricMatrix& matrix) {
   assembly_.build(mesh_->cells, around_, unknown_, node_, [&](int c, int a, int b) {
     const int i = mesh_->cells[c][a], j = mesh_->cells[c][b];
     const auto of_a = gradients_[c].col(a), of_b = gradients_[c].col(b);
@@ -186,12 +234,11 @@ void PressureEquation<d>::assemble() {
     if (nodes_->surface[j]) entry -= free_area_[j].dot(of_a) * per_nodal_mass_[j];
     return entry;
   });
-  matrix_.column_start.swap(assembly_.column_start);
-  matrix_.row.swap(assembly_.row);
-  matrix_.value.swap(assembly_.value);
+  matrix.column_start.swap(assembly_.column_start);
+  matrix.row.swap(assembly_.row);
+  matrix.value.swap(assembly_.value);
   for (int k = 0; k < size(); ++k)
-    matrix_.value[matrix_.column_start[k]] += 2 * free_spread_[node_[k]] * (d + 1) * per_nodal_mass_[node_[k]];
-  laplacian_.add_to(matrix_);
+    matrix.value[matrix.column_start[k]] += 2 * free_spread_[node_[k]] * (d + 1) * per_nodal_mass_[node_[k]];
 }
 
 template <int d>
@@ -299,7 +346,7 @@ template <int d>
 Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s,
                                              const Eigen::VectorXd& further) const {
   if (motions() == 0) return {};
-  const Eigen::VectorXd y = response(on_motions(impulses(phi)) + further);
+  const Eigen::VectorXd y = response(on_motions(impulses(phi)) + of_held(phi) + further);
   Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * y;
   move(y, s);
   return y;
@@ -334,15 +381,44 @@ Eigen::MatrixXd PressureEquation<d>::interface_slope(std::span<const std::size_t
   return slope;
 }
 
-// An interface Laplacian vanishes where its means are those of phi itself: m = Q phi eliminated, A is left.
+// K phi: the volume that the motion by an impulse takes out, in flux form.
+template <int d>
+Eigen::VectorXd PressureEquation<d>::taken_by(const Eigen::VectorXd& phi) const {
+  std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
+  accelerate({phi.data(), static_cast<std::size_t>(phi.size())}, v);
+  const std::vector<Twist<d>> still(modes_.size(), Twist<d>::Zero());
+  const std::vector<Vec<d>> origin(modes_.size(), Vec<d>::Zero());
+  std::vector<double> r;
+  flux_residual(nodes_->x, v, still, origin, r);
+  return -Eigen::Map<const Eigen::VectorXd>(r.data(), size());
+}
+
 template <int d>
 Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
-  const Eigen::MatrixXd slope = interface_slope(walls);
-  const auto count = static_cast<Eigen::Index>(walls.size()) * freedoms<d>, pieces = slope.rows() - count;
-  if (pieces == 0) return -slope;
-  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(pieces, pieces) - slope.bottomRightCorner(pieces, pieces);
-  return -slope.topLeftCorner(count, count) -
-         slope.topRightCorner(count, pieces) * left.partialPivLu().solve(slope.bottomLeftCorner(pieces, count));
+  constexpr int m = freedoms<d>;
+  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  Eigen::MatrixXd flux = Eigen::MatrixXd::Zero(size(), count);
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]])
+      flux.row(mode.unknown).segment(static_cast<Eigen::Index>(k) * m, m) += mode.row.transpose();
+  // An interface Laplacian in the factor is one body's answer, not the water's.
+  LinearSolver without{most_direct<d>};
+  LinearSolver& solver = laplacian_.pieces().empty() ? solver_ : without;
+  if (&solver == &without && flux.size() > 0) {
+    SymmetricMatrix water;
+    assemble(water);
+    without.factor(water);
+  }
+  Eigen::MatrixXd impulses = Eigen::MatrixXd::Zero(size(), count);
+  for (int pass = 0; pass <= corrections<d> && flux.size() > 0; ++pass) {
+    Eigen::MatrixXd left = flux;
+    for (Eigen::Index k = 0; k < count && pass > 0; ++k) left.col(k) -= taken_by(impulses.col(k));
+    if (!solver.solve({left.data(), static_cast<std::size_t>(left.size())}, static_cast<int>(count)))
+      return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
+    impulses += left;
+  }
+  const Eigen::MatrixXd G = flux.transpose() * impulses;
+  return 0.5 * (G + G.transpose());
 }
 
 template <int d>
@@ -381,6 +457,33 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     for (const auto [c, k] : around_.around(i)) weighted += rate_[c] * per_mass * (of_cell_[c] + change);
     v[i] += 2 * change - weighted;
   });
+}
+
+// 1 / (1 + z) on the spectrum of z = 1 - M_L^-1 M_C, [0, (d + 1) / (d + 2)]: exact at its ends and in value and slope at
+// z = 0, within 4 % between.
+template <int d>
+double PressureEquation<d>::kinetic_energy(std::span<const Vec<d>> v) const {
+  constexpr double stiffest = (d + 1.0) / (d + 2.0), curvature = 1 / (1 + stiffest);
+  of_cell_.resize(mesh_->cells.size());
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
+    Vec<d> sum = Vec<d>::Zero();
+    for (int n : mesh_->cells[c]) sum += v[n];
+    of_cell_[c] = sum;
+    rate_[c] = 1 / ((d + 1) * (d + 2) * per_mass_[c]);
+  });
+  double twice = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    double mass = 0;
+    Vec<d> consistent = Vec<d>::Zero();
+    for (const auto [c, k] : around_.around(i)) {
+      consistent += rate_[c] * (of_cell_[c] + v[i]);
+      mass += (d + 2) * rate_[c];
+    }
+    if (mass <= 0) continue;
+    const Vec<d> z = v[i] - consistent / mass;
+    twice += mass * (v[i].squaredNorm() - v[i].dot(z) + curvature * z.squaredNorm());
+  }
+  return 0.5 * twice;
 }
 
 template <int d>

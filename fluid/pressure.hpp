@@ -27,7 +27,8 @@
 //
 //   y = (M + G)^-1 (Z^T B phi_0 + e),   phi = phi_0 - Y y,   Y = A^-1 B^T Z,   G = Z^T B Y = added mass
 //
-// No M is inverted: the water's inertia is enough (docs/theory.md).
+// No M is inverted: the water's inertia is enough (docs/theory.md). Nodes that move with a wall add their mass to M and their
+// part of the load, R, to B on the body's side (held_mass.hpp).
 #pragma once
 
 #include <limits>
@@ -35,6 +36,7 @@
 #include <vector>
 
 #include "fluid/assembly.hpp"
+#include "fluid/held_mass.hpp"
 #include "fluid/interface_laplacian.hpp"
 #include "fluid/linear_solver.hpp"
 #include "fluid/mesh.hpp"
@@ -51,12 +53,22 @@ struct WallResponse {
   std::vector<StandIn> stand_ins;  ///< of each wall: local operators instead; empty: none at all
 };
 
+/// Volume of a node over the free surface around it to the power d/(d-1) below which it is the tip of a spike and carries
+/// no pressure; 0.43 on a flat surface in 2D.
+inline constexpr double lightest_on_surface = 0.1;
+
+/// Passes that bring a solution of A to one of K, the volume that an impulse really takes out: phi += A^-1 (r - K phi). With
+/// fewer in the plane roundoff on still water grows: by e in 3 s with three, in 40 s with six (docs/theory.md).
+template <int d>
+inline constexpr int corrections = d == 2 ? 10 : 4;
+
 template <int d>
 class PressureEquation {
  public:
-  /// Assembles and factors; `centres`: reference points of the walls. False if the factor fails.
+  /// Assembles and factors; `centres`: reference points of the walls, `held`: nodes whose mass moves with walls. False if
+  /// the factor fails.
   bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Vec<d>> centres,
-             const WallResponse<d>& response);
+             const WallResponse<d>& response, std::vector<HeldNode<d>> held = {});
   /// Restricts the motions to y = directions w, w of any size. All are allowed after build.
   void allow(const Eigen::MatrixXd& directions);
 
@@ -79,9 +91,11 @@ class PressureEquation {
   /// (M + G)^-1 impulse, in the directions allowed: what such an impulse changes in the motions.
   Eigen::VectorXd response(const Eigen::VectorXd& impulse) const { return elimination_ * impulse; }
   int motions() const { return static_cast<int>(response_.modes.cols()); }
+  const Eigen::MatrixXd& modes() const { return response_.modes; }      ///< Z
   const Eigen::MatrixXd& inertia() const { return response_.inertia; }  ///< M, of the motions alone
   /// Z^T of impulses on all walls.
   Eigen::VectorXd on_motions(std::span<const Wrench<d>> impulses) const;
+  const HeldMass<d>& held() const { return held_; }
   /// Adds Z y to the walls' twists.
   void move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const;
   const InterfaceLaplacian<d>& laplacian() const { return laplacian_; }
@@ -89,6 +103,9 @@ class PressureEquation {
   /// v -= M^-1 (int N grad phi - int_surface N phi n), M^-1 = (2 - M_L^-1 M_C) M_L^-1: lumped mass M_L and one
   /// sweep towards the consistent one M_C, which removes the second-order error of lumping.
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
+  /// Kinetic energy of the liquid [J; 2D: per metre] with the mass that `accelerate` moves, M = M_L (2 - M_L^-1 M_C)^-1: short
+  /// waves are up to (2d + 3) / (d + 2) times lighter than with lumping, and an impulse gives them as much more velocity.
+  double kinetic_energy(std::span<const Vec<d>> v) const;
   /// B phi of a wall: impulse on the body about its reference point.
   Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
   std::vector<Wrench<d>> impulses(std::span<const double> phi) const;  ///< of all walls
@@ -97,9 +114,9 @@ class PressureEquation {
   /// Slope of a solve: what twists of walls and impulses that Laplacians lag on change in the walls' impulses and in
   /// the means,  d(B phi, Q phi) / d(s, m) = (B; Q) (A + K)^-1 (-B^T, Q^T L). NaN if a solve fails.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls);
-  /// G = B A^-1 B^T [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the
-  /// world frame: whatever answers they have in this equation. One right-hand side a freedom on the factor that is
-  /// there; what an interface Laplacian adds to it is taken out again. NaN if a solve fails.
+  /// G = B X [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the world frame,
+  /// whatever answers they have in this equation. X solves A X = B^T and gets the corrections of a step, so that this is the
+  /// inertia which bodies meet in it. NaN if a solve fails.
   Eigen::MatrixXd added_mass_of(std::span<const std::size_t> walls);
 
   int size() const { return static_cast<int>(node_.size()); }
@@ -114,10 +131,14 @@ class PressureEquation {
   void measure(double density);
   void choose_unknowns();
   bool at_contact_line(int node) const;
-  void assemble();
+  void assemble(SymmetricMatrix& matrix);
   bool factored();
   void wall_modes(std::span<const Vec<d>> centres);
+  void hold_mass(std::vector<HeldNode<d>> held, double density);
   bool add_bodies();
+  bool responds(std::size_t wall) const;
+  Eigen::VectorXd taken_by(const Eigen::VectorXd& phi) const;
+  Eigen::VectorXd of_held(std::span<const double> phi) const;
 
   const Nodes<d>* nodes_ = nullptr;
   const Mesh<d>* mesh_ = nullptr;
@@ -141,9 +162,12 @@ class PressureEquation {
     Wrench<d> row;  // column of B
   };
   std::vector<std::vector<Mode>> modes_;  // of each wall
+  HeldMass<d> held_;
+  std::vector<std::vector<Mode>> held_modes_;  // R of each wall that responds
   InterfaceLaplacian<d> laplacian_;
   WallResponse<d> response_;
   Eigen::MatrixXd Y_, added_mass_, elimination_;
+  Eigen::MatrixXd held_inertia_;  // Z^T (M_h + R Y): what the held mass adds to M + G
 };
 
 extern template class PressureEquation<2>;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "fluid/inside.hpp"
 #include "fluid/parallel.hpp"
@@ -12,6 +11,7 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double flat = 1e-7;         // volume over longest edge^d below which a cell is degenerate
+constexpr double dust = 2e-4;         // volume over h^d below which a cell is no liquid: films of a thousandth of h
 constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, belong to no fluid cell
 constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
 constexpr double facet_sag = 0.1;     // gap between a wetted facet and its wall, at most, over its length
@@ -103,14 +103,6 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
   return at.walls[wall].nearest(at.poses[wall], centre, length).distance < facet_sag * length;
 }
 
-// Drops join what is as near as they are large, however coarse the mesh that they fly over: the size of elements whose
-// nodes, sqrt(2)/h^3 where they are packed most closely, hold this volume each. In the plane scenes keep their volume
-// without that.
-template <int d>
-double drop_size(double volume) {
-  return d == 2 ? std::numeric_limits<double>::infinity() : std::cbrt(std::numbers::sqrt2 * volume);
-}
-
 // In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
 // their pressure would be anything. One across a crease would leave a hole in the water.
 template <int d>
@@ -151,12 +143,6 @@ Mesh<d> recognise(const Delaunay<d>& all, Nodes<d>& nodes, std::span<const doubl
   std::vector<char> inner(nodes.size(), 1);
   for (const auto& f : old_boundary)
     for (int n : f.nodes) inner[n] = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes.spray[i]) inner[i] = 0;
-
-  std::vector<double> size_at(h.begin(), h.end());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes.spray[i]) size_at[i] = std::min(h[i], drop_size<d>(nodes.volume[i]));
 
   std::vector<char> is_fluid(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) {
@@ -167,10 +153,11 @@ Mesh<d> recognise(const Delaunay<d>& all, Nodes<d>& nodes, std::span<const doubl
     bool has_inner = false;
     Vec<d> centroid = Vec<d>::Zero();
     for (int n : cell) {
-      size += size_at[n] / (d + 1);
+      size += h[n] / (d + 1);
       centroid += nodes.x[n] / (d + 1);
       has_inner = has_inner || inner[n];
     }
+    if (!has_inner && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d)) return;
     const double alpha = s.radius / size;
     is_fluid[c] = alpha <= limit.never &&
                   ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&

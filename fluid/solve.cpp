@@ -8,9 +8,9 @@
 namespace splashdown::fluid {
 namespace {
 
-// Measured on a standing wave: with fewer its amplitude drifts by more than 0.5 % a period.
-constexpr int corrections = 3;
 constexpr int repairs = 2;
+constexpr double most_gain =
+    0.05;  // by a repair, over the energies in it: what its truncation and their lumping may feign
 // Tolerances of iterative solves. Each pass of the repair and of the corrections leaves a tenth of the residual anyhow;
 // the pressure solve takes out what the repair leaves of the flux, the corrections what the pressure solve leaves.
 constexpr double closely = 1e-4, roughly = 1e-2;
@@ -26,12 +26,11 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   trial.s_before = work.velocity;
   trial.x_mid.resize(trial.v.size());
   trial.on_walls.assign(walls.size(), Wrench<d>::Zero());
-  trial.dragged = trial.on_walls;
   trial.known.setZero(equation.motions());
   trial.answer = trial.known;
   if (drive.directions.size() > 0 || drive.impulse.size() > 0) equation.allow(drive.directions);
   if (auto status = repair(); !status.ok()) return status;
-  if (auto status = predict(); !status.ok()) return status;
+  if (auto status = predict(drive); !status.ok()) return status;
   {
     const auto scope = timer.scope(pressure);
     if (auto status = press(given, previous); !status.ok()) return status;
@@ -53,20 +52,54 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
   equation.laplacian().add(change, residual);
 }
 
-// The carried velocity, seen at t_{n-1/2} on the new mesh, creates no volume.
+// The carried velocity, seen at t_{n-1/2} on the new mesh, creates no volume. Nodes that have come to a wall's edge since
+// then, or stick to it, share their momentum with it.
 template <int d>
 Status Fluid<d>::State::repair() {
   const auto scope = timer.scope(pressure);
   auto& v = trial.v;
   auto& r = trial.r;
   auto& s_before = trial.s_before;
+  const auto& held = equation.held();
   trial.repaired.assign(equation.size(), 0.0);
+  trial.repair_handed.assign(walls.size(), Wrench<d>::Zero());
   energy_before = kinetic_energy(v);
+  Eigen::VectorXd excess = equation.on_motions(held.excess(v, s_before));
+  std::vector<Vec<d>> free = v;  // as if no wall held them
   for (int k = 0; k < repairs; ++k) {
     middle(v, -0.5 * work.dt);
     equation.flux_residual(trial.x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
-    if (!solve_with_bodies(r, s_before, roughly)) return {"the pressure solve failed"};
-    equation.accelerate(r, v);
+    if (!equation.solve(r, roughly)) return {"the pressure solve failed"};
+    const auto s_0 = s_before;
+    const auto free_0 = free;
+    const Eigen::VectorXd answer_0 = trial.answer;
+    const double energy_0 = equation.kinetic_energy(v);
+    auto handed = held.excess(free, s_before);
+    answer_to(r, s_before, excess);
+    excess.setZero();  // what follows is linear, and answered with the pressure
+    equation.accelerate(r, free);
+    const auto handed_after = held.excess(free, s_before);
+    for (std::size_t w = 0; w < handed.size(); ++w) handed[w] = handed_after[w] - (k > 0) * handed[w];
+    v = free;
+    held.hold(v, s_before);
+    // It is a projection: what it gives to the water it takes from bodies. Where films are worn to nodes of hardly any mass
+    // the truncated one may not be, and counts by a half, a quarter, not at all.
+    double taken = 1;
+    auto gains = [&] {
+      const double given = work_of(r, s_0, s_before);
+      return equation.kinetic_energy(v) + given > energy_0 + most_gain * (energy_0 + std::abs(given));
+    };
+    while (taken > 0 && gains()) {
+      const double less = taken > 0.25 ? 0.5 : 0.0;
+      taken *= less;
+      for (double& impulse : r) impulse *= less;
+      for (std::size_t w = 0; w < s_0.size(); ++w) s_before[w] = s_0[w] + less * (s_before[w] - s_0[w]);
+      for (std::size_t i = 0; i < v.size(); ++i) free[i] = free_0[i] + less * (free[i] - free_0[i]);
+      trial.answer = answer_0 + less * (trial.answer - answer_0);
+      v = free;
+      held.hold(v, s_before);
+    }
+    for (std::size_t w = 0; w < handed.size(); ++w) trial.repair_handed[w] += taken * handed[w];
     for (int i = 0; i < equation.size(); ++i) trial.repaired[i] += r[i];
   }
   energy_repaired = kinetic_energy(v);
@@ -74,17 +107,29 @@ Status Fluid<d>::State::repair() {
 }
 
 template <int d>
-Status Fluid<d>::State::predict() {
+Status Fluid<d>::State::predict(const MotionDrive& drive) {
   std::vector<Vec<d>> carried;
   if (!terms.empty()) {
     const auto scope = timer.scope(momentum);
     carried = trial.v;
   }
+  const MotionView bodies{equation.modes(), equation.inertia(), drive.directions};
+  const std::vector<Twist<d>> carried_walls = trial.s_before;
+  Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation.motions());
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const auto scope = timer.scope(effects + t);
-    if (auto status = terms[t]->predict(view(), {carried, trial.s_before}, {trial.v, trial.on_walls}); !status.ok())
+    const bool answers = equation.motions() > 0;
+    if (auto status = terms[t]->predict(view(answers ? &bodies : nullptr), {carried, carried_walls},
+                                        {trial.v, trial.on_walls, answers ? &answer : nullptr});
+        !status.ok())
       return status;
   }
+  if (equation.motions() == 0) return {};
+  const Eigen::VectorXd answered = equation.inertia() * answer;
+  trial.known += answered;
+  trial.answer += answer;
+  equation.move(answer, trial.s_before);
+  trial.unanswered = equation.on_motions(trial.on_walls) - answered;
   return {};
 }
 
@@ -96,29 +141,21 @@ Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const d
   middle(trial.v, 0.5 * dt);
   equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
   if (!previous.empty()) equation.laplacian().add(previous, phi);
-  if (!equation.solve(phi, closely, carried_impulse(false))) return {"the pressure solve failed"};
-  answer_to(phi, s_after);
-  push(equation.on_motions(trial.on_walls));
+  if (!equation.solve(phi, closely, carried_impulse())) return {"the pressure solve failed"};
+  answer_to(phi, s_after, equation.on_motions(equation.held().excess(trial.v, s_after)));
+  if (equation.motions() > 0) push(trial.unanswered);
   return {};
 }
 
 template <int d>
 Status Fluid<d>::State::correct(std::span<const double> previous) {
   auto& r = trial.r;
-  const auto& unknown = equation.unknown();
   const std::size_t count = trial.v.size();
-  // They start from what they found in the last step, so that they converge over the steps.
-  const std::vector<double> uncorrected = phi;
-  for (std::size_t i = 0; i < count; ++i)
-    if (unknown[i] >= 0) r[unknown[i]] = kick * work.nodes.q[i];
-  answer_to(r, s_after);
-  for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
   for (int k = 0;; ++k) {
     v_after = trial.v;
     equation.accelerate(phi, v_after);
     wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
-    if (k == corrections) break;
-    if (wall_motion->drags()) stick(trial.dragged);
+    if (k == corrections<d>) break;
     in_parallel(count, [&](std::size_t i) { trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]); });
     equation.motion_residual(trial.x_mid, moved.u, r);
     equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides, r);
@@ -126,28 +163,26 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
     if (!solve_with_bodies(r, s_after, roughly)) return {"the pressure solve failed"};
     for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
   }
-  found_by_corrections.assign(count, 0.0);
-  for (std::size_t i = 0; i < count; ++i)
-    if (unknown[i] >= 0) found_by_corrections[i] = (phi[unknown[i]] - uncorrected[unknown[i]]) / kick;
   return {};
 }
 
 // Loads, pressures and energies of the solution.
 template <int d>
 void Fluid<d>::State::weigh() {
+  trial.handed = equation.held().excess(v_after, s_after);
   interface = equation.laplacian().means(phi);
   loads.assign(walls.size(), {});
-  std::vector<Wrench<d>> by_pressure;
+  std::vector<Wrench<d>> answered;  // with the pressure
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const Wrench<d> repair = equation.impulse(w, trial.repaired), physical = equation.impulse(w, phi);
-    loads[w].physical = (physical + trial.on_walls[w] + trial.dragged[w]) / kick;
-    loads[w].repair = repair / kick;
+    loads[w].physical = (physical + trial.on_walls[w] + trial.handed[w]) / kick;
+    loads[w].repair = (repair + trial.repair_handed[w]) / kick;
     loads[w].wetted = work.wetted[w];
-    by_pressure.push_back(repair + physical);
+    answered.push_back(repair + physical + trial.handed[w] + trial.repair_handed[w]);
   }
   imbalance.assign(walls.size(), Twist<d>::Zero());
   if (equation.motions() > 0)
-    equation.move(equation.response(equation.on_motions(by_pressure) + trial.known - equation.inertia() * trial.answer),
+    equation.move(equation.response(equation.on_motions(answered) + trial.known - equation.inertia() * trial.answer),
                   imbalance);
   Ledger& ledger = work.ledger;
   power_on_walls = 0;
@@ -155,12 +190,15 @@ void Fluid<d>::State::weigh() {
     power_on_walls += loads[w].total().dot(0.5 * (s_after[w] + work.velocity[w]));
   ledger.work_on_walls = now.ledger.work_on_walls + 0.5 * work.dt * power_on_walls;
   ledger.kinetic_energy = ledger.potential_energy = 0;
+  std::vector<Vec<d>> v_n(trial.v.size());
   for (std::size_t i = 0; i < trial.v.size(); ++i) {
     work.nodes.p[i] = equation.unknown()[i] < 0 ? 0.0 : phi[equation.unknown()[i]] / kick;
     const double mass = spec.density * (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]);
-    ledger.kinetic_energy += 0.5 * mass * (0.5 * (work.nodes.v[i] + moved.u[i])).squaredNorm();
+    v_n[i] = 0.5 * (work.nodes.v[i] + moved.u[i]);
+    if (work.nodes.spray[i]) ledger.kinetic_energy += 0.5 * mass * v_n[i].squaredNorm();
     for (const auto& term : terms) ledger.potential_energy += mass * term->potential(work.nodes.x[i]);
   }
+  ledger.kinetic_energy += equation.kinetic_energy(v_n);
 }
 
 template <int d>
@@ -199,8 +237,9 @@ bool Fluid<d>::State::solve_with_bodies(std::vector<double>& r, std::vector<Twis
   return true;
 }
 template <int d>
-void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s) {
-  if (equation.motions() > 0) trial.answer += equation.respond(impulses, s, Eigen::VectorXd::Zero(equation.motions()));
+void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s,
+                                const Eigen::VectorXd& further) {
+  if (equation.motions() > 0) trial.answer += equation.respond(impulses, s, further);
 }
 
 // A further impulse on the motions: water and bodies answer.
@@ -213,25 +252,22 @@ void Fluid<d>::State::push(const Eigen::VectorXd& impulse) {
   for (std::size_t i = 0; i < phi.size(); ++i) phi[i] += none[i];
 }
 
-// Nodes that stick hand what the pressure and the forces left along their wall over to it. Part of the
-// corrections: bodies that respond get the new part of it. Returns the impulses on all walls.
+// The first guess of impulses is the pressure of the last step.
 template <int d>
-void Fluid<d>::State::stick(std::vector<Wrench<d>>& impulses) {
-  std::vector<Wrench<d>> now_on_walls;
-  wall_motion->drag(v_after, moved.u, spec.density, equation.lumped_volume(), now_on_walls);
-  for (std::size_t w = 0; w < walls.size(); ++w) impulses[w] = now_on_walls[w] - impulses[w];
-  push(equation.on_motions(impulses));
-  impulses = std::move(now_on_walls);
-}
-
-// The first guess of impulses is the pressure of the last step, with what the corrections found and without.
-template <int d>
-std::vector<double> Fluid<d>::State::carried_impulse(bool corrected) const {
+std::vector<double> Fluid<d>::State::carried_impulse() const {
   std::vector<double> carried(equation.size());
   for (std::size_t i = 0; i < carried_p.size(); ++i)
-    if (const int k = equation.unknown()[i]; k >= 0)
-      carried[k] = kick * (corrected ? carried_p[i] : carried_p[i] - work.nodes.q[i]);
+    if (const int k = equation.unknown()[i]; k >= 0) carried[k] = kick * carried_p[i];
   return carried;
+}
+
+// Of pressure impulses on walls that change their velocities from s_0 to s_1.
+template <int d>
+double Fluid<d>::State::work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0,
+                                std::span<const Twist<d>> s_1) const {
+  double work_done = 0;
+  for (std::size_t w = 0; w < s_0.size(); ++w) work_done += equation.impulse(w, impulses).dot(0.5 * (s_0[w] + s_1[w]));
+  return work_done;
 }
 
 template <int d>

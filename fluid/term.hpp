@@ -19,6 +19,12 @@
 
 namespace splashdown::fluid {
 
+/// Motions of walls that answer the fluid: twists of all walls = modes y, inertia of y, and the combinations of them that may
+/// occur (empty: all).
+struct MotionView {
+  const Eigen::MatrixXd &modes, &inertia, &directions;
+};
+
 /// What an effect sees of the fluid during a step.
 template <int d>
 struct StepView {
@@ -29,7 +35,8 @@ struct StepView {
   std::span<const double> lumped_volume;  ///< of nodes [m^d]
   const NodeCells<d>& around;             ///< the cells around each node
   std::span<const WallSpec<d>> walls;
-  std::span<const Isometry<d>> poses;  ///< of walls, at t_n
+  std::span<const Isometry<d>> poses;   ///< of walls, at t_n
+  const MotionView* motions = nullptr;  ///< nullptr: no wall answers
 };
 
 /// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
@@ -44,6 +51,9 @@ template <int d>
 struct Predicted {
   std::span<Vec<d>> v;            ///< of nodes [m/s]
   std::span<Wrench<d>> on_walls;  ///< impulse on each wall about its origin [N s]
+  /// Of the motions that answer: what an effect that solves for them with the fluid has changed in them, on_walls being the
+  /// impulse that did it. nullptr: none answers.
+  Eigen::VectorXd* answer = nullptr;
 };
 
 /// Name and value of a number worth recording.

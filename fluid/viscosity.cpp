@@ -1,5 +1,8 @@
 #include "fluid/viscosity.hpp"
 
+#include <Eigen/QR>
+#include <algorithm>
+
 namespace splashdown::fluid {
 namespace {
 
@@ -124,48 +127,103 @@ void Viscosity<d>::stress(const StepView<d>& step, std::span<const Vec<d>> v, st
   });
 }
 
+template <int d>
+void Viscosity<d>::react(const StepView<d>& step, std::span<const Vec<d>> change, std::span<const Vec<d>> moved,
+                         std::vector<Wrench<d>>& on_walls) {
+  stress(step, moved, force_);
+  on_walls.assign(step.walls.size(), Wrench<d>::Zero());
+  for (const Held& h : held_) {
+    const double mass = step.density * step.lumped_volume[h.node];
+    const Vec<d> impulse = mass * change[h.node] + step.kick * force_[h.node];
+    const int wall = step.nodes.tie[h.node].wall;
+    on_walls[wall] -= wrench_of<d>(step.nodes.x[h.node] - step.poses[wall].translation(), impulse - h.free * impulse);
+  }
+}
+
+// P (M + kick K) P y = -kick P K (field), field += P y.
+template <int d>
+bool Viscosity<d>::follow(const StepView<d>& step, std::vector<std::vector<Vec<d>>>& fields) {
+  const std::size_t rows = d * node_.size();
+  rhs_.resize(rows * fields.size());
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    stress(step, fields[k], force_);
+    for (std::size_t i = 0; i < node_.size(); ++i) {
+      Vec<d> f = -step.kick * force_[node_[i]];
+      if (const int held = held_at_[node_[i]]; held >= 0) f = held_[held].free * f;
+      std::copy(f.begin(), f.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(rows * k + d * i));
+    }
+  }
+  if (!solver_.solve(rhs_, static_cast<int>(fields.size()))) return false;
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    for (std::size_t i = 0; i < node_.size(); ++i)
+      fields[k][node_[i]] += Eigen::Map<const Vec<d>>(&rhs_[rows * k + d * i]);
+  return true;
+}
+
+// The bodies' part of the implicit step: their motions take held nodes along, those the water around them.
+template <int d>
+bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<Wrench<d>>& on_walls) {
+  const MotionView& bodies = *step.motions;
+  const Eigen::Index count = bodies.modes.cols();
+  auto on_motions = [&](std::span<const Wrench<d>> impulses) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
+    for (std::size_t w = 0; w < impulses.size(); ++w)
+      sum += bodies.modes.middleRows(static_cast<Eigen::Index>(w) * freedoms<d>, freedoms<d>).transpose() * impulses[w];
+    return sum;
+  };
+  std::vector<std::vector<Vec<d>>> fields(count, std::vector<Vec<d>>(step.nodes.size(), Vec<d>::Zero()));
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (const Held& h : held_) {
+      const int wall = step.nodes.tie[h.node].wall;
+      const Twist<d> twist = bodies.modes.col(k).template segment<freedoms<d>>(wall * freedoms<d>);
+      const Vec<d> w = rigid_velocity<d>(twist, step.nodes.x[h.node] - step.poses[wall].translation());
+      fields[k][h.node] = w - h.free * w;
+    }
+  if (!follow(step, fields)) return false;
+  Eigen::MatrixXd total = bodies.inertia;
+  std::vector<std::vector<Wrench<d>>> reaction(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    react(step, fields[k], fields[k], reaction[k]);
+    total.col(k) -= on_motions(reaction[k]);
+  }
+  const Eigen::MatrixXd directions =
+      bodies.directions.size() > 0 ? bodies.directions : Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd allowed = directions.transpose() * total * directions;
+  const Eigen::VectorXd y =
+      directions * allowed.completeOrthogonalDecomposition().solve(directions.transpose() * on_motions(on_walls));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k][i];
+    for (std::size_t w = 0; w < on_walls.size(); ++w) on_walls[w] += y[k] * reaction[k][w];
+  }
+  *predicted.answer += y;
+  return true;
+}
+
 // dv = c + P y: c is given by sticking walls, y solves what P leaves of the equation.
 template <int d>
 Status Viscosity<d>::predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) {
   power_ = 0;
   if (node_.empty()) return {};
   const auto& nodes = step.nodes;
-  change_.assign(nodes.size(), Vec<d>::Zero());
+  std::vector<std::vector<Vec<d>>> moved(1, {carried.v.begin(), carried.v.end()});
   for (const Held& h : held_) {
     if (!h.sticks) continue;
     const int wall = nodes.tie[h.node].wall;
-    change_[h.node] =
-        rigid_velocity<d>(carried.walls[wall], nodes.x[h.node] - step.poses[wall].translation()) - carried.v[h.node];
+    moved[0][h.node] = rigid_velocity<d>(carried.walls[wall], nodes.x[h.node] - step.poses[wall].translation());
   }
-  auto move = [&] {
-    moved_.resize(nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) moved_[i] = carried.v[i] + change_[i];
-  };
-  move();
-  stress(step, moved_, force_);
-  rhs_.resize(d * node_.size());
-  for (std::size_t i = 0; i < node_.size(); ++i) {
-    Vec<d> f = -step.kick * force_[node_[i]];
-    if (const int held = held_at_[node_[i]]; held >= 0) f = held_[held].free * f;
-    std::copy(f.begin(), f.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(d * i));
-  }
-  if (!solver_.solve(rhs_)) return {"the viscous solve failed"};
-  for (std::size_t i = 0; i < node_.size(); ++i) change_[node_[i]] += Eigen::Map<const Vec<d>>(&rhs_[d * i]);
-  move();
-  stress(step, moved_, force_);
-
+  if (!follow(step, moved)) return {"the viscous solve failed"};
+  change_ = std::move(moved[0]);
+  moved_ = change_;
+  for (std::size_t i = 0; i < change_.size(); ++i) change_[i] -= carried.v[i];
+  std::vector<Wrench<d>> on_walls;
+  react(step, change_, moved_, on_walls);
+  if (step.motions && !answer(step, predicted, on_walls)) return {"the viscous solve failed"};
   for (int i : node_) {
     predicted.v[i] += change_[i];
     const double mass = step.density * step.lumped_volume[i];
-    power_ += 0.5 * mass * change_[i].dot(carried.v[i] + moved_[i]) / step.kick;
+    power_ += 0.5 * mass * change_[i].dot(2 * carried.v[i] + change_[i]) / step.kick;
   }
-  for (const Held& h : held_) {
-    const double mass = step.density * step.lumped_volume[h.node];
-    const Vec<d> impulse = mass * change_[h.node] + step.kick * force_[h.node];
-    const int wall = nodes.tie[h.node].wall;
-    const Vec<d> arm = nodes.x[h.node] - step.poses[wall].translation();
-    predicted.on_walls[wall] -= wrench_of<d>(arm, impulse - h.free * impulse);
-  }
+  for (std::size_t w = 0; w < on_walls.size(); ++w) predicted.on_walls[w] += on_walls[w];
   return {};
 }
 

@@ -11,8 +11,9 @@
 //            sticks cannot move (Huh, Scriven, J. Colloid Interface Sci. 35, 1971), so its nodes slip
 //
 // Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any kick;
-// one system of d unknowns a node per step, factored or, if large and in space, solved by multigrid. A free body feels
-// the reaction of its velocity before the kick: its mass has to exceed that of the water the kick drags along.
+// one system of d unknowns a node per step, factored or, if large and in space, solved by multigrid. Bodies that answer the
+// pressure answer the stresses in the same implicit step: with the fields u_k that unit velocities of their motions make,
+// (M + C) y = Z^T f_0, C_jk = sum of u_j over held directions . (M_L + kick K) u_k, so that no mass is too small for any viscosity.
 #pragma once
 
 #include "fluid/assembly.hpp"
@@ -43,6 +44,12 @@ class Viscosity final : public Term<d> {
   void number_nodes(const StepView<d>& step);
   void find_held(const StepView<d>& step);
   void assemble(const StepView<d>& step);
+  /// Impulse on the walls of what they impose: of changes of velocity and of velocities after them.
+  void react(const StepView<d>& step, std::span<const Vec<d>> change, std::span<const Vec<d>> moved,
+             std::vector<Wrench<d>>& on_walls);
+  /// Lets the free nodes follow given velocities `held` of the others, in place; several fields at once.
+  bool follow(const StepView<d>& step, std::vector<std::vector<Vec<d>>>& fields);
+  bool answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<Wrench<d>>& on_walls);
   /// force = K v at all nodes.
   void stress(const StepView<d>& step, std::span<const Vec<d>> v, std::vector<Vec<d>>& force) const;
 

@@ -39,6 +39,7 @@ Wall<d>::Wall(const WallSpec<d>& spec)
   find_corners();
   find_patches();
   find_bends();
+  find_convexity();
 }
 
 template <int d>
@@ -184,6 +185,27 @@ void Wall<d>::find_bends() {
     if (curvature[v] > straight) bends_.push_back({vertices.col(v), 1 / curvature[v]});
 }
 
+// Seen from each facet, the others at the corner or beyond the crease lie behind it.
+template <int d>
+void Wall<d>::find_convexity() {
+  const auto& vertices = spec_.surface.vertices;
+  const auto& facets = spec_.surface.facets;
+  auto stands_out = [&](int v, int f, int from) {
+    return (vertices.col(v) - vertices.col(from)).dot(normal_.col(f)) > tiny_;
+  };
+  convex_corner_.assign(vertices.cols(), 1);
+  for (int v : corners_)
+    for (int f : facets_of_[v])
+      for (int g : facets_of_[v])
+        for (int k = 0; k < d; ++k)
+          if (stands_out(facets(k, g), f, v)) convex_corner_[v] = 0;
+  convex_crease_.assign(creases_.size(), 1);
+  for (int f = 0; f < facets.cols() && d == 3; ++f)
+    for (int k = 0; k < d; ++k)
+      for (int j = 0; j < d && crease_of_(k, f) >= 0; ++j)
+        if (stands_out(facets(j, across_(k, f)), f, facets(k, f))) convex_crease_[crease_of_(k, f)] = 0;
+}
+
 template <int d>
 typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& local,
                                         const typename FacetTree<d>::Hit& hit, int facet) const {
@@ -230,14 +252,24 @@ typename Wall<d>::Near Wall<d>::nearest_on_patch(const Isometry<d>& pose, const 
 }
 
 template <int d>
-Vec<d> Wall<d>::nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
-  const Vec<d> local = pose.inverse() * x;
-  Vec<d> best = Vec<d>::Constant(std::numeric_limits<double>::infinity());
+typename Wall<d>::OnCrease Wall<d>::on_crease(const Vec<d>& local, int crease) const {
+  OnCrease best{Vec<d>::Constant(std::numeric_limits<double>::infinity()), Vec<d>::Zero()};
   for (const auto& [a, b] : creases_[crease]) {
-    const Vec<d> c = closest_on_segment<d>(spec_.surface.vertices.col(a), spec_.surface.vertices.col(b), local);
-    if ((c - local).squaredNorm() < (best - local).squaredNorm()) best = c;
+    const Vec<d> from = spec_.surface.vertices.col(a), to = spec_.surface.vertices.col(b);
+    const Vec<d> c = closest_on_segment<d>(from, to, local);
+    if ((c - local).squaredNorm() < (best.point - local).squaredNorm()) best = {c, to - from};
   }
-  return pose * best;
+  return best;
+}
+
+template <int d>
+Vec<d> Wall<d>::nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
+  return pose * on_crease(pose.inverse() * x, crease).point;
+}
+
+template <int d>
+Vec<d> Wall<d>::crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
+  return pose.linear() * on_crease(pose.inverse() * x, crease).along.normalized();
 }
 
 template <int d>

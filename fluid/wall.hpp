@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fluid/facet_tree.hpp"
+#include "fluid/nodes.hpp"
 #include "fluid/spec.hpp"
 
 namespace splashdown::fluid {
@@ -33,6 +34,8 @@ class Wall {
   Near nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const;
   /// Closest point of a crease.
   Vec<d> nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
+  /// Unit vector along the crease where it is nearest.
+  Vec<d> crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
   struct Crossing {
     int crease = -1;
     Vec<d> point = Vec<d>::Zero();  ///< of the crease, world frame
@@ -41,6 +44,10 @@ class Wall {
   };
   /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
   Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
+  /// Whether the solid is convex at this corner or along this crease: water flows around it. In hollow ones it stays.
+  bool is_convex(const WallTie& sharp) const {
+    return sharp.vertex >= 0 ? convex_corner_[sharp.vertex] != 0 : convex_crease_[sharp.crease] != 0;
+  }
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
@@ -68,7 +75,12 @@ class Wall {
   void find_corners();
   void find_patches();
   void find_bends();
+  void find_convexity();
   bool is_crease(int f, int g) const;
+  struct OnCrease {
+    Vec<d> point, along;  // in the wall's frame
+  };
+  OnCrease on_crease(const Vec<d>& local, int crease) const;
   Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
 
   WallSpec<d> spec_;
@@ -85,7 +97,8 @@ class Wall {
   std::vector<std::vector<std::array<int, 2>>> creases_;  // edges of each
   std::vector<int> corners_;
   std::vector<Bend> bends_;
-  std::vector<char> is_corner_, is_sharp_;  // of vertices; sharp: a corner or on a crease
+  std::vector<char> is_corner_, is_sharp_;           // of vertices; sharp: a corner or on a crease
+  std::vector<char> convex_corner_, convex_crease_;  // of vertices, of creases
   Eigen::AlignedBox<double, d> box_;
   bool turned_inside_out_;  // the solid is outside
   double tiny_;             // length below which points coincide

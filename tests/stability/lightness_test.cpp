@@ -208,15 +208,16 @@ TEST(RobinTerm, converges_where_plain_exchange_diverges) {
 
 TEST(RobinTerm, needs_no_relaxation_for_a_light_body_that_slams) {
   // 2 K + A > S on a hull between contact lines, for any mass: convergence, slower for lighter bodies (docs/theory.md).
-  const auto most_passes = [](double ratio, std::unique_ptr<coupling::InterfaceTerm<2>> term) {
+  const auto most_passes = [](double ratio, std::unique_ptr<coupling::InterfaceTerm<2>> term, int steps = 25) {
     const auto stepper =
         scenes::coupled(scenes::wedge_drop(ratio * 36, 0.001, 0.02), std::move(term),
                         std::make_unique<coupling::ConstantRelaxation>(1.0), {.tolerance = 1e-6, .max_passes = 500});
-    return scenes::run(*stepper, 25);
+    return scenes::run(*stepper, steps);
   };
   for (double ratio : {1.0 / 3, 0.1, 0.01}) {
     EXPECT_GT(most_passes(ratio, std::make_unique<coupling::RobinTerm<2>>()), 1) << ratio << ": a step was refused";
-    EXPECT_EQ(most_passes(ratio, std::make_unique<coupling::NoTerm<2>>()), -1) << ratio;
+    // It diverges as soon as the wetted width, and with it M_a, has grown beyond m.
+    EXPECT_EQ(most_passes(ratio, std::make_unique<coupling::NoTerm<2>>(), 50), -1) << ratio;
   }
 }
 

@@ -29,12 +29,12 @@ TYPED_TEST(Landing, a_drop_brings_its_own_momentum_and_no_more) {
   const double share = nodes.volume[drop];
   nodes.volume[drop] = share / 100;
   nodes.v[drop] = Vec<d>::Constant(-20);
-  nodes.q[drop] = 1;
+  nodes.p[drop] = 1;
   land(nodes, p.mesh);
   // share * v = drop's momentum + the rest's
   const Vec<d> momentum = share / 100 * Vec<d>::Constant(-20) + 0.99 * share * Vec<d>::Constant(0.5);
   EXPECT_LE((share * nodes.v[drop] - momentum).norm(), 100 * scenes::eps * share);
-  EXPECT_EQ(nodes.q[drop], 0);
+  EXPECT_EQ(nodes.p[drop], 0);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (i == drop) continue;
     EXPECT_EQ(nodes.v[i], Vec<d>::Constant(0.5));

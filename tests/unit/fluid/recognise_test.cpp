@@ -213,24 +213,6 @@ TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
   EXPECT_NEAR(enclosed_volume(mesh.boundary, cube.nodes.x), sum, 1e4 * eps);
 }
 
-// A corner of a cube, edge a, of drops of the volume v each above water of elements of 1 m: R = sqrt(3)/2 a.
-TEST(Recognise3, drops_join_what_is_as_near_as_they_are_large) {
-  auto cells = [&](double a, double v) {
-    Nodes<3> nodes;
-    for (const Vec<3>& x : {Vec<3>(0, 0, 0), {a, 0, 0}, {0, a, 0}, {0, 0, a}}) {
-      const int n = nodes.add(x, Vec<3>::Zero(), 0, {}, false);
-      nodes.spray[n] = 1;
-      nodes.volume[n] = v;
-    }
-    return recognise<3>(nodes, std::vector<double>(4, 1.0), {}, WallsAt<3>{}).cells.size();
-  };
-  const double a = 0.1, volume = a * a * a / 6;
-  EXPECT_EQ(cells(a, volume / 4), 0u) << "they would be as much water as they are after they have met";
-  const double size = std::sqrt(3.0) / 2 * a / 0.3;  // h for which they join
-  EXPECT_EQ(cells(a, 0.9 * size * size * size / std::numbers::sqrt2), 0u);
-  EXPECT_EQ(cells(a, 1.1 * size * size * size / std::numbers::sqrt2), 1u);
-}
-
 // A flat cell across a crease of a tank is water: without it there is a hole with p = 0 at the bottom. One between a
 // hull and its chords is a film.
 TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it) {
