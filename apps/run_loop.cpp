@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace splashdown::apps {
 namespace {
@@ -75,9 +76,15 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
       undisturbed = false;
     }
 
+    const auto rejected_before = state.rejected;
     const auto step = attempt_with_cuts(stepper, wanted, criterion, state, host);
     if (!step.report.ok()) {
-      if (undisturbed) host.checkpoint();
+      if (undisturbed) {
+        // A run that is continued from here makes these attempts again, and counts them then.
+        auto rejected = std::exchange(state.rejected, rejected_before);
+        host.checkpoint();
+        state.rejected = std::move(rejected);
+      }
       return {failed, step.report.cause};
     }
     host.record({time, step.dt, state.dt_previous, step.report, last});
