@@ -332,8 +332,8 @@ void WallMotion<d>::convect(std::span<const Vec<d>> x, double dt, std::span<Vec<
     Vec<d> sum = Vec<d>::Zero();
     double weight = 0, fastest = 0;
   };
-  std::vector<int> slot(nodes_.size(), -1);
   if (edges_.empty()) return;
+  std::vector<int> slot(nodes_.size(), -1);
   for (std::size_t k = 0; k < edges_.size(); ++k) slot[edges_[k]] = static_cast<int>(k);
   std::vector<Inflow> inflow(edges_.size());
   for (int f : by_flux_) {
