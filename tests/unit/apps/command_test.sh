@@ -48,6 +48,11 @@ check "bit for bit" same_run whole again
 check "a finished run may be resumed" exits 0 run --out again --resume
 check "and stays what it was" same_run whole again
 
+for threads in 2 4; do
+  check "a run on $threads threads" exits 0 run --out "threads_$threads" --threads $threads
+  check "makes the same bits" same_run whole "threads_$threads"
+done
+
 # Stops and resumption
 for until in 0.007 0.018 0.036; do
   check "a run stops at $until s" exits 0 run --out "stopped_$until" --until $until
