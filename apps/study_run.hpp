@@ -12,9 +12,6 @@ namespace splashdown::apps {
 /// The command line of one run; it begins anew or continues, whatever its folder holds.
 std::vector<std::string> command_of(const Study& study, const StudyRun& run, const std::filesystem::path& folder);
 
-/// Empties a run's folder of what another scene left there. Finished and half-done runs stay.
-void prepare(const StudyRun& run, const std::filesystem::path& folder);
-
 struct RunnerEnd {
   bool interrupted = false;
   std::vector<std::string> unable;  ///< runs without an end of their own, each with its reason
