@@ -23,6 +23,8 @@ struct RunOptions {
   std::optional<double> budget;
   std::optional<int> threads;
   bool resume = false;
+  bool restart = false;  ///< begin anew, although the folder holds a run of this scene
+  bool force = false;    ///< and although it holds one of another scene
   bool quiet = false;
 };
 
@@ -42,8 +44,5 @@ int report_command(const std::filesystem::path& directory);
 
 /// `error: ` and the text on the standard error stream; returns exit_code::bad_input.
 int bad_input(const std::string& text);
-
-/// out/<folder of scene.toml or study.toml> or out/<name of the file>.
-std::filesystem::path default_directory(const std::filesystem::path& scene);
 
 }  // namespace splashdown::apps

@@ -9,6 +9,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/plain_text.hpp"
 #include "apps/report.hpp"
+#include "apps/run_folder.hpp"
 #include "apps/study_chart.hpp"
 #include "apps/study_folder.hpp"
 #include "apps/study_run.hpp"
