@@ -111,7 +111,9 @@ void CsvFile::check_in_place() const {
   struct stat open {
   }, named{};
   if (descriptor_ < 0 || ::fstat(descriptor_, &open) != 0) return;
-  if (::stat(path_.c_str(), &named) == 0 && named.st_dev == open.st_dev && named.st_ino == open.st_ino) return;
+  // Not by inode numbers: some network file systems give a file another one whenever they are asked.
+  const bool gone = ::stat(path_.c_str(), &named) != 0 && (errno == ENOENT || errno == ENOTDIR);
+  if (open.st_nlink > 0 && !gone) return;
   throw FilesLost(fmt::format("{} was removed, moved or replaced while the run was writing it", path_.string()));
 }
 

@@ -44,7 +44,7 @@ class CsvFile {
 
   void write();          ///< hands all rows to the operating system
   std::uint64_t sync();  ///< write() and force to disk; the file's length in bytes
-  /// Throws FilesLost if its name does not lead to the open file any more.
+  /// Throws FilesLost if the open file has no name any more, or nothing has its name.
   void check_in_place() const;
   /// Copies what was written so far; works for a file that has been removed, too.
   void copy_to(const std::filesystem::path& path);

@@ -287,6 +287,7 @@ void Recorder<d>::check_files() const {
 template <int d>
 void Recorder<d>::copy_tables(const std::filesystem::path& folder) {
   for (auto& [name, file] : s_->files) file.copy_to(folder / name);
+  s_->peak.reset();  // there is no place for pictures
 }
 
 template <int d>

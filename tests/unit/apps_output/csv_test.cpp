@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -12,6 +13,53 @@
 
 namespace splashdown::apps {
 namespace {
+
+TEST(Csv, a_file_that_went_away_is_missed_and_can_be_copied_all_the_same) {
+  const auto
+      lose =
+          std::vector<std::pair<const char*, void (*)(const std::filesystem::path&)>>{{"removed",
+                                                                                       [](const auto& file) {
+                                                                                         std::filesystem::remove(file);
+                                                                                       }},
+                                                                                      {"moved",
+                                                                                       [](const auto& file) {
+                                                                                         std::filesystem::rename(
+                                                                                             file, file.string() +
+                                                                                                       ".elsewhere");
+                                                                                       }},
+                                                                                      {"replaced",
+                                                                                       [](const auto& file) {
+                                                                                         std::filesystem::remove(file);
+                                                                                         std::ofstream(file)
+                                                                                             << "another";
+                                                                                       }},
+                                                                                      {"written over by a rename",
+                                                                                       [](const auto& file) {
+                                                                                         std::ofstream(file.string() +
+                                                                                                       ".new")
+                                                                                             << "another";
+                                                                                         std::filesystem::rename(
+                                                                                             file.string() + ".new",
+                                                                                             file);
+                                                                                       }}};
+  for (const auto& [how, away] : lose) {
+    ScratchFolder folder;
+    const auto path = folder.path() / "a.csv";
+    CsvFile file(path, "value");
+    file.check_in_place();  // not even open
+    file.create();
+    file << 1.5;
+    file.end_row();
+    file.write();
+    EXPECT_NO_THROW(file.check_in_place()) << how;
+    away(path);
+    file << 2.5;
+    file.end_row();
+    EXPECT_THROW(file.check_in_place(), FilesLost) << how;
+    file.copy_to(folder.path() / "copy.csv");
+    EXPECT_EQ(folder.text("copy.csv"), "value\n1.5\n2.5\n") << how;
+  }
+}
 
 TEST(Csv, numbers_read_back_to_the_same_bits) {
   ScratchFolder folder;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "apps/gnuplot.hpp"
+#include "apps/plain_text.hpp"
 #include "apps/report_words.hpp"
 #include "apps/verdict.hpp"
 #include "stand_ins.hpp"
@@ -152,6 +153,18 @@ TEST(Thinning, keeps_the_extremes_and_the_ends) {
   EXPECT_EQ(std::ranges::count(y, -7), 1);
   EXPECT_EQ(x.front(), first);
   EXPECT_EQ(x.back(), last);
+}
+
+TEST(Words, of_others_are_one_line_that_no_terminal_obeys) {
+  EXPECT_EQ(one_line("plain, µ ½ é 水 🌊"), "plain, µ ½ é 水 🌊");
+  EXPECT_EQ(one_line("a\nb\tc\r\x1b[31m\x7f"), "a b c  [31m ");
+  EXPECT_EQ(one_line("\xc2\x9b 31m"), "  31m") << "the control sequence introducer in one character";
+  EXPECT_EQ(one_line("\xc2"), "\xc2") << "cut in the middle";
+}
+
+TEST(Words, stand_between_single_quotes_for_gnuplot) {
+  EXPECT_EQ(gnuplot_text("`touch x` $(y) @z \"q\" \\"), "'`touch x` $(y) @z \"q\" \\'");
+  EXPECT_EQ(gnuplot_text("don't\n! touch x"), "'don''t ! touch x'");
 }
 
 TEST(Words, numbers_have_the_digits_asked_for) {
