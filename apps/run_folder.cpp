@@ -5,8 +5,8 @@
 
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
+#include "apps/csv.hpp"
 #include "apps/plain_text.hpp"
 #include "apps/version.hpp"
 
@@ -17,6 +17,11 @@ namespace fs = std::filesystem;
 
 /// The same for all ways that lead to a file.
 fs::path whole(const fs::path& file) { return fs::weakly_canonical(fs::absolute(file)); }
+
+/// What a run removes before it begins, or writes over.
+constexpr const char* replaced[] = {"checkpoint",           "bodies.csv",     "fluid.csv",    "probes.csv",
+                                    "surface_pressure.csv", "added_mass.csv", "summary.json", "report.html",
+                                    "frames.pvd",           "frames",         "snapshots",    "report"};
 
 struct Origin {
   std::string text;         ///< all of scene.resolved.toml
@@ -59,6 +64,13 @@ std::optional<std::string> foreign_results(const fs::path& directory, const fs::
                                            const std::string& resolved) {
   const auto cure = "Use --out with another folder, or --force to replace it.";
   if (fs::exists(directory / "study.json")) return fmt::format("{} holds a study. {}", directory.string(), cure);
+  if (!fs::exists(directory / "scene.resolved.toml")) {
+    for (const char* name : replaced)
+      if (fs::exists(directory / name))
+        return fmt::format("{} holds {}, which would be replaced, but no scene.resolved.toml: no run has left it. {}",
+                           directory.string(), name, cure);
+    return {};
+  }
   if (!fs::exists(directory / "summary.json") && !fs::exists(directory / "checkpoint" / "state")) return {};
   const auto there = origin_of(directory);
   const auto file = whole(scene).string();
@@ -72,9 +84,7 @@ std::optional<std::string> foreign_results(const fs::path& directory, const fs::
 }
 
 void write_resolved(const fs::path& directory, const fs::path& scene, const std::string& resolved) {
-  std::ofstream file(directory / "scene.resolved.toml", std::ios::binary);
-  file << resolved << "\n" << provenance_toml(whole(scene));
-  if (!file.flush()) throw std::runtime_error("cannot write " + (directory / "scene.resolved.toml").string());
+  write_file_atomically(directory / "scene.resolved.toml", resolved + "\n" + provenance_toml(whole(scene)));
 }
 
 }  // namespace splashdown::apps

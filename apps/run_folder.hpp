@@ -11,7 +11,8 @@ namespace splashdown::apps {
 /// file lies in the present folder or NAME begins with FOLDER.
 std::filesystem::path default_directory(const std::filesystem::path& scene);
 
-/// What a run would replace that is not its own: results of another scene, or a study. A message for users that says
+/// What a run would replace that is not its own: results of another scene, a study, files of somebody else. A
+/// message for users that says
 /// both and what to do; nothing if there is nothing.
 std::optional<std::string> foreign_results(const std::filesystem::path& directory, const std::filesystem::path& scene,
                                            const std::string& resolved);

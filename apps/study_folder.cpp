@@ -6,10 +6,10 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
-#include "apps/csv.hpp"
 #include "apps/study_table.hpp"
 
 namespace splashdown::apps {
@@ -33,9 +33,19 @@ bool is_there(const fs::path& path) { return fs::symlink_status(path).type() != 
 bool is_folder(const fs::path& path) { return fs::symlink_status(path).type() == fs::file_type::directory; }
 bool is_own(const fs::path& folder) { return is_folder(folder) && is_there(folder / mark); }
 
+/// There from the moment it is opened: a kill leaves an empty folder or a marked one.
 void set_mark(const fs::path& folder) {
-  write_file_atomically(folder / mark,
-                        "Made by splashdown study, which empties marked folders when their scene has changed.\n");
+  std::ofstream file(folder / mark);
+  file << "Made by splashdown study, which empties marked folders when their scene has changed.\n";
+  if (!file.flush()) throw std::runtime_error("cannot write " + (folder / mark).string());
+}
+
+/// The mark stays: a kill leaves a folder that still may be emptied.
+void empty(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != mark) entries.push_back(entry.path());
+  for (const auto& entry : entries) fs::remove_all(entry);
 }
 
 bool may_be_used(const StudyRun& run, const fs::path& folder) {
@@ -84,9 +94,9 @@ void make_study_folder(const fs::path& folder) {
 void prepare(const StudyRun& run, const fs::path& folder) {
   if (begun_with(run, folder)) return;
   if (!may_be_used(run, folder)) throw std::runtime_error(refusal(folder));
-  fs::remove_all(folder);  // marked, empty or absent
   fs::create_directories(folder);
-  set_mark(folder);
+  if (!is_own(folder)) set_mark(folder);
+  empty(folder);
 }
 
 }  // namespace splashdown::apps

@@ -113,6 +113,12 @@ check "nothing was changed" cmp bodies.before out/cone_scene_45/bodies.csv
 check "the same scene may" exits 0 "$splashdown" run cone/scene_45.toml --quiet --set time.end=0.002
 check "and the other one by force" exits 0 "$splashdown" run wedge/scene_45.toml --quiet --out out/cone_scene_45 --force --set time.end=0.002
 
+mkdir -p mine/checkpoint mine/report
+echo mine | tee mine/checkpoint/weights >mine/report/figure.svg
+check "nor are files replaced that no run has left" exits 2 run --out mine
+check "which is told" grep -q 'mine holds checkpoint, which would be replaced, but no scene.resolved.toml: no run has left it. Use --out' stderr
+check "they stay" test -s mine/checkpoint/weights -a -s mine/report/figure.svg
+
 # A folder that goes away under a run
 { "$splashdown" run scene.toml --quiet --out gone/here --set time.end=10 2>gone.said; echo $? >gone.code; } &
 until [[ -s gone/here/bodies.csv ]] && (($(wc -l <gone/here/bodies.csv) > 5)); do sleep 0.05; done

@@ -85,6 +85,14 @@ TEST(ForeignResults, are_those_of_another_scene_or_a_study) {
   const std::string resolved = "title = \"one\"\n", changed = "title = \"one\"\nx = 1\n",
                     different = "title = \"two\"\n";
   EXPECT_FALSE(foreign_results(folder, one, resolved)) << "nothing is there";
+  scratch.write("mine/notes.txt", "");
+  EXPECT_FALSE(foreign_results(scratch.path() / "mine", one, resolved)) << "nothing that a run would replace";
+  scratch.write("mine/checkpoint/weights", "");
+  EXPECT_NE(foreign_results(scratch.path() / "mine", one, resolved)
+                .value_or("")
+                .find("mine holds checkpoint, which would "
+                      "be replaced, but no scene.resolved"),
+            std::string::npos);
   scratch.write("run/summary.json", "{}");
   write_resolved(folder, one, resolved);
   EXPECT_FALSE(foreign_results(folder, one, resolved));
