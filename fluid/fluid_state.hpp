@@ -1,4 +1,5 @@
-// What a fluid holds and what a step of it works with. For fluid.cpp, prepare.cpp and solve.cpp alone.
+// What a fluid holds and what a step of it works with. For fluid.cpp, fluid_checkpoint.cpp, prepare.cpp and solve.cpp
+// alone.
 #pragma once
 
 #include <algorithm>
