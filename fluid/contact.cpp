@@ -280,25 +280,22 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
       else
         on_creases_.push_back(i);
     }
-  if (std::any_of(walls_.begin(), walls_.end(), [](const Wall<d>& w) { return w.spec().sticks; }))
-    find_stuck(mesh, walls);
   find_edges(walls);
 }
 
-// The node at an edge moves with it; the water does where the edge is hollow or sticks, and flows around it elsewhere.
+// The node at an edge moves with it; the water does where the edge is hollow, and flows around it elsewhere.
 template <int d>
 void WallMotion<d>::find_edges(const WallsAt<d>& walls) {
   auto hold = [&](int node, const Mat<d>& directions) {
     const int wall = nodes_.tie[node].wall;
     held_.push_back({node, wall, nodes_.x[node] - walls.poses[wall].translation(), directions});
   };
-  for (const Stuck& s : stuck_) hold(s.node, Mat<d>::Identity() - s.normal * s.normal.transpose());
   slips_.assign(nodes_.size(), 0);
   for (int i : tied_) {
     const WallTie& tie = nodes_.tie[i];
     if (!tie.sharp() || !wetted_[i] || nodes_.separates[i]) continue;
     const Wall<d>& wall = walls_[tie.wall];
-    if (wall.is_convex(tie) && !wall.spec().sticks) {
+    if (wall.is_convex(tie)) {
       slips_[i] = 1;
       edges_.push_back(i);
       continue;
@@ -408,29 +405,6 @@ bool WallMotion<d>::is_chord(int facet, std::span<const WallTie> tie) const {
 }
 
 template <int d>
-void WallMotion<d>::find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls) {
-  std::vector<int> slides;
-  std::vector<int> stuck_at(nodes_.size(), -1);
-  for (int i : tied_) {
-    const int w = nodes_.tie[i].wall;
-    if (!walls_[w].spec().sticks || nodes_.tie[i].sharp() || nodes_.surface[i] || !wetted_[i]) {
-      slides.push_back(i);
-      continue;
-    }
-    const Isometry<d>& pose = walls.poses[w];
-    stuck_at[i] = static_cast<int>(stuck_.size());
-    stuck_.push_back({i, pose.inverse() * nodes_.x[i], Vec<d>::Zero()});
-  }
-  tied_ = std::move(slides);
-  for (const auto& f : mesh.boundary) {
-    if (f.wall < 0) continue;
-    for (int n : f.nodes)
-      if (stuck_at[n] >= 0) stuck_[stuck_at[n]].normal += area_vector_of<d>(f, nodes_.x);
-  }
-  for (Stuck& s : stuck_) s.normal.normalize();
-}
-
-template <int d>
 void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const {
   const std::size_t count = nodes_.size();
   out.x.resize(count);
@@ -479,10 +453,6 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     if (passes_edge) out.tie[i].patch = near.patch;
     if (!slips_[i]) out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
   });
-  for (const Stuck& s : stuck_) {
-    out.x[s.node] = poses[nodes_.tie[s.node].wall] * s.place;
-    out.u[s.node] = (out.x[s.node] - nodes_.x[s.node]) / dt;
-  }
   for (const Separation& s : separations_) {
     Vec<d> sum = Vec<d>::Zero();
     for (int n : s.upstream) sum += out.u[n];

@@ -46,8 +46,7 @@ class WallMotion {
   void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
 
   /// Nodes that walls take along in more directions than pressure keeps them in: those in hollow edges and corners that are
-  /// wetted on all sides, and those that stick (WallSpec::sticks) away from the contact line. Along the normal of a smooth
-  /// wall it is the pressure that does it.
+  /// wetted on all sides. Along the normal of a smooth wall it is the pressure that does it.
   const std::vector<HeldNode<d>>& held() const { return held_; }
   /// What flows around an edge takes its place from upstream: the fluid's velocity there after the motion that `move` made of
   /// its velocities v, in place. First-order upwind, a convex combination.
@@ -57,19 +56,12 @@ class WallMotion {
   const Nodes<d>& nodes_;
   const Mesh<d>& mesh_;
   std::span<const Wall<d>> walls_;
-  void find_stuck(const Mesh<d>& mesh, const WallsAt<d>& walls);
   void find_separations(const Mesh<d>& mesh);
   void find_edges(const WallsAt<d>& walls);
   bool is_chord(int facet, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 
-  std::vector<int> tied_;  // and free to slide, but for vertices
-  struct Stuck {
-    int node;
-    Vec<d> place;   // in the wall's frame
-    Vec<d> normal;  // of its wetted facets, unit
-  };
-  std::vector<Stuck> stuck_;
+  std::vector<int> tied_;     // and free to slide, but for vertices
   std::vector<char> wetted_;  // node has a wetted facet
   struct Separation {
     int at;

@@ -1,4 +1,4 @@
-// Mass that moves with walls. Nodes at edges and corners of a wall, and those that stick to it, move with the wall in
+// Mass that moves with walls. Nodes in hollow edges and corners of a wall move with the wall in
 // some directions P_i (a projector): their mass there is the wall's. With N_i s the wall's velocity at node i, m_i its mass
 // and a_i(phi) the change of velocity that the pressure impulse phi gives to a free node, the wall receives
 //

@@ -18,9 +18,6 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   response_ = response;
   around_.build(mesh.cells, nodes.size());
   measure(density);
-  sticks_.assign(centres.size(), 0);
-  for (const auto& h : held)
-    if (!nodes.tie[h.node].sharp()) sticks_[h.wall] = 1;
   choose_unknowns();
   wall_modes(centres);
   hold_mass(std::move(held), density);
@@ -168,8 +165,6 @@ bool PressureEquation<d>::at_contact_line(int node) const {
   constexpr double steep = 0.3;
   const WallTie& tie = nodes_->tie[node];
   if (tie.wall < 0) return false;
-  // Where the wall sticks the line slides past nodes that stay: the volume around it is not that of the same water.
-  if (d == 2 && sticks_[tie.wall]) return true;
   return nodes_->separates[node] || lumped_[node] < steep * std::pow(free_measure_[node], d / (d - 1.0));
 }
 

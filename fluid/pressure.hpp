@@ -163,7 +163,6 @@ class PressureEquation {
   };
   std::vector<std::vector<Mode>> modes_;  // of each wall
   HeldMass<d> held_;
-  std::vector<char> sticks_;  // of walls: some of their nodes do
   std::vector<std::vector<Mode>> held_modes_;  // R of each wall that responds
   InterfaceLaplacian<d> laplacian_;
   WallResponse<d> response_;

@@ -19,7 +19,7 @@ struct WallSpec {
   Isometry<d> pose = Isometry<d>::Identity();  ///< wall frame to world at t = 0
   Twist<d> velocity = Twist<d>::Zero();        ///< of the wall frame's origin, at t = 0
   double size = 0;                             ///< element size at the wall [m]
-  bool sticks = false;                         ///< no slip: viscous fluid keeps its place on the wall
+  bool sticks = false;                         ///< no slip: the wall drags viscous fluid along (viscosity.hpp)
 };
 
 /// A region filled with liquid at t = 0. It is clipped by the walls; regions may not overlap.

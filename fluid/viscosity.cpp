@@ -22,6 +22,8 @@ template <int d>
 Status Viscosity<d>::begin(const StepView<d>& step) {
   number_nodes(step);
   find_held(step);
+  measure(step);
+  find_bonds(step);
   assemble(step);
   if (!node_.empty() && !solver_.factor(matrix_)) return {"the viscous matrix could not be factored"};
   return {};
@@ -49,27 +51,22 @@ void Viscosity<d>::find_held(const StepView<d>& step) {
     for (int n : f.nodes) {
       if (held_at_[n] < 0) {
         held_at_[n] = static_cast<int>(held_.size());
-        held_.push_back({n, step.walls[f.wall].sticks && !step.nodes.surface[n], Mat<d>::Identity()});
+        held_.push_back({n, Mat<d>::Identity()});
         normal.push_back(Vec<d>::Zero());
       }
       normal[held_at_[n]] += area;
     }
   }
-  for (std::size_t k = 0; k < held_.size(); ++k) {
-    if (held_[k].sticks)
-      held_[k].free.setZero();
-    else
-      hold<d>(held_[k].free, normal[k]);
-  }
-  // In corners and along edges a second and a third normal remain.
+  for (std::size_t k = 0; k < held_.size(); ++k) hold<d>(held_[k].free, normal[k]);
+  // In corners and along edges a second and a third normal remain, unless the wall binds the water there.
   for (const auto& f : step.mesh.boundary) {
-    if (f.wall < 0) continue;
+    if (f.wall < 0 || step.walls[f.wall].sticks) continue;
     for (int n : f.nodes) hold<d>(held_[held_at_[n]].free, area_vector_of<d>(f, step.nodes.x));
   }
 }
 
 template <int d>
-void Viscosity<d>::assemble(const StepView<d>& step) {
+void Viscosity<d>::measure(const StepView<d>& step) {
   const auto& cells = step.mesh.cells;
   gradients_.resize(cells.size());
   volume_.resize(cells.size());
@@ -78,11 +75,90 @@ void Viscosity<d>::assemble(const StepView<d>& step) {
     gradients_[c] = volume_gradients<d>(at);
     volume_[c] = (at(d) - at(0)).dot(gradients_[c].col(d));
   });
+}
+
+template <int d>
+void Viscosity<d>::find_bonds(const StepView<d>& step) {
+  bonds_.clear();
+  bonds_at_.clear();
+  for (const auto& f : step.mesh.boundary) {
+    if (f.wall < 0 || !step.walls[f.wall].sticks) continue;
+    for (const auto [c, k] : step.around.around(f.nodes[0])) {
+      const auto& cell = step.mesh.cells[c];
+      auto of_facet = [&](int n) { return std::find(f.nodes.begin(), f.nodes.end(), n) != f.nodes.end(); };
+      if (std::count_if(cell.begin(), cell.end(), of_facet) < d) continue;
+      const Vec<d> area = area_vector_of<d>(f, step.nodes.x);
+      Bond bond{c, f.wall, area.normalized(), area.norm() / d, 0, {}};
+      for (int a = 0; a <= d; ++a) bond.held[a] = of_facet(cell[a]) && !step.nodes.surface[cell[a]];
+      bonds_.push_back(bond);
+    }
+  }
+  if (bonds_.empty()) return;
+  std::stable_sort(bonds_.begin(), bonds_.end(), [](const Bond& p, const Bond& q) { return p.cell < q.cell; });
+  bonds_at_.assign(step.mesh.cells.size(), -1);
+  for (std::size_t k = bonds_.size(); k-- > 0;) bonds_at_[bonds_[k].cell] = static_cast<int>(k);
+  for (Bond& bond : bonds_) {
+    const auto same = [&](const Bond& other) { return other.cell == bond.cell; };
+    const auto count = std::count_if(
+        bonds_.begin() + bonds_at_[bond.cell],
+        bonds_.begin() + std::min<std::ptrdiff_t>(bonds_at_[bond.cell] + d + 1, std::ssize(bonds_)), same);
+    bond.stiffness = 4 * static_cast<double>(count) * mu_ * d * bond.share / volume_[bond.cell];
+  }
+}
+
+// t(v) of a field that is v_b at corner b and 0 at the others: mu P (G.n + G n^T) v_b, G = grad N_b.
+template <int d>
+Mat<d> Viscosity<d>::bond_block(const Bond& bond, int a, int b) const {
+  const Mat<d> P = Mat<d>::Identity() - bond.normal * bond.normal.transpose();
+  auto traction = [&](int k) -> Mat<d> {
+    const Vec<d> G = gradients_[bond.cell].col(k) / volume_[bond.cell];
+    return mu_ * P * (G.dot(bond.normal) * Mat<d>::Identity() + G * bond.normal.transpose());
+  };
+  Mat<d> block = Mat<d>::Zero();
+  if (bond.held[a]) block -= traction(b);
+  if (bond.held[b]) block -= traction(a).transpose();
+  if (a == b && bond.held[a]) block += bond.stiffness * P;
+  return bond.share * block;
+}
+
+template <int d>
+void Viscosity<d>::pull(const StepView<d>& step, std::span<const Vec<d>> v, std::span<const Twist<d>> walls,
+                        std::vector<Vec<d>>& force, std::vector<Wrench<d>>* on_walls) const {
+  for (const Bond& bond : bonds_) {
+    const auto& cell = step.mesh.cells[bond.cell];
+    Mat<d> gradient = Mat<d>::Zero();
+    for (int k = 0; k <= d; ++k) gradient += v[cell[k]] * gradients_[bond.cell].col(k).transpose();
+    auto tangential = [&](const Vec<d>& x) -> Vec<d> { return x - bond.normal * bond.normal.dot(x); };
+    const Vec<d> traction = tangential(mu_ / volume_[bond.cell] * (gradient + gradient.transpose()) * bond.normal);
+    Vec<d> slip = Vec<d>::Zero();  // sum over bound nodes
+    for (int a = 0; a <= d; ++a) {
+      if (!bond.held[a]) continue;
+      const Vec<d> arm = step.nodes.x[cell[a]] - step.poses[bond.wall].translation();
+      const Vec<d> past = tangential(v[cell[a]] - rigid_velocity<d>(walls[bond.wall], arm));
+      const Vec<d> f = bond.share * (bond.stiffness * past - traction);
+      force[cell[a]] += f;
+      if (on_walls) (*on_walls)[bond.wall] += step.kick * wrench_of<d>(arm, f);
+      slip += past;
+    }
+    for (int b = 0; b <= d; ++b) {
+      const Vec<d> G = gradients_[bond.cell].col(b) / volume_[bond.cell];
+      force[cell[b]] -= bond.share * mu_ * (G.dot(bond.normal) * slip + bond.normal * G.dot(slip));
+    }
+  }
+}
+
+template <int d>
+void Viscosity<d>::assemble(const StepView<d>& step) {
+  const auto& cells = step.mesh.cells;
   const int n = static_cast<int>(node_.size());
   blocks_.build(cells, step.around, unknown_, node_, [&](int c, int a, int b) -> Mat<d> {
     const auto& g = gradients_[c];
     const double scale = mu_ * step.kick / volume_[c];
-    return scale * (g.col(a).dot(g.col(b)) * Mat<d>::Identity() + g.col(b) * g.col(a).transpose());
+    Mat<d> block = scale * (g.col(a).dot(g.col(b)) * Mat<d>::Identity() + g.col(b) * g.col(a).transpose());
+    if (!bonds_.empty())
+      for (int k = bonds_at_[c]; k >= 0 && k < std::ssize(bonds_) && bonds_[k].cell == c; ++k)
+        block += step.kick * bond_block(bonds_[k], a, b);
+    return block;
   });
 
   // P (M + kick K) P + (1 - P) M; P = free directions of a node
@@ -129,9 +205,10 @@ void Viscosity<d>::stress(const StepView<d>& step, std::span<const Vec<d>> v, st
 
 template <int d>
 void Viscosity<d>::react(const StepView<d>& step, std::span<const Vec<d>> change, std::span<const Vec<d>> moved,
-                         std::vector<Wrench<d>>& on_walls) {
+                         std::span<const Twist<d>> walls, std::vector<Wrench<d>>& on_walls) {
   stress(step, moved, force_);
   on_walls.assign(step.walls.size(), Wrench<d>::Zero());
+  pull(step, moved, walls, force_, &on_walls);
   for (const Held& h : held_) {
     const double mass = step.density * step.lumped_volume[h.node];
     const Vec<d> impulse = mass * change[h.node] + step.kick * force_[h.node];
@@ -140,13 +217,14 @@ void Viscosity<d>::react(const StepView<d>& step, std::span<const Vec<d>> change
   }
 }
 
-// P (M + kick K) P y = -kick P K (field), field += P y.
+// P (M + kick K) P y = -kick P (K field - what walls pull with), field += P y.
 template <int d>
-bool Viscosity<d>::follow(const StepView<d>& step, std::vector<std::vector<Vec<d>>>& fields) {
+bool Viscosity<d>::follow(const StepView<d>& step, std::vector<Field>& fields) {
   const std::size_t rows = d * node_.size();
   rhs_.resize(rows * fields.size());
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    stress(step, fields[k], force_);
+    stress(step, fields[k].v, force_);
+    pull(step, fields[k].v, fields[k].walls, force_, nullptr);
     for (std::size_t i = 0; i < node_.size(); ++i) {
       Vec<d> f = -step.kick * force_[node_[i]];
       if (const int held = held_at_[node_[i]]; held >= 0) f = held_[held].free * f;
@@ -156,7 +234,7 @@ bool Viscosity<d>::follow(const StepView<d>& step, std::vector<std::vector<Vec<d
   if (!solver_.solve(rhs_, static_cast<int>(fields.size()))) return false;
   for (std::size_t k = 0; k < fields.size(); ++k)
     for (std::size_t i = 0; i < node_.size(); ++i)
-      fields[k][node_[i]] += Eigen::Map<const Vec<d>>(&rhs_[rows * k + d * i]);
+      fields[k].v[node_[i]] += Eigen::Map<const Vec<d>>(&rhs_[rows * k + d * i]);
   return true;
 }
 
@@ -171,19 +249,22 @@ bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted
       sum += bodies.modes.middleRows(static_cast<Eigen::Index>(w) * freedoms<d>, freedoms<d>).transpose() * impulses[w];
     return sum;
   };
-  std::vector<std::vector<Vec<d>>> fields(count, std::vector<Vec<d>>(step.nodes.size(), Vec<d>::Zero()));
-  for (Eigen::Index k = 0; k < count; ++k)
+  std::vector<Field> fields(count, {std::vector<Vec<d>>(step.nodes.size(), Vec<d>::Zero()), {}});
+  for (Eigen::Index k = 0; k < count; ++k) {
+    auto& [v, walls] = fields[k];
+    for (std::size_t w = 0; w < step.walls.size(); ++w)
+      walls.push_back(bodies.modes.col(k).template segment<freedoms<d>>(static_cast<Eigen::Index>(w) * freedoms<d>));
     for (const Held& h : held_) {
       const int wall = step.nodes.tie[h.node].wall;
-      const Twist<d> twist = bodies.modes.col(k).template segment<freedoms<d>>(wall * freedoms<d>);
-      const Vec<d> w = rigid_velocity<d>(twist, step.nodes.x[h.node] - step.poses[wall].translation());
-      fields[k][h.node] = w - h.free * w;
+      const Vec<d> w = rigid_velocity<d>(walls[wall], step.nodes.x[h.node] - step.poses[wall].translation());
+      v[h.node] = w - h.free * w;
     }
+  }
   if (!follow(step, fields)) return false;
   Eigen::MatrixXd total = bodies.inertia;
   std::vector<std::vector<Wrench<d>>> reaction(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    react(step, fields[k], fields[k], reaction[k]);
+    react(step, fields[k].v, fields[k].v, fields[k].walls, reaction[k]);
     total.col(k) -= on_motions(reaction[k]);
   }
   const Eigen::MatrixXd directions =
@@ -192,31 +273,24 @@ bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted
   const Eigen::VectorXd y =
       directions * allowed.completeOrthogonalDecomposition().solve(directions.transpose() * on_motions(on_walls));
   for (Eigen::Index k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k][i];
+    for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k].v[i];
     for (std::size_t w = 0; w < on_walls.size(); ++w) on_walls[w] += y[k] * reaction[k][w];
   }
   *predicted.answer += y;
   return true;
 }
 
-// dv = c + P y: c is given by sticking walls, y solves what P leaves of the equation.
 template <int d>
 Status Viscosity<d>::predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) {
   power_ = 0;
   if (node_.empty()) return {};
-  const auto& nodes = step.nodes;
-  std::vector<std::vector<Vec<d>>> moved(1, {carried.v.begin(), carried.v.end()});
-  for (const Held& h : held_) {
-    if (!h.sticks) continue;
-    const int wall = nodes.tie[h.node].wall;
-    moved[0][h.node] = rigid_velocity<d>(carried.walls[wall], nodes.x[h.node] - step.poses[wall].translation());
-  }
+  std::vector<Field> moved(1, {{carried.v.begin(), carried.v.end()}, {carried.walls.begin(), carried.walls.end()}});
   if (!follow(step, moved)) return {"the viscous solve failed"};
-  change_ = std::move(moved[0]);
+  change_ = std::move(moved[0].v);
   moved_ = change_;
   for (std::size_t i = 0; i < change_.size(); ++i) change_[i] -= carried.v[i];
   std::vector<Wrench<d>> on_walls;
-  react(step, change_, moved_, on_walls);
+  react(step, change_, moved_, carried.walls, on_walls);
   if (step.motions && !answer(step, predicted, on_walls)) return {"the viscous solve failed"};
   for (int i : node_) {
     predicted.v[i] += change_[i];

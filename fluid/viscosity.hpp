@@ -7,8 +7,16 @@
 //
 //   slip     the change has no component along the wall's normal: dv . n = 0; no shear stress. Not v . n = w . n:
 //            the pressure sees to that, and mu -> 0 then leads back to the inviscid fluid exactly
-//   no slip  v + dv = the wall's velocity, except where the free surface meets the wall: a contact line that
-//            sticks cannot move (Huh, Scriven, J. Colloid Interface Sci. 35, 1971), so its nodes slip
+//   no slip  the tangential velocity is the wall's, weakly (Nitsche 1971), with a traction at each wetted facet f, of area A
+//            and normal n, of the cell with volume V and the stress s(v) = 2 mu eps(v):
+//
+//            w . K v  +=  sum_f sum_a A/d [ - w_a . t(v) - (v_a - g_a) . t(w) + b (v_a - g_a) . w_a ]     t(v) = P s(v) n
+//
+//            P = 1 - n n^T, g the wall's velocity, a the facet's nodes but those of the contact line: one that sticks cannot
+//            move (Huh, Scriven, J. Colloid Interface Sci. 35, 1971). b = 4 k mu A / V for k such facets of the cell makes it
+//            definite. Where elements are finer than the boundary layer the water sticks, to second order; where they are
+//            coarser it slips under the stress that the elements can know of (Bazilevs, Hughes, Comput. Fluids 36, 2007).
+//            Held to the wall instead, nodes would take half an element of water along, however little viscous it is
 //
 // Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any kick;
 // one system of d unknowns a node per step, factored or, if large and in space, solved by multigrid. Bodies that answer the
@@ -38,19 +46,36 @@ class Viscosity final : public Term<d> {
  private:
   struct Held {
     int node;
-    bool sticks;
     Mat<d> free;  // projects on the directions in which the wall leaves the change free
   };
+  struct Bond {  // of a cell to a wall that sticks
+    int cell, wall;
+    Vec<d> normal;                 // unit, out of the fluid
+    double share, stiffness;       // A / d, b
+    std::array<char, d + 1> held;  // of corners: 1 for nodes that are bound
+  };
   void number_nodes(const StepView<d>& step);
+  void measure(const StepView<d>& step);
   void find_held(const StepView<d>& step);
+  void find_bonds(const StepView<d>& step);
+  /// Row of corner a and column of corner b of a bond, over the kick.
+  Mat<d> bond_block(const Bond& bond, int a, int b) const;
+  /// Adds what bonds to walls with velocities `walls` exert on the nodes, [N].
+  void pull(const StepView<d>& step, std::span<const Vec<d>> v, std::span<const Twist<d>> walls,
+            std::vector<Vec<d>>& force, std::vector<Wrench<d>>* on_walls) const;
   void assemble(const StepView<d>& step);
+  /// Velocities and those of the walls, [m/s].
+  struct Field {
+    std::vector<Vec<d>> v;
+    std::vector<Twist<d>> walls;
+  };
   /// Impulse on the walls of what they impose: of changes of velocity and of velocities after them.
   void react(const StepView<d>& step, std::span<const Vec<d>> change, std::span<const Vec<d>> moved,
-             std::vector<Wrench<d>>& on_walls);
-  /// Lets the free nodes follow given velocities `held` of the others, in place; several fields at once.
-  bool follow(const StepView<d>& step, std::vector<std::vector<Vec<d>>>& fields);
+             std::span<const Twist<d>> walls, std::vector<Wrench<d>>& on_walls);
+  /// Lets the free nodes follow what walls do to them, in place; several fields at once.
+  bool follow(const StepView<d>& step, std::vector<Field>& fields);
   bool answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<Wrench<d>>& on_walls);
-  /// force = K v at all nodes.
+  /// force = K v at all nodes, without bonds.
   void stress(const StepView<d>& step, std::span<const Vec<d>> v, std::vector<Vec<d>>& force) const;
 
   double mu_;
@@ -59,7 +84,9 @@ class Viscosity final : public Term<d> {
   std::vector<double> volume_;  // of cells
   mutable std::vector<Mat<d>> stress_;
   std::vector<Held> held_;
-  std::vector<int> held_at_;  // of a node, -1: free
+  std::vector<int> held_at_;   // of a node, -1: free
+  std::vector<Bond> bonds_;    // by cell
+  std::vector<int> bonds_at_;  // of a cell: its first bond, -1: none
   Assembly<d, Mat<d>> blocks_;
   SymmetricMatrix matrix_;
   LinearSolver solver_{most_direct<d>};

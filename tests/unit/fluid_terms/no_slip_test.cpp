@@ -20,46 +20,40 @@ TEST(NoSlip, still_water_stays_still) {
   EXPECT_LT(fastest, 1e-10);  // sqrt(g h) times roundoff of some fifty direct solves
 }
 
-TEST(NoSlip, nodes_keep_their_place_below_the_surface_and_slide_on_slip_walls) {
-  for (const bool sticks : {true, false}) {
-    auto stepper = testing::water(Basin{.size = 0.1, .amplitude = 0.05, .sticks = sticks}, testing::gravity(),
-                                  std::make_unique<Viscosity<2>>(1.0));
-    double farthest = 0;
-    std::vector<Vec<2>> before;
-    std::vector<char> held;
-    // Nodes are renumbered only when the mesh adapts, in attempt().
-    while (stepper.time() < 0.2) {
-      const double dt = stepper.stable_dt();
-      ASSERT_TRUE(stepper.attempt(dt).ok());
-      const auto& nodes = stepper.fluid().nodes();
-      before = nodes.x;
-      held.resize(nodes.size());
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        held[i] = nodes.tie[i].wall >= 0 && nodes.tie[i].vertex < 0 && !nodes.surface[i];
-      stepper.commit();
-      for (std::size_t i = 0; i < before.size(); ++i)
-        if (held[i]) farthest = std::max(farthest, (stepper.fluid().nodes().x[i] - before[i]).norm() / dt);
-    }
-    if (sticks)
-      EXPECT_LT(farthest, 1e-12);
-    else
-      EXPECT_GT(farthest, 0.01);
-  }
+// Fastest node on the floor, over the fastest of all. Beside the surface the contact line, which slips, takes its neighbours along.
+double slip_over_speed(bool sticks, double viscosity) {
+  auto stepper = testing::water(Basin{.size = 0.1, .amplitude = 0.05, .sticks = sticks}, testing::gravity(),
+                                std::make_unique<Viscosity<2>>(viscosity));
+  double on_wall = 0, fastest = 0;
+  EXPECT_TRUE(testing::run(stepper, 0.2, [&](const auto& fluid, double) {
+    const auto& nodes = fluid.nodes();
+    double floor = 0;
+    for (const auto& x : nodes.x) floor = std::min(floor, x.y());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (nodes.tie[i].wall >= 0 && !nodes.tie[i].sharp() && nodes.x[i].y() < floor + 1e-9)
+        on_wall = std::max(on_wall, nodes.v[i].norm());
+    fastest = std::max(fastest, testing::max_speed(fluid));
+  }));
+  return on_wall / fastest;
 }
 
-// What is lost is lost in the cells of the contact line, between a node that slips and one that sticks: an area
-// that goes as h^2.
-TEST(NoSlip, volume_error_is_of_second_order) {
-  auto error = [](double size) {
-    auto stepper = testing::water(Basin{.size = size, .amplitude = 0.03, .sticks = true}, testing::gravity(),
+// The layer that a wall stops is (nu t)^(1/2) thick: 0.14 m with 100 Pa s, and 0.4 mm with 1e-3. Water slips on a layer of
+// h / 8, a tenth of it.
+TEST(NoSlip, water_sticks_where_elements_resolve_its_layer_and_slips_where_they_do_not) {
+  EXPECT_LT(slip_over_speed(true, 100), 0.3 * slip_over_speed(false, 100));
+  const double free = slip_over_speed(false, 1e-3);
+  EXPECT_NEAR(slip_over_speed(true, 1e-3), free, 0.01 * free);
+}
+
+TEST(NoSlip, volume_is_kept_as_between_slip_walls) {
+  auto error = [](bool sticks) {
+    auto stepper = testing::water(Basin{.size = 0.05, .amplitude = 0.03, .sticks = sticks}, testing::gravity(),
                                   std::make_unique<Viscosity<2>>(1.0));
     EXPECT_TRUE(testing::run(stepper, 0.4, [](const auto&, double) {}));
     const auto& ledger = stepper.fluid().ledger();
     return std::abs(ledger.volume / ledger.volume_initial - 1);
   };
-  const double coarse = error(0.05), fine = error(0.025);
-  EXPECT_LT(fine, 2e-3);
-  EXPECT_LT(fine, 0.5 * coarse);
+  EXPECT_LT(error(true), error(false) + 1e-4);  // nodes of the contact line slip past those that stick: O(h^2 dx)
 }
 
 // The rate of change of the fluid's momentum is its weight less the load on the tank. Loads are means over a
