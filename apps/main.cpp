@@ -1,10 +1,11 @@
-// splashdown run | check | study | report
+// splashdown run | check | study | report | schema
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.hpp"
+#include "apps/schema.hpp"
 #include "apps/version.hpp"
 
 namespace splashdown::apps {
@@ -71,6 +72,12 @@ int command_line(int argc, char** argv) {
   auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run or a study");
   report_app->add_option("directory", directory, "folder of the run or the study")->required();
 
+  std::string schema_of = "scene";
+  auto* schema_app = app.add_subcommand("schema", "Print the JSON Schema of scenes or studies, for editors");
+  schema_app->add_option("what", schema_of, "scene or study")
+      ->check(CLI::IsMember({"scene", "study"}))
+      ->capture_default_str();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -79,6 +86,10 @@ int command_line(int argc, char** argv) {
   if (*run_app) return run_command(run);
   if (*check_app) return check_command(scene, overrides);
   if (*study_app) return study_command(study);
+  if (*schema_app) {
+    fmt::print("{}", schema_of == "scene" ? scene_schema() : study_schema());
+    return exit_code::done;
+  }
   return report_command(directory);
 }
 

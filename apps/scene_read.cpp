@@ -105,18 +105,19 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   return labels;
 }
 
+SceneLabels read_all(ReadContext& context, const toml::table& table, Scene& scene) {
+  Reader root(context, table, "", "");
+  root.ignore("provenance");  // what a run writes into scene.resolved.toml
+  root.integer("dimension", scene.dimension, within(2, 3, "", "Use 2 or 3."));
+  context.dimension = scene.dimension;
+  return read_tables(root, scene);
+}
+
 SceneFile read_root(const toml::table& table, const std::filesystem::path& folder, Problems& problems) {
   SceneFile file;
   Echo echo;
   ReadContext context{.problems = problems, .echo = echo, .folder = folder};
-  SceneLabels labels;
-  {
-    Reader root(context, table, "", "");
-    root.ignore("provenance");  // what a run writes into scene.resolved.toml
-    root.integer("dimension", file.scene.dimension, within(2, 3, "", "Use 2 or 3."));
-    context.dimension = file.scene.dimension;
-    labels = read_tables(root, file.scene);
-  }
+  const auto labels = read_all(context, table, file.scene);
   check_scene(file.scene, labels, problems);
   problems.throw_if_any();
   file.resolved = echo.text();
@@ -124,6 +125,17 @@ SceneFile read_root(const toml::table& table, const std::filesystem::path& folde
 }
 
 }  // namespace
+
+void sketch_scene(Sketch& sketch, int dimension) {
+  sketch.explore([&] {
+    Problems nobody_told("");
+    Echo unused;
+    ReadContext context{.problems = nobody_told, .echo = unused, .dimension = dimension, .sketch = &sketch};
+    Scene scene;
+    scene.dimension = dimension;
+    read_all(context, {}, scene);
+  });
+}
 
 toml::table read_toml(const std::string& text, const std::string& name) {
   try {

@@ -12,6 +12,8 @@
 
 namespace splashdown::apps {
 
+class Sketch;
+
 struct SceneFile {
   Scene scene;
   std::string resolved;  ///< TOML with every value in force; reads to the same scene
@@ -27,5 +29,8 @@ SceneFile read_scene(const std::filesystem::path& file, std::span<const std::str
 /// The same from text; `name` stands for the file in messages, and its folder is where names of files begin.
 SceneFile read_scene_text(const std::string& text, const std::string& name,
                           std::span<const std::string> overrides = {});
+
+/// What the reader of scenes of this dimension asks for.
+void sketch_scene(Sketch& sketch, int dimension);
 
 }  // namespace splashdown::apps

@@ -118,15 +118,6 @@ Motion read_motion(Reader& reader) {
   return motion == "fixed" ? Motion::fixed : motion == "prescribed" ? Motion::prescribed : Motion::free;
 }
 
-/// A key that the body's kind of motion has no use for would mislead: it is refused, not ignored.
-void refuse(Reader& reader, std::string_view name, const std::string& rule, const std::string& cure) {
-  const bool given = reader.holds(name);
-  reader.skip(name);
-  if (!given) return;
-  reader.context().problems.note(reader.key(name), reader.place(name), {});
-  reader.context().problems.add(reader.key(name), rule, cure);
-}
-
 /// A row of a path: time, position, angles.
 Waypoint waypoint(const std::vector<double>& row, std::size_t dimension) {
   Waypoint point;
@@ -171,18 +162,18 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
   if (body.motion == Motion::free)
     reader.choices("free", body.free, freedom_names(dimension));
   else
-    refuse(reader, "free", "only a body with motion = \"free\" has freedoms", "Remove it.");
+    reader.refuse("free", "only a body with motion = \"free\" has freedoms", "Remove it.");
 
   if (body.motion == Motion::prescribed)
     read_path(reader, body);
   else
-    refuse(reader, "path", "only a body with motion = \"prescribed\" follows a path",
-           "Remove it, or change the motion.");
+    reader.refuse("path", "only a body with motion = \"prescribed\" follows a path",
+                  "Remove it, or change the motion.");
   const bool follows_path = !body.path.empty();
   const std::string on_path = "the path already says it", drop = "Remove it, or the path.";
   if (follows_path) {
-    refuse(reader, "position", on_path, drop);
-    for (const auto& angle : angles(dimension)) refuse(reader, angle.name, on_path, drop);
+    reader.refuse("position", on_path, drop);
+    for (const auto& angle : angles(dimension)) reader.refuse(angle.name, on_path, drop);
     body.position = body.path.front().position;
     body.attitude = body.path.front().attitude;
   } else {
@@ -193,8 +184,8 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
   }
   if (follows_path || body.motion == Motion::fixed) {
     const auto rule = follows_path ? on_path : "a fixed body does not move";
-    refuse(reader, "velocity", rule, follows_path ? drop : "Remove it, or change the motion.");
-    refuse(reader, "spin_deg", rule, follows_path ? drop : "Remove it, or change the motion.");
+    reader.refuse("velocity", rule, follows_path ? drop : "Remove it, or change the motion.");
+    reader.refuse("spin_deg", rule, follows_path ? drop : "Remove it, or change the motion.");
   } else {
     reader.point("velocity", body.velocity, any("m/s", "Use metres per second, one number for each axis."));
     reader.rotation("spin_deg", body.spin_deg,
@@ -243,7 +234,7 @@ std::optional<std::size_t> read_body_name(Reader& reader, std::string_view key, 
                                   "Add [[body]] or remove the " + what + ".");
     return {};
   }
-  reader.choice(key, name, names, need);
+  reader.reference(key, name, names, need);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return {};
   return static_cast<std::size_t>(found - names.begin());

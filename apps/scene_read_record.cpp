@@ -19,7 +19,7 @@ void read_surface_pressure(Reader& reader, Scene& scene) {
   SurfacePressureEntry entry;
   auto walls = body_names(scene);
   if (scene.tank) walls.push_back("tank");
-  reader.choice("wall", entry.wall, walls, Need::required);
+  reader.reference("wall", entry.wall, walls, Need::required);
   read_instants(reader, entry);
   scene.records.emplace_back(std::move(entry));
 }

@@ -70,6 +70,7 @@ Reader::Reader(ReadContext& context, const toml::table& table, std::string path,
                                  : in_array      ? "[[" + header_ + "]]"
                                                  : "[" + header_ + "]")) {
   if (const auto place = place_of(table); !place.source.empty()) context_->problems.note(path_, place, {});
+  if (context_->sketch) visit_ = &context_->sketch->open(header_);
 }
 
 Reader::Reader(Reader&& other) noexcept
@@ -78,6 +79,7 @@ Reader::Reader(Reader&& other) noexcept
       path_(std::move(other.path_)),
       header_(std::move(other.header_)),
       section_(other.section_),
+      visit_(other.visit_),
       known_(std::move(other.known_)),
       ignored_(std::move(other.ignored_)) {}
 
@@ -89,6 +91,37 @@ Reader::~Reader() {
     context_->problems.note(key(name), place_of(node), value_text(node));
     context_->problems.add_unknown(key(name), valid);
   }
+}
+
+bool Reader::holds(std::string_view name) const {
+  if (visit_) return context_->sketch->decide("holds " + header_of(name), 2, 0) == 1;
+  return table_->contains(name);
+}
+
+void Reader::skip(std::string_view name) {
+  known_.emplace(name);
+  if (visit_) visit_->at(name);
+}
+
+void Reader::ignore(std::string_view name) {
+  ignored_.emplace(name);
+  note(name, {});
+}
+
+void Reader::refuse(std::string_view name, const std::string& rule, const std::string& cure) {
+  skip(name);
+  if (visit_) visit_->at(name).refused = true;
+  const auto* node = table_->get(name);
+  if (!node) return;
+  context_->problems.note(key(name), place_of(*node), {});
+  context_->problems.add(key(name), rule, cure);
+}
+
+void Reader::note(std::string_view name, Wanted wanted, Need need) {
+  if (!visit_) return;
+  auto& noted = visit_->at(name);
+  noted.any_of.push_back(std::move(wanted));
+  noted.required = noted.required || need == Need::required;
 }
 
 void Reader::skip_all() {
@@ -169,17 +202,21 @@ std::string Reader::echo_of(const Point& point) const {
 }
 
 void Reader::number(std::string_view name, double& target, const Rule& rule, Need need) {
+  note(name, {.type = Wanted::Type::number, .rule = rule}, need);
   if (const auto* node = find(name, need, "a number" + rule.in_unit(), rule.cure))
     target = number_of(*node, key(name), rule).value_or(target);
   echo(name, target);
 }
 
 void Reader::number(std::string_view name, std::optional<double>& target, const Rule& rule) {
+  note(name, {.type = Wanted::Type::number, .rule = rule});
+  if (visit_ && holds(name)) target = 1;  // for the keys that hang on it
   if (const auto* node = find(name, Need::optional, {}, {})) target = number_of(*node, key(name), rule);
   if (target) echo(name, *target);
 }
 
 void Reader::integer(std::string_view name, int& target, const Rule& rule) {
+  note(name, {.type = Wanted::Type::whole, .rule = rule});
   if (const auto* node = find(name, Need::optional, {}, {})) {
     if (!node->is_integer())
       wrong_type(key(name), "a whole number", *node, rule.cure);
@@ -190,6 +227,7 @@ void Reader::integer(std::string_view name, int& target, const Rule& rule) {
 }
 
 void Reader::text(std::string_view name, std::string& target, const std::string& cure, Need need) {
+  note(name, {.type = Wanted::Type::text, .hint = cure}, need);
   if (const auto* node = find(name, need, "a string", cure)) {
     if (node->is_string())
       target = *node->value<std::string>();
@@ -200,6 +238,7 @@ void Reader::text(std::string_view name, std::string& target, const std::string&
 }
 
 void Reader::file(std::string_view name, std::string& target, const std::string& cure) {
+  note(name, {.type = Wanted::Type::text, .hint = cure}, Need::required);
   if (const auto* node = find(name, Need::required, "the name of a file", cure)) {
     if (node->is_string())
       target = std::filesystem::absolute(context_->folder / *node->value<std::string>()).lexically_normal().string();
@@ -210,6 +249,15 @@ void Reader::file(std::string_view name, std::string& target, const std::string&
 }
 
 bool Reader::choice(std::string_view name, std::string& target, const Names& valid, Need need) {
+  if (visit_) {
+    note(name, {.type = Wanted::Type::word, .words = valid}, need);
+    const auto found = std::find(valid.begin(), valid.end(), target);
+    const std::size_t usual = found == valid.end() ? 0 : static_cast<std::size_t>(found - valid.begin());
+    const auto picked = context_->sketch->decide("word " + header_of(name), valid.size(), usual);
+    visit_->usual[std::string(name)] = need == Need::optional && picked == usual;
+    visit_->picked[std::string(name)] = target = valid[picked];
+    return true;
+  }
   const auto cure = "Use " + listing(valid) + ".";
   const auto* node = find(name, need, "one of " + listing(valid), cure);
   bool good = need == Need::optional;
@@ -230,6 +278,7 @@ bool Reader::choice(std::string_view name, std::string& target, const Names& val
 }
 
 void Reader::choices(std::string_view name, Names& target, const Names& valid) {
+  note(name, {.type = Wanted::Type::words, .words = valid});
   const auto cure = "Use a list of " + listing(valid) + ".";
   if (const auto* node = find(name, Need::optional, {}, {})) {
     Names words;
@@ -249,7 +298,52 @@ void Reader::choices(std::string_view name, Names& target, const Names& valid) {
   context_->echo.add(section_, name, toml_list(target));
 }
 
+bool Reader::reference(std::string_view name, std::string& target, const Names& valid, Need need) {
+  if (!visit_) return choice(name, target, valid, need);
+  note(name, {.type = Wanted::Type::text}, need);
+  return false;
+}
+
+void Reader::references(std::string_view name, Names& target, const Names& valid) {
+  if (!visit_) return choices(name, target, valid);
+  note(name, {.type = Wanted::Type::texts});
+}
+
+const toml::node* Reader::node(std::string_view name, Need need, const std::string& meaning, const std::string& cure,
+                               std::vector<Wanted::Type> wanted) {
+  for (const auto type : wanted) note(name, {.type = type, .hint = cure}, need);
+  return find(name, need, meaning, cure);
+}
+
+const toml::node* Reader::named_node(const std::string& name) {
+  if (!visit_) return find(name, Need::optional, {}, {});
+  visit_->others = Wanted{};
+  return nullptr;
+}
+
+void Reader::numbers_by_name(std::string_view name, std::map<std::string, double>& target, const std::string& example) {
+  if (visit_) {
+    note(name,
+         {.type = Wanted::Type::table, .hint = "Names with numbers, e.g. " + example + ".", .header = header_of(name)});
+    context_->sketch->open(header_of(name)).others = Wanted{.type = Wanted::Type::number};
+    return;
+  }
+  const auto* node = find(name, Need::optional, {}, {});
+  if (!node) return;
+  const auto* table = node->as_table();
+  if (!table)
+    return context_->problems.add(key(name), "must be a table",
+                                  fmt::format("Write [{}] with NAME = NUMBER.", header_of(name)));
+  for (const auto& [entry, value] : *table) {
+    const auto where = fmt::format("{}.{}", key(name), entry.str());
+    context_->problems.note(where, place_of(value), value_text(value));
+    if (!value.is_number()) context_->problems.add(where, "must be a number", "Use e.g. " + example + ".");
+    target.emplace(entry.str(), value.value<double>().value_or(0));
+  }
+}
+
 void Reader::texts(std::string_view name, Names& target, const std::string& cure, Need need) {
+  note(name, {.type = Wanted::Type::texts, .hint = cure}, need);
   if (const auto* node = find(name, need, "a list of strings", cure)) {
     const auto* array = node->as_array();
     if (array && std::all_of(array->begin(), array->end(), [](const auto& n) { return n.is_string(); }))
@@ -261,12 +355,14 @@ void Reader::texts(std::string_view name, Names& target, const std::string& cure
 }
 
 void Reader::numbers(std::string_view name, std::vector<double>& target, const Rule& rule) {
+  note(name, {.type = Wanted::Type::list, .rule = rule});
   if (const auto* node = find(name, Need::optional, {}, {}))
     target = list_of(*node, key(name), 0, rule).value_or(target);
   if (!target.empty()) context_->echo.add(section_, name, toml_list(target));
 }
 
 void Reader::point(std::string_view name, Point& target, const Rule& rule, Need need) {
+  note(name, {.type = Wanted::Type::list, .rule = rule, .length = static_cast<std::size_t>(context_->dimension)}, need);
   const auto meaning = fmt::format("a list of {} numbers{}", context_->dimension, rule.in_unit());
   if (const auto* node = find(name, need, meaning, rule.cure))
     target = point_of(*node, key(name), rule).value_or(target);
@@ -274,12 +370,14 @@ void Reader::point(std::string_view name, Point& target, const Rule& rule, Need 
 }
 
 void Reader::point(std::string_view name, std::optional<Point>& target, const Rule& rule) {
+  note(name, {.type = Wanted::Type::list, .rule = rule, .length = static_cast<std::size_t>(context_->dimension)});
   if (const auto* node = find(name, Need::optional, {}, {})) target = point_of(*node, key(name), rule);
   if (target) context_->echo.add(section_, name, echo_of(*target));
 }
 
 void Reader::rows(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns,
                   const Rule& rule, Need need) {
+  note(name, {.type = Wanted::Type::rows, .rule = rule, .length = columns}, need);
   const auto meaning = fmt::format("a list of lists of {} numbers{}", columns, rule.in_unit());
   if (const auto* node = find(name, need, meaning, rule.cure)) {
     if (const auto* array = node->as_array()) {
@@ -316,12 +414,11 @@ void Reader::inertia(std::string_view name, std::optional<Eigen::Matrix3d>& targ
   if (!holds(name)) return skip(name);
   target = Eigen::Matrix3d::Zero();
   if (context_->dimension == 2) return number(name, (*target)(2, 2), rule);
-  const auto* list = table_->get(name)->as_array();
-  if (list && !list->empty() && list->front().is_array()) {
-    Rule entry = rule;  // beside the diagonal any sign is good
-    entry.low = -std::numeric_limits<double>::infinity();
-    return matrix(name, *target, entry);
-  }
+  Rule entry = rule;  // beside the diagonal any sign is good
+  entry.low = -std::numeric_limits<double>::infinity();
+  if (visit_) matrix(name, *target, entry);
+  const auto* list = table_->get(name) ? table_->get(name)->as_array() : nullptr;
+  if (list && !list->empty() && list->front().is_array()) return matrix(name, *target, entry);
   Point diagonal = target->diagonal();
   point(name, diagonal, rule);
   target->diagonal() = diagonal;
@@ -341,6 +438,10 @@ void Reader::matrix(std::string_view name, Eigen::Matrix3d& target, const Rule& 
 }
 
 std::optional<Reader> Reader::table(std::string_view name, Need need) {
+  if (visit_) {
+    note(name, {.type = Wanted::Type::table, .header = header_of(name)}, need);
+    return Reader(*context_, no_table, key(name), header_of(name));
+  }
   const auto cure = "Write [" + header_of(name) + "] with its keys below.";
   const auto* node = find(name, need, "a table", cure);
   if (!node) return {};
@@ -350,11 +451,18 @@ std::optional<Reader> Reader::table(std::string_view name, Need need) {
 }
 
 Reader Reader::table_or_defaults(std::string_view name) {
-  if (auto reader = table(name)) return std::move(*reader);
+  if (!visit_)
+    if (auto reader = table(name)) return std::move(*reader);
+  note(name, {.type = Wanted::Type::table, .header = header_of(name), .even_absent = true});
   return Reader(*context_, no_table, key(name), header_of(name));
 }
 
 void Reader::each_table(std::string_view name, const std::function<void(Reader&)>& read) {
+  if (visit_) {
+    note(name, {.type = Wanted::Type::tables, .header = header_of(name)});
+    Reader reader(*context_, no_table, fmt::format("{}[0]", key(name)), header_of(name), true);
+    return read(reader);
+  }
   const auto cure = "Write [[" + header_of(name) + "]], once for each.";
   const auto* node = find(name, Need::optional, {}, {});
   if (!node) return;

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,6 +20,7 @@
 #include "apps/scene_echo.hpp"
 #include "apps/scene_problems.hpp"
 #include "apps/scene_rules.hpp"
+#include "apps/scene_sketch.hpp"
 
 namespace splashdown::apps {
 
@@ -29,6 +31,7 @@ struct ReadContext {
   Echo& echo;
   int dimension = 2;
   std::filesystem::path folder = {};  ///< of the scene file: what relative file names begin at
+  Sketch* sketch = nullptr;           ///< set: nothing is read, what is asked for is noted
 };
 
 Place place_of(const toml::node& node);
@@ -46,13 +49,18 @@ class Reader {
   ~Reader();
 
   std::string key(std::string_view name) const;
-  bool holds(std::string_view name) const { return table_->contains(name); }
+  bool holds(std::string_view name) const;
   ReadContext& context() const { return *context_; }
-  Place place(std::string_view name) const { return place_of(*table_->get(name)); }
+  Place place(std::string_view name) const {
+    const auto* node = table_->get(name);
+    return node ? place_of(*node) : place_of(*table_);
+  }
   /// A key that is valid here but has no part in this scene.
-  void skip(std::string_view name) { known_.emplace(name); }
+  void skip(std::string_view name);
+  /// A key that would mislead beside the others: a problem if it is there.
+  void refuse(std::string_view name, const std::string& rule, const std::string& cure);
   /// A key that is neither judged nor recommended.
-  void ignore(std::string_view name) { ignored_.emplace(name); }
+  void ignore(std::string_view name);
   /// Nothing here can be judged, because the key that decides which keys are valid is wrong.
   void skip_all();
   const std::string& path() const { return path_; }
@@ -66,6 +74,9 @@ class Reader {
   /// False if what is given (or missing) is not valid.
   bool choice(std::string_view name, std::string& target, const Names& valid, Need need = Need::optional);
   void choices(std::string_view name, Names& target, const Names& valid);
+  /// The same for words that the file itself defines elsewhere, such as names of bodies.
+  bool reference(std::string_view name, std::string& target, const Names& valid, Need need = Need::optional);
+  void references(std::string_view name, Names& target, const Names& valid);
   void numbers(std::string_view name, std::vector<double>& target, const Rule& rule);
   void point(std::string_view name, Point& target, const Rule& rule, Need need = Need::optional);
   void point(std::string_view name, std::optional<Point>& target, const Rule& rule);
@@ -81,10 +92,13 @@ class Reader {
 
   /// A list of strings.
   void texts(std::string_view name, Names& target, const std::string& cure, Need need = Need::optional);
-  /// The node itself, for values that only the caller can judge; null when absent.
-  const toml::node* node(std::string_view name, Need need, const std::string& meaning, const std::string& cure) {
-    return find(name, need, meaning, cure);
-  }
+  /// The node itself, for values that only the caller can judge, `wanted` as far as a type can say it; null when absent.
+  const toml::node* node(std::string_view name, Need need, const std::string& meaning, const std::string& cure,
+                         std::vector<Wanted::Type> wanted = {Wanted::Type::anything});
+  /// A table of numbers under names that the user chooses.
+  void numbers_by_name(std::string_view name, std::map<std::string, double>& target, const std::string& example);
+  /// A key that the user named elsewhere.
+  const toml::node* named_node(const std::string& name);
 
   std::optional<Reader> table(std::string_view name, Need need = Need::optional);
   /// The table, or one that is empty, so that its defaults are read and echoed.
@@ -101,6 +115,8 @@ class Reader {
   std::optional<Point> point_of(const toml::node& node, const std::string& key, const Rule& rule);
   void wrong_type(const std::string& key, const std::string& wanted, const toml::node& node, const std::string& cure);
   std::string echo_of(const Point& point) const;
+  /// For the sketch, if there is one: what the key has to be. What is wanted first counts, further calls add to it.
+  void note(std::string_view name, Wanted wanted, Need need = Need::optional);
   template <class Value>
   void echo(std::string_view name, const Value& value) {
     context_->echo.add(section_, name, toml_text(value));
@@ -111,6 +127,7 @@ class Reader {
   const toml::table* table_;  // null: moved from
   std::string path_, header_;
   Echo::Section section_;
+  Sketch::Visit* visit_ = nullptr;  // of the sketch, if there is one
   std::set<std::string, std::less<>> known_, ignored_;
 };
 

@@ -13,6 +13,7 @@ struct Rule {
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false;  ///< `low` itself is not allowed
 
+  bool operator==(const Rule&) const = default;
   bool holds(double value) const { return (low_open ? value > low : value >= low) && value <= high; }
   /// "must be positive (kg/m^3)"
   std::string law() const;

@@ -11,6 +11,8 @@
 
 namespace splashdown::apps {
 
+class Sketch;
+
 /// One value of an axis, or one of its named cases.
 struct AxisValue {
   std::string text;              ///< in tables and folder names
@@ -76,6 +78,9 @@ struct StudyRun {
 
 /// Throws SceneError with every problem found, the scenes' included.
 Study read_study(const std::filesystem::path& file);
+
+/// What the reader of studies asks for.
+void sketch_study(Sketch& sketch);
 
 /// Names and --set arguments of all combinations, without reading a scene.
 std::vector<StudyRun> expand(const Study& study);

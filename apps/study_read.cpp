@@ -71,7 +71,7 @@ void read_case(Reader& reader, Axis& axis) {
   AxisValue value;
   reader.text("name", value.text, "Use a short word, e.g. \"aitken\".", Need::required);
   reader.texts("set", value.set, set_cure, Need::required);
-  value.place = {reader.place("name").source, reader.place("name").line};
+  value.place = reader.place("name");
   if (!value.text.empty() && axis.find(value.text))
     reader.context().problems.add(reader.key("name"), "there is a case of this name already", "Use another name.");
   axis.values.push_back(std::move(value));
@@ -109,7 +109,7 @@ void read_reference(Reader& reader, const Study& study, StudyQuantity& quantity)
   if (!table) return;
   for (std::size_t a = 0; a < study.axes.size(); ++a) {
     const auto& axis = study.axes[a];
-    const auto* node = table->node(axis.name, Need::optional, {}, {});
+    const auto* node = table->named_node(axis.name);
     if (!node) continue;
     const auto text = node->is_string() ? *node->value<std::string>() : written(*node);
     std::vector<std::string> valid;
@@ -134,7 +134,7 @@ void read_quantity(Reader& reader, Study& study, Columns& columns) {
   check_expression(reader, "quantity", quantity.quantity);
   check_expression(reader, "where", quantity.where);
   const std::string cure = "Use a number or an expression of axes and constants.";
-  if (const auto* node = reader.node("exact", Need::optional, {}, {})) {
+  if (const auto* node = reader.node("exact", Need::optional, {}, cure, {Wanted::Type::number, Wanted::Type::text})) {
     if (node->is_string() || node->is_number())
       quantity.exact = node->is_string() ? *node->value<std::string>() : written(*node);
     else
@@ -156,27 +156,12 @@ void read_quantity(Reader& reader, Study& study, Columns& columns) {
   study.quantities.push_back(std::move(quantity));
 }
 
-void read_constants(Reader& reader, Study& study) {
-  // A table of the user's own names: nothing in it is unknown.
-  if (!reader.holds("constants")) return;
-  const auto* node = reader.node("constants", Need::optional, {}, {});
-  const auto* table = node->as_table();
-  Problems& problems = reader.context().problems;
-  if (!table) return problems.add("constants", "must be a table", "Write [constants] with NAME = NUMBER.");
-  for (const auto& [name, entry] : *table) {
-    const auto key = fmt::format("constants.{}", name.str());
-    problems.note(key, place_of(entry), written(entry));
-    if (!entry.is_number()) problems.add(key, "must be a number", "Use e.g. g = 9.81.");
-    study.constants.emplace(name.str(), entry.value<double>().value_or(0));
-  }
-}
-
 /// The axis of a name, or a problem.
 std::optional<std::size_t> read_axis_name(Reader& reader, std::string_view key, const Study& study, Need need) {
   std::vector<std::string> valid;
   for (const auto& axis : study.axes) valid.push_back(axis.name);
   std::string name;
-  if (!reader.choice(key, name, valid, need) || name.empty()) return {};
+  if (!reader.reference(key, name, valid, need) || name.empty()) return {};
   return static_cast<std::size_t>(std::ranges::find(valid, name) - valid.begin());
 }
 
@@ -196,7 +181,7 @@ void read_chart(Reader& reader, Study& study) {
     if (quantity.has_error()) valid.push_back(quantity.error_name());
   }
   chart.y = {"passes_mean", "wall_seconds"};
-  reader.choices("y", chart.y, valid);
+  reader.references("y", chart.y, valid);
   std::string scale_x = "log", scale_y = "log";
   reader.choice("scale_x", scale_x, {"log", "linear"});
   reader.choice("scale_y", scale_y, {"log", "linear"});
@@ -207,10 +192,30 @@ void read_chart(Reader& reader, Study& study) {
     problems.add(reader.key("x"), "has values that a logarithmic scale cannot show", "Use scale_x = \"linear\".");
 }
 
+void read_root(Reader& root, Study& study) {
+  Problems& problems = root.context().problems;
+  Columns columns(problems);
+  std::string scene;
+  root.text("title", study.title, "Use a short text in quotes.");
+  root.text("scene", scene, "Name the scene file, relative to this file.", Need::required);
+  study.scene = (study.file.parent_path() / scene).lexically_normal();
+  if (!scene.empty() && !std::filesystem::is_regular_file(study.scene))
+    problems.add("scene", "there is no such file: " + study.scene.string(),
+                 "Name the scene file, relative to this file.");
+  root.texts("set", study.set, set_cure);
+  root.number("budget", study.budget, positive("s", "Use wall seconds for a run, e.g. 60."));
+  root.numbers_by_name("constants", study.constants, "g = 9.81");
+  root.each_table("axis", [&](Reader& reader) { read_axis(reader, study, columns); });
+  if (study.axes.empty() && !problems.noted("axis"))
+    problems.add_missing("axis", "what varies", "Write [[axis]] with name, key and values.");
+  root.each_table("quantity", [&](Reader& reader) { read_quantity(reader, study, columns); });
+  if (auto chart = root.table("chart")) read_chart(*chart, study);
+}
+
 }  // namespace
 
 Study read_study(const std::filesystem::path& file) {
-  const auto root_table =
+  const auto table =
       read_toml(read_text(file, "a study file, e.g. examples/coupling_schemes/study.toml"), file.string());
   Study study;
   study.file = file;
@@ -218,26 +223,23 @@ Study read_study(const std::filesystem::path& file) {
   {
     Echo echo;
     ReadContext context{problems, echo};
-    Reader root(context, root_table, "", "");
-    Columns columns(problems);
-    std::string scene;
-    root.text("title", study.title, "Use a short text in quotes.");
-    root.text("scene", scene, "Name the scene file, relative to this file.", Need::required);
-    study.scene = (file.parent_path() / scene).lexically_normal();
-    if (!scene.empty() && !std::filesystem::is_regular_file(study.scene))
-      problems.add("scene", "there is no such file: " + study.scene.string(),
-                   "Name the scene file, relative to this file.");
-    root.texts("set", study.set, set_cure);
-    root.number("budget", study.budget, positive("s", "Use wall seconds for a run, e.g. 60."));
-    read_constants(root, study);
-    root.each_table("axis", [&](Reader& reader) { read_axis(reader, study, columns); });
-    if (study.axes.empty() && !problems.noted("axis"))
-      problems.add_missing("axis", "what varies", "Write [[axis]] with name, key and values.");
-    root.each_table("quantity", [&](Reader& reader) { read_quantity(reader, study, columns); });
-    if (auto chart = root.table("chart")) read_chart(*chart, study);
+    Reader root(context, table, "", "");
+    read_root(root, study);
   }
   problems.throw_if_any();
   return study;
+}
+
+void sketch_study(Sketch& sketch) {
+  sketch.explore([&] {
+    Problems nobody_told("");
+    Echo unused;
+    ReadContext context{.problems = nobody_told, .echo = unused, .sketch = &sketch};
+    const toml::table empty;
+    Reader root(context, empty, "", "");
+    Study study;
+    read_root(root, study);
+  });
 }
 
 }  // namespace splashdown::apps
