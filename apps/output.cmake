@@ -39,6 +39,7 @@ add_library(splashdown_output STATIC
   ${CMAKE_CURRENT_LIST_DIR}/vtu_grid.cpp)
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
 target_compile_options(splashdown_output PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+target_precompile_headers(splashdown_output PRIVATE ${SPLASHDOWN_COMMON_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(splashdown_output
   PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt

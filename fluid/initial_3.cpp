@@ -1,73 +1,23 @@
-// In space: walls cut the regions exactly (corefinement), and CGAL's Mesh_3 fills what is left to the size field.
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Mesh_criteria_3.h>
-#include <CGAL/Mesh_domain_with_polyline_features_3.h>
-#include <CGAL/Mesh_triangulation_3.h>
+// In space: walls cut the regions exactly, and CGAL's Mesh_3 fills what is left to the size field. Here: the skin between them.
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/Polyhedral_mesh_domain_3.h>
-#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/split_graph_into_polylines.h>
-#include <CGAL/make_mesh_3.h>
 
+#include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
-#include <stdexcept>
 
-#include "fluid/initial_parts.hpp"
+#include "fluid/initial_3_parts.hpp"
 
 namespace splashdown::fluid {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Exact = CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>;
-using Rounded = CGAL::Surface_mesh<Kernel::Point_3>;
-using Domain = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Polyhedral_mesh_domain_3<Rounded, Kernel>>;
-using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
-using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
-using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 constexpr double speck = 1e-10;  // over the liquid's size: shorter edges are roundoff
-
-Vec<3> vec(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
-
-Exact exact(const Surface<3>& surface, const Isometry<3>& pose) {
-  Exact mesh;
-  std::vector<Exact::Vertex_index> at;
-  for (Eigen::Index v = 0; v < surface.vertices.cols(); ++v) {
-    const Vec<3> x = pose * Vec<3>(surface.vertices.col(v));
-    at.push_back(mesh.add_vertex({x.x(), x.y(), x.z()}));
-  }
-  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f)
-    mesh.add_face(at[surface.facets(0, f)], at[surface.facets(1, f)], at[surface.facets(2, f)]);
-  return mesh;
-}
-
-Exact clipped(const LiquidSpec<3>& liquid, const WallsAt<3>& walls) {
-  Exact region = exact(liquid.boundary, Isometry<3>::Identity());
-  for (std::size_t w = 0; w < walls.walls.size(); ++w) {
-    Exact wall = exact(walls.walls[w].spec().surface, walls.poses[w]), cut;
-    bool simple;
-    if (walls.walls[w].encloses_fluid()) {
-      pmp::reverse_face_orientations(wall);
-      simple = pmp::corefine_and_compute_intersection(region, wall, cut);
-    } else {
-      simple = pmp::corefine_and_compute_difference(region, wall, cut);
-    }
-    if (!simple)
-      throw std::invalid_argument("the liquid around '" + walls.walls[w].spec().name +
-                                  "' would meet itself in an edge or a corner: move the body or the liquid a little");
-    region = std::move(cut);
-  }
-  region.collect_garbage();
-  return region;
-}
 
 // The liquid's boundary as a triangle mesh and what each facet of it lies on.
 struct Skin {
@@ -91,21 +41,17 @@ void collapse_specks(Rounded& mesh, double length) {
   mesh.collect_garbage();
 }
 
-Skin skin_of(const Exact& region, const WallsAt<3>& walls) {
+Skin skin_of(const Surface<3>& region, const WallsAt<3>& walls) {
   Skin skin;
-  std::map<Exact::Vertex_index, Rounded::Vertex_index> at;
-  for (auto v : region.vertices()) {
-    const auto& p = region.point(v);
-    at[v] = skin.mesh.add_vertex({CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
-  }
+  std::vector<Rounded::Vertex_index> at;
   Eigen::AlignedBox3d box;
-  for (auto f : region.faces()) {
-    std::array<Rounded::Vertex_index, 3> corner;
-    int k = 0;
-    for (auto v : region.vertices_around_face(region.halfedge(f)))
-      box.extend(vec(skin.mesh.point(corner[k++] = at[v])));
-    skin.mesh.add_face(corner[0], corner[1], corner[2]);
+  for (Eigen::Index v = 0; v < region.vertices.cols(); ++v) {
+    const Vec<3> x = region.vertices.col(v);
+    at.push_back(skin.mesh.add_vertex({x.x(), x.y(), x.z()}));
+    box.extend(x);
   }
+  for (Eigen::Index f = 0; f < region.facets.cols(); ++f)
+    skin.mesh.add_face(at[region.facets(0, f)], at[region.facets(1, f)], at[region.facets(2, f)]);
   collapse_specks(skin.mesh, speck * box.diagonal().norm());
   for (auto f : skin.mesh.faces()) {
     Vec<3> centre = Vec<3>::Zero();
@@ -115,11 +61,6 @@ Skin skin_of(const Exact& region, const WallsAt<3>& walls) {
   }
   return skin;
 }
-
-struct Curves {
-  std::vector<std::vector<Kernel::Point_3>> lines;
-  std::vector<Kernel::Point_3> corners;  // on no line
-};
 
 // Delaunay refinement grows a surface from what it knows of it: of one without curves and corners, a smooth body under
 // water, it would know nothing, and leave it out. Vertices far from each other stand for it as corners.
@@ -198,16 +139,6 @@ Curves curves_of(const Skin& skin, const WallsAt<3>& walls) {
   return curves;
 }
 
-// h times a factor, for Mesh_3.
-struct Sizing {
-  using FT = Kernel::FT;
-  using Point_3 = Kernel::Point_3;
-  using Index = Domain::Index;
-  const SizeField<3>* field;
-  double factor;
-  FT operator()(const Point_3& p, int, const Index&) const { return factor * (*field)(vec(p)); }
-};
-
 SizeField<3> size_field(const FluidSpec<3>& spec, const Skin& skin, const WallsAt<3>& walls) {
   std::vector<Vec<3>> x;
   for (auto v : skin.mesh.vertices()) x.push_back(vec(skin.mesh.point(v)));
@@ -222,52 +153,14 @@ SizeField<3> size_field(const FluidSpec<3>& spec, const Skin& skin, const WallsA
   return SizeField<3>(spec.size, walls, std::vector<double>(walls.walls.size(), 0.0), x, mesh);
 }
 
-// Mesh_3 bounds circumradii from above; these factors make the mean edge about h.
-Complex meshed(const Domain& domain, const SizeField<3>& field) {
-  namespace params = CGAL::parameters;
-  const Sizing edges{&field, 1.0}, facets{&field, 0.75}, cells{&field, 0.8}, sag{&field, 0.1};
-  const Criteria criteria(params::edge_size = edges, params::facet_angle = 25, params::facet_size = facets,
-                          params::facet_distance = sag, params::cell_radius_edge_ratio = 2, params::cell_size = cells);
-  return CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude());
-}
-
-void append(const Complex& complex, const WallsAt<3>& walls, InitialLiquid<3>& out) {
-  const auto& triangulation = complex.triangulation();
-  std::map<Triangulation::Vertex_handle, int> at;
-  auto node = [&](Triangulation::Vertex_handle v) {
-    const auto [known, fresh] = at.try_emplace(v, 0);
-    if (fresh) {
-      const Vec<3> x = vec(triangulation.point(v).point());
-      known->second =
-          out.nodes.add(x, Vec<3>::Zero(), 0, v->in_dimension() < 3 ? tie_at<3>(x, walls) : WallTie{}, false);
-    }
-    return known->second;
-  };
-  for (auto c = complex.cells_in_complex_begin(); c != complex.cells_in_complex_end(); ++c)
-    for (int k = 0; k < 4; ++k) {
-      node(c->vertex(k));
-      const auto other = c->neighbor(k);
-      if (complex.is_in_complex(other)) continue;
-      Facet<3> f;
-      for (int j = 0; j < 3; ++j) f.nodes[j] = node(c->vertex(opposite<3>[k][j]));
-      out.mesh.boundary.push_back(f);
-    }
-}
-
 }  // namespace
 
 template <>
 void outline(const LiquidSpec<3>& liquid, const FluidSpec<3>& spec, const WallsAt<3>& walls, InitialLiquid<3>& out) {
-  const Exact region = clipped(liquid, walls);
-  if (region.number_of_faces() == 0) return;
+  const Surface<3> region = clipped(liquid, walls);
+  if (region.facets.cols() == 0) return;
   const Skin skin = skin_of(region, walls);
-  const auto field = size_field(spec, skin, walls);
-  CGAL::Random random(0);
-  Domain domain(skin.mesh, &random);
-  const Curves curves = curves_of(skin, walls);
-  domain.add_features(curves.lines.begin(), curves.lines.end());
-  for (const auto& corner : curves.corners) domain.add_corner(corner);
-  append(meshed(domain, field), walls, out);
+  fill_within(skin.mesh, curves_of(skin, walls), size_field(spec, skin, walls), walls, out);
 }
 
 }  // namespace splashdown::fluid

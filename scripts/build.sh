@@ -1,14 +1,31 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing, configures and builds.
-#   scripts/build.sh [PRESET]      PRESET of CMakePresets.json, default: release
+#   scripts/build.sh [PRESET]                        the program; PRESET of CMakePresets.json, default: release
+#   scripts/build.sh --tests [PRESET [LIST...]]      program, tests and benchmarks; LIST: files of further packages
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+tests=
+[[ ${1:-} == --tests ]] && tests=yes && shift
 preset=${1:-release}
+lists=(scripts/packages.txt "${@:2}")
+[[ -z $tests ]] || lists+=(tests/packages.txt)
 
 missing=()
 while read -r package; do
   dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
-done < <(grep -v '^#' scripts/packages.txt)
+done < <(grep -hv '^#' "${lists[@]}")
+
+# The largest source needs 2.2 GB, most need less than one.
+jobs=$(nproc)
+by_memory=$(awk '/^MemAvailable:/ {print int($2 / 1500000)}' /proc/meminfo)
+((by_memory >= jobs)) || jobs=$((by_memory > 1 ? by_memory : 1))
+
+if [[ ! -x build/$preset/splashdown && -z $tests ]]; then
+  cpu_minutes=20  # measured, g++ 12 at full optimisation
+  echo "Splashdown has to be compiled first: about $((cpu_minutes / jobs + 1)) minutes with $jobs compilers at a time of up to 1.5 GB of memory each,"
+  echo "and 0.1 GB of disk in build/$preset."
+  ((${#missing[@]} == 0)) || echo "Before that packages are installed: up to 0.6 GB to load and 2.4 GB of disk on a bare system."
+fi
 
 if ((${#missing[@]})); then
   echo "installing: ${missing[*]}"
@@ -19,10 +36,13 @@ if ((${#missing[@]})); then
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-# CGAL and VTK sources need up to 1.5 GB a compiler.
-jobs=$(nproc)
-by_memory=$(awk '/^MemAvailable:/ {print int($2 / 1500000)}' /proc/meminfo)
-((by_memory >= jobs)) || jobs=$((by_memory > 1 ? by_memory : 1))
-
-cmake --preset "$preset"
-cmake --build --preset "$preset" --parallel "$jobs"
+if [[ -n $tests ]]; then
+  cmake --preset "$preset" -DBUILD_TESTING=ON
+  cmake --build --preset "$preset" --parallel "$jobs"
+else
+  # A folder that has the tests keeps them.
+  [[ -f build/$preset/CMakeCache.txt ]] || off=-DBUILD_TESTING=OFF
+  cmake --preset "$preset" ${off:+"$off"}
+  cmake --build --preset "$preset" --parallel "$jobs" --target splashdown
+fi
+[[ ! -x build/$preset/splashdown ]] || echo "splashdown is built: build/$preset/splashdown"
