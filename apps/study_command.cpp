@@ -69,9 +69,12 @@ int hand_to_slurm(const Study& study, const std::vector<StudyRun>& runs, const s
   }
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (!outcomes[i].finished()) prepare(runs[i], folder / runs[i].name);
-  const auto said = submit(study, slurm_script(study, runs, outcomes, folder, options.jobs), folder);
+  const ArrayLimits limits{.at_a_time = options.jobs, .longest = longest_array(folder)};
+  const auto scripts = slurm_scripts(study, runs, outcomes, folder, limits);
+  const auto said = submit(study, scripts, folder);
   if (!options.quiet)
-    fmt::print("{}\n  script      {}\n  see         squeue --me\n", said, (folder / "study.sbatch").string());
+    fmt::print("{}\n  script      {}\n  see         squeue --me\n", said,
+               (folder / (scripts.size() == 1 ? "study.sbatch" : "study-*.sbatch")).string());
   return exit_code::done;
 }
 

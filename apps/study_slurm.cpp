@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "apps/child_process.hpp"
@@ -54,38 +56,71 @@ std::string sbatch(std::vector<std::string> arguments, const fs::path& folder) {
 
 }  // namespace
 
-std::string slurm_script(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
-                         const fs::path& folder, int jobs) {
-  std::string commands;
-  std::size_t count = 0;
+std::vector<std::string> slurm_scripts(const Study& study, const std::vector<StudyRun>& runs,
+                                       const std::vector<Outcome>& outcomes, const fs::path& folder,
+                                       const ArrayLimits& limits) {
+  std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (!outcomes[i].finished())
-      commands +=
-          fmt::format("  {}) exec {} ;;\n", count++, line_of(command_of(study, runs[i], folder / runs[i].name)));
-  return fmt::format(
-      "#!/bin/bash\n"
-      "# Runs of {}: one task each. A task that is submitted again continues from its checkpoint.\n"
-      "#SBATCH --job-name=splashdown\n"
-      "#SBATCH --array=0-{}%{}\n"
-      "#SBATCH --ntasks=1 --cpus-per-task=1\n"
-      "#SBATCH --signal=B:TERM@60\n"
-      "#SBATCH --requeue\n"
-      "cd {} || exit 2\n"
-      "case $SLURM_ARRAY_TASK_ID in\n{}esac\n",
-      one_line(study.file.string()), count - 1, jobs, quoted(fs::current_path().string()), commands);
+    if (!outcomes[i].finished()) waiting.push_back(i);
+  std::vector<std::string> scripts;
+  for (std::size_t first = 0; first < waiting.size(); first += limits.longest) {
+    const auto count = std::min(limits.longest, waiting.size() - first);
+    std::string commands;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& run = runs[waiting[first + k]];
+      commands += fmt::format("  {}) exec {} ;;\n", k, line_of(command_of(study, run, folder / run.name)));
+    }
+    scripts.push_back(
+        fmt::format("#!/bin/bash\n"
+                    "# Runs of {}: one task each. A task that is submitted again continues from its checkpoint.\n"
+                    "#SBATCH --job-name=splashdown\n"
+                    "#SBATCH --array=0-{}%{}\n"
+                    "#SBATCH --ntasks=1 --cpus-per-task=1\n"
+                    "#SBATCH --signal=B:TERM@60\n"
+                    "#SBATCH --requeue\n"
+                    "cd {} || exit 2\n"
+                    "case $SLURM_ARRAY_TASK_ID in\n{}esac\n",
+                    one_line(study.file.string()), count - 1, limits.at_a_time, quoted(fs::current_path().string()), commands));
+  }
+  return scripts;
 }
 
-std::string submit(const Study& study, const std::string& script, const fs::path& folder) {
-  const auto file = folder / "study.sbatch";
-  write_file_atomically(file, script);
-  const auto array = sbatch({"--output=" + (folder / "task-%a.log").string(), file.string()}, folder);
+std::size_t longest_array(const fs::path& folder) {
+  constexpr std::size_t usual = 1001;  // slurm.conf(5)
+  const auto program = find_program("scontrol");
+  if (!program) return usual;
+  const auto log = folder / "scontrol.log";
+  fs::remove(log);
+  ChildProcess({program->string(), "show", "config"}, log).wait();
+  std::ifstream in(log);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("MaxArraySize")) std::istringstream(line.substr(line.find('=') + 1)) >> longest;
+  fs::remove(log);
+  return longest > 0 ? longest : usual;
+}
+
+std::string submit(const Study& study, const std::vector<std::string>& scripts, const fs::path& folder) {
+  std::string arrays;
+  for (std::size_t k = 0; k < scripts.size(); ++k) {
+    const auto part = scripts.size() == 1 ? std::string() : fmt::format("-{}", k + 1);
+    const auto file = folder / ("study" + part + ".sbatch");
+    write_file_atomically(file, scripts[k]);
+    std::vector<std::string> words{"--output=" + (folder / ("task" + part + "-%a.log")).string()};
+    // One array after the other, or more tasks than --jobs would be at work.
+    if (k > 0) words.push_back("--dependency=afterany:" + arrays.substr(arrays.rfind(':') + 1));
+    words.push_back(file.string());
+    arrays += (k > 0 ? ":" : "") + sbatch(words, folder);
+  }
   const auto gather = line_of({own_program().string(), "study", fs::absolute(study.file).string(), "--out",
                                folder.string(), "--collect", "--quiet"});
-  const auto last = sbatch({"--job-name=splashdown-collect", "--dependency=afterany:" + array,
+  const auto last = sbatch({"--job-name=splashdown-collect", "--dependency=afterany:" + arrays,
                             "--output=" + (folder / "collect.log").string(), "--wrap",
                             "cd " + quoted(fs::current_path().string()) + " && " + gather},
                            folder);
-  return fmt::format("job array {} is submitted, job {} gathers its results", array, last);
+  std::ranges::replace(arrays, ':', ' ');
+  if (scripts.size() == 1) return fmt::format("job array {} is submitted, job {} gathers its results", arrays, last);
+  return fmt::format("job arrays {} are submitted, one after the other; job {} gathers their results", arrays, last);
 }
 
 }  // namespace splashdown::apps

@@ -240,11 +240,26 @@ TEST_F(StudyTest, slurm_gets_one_task_a_run_that_is_not_finished) {
   leave(runs[1], "done", "", 5);
   std::vector<Outcome> outcomes;
   for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, path() / run.name));
-  const auto script = slurm_script(study, runs, outcomes, path(), 3);
+  const auto scripts = slurm_scripts(study, runs, outcomes, path(), {.at_a_time = 3, .longest = 1001});
+  ASSERT_EQ(scripts.size(), 1u);
+  const auto& script = scripts[0];
   EXPECT_NE(script.find("#SBATCH --array=0-4%3\n"), std::string::npos) << script;
   EXPECT_EQ(script.find("ratio-1_exact"), std::string::npos) << "is finished";
   EXPECT_NE(script.find("  1) exec "), std::string::npos);
   EXPECT_NE(script.find("'--resume'"), std::string::npos);
+}
+
+TEST_F(StudyTest, slurm_gets_several_arrays_if_one_would_be_too_long) {
+  const auto study = read();
+  const auto runs = resolved(study);
+  ASSERT_EQ(runs.size(), 6u);
+  const auto scripts = slurm_scripts(study, runs, std::vector<Outcome>(6), path(), {.at_a_time = 3, .longest = 4});
+  ASSERT_EQ(scripts.size(), 2u);
+  EXPECT_NE(scripts[0].find("#SBATCH --array=0-3%3\n"), std::string::npos) << scripts[0];
+  EXPECT_NE(scripts[1].find("#SBATCH --array=0-1%3\n"), std::string::npos) << scripts[1];
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_EQ(scripts[k].find("/" + runs[i].name + "'") != std::string::npos, k == i / 4) << runs[i].name;
 }
 
 using testing::Mistake;

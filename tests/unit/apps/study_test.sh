@@ -151,11 +151,17 @@ case "$*" in
   echo '7;cluster' ;;
 esac
 SBATCH
-chmod +x bin/sbatch
+cat >bin/scontrol <<'SCONTROL'
+#!/usr/bin/env bash
+echo "MaxArraySize            = 3"
+SCONTROL
+chmod +x bin/sbatch bin/scontrol
 check "without sbatch --on slurm is refused" exits 2 env PATH=/nowhere "$splashdown" study study.toml --on slurm --out never
 check "and nothing is written" test ! -e never
 check "with it the study is handed over" exits 0 env PATH="$work/bin:$PATH" "$splashdown" study study.toml --on slurm --out array
-check "the gathering job waits for the array" grep -q -- '--dependency=afterany:7' sbatch.calls
+check "no array is longer than the cluster takes" test "$(sed -n "s/^#SBATCH --array=//p" array/study-*.sbatch | tr "\n" " ")" = "0-2%1 0-0%1 "
+check "one array waits for the other" grep -q -- '--dependency=afterany:7 ' sbatch.calls
+check "the gathering job waits for all" grep -q -- '--dependency=afterany:7:7' sbatch.calls
 "$splashdown" study study.toml --quiet --out local_again
 check "the array's results are those of a study without Slurm" same_results local_again array
 
