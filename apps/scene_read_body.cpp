@@ -62,7 +62,7 @@ struct ReadShape {
       const auto file = fluid::read_surface_file(surface.file);
       const rigid::Surface<3> hull{surface.scale * file.surface.vertices, file.surface.facets};
       surface.parts = file.parts;
-      surface.read = std::make_shared<rigid::Shape<3>>(hull, rigid::mass_properties<3>(hull));
+      surface.read = std::make_shared<rigid::Shape<3>>(rigid::Shape<3>{hull, rigid::mass_properties<3>(hull)});
     } catch (const fluid::SurfaceFileError& error) {
       problems.add(reader.key("file"), error.what(), error.cure());
     }

@@ -115,6 +115,18 @@ void merge_points(Soup& soup) {
     for (auto& point : polygon) point = now[point];
 }
 
+/// A polygon that comes back to a corner encloses nothing that facets could be made of.
+void refuse_repeated_corners(const Soup& soup) {
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    auto corners = soup.polygons[f];
+    std::sort(corners.begin(), corners.end());
+    const auto twice = std::adjacent_find(corners.begin(), corners.end());
+    if (twice != corners.end() && corners.size() > 3)  // such triangles have no area
+      throw SurfaceFileError(
+          fmt::format("has a facet that meets its corner {} twice: number {}", text(soup.at(*twice)), f + 1), clean);
+  }
+}
+
 void refuse_without_area(const Soup& soup) {
   const double flat = 1e-9 * soup.extent();  // height over the longest edge
   for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
@@ -244,6 +256,7 @@ int checked_parts(const Mesh& mesh) {
 SurfaceFile read_surface_file(const std::filesystem::path& path) {
   Soup soup = read_soup(path);
   merge_points(soup);
+  refuse_repeated_corners(soup);
   refuse_without_area(soup);
   refuse_disagreement(soup);
   Mesh mesh;

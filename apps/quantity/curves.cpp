@@ -20,6 +20,10 @@ void require_increasing(const Column& x) {
       throw std::runtime_error(fmt::format("x does not increase from row {} ({}) to the next ({})", i, x[i - 1], x[i]));
 }
 
+void require_width(double width) {
+  if (!(width > 0)) throw std::runtime_error(fmt::format("a width must be positive, not {}", width));
+}
+
 /// Index i with x[i] <= at <= x[i+1]; at has to lie within x.
 std::size_t interval_of(const Column& x, double at) {
   const auto after = std::upper_bound(x.begin(), x.end(), at);
@@ -65,6 +69,7 @@ Column interpolated(const Column& x, const Column& y, const Column& at) {
 }
 
 Column smoothed(const Column& y, const Column& x, double width) {
+  require_width(width);
   require_increasing(x);
   Column result;
   std::size_t begin = 0, end = 0;
@@ -90,6 +95,7 @@ Column smoothed(const Column& y, const Column& x, double width) {
 
 Column window_means(const Column& y, const Column& x, double width) {
   if (x.size() < 2) throw std::runtime_error("a window needs two rows");
+  require_width(width);
   require_increasing(x);
   Column running(x.size(), 0.0);
   for (std::size_t i = 1; i < x.size(); ++i) running[i] = running[i - 1] + 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
@@ -99,6 +105,9 @@ Column window_means(const Column& y, const Column& x, double width) {
   };
   // Rounding of the division must not drop a window that fits exactly.
   const double windows = std::floor((x.back() - x.front()) / width * (1 + 1e-12));
+  if (!(windows <= double(most_pieces)))
+    throw std::runtime_error(
+        fmt::format("{:g} windows of {} are too many; {} are the most", windows, width, most_pieces));
   Column means;
   for (double k = 0; k < windows; ++k) {
     const double from = x.front() + k * width;
@@ -136,6 +145,7 @@ Column bin_centres(double low, double high, std::size_t count) {
 }
 
 Column bin_means(const Column& y, const Column& x, double low, double high, std::size_t count) {
+  if (!std::isfinite(high - low)) throw std::runtime_error(fmt::format("bins need ends, not {} and {}", low, high));
   Column sums(count, 0.0), rows(count, 0.0);
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(x[i] >= low && x[i] < high)) continue;

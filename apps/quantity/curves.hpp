@@ -8,6 +8,9 @@
 
 namespace splashdown::quantity {
 
+/// Of windows and bins: a mistyped width must not fill the memory.
+inline constexpr std::size_t most_pieces = 1'000'000;
+
 double integral(const std::vector<double>& y, const std::vector<double>& x);  ///< trapezoidal
 double slope(const std::vector<double>& y, const std::vector<double>& x);     ///< least squares
 

@@ -94,7 +94,23 @@ class Parser {
     return value;
   }
 
+  /// Expressions are read by functions that call each other; the stack is not endless.
+  class Level {
+   public:
+    explicit Level(Parser& parser) : parser_(parser) {
+      constexpr int deepest = 100;  // far beyond what anybody writes
+      if (++parser_.depth_ > deepest) parser_.fail("brackets and signs in each other too deep");
+    }
+    ~Level() { --parser_.depth_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+   private:
+    Parser& parser_;
+  };
+
   Value unary() {
+    const Level level(*this);
     if (take("-")) return combine(Value::number(0), unary(), [](double a, double b) { return a - b; });
     const Value base = primary();
     if (!take("^")) return base;
@@ -151,6 +167,7 @@ class Parser {
   std::string_view text_;
   const Lookup* lookup_;
   std::size_t at_ = 0;
+  int depth_ = 0;
 };
 
 }  // namespace

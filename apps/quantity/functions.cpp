@@ -69,7 +69,15 @@ double scalar(const Value& value) {
   return value.numbers.front();
 }
 
+std::size_t whole_number(const Value& value) {
+  const double number = scalar(value);
+  if (!(number >= 1 && number <= double(most_pieces)))
+    throw std::runtime_error(fmt::format("a number from 1 to {} is needed here, not {}", most_pieces, number));
+  return static_cast<std::size_t>(number);
+}
+
 Value group_extremes(const Column& y, const Column& key, const Column& x) {
+  if (x.size() != y.size()) throw std::runtime_error("the columns differ in length");
   Column result;
   for (std::size_t begin = 0; begin < y.size();) {
     std::size_t end = begin;
@@ -159,14 +167,12 @@ const std::map<std::string, Function>& functions() {
        of_pair(1, [](const Arguments& a) { return group_extremes(a[0].numbers, a[1].numbers, a[2].numbers); })},
       {"bins", of_pair(3,
                        [](const Arguments& a) {
-                         return Value::column(bin_means(a[0].numbers, a[1].numbers, scalar(a[2]), scalar(a[3]),
-                                                        static_cast<std::size_t>(scalar(a[4]))));
+                         return Value::column(
+                             bin_means(a[0].numbers, a[1].numbers, scalar(a[2]), scalar(a[3]), whole_number(a[4])));
                        })},
       {"bin_centres",
        {3, 3,
-        [](const Arguments& a) {
-          return Value::column(bin_centres(scalar(a[0]), scalar(a[1]), static_cast<std::size_t>(scalar(a[2]))));
-        }}},
+        [](const Arguments& a) { return Value::column(bin_centres(scalar(a[0]), scalar(a[1]), whole_number(a[2]))); }}},
       {"column", {1, std::numeric_limits<std::size_t>::max(), gathered}},
       {"index", {1, 1, [](const Arguments& a) { return counted(a[0].numbers); }}},
       {"select", of_pair(0, [](const Arguments& a) { return selected(a[0].numbers, a[1].numbers); })},
