@@ -1,6 +1,7 @@
 #include "apps/study_slurm.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -101,26 +102,27 @@ std::size_t longest_array(const fs::path& folder) {
 }
 
 std::string submit(const Study& study, const std::vector<std::string>& scripts, const fs::path& folder) {
-  std::string arrays;
+  std::vector<std::string> arrays;  // their numbers
   for (std::size_t k = 0; k < scripts.size(); ++k) {
     const auto part = scripts.size() == 1 ? std::string() : fmt::format("-{}", k + 1);
-    const auto file = folder / ("study" + part + ".sbatch");
+    const auto file = folder / fmt::format("study{}.sbatch", part);
     write_file_atomically(file, scripts[k]);
-    std::vector<std::string> words{"--output=" + (folder / ("task" + part + "-%a.log")).string()};
+    std::vector<std::string> words{fmt::format("--output={}", (folder / fmt::format("task{}-%a.log", part)).string())};
     // One array after the other, or more tasks than --jobs would be at work.
-    if (k > 0) words.push_back("--dependency=afterany:" + arrays.substr(arrays.rfind(':') + 1));
+    if (k > 0) words.push_back(fmt::format("--dependency=afterany:{}", arrays.back()));
     words.push_back(file.string());
-    arrays += (k > 0 ? ":" : "") + sbatch(words, folder);
+    arrays.push_back(sbatch(words, folder));
   }
   const auto gather = line_of({own_program().string(), "study", fs::absolute(study.file).string(), "--out",
                                folder.string(), "--collect", "--quiet"});
-  const auto last = sbatch({"--job-name=splashdown-collect", "--dependency=afterany:" + arrays,
-                            "--output=" + (folder / "collect.log").string(), "--wrap",
-                            "cd " + quoted(fs::current_path().string()) + " && " + gather},
-                           folder);
-  std::ranges::replace(arrays, ':', ' ');
-  if (scripts.size() == 1) return fmt::format("job array {} is submitted, job {} gathers its results", arrays, last);
-  return fmt::format("job arrays {} are submitted, one after the other; job {} gathers their results", arrays, last);
+  const auto last =
+      sbatch({"--job-name=splashdown-collect", fmt::format("--dependency=afterany:{}", fmt::join(arrays, ":")),
+              "--output=" + (folder / "collect.log").string(), "--wrap",
+              "cd " + quoted(fs::current_path().string()) + " && " + gather},
+             folder);
+  if (arrays.size() == 1) return fmt::format("job array {} is submitted, job {} gathers its results", arrays[0], last);
+  return fmt::format("job arrays {} are submitted, one after the other; job {} gathers their results",
+                     fmt::join(arrays, ", "), last);
 }
 
 }  // namespace splashdown::apps

@@ -2,8 +2,9 @@
 # `splashdown study --on slurm` on a real Slurm: arrays longer than it takes, a run that breaks down, a task that is killed, a
 # time limit. The test starts munged, slurmctld and slurmd itself; skipped (exit code 77), with the reason, where it may not.
 #   slurm_test.sh PATH_OF_SPLASHDOWN
-. "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
-. "$(dirname "${BASH_SOURCE[0]}")/slurm_daemons.sh"
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+. "$here/checks.sh"
+. "$here/slurm_daemons.sh"
 trap 'stop_slurm; rm -rf "$work"' EXIT
 if ! start_slurm 4; then
   echo "skipped: no Slurm of its own: $why_not"
