@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 bool is_busy(const fs::path& folder) {
   if (!fs::exists(folder)) return false;
   try {
-    const FolderLock lock(folder);
+    const FolderLock lock(folder, std::chrono::milliseconds(0));
     return false;
   } catch (const std::runtime_error&) {
     return true;
