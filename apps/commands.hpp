@@ -23,6 +23,7 @@ struct RunOptions {
   std::optional<double> budget;
   std::optional<int> threads;
   bool resume = false;
+  bool large = false;  ///< whatever memory it takes
   bool quiet = false;
 };
 
@@ -39,6 +40,9 @@ int run_command(const RunOptions& options);
 int check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
 int study_command(const StudyOptions& options);
 int report_command(const std::filesystem::path& directory);
+
+/// What an exception says, in the words of this program: those of the file system name path, reason and cure.
+std::string trouble(const std::exception& error);
 
 /// `error: ` and the text on the standard error stream; returns exit_code::bad_input.
 int bad_input(const std::string& text);

@@ -8,6 +8,7 @@
 #include "apps/commands.hpp"
 #include "apps/folder_lock.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/questions.hpp"
 #include "apps/report.hpp"
 #include "apps/resume.hpp"
 #include "apps/run.hpp"
@@ -132,12 +133,25 @@ Start read_start(const RunOptions& options) {
   return start;
 }
 
+/// What the scene may not mean, and whether it is larger than anybody asked for. Throws SceneError.
+template <int d>
+void ask(const Scene& scene, const RunOptions& options) {
+  const auto cost = predicted_cost<d>(scene);
+  if (!options.quiet)
+    for (const auto& question : questions<d>(scene, cost)) fmt::print(stderr, "question: {}\n", question);
+  if (const auto why = too_large(cost); why && !options.large)
+    throw SceneError({fmt::format(
+        "{}: {}. Use larger element sizes, mind the units (splashdown check says more), or run it with --large.",
+        options.scene.string(), *why)});
+}
+
 template <int d>
 int run_scene(const RunOptions& options, Start start) {
   const auto& scene = start.file.scene;
   const auto directory = start.plan.directory;
   World<d> world;
   try {
+    ask<d>(scene, options);
     world = build<d>(scene, options.scene);
   } catch (const SceneError& error) {
     return bad_input(error.what());
@@ -149,7 +163,7 @@ int run_scene(const RunOptions& options, Start start) {
     lock.emplace(directory);
     prepare_directory(directory, start.file.resolved, start.from.has_value());
   } catch (const std::exception& error) {
-    return bad_input(error.what());
+    return bad_input(trouble(error));
   }
   try {
     Run<d> run(scene, std::move(world), recorder_settings<d>(scene, directory), std::move(start.plan), progress);
@@ -161,7 +175,7 @@ int run_scene(const RunOptions& options, Start start) {
     return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
   } catch (const std::exception& error) {
     progress.clear();
-    fmt::print(stderr, "error: {}\nThe last good state is in {}; --resume continues from there.\n", error.what(),
+    fmt::print(stderr, "error: {}\nThe last good state is in {}; --resume continues from there.\n", trouble(error),
                (directory / "checkpoint").string());
     return exit_code::cannot_go_on;
   }

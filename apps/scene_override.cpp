@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "apps/scene_read.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -72,8 +74,16 @@ void apply_override(toml::table& root, const std::string& argument, Problems& pr
   const auto words = words_of(argument.substr(0, equals));
   if (std::any_of(words.begin(), words.end(), [](const auto& word) { return word.empty(); }))
     return refuse("a word of the key is empty. Use e.g. --set fluid.density=1025.");
+  if (words.size() > static_cast<std::size_t>(most_key_words))
+    return refuse(fmt::format("the key has {} words. Those of scenes have four at most.", words.size()));
   const bool removes = equals + 1 == argument.size();
   auto value = parsed(removes ? "{}" : argument.substr(equals + 1), source);
+  const auto comma = argument.find(',', equals), digits = argument.find_first_not_of("0123456789+-,", equals + 1);
+  if (!value && comma != std::string::npos && digits == std::string::npos) {
+    auto point = argument.substr(equals + 1);
+    point[comma - equals - 1] = '.';
+    return refuse("numbers have a point, not a comma: did you mean " + point + "?");
+  }
   if (!value)
     return refuse("the value is not TOML. Use a number, a word, true, [1, 2] or \"a text\" (mind the shell's quotes).");
 

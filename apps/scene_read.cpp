@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "apps/scene_check.hpp"
 #include "apps/scene_override.hpp"
@@ -125,33 +121,11 @@ SceneFile read_root(const toml::table& table, const std::filesystem::path& folde
 
 }  // namespace
 
-toml::table read_toml(const std::string& text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    const auto& place = error.source().begin;
-    throw SceneError({fmt::format("{}:{}: not TOML: {} (column {}). See https://toml.io for the syntax.", name,
-                                  place.line, error.description(), place.column)});
-  }
-}
-
 SceneFile read_scene_text(const std::string& text, const std::string& name, std::span<const std::string> overrides) {
   Problems problems(name);
   auto table = read_toml(text, name);
   for (const auto& argument : overrides) apply_override(table, argument, problems);
   return read_root(table, std::filesystem::path(name).parent_path(), problems);
-}
-
-std::string read_text(const std::filesystem::path& path, const std::string& example) {
-  const auto refuse = [&](const std::string& why) -> SceneError {
-    return SceneError({fmt::format("{}: cannot be read: {}. Name {}.", path.string(), why, example)});
-  };
-  if (std::filesystem::is_directory(path)) throw refuse("it is a folder");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw refuse(std::strerror(errno));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 SceneFile read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {

@@ -17,6 +17,9 @@ struct SceneFile {
   std::string resolved;  ///< TOML with every value in force; reads to the same scene
 };
 
+/// Words of a dotted key, at most: parsers and tables of TOML go one call deeper with each.
+inline constexpr int most_key_words = 16;
+
 /// What a file holds. Throws SceneError; `example` is named as a cure.
 std::string read_text(const std::filesystem::path& file, const std::string& example);
 /// Throws SceneError with place and reason if the text is not TOML.

@@ -3,7 +3,6 @@
 namespace splashdown::apps {
 namespace {
 
-const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
 const std::string name_cure = "Give it a name: it becomes the probe's name in probes.csv.";
 
 /// When rows of a file of its own are due: an interval or a list, each step without both.
@@ -29,10 +28,10 @@ void read_patch(Reader& reader, Scene& scene) {
   PatchEntry entry;
   reader.text("name", entry.name, name_cure, Need::required);
   entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
-  reader.point("centre", entry.centre, coordinate);
+  reader.point("centre", entry.centre, place_rule(reader.context().dimension));
   reader.number("radius", entry.radius, positive("m", "Use that of the sensor or panel."));
-  reader.point("min", entry.min, coordinate);
-  reader.point("max", entry.max, coordinate);
+  reader.point("min", entry.min, place_rule(reader.context().dimension));
+  reader.point("max", entry.max, place_rule(reader.context().dimension));
   const bool any_of_disc = reader.holds("centre") || reader.holds("radius");
   const bool any_of_box = reader.holds("min") || reader.holds("max");
   const bool whole = any_of_disc ? reader.holds("centre") && reader.holds("radius") && !any_of_box
@@ -68,7 +67,7 @@ void read_record(Reader& reader, Scene& scene) {
     PressureEntry entry;
     reader.text("name", entry.name, name_cure, Need::required);
     entry.body = read_body_name(reader, "body", scene, Need::optional, "record");
-    reader.point("point", entry.point, coordinate, Need::required);
+    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "surface_elevation") {
     ElevationEntry entry;
@@ -81,7 +80,7 @@ void read_record(Reader& reader, Scene& scene) {
     AccelerationEntry entry;
     reader.text("name", entry.name, name_cure, Need::required);
     entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
-    reader.point("point", entry.point, coordinate, Need::required);
+    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "added_mass") {
     AddedMassEntry entry;

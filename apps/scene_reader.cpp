@@ -10,6 +10,9 @@ namespace {
 
 const toml::table no_table;
 
+// Elements cannot follow more, and every point is held against others.
+constexpr std::size_t most_points = 10'000;
+
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -37,6 +40,8 @@ std::string value_text(const toml::node& node) {
 }
 
 }  // namespace
+
+bool is_exact(const toml::node& node) { return !node.is_integer() || node.value<double>().has_value(); }
 
 std::string written(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
@@ -121,6 +126,10 @@ std::optional<double> Reader::number_of(const toml::node& node, const std::strin
     wrong_type(key, "a number" + rule.in_unit(), node, rule.cure);
     return {};
   }
+  if (!is_exact(node)) {
+    context_->problems.add(key, "whole numbers beyond 2^53 are not kept exactly", "Write it with a point, e.g. 1e16.");
+    return {};
+  }
   const double value = *node.value<double>();
   if (!std::isfinite(value)) {
     context_->problems.add(key, "must be finite" + rule.in_unit(), rule.cure);
@@ -128,6 +137,15 @@ std::optional<double> Reader::number_of(const toml::node& node, const std::strin
   }
   if (!rule.holds(value)) {
     context_->problems.add(key, rule.law(), rule.cure);
+    return {};
+  }
+  if (rule.unit == "m" && std::abs(value) > largest_length) {
+    context_->problems.add(key, fmt::format("must not be beyond {:g} m", largest_length),
+                           "Scenes are in metres; no tank is that large.");
+    return {};
+  }
+  if (rule.unit == "m" && rule.low_open && value < smallest_length) {
+    context_->problems.add(key, fmt::format("must not be below {:g} m", smallest_length), rule.cure);
     return {};
   }
   return value;
@@ -280,7 +298,10 @@ void Reader::rows(std::string_view name, std::vector<std::vector<double>>& targe
                   const Rule& rule, Need need) {
   const auto meaning = fmt::format("a list of lists of {} numbers{}", columns, rule.in_unit());
   if (const auto* node = find(name, need, meaning, rule.cure)) {
-    if (const auto* array = node->as_array()) {
+    if (const auto* array = node->as_array(); array && array->size() > most_points) {
+      context_->problems.add(key(name), fmt::format("must have {} rows at most, not {}", most_points, array->size()),
+                             "Leave out points that are nearer to each other than an element.");
+    } else if (array) {
       for (const auto& element : *array) {
         auto row = list_of(element, key(name), columns, rule);
         if (!row) return;

@@ -32,6 +32,8 @@ struct ReadContext {
 };
 
 Place place_of(const toml::node& node);
+/// False for whole numbers that doubles cannot hold.
+bool is_exact(const toml::node& node);
 /// A value as the user wrote it, near enough.
 std::string written(const toml::node& node);
 

@@ -77,7 +77,10 @@ struct StudyRun {
 /// Throws SceneError with every problem found, the scenes' included.
 Study read_study(const std::filesystem::path& file);
 
-/// Names and --set arguments of all combinations, without reading a scene.
+/// Of a study: each is a folder, and a scene that is read before any of them is made.
+inline constexpr int most_runs = 10'000;
+
+/// Names and --set arguments of all combinations, without reading a scene. Throws SceneError if they are too many.
 std::vector<StudyRun> expand(const Study& study);
 
 /// Reads the scene of each run into `resolved`. Throws SceneError; what a value of an axis did wrong is told

@@ -95,7 +95,7 @@ int study_command(const StudyOptions& options) {
     fs::create_directories(folder);
     lock.emplace(folder);
   } catch (const std::exception& error) {
-    return bad_input(error.what());
+    return bad_input(trouble(error));
   }
   auto outcomes = outcomes_in(study, runs, folder);
   if (slurm) {

@@ -46,6 +46,17 @@ std::optional<std::size_t> Axis::find(const std::string& text) const {
 }
 
 std::vector<StudyRun> expand(const Study& study) {
+  double combinations = 1;
+  std::string factors;
+  for (const auto& axis : study.axes) {
+    combinations *= static_cast<double>(axis.values.size());
+    factors += fmt::format("{}{} of {}", factors.empty() ? "" : ", ", axis.values.size(), axis.name);
+  }
+  if (combinations > most_runs)
+    throw SceneError(
+        {fmt::format("{}: axis: {:g} combinations ({}), more than {} runs. Use fewer values, or several "
+                     "studies.",
+                     study.file.string(), combinations, factors, most_runs)});
   std::vector<StudyRun> runs;
   std::set<std::string> names;
   std::vector<std::size_t> index(study.axes.size(), 0);

@@ -55,6 +55,9 @@ void read_values(Reader& reader, Axis& axis, const std::string& key) {
   for (const auto& entry : *array) {
     if (entry.is_table())
       return problems.add(reader.key("values"), "holds a table", "Use [[axis.case]] with set instead.");
+    if (!is_exact(entry))
+      return problems.add(reader.key("values"), "whole numbers beyond 2^53 are not kept exactly",
+                          "Write them with a point, e.g. 1e16.");
     if (scaled && !entry.is_number())
       return problems.add(reader.key("values"), "must be numbers, since there is a scale", "Drop the scale.");
     AxisValue value{.text = written(entry), .number = {}, .set = {}, .place = place_of(entry)};
@@ -167,6 +170,8 @@ void read_constants(Reader& reader, Study& study) {
     const auto key = fmt::format("constants.{}", name.str());
     problems.note(key, place_of(entry), written(entry));
     if (!entry.is_number()) problems.add(key, "must be a number", "Use e.g. g = 9.81.");
+    if (!is_exact(entry))
+      problems.add(key, "whole numbers beyond 2^53 are not kept exactly", "Write it with a point, e.g. 1e16.");
     study.constants.emplace(name.str(), entry.value<double>().value_or(0));
   }
 }

@@ -69,6 +69,8 @@ TEST(Override, that_names_nothing_is_refused) {
   EXPECT_TRUE(refusal("body.7.mass=1").starts_with("--set body.7.mass=1: no body is called '7'. There is 'wedge'."));
   EXPECT_TRUE(refusal("fluid.density.x=1").starts_with("--set fluid.density.x=1: fluid.density is a single value"));
   EXPECT_TRUE(refusal("fluid.region.0=1").find("is a whole table") != std::string::npos);
+  EXPECT_EQ(refusal("fluid.density=1,5"),
+            "--set fluid.density=1,5: numbers have a point, not a comma: did you mean 1.5?");
   EXPECT_TRUE(refusal("nonsense").starts_with("--set nonsense: must read key.path=value"));
   EXPECT_TRUE(refusal("=1").find("must read key.path=value") != std::string::npos);
   EXPECT_TRUE(refusal("fluid..density=1").find("a word of the key is empty") != std::string::npos);

@@ -218,6 +218,20 @@ TEST_F(StudyTest, slurm_gets_one_task_a_run_that_is_not_finished) {
   EXPECT_NE(script.find("'--resume'"), std::string::npos);
 }
 
+TEST_F(StudyTest, of_a_billion_combinations_is_refused_at_once) {
+  std::string values, axes;
+  for (int i = 0; i < 1000; ++i) values += (i ? ", " : "") + std::to_string(i + 1);
+  for (const char* name : {"a", "b", "c"})
+    axes += std::string("[[axis]]\nname = \"") + name + "\"\nkey = \"body.wedge.mass\"\nvalues = [" + values + "]\n";
+  const auto messages = messages_of("scene = \"scene.toml\"\n" + axes);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(
+      messages[0].find("axis: 1e+09 combinations (1000 of a, 1000 of b, 1000 of c), more than 10000 runs. Use fewer "
+                       "values, or several studies."),
+      std::string::npos)
+      << messages[0];
+}
+
 using testing::Mistake;
 
 class BadStudyIsRefused : public StudyTest, public ::testing::WithParamInterface<Mistake> {};
@@ -244,6 +258,8 @@ const std::vector<Mistake> studies = {
     {"axis_without_values", "values = [1, 0.5, 0.1]\n", "", 7, "axis.ratio.values is missing", "Use a list"},
     {"empty_values", "[1, 0.5, 0.1]", "[]", 11, "axis.ratio.values = []", "at least one value"},
     {"value_twice", "[1, 0.5, 0.1]", "[1, 0.5, 1]", 11, "axis.ratio.values", "holds 1 twice"},
+    {"value_beyond_exact_integers", "[1, 0.5, 0.1]", "[9007199254740993]", 11, "axis.ratio.values", "beyond 2^53"},
+    {"constant_beyond_exact_integers", "g = 9.81", "g = 9007199254740993", 6, "constants.g", "beyond 2^53"},
     {"words_with_a_scale", "[1, 0.5, 0.1]", "[\"a\"]", 11, "axis.ratio.values", "must be numbers"},
     {"key_beside_cases", "name = \"scheme\"\n", "name = \"scheme\"\nkey = \"title\"\nvalues = [\"x\"]\n", 12,
      "axis.scheme", "both"},
