@@ -114,6 +114,7 @@ int check_command(const std::filesystem::path& path, const std::vector<std::stri
   }
   const auto& scene = file.scene;
   fmt::print("{}: {}\n", path.string(), scene.title.empty() ? "(no title)" : scene.title);
+  for (const auto& note : file.notes) fmt::print("  note: {}\n", note);
   scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
   fmt::print("The scene is good. Run it with: splashdown run {}\n", path.string());
   return exit_code::done;

@@ -32,6 +32,7 @@ struct StudyOptions {
   std::optional<std::filesystem::path> out;
   int jobs = 1;              ///< runs at a time
   std::string on = "local";  ///< "local" or "slurm"
+  bool large = false;        ///< whatever memory the runs take
   bool collect = false;      ///< tables and chart of what is there, no runs
   bool quiet = false;
 };

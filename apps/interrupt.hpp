@@ -1,9 +1,14 @@
 // SIGINT and SIGTERM as a request that the step loop polls. A second signal ends the program at once.
 #pragma once
 
+#include <string>
+
 namespace splashdown::apps {
 
-void catch_interrupts();
+/// `answer`: written to the standard error stream the moment the signal arrives, for a step may take seconds.
+void catch_interrupts(const std::string& answer = {});
+/// From here on a signal ends the program at once with exit code 130 and these words: nothing is left that could be lost.
+void leave_at_interrupt(const std::string& farewell);
 /// Name of the signal that arrived, or nothing.
 const char* interrupt_received();
 

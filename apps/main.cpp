@@ -69,6 +69,7 @@ int command_line(int argc, char** argv) {
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
   study_app->add_flag("--collect", study.collect, "make no runs: tables and chart of those that are there");
+  study_app->add_flag("--large", study.large, "make runs even if they are predicted to take more than 4 GB of memory");
   study_app->add_flag("--quiet", study.quiet, "print errors only");
 
   std::filesystem::path directory;

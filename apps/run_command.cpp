@@ -66,6 +66,12 @@ Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene
   auto summary = run.summary(end);
   summary.scene = scene_name;
   write_summary(directory, summary);
+  const auto later = fmt::format("splashdown report {} draws it", directory.string());
+  if (interrupt_received()) {
+    say(options, "no report: " + later);
+    return summary;
+  }
+  leave_at_interrupt(options.quiet ? "" : "\nstopped while the report was drawn: " + later + "\n");
   for (const auto& warning : write_report(directory).warnings) say(options, "note: " + warning);
   return summary;
 }
@@ -171,7 +177,8 @@ int run_scene(const RunOptions& options, Start start) {
     if (options.resume)
       say(options, start.from ? fmt::format("continuing at t = {:.6g} s, step {}", run.time(), run.loop().steps)
                               : "no checkpoint found: starting from the beginning");
-    catch_interrupts();
+    catch_interrupts(options.quiet ? ""
+                                   : "\nstopping after this step; once more stops at once, without a checkpoint\n");
     return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
   } catch (const std::exception& error) {
     progress.clear();
@@ -190,6 +197,7 @@ int run_command(const RunOptions& options) {
   } catch (const SceneError& error) {
     return bad_input(error.what());
   }
+  for (const auto& note : start.file.notes) say(options, "note: " + note);
   set_threads(options.threads, start.file.scene.dimension);
   return start.file.scene.dimension == 2 ? run_scene<2>(options, std::move(start))
                                          : run_scene<3>(options, std::move(start));

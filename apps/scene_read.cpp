@@ -51,7 +51,7 @@ void read_gravity(Reader& reader, Scene& scene) {
 }
 
 void read_output(Reader& reader, Output& output) {
-  reader.number("interval", output.interval, not_negative("s", "Use 0 for a row every step."));
+  reader.interval("interval", output.interval, not_negative("s", "Use 0 for a row every step."));
   reader.number("frames", output.frames,
                 not_negative("s", "Use e.g. a hundredth of time.end; leave it out for no frames."));
   reader.number("checkpoint", output.checkpoint, positive("s", "Use wall-clock seconds, e.g. 60."));
@@ -64,6 +64,8 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   time.number("end", scene.time.end, positive("s", "Use the simulated time at which the run shall end."),
               Need::required);
   time.number("cfl", scene.time.cfl, share("Use e.g. 0.5."));
+  if (time.holds("end") && time.place("end").line == 0 && !root.context().problems.found_in("time.end"))
+    root.context().clip_to = scene.time.end;
   if (auto fluid = root.table("fluid")) read_fluid(*fluid, scene.fluid.emplace());
   if (scene.fluid)
     for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
@@ -116,6 +118,7 @@ SceneFile read_root(const toml::table& table, const std::filesystem::path& folde
   check_scene(file.scene, labels, problems);
   problems.throw_if_any();
   file.resolved = echo.text();
+  file.notes = std::move(context.notes);
   return file;
 }
 

@@ -14,7 +14,8 @@ namespace splashdown::apps {
 
 struct SceneFile {
   Scene scene;
-  std::string resolved;  ///< TOML with every value in force; reads to the same scene
+  std::vector<std::string> notes;  ///< what was understood otherwise than it was written
+  std::string resolved;            ///< TOML with every value in force; reads to the same scene
 };
 
 /// Words of a dotted key, at most: parsers and tables of TOML go one call deeper with each.

@@ -9,7 +9,7 @@ const std::string name_cure = "Give it a name: it becomes the probe's name in pr
 template <class Entry>
 void read_instants(Reader& reader, Entry& entry) {
   reader.number("interval", entry.interval, not_negative("s", "Use e.g. 0.001, or 0 for every step."));
-  reader.numbers("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
+  reader.times("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
   if (entry.interval && !entry.times.empty())
     reader.context().problems.add(reader.key("times"), "interval and times exclude each other", "Remove one of them.");
   if (!entry.interval && entry.times.empty()) entry.interval = 0;

@@ -282,6 +282,33 @@ void Reader::numbers(std::string_view name, std::vector<double>& target, const R
   if (!target.empty()) context_->echo.add(section_, name, toml_list(target));
 }
 
+/// A time that was given with --set itself is left to the rules.
+bool Reader::clipped(std::string_view name, double& time) {
+  if (!context_->clip_to || time <= *context_->clip_to || place(name).line == 0) return false;
+  context_->notes.push_back(fmt::format("{}: {:g} s lies after time.end = {:g} s of --set: taken at the end", key(name),
+                                        time, *context_->clip_to));
+  time = *context_->clip_to;
+  return true;
+}
+
+void Reader::times(std::string_view name, std::vector<double>& target, const Rule& rule) {
+  if (const auto* node = find(name, Need::optional, {}, {})) {
+    target = list_of(*node, key(name), 0, rule).value_or(target);
+    for (double& time : target) clipped(name, time);
+    const auto once = std::unique(target.begin(), target.end());  // those that were brought to the end
+    if (context_->clip_to) target.erase(once, target.end());
+  }
+  if (!target.empty()) context_->echo.add(section_, name, toml_list(target));
+}
+
+void Reader::interval(std::string_view name, double& target, const Rule& rule) {
+  if (const auto* node = find(name, Need::optional, {}, {})) {
+    target = number_of(*node, key(name), rule).value_or(target);
+    clipped(name, target);
+  }
+  echo(name, target);
+}
+
 void Reader::point(std::string_view name, Point& target, const Rule& rule, Need need) {
   const auto meaning = fmt::format("a list of {} numbers{}", context_->dimension, rule.in_unit());
   if (const auto* node = find(name, need, meaning, rule.cure))

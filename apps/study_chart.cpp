@@ -204,7 +204,9 @@ class Chart {
       std::ranges::sort(points);
       std::string text;
       for (const auto& [x, value] : points) text += fmt::format("{:.8g} {:.8g}\n", x, value);
-      add(text, fmt::format("with linespoints {}", style_of(curve)));
+      // A line through random values of several axes would say that they are neighbours.
+      const char* const form = study_.axes[chart_.x].sampled ? "points" : "linespoints";
+      add(text, fmt::format("with {} {}", form, style_of(curve)));
       for (const auto& [status, where] : crosses)
         add(where, fmt::format("with points pt {} ps 0.8 lw 2 lc rgb '{}'",
                                status == Outcome::Status::diverged  ? 2

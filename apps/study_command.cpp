@@ -38,6 +38,7 @@ void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector
               const fs::path& folder, bool quiet) {
   auto notes = measure(study, runs, folder, outcomes);
   write_tables(study, runs, outcomes, folder);
+  leave_at_interrupt(quiet ? "" : "\nstopped while the report was drawn: the same command with --collect draws it\n");
   if (study.chart)
     if (auto note = draw_chart(study, runs, outcomes, folder)) notes.push_back(std::move(*note));
   write_report(folder);  // what it warns of, a chart that could not be drawn, is among the notes
@@ -78,9 +79,10 @@ int study_command(const StudyOptions& options) {
   Study study;
   std::vector<StudyRun> runs;
   try {
-    study = read_study(options.study);
-    runs = expand(study);
-    resolve(study, runs);
+    auto plan = plan_study(options.study);
+    study = std::move(plan.study);
+    study.large = options.large;
+    runs = std::move(plan.runs);
   } catch (const SceneError& error) {
     return bad_input(error.what());
   }

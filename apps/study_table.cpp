@@ -246,6 +246,11 @@ Outcome outcome_of(const Study& study, const StudyRun& run, const fs::path& fold
   outcome.status = status_of(summary.value("status", ""), outcome.cause);
   for (const auto& [name, path] : from_summary)
     if (const auto value = quantity::find_entry(summary, path)) outcome.numbers[name] = value->numbers.front();
+  // With a later `until`, or without one, it goes on.
+  const double a_step_of_roundoff = 1e-9;
+  if (outcome.status == Outcome::Status::converged &&
+      summary.value("simulated_time", run.stop) < (1 - a_step_of_roundoff) * run.stop)
+    outcome.status = Outcome::Status::interrupted;
   // With a larger budget it goes on.
   if (outcome.status == Outcome::Status::interrupted && study.budget && outcome.cause.starts_with("the budget") &&
       summary.value("wall_seconds", 0.) >= *study.budget)

@@ -87,6 +87,30 @@ for signal in INT TERM; do
   check "a checkpoint is there" test -s "signal_$signal/checkpoint/state"
 done
 
+# A request to stop is answered at once, also while figures are drawn
+"$splashdown" run scene.toml --out answered --set time.end=10 >answer_out 2>answer &
+pid=$!
+sleep 0.5
+kill -s INT $pid
+wait $pid
+check "a stop is answered" grep -q 'stopping after this step; once more stops at once' answer
+check "and says where the report comes from" grep -q 'no report: splashdown report answered draws it' answer_out
+mkdir slow && printf '#!/bin/sh\nexec sleep 60\n' >slow/gnuplot && chmod +x slow/gnuplot
+PATH="$PWD/slow:$PATH" "$splashdown" run scene.toml --out drawn --until 0.002 >/dev/null 2>answer &
+pid=$!
+for _ in $(seq 100); do
+  test -e drawn/summary.json && break
+  sleep 0.1
+done
+sleep 0.5
+begin=$SECONDS
+kill -s INT $pid
+wait $pid
+check "a stop while figures are drawn ends with 130" test $? -eq 130
+check "within seconds" test $((SECONDS - begin)) -le 5
+check "with the way to the report" grep -q 'stopped while the report was drawn: splashdown report drawn draws it' answer
+check "and loses nothing" test -s drawn/checkpoint/state
+
 # A light body that the pressure equation does not know, and no pass to spare for it
 check "a run that cannot go on ends with 3" exits 3 run --out failed --set body.wedge.mass=1 \
   --set coupling.interface_term=none --set coupling.max_passes=2
