@@ -105,13 +105,15 @@ std::optional<Scene> scene_without_axes(const Study& study) {
   return {};
 }
 
+/// What can be expanded while mistakes are sought; without any it is the study itself.
 Study without_empty_axes(Study study) {
-  std::vector<std::size_t> now(study.axes.size());
+  std::vector<std::size_t> now;
   std::vector<Axis> kept;
   for (std::size_t a = 0; a < study.axes.size(); ++a) {
-    auto& axis = study.axes[a];
-    const bool alone = axis.leader == a || study.axes[axis.leader].values.size() != axis.values.size();
-    now[a] = kept.size();
+    Axis axis = study.axes[a];
+    const auto& leader = study.axes[axis.leader];
+    const bool alone = axis.leader == a || leader.values.size() != axis.values.size();
+    now.push_back(kept.size());
     axis.leader = alone ? kept.size() : now[axis.leader];
     if (!axis.values.empty()) kept.push_back(std::move(axis));
   }

@@ -289,6 +289,9 @@ TEST_F(StudyTest, random_axes_are_a_latin_hypercube) {
   EXPECT_EQ(speeds, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7})) << "one in each eighth of the range";
   EXPECT_EQ(masses, speeds);
   for (const auto& run : runs) EXPECT_EQ(run.value[0], run.value[2]);
+  const auto plan = plan_study(write("study.toml", sampled_study));
+  ASSERT_EQ(plan.runs.size(), runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) EXPECT_EQ(plan.runs[i].name, runs[i].name);
   EXPECT_TRUE(messages_of(sampled_study).empty()) << ::testing::PrintToString(messages_of(sampled_study));
 }
 
