@@ -222,6 +222,11 @@ class Chart {
                        colours[curve % colours.size()]);
   }
 
+  /// Words speak for themselves, numbers need the name of what they are.
+  static std::string series_name(const Axis& axis, const AxisValue& value) {
+    return value.number ? axis.name + " = " + value.text : value.text;
+  }
+
   /// One for all panels: an empty plot over the whole picture.
   std::string key() const {
     if (!chart_.series) return "";
@@ -236,7 +241,7 @@ class Chart {
         1 - 45. / height());
     for (std::size_t i = 0; i < axis.values.size(); ++i)
       text += fmt::format("{}NaN with linespoints {} title \"{}\" noenhanced", i ? ", \\\n  " : "", style_of(i),
-                          gnuplot_escaped(axis.values[i].text));
+                          gnuplot_escaped(series_name(axis, axis.values[i])));
     return text + "\n";
   }
 

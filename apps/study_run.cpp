@@ -170,7 +170,9 @@ class Runner {
   }
 
   void clear() {
-    if (!quiet_ && terminal_) fmt::print("\r\x1b[K");
+    if (quiet_ || !terminal_) return;
+    fmt::print("\r\x1b[K");
+    std::fflush(stdout);  // notes go to the other stream
   }
 
   const Study& study_;

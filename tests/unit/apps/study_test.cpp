@@ -202,6 +202,18 @@ TEST_F(StudyTest, a_quantity_without_a_value_is_told_once) {
   EXPECT_NE(notes[0].find("unknown name 'vz'"), std::string::npos) << notes[0];
 }
 
+TEST_F(StudyTest, a_legend_of_numbers_says_what_they_are) {
+  const auto study =
+      read(testing::replaced(good_study, "x = \"ratio\"\nseries = \"scheme\"\ny = [\"passes_mean\", \"speed_error\"]",
+                             "x = \"ratio\"\nseries = \"ratio\""));
+  const auto runs = expand(study);
+  const auto script = chart_script(study, runs, std::vector<Outcome>(runs.size()));
+  EXPECT_NE(script.find("ratio = 0.5"), std::string::npos) << script;
+  const auto words = chart_script(read(), runs, std::vector<Outcome>(runs.size()));
+  EXPECT_NE(words.find("plain"), std::string::npos);
+  EXPECT_EQ(words.find("scheme = plain"), std::string::npos);
+}
+
 TEST_F(StudyTest, slurm_gets_one_task_a_run_that_is_not_finished) {
   const auto study = read();
   const auto runs = resolved(study);
