@@ -55,7 +55,10 @@ class SizeEstimate {
       bodies_.emplace_back(Solid<d>(hull), size);
       for (auto bend : hull_bends<d>(scene, body)) {
         bend.at += moved;
-        if (bend.size < body.size) bends_.push_back(bend);
+        if (bend.size >= body.size) continue;
+        bends_.push_back(bend);
+        bend_box_.extend(bend.at);
+        least_bend_ = std::min(least_bend_, bend.size);
       }
     }
     if (scene.tank) {
@@ -73,7 +76,8 @@ class SizeEstimate {
     double h = size_.far;
     for (const auto& [hull, size] : bodies_) h = std::min(h, grown(size, hull.distance(x)));
     if (!tank_.isEmpty()) h = std::min(h, grown(tank_size_, to_tank(x)));
-    for (const auto& bend : bends_) h = std::min(h, grown(bend.size, (x - bend.at).norm()));
+    if (!bends_.empty() && grown(least_bend_, bend_box_.exteriorDistance(x)) < h)
+      for (const auto& bend : bends_) h = std::min(h, grown(bend.size, (x - bend.at).norm()));
     if (free_.empty()) return h;
     const auto nearest = free_.nearest(x, std::numeric_limits<double>::max());
     return std::min(h, grown(size_.surface, std::sqrt(nearest.squared_distance)));
@@ -124,6 +128,8 @@ class SizeEstimate {
   std::vector<Solid<d>> regions_;
   std::vector<std::pair<Solid<d>, double>> bodies_;
   std::vector<HullBend<d>> bends_;
+  Extents<d> bend_box_;  // far from it no bend makes elements smaller
+  double least_bend_ = std::numeric_limits<double>::max();
   Extents<d> tank_;
   double tank_size_ = 0;
   fluid::FacetTree<d> free_;
