@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <initializer_list>
 
 #include "apps/commands.hpp"
 
@@ -39,25 +40,24 @@ void leave(int) {
   ::_exit(exit_code::interrupted);
 }
 
-void handle(void (*handler)(int)) {
+void handle(void (*handler)(int), std::initializer_list<int> signals) {
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // the next one has the usual effect
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : signals) sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 void catch_interrupts(const std::string& answer) {
   prepare(answer);
-  handle(remember);
+  handle(remember, {SIGINT, SIGTERM});
 }
 
 void leave_at_interrupt(const std::string& farewell) {
   prepare(farewell);
-  handle(leave);
+  handle(leave, {SIGINT});
 }
 
 const char* interrupt_received() {

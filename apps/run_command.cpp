@@ -67,7 +67,7 @@ Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene
   summary.scene = scene_name;
   write_summary(directory, summary);
   const auto later = fmt::format("splashdown report {} draws it", directory.string());
-  if (interrupt_received()) {
+  if (end.status == LoopEnd::Status::interrupted && interrupt_received()) {
     say(options, "no report: " + later);
     return summary;
   }
