@@ -7,6 +7,7 @@
 #include "apps/closing.hpp"
 #include "apps/commands.hpp"
 #include "apps/cost.hpp"
+#include "apps/plain_text.hpp"
 #include "apps/progress.hpp"
 #include "apps/questions.hpp"
 #include "apps/scales.hpp"
@@ -113,8 +114,8 @@ int check_command(const std::filesystem::path& path, const std::vector<std::stri
     return bad_input(error.what());
   }
   const auto& scene = file.scene;
-  fmt::print("{}: {}\n", path.string(), scene.title.empty() ? "(no title)" : scene.title);
-  for (const auto& note : file.notes) fmt::print("  note: {}\n", note);
+  fmt::print("{}: {}\n", path.string(), scene.title.empty() ? "(no title)" : one_line(scene.title));
+  for (const auto& note : file.notes) fmt::print("  note: {}\n", one_line(note));
   scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
   fmt::print("The scene is good. Run it with: splashdown run {}\n", path.string());
   return exit_code::done;

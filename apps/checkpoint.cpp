@@ -3,15 +3,21 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/map.hpp>
 #include <cereal/types/string.hpp>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+
+#include "apps/bounded_archive.hpp"
+#include "apps/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -27,8 +33,9 @@ void archive_all(Archive& archive, State& c) {
 }
 
 /// FNV-1a (Fowler, Noll, Vo): finds a file that was cut or changed; not meant against malice.
-std::uint64_t digest(const std::string& bytes) {
-  std::uint64_t hash = 14695981039346656037u;
+/// Each step maps hashes one to one, so that no single byte changes unseen.
+constexpr std::uint64_t empty_digest = 14695981039346656037u;
+std::uint64_t digest(std::string_view bytes, std::uint64_t hash = empty_digest) {
   for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211u;
   return hash;
 }
@@ -61,25 +68,60 @@ class Descriptor {
   int descriptor_;
 };
 
-std::optional<Checkpoint> read_one(const fs::path& path) {
+/// Lengths are written as 64-bit numbers.
+constexpr std::uint64_t longest_magic = 64;
+
+std::uint64_t number(std::istream& in) {
+  std::uint64_t value = 0;
+  in.read(reinterpret_cast<char*>(&value), sizeof value);
+  return value;
+}
+
+/// The payload of a file; throws std::runtime_error with what is wrong. Nothing of it is believed, and no room made for
+/// it, before its checksum agrees.
+std::string payload_of(const fs::path& path) {
+  if (!fs::is_regular_file(path)) throw std::runtime_error("is no file");
+  const std::uint64_t size = fs::file_size(path);
   std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  try {
-    std::string head, body;
-    std::uint64_t expected = 0;
-    cereal::BinaryInputArchive frame(file);
-    frame(head);
-    if (head != magic) return {};
-    frame(expected, body);
-    if (digest(body) != expected) return {};
-    std::istringstream stream(body);
-    cereal::BinaryInputArchive archive(stream);
-    Checkpoint checkpoint;
-    archive_all(archive, checkpoint);
-    return checkpoint;
-  } catch (const std::exception&) {  // cut short: lengths that make no sense
-    return {};
+  if (!file) throw std::runtime_error("cannot be opened");
+  const auto length = number(file);
+  if (!file || length > longest_magic) throw std::runtime_error("is no checkpoint, or its first bytes are damaged");
+  std::string head(length, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(length));
+  if (head != magic) {
+    const std::string family = std::string(magic).substr(0, std::string(magic).rfind(' ') + 1);
+    if (file && head.starts_with(family))
+      throw std::runtime_error("was written by another version of splashdown (format " +
+                               one_line(head.substr(family.size())) + ", this one reads " +
+                               std::string(magic).substr(family.size()) + ")");
+    throw std::runtime_error("is no checkpoint, or its first bytes are damaged");
   }
+  const auto expected = number(file), bytes = number(file);
+  const std::uint64_t before = 3 * sizeof(std::uint64_t) + length;
+  if (!file || bytes != size - before) throw std::runtime_error("is cut short, or its length is damaged");
+  std::uint64_t hash = empty_digest;
+  std::string block(std::size_t{1} << 20, '\0');
+  for (std::uint64_t left = bytes; left > 0;) {
+    const auto count = std::min<std::uint64_t>(left, block.size());
+    if (!file.read(block.data(), static_cast<std::streamsize>(count))) throw std::runtime_error("cannot be read");
+    hash = digest(std::string_view(block).substr(0, count), hash);
+    left -= count;
+  }
+  if (hash != expected) throw std::runtime_error("is damaged: its checksum does not agree");
+  std::string body(bytes, '\0');
+  file.seekg(static_cast<std::streamoff>(before));
+  if (!file.read(body.data(), static_cast<std::streamsize>(bytes))) throw std::runtime_error("cannot be read");
+  return body;
+}
+
+Checkpoint read_one(const fs::path& path) {
+  const auto body = payload_of(path);
+  BoundedInputArchive archive(body);
+  Checkpoint checkpoint;
+  archive_all(archive, checkpoint);
+  if (!archive.rest().empty()) throw std::runtime_error("holds more than it should");
+  if (!std::isfinite(checkpoint.time)) throw std::runtime_error("holds no time");
+  return checkpoint;
 }
 
 }  // namespace
@@ -104,11 +146,20 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
   Descriptor(folder, O_RDONLY | O_DIRECTORY).sync();
 }
 
-std::optional<Checkpoint> read_checkpoint(const fs::path& folder) {
+StoredCheckpoints read_checkpoints(const fs::path& folder) {
+  StoredCheckpoints stored;
   // A kill between the two renames leaves only the complete new file and the previous one.
-  for (const auto* name : {"state", "state.new", "previous"})
-    if (auto checkpoint = read_one(folder / name)) return checkpoint;
-  return {};
+  for (const auto* name : {"state", "state.new", "previous"}) {
+    const auto file = folder / name;
+    if (fs::symlink_status(file).type() == fs::file_type::not_found) continue;
+    try {
+      stored.good.push_back({file, read_one(file)});
+    } catch (const std::exception& error) {
+      // A kill while it is written leaves a new file that is cut short: no loss, it never was in force.
+      if (std::string_view(name) != "state.new") stored.bad.push_back(file.string() + " " + error.what());
+    }
+  }
+  return stored;
 }
 
 }  // namespace splashdown::apps

@@ -7,8 +7,9 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "apps/run_loop.hpp"
 
@@ -26,7 +27,17 @@ struct Checkpoint {
 /// Throws std::runtime_error with the cause if the disk refuses.
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
-/// The newest good state; nothing if there is none. Damaged files are passed over.
-std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder);
+struct StoredCheckpoint {
+  std::filesystem::path file;
+  Checkpoint state;
+};
+
+struct StoredCheckpoints {
+  std::vector<StoredCheckpoint> good;  ///< the newest first
+  std::vector<std::string> bad;        ///< files that cannot be used, each with its reason
+};
+
+/// What lies in a run's checkpoint folder. Never throws for what a file holds, whatever its bytes are.
+StoredCheckpoints read_checkpoints(const std::filesystem::path& folder);
 
 }  // namespace splashdown::apps

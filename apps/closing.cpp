@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/frames.hpp"
+#include "apps/plain_text.hpp"
 #include "apps/progress.hpp"
 
 namespace splashdown::apps {
@@ -171,8 +172,8 @@ std::string with_unit(double value, const std::string& unit) {
 
 std::string closing_text(const Summary& summary, const std::filesystem::path& directory, Ink ink) {
   auto text = fmt::format(
-      "{}: {} {} in {} steps, {} of wall time\n", summary.scene, summary.status, with_unit(summary.simulated_time, "s"),
-      summary.steps,
+      "{}: {} {} in {} steps, {} of wall time\n", one_line(summary.scene), summary.status,
+      with_unit(summary.simulated_time, "s"), summary.steps,
       summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds) : clock_text(summary.wall_seconds));
   for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
   for (const auto& [name, point] : summary.equipment) text += row(name, equipment_text(point));

@@ -23,7 +23,9 @@ struct RunOptions {
   std::optional<double> budget;
   std::optional<int> threads;
   bool resume = false;
-  bool large = false;  ///< whatever memory it takes
+  bool large = false;    ///< whatever memory it takes
+  bool restart = false;  ///< begin anew, although the folder holds a run of this scene
+  bool force = false;    ///< and although it holds one of another scene
   bool quiet = false;
 };
 
@@ -47,8 +49,5 @@ std::string trouble(const std::exception& error);
 
 /// `error: ` and the text on the standard error stream; returns exit_code::bad_input.
 int bad_input(const std::string& text);
-
-/// out/<folder of scene.toml or study.toml> or out/<name of the file>.
-std::filesystem::path default_directory(const std::filesystem::path& scene);
 
 }  // namespace splashdown::apps

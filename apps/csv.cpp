@@ -1,10 +1,12 @@
 #include "apps/csv.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 namespace splashdown::apps {
@@ -103,6 +105,23 @@ std::uint64_t CsvFile::sync() {
   write();
   if (descriptor_ >= 0 && ::fsync(descriptor_) != 0) fail("flush to disk");
   return length_;
+}
+
+void CsvFile::check_in_place() const {
+  struct stat open {
+  }, named{};
+  if (descriptor_ < 0 || ::fstat(descriptor_, &open) != 0) return;
+  if (::stat(path_.c_str(), &named) == 0 && named.st_dev == open.st_dev && named.st_ino == open.st_ino) return;
+  throw FilesLost(fmt::format("{} was removed, moved or replaced while the run was writing it", path_.string()));
+}
+
+void CsvFile::copy_to(const std::filesystem::path& path) {
+  write();
+  // The way to a file without a name (proc(5)).
+  std::ifstream in(fmt::format("/proc/self/fd/{}", descriptor_), std::ios::binary);
+  std::ofstream out(path, std::ios::binary);
+  if (in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
+  if (!in || !out.flush()) fail_on(path, "write");
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content) {

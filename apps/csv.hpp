@@ -10,10 +10,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace splashdown::apps {
+
+/// A file that is being written has been removed, moved or replaced by somebody else.
+struct FilesLost : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 class CsvFile {
  public:
@@ -38,6 +44,10 @@ class CsvFile {
 
   void write();          ///< hands all rows to the operating system
   std::uint64_t sync();  ///< write() and force to disk; the file's length in bytes
+  /// Throws FilesLost if its name does not lead to the open file any more.
+  void check_in_place() const;
+  /// Copies what was written so far; works for a file that has been removed, too.
+  void copy_to(const std::filesystem::path& path);
   const std::filesystem::path& path() const { return path_; }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <stdexcept>
 
 namespace splashdown::apps {
 
@@ -72,6 +73,8 @@ double longest_interval(const IntervalHistory& history, double from, double to) 
 }  // namespace
 
 void IntervalHistory::append(double end, std::span<const double> sample) {
+  if (sample.size() != static_cast<std::size_t>(channels) || values.size() != ends.size() * sample.size())
+    throw std::runtime_error("a history of other channels than its samples");
   ends.push_back(end);
   values.insert(values.end(), sample.begin(), sample.end());
 }

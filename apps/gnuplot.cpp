@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "apps/plain_text.hpp"
+
 extern char** environ;
 
 namespace splashdown::apps {
@@ -52,14 +54,13 @@ std::string plot_command(const Figure& figure) {
     const Curve& curve = figure.curves[i];
     if (!has_points(curve)) continue;
     if (!plots.empty()) plots += ", \\\n  ";
-    plots +=
-        fmt::format("'{}.dat' index {} using 1:2 {} with {} lw {} lc rgb '{}' {}", figure.name, i,
-                    curve.right_axis ? "axes x1y2" : "",
-                    curve.points  ? "points pt 7 ps 0.25"
-                    : curve.steps ? "steps"
-                                  : "lines",
-                    curve.width, curve.colour,
-                    curve.label.empty() ? std::string("notitle") : "title \"" + gnuplot_escaped(curve.label) + "\"");
+    plots += fmt::format("'{}.dat' index {} using 1:2 {} with {} lw {} lc rgb '{}' {}", figure.name, i,
+                         curve.right_axis ? "axes x1y2" : "",
+                         curve.points  ? "points pt 7 ps 0.25"
+                         : curve.steps ? "steps"
+                                       : "lines",
+                         curve.width, curve.colour,
+                         curve.label.empty() ? std::string("notitle") : "title " + gnuplot_text(curve.label));
   }
   return plots;
 }
@@ -95,8 +96,9 @@ Process start(const std::filesystem::path& folder, const std::string& script) {
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  std::string program = "gnuplot", file = script;
-  char* arguments[] = {program.data(), file.data(), nullptr};
+  // -d: figures do not depend on the settings in anybody's home.
+  std::string program = "gnuplot", defaults = "-d", file = script;
+  char* arguments[] = {program.data(), defaults.data(), file.data(), nullptr};
   Process process;
   process.error = posix_spawnp(&process.id, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -140,14 +142,10 @@ void thin(std::vector<double>& x, std::vector<double>& y, std::size_t limit) {
   y = std::move(thin_y);
 }
 
-std::string gnuplot_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') escaped += '\\';
-    if (c == '\n') continue;
-    escaped += c;
-  }
-  return escaped;
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted(1, '\'');
+  for (const char c : one_line(text)) quoted.append(c == '\'' ? 2 : 1, c);
+  return quoted + '\'';
 }
 
 std::string script_of(const std::filesystem::path& folder, const std::vector<Figure>& figures) {
@@ -164,14 +162,14 @@ std::string script_of(const std::filesystem::path& folder, const std::vector<Fig
     if (plots.empty()) continue;
     write_data(folder / (figure.name + ".dat"), figure);
     script += fmt::format(
-        "\nset output '{}.svg'\nset xlabel \"{}\" textcolor rgb '#51606e'\nset ylabel \"{}\" textcolor rgb "
+        "\nset output '{}.svg'\nset xlabel {} textcolor rgb '#51606e'\nset ylabel {} textcolor rgb "
         "'#51606e'\n",
-        figure.name, gnuplot_escaped(figure.x_label), gnuplot_escaped(figure.y_label));
+        figure.name, gnuplot_text(figure.x_label), gnuplot_text(figure.y_label));
     script += "set ytics autofreq\n" + range_command(figure, false);
     const bool right = std::ranges::any_of(figure.curves, &Curve::right_axis);
     if (right)
-      script += fmt::format("set border 11\nset y2tics\nset y2label \"{}\" textcolor rgb '#51606e'\n",
-                            gnuplot_escaped(figure.y2_label)) +
+      script += fmt::format("set border 11\nset y2tics\nset y2label {} textcolor rgb '#51606e'\n",
+                            gnuplot_text(figure.y2_label)) +
                 range_command(figure, true);
     else
       script += "set border 3\nunset y2tics\nunset y2label\n";
@@ -182,9 +180,9 @@ std::string script_of(const std::filesystem::path& folder, const std::vector<Fig
       script += "unset xzeroaxis\n";
     for (const auto& mark : figure.marks)
       script += fmt::format(
-          "set label \"{}\" at {:.7g},{:.7g} point pt 7 ps 0.5 lc rgb '#24313d' offset 0.8,0.4 textcolor rgb "
+          "set label {} at {:.7g},{:.7g} point pt 7 ps 0.5 lc rgb '#24313d' offset 0.8,0.4 textcolor rgb "
           "'#24313d'\n",
-          gnuplot_escaped(mark.text), mark.x, mark.y);
+          gnuplot_text(mark.text), mark.x, mark.y);
     script += "plot " + plots + "\n";
   }
   return script;

@@ -44,7 +44,8 @@ enum class GnuplotResult { drawn, missing, failed };
 /// SCRIPT.log; as many at a time as there are cores.
 std::vector<GnuplotResult> run_gnuplot(const std::filesystem::path& folder, const std::vector<std::string>& scripts);
 
-/// Text for a gnuplot string in double quotes, without markup.
-std::string gnuplot_escaped(const std::string& text);
+/// A gnuplot string with its quotes: single ones, between which gnuplot expands nothing. (Between double quotes it runs
+/// what stands in backquotes.) Markup is off wherever such a text is shown.
+std::string gnuplot_text(const std::string& text);
 
 }  // namespace splashdown::apps

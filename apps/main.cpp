@@ -43,14 +43,19 @@ int command_line(int argc, char** argv) {
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run a scene");
   run_app->add_option("scene", run.scene, scene_help)->required();
-  run_app->add_option("--out", run.out, "folder for the files (default: out/<scene>)");
+  run_app->add_option("--out", run.out,
+                      "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
   run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
   run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
       ->check(CLI::Range(1, 1024));
   run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")->check(positive);
   run_app->add_option("--budget", run.budget, "wall seconds after which to stop with a checkpoint (exit code 130)")
       ->check(positive);
-  run_app->add_flag("--resume", run.resume, "continue from the folder's checkpoint");
+  auto* resume = run_app->add_flag(
+      "--resume", run.resume, "continue from the folder's checkpoint; refused if there is one that cannot be read");
+  run_app->add_flag("--restart", run.restart, "begin anew and replace what a run of this scene left (the default)")
+      ->excludes(resume);
+  run_app->add_flag("--force", run.force, "replace also what a run of another scene left in the folder");
   run_app->add_flag("--large", run.large, "run it even if it is predicted to take more than 4 GB of memory");
   run_app->add_flag("--quiet", run.quiet, "print errors only");
 
@@ -63,7 +68,8 @@ int command_line(int argc, char** argv) {
   StudyOptions study;
   auto* study_app = app.add_subcommand("study", "Run every combination of a scene's values");
   study_app->add_option("study", study.study, "study file (TOML; docs/study.md)")->required();
-  study_app->add_option("--out", study.out, "folder for the runs and tables (default: out/<study>)");
+  study_app->add_option("--out", study.out,
+                        "folder for the runs and tables (default: out/<folder of the study>, or out/<folder>_<file>)");
   study_app->add_option("--jobs", study.jobs, "runs at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   study_app->add_option("--on", study.on, "where the runs are made")
       ->check(CLI::IsMember({"local", "slurm"}))

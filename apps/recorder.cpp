@@ -1,5 +1,7 @@
 #include "apps/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/array.hpp>
@@ -8,7 +10,9 @@
 #include <cereal/types/vector.hpp>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
+#include "apps/bounded_archive.hpp"
 #include "apps/csv.hpp"
 #include "apps/frames.hpp"
 #include "apps/recorder_energy.hpp"
@@ -83,6 +87,13 @@ struct Recorder<d>::State {
     const auto [place, is_new] = files.try_emplace(name, settings.directory / name, header);
     if (is_new) place->second.create();
     return place->second;
+  }
+
+  /// Whether what was loaded belongs to records like these.
+  bool fits_settings() const {
+    return body_names.size() == bodies.size() && surface_due.size() == settings.surface_pressure.size() &&
+           added_mass_due.size() == settings.added_mass.size() && equipment.size() == settings.equipment.size() &&
+           hulls.fits_settings();
   }
 
   void start(const RecordInput<d>& input);
@@ -264,6 +275,21 @@ void Recorder<d>::snapshot(const std::string& name, const RecordInput<d>& input)
 }
 
 template <int d>
+std::size_t Recorder<d>::bodies() const {
+  return s_->bodies.size();
+}
+
+template <int d>
+void Recorder<d>::check_files() const {
+  for (const auto& [name, file] : s_->files) file.check_in_place();
+}
+
+template <int d>
+void Recorder<d>::copy_tables(const std::filesystem::path& folder) {
+  for (auto& [name, file] : s_->files) file.copy_to(folder / name);
+}
+
+template <int d>
 void Recorder<d>::finish() {
   s_->write_peak();
   if (s_->started) s_->hulls.write();
@@ -300,11 +326,21 @@ void Recorder<d>::save(std::ostream& out) {
 }
 
 template <int d>
-void Recorder<d>::load(std::istream& in) {
+void Recorder<d>::load(const std::string& bytes) {
   std::map<std::string, std::uint64_t> lengths;
-  cereal::BinaryInputArchive archive(in);
+  BoundedInputArchive archive(bytes);
   s_->files.clear();
   archive(lengths, *s_);
+  if (!archive.rest().empty() || !s_->fits_settings())
+    throw std::runtime_error("holds records of other bodies or points than the scene");
+  // All of them before the first is cut back.
+  for (const auto& [name, length] : lengths) {
+    if (!is_table(name)) throw std::runtime_error("names a table that is none");
+    const auto file = s_->settings.directory / name;
+    const auto present = std::filesystem::is_regular_file(file) ? std::filesystem::file_size(file) : 0;
+    if (present < length)
+      throw std::runtime_error(fmt::format("needs {} bytes of {}, which has {}", length, file.string(), present));
+  }
   for (const auto& [name, length] : lengths)
     s_->files.try_emplace(name, s_->settings.directory / name, "").first->second.reopen(length);
   if (s_->settings.frames) s_->frames.write_index();

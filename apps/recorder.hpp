@@ -52,8 +52,17 @@ class Recorder {
   /// Fills `dimension`, `nodes`, `elements`, passes, `ledger`, `bodies`, `equipment`; leaves the rest alone.
   void summarise(Summary& summary) const;
 
+  /// That it has statistics of.
+  std::size_t bodies() const;
+
+  /// Throws FilesLost if a table that is being written has been removed or replaced.
+  void check_files() const;
+  /// The tables as they are, wherever their files went.
+  void copy_tables(const std::filesystem::path& folder);
+
   void save(std::ostream& out);
-  void load(std::istream& in);
+  /// Throws std::runtime_error, and changes no file, for what is not of these records.
+  void load(const std::string& bytes);
 
  private:
   struct State;

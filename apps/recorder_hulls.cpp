@@ -54,6 +54,15 @@ void HullReadings<d>::summarise(Summary& summary) const {
 }
 
 template <int d>
+bool HullReadings<d>::fits_settings() const {
+  const auto fits = [](const HullMap<d>& map) {
+    const auto points = static_cast<std::size_t>(map.surface().vertices.cols());
+    return map.pressure().size() == points && map.time().size() == points;
+  };
+  return peaks_.size() == settings_.patches.size() && std::ranges::all_of(maps_, fits);
+}
+
+template <int d>
 void HullReadings<d>::write() const {
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const auto& record = settings_.hull_maps[i];

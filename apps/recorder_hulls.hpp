@@ -23,6 +23,9 @@ class HullReadings {
   /// distance from the keel [m].
   void write() const;
 
+  /// Whether what was loaded belongs to these patches and hulls.
+  bool fits_settings() const;
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(time_, peaks_);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "apps/frames.hpp"
 #include "apps/report_picture.hpp"
 #include "apps/report_words.hpp"
 #include "apps/vtu_grid.hpp"
@@ -110,7 +111,7 @@ FigureGroup hull_curves(const std::filesystem::path& run) {
       curve.y.push_back(hull.values[i] * unit.scale);
     }
     Figure figure;
-    figure.name = "hull_" + name;
+    figure.name = "hull_" + file_name_of(name);
     figure.x_label = "s / m";
     figure.y_label = "highest pressure / " + unit.unit;
     figure.curves = {std::move(curve)};
@@ -130,8 +131,8 @@ FieldFigures prepare_hull_figures(const std::filesystem::path& run, const std::f
       if (!is_surface(hull)) continue;
       for (const auto& view : views) {
         const PlanePicture picture = seen(hull, view);
-        auto figure =
-            figure_of(folder, "hull_" + name + "_" + view.name, picture, room_around(picture), "highest pressure");
+        auto figure = figure_of(folder, "hull_" + file_name_of(name) + "_" + view.name, picture, room_around(picture),
+                                "highest pressure");
         figure.title = name + " " + view.title;
         figure.caption += ", of all instants until t = " + seconds_text(hull.time) + ".";
         result.figures.push_back(std::move(figure));

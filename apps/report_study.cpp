@@ -98,14 +98,9 @@ std::string in_its_width(const std::string& svg) {
 
 /// The chart as an element of the page; nothing if the study asks for none.
 std::string chart_of(const fs::path& directory, std::vector<std::string>& warnings) {
-  if (!fs::exists(directory / "study.svg") && fs::exists(directory / "study.gnuplot")) {
-    const auto result = run_gnuplot(directory, {"study.gnuplot"}).front();
-    if (result == GnuplotResult::missing) warnings.emplace_back(no_gnuplot);
-    if (result == GnuplotResult::failed)
-      warnings.push_back(
-          fmt::format("gnuplot could not draw the chart: see {}", (directory / "study.gnuplot.log").string()));
-    if (result == GnuplotResult::drawn) fs::remove(directory / "study.gnuplot.log");
-  }
+  // The script that lies there is not run: a report of somebody else's folder must not carry out what it says.
+  if (!fs::exists(directory / "study.svg") && fs::exists(directory / "study.gnuplot"))
+    warnings.emplace_back("the chart, study.svg, is missing: splashdown study STUDY.toml --collect draws it");
   if (!fs::exists(directory / "study.svg")) return {};
   return "<h2>Chart</h2>\n" +
          html_figure(in_its_width(inline_svg(read_text(directory / "study.svg"), "study")),

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
+#include "apps/recorder_files.hpp"
 #include "apps/scene_problems.hpp"
 
 namespace splashdown::apps {
@@ -53,17 +55,38 @@ std::vector<std::string> differences(const std::string& resolved_now, const std:
   return result;
 }
 
-std::optional<Checkpoint> find_checkpoint(const std::filesystem::path& directory, const std::string& resolved) {
-  auto checkpoint = read_checkpoint(directory / "checkpoint");
-  if (!checkpoint) return {};
+std::vector<std::string> unusable(const std::filesystem::path& directory, const std::vector<std::string>& reasons) {
   std::vector<std::string> messages;
-  for (const auto& difference : differences(resolved, checkpoint->scene))
-    messages.push_back(
-        fmt::format("--resume: {}: must be what the run began with. Repeat its --set arguments, or start "
-                    "anew without --resume.",
-                    difference));
+  for (const auto& reason : reasons) messages.push_back("--resume: " + reason);
+  messages.push_back(fmt::format(
+      "--resume: no checkpoint of {0} can be continued; nothing was changed. Continue it with the version "
+      "that wrote it, or begin anew: in another folder (--out), or with --restart instead of --resume, which "
+      "replaces what {0} holds.",
+      directory.string()));
+  return messages;
+}
+
+StoredCheckpoints find_checkpoints(const std::filesystem::path& directory, const std::string& resolved) {
+  auto stored = read_checkpoints(directory / "checkpoint");
+  if (stored.good.empty() && !stored.bad.empty()) throw SceneError(unusable(directory, stored.bad));
+  if (stored.good.empty() && holds_tables(directory))
+    throw SceneError(unusable(directory, {directory.string() + " holds tables of a run, but no checkpoint"}));
+  std::vector<std::string> messages;
+  try {
+    for (const auto& found : stored.good)
+      for (const auto& difference : differences(resolved, found.state.scene))
+        messages.push_back(
+            fmt::format("--resume: {}: must be what the run began with. Repeat its --set arguments, or start "
+                        "anew without --resume.",
+                        difference));
+  } catch (const toml::parse_error&) {
+    throw SceneError(unusable(directory, {"its checkpoint holds no scene"}));
+  }
+  std::ranges::sort(messages);
+  const auto twice = std::ranges::unique(messages);
+  messages.erase(twice.begin(), twice.end());
   if (!messages.empty()) throw SceneError(std::move(messages));
-  return checkpoint;
+  return stored;
 }
 
 }  // namespace splashdown::apps

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +13,11 @@ namespace splashdown::apps {
 /// title, [time], [coupling] and the checkpoints' interval. Each as "key = now, key = then".
 std::vector<std::string> differences(const std::string& resolved_now, const std::string& resolved_then);
 
-/// The newest good checkpoint of the run in a folder; nothing if there is none. Throws SceneError if it was
-/// written by another scene.
-std::optional<Checkpoint> find_checkpoint(const std::filesystem::path& directory, const std::string& resolved);
+/// The checkpoints of the run in a folder; none if no run has begun there. Throws SceneError if they were written by
+/// another scene, and if what lies there cannot be continued: a run that is lost must not be replaced unasked.
+StoredCheckpoints find_checkpoints(const std::filesystem::path& directory, const std::string& resolved);
+
+/// What is told when no checkpoint of a folder can be used: the reasons, and what to do.
+std::vector<std::string> unusable(const std::filesystem::path& directory, const std::vector<std::string>& reasons);
 
 }  // namespace splashdown::apps

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <stdexcept>
 
 #include "apps/approach.hpp"
 #include "apps/interrupt.hpp"
@@ -70,9 +71,13 @@ Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, Ru
 template <int d>
 void Run<d>::resume(const Checkpoint& from) {
   const Charge charge(setup_seconds_);
-  std::istringstream stepper(from.stepper), recorder(from.recorder);
+  std::istringstream stepper(from.stepper);
   world_.stepper->load(stepper);
-  recorder_.load(recorder);
+  if (world_.stepper->time() != from.time || !(from.loop.dt_previous >= 0) || !(from.loop.dt_cap >= 0))
+    throw std::runtime_error("holds times that contradict each other");
+  recorder_.load(from.recorder);
+  if (world_.bodies && from.loop.steps > 0 && recorder_.bodies() != world_.bodies->size())
+    throw std::runtime_error("holds records of other bodies than the scene");
   loop_ = from.loop;
   wall_before_ = from.wall_seconds;
   phases_before_ = from.phases;
@@ -84,6 +89,7 @@ template <int d>
 LoopEnd Run<d>::go() {
   const auto end = run_loop(*world_.stepper, loop_, plan_.stop, *this);
   progress_.clear();
+  recorder_.check_files();
   const Charge charge(output_seconds_);
   if (end.status == LoopEnd::Status::done) recorder_.snapshot("end", last_input_);
   recorder_.finish();
@@ -124,6 +130,7 @@ RecordInput<d> Run<d>::input(const StepMade& step) const {
 template <int d>
 void Run<d>::record(const StepMade& step) {
   const Charge charge(output_seconds_);
+  recorder_.check_files();  // before anything of this step is counted: what is rescued can be continued
   last_input_ = input(step);
   recorder_.record(last_input_);
   ProgressPoint point{
@@ -148,17 +155,39 @@ bool Run<d>::checkpoint_due() {
 template <int d>
 void Run<d>::checkpoint() {
   const Charge charge(output_seconds_);
+  recorder_.check_files();
+  write_checkpoint(plan_.directory / "checkpoint", present());
+  last_checkpoint_ = Clock::now();
+}
+
+template <int d>
+Checkpoint Run<d>::present() {
   std::ostringstream stepper, recorder;
   world_.stepper->save(stepper);
   recorder_.save(recorder);
-  write_checkpoint(plan_.directory / "checkpoint", {.scene = plan_.resolved,
-                                                    .loop = loop_,
-                                                    .time = time(),
-                                                    .wall_seconds = wall_seconds(),
-                                                    .phases = phases(),
-                                                    .stepper = stepper.str(),
-                                                    .recorder = recorder.str()});
-  last_checkpoint_ = Clock::now();
+  return {.scene = plan_.resolved,
+          .loop = loop_,
+          .time = time(),
+          .wall_seconds = wall_seconds(),
+          .phases = phases(),
+          .stepper = stepper.str(),
+          .recorder = recorder.str()};
+}
+
+template <int d>
+std::optional<std::filesystem::path> Run<d>::rescue() {
+  namespace fs = std::filesystem;
+  const auto name = fs::absolute(plan_.directory).lexically_normal();
+  for (const auto& place : {name, fs::temp_directory_path() / name.filename()}) try {
+      auto folder = fs::path(place.string() + ".rescued");
+      for (int n = 2; fs::exists(folder); ++n) folder = fmt::format("{}.rescued{}", place.string(), n);
+      fs::create_directories(folder);
+      recorder_.copy_tables(folder);
+      write_checkpoint(folder / "checkpoint", present());
+      return folder;
+    } catch (const std::exception&) {  // a disk that is full or gone: the next place
+    }
+  return {};
 }
 
 template <int d>

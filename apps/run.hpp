@@ -28,10 +28,15 @@ class Run final : private LoopHost {
  public:
   Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, RunPlan plan, Progress& progress);
 
-  /// Continues where a checkpoint was taken.
+  /// Continues where a checkpoint was taken. Throws std::runtime_error for one that is not of this world; another may be
+  /// tried then.
   void resume(const Checkpoint& from);
   /// Steps to the stop time, then finishes the recorder's files.
   LoopEnd go();
+
+  /// Tables and state beside the folder that was lost, or among the temporary files: where; nothing if no disk takes them.
+  /// Frames and pictures are not among them.
+  std::optional<std::filesystem::path> rescue();
 
   double time() const { return world_.stepper->time(); }
   const LoopState& loop() const { return loop_; }
@@ -47,6 +52,7 @@ class Run final : private LoopHost {
   void refused(double time, double dt, const std::string& cause) override;
   bool checkpoint_due() override;
   void checkpoint() override;
+  Checkpoint present();
   std::optional<std::string> interruption() override;
 
   RecordInput<d> input(const StepMade& step) const;

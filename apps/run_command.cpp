@@ -2,19 +2,20 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
 
 #include "apps/closing.hpp"
 #include "apps/commands.hpp"
+#include "apps/csv.hpp"
 #include "apps/folder_lock.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/questions.hpp"
+#include "apps/recorder_files.hpp"
 #include "apps/report.hpp"
 #include "apps/resume.hpp"
 #include "apps/run.hpp"
+#include "apps/run_folder.hpp"
 #include "apps/scene_read.hpp"
 #include "apps/threads.hpp"
-#include "apps/version.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -38,11 +39,14 @@ double stop_time(const RunOptions& options, const Scene& scene) {
   return *options.until;
 }
 
-void prepare_directory(const fs::path& directory, const std::string& resolved, bool resumed) {
-  if (!resumed) fs::remove_all(directory / "checkpoint");
-  std::ofstream file(directory / "scene.resolved.toml", std::ios::binary);
-  file << resolved << "\n" << provenance_toml();
-  if (!file.flush()) throw std::runtime_error("cannot write " + (directory / "scene.resolved.toml").string());
+/// Tables go before the checkpoint: a folder with tables and none is taken for a run that is lost.
+void prepare_directory(const RunOptions& options, const fs::path& directory, const std::string& resolved,
+                       bool resumed) {
+  if (!resumed) {
+    clear_earlier_run(directory);
+    fs::remove_all(directory / "checkpoint");
+  }
+  write_resolved(directory, options.scene, resolved);
 }
 
 void say(const RunOptions& options, const std::string& text) {
@@ -116,7 +120,8 @@ World<d> build(const Scene& scene, const fs::path& file) {
 struct Start {
   SceneFile file;
   RunPlan plan;
-  std::optional<Checkpoint> from;
+  StoredCheckpoints from;
+  bool resumes() const { return !from.good.empty(); }
 };
 
 /// Throws SceneError.
@@ -129,13 +134,16 @@ Start read_start(const RunOptions& options) {
   start.file = read_scene(options.scene, options.overrides);
   plan.stop = stop_time(options, start.file.scene);
   plan.resolved = start.file.resolved;
-  if (options.resume) start.from = find_checkpoint(plan.directory, plan.resolved);
-  if (start.from && start.from->time > plan.stop)
+  if (options.resume) start.from = find_checkpoints(plan.directory, plan.resolved);
+  if (!start.resumes() && !options.force)
+    if (const auto foreign = foreign_results(plan.directory, options.scene, plan.resolved))
+      throw SceneError({*foreign});
+  if (start.resumes() && start.from.good.front().state.time > plan.stop)
     throw SceneError(
         {fmt::format("--resume: the run is at t = {:g} s already and cannot stop at {:g} s. Use a later "
                      "stop, or start anew "
                      "without --resume.",
-                     start.from->time, plan.stop)});
+                     start.from.good.front().state.time, plan.stop)});
   return start;
 }
 
@@ -149,6 +157,41 @@ void ask(const Scene& scene, const RunOptions& options) {
     throw SceneError({fmt::format(
         "{}: {}. Use larger element sizes, mind the units (splashdown check says more), or run it with --large.",
         options.scene.string(), *why)});
+}
+
+/// From the newest checkpoint that the world takes. Throws SceneError, and nothing is changed, if it takes none.
+template <int d>
+void resume(Run<d>& run, const Start& start, const RunOptions& options) {
+  auto reasons = start.from.bad;
+  for (const auto& [file, state] : start.from.good) {
+    try {
+      run.resume(state);
+    } catch (const std::exception& error) {
+      reasons.push_back(file.string() + " " + error.what());
+      continue;
+    }
+    for (const auto& reason : reasons) fmt::print(stderr, "note: {}\n", reason);
+    if (!reasons.empty())
+      fmt::print(stderr, "note: continuing from the checkpoint before, {}, t = {:.6g} s\n", file.string(), run.time());
+    return say(options, fmt::format("continuing at t = {:.6g} s, step {}", run.time(), run.loop().steps));
+  }
+  throw SceneError(unusable(start.plan.directory, reasons));
+}
+
+/// What could be saved of a run whose folder went away, told.
+template <int d>
+int tell_loss(Run<d>& run, const FilesLost& loss, const RunOptions& options, const std::string& resolved) {
+  fmt::print(stderr, "error: {}, at t = {:.9g} s, step {}.\n", loss.what(), run.time(), run.loop().steps);
+  if (const auto folder = run.rescue()) {
+    write_resolved(*folder, options.scene, resolved);
+    fmt::print(stderr,
+               "Tables and checkpoint until then are saved in {0}, without frames and pictures; --out {0} --resume "
+               "continues there.\n",
+               folder->string());
+  } else {
+    fmt::print(stderr, "They could not be saved anywhere else: what the run has made since its start is lost.\n");
+  }
+  return exit_code::cannot_go_on;
 }
 
 template <int d>
@@ -167,23 +210,33 @@ int run_scene(const RunOptions& options, Start start) {
   try {
     fs::create_directories(directory);
     lock.emplace(directory);
-    prepare_directory(directory, start.file.resolved, start.from.has_value());
   } catch (const std::exception& error) {
     return bad_input(trouble(error));
   }
   try {
-    Run<d> run(scene, std::move(world), recorder_settings<d>(scene, directory), std::move(start.plan), progress);
-    if (start.from) run.resume(*start.from);
-    if (options.resume)
-      say(options, start.from ? fmt::format("continuing at t = {:.6g} s, step {}", run.time(), run.loop().steps)
-                              : "no checkpoint found: starting from the beginning");
+    Run<d> run(scene, std::move(world), recorder_settings<d>(scene, directory), start.plan, progress);
+    try {
+      if (start.resumes()) resume(run, start, options);
+      prepare_directory(options, directory, start.file.resolved, start.resumes());
+    } catch (const std::exception& error) {
+      return bad_input(trouble(error));
+    }
+    if (options.resume && !start.resumes()) say(options, "no checkpoint found: starting from the beginning");
     catch_interrupts(options.quiet ? ""
                                    : "\nstopping after this step; once more stops at once, without a checkpoint\n");
-    return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
+    try {
+      return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
+    } catch (const FilesLost& loss) {
+      progress.clear();
+      return tell_loss(run, loss, options, start.file.resolved);
+    }
   } catch (const std::exception& error) {
     progress.clear();
-    fmt::print(stderr, "error: {}\nThe last good state is in {}; --resume continues from there.\n", trouble(error),
-               (directory / "checkpoint").string());
+    fmt::print(stderr, "error: {}\n{}\n", trouble(error),
+               fs::exists(directory / "checkpoint" / "state")
+                   ? fmt::format("The last good state is in {}; --resume continues from there.",
+                                 (directory / "checkpoint").string())
+                   : "No state was saved.");
     return exit_code::cannot_go_on;
   }
 }

@@ -8,6 +8,8 @@ namespace splashdown::apps {
 
 void read_fluid(Reader& reader, Fluid& fluid);
 void read_body(Reader& reader, Body& body, const Scene& scene);
+/// The key `name`: letters, digits, _ and -, so that tables, files and other programs can take it as it is.
+void read_name(Reader& reader, std::string& name, const std::string& example);
 std::vector<std::string> body_names(const Scene& scene);
 /// The index of the body that `key` names; nothing if it is absent or unknown. `what` it is that names it.
 std::optional<std::size_t> read_body_name(Reader& reader, std::string_view key, const Scene& scene, Need need,

@@ -122,15 +122,6 @@ bool is_good_name(const std::string& name) {
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
-void read_name(Reader& reader, std::string& name) {
-  const std::string cure = "Use letters, digits, _ and -, e.g. hull.";
-  reader.text("name", name, cure, Need::required);
-  const auto key = reader.key("name");
-  auto& problems = reader.context().problems;
-  if (!problems.found_in(key) && !is_good_name(name))
-    problems.add(key, "must be made of letters, digits, _ and -, not of digits alone, and not be 'tank'", cure);
-}
-
 Motion read_motion(Reader& reader) {
   std::string motion = "free";
   reader.choice("motion", motion, {"free", "fixed", "prescribed"});
@@ -183,7 +174,7 @@ std::vector<Angle> angles(int dimension) {
 
 void read_body(Reader& reader, Body& body, const Scene& scene) {
   const int dimension = scene.dimension;
-  read_name(reader, body.name);
+  read_name(reader, body.name, "hull");
   body.motion = read_motion(reader);
   read_mass(reader, body);
   body.free = freedom_names(dimension);
@@ -227,6 +218,15 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
     reader.skip("size");
   }
   if (auto shape = reader.table("shape", Need::required)) read_shape(*shape, body.shape);
+}
+
+void read_name(Reader& reader, std::string& name, const std::string& example) {
+  const std::string cure = "Use letters, digits, _ and -, e.g. " + example + ".";
+  reader.text("name", name, cure, Need::required);
+  const auto key = reader.key("name");
+  auto& problems = reader.context().problems;
+  if (!problems.found_in(key) && !is_good_name(name))
+    problems.add(key, "must be made of letters, digits, _ and -, not of digits alone, and not be 'tank'", cure);
 }
 
 std::vector<std::string> body_names(const Scene& scene) {

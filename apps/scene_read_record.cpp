@@ -3,8 +3,6 @@
 namespace splashdown::apps {
 namespace {
 
-const std::string name_cure = "Give it a name: it becomes the probe's name in probes.csv.";
-
 /// When rows of a file of its own are due: an interval or a list, each step without both.
 template <class Entry>
 void read_instants(Reader& reader, Entry& entry) {
@@ -26,7 +24,7 @@ void read_surface_pressure(Reader& reader, Scene& scene) {
 
 void read_patch(Reader& reader, Scene& scene) {
   PatchEntry entry;
-  reader.text("name", entry.name, name_cure, Need::required);
+  read_name(reader, entry.name, "keel");
   entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
   reader.point("centre", entry.centre, place_rule(reader.context().dimension));
   reader.number("radius", entry.radius, positive("m", "Use that of the sensor or panel."));
@@ -65,20 +63,20 @@ void read_record(Reader& reader, Scene& scene) {
   if (kind == "maximum_pressure") return read_maximum_pressure(reader, scene);
   if (kind == "pressure") {
     PressureEntry entry;
-    reader.text("name", entry.name, name_cure, Need::required);
+    read_name(reader, entry.name, "keel");
     entry.body = read_body_name(reader, "body", scene, Need::optional, "record");
     reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "surface_elevation") {
     ElevationEntry entry;
-    reader.text("name", entry.name, name_cure, Need::required);
+    read_name(reader, entry.name, "keel");
     const Rule place = any("m", "Use the gauge's horizontal place.");
     reader.number("x", entry.x, place, Need::required);
     if (reader.context().dimension == 3) reader.number("y", entry.y, place, Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "acceleration") {
     AccelerationEntry entry;
-    reader.text("name", entry.name, name_cure, Need::required);
+    read_name(reader, entry.name, "keel");
     entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
     reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
     scene.records.emplace_back(std::move(entry));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "apps/plain_text.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -412,7 +414,7 @@ void Reader::each_table(std::string_view name, const std::function<void(Reader&)
   std::set<std::string> names;
   for (std::size_t i = 0; i < array->size(); ++i) {
     const auto& table = *array->get(i)->as_table();
-    const auto own = table["name"].value<std::string>().value_or("");
+    const auto own = one_line(table["name"].value<std::string>().value_or(""));
     const bool by_name = !own.empty() && names.insert(own).second;
     // One at a time: its sub-tables must be echoed before the next element opens.
     Reader reader(*context_, table, by_name ? key(name) + "." + own : fmt::format("{}[{}]", key(name), i),

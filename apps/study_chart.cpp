@@ -87,9 +87,9 @@ class Chart {
   std::string body() const {
     const auto across = [&](int id, const std::string& words, double y, int size) {
       return fmt::format(
-          "set label {} \"{}\" at screen {:.4f}, screen {:.4f} center font ',{}' textcolor rgb '#24313d' "
+          "set label {} {} at screen {:.4f}, screen {:.4f} center font ',{}' textcolor rgb '#24313d' "
           "noenhanced\n",
-          id, gnuplot_escaped(words), (left + 0.5 * (width() - left - right)) / width(), y, size);
+          id, gnuplot_text(words), (left + 0.5 * (width() - left - right)) / width(), y, size);
     };
     // Title and x label once for all panels.
     std::string text = "set multiplot\n";
@@ -159,13 +159,13 @@ class Chart {
     text += tics("x", x_) + tics("y", y);
     if (!last_row) text += "set format x ''\n";
     if (column > 0) text += "set format y ''\n";
-    text += column == 0 ? fmt::format("set ylabel \"{}\" offset 0.5,0 textcolor rgb '#24313d' noenhanced\n",
-                                      gnuplot_escaped(column_label(study_, chart_.y[row])))
+    text += column == 0 ? fmt::format("set ylabel {} offset 0.5,0 textcolor rgb '#24313d' noenhanced\n",
+                                      gnuplot_text(column_label(study_, chart_.y[row])))
                         : "unset ylabel\n";
     if (row == 0 && chart_.panels) {
       const auto& axis = study_.axes[*chart_.panels];
-      text += fmt::format("set title \"{}: {}\" offset 0,-0.6 textcolor rgb '#24313d' noenhanced\n",
-                          gnuplot_escaped(axis.label), gnuplot_escaped(axis.values[column].text));
+      text += fmt::format("set title {} offset 0,-0.6 textcolor rgb '#24313d' noenhanced\n",
+                          gnuplot_text(axis.label + ": " + axis.values[column].text));
     } else {
       text += "unset title\n";
     }
@@ -173,9 +173,9 @@ class Chart {
       text += fmt::format(
           "set object 1 rectangle from graph 0,{:.3f} to graph 1,1 behind fillcolor rgb '#fbe6e1' fillstyle "
           "solid "
-          "noborder\nset label 2 \"no solution: {}\" at graph 0.02,{:.3f} font ',11' textcolor rgb '#8c2d19' "
+          "noborder\nset label 2 {} at graph 0.02,{:.3f} font ',11' textcolor rgb '#8c2d19' "
           "noenhanced\n",
-          1 - band, broken_words(), 1 - 0.16 * band);
+          1 - band, gnuplot_text("no solution: " + broken_words()), 1 - 0.16 * band);
     return text + plots(row, column, y) + "unset label 1\nunset label 3\n";
   }
 
@@ -240,8 +240,8 @@ class Chart {
         "samplen 2 font ',14' textcolor rgb '#24313d'\nplot ",
         1 - 45. / height());
     for (std::size_t i = 0; i < axis.values.size(); ++i)
-      text += fmt::format("{}NaN with linespoints {} title \"{}\" noenhanced", i ? ", \\\n  " : "", style_of(i),
-                          gnuplot_escaped(series_name(axis, axis.values[i])));
+      text += fmt::format("{}NaN with linespoints {} title {} noenhanced", i ? ", \\\n  " : "", style_of(i),
+                          gnuplot_text(series_name(axis, axis.values[i])));
     return text + "\n";
   }
 

@@ -7,8 +7,11 @@
 #include "apps/commands.hpp"
 #include "apps/folder_lock.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/plain_text.hpp"
 #include "apps/report.hpp"
+#include "apps/run_folder.hpp"
 #include "apps/study_chart.hpp"
+#include "apps/study_folder.hpp"
 #include "apps/study_run.hpp"
 #include "apps/study_slurm.hpp"
 
@@ -45,8 +48,8 @@ void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector
   for (const auto& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (quiet) return;
   fmt::print("{}: {} runs: {}\n  files       {}/: report.html study.csv study.json{}\n",
-             study.title.empty() ? folder.filename().string() : study.title, runs.size(), counts_text(outcomes),
-             folder.string(), fs::exists(folder / "study.svg") ? " study.svg study.png" : "");
+             one_line(study.title.empty() ? folder.filename().string() : study.title), runs.size(),
+             counts_text(outcomes), folder.string(), fs::exists(folder / "study.svg") ? " study.svg study.png" : "");
 }
 
 int exit_code_of(const std::vector<Outcome>& outcomes, bool interrupted) {
@@ -94,7 +97,10 @@ int study_command(const StudyOptions& options) {
   const auto folder = fs::absolute(options.out.value_or(default_directory(options.study))).lexically_normal();
   std::optional<FolderLock> lock;
   try {
-    fs::create_directories(folder);
+    std::string foreign;
+    for (const auto& message : foreign_places(runs, folder)) foreign += message + "\n";
+    if (!foreign.empty()) return bad_input(foreign);
+    make_study_folder(folder);
     lock.emplace(folder);
   } catch (const std::exception& error) {
     return bad_input(trouble(error));

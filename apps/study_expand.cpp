@@ -1,21 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "apps/scene_read.hpp"
 #include "apps/study.hpp"
+#include "apps/study_folder.hpp"
 
 namespace splashdown::apps {
 namespace {
 
 /// A value as part of a folder's name. Numbers carry their axis, words speak for themselves.
 std::string word_of(const Axis& axis, const AxisValue& value) {
-  std::string word = value.number ? axis.name + "-" + value.text : value.text;
-  for (char& c : word)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '+') c = '_';
-  return word;
+  return value.number ? axis.name + "-" + value.text : value.text;
 }
 
 /// The place of what `message` complains about, if that is a --set argument of this run, and the message
@@ -155,6 +152,7 @@ std::vector<StudyRun> expand(const Study& study) {
       run.name += word_of(study.axes[a], value);
       run.set.insert(run.set.end(), value.set.begin(), value.set.end());
     }
+    run.name = safe_component(run.name);
     const auto plain = run.name;
     for (int n = 2; !names.insert(run.name).second; ++n) run.name = fmt::format("{}_{}", plain, n);
     runs.push_back(std::move(run));

@@ -17,6 +17,7 @@
 #include "apps/folder_lock.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/progress.hpp"
+#include "apps/study_folder.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -210,10 +211,6 @@ std::vector<std::string> command_of(const Study& study, const StudyRun& run, con
   if (study.budget) words.insert(words.end(), {"--budget", fmt::format("{}", *study.budget)});
   for (const auto& argument : run.set) words.insert(words.end(), {"--set", argument});
   return words;
-}
-
-void prepare(const StudyRun& run, const fs::path& folder) {
-  if (!begun_with(run, folder)) fs::remove_all(folder);
 }
 
 RunnerEnd make_runs(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,

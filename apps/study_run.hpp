@@ -12,9 +12,6 @@ namespace splashdown::apps {
 /// The command line of one run; it begins anew or continues, whatever its folder holds.
 std::vector<std::string> command_of(const Study& study, const StudyRun& run, const std::filesystem::path& folder);
 
-/// Empties a run's folder of what another scene left there. Finished and half-done runs stay.
-void prepare(const StudyRun& run, const std::filesystem::path& folder);
-
 /// Seconds left if a run ended every `between` seconds so far, `runs` are to end and the last one did so `since` seconds
 /// ago. Between two ends it goes down and stops, it never grows.
 double study_time_left(double between, std::size_t runs, double since);

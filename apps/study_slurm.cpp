@@ -8,6 +8,7 @@
 
 #include "apps/child_process.hpp"
 #include "apps/csv.hpp"
+#include "apps/plain_text.hpp"
 #include "apps/study_run.hpp"
 
 namespace splashdown::apps {
@@ -71,7 +72,7 @@ std::string slurm_script(const Study& study, const std::vector<StudyRun>& runs, 
       "#SBATCH --requeue\n"
       "cd {} || exit 2\n"
       "case $SLURM_ARRAY_TASK_ID in\n{}esac\n",
-      study.file.string(), count - 1, jobs, quoted(fs::current_path().string()), commands);
+      one_line(study.file.string()), count - 1, jobs, quoted(fs::current_path().string()), commands);
 }
 
 std::string submit(const Study& study, const std::string& script, const fs::path& folder) {

@@ -5,8 +5,7 @@
 
 namespace splashdown::apps {
 
-/// Not asked for: one in the plane, where runs are small and studies run side by side; all cores in space. BLAS gets
-/// several only if asked for: direct solves of some 50 000 unknowns are the smallest that gain.
+/// Not asked for: one in the plane, where runs are small and studies run side by side; all cores in space.
 void set_threads(std::optional<int> count, int dimension);
 
 }  // namespace splashdown::apps

@@ -14,9 +14,9 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
   return {std::begin(built::libraries), std::end(built::libraries)};
 }
 
-std::string provenance_toml() {
-  auto text =
-      fmt::format("[provenance]\nversion = {}\ngit = {}\nlibraries = {{ ", toml_text(version()), toml_text(git_hash()));
+std::string provenance_toml(const std::filesystem::path& scene) {
+  auto text = fmt::format("[provenance]\nscene = {}\nversion = {}\ngit = {}\nlibraries = {{ ",
+                          toml_text(scene.string()), toml_text(version()), toml_text(git_hash()));
   const char* separator = "";
   for (const auto& [name, number] : library_versions()) {
     text += fmt::format("{}{} = {}", separator, name, toml_text(number));

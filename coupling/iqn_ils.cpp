@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "coupling/quasi_newton.hpp"
+#include "fluid/stored.hpp"
 
 namespace splashdown::coupling {
 namespace {
@@ -45,10 +46,9 @@ void IqnIls::save(std::ostream& out) const {
 }
 
 void IqnIls::load(std::istream& in) {
-  std::int64_t count = 0;
-  in.read(reinterpret_cast<char*>(&count), sizeof count);
+  auto count = fluid::stored_count(in, sizeof(std::int64_t));  // of a step without pairs
   past_.clear();
-  for (std::int64_t k = 0; in && k < count; ++k) past_.emplace_back().load(in);
+  for (; in && count > 0; --count) past_.emplace_back().load(in);
   if (past_.size() > reuse_) past_.resize(reuse_);  // a run may go on with another reuse
 }
 

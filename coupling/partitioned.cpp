@@ -3,6 +3,7 @@
 #include <limits>
 #include <ostream>
 #include <sstream>
+#include <stdexcept>
 
 #include "coupling/interface_space.hpp"
 #include "coupling/pass_slope.hpp"
@@ -146,7 +147,10 @@ void Partitioned<d>::save(std::ostream& out) const {
 }
 template <int d>
 void Partitioned<d>::load(std::istream& in) {
-  for (auto& a : acceleration_) in.read(reinterpret_cast<char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
+  for (auto& a : acceleration_) {
+    in.read(reinterpret_cast<char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
+    if (!in || !a.allFinite()) throw std::runtime_error("holds no accelerations of the bodies");
+  }
   Coupled<d>::load(in);
   accelerator_->load(in);
 }

@@ -6,6 +6,8 @@
 #include <ostream>
 #include <utility>
 
+#include "fluid/stored.hpp"
+
 namespace splashdown::coupling {
 namespace {
 
@@ -16,9 +18,7 @@ void write(std::ostream& out, const Eigen::VectorXd& v) {
 }
 
 void read(std::istream& in, Eigen::VectorXd& v) {
-  std::int64_t size = 0;
-  in.read(reinterpret_cast<char*>(&size), sizeof size);
-  v.resize(in ? size : 0);
+  v.resize(static_cast<Eigen::Index>(fluid::stored_count(in, sizeof(double))));
   in.read(reinterpret_cast<char*>(v.data()), v.size() * static_cast<std::streamsize>(sizeof(double)));
 }
 
@@ -79,10 +79,9 @@ void Secants::save(std::ostream& out) const {
 }
 
 void Secants::load(std::istream& in) {
-  std::int64_t count = 0;
-  in.read(reinterpret_cast<char*>(&count), sizeof count);
+  auto count = fluid::stored_count(in, 2 * sizeof(std::int64_t));  // a pair: two lengths at least
   pairs_.clear();
-  for (std::int64_t k = 0; in && k < count; ++k) {
+  for (; in && count > 0; --count) {
     auto& pair = pairs_.emplace_back();
     read(in, pair.residual), read(in, pair.image);
   }

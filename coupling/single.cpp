@@ -1,6 +1,8 @@
 // Steppers with one part, and the clock that all share.
+#include <cmath>
 #include <istream>
 #include <ostream>
+#include <stdexcept>
 
 #include "coupling/steppers.hpp"
 
@@ -9,7 +11,10 @@ namespace splashdown::coupling {
 void LeapfrogClock::save(std::ostream& out) const {
   out.write(reinterpret_cast<const char*>(&previous_), sizeof previous_);
 }
-void LeapfrogClock::load(std::istream& in) { in.read(reinterpret_cast<char*>(&previous_), sizeof previous_); }
+void LeapfrogClock::load(std::istream& in) {
+  if (!in.read(reinterpret_cast<char*>(&previous_), sizeof previous_) || !(previous_ >= 0 && std::isfinite(previous_)))
+    throw std::runtime_error("holds no length of the last step");
+}
 
 template <int d>
 StepReport FluidOnly<d>::attempt(double dt) {

@@ -1,37 +1,96 @@
 #include "fluid/fluid.hpp"
 
 #include <algorithm>
-#include <cereal/archives/binary.hpp>
-#include <cereal/types/vector.hpp>
 #include <cmath>
+#include <cstdint>
+#include <istream>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
+#include <type_traits>
 
 #include "fluid/fluid_state.hpp"
 #include "fluid/initial.hpp"
 #include "fluid/parallel.hpp"
+#include "fluid/stored.hpp"
 #include "fluid/ventilation.hpp"
 #include "fluid/wave_bound.hpp"
 
 namespace splashdown::fluid {
 namespace {
 
-template <class Archive, class T>
-void raw(Archive& archive, std::vector<T>& values) {
-  std::size_t count = values.size();
-  archive(count);
-  values.resize(count);
-  archive(cereal::binary_data(values.data(), count * sizeof(T)));
+/// Both ways of a checkpoint: values as they lie in memory, lists with their lengths.
+struct Saver {
+  std::ostream& out;
+  template <class T>
+  void value(const T& v) {
+    out.write(reinterpret_cast<const char*>(&v), sizeof v);
+  }
+  template <class T>
+  void list(const std::vector<T>& values) {
+    value(static_cast<std::uint64_t>(values.size()));
+    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+  }
+};
+
+struct Loader {
+  std::istream& in;
+  template <class T>
+  void value(T& v) {
+    in.read(reinterpret_cast<char*>(&v), sizeof v);
+  }
+  template <class T>
+  void list(std::vector<T>& values) {
+    values.resize(stored_count(in, sizeof(T)));
+    in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+  }
+};
+
+template <class Stream, int d>
+void archive_present(Stream stream, Present<d>& s) {
+  stream.value(s.time), stream.value(s.dt), stream.value(s.acceleration_dt), stream.value(s.ledger);
+  stream.list(s.nodes.x), stream.list(s.nodes.v), stream.list(s.nodes.p);
+  stream.list(s.nodes.tie), stream.list(s.nodes.surface), stream.list(s.nodes.separates);
+  stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.h);
+  stream.list(s.mesh.cells), stream.list(s.mesh.boundary);
+  stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted);
 }
 
-template <class Archive, int d>
-void archive_present(Archive& archive, Present<d>& s) {
-  archive(s.time, s.dt, s.acceleration_dt, cereal::binary_data(&s.ledger, sizeof(Ledger)));
-  raw(archive, s.nodes.x), raw(archive, s.nodes.v), raw(archive, s.nodes.p);
-  raw(archive, s.nodes.tie), raw(archive, s.nodes.surface), raw(archive, s.nodes.separates);
-  raw(archive, s.nodes.spray), raw(archive, s.nodes.volume), raw(archive, s.h);
-  raw(archive, s.mesh.cells), raw(archive, s.mesh.boundary);
-  raw(archive, s.poses), raw(archive, s.velocity), raw(archive, s.wetted);
+template <class T>
+bool all_finite(const std::vector<T>& values) {
+  return std::ranges::all_of(values, [](const auto& v) {
+    if constexpr (std::is_arithmetic_v<T>)
+      return std::isfinite(v);
+    else
+      return v.allFinite();
+  });
+}
+
+/// Throws std::runtime_error unless every index and number is one that a step can begin with.
+template <int d>
+void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
+  const Nodes<d>& nodes = s.nodes;
+  const std::size_t count = nodes.size(), wall_count = walls.size();
+  bool good = count > 0 && std::isfinite(s.time) && std::isfinite(s.dt) && s.acceleration_dt > 0;
+  for (const std::size_t size : {nodes.v.size(), nodes.p.size(), nodes.tie.size(), nodes.surface.size(),
+                                 nodes.separates.size(), nodes.spray.size(), nodes.volume.size(), s.h.size()})
+    good = good && size == count;
+  good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count;
+  good = good && all_finite(nodes.x) && all_finite(nodes.v) && all_finite(nodes.p) && all_finite(nodes.volume) &&
+         all_finite(s.velocity) && all_finite(s.wetted) &&
+         std::ranges::all_of(s.h, [](double h) { return h > 0 && std::isfinite(h); });
+  constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
+  for (const auto& pose : s.poses) good = good && pose.matrix().allFinite() && pose.linear().isUnitary(roundoff);
+  const auto is_node = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < count; };
+  for (const auto& cell : s.mesh.cells) good = good && std::ranges::all_of(cell, is_node);
+  for (const auto& facet : s.mesh.boundary)
+    good = good && std::ranges::all_of(facet.nodes, is_node) && facet.wall >= -1 &&
+           facet.wall < static_cast<int>(wall_count);
+  for (const auto& tie : nodes.tie) {
+    if (!good) break;
+    good = tie.wall >= -1 && tie.wall < static_cast<int>(wall_count) && (tie.wall < 0 || walls[tie.wall].has(tie));
+  }
+  if (!good) throw std::runtime_error("the water's state is damaged or of another scene");
 }
 
 template <int d>
@@ -249,13 +308,15 @@ std::vector<std::pair<std::string, double>> Fluid<d>::phase_seconds() const {
 
 template <int d>
 void Fluid<d>::save(std::ostream& out) const {
-  cereal::BinaryOutputArchive archive(out);
-  archive_present(archive, s_->now);
+  archive_present(Saver{out}, s_->now);
 }
 template <int d>
 void Fluid<d>::load(std::istream& in) {
-  cereal::BinaryInputArchive archive(in);
-  archive_present(archive, s_->now);
+  Present<d> loaded;
+  archive_present(Loader{in}, loaded);
+  if (!in) throw std::runtime_error("ends in the middle of the water's state");
+  check(loaded, s_->walls);
+  s_->now = std::move(loaded);
   s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
   s_->prepared = false;
 }

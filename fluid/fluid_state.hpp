@@ -104,6 +104,7 @@ struct Fluid<d>::State {
   void size_nodes();
   void collect_drops();
   std::size_t put_drops_last();
+  void cut(std::size_t liquid);
   void book_spray(const std::vector<char>& was_spray);
   Vec<d> gravity() const;
 

@@ -65,26 +65,30 @@ class Filler {
     wet<d>(out_.nodes, h, out_.mesh, walls_, at_rest);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
-      do out_.mesh = recognise<d>(out_.nodes, h, out_.mesh.boundary, walls_, outline_decides);
-      while (drop_lost());
+      cut();
       if (settled + 1 == smoothing_sweeps<d>) return;
       const auto report = adapt(out_.nodes, h, out_.mesh, walls_);
       const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
       if (quiet || sweep > 60) ++settled;
-      out_.mesh = recognise<d>(out_.nodes, h, out_.mesh.boundary, walls_, outline_decides);
+      cut();
       smooth(h);
       sizes();
     }
   }
 
-  // Smoothing may push a node through a wall. It has no cell then, and is no drop of water either.
-  bool drop_lost() {
-    std::vector<int> kept;
-    for (std::size_t i = 0; i < out_.nodes.size(); ++i)
-      if (!out_.nodes.spray[i]) kept.push_back(static_cast<int>(i));
-    if (kept.size() == out_.nodes.size()) return false;
-    keep(kept, out_.nodes, out_.h, out_.mesh.boundary);
-    return true;
+  // What is water, without nodes that smoothing pushed through a wall: they have no cell then, and are no drops either.
+  void cut() {
+    for (;;) {
+      auto found = recognise<d>(out_.nodes, out_.h, out_.mesh.boundary, walls_, outline_decides);
+      std::vector<char> goes = out_.nodes.spray;
+      for (int n : found.piercing) goes[n] = 1;
+      std::vector<int> kept;
+      for (std::size_t i = 0; i < goes.size(); ++i)
+        if (!goes[i]) kept.push_back(static_cast<int>(i));
+      if (found.piercing.empty()) out_.mesh = std::move(found);
+      if (kept.size() == goes.size()) return;
+      keep(kept, out_.nodes, out_.h, out_.mesh.boundary);
+    }
   }
 
   // Inner nodes move towards the mean of their neighbours, weighted by how far apart they should be.

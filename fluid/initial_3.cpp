@@ -5,6 +5,7 @@
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_domain_with_polyline_features_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
 #include <CGAL/Surface_mesh.h>
@@ -13,7 +14,9 @@
 
 #include <boost/graph/adjacency_list.hpp>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "fluid/initial_parts.hpp"
@@ -118,6 +121,36 @@ struct Curves {
   std::vector<Kernel::Point_3> corners;  // on no line
 };
 
+// Delaunay refinement grows a surface from what it knows of it: of one without curves and corners, a smooth body under
+// water, it would know nothing, and leave it out. Vertices far from each other stand for it as corners.
+void seed_smooth_parts(Rounded mesh, Curves& curves) {
+  constexpr std::size_t seeds =
+      12;  // four span a tetrahedron; as many as an icosahedron has are spread about evenly on a ball
+  auto part = mesh.add_property_map<Rounded::Face_index, std::size_t>("f:part").first;
+  const std::size_t count = pmp::connected_components(mesh, part);
+  std::vector<std::vector<Kernel::Point_3>> vertices(count);
+  std::set<Kernel::Point_3> known(curves.corners.begin(), curves.corners.end());
+  for (const auto& line : curves.lines) known.insert(line.begin(), line.end());
+  std::vector<char> is_known(count, 0);
+  for (auto v : mesh.vertices()) {
+    const std::size_t of = part[mesh.face(mesh.halfedge(v))];
+    vertices[of].push_back(mesh.point(v));
+    if (known.contains(mesh.point(v))) is_known[of] = 1;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    if (is_known[k]) continue;
+    const auto& points = vertices[k];
+    std::vector<double> apart(points.size(), std::numeric_limits<double>::max());  // squared, from the seeds
+    std::size_t farthest = 0;
+    for (std::size_t seed = 0; seed < seeds && apart[farthest] > 0; ++seed) {
+      curves.corners.push_back(points[farthest]);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        apart[i] = std::min(apart[i], CGAL::squared_distance(points[i], curves.corners.back()));
+      farthest = static_cast<std::size_t>(std::max_element(apart.begin(), apart.end()) - apart.begin());
+    }
+  }
+}
+
 struct LineCollector {
   const boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, Kernel::Point_3>& graph;
   std::vector<std::vector<Kernel::Point_3>>& lines;
@@ -161,6 +194,7 @@ Curves curves_of(const Skin& skin, const WallsAt<3>& walls) {
   CGAL::split_graph_into_polylines(graph, collector, is_end);
   for (auto v : mesh.vertices())
     if (!at.contains(v) && tie_at<3>(vec(mesh.point(v)), walls).vertex >= 0) curves.corners.push_back(mesh.point(v));
+  seed_smooth_parts(mesh, curves);
   return curves;
 }
 

@@ -1,5 +1,6 @@
 #include "fluid/linear_solver.hpp"
 
+#include <cblas.h>
 #include <omp.h>
 #include <suitesparse/cholmod.h>
 
@@ -9,16 +10,24 @@ namespace splashdown::fluid {
 namespace {
 
 // CHOLMOD opens parallel regions of four threads for loops of a few rows, whatever number of threads was asked
-// for: they wait longer than they work, and on one core they double the time of a solve.
+// for: they wait longer than they work, and on one core they double the time of a solve. OpenBLAS' threads each sum a
+// part of a product: the last bits of its results depend on their number, and after some twenty steps in space all of
+// them do.
 class OneThread {
  public:
-  OneThread() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-  ~OneThread() { omp_set_max_active_levels(levels_); }
+  OneThread() : levels_(omp_get_max_active_levels()), blas_(openblas_get_num_threads()) {
+    omp_set_max_active_levels(0);
+    openblas_set_num_threads(1);
+  }
+  ~OneThread() {
+    omp_set_max_active_levels(levels_);
+    openblas_set_num_threads(blas_);
+  }
   OneThread(const OneThread&) = delete;
   OneThread& operator=(const OneThread&) = delete;
 
  private:
-  int levels_;
+  int levels_, blas_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // The mesh of a step: sizes, contact, nodes, the triangulation and which of its cells are fluid.
+#include <algorithm>
 #include <numeric>
 
 #include "fluid/droplets.hpp"
@@ -69,6 +70,31 @@ std::size_t Fluid<d>::State::put_drops_last() {
   return liquid;
 }
 
+// The cells of the water. `liquid`: nodes that may be their corners, the first ones.
+template <int d>
+void Fluid<d>::State::cut(std::size_t liquid) {
+  Nodes<d>& nodes = work.nodes;
+  constexpr int attempts = 3;  // to do without nodes that keep the triangulation from the wall's facets
+  for (int attempt = 1;; ++attempt) {
+    const auto spray = nodes.spray;
+    Delaunay<d> cells = triangulation.follow(std::span(nodes.x).first(liquid), std::span(nodes.vertex).first(liquid),
+                                             work.mesh.boundary);
+    std::iota(nodes.vertex.begin(), nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), 0);
+    std::fill(nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), nodes.vertex.end(), -1);
+    auto found = recognise<d>(std::move(cells), nodes, work.h, work.mesh.boundary, walls_at(work.poses));
+    if (found.piercing.empty() || attempt == attempts) {
+      work.mesh = std::move(found);
+      return book_spray(spray);
+    }
+    nodes.spray = spray;
+    std::vector<int> kept(nodes.size());
+    std::iota(kept.begin(), kept.end(), 0);
+    std::erase_if(kept, [&](int i) { return std::binary_search(found.piercing.begin(), found.piercing.end(), i); });
+    liquid -= found.piercing.size();
+    keep(kept, nodes, work.h, work.mesh.boundary);
+  }
+}
+
 template <int d>
 void Fluid<d>::State::prepare() {
   const auto scope = timer.scope(remesh);
@@ -82,13 +108,8 @@ void Fluid<d>::State::prepare() {
   collect_drops();
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const std::size_t liquid = put_drops_last();
-  const std::vector<char> was_spray = work.nodes.spray;
-  const Delaunay<d> cells = triangulation.follow(std::span(work.nodes.x).first(liquid),
-                                                 std::span(work.nodes.vertex).first(liquid), work.mesh.boundary);
-  std::iota(work.nodes.vertex.begin(), work.nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), 0);
-  std::fill(work.nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), work.nodes.vertex.end(), -1);
-  work.mesh = recognise<d>(cells, work.nodes, work.h, work.mesh.boundary, walls_at(work.poses));
-  book_spray(was_spray);
+  cut(liquid);
+
   separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   land(work.nodes, work.mesh);
   carried_p = work.nodes.p;

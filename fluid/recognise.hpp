@@ -32,15 +32,22 @@ struct Alpha {
   double join = 0.3;   ///< ... joins two surfaces; 0.8 would fill the cavity under a jet
 };
 
+template <int d>
+struct Recognised : Mesh<d> {
+  /// Inner nodes of cells that lie in a wall for some part, in space, though the water around them should be there: without
+  /// them the triangulation has the wall's facets.
+  std::vector<int> piercing;
+};
+
 /// Finds the fluid cells among `all` and labels boundary facets; sets nodes.surface and nodes.spray. `h`: element size at
 /// the nodes [m]; `old_boundary`: closed facets between the same nodes.
 template <int d>
-Mesh<d> recognise(const Delaunay<d>& all, Nodes<d>& nodes, std::span<const double> h,
-                  const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit = {});
+Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double> h,
+                        const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit = {});
 
 /// Among the cells of the nodes' triangulation.
 template <int d>
-Mesh<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
-                  const WallsAt<d>& walls, const Alpha& limit = {});
+Recognised<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
+                        const WallsAt<d>& walls, const Alpha& limit = {});
 
 }  // namespace splashdown::fluid

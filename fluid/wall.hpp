@@ -48,6 +48,12 @@ class Wall {
   bool is_convex(const WallTie& sharp) const {
     return sharp.vertex >= 0 ? convex_corner_[sharp.vertex] != 0 : convex_crease_[sharp.crease] != 0;
   }
+  /// Whether a node could be tied like this: to a patch, corner and crease that there are.
+  bool has(const WallTie& tie) const {
+    return tie.patch >= -1 && tie.patch < static_cast<int>(is_flat_.size()) && tie.vertex >= -1 &&
+           tie.vertex < static_cast<int>(spec_.surface.vertices.cols()) && tie.crease >= -1 &&
+           tie.crease < static_cast<int>(creases_.size());
+  }
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.

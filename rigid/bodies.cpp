@@ -319,14 +319,21 @@ void Bodies<d>::load(std::istream& in) {
   double count = 0;
   read(in, &count, 1);
   if (!in || count != static_cast<double>(size()))
-    throw std::runtime_error(message("checkpoint holds ", count, " bodies, the scene has ", size()));
+    throw std::runtime_error(message("holds ", count, " bodies, the scene has ", size()));
   read(in, &w.time, 1);
   for (std::size_t i = 0; i < size(); ++i) {
     read(in, w.states[i].pose.data(), w.states[i].pose.matrix().size());
     read(in, w.states[i].velocity.data(), freedoms<d>);
     if (w.movers[i]) read(in, w.movers[i]->momentum.data(), 3);
   }
-  if (!in) throw std::runtime_error("checkpoint ends in the middle of the bodies");
+  if (!in) throw std::runtime_error("ends in the middle of the bodies");
+  constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
+  bool good = std::isfinite(w.time);
+  for (const auto& state : w.states)
+    good = good && state.pose.matrix().allFinite() && state.pose.linear().isUnitary(roundoff) &&
+           state.velocity.allFinite();
+  for (const auto& mover : w.movers) good = good && (!mover || mover->momentum.allFinite());
+  if (!good) throw std::runtime_error("the bodies' state is damaged");
   w.trials = w.states;
   w.phase = Phase::committed;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <optional>
 
 #include "apps/resume.hpp"
 #include "apps/scene_read.hpp"
@@ -32,11 +33,16 @@ Checkpoint at(double time) {
   return c;
 }
 
+std::optional<Checkpoint> newest(const fs::path& folder) {
+  const auto stored = read_checkpoints(folder);
+  return stored.good.empty() ? std::nullopt : std::optional(stored.good.front().state);
+}
+
 void cut(const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); }
 
 TEST_F(CheckpointFolder, reads_back_what_was_written) {
   write_checkpoint(folder, at(1));
-  const auto c = read_checkpoint(folder);
+  const auto c = newest(folder);
   ASSERT_TRUE(c);
   EXPECT_EQ(c->time, 1);
   EXPECT_EQ(c->scene, at(1).scene);
@@ -51,11 +57,11 @@ TEST_F(CheckpointFolder, reads_back_what_was_written) {
 TEST_F(CheckpointFolder, falls_back_to_the_generation_before_a_damaged_one) {
   write_checkpoint(folder, at(1));
   write_checkpoint(folder, at(2));
-  EXPECT_EQ(read_checkpoint(folder)->time, 2);
+  EXPECT_EQ(newest(folder)->time, 2);
   cut(folder / "state");
-  EXPECT_EQ(read_checkpoint(folder)->time, 1);
+  EXPECT_EQ(newest(folder)->time, 1);
   cut(folder / "previous");
-  EXPECT_FALSE(read_checkpoint(folder));
+  EXPECT_FALSE(newest(folder));
 }
 
 TEST_F(CheckpointFolder, finds_a_changed_byte) {
@@ -64,23 +70,23 @@ TEST_F(CheckpointFolder, finds_a_changed_byte) {
   file.seekp(500);
   file.put('x');
   file.close();
-  EXPECT_FALSE(read_checkpoint(folder));
+  EXPECT_FALSE(newest(folder));
 }
 
 TEST_F(CheckpointFolder, survives_a_kill_between_the_two_renames) {
   write_checkpoint(folder, at(1));
   write_checkpoint(folder, at(2));
   fs::rename(folder / "state", folder / "state.new");
-  EXPECT_EQ(read_checkpoint(folder)->time, 2);
+  EXPECT_EQ(newest(folder)->time, 2);
 }
 
 TEST_F(CheckpointFolder, may_be_absent_or_full_of_something_else) {
-  EXPECT_FALSE(read_checkpoint(folder));
+  EXPECT_FALSE(newest(folder));
   fs::create_directories(folder);
   std::ofstream(folder / "state") << "not a checkpoint";
-  EXPECT_FALSE(read_checkpoint(folder));
+  EXPECT_FALSE(newest(folder));
   std::ofstream(folder / "state") << "";
-  EXPECT_FALSE(read_checkpoint(folder));
+  EXPECT_FALSE(newest(folder));
 }
 
 std::string resolved(std::vector<std::string> overrides) {
@@ -103,11 +109,46 @@ TEST_F(CheckpointFolder, of_another_scene_is_refused) {
   auto checkpoint = at(1);
   checkpoint.scene = resolved({});
   write_checkpoint(folder / "checkpoint", checkpoint);
-  EXPECT_TRUE(find_checkpoint(folder, resolved({"time.end=3"})));
-  const auto messages = testing::refusal_of([&] { find_checkpoint(folder, resolved({"fluid.density=900"})); });
+  EXPECT_EQ(find_checkpoints(folder, resolved({"time.end=3"})).good.size(), 1u);
+  const auto messages = testing::refusal_of([&] { find_checkpoints(folder, resolved({"fluid.density=900"})); });
   ASSERT_FALSE(messages.empty());
   EXPECT_TRUE(messages[0].starts_with("--resume: fluid.density = 900.0, in the checkpoint 1000.0")) << messages[0];
-  EXPECT_FALSE(find_checkpoint(folder / "nowhere", resolved({})));
+  EXPECT_TRUE(find_checkpoints(folder / "nowhere", resolved({})).good.empty());
+}
+
+/// The last message of a refusal says what to do, those before what is wrong.
+void expect_refused(const fs::path& folder, const std::string& reason) {
+  const auto messages = testing::refusal_of([&] { find_checkpoints(folder, resolved({})); });
+  ASSERT_GE(messages.size(), 2u) << reason;
+  EXPECT_NE(messages[0].find(reason), std::string::npos) << messages[0];
+  EXPECT_NE(messages.back().find("nothing was changed. Continue it with the version that wrote it, or begin anew"),
+            std::string::npos)
+      << messages.back();
+}
+
+TEST_F(CheckpointFolder, that_cannot_be_read_is_refused_and_never_taken_for_none) {
+  auto checkpoint = at(1);
+  checkpoint.scene = resolved({});
+  write_checkpoint(folder / "checkpoint", checkpoint);
+  const auto state = folder / "checkpoint" / "state";
+  const auto good = scratch.text("checkpoint/checkpoint/state");
+  const auto holds = [&](const std::string& bytes) { std::ofstream(state, std::ios::binary) << bytes; };
+  holds(good.substr(0, good.size() - 1));
+  expect_refused(folder, "state is cut short, or its length is damaged");
+  auto flipped = good;
+  flipped[good.size() / 2] ^= 1;
+  holds(flipped);
+  expect_refused(folder, "state is damaged: its checksum does not agree");
+  auto older = good;
+  older.replace(older.find("checkpoint ") + 11, 1, "2");
+  holds(older);
+  expect_refused(folder, "state was written by another version of splashdown (format 2, this one reads 3)");
+  holds("not a checkpoint");
+  expect_refused(folder, "state is no checkpoint, or its first bytes are damaged");
+  fs::remove_all(folder / "checkpoint");
+  EXPECT_TRUE(find_checkpoints(folder, resolved({})).good.empty()) << "no run has begun there";
+  std::ofstream(folder / "bodies.csv") << "time\n";
+  expect_refused(folder, "holds tables of a run, but no checkpoint");
 }
 
 }  // namespace

@@ -61,6 +61,11 @@ check "bit for bit" same_run whole again
 check "a finished run may be resumed" exits 0 run --out again --resume
 check "and stays what it was" same_run whole again
 
+for threads in 2 4; do
+  check "a run on $threads threads" exits 0 run --out "threads_$threads" --threads $threads
+  check "makes the same bits" same_run whole "threads_$threads"
+done
+
 # Stops and resumption
 for until in 0.007 0.018 0.036; do
   check "a run stops at $until s" exits 0 run --out "stopped_$until" --until $until
@@ -75,6 +80,67 @@ check "that continues bit for bit" same_run whole budget
 check "a run does not go back" exits 2 run --out budget --resume --until 0.001
 check "another scene is not continued" exits 2 run --out budget --resume --set body.wedge.mass=61
 check "the message names what differs" grep -q 'body\[0\].mass = 61.0, in the checkpoint 60.0' stderr
+
+# Checkpoints that cannot be used
+damage() {  # damage FILE: a byte in its middle
+  printf '\x5a\xa5' | dd of="$1" bs=1 seek=$(($(stat -c %s "$1") / 2)) conv=notrunc status=none
+}
+check "two checkpoints are kept" test -s stopped_0.018/checkpoint/state -a -s stopped_0.018/checkpoint/previous
+check "a run stops" exits 0 run --out older --until 0.036
+damage older/checkpoint/state
+check "one whose newest checkpoint is damaged goes on from the one before" exits 0 run --out older --resume
+check "says so although it is quiet" grep -q 'note: older/checkpoint/state is damaged: its checksum does not agree' stderr
+check "and from where" grep -q 'note: continuing from the checkpoint before, older/checkpoint/previous, t = ' stderr
+check "to the same bits" same_run whole older
+check "a run stops again" exits 0 run --out lost --until 0.036
+cp lost/bodies.csv bodies.before
+damage lost/checkpoint/state
+sed -i 's/splashdown checkpoint [0-9]*/splashdown checkpoint 2/' lost/checkpoint/previous
+check "without any good one it is not continued" exits 2 run --out lost --resume
+check "the message says which is damaged" grep -q 'error: --resume: lost/checkpoint/state is damaged' stderr
+check "which is of another version" grep -q 'lost/checkpoint/previous was written by another version of splashdown (format 2' stderr
+check "and what to do" grep -q 'nothing was changed. Continue it with the version .*(--out), or with --restart instead' stderr
+check "and nothing was changed" cmp bodies.before lost/bodies.csv
+rm -r lost/checkpoint
+check "nor is one that has lost its checkpoints" exits 2 run --out lost --resume
+check "which is told" grep -q 'lost holds tables of a run, but no checkpoint' stderr
+check "its tables stay" cmp bodies.before lost/bodies.csv
+check "--restart and --resume exclude each other" exits 2 run --out lost --resume --restart
+check "--restart begins anew" exits 0 run --out lost --restart
+check "bit for bit" same_run whole lost
+
+# One folder, two scenes
+mkdir cone wedge
+cp scene.toml cone/scene_45.toml
+sed 's/coarse wedge/other wedge/' scene.toml >wedge/scene_45.toml
+for folder in cone wedge; do
+  check "a scene of a name that others have" exits 0 "$splashdown" run $folder/scene_45.toml --quiet --set time.end=0.001
+  check "has a folder of its own" test -s out/${folder}_scene_45/bodies.csv
+done
+cp out/cone_scene_45/bodies.csv bodies.before
+check "another scene does not replace what is there" exits 2 \
+  "$splashdown" run wedge/scene_45.toml --quiet --out out/cone_scene_45 --set time.end=0.002
+check "the message names both" grep -q "out/cone_scene_45 holds the results of another scene, 'coarse wedge' (.*/cone/scene_45.toml); this one is 'other wedge' (.*/wedge/scene_45.toml)" stderr
+check "and the ways out" grep -q 'Use --out with another folder, or --force to replace it' stderr
+check "nothing was changed" cmp bodies.before out/cone_scene_45/bodies.csv
+check "the same scene may" exits 0 "$splashdown" run cone/scene_45.toml --quiet --set time.end=0.002
+check "and the other one by force" exits 0 "$splashdown" run wedge/scene_45.toml --quiet --out out/cone_scene_45 --force --set time.end=0.002
+
+# A folder that goes away under a run
+{ "$splashdown" run scene.toml --quiet --out gone/here --set time.end=10 2>gone.said; echo $? >gone.code; } &
+until [[ -s gone/here/bodies.csv ]] && (($(wc -l <gone/here/bodies.csv) > 5)); do sleep 0.05; done
+rm -rf gone/here 2>/dev/null  # it may write a picture meanwhile
+wait
+check "a run whose folder is removed ends with 3" grep -qx 3 gone.code
+check "says what is gone" grep -q 'error: gone/here/.* was removed, moved or replaced while the run was writing it, at t = .* s, step' gone.said
+check "and where the rest is" grep -q 'saved in .*gone/here.rescued, without frames and pictures; --out .* --resume' gone.said
+rows=$(wc -l <gone/here.rescued/bodies.csv)
+check "its rows are there" test "$rows" -gt 5
+last=$(tail -n 1 gone/here.rescued/bodies.csv | cut -d, -f1)
+stop=$(awk -v t="$last" 'BEGIN {print t + 0.02}')
+check "it goes on" exits 0 run --out gone/here.rescued --resume --set time.end=10 --until "$stop"
+check "as one that was left alone" exits 0 run --out gone/alone --set time.end=10 --until "$stop"
+check "bit for bit" cmp gone/here.rescued/bodies.csv gone/alone/bodies.csv
 
 for signal in INT TERM; do
   "$splashdown" run scene.toml --quiet --out "signal_$signal" --set time.end=10 &

@@ -63,6 +63,39 @@ check "with its draft and attitude" grep -q 'draft of 0.12 m, heel (roll) 0 deg,
 check "its metacentric heights" grep -q 'GM 0.08361 m in roll, 0.6044 m in pitch' stdout
 check "and its righting levers" grep -Eq '^ +180 ' stdout
 
+cat >ball.toml <<'SCENE'
+dimension = 3
+[time]
+end = 0.05
+[gravity]
+[tank]
+min = [-0.6, -0.6, -0.5]
+max = [0.6, 0.6, 0.5]
+[fluid]
+density = 1000
+[fluid.size]
+surface = 0.08
+far = 0.12
+[[fluid.region]]
+shape = "box"
+min = [-0.6, -0.6, -0.5]
+max = [0.6, 0.6, 0]
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.2 }
+density = 300
+position = [0, 0, 0.21]
+velocity = [0.5, 0, -2]
+size = 0.05
+SCENE
+# The users' environment must not matter: BLAS reads its own number of threads from there.
+check "a ball falls on water" exits 0 env OPENBLAS_NUM_THREADS=3 "$splashdown" run ball.toml --quiet --threads 1 --out ball_1
+for threads in 2 4; do
+  check "on $threads threads" exits 0 "$splashdown" run ball.toml --quiet --threads $threads --out "ball_$threads"
+  check "to the same bits" cmp ball_1/bodies.csv "ball_$threads/bodies.csv"
+  check "in the water, too" cmp <(simulated ball_1/fluid.csv) <(simulated "ball_$threads/fluid.csv")
+done
+
 broken() {  # broken NAME WHAT_IS_SAID: the file is refused with this text
   exits 2 "$splashdown" check afloat.toml --set "body.raft.shape={type=\"surface\", file=\"$1\"}" && grep -q "$2" stderr
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "apps/study_chart.hpp"
+#include "apps/study_folder.hpp"
 #include "apps/study_run.hpp"
 #include "apps/study_slurm.hpp"
 #include "apps/study_table.hpp"
@@ -89,6 +90,28 @@ TEST_F(StudyTest, has_every_combination_once_with_the_last_axis_fastest) {
                                                    "coupling.interface_term=none", "coupling.relaxation=1"}));
 }
 
+TEST(SafeComponent, is_one_harmless_folder_name_whatever_the_text) {
+  EXPECT_EQ(safe_component("mass-1_plain"), "mass-1_plain") << "good names stay";
+  EXPECT_EQ(safe_component("ratio-0.5+x"), "ratio-0.5+x");
+  for (const auto& [text, name] : std::map<std::string, std::string>{{"", "_"},
+                                                                     {".", "_."},
+                                                                     {"..", "_.."},
+                                                                     {"/", "_"},
+                                                                     {"../x", "_.._x"},
+                                                                     {"/etc/passwd", "_etc_passwd"},
+                                                                     {"-rf", "_-rf"},
+                                                                     {".hidden", "_.hidden"},
+                                                                     {"study.csv", "study.csv_"},
+                                                                     {"a.log", "a.log_"},
+                                                                     {"report.html", "report.html_"},
+                                                                     {"a\nb\tc\x1b[0m", "a_b_c__0m"},
+                                                                     {"`x`$(y)'\"", "_x___y___"}})
+    EXPECT_EQ(safe_component(text), name) << text;
+  const std::string head(300, 'x');
+  EXPECT_LE(safe_component(head + "1").size(), 100u);
+  EXPECT_NE(safe_component(head + "1"), safe_component(head + "2"));
+}
+
 TEST_F(StudyTest, folders_have_names_of_their_own_without_surprises_for_a_shell) {
   auto text = good_study;
   text = testing::replaced(text, "\"plain\"", "\"a b\"");
@@ -141,8 +164,14 @@ TEST_F(StudyTest, a_folder_of_another_scene_is_no_run_of_this_one) {
   EXPECT_EQ(outcome_of(study, now[0], path() / now[0].name).status, Outcome::Status::waiting);
   prepare(runs[0], path() / runs[0].name);
   EXPECT_TRUE(fs::exists(path() / runs[0].name / "summary.json")) << "its own scene: kept";
+  EXPECT_THROW(prepare(now[0], path() / now[0].name), std::runtime_error) << "no study made that folder";
+  EXPECT_TRUE(fs::exists(path() / now[0].name / "summary.json"));
+  EXPECT_EQ(foreign_places(now, path()).size(), 1u);
+  write(fs::path(now[0].name) / ".splashdown-study", "");
+  EXPECT_TRUE(foreign_places(now, path()).empty());
   prepare(now[0], path() / now[0].name);
-  EXPECT_FALSE(fs::exists(path() / now[0].name)) << "begun anew";
+  EXPECT_FALSE(fs::exists(path() / now[0].name / "summary.json")) << "begun anew";
+  EXPECT_TRUE(fs::exists(path() / now[0].name / ".splashdown-study"));
 }
 
 TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions) {

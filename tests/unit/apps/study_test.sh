@@ -111,6 +111,32 @@ check "a longer axis" exits 0 "$splashdown" study more.toml --quiet --out whole
 check "makes its new runs only" cmp before <(grep -F -f <(cut -d' ' -f1 before) <(prints_of_finished whole))
 check "which are there" test "$(grep -c '^mass-30_' whole/study.csv)" = 2
 
+# What no study made is never removed
+mkdir -p sandbox/docs sandbox/inner
+echo treasure >sandbox/docs/book
+echo treasure >sandbox/book
+names_study() {  # names_study NAME...: a study with cases of these names
+  printf 'scene = "%s/scene.toml"\nset = ["time.end=0.001"]\n[[axis]]\nname = "case"\n' "$work"
+  printf '[[axis.case]]\nname = "%s"\nset = []\n' "$@"
+}
+names_study docs >sandbox/study.toml
+check "a case of the name of a folder is refused" exits 2 env -C sandbox "$splashdown" study study.toml --out .
+check "the message says so and how to go on" grep -q 'docs: is there already, and no study made it. Rename the case, use another --out' stderr
+check "and nothing is written" test ! -e sandbox/study.csv
+names_study .. . '' / -rf study.csv "$(printf 'x%.0s' {1..400})" 'a\\nb' >sandbox/study.toml
+check "cases may have any name" exits 0 timeout 120 env -C sandbox "$splashdown" study study.toml --out inner --quiet
+check "each has its folder" test "$(find sandbox/inner -mindepth 1 -maxdepth 1 -type d | wc -l)" = 8
+check "and has run there" test "$(grep -c ',converged,' sandbox/inner/study.csv)" = 8
+names_study .. . '' / >sandbox/study.toml
+sed -i 's/0.001/0.002/' sandbox/study.toml
+check "folders that the study made are emptied" exits 0 timeout 120 env -C sandbox "$splashdown" study study.toml --out inner --quiet
+check "for the other scene" grep -q '"simulated_time": 0.002' sandbox/inner/_../summary.json
+check "what lay around is there still" test -s sandbox/docs/book -a -s sandbox/book
+echo mine >sandbox/docs/report.html
+check "nor does a study write over files that are not its own" exits 2 env -C sandbox "$splashdown" study study.toml --out docs
+check "it names them" grep -q 'docs/report.html: is there already, and no study wrote it. Use another --out' stderr
+check "which stay" grep -q mine sandbox/docs/report.html
+
 # A stand-in for sbatch that works the array off at once
 mkdir bin
 cat >bin/sbatch <<'SBATCH'

@@ -7,10 +7,12 @@
 #include "apps/commands.hpp"
 #include "apps/cost.hpp"
 #include "apps/progress.hpp"
+#include "apps/run_folder.hpp"
 #include "apps/scales.hpp"
 #include "apps/scene_read.hpp"
 #include "apps/verdict.hpp"
 #include "scenes.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -87,7 +89,37 @@ TEST(Words, progress_says_where_the_run_is) {
 
 TEST(Words, a_run_is_named_after_its_folder_or_its_file) {
   EXPECT_EQ(default_directory("examples/wedge_drop/scene.toml"), "out/wedge_drop");
-  EXPECT_EQ(default_directory("examples/wedge_drop/light.toml"), "out/light");
+  EXPECT_EQ(default_directory("examples/ladder/study.toml"), "out/ladder");
+  EXPECT_EQ(default_directory("examples/cone_entry/scene_45.toml"), "out/cone_entry_scene_45");
+  EXPECT_EQ(default_directory("examples/wedge_entry/scene_45.toml"), "out/wedge_entry_scene_45");
+  EXPECT_EQ(default_directory("examples/wedge_drop/wedge_drop.toml"), "out/wedge_drop") << "said once is enough";
+  EXPECT_EQ(default_directory("examples/wedge_drop/wedge_drop_light.toml"), "out/wedge_drop_light");
+  EXPECT_EQ(default_directory("light.toml"), "out/light") << "in the folder where out/ is";
+}
+
+TEST(ForeignResults, are_those_of_another_scene_or_a_study) {
+  const ScratchFolder scratch;
+  const auto folder = scratch.path() / "run", one = scratch.write("a/scene.toml", ""),
+             other = scratch.write("b/scene.toml", "");
+  const std::string resolved = "title = \"one\"\n", changed = "title = \"one\"\nx = 1\n",
+                    different = "title = \"two\"\n";
+  EXPECT_FALSE(foreign_results(folder, one, resolved)) << "nothing is there";
+  scratch.write("run/summary.json", "{}");
+  write_resolved(folder, one, resolved);
+  EXPECT_FALSE(foreign_results(folder, one, resolved));
+  EXPECT_FALSE(foreign_results(folder, one, changed)) << "the same file with other values";
+  EXPECT_FALSE(foreign_results(folder, other, resolved)) << "the same scene from another place";
+  EXPECT_FALSE(foreign_results(folder, scratch.path() / "a" / ".." / "a" / "scene.toml", changed));
+  const auto message = foreign_results(folder, other, different).value_or("");
+  for (const auto* piece : {"holds the results of another scene, 'one' (", "a/scene.toml)", "this one is 'two' (",
+                            "b/scene.toml)", "Use --out with another folder, or --force to replace it."})
+    EXPECT_NE(message.find(piece), std::string::npos) << piece << " is not in: " << message;
+  std::filesystem::remove(folder / "summary.json");
+  EXPECT_FALSE(foreign_results(folder, other, different)) << "it was never begun";
+  scratch.write("run/checkpoint/state", "x");
+  EXPECT_TRUE(foreign_results(folder, other, different)) << "one that waits to be continued counts";
+  scratch.write("run/study.json", "{}");
+  EXPECT_NE(foreign_results(folder, one, resolved).value_or("").find("holds a study"), std::string::npos);
 }
 
 TEST(Scales, follow_the_fastest_thing_in_the_scene) {

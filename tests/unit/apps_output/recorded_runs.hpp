@@ -57,7 +57,7 @@ void expect_resumable(RecorderSettings<d> (*settings_in)(const std::filesystem::
   }
   std::ofstream(broken.path() / "bodies.csv", std::ios::app) << "0.1,wedge,0,0";  // a torn last row
   Recorder<d> recorder(settings_in(broken.path()));
-  recorder.load(checkpoint);
+  recorder.load(checkpoint.str());
   record_steps(recorder, checkpoint_at + 1, steps, true);
   recorder.finish();
 

@@ -48,7 +48,7 @@ TEST(Recorder, a_summary_can_be_given_right_after_a_resume) {
   record_steps(recorder, 0, 20, false);
   recorder.save(checkpoint);
   Recorder<2> resumed(settings_in(folder.path()));
-  resumed.load(checkpoint);
+  resumed.load(checkpoint.str());
   EXPECT_EQ(summary_of(resumed), summary_of(recorder));
 }
 
@@ -62,7 +62,7 @@ TEST(Recorder, a_missing_file_stops_a_resume) {
   }
   std::filesystem::remove(folder.path() / "fluid.csv");
   Recorder<2> resumed(settings_in(folder.path()));
-  EXPECT_THROW(resumed.load(checkpoint), std::runtime_error);
+  EXPECT_THROW(resumed.load(checkpoint.str()), std::runtime_error);
 }
 
 TEST(Recorder, a_new_run_clears_what_an_earlier_one_left_and_nothing_else) {

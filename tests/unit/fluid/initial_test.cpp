@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <numbers>
+#include <random>
+
 #include "fluid/size_field.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
@@ -79,6 +83,68 @@ TEST(InitialLiquidInSpace, bodies_are_cut_out) {
     EXPECT_NEAR(volume_of(liquid), 4 - 0.4 * 0.3 * immersed, 1e-12) << depth;
     const double wet = 0.4 * 0.3 * (depth > 0.2 ? 2 : 1) + 2 * (0.4 + 0.3) * immersed;
     EXPECT_NEAR(area_of(liquid, 1), wet, 1e-12) << depth;
+  }
+}
+
+/// Octahedron, its facets cut in four, `times`, on a sphere.
+Surface<3> ball(double radius, int times) {
+  std::vector<Vec<3>> x{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  std::vector<std::array<int, 3>> facets{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                         {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (int k = 0; k < times; ++k) {
+    std::map<std::pair<int, int>, int> middles;
+    auto middle = [&](int a, int b) {
+      const auto [at, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<int>(x.size()));
+      if (fresh) x.push_back((x[a] + x[b]).normalized());
+      return at->second;
+    };
+    std::vector<std::array<int, 3>> finer;
+    for (const auto& [a, b, c] : facets) {
+      const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    facets = finer;
+  }
+  Surface<3> s{Eigen::Matrix3Xd(3, x.size()), Eigen::Matrix3Xi(3, facets.size())};
+  for (std::size_t i = 0; i < x.size(); ++i) s.vertices.col(static_cast<Eigen::Index>(i)) = radius * x[i];
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    s.facets.col(static_cast<Eigen::Index>(f)) << facets[f][0], facets[f][1], facets[f][2];
+  return s;
+}
+
+// A hole in the wetted hull would be free surface beside the tank's own, 2 x 2, and p = 0 there.
+TEST(InitialLiquidInSpace, smooth_bodies_under_water_are_wetted_all_over) {
+  for (const double size : {0.35, 0.2, 0.1})
+    for (const double depth : {0.5, 0.6}) {
+      Basin basin(0.3);
+      auto body = scenes::wall("ball", ball(0.3, 4), size);
+      body.pose.translation() << 0.1, -0.2, -depth;
+      basin.spec.walls.push_back(body);
+      const auto liquid = basin.fill();
+      EXPECT_NEAR(area_of(liquid, -1), 4, 1e-12) << size << " " << depth;
+      // Between the icosahedron of its seeds and the ball.
+      const double hull = 4 * std::numbers::pi * 0.09;
+      EXPECT_LT(area_of(liquid, 1), hull);
+      EXPECT_GT(area_of(liquid, 1), 0.76 * hull) << size;
+    }
+}
+
+TEST(InitialLiquidInSpace, turned_boxes_under_water_are_wetted_all_over) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int k = 0; k < 10; ++k) {
+    Basin basin(0.3);
+    const Vec<3> side(0.3 + 0.3 * share(random), 0.2 + 0.2 * share(random), 0.1 + 0.2 * share(random));
+    auto box =
+        scenes::wall("box", scenes::block(-0.5 * side, 0.5 * side), side.minCoeff() / (1.5 + 2.5 * share(random)));
+    box.pose.linear() =
+        Eigen::Quaterniond(share(random), share(random), share(random), share(random)).normalized().matrix();
+    box.pose.translation() << 0.1, -0.1, -0.5;
+    basin.spec.walls.push_back(box);
+    const auto liquid = basin.fill();
+    EXPECT_NEAR(area_of(liquid, -1), 4, 1e-12) << k;
+    const double hull = 2 * (side.x() * side.y() + side.y() * side.z() + side.z() * side.x());
+    EXPECT_NEAR(area_of(liquid, 1), hull, 1e-9 * hull) << k;
   }
 }
 

@@ -213,6 +213,21 @@ TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
   EXPECT_NEAR(enclosed_volume(mesh.boundary, cube.nodes.x), sum, 1e4 * eps);
 }
 
+// Eight nodes of a lattice's cube have a circumsphere in common: all but without shake, flat cells lie between them.
+TEST(Recognise3, flat_cells_with_water_around_them_are_no_gap) {
+  for (const double shake : {0.0, 1e-12, 1e-9, 1e-6}) {
+    scenes::Lattice<3> cube(5, shake);
+    for (auto& t : cube.nodes.tie) t = {};
+    const std::vector<double> h(cube.nodes.size(), 0.2);
+    const auto mesh = recognise<3>(cube.nodes, h, cube.mesh.boundary, WallsAt<3>{});
+    auto is_outside = [&](int n) {
+      return (cube.nodes.x[n].array() == 0).any() || (cube.nodes.x[n].array() == 1).any();
+    };
+    for (const auto& f : mesh.boundary)
+      for (int n : f.nodes) EXPECT_TRUE(is_outside(n)) << cube.nodes.x[n].transpose() << " shake " << shake;
+  }
+}
+
 // A flat cell across a crease of a tank is water: without it there is a hole with p = 0 at the bottom. One between a
 // hull and its chords is a film.
 TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it) {
