@@ -9,6 +9,7 @@
 #include "apps/build.hpp"
 #include "apps/check_floating.hpp"
 #include "apps/check_words.hpp"
+#include "apps/motion_guess.hpp"
 #include "apps/scene_geometry.hpp"
 
 namespace splashdown::apps {
@@ -93,20 +94,6 @@ void print_curvature(const Scene& scene, const Body& body) {
                                tight.size, note));
 }
 
-/// What the water adds to a plate on its surface: half of pi/4 b^2 rho a metre for a strip of breadth b, half of
-/// 8/3 rho c^3 for a disc of radius c (Lamb 1932, articles 71, 102).
-double impact_mass(double density, const rigid::Surface<2>& hull) {
-  const double breadth = extents<2>(hull).sizes().x();
-  return density * pi / 8 * breadth * breadth;
-}
-
-double impact_mass(double density, const rigid::Surface<3>& hull) {
-  double upward = 0;
-  for (Eigen::Index f = 0; f < hull.facets.cols(); ++f) upward += std::abs(area_vector(hull, f).z());
-  const double radius = std::sqrt(upward / 2 / pi);  // of a disc with the area seen from above
-  return density * 4. / 3 * radius * radius * radius;
-}
-
 const char* plate(const rigid::Surface<2>&) { return "flat plate of its breadth"; }
 const char* plate(const rigid::Surface<3>&) { return "disc of its plan area"; }
 
@@ -128,21 +115,13 @@ void print_inertia(const rigid::BodySpec<3>& spec) {
                                        text<3>(axes.col(1), 3), text<3>(axes.col(2), 3)));
 }
 
-/// Where a hull from a file comes from, with a word if its unit looks wrong.
-void print_file(const Shape& shape, const Extents<3>& box) {
+/// Where a hull from a file comes from.
+void print_file(const Shape& shape) {
   const auto* file = std::get_if<SurfaceShape>(&shape);
   if (!file || !file->read) return;
-  const double extent = box.sizes().maxCoeff(), scale = file->scale;
-  const double ship = 400, insect = 1e-3;  // [m] larger and smaller things than these do not land on water
-  std::string unit = fmt::format("1 unit = {:g} m", scale);
-  if (extent > ship)
-    unit += fmt::format("; is it in millimetres? scale = {:g} makes it {:.3g} m long", scale * 1e-3, extent * 1e-3);
-  if (extent < insect)
-    unit += fmt::format("; is it in metres already? scale = {:g} makes it {:.3g} m long", scale * 1e3, extent * 1e3);
-  row("surface", fmt::format("{} facets{} from {}, {}", file->read->surface.facets.cols(),
-                             file->parts > 1 ? fmt::format(" in {} parts", file->parts) : "", file->file, unit));
+  row("surface", fmt::format("{} facets{} from {}, 1 unit = {:g} m", file->read->surface.facets.cols(),
+                             file->parts > 1 ? fmt::format(" in {} parts", file->parts) : "", file->file, file->scale));
 }
-void print_file(const Shape&, const Extents<2>&) {}
 
 template <int d>
 std::string sizes_text(const Extents<d>& box) {
@@ -162,7 +141,7 @@ void print_body(const Scene& scene, const Body& body) {
   row("motion", motion_text<d>(body));
   row("extent", fmt::format("{}, {} {:.6g} {}", sizes_text<d>(extents<d>(hull)), Units<d>::volume_name, volume,
                             Units<d>::volume));
-  print_file(body.shape, extents<d>(hull));
+  print_file(body.shape);
   if (body.mass || body.density) {
     row("mass", fmt::format("{:.6g} {} (mean density {:.5g} kg/m^3)", spec.mass, Units<d>::mass, spec.mass / volume));
     if (spec.mass > 0) print_inertia(spec);

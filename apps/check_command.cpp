@@ -9,6 +9,7 @@
 #include "apps/cost.hpp"
 #include "apps/plain_text.hpp"
 #include "apps/progress.hpp"
+#include "apps/questions.hpp"
 #include "apps/scales.hpp"
 #include "apps/scene_geometry.hpp"
 #include "apps/scene_read.hpp"
@@ -67,20 +68,20 @@ void print_effects(const Scene& scene) {
 }
 
 template <int d>
-void print_cost(const Scene& scene) {
-  const auto cost = predicted_cost<d>(scene);
+void print_cost(const Scene& scene, const Cost& cost) {
   fmt::print("cost (predicted)\n");
   row("steps", fmt::format("about {} to t = {:g} s; dt about {}, at most {}", rough(cost.steps), scene.time.end,
                            with_unit(cost.dt, "s"), with_unit(scene.time.dt_max, "s")));
   if (!scene.fluid) return;
-  row("nodes", fmt::format("about {} at the start", rough(cost.nodes)));
-  row("memory", fmt::format("about {}", with_unit(cost.bytes, "B")));
-  row("a step", fmt::format("about {} on one core", with_unit(cost.seconds_per_step, "s")));
-  row("the run", "about " + clock_text(cost.steps * cost.seconds_per_step));
+  const std::string about = cost.at_least ? "> " : "about ";
+  const bool grows = cost.nodes_most > 1.1 * cost.nodes;  // what two digits show
+  row("nodes",
+      about + rough(cost.nodes) + " at the start" + (grows ? ", " + rough(cost.nodes_most) + " later on" : ""));
+  row("memory", about + with_unit(cost.bytes, "B"));
+  row("a step", about + with_unit(cost.seconds_per_step, "s") + " on one core");
+  row("the run", about + clock_text(cost.steps * cost.seconds_per_step) + " on one core");
   if (scene.fluid->size.hollow)
     row("not counted", "finer elements at hollows (hollow): more nodes, shorter steps and a longer run than said");
-  if (scene.fluid->size.wetted_fraction > 0)
-    row("not counted", "larger elements at wetted walls (wetted_fraction): fewer nodes and longer steps than said");
 }
 
 /// Everything a good scene says.
@@ -94,7 +95,13 @@ void print_scene(const Scene& scene) {
   for (const auto& body : scene.bodies) print_body<d>(scene, body);
   print_ties<d>(scene);
   print_effects<d>(scene);
-  print_cost<d>(scene);
+  const auto cost = predicted_cost<d>(scene);
+  print_cost<d>(scene, cost);
+  auto asked = questions<d>(scene, cost);
+  if (const auto why = too_large(cost))
+    asked.push_back(*why + ": did you mean larger element sizes, or lengths in another unit? run asks for --large");
+  if (!asked.empty()) fmt::print("questions\n");
+  for (const auto& question : asked) fmt::print("  {}\n", question);
 }
 
 }  // namespace
@@ -108,6 +115,7 @@ int check_command(const std::filesystem::path& path, const std::vector<std::stri
   }
   const auto& scene = file.scene;
   fmt::print("{}: {}\n", path.string(), scene.title.empty() ? "(no title)" : one_line(scene.title));
+  for (const auto& note : file.notes) fmt::print("  note: {}\n", one_line(note));
   scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
   fmt::print("The scene is good. Run it with: splashdown run {}\n", path.string());
   return exit_code::done;

@@ -15,6 +15,11 @@ namespace {
 
 std::string row(const std::string& head, const std::string& text) { return fmt::format("  {:<12}{}\n", head, text); }
 
+/// Two digits, without an exponent.
+std::string percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
+}
+
 std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
 
 std::string impact_text(const BodySummary& body, int dimension) {
@@ -27,7 +32,7 @@ std::string impact_text(const BodySummary& body, int dimension) {
   double total = 0, repair = 0;
   for (const double value : body.impulse) total += value * value;
   for (const double value : body.impulse_repair) repair += value * value;
-  if (total > 0) text += fmt::format(", repair share of the impulse {:.2g} %", 100 * std::sqrt(repair / total));
+  if (total > 0) text += fmt::format(", repair share of the impulse {} %", percent(std::sqrt(repair / total)));
   return text;
 }
 

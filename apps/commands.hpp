@@ -23,6 +23,7 @@ struct RunOptions {
   std::optional<double> budget;
   std::optional<int> threads;
   bool resume = false;
+  bool large = false;    ///< whatever memory it takes
   bool restart = false;  ///< begin anew, although the folder holds a run of this scene
   bool force = false;    ///< and although it holds one of another scene
   bool quiet = false;
@@ -33,6 +34,7 @@ struct StudyOptions {
   std::optional<std::filesystem::path> out;
   int jobs = 1;              ///< runs at a time
   std::string on = "local";  ///< "local" or "slurm"
+  bool large = false;        ///< whatever memory the runs take
   bool collect = false;      ///< tables and chart of what is there, no runs
   bool quiet = false;
 };
@@ -41,6 +43,9 @@ int run_command(const RunOptions& options);
 int check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
 int study_command(const StudyOptions& options);
 int report_command(const std::filesystem::path& directory);
+
+/// What an exception says, in the words of this program: those of the file system name path, reason and cure.
+std::string trouble(const std::exception& error);
 
 /// `error: ` and the text on the standard error stream; returns exit_code::bad_input.
 int bad_input(const std::string& text);

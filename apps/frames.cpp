@@ -55,6 +55,17 @@ void add_scalar(vtkUnstructuredGrid& grid, const char* name, const std::vector<V
   grid.GetPointData()->AddArray(array);
 }
 
+template <int d>
+void add_velocity(vtkUnstructuredGrid& grid, const std::vector<fluid::Vec<d>>& values) {
+  const auto count = static_cast<vtkIdType>(values.size());
+  vtkNew<vtkDoubleArray> velocity;
+  velocity->SetName("v");
+  velocity->SetNumberOfComponents(3);
+  velocity->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i) set_tuple<d>(*velocity, i, values[static_cast<std::size_t>(i)]);
+  grid.GetPointData()->AddArray(velocity);
+}
+
 void write(vtkUnstructuredGrid& grid, double time, const std::filesystem::path& path) {
   vtkNew<vtkDoubleArray> time_value;
   time_value->SetName("TimeValue");
@@ -88,13 +99,10 @@ void write_fluid(const Frame<d>& frame, const std::filesystem::path& path) {
   for (vtkIdType i = 0; i < count; ++i)
     if (!used[static_cast<std::size_t>(i)]) grid->InsertNextCell(VTK_VERTEX, 1, &i);
 
-  vtkNew<vtkDoubleArray> velocity;
-  velocity->SetName("v");
-  velocity->SetNumberOfComponents(3);
-  velocity->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i) set_tuple<d>(*velocity, i, frame.v[static_cast<std::size_t>(i)]);
-  grid->GetPointData()->AddArray(velocity);
+  add_velocity<d>(*grid, frame.v);
   add_scalar<vtkDoubleArray>(*grid, "p", frame.p);
+  if (frame.drop_diameter.size() == frame.x.size())
+    add_scalar<vtkDoubleArray>(*grid, "drop_diameter", frame.drop_diameter);
   add_scalar<vtkUnsignedCharArray>(*grid, "kind", frame.kind);
   add_scalar<vtkIntArray>(*grid, "wall", frame.wall);
   grid->GetPointData()->SetActiveScalars("p");
@@ -127,7 +135,7 @@ std::string file_name_of(const std::string& name) {
 
 template <int d>
 void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
-                   const PointData& data, const fluid::Vec<d>& forward) {
+                   const PointData& data, const fluid::Vec<d>& forward, const std::vector<fluid::Vec<d>>& v) {
   vtkNew<vtkUnstructuredGrid> grid;
   const auto& [vertices, facets] = surface;
   set_points<d>(
@@ -138,6 +146,7 @@ void write_surface(const std::filesystem::path& path, double time, const fluid::
     for (int k = 0; k < d; ++k) ids[k] = facets(k, f);
     grid->InsertNextCell(facet_type<d>, d, ids);
   }
+  if (static_cast<Eigen::Index>(v.size()) == vertices.cols()) add_velocity<d>(*grid, v);
   for (const auto& [name, values] : data) add_scalar<vtkDoubleArray>(*grid, name.c_str(), values);
   vtkNew<vtkDoubleArray> direction;
   direction->SetName("forward");
@@ -146,6 +155,12 @@ void write_surface(const std::filesystem::path& path, double time, const fluid::
   set_tuple<d>(*direction, 0, forward);
   grid->GetFieldData()->AddArray(direction);
   write(*grid, time, path);
+}
+
+template <int d>
+PointData fields_of(const Outline<d>& outline) {
+  if (outline.p.empty()) return {};
+  return {{"p", outline.p}};
 }
 
 template <int d>
@@ -159,7 +174,8 @@ std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesys
   }
   for (const auto& outline : frame.outlines) {
     pieces.emplace_back(outline.name, stem + "_" + file_name_of(outline.name) + ".vtu");
-    write_surface<d>(directory / pieces.back().second, frame.time, outline.surface, {}, outline.forward);
+    write_surface<d>(directory / pieces.back().second, frame.time, outline.surface, fields_of(outline), outline.forward,
+                     outline.v);
   }
   return pieces;
 }
@@ -189,9 +205,9 @@ template std::vector<std::pair<std::string, std::string>> write_pieces<2>(const 
 template std::vector<std::pair<std::string, std::string>> write_pieces<3>(const std::filesystem::path&,
                                                                           const std::string&, const Frame<3>&);
 template void write_surface<2>(const std::filesystem::path&, double, const fluid::Surface<2>&, const PointData&,
-                               const fluid::Vec<2>&);
+                               const fluid::Vec<2>&, const std::vector<fluid::Vec<2>>&);
 template void write_surface<3>(const std::filesystem::path&, double, const fluid::Surface<3>&, const PointData&,
-                               const fluid::Vec<3>&);
+                               const fluid::Vec<3>&, const std::vector<fluid::Vec<3>>&);
 template void FrameSeries::add<2>(const Frame<2>&);
 template void FrameSeries::add<3>(const Frame<3>&);
 

@@ -1,7 +1,8 @@
 // Pictures of a state for ParaView: one .vtu for the fluid, one for each wall, listed in frames.pvd.
 //
-// Fluid point data: v [m/s], p [Pa], kind (NodeKind), wall (index, -1: none). Nodes without a cell (separated
-// drops) are vertex cells. 2D points have z = 0.
+// Fluid point data: v [m/s], p [Pa], kind (NodeKind), wall (index, -1: none), drop_diameter [m] (0: no drop). Nodes
+// without a cell (separated drops) are vertex cells. Wall point data: v [m/s], p [Pa] (0: dry). 2D points have z = 0.
+// docs/files.md.
 #pragma once
 
 #include <array>
@@ -28,6 +29,8 @@ struct Outline {
   std::string name;
   fluid::Surface<d> surface;
   fluid::Vec<d> forward = fluid::Vec<d>::UnitX();  ///< where the x axis of its frame points
+  std::vector<fluid::Vec<d>> v = {};               ///< of its vertices [m/s]
+  std::vector<double> p = {};                      ///< of the water at its vertices, 0 where it is dry [Pa]
 };
 
 template <int d>
@@ -35,6 +38,7 @@ struct Frame {
   double time = 0;
   std::vector<fluid::Vec<d>> x, v;
   std::vector<double> p;
+  std::vector<double> drop_diameter;  ///< of the disc or ball of its volume; 0: no drop [m]
   std::vector<NodeKind> kind;
   std::vector<int> wall;
   std::vector<std::array<int, d + 1>> cells;
@@ -47,10 +51,11 @@ std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesys
                                                               const std::string& stem, const Frame<d>& frame);
 
 using PointData = std::vector<std::pair<std::string, std::vector<double>>>;  ///< name and one value a vertex
-/// `forward` is kept as field data.
+/// `forward` is kept as field data; `v`: of the vertices, if there is one a vertex.
 template <int d>
 void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
-                   const PointData& data = {}, const fluid::Vec<d>& forward = fluid::Vec<d>::UnitX());
+                   const PointData& data = {}, const fluid::Vec<d>& forward = fluid::Vec<d>::UnitX(),
+                   const std::vector<fluid::Vec<d>>& v = {});
 
 /// frames.pvd with frames/000000.vtu, frames/000000_WALL.vtu, ...
 class FrameSeries {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "apps/commands.hpp"
 #include "apps/schema.hpp"
@@ -31,6 +32,15 @@ int command_line(int argc, char** argv) {
   const char* const scene_help = "scene file (TOML; docs/scene.md)";
   const char* const set_help = "override a key of the scene, e.g. body.wedge.mass=100 (repeatable)";
 
+  // CLI11's own rule prints its upper bound, 1.8e308, digit by digit.
+  const CLI::Validator positive(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
+                   ? std::string()
+                   : fmt::format("must be a positive number, not {}", text);
+      },
+      "POSITIVE");
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run a scene");
   run_app->add_option("scene", run.scene, scene_help)->required();
@@ -39,15 +49,15 @@ int command_line(int argc, char** argv) {
   run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
   run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
       ->check(CLI::Range(1, 1024));
-  run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")
-      ->check(CLI::PositiveNumber);
+  run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")->check(positive);
   run_app->add_option("--budget", run.budget, "wall seconds after which to stop with a checkpoint (exit code 130)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive);
   auto* resume = run_app->add_flag(
       "--resume", run.resume, "continue from the folder's checkpoint; refused if there is one that cannot be read");
   run_app->add_flag("--restart", run.restart, "begin anew and replace what a run of this scene left (the default)")
       ->excludes(resume);
   run_app->add_flag("--force", run.force, "replace also what a run of another scene left in the folder");
+  run_app->add_flag("--large", run.large, "run it even if it is predicted to take more than 4 GB of memory");
   run_app->add_flag("--quiet", run.quiet, "print errors only");
 
   std::filesystem::path scene;
@@ -66,6 +76,7 @@ int command_line(int argc, char** argv) {
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
   study_app->add_flag("--collect", study.collect, "make no runs: tables and chart of those that are there");
+  study_app->add_flag("--large", study.large, "make runs even if they are predicted to take more than 4 GB of memory");
   study_app->add_flag("--quiet", study.quiet, "print errors only");
 
   std::filesystem::path directory;
@@ -100,7 +111,7 @@ int main(int argc, char** argv) {
   try {
     return splashdown::apps::command_line(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    fmt::print(stderr, "error: {}\n", splashdown::apps::trouble(error));
     return splashdown::apps::exit_code::cannot_go_on;
   }
 }

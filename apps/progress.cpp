@@ -16,6 +16,8 @@ double seconds(std::chrono::steady_clock::duration duration) { return std::chron
 }  // namespace
 
 std::string clock_text(double wall) {
+  const double day = 86400;
+  if (!(wall < 100 * day)) return fmt::format("{:.2g} days", wall / day);
   const long whole = static_cast<long>(wall + 0.5);
   return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
                       : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
+
+#include "fluid/facet_tree.hpp"
 
 namespace splashdown::apps {
 
@@ -18,6 +21,65 @@ NodeKind kind_of(const fluid::Nodes<d>& nodes, std::size_t i, bool has_cell) {
   return nodes.surface[i] ? NodeKind::contact : NodeKind::wall;
 }
 
+/// Of the disc or ball of a volume.
+template <int d>
+double diameter(double volume) {
+  return d == 2 ? std::sqrt(4 * volume / std::numbers::pi) : std::cbrt(6 * volume / std::numbers::pi);
+}
+
+/// The wetted facets of a wall and the pressure on them.
+template <int d>
+class WettedWall {
+ public:
+  WettedWall(const fluid::Fluid<d>& fluid, int wall) : nodes_(fluid.nodes()) {
+    for (const auto& facet : fluid.mesh().boundary)
+      if (facet.wall == wall) facets_.push_back(facet.nodes);
+    surface_.facets.resize(d, static_cast<Eigen::Index>(facets_.size()));
+    surface_.vertices.resize(d, d * static_cast<Eigen::Index>(facets_.size()));
+    Eigen::Index corner = 0;
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      for (int k = 0; k < d; ++k, ++corner) {
+        surface_.vertices.col(corner) = nodes_.x[static_cast<std::size_t>(facets_[f][static_cast<std::size_t>(k)])];
+        surface_.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(corner);
+      }
+    tree_ = fluid::FacetTree<d>(surface_.vertices, surface_.facets);
+  }
+
+  /// At the nearest wetted facet that is not farther away than its half; 0: dry.
+  double pressure(const fluid::Vec<d>& at) const {
+    if (facets_.empty()) return 0;
+    const auto nearest = tree_.nearest(at, std::numeric_limits<double>::max());
+    Eigen::Matrix<double, d, d> corners;
+    for (int k = 0; k < d; ++k) corners.col(k) = surface_.vertices.col(surface_.facets(k, nearest.facet));
+    double longest = 0;
+    for (int k = 0; k < d; ++k) longest = std::max(longest, (corners.col((k + 1) % d) - corners.col(k)).norm());
+    if (nearest.squared_distance > 0.25 * longest * longest) return 0;
+    // Weights of the corners at the nearest point: sum w_k (x_k - x_0) = x - x_0.
+    const Eigen::Matrix<double, d, d - 1> edges = corners.template rightCols<d - 1>().colwise() - corners.col(0);
+    const Eigen::Matrix<double, d - 1, 1> weights = edges.colPivHouseholderQr().solve(nearest.point - corners.col(0));
+    const auto& nodes = facets_[static_cast<std::size_t>(nearest.facet)];
+    double p = (1 - weights.sum()) * nodes_.p[static_cast<std::size_t>(nodes[0])];
+    for (int k = 1; k < d; ++k)
+      p += weights(k - 1) * nodes_.p[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
+    return p;
+  }
+
+ private:
+  const fluid::Nodes<d>& nodes_;
+  std::vector<std::array<int, static_cast<std::size_t>(d)>> facets_;
+  fluid::Surface<d> surface_;
+  fluid::FacetTree<d> tree_;
+};
+
+/// Velocity of a point of a body at `r` from its centre of mass.
+template <int d>
+fluid::Vec<d> velocity_at(const fluid::Vec<d>& r, const rigid::Twist<d>& velocity) {
+  if constexpr (d == 2)
+    return {velocity(0) - velocity(2) * r.y(), velocity(1) + velocity(2) * r.x()};
+  else
+    return velocity.template head<3>() + Eigen::Vector3d(velocity.template tail<3>()).cross(r);
+}
+
 template <int d>
 void take_fluid(const fluid::Fluid<d>& fluid, Frame<d>& frame) {
   const auto& nodes = fluid.nodes();
@@ -30,10 +92,12 @@ void take_fluid(const fluid::Fluid<d>& fluid, Frame<d>& frame) {
   frame.v.reserve(nodes.size());
   frame.kind.reserve(nodes.size());
   frame.wall.reserve(nodes.size());
+  frame.drop_diameter.assign(nodes.size(), 0);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     frame.v.push_back(fluid.velocity_n(i));
     frame.kind.push_back(kind_of(nodes, i, has_cell[i] != 0));
     frame.wall.push_back(nodes.tie[i].wall);
+    if (frame.kind.back() == NodeKind::drop) frame.drop_diameter[i] = diameter<d>(nodes.volume[i]);
   }
 }
 
@@ -54,10 +118,23 @@ Frame<d> take_frame(const RecordInput<d>& input) {
     for (std::size_t w = 0; w < walls.size(); ++w)
       frame.outlines.push_back(outline_at<d>(walls[w].name, walls[w].surface, input.fluid->wall_poses()[w]));
   }
+  for (std::size_t w = 0; w < frame.outlines.size(); ++w) {
+    auto& outline = frame.outlines[w];
+    const WettedWall<d> wetted(*input.fluid, static_cast<int>(w));
+    const auto& vertices = outline.surface.vertices;
+    for (Eigen::Index i = 0; i < vertices.cols(); ++i) outline.p.push_back(wetted.pressure(vertices.col(i)));
+    outline.v.assign(outline.p.size(), fluid::Vec<d>::Zero());
+  }
   for (std::size_t b = 0; input.bodies && b < input.bodies->size(); ++b) {
     const auto& spec = input.bodies->spec(b);
+    const auto& pose = input.bodies->state(b).pose;
     if (std::ranges::find(frame.outlines, spec.name, &Outline<d>::name) == frame.outlines.end())
-      frame.outlines.push_back(outline_at<d>(spec.name, spec.surface, input.bodies->state(b).pose));
+      frame.outlines.push_back(outline_at<d>(spec.name, spec.surface, pose));
+    auto& outline = *std::ranges::find(frame.outlines, spec.name, &Outline<d>::name);
+    outline.v.clear();
+    for (Eigen::Index i = 0; i < outline.surface.vertices.cols(); ++i)
+      outline.v.push_back(
+          velocity_at<d>(outline.surface.vertices.col(i) - pose.translation(), input.body_velocity_n[b]));
   }
   return frame;
 }

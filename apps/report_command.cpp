@@ -12,7 +12,7 @@ int report_command(const std::filesystem::path& directory) {
     fmt::print("{}\n", result.page.string());
     return exit_code::done;
   } catch (const std::runtime_error& error) {
-    return bad_input(error.what());
+    return bad_input(trouble(error));
   }
 }
 

@@ -99,12 +99,54 @@ double RunData::end_time() const {
   return end;
 }
 
+namespace {
+
+/// What stands behind `key = ` in a line of a resolved scene, without quotes.
+std::string value_in(const std::string& line, const std::string& key) {
+  const auto start = key + " = ";
+  return line.starts_with(start) ? unquoted(line.substr(start.size())) : std::string();
+}
+
+/// Name and kind of the records: scene.resolved.toml is written by this program, a key a line.
+std::map<std::string, std::string> read_record_kinds(const std::filesystem::path& scene) {
+  std::map<std::string, std::string> kinds;
+  std::ifstream in(scene);
+  std::string name, kind;
+  bool record = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("[")) {
+      record = line == "[[record]]";
+      name = kind = "";
+    }
+    if (!record) continue;
+    if (auto value = value_in(line, "name"); !value.empty()) name = value;
+    if (auto value = value_in(line, "kind"); !value.empty()) kind = value;
+    if (!name.empty() && !kind.empty()) kinds[name] = kind;
+  }
+  return kinds;
+}
+
+}  // namespace
+
+std::string RunData::unit_of_probe(const std::string& name) const {
+  const auto kind = [&](const std::string& of) {
+    const auto found = record_kinds.find(of);
+    return found == record_kinds.end() ? std::string() : found->second;
+  };
+  if (kind(name).starts_with("pressure")) return " / Pa";
+  if (kind(name) == "surface_elevation") return " / m";
+  if (const auto dot = name.rfind('.'); dot != std::string::npos && kind(name.substr(0, dot)) == "acceleration")
+    return " / (m/s²)";
+  return {};
+}
+
 RunData read_run(const std::filesystem::path& directory) {
   RunData run;
   run.directory = directory;
   if (std::filesystem::exists(directory / "summary.json")) run.summary = read_json(directory / "summary.json");
   run.bodies = read_csv(directory / "bodies.csv", "body");
   run.probes = read_csv(directory / "probes.csv", "probe");
+  run.record_kinds = read_record_kinds(directory / "scene.resolved.toml");
   run.surface_pressure = read_csv(directory / "surface_pressure.csv", "body");
   auto fluid = read_csv(directory / "fluid.csv");
   if (!fluid.empty()) run.fluid = std::move(fluid.front().second);

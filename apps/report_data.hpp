@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -33,6 +34,10 @@ struct RunData {
   nlohmann::ordered_json summary;  ///< null if the run left none
   NamedTables bodies, probes, surface_pressure;
   Table fluid;
+
+  /// " / Pa", " / m" ...; nothing if the scene does not say what the probe is.
+  std::string unit_of_probe(const std::string& name) const;
+  std::map<std::string, std::string> record_kinds;  ///< of the scene, by name
 
   int dimension() const;
   double end_time() const;

@@ -107,7 +107,9 @@ struct BodyPlotter {
            fmt::format("{} {} at {} {}", digits(*top * unit.scale, 4), unit.unit, digits(t[i], 4), time.unit)}};
     }
     figure.caption = fmt::format(
-        "{} of the water on the body, unfiltered, one value a recorded step. The repair part is what "
+        "{} of the water on the body, unfiltered, one value a recorded step: one component, while the peak load above "
+        "is "
+        "the resultant of all, at every step. The repair part is what "
         "re-meshing "
         "costs: it makes up {} of the impulse.",
         what, std::abs(impulse) > 0 ? percent(std::abs(repair_impulse / impulse)) : "nothing");
@@ -311,7 +313,7 @@ FigureGroup probe_figures(const RunData& run) {
     Figure figure;
     figure.name = "probe_" + std::to_string(group.figures.size());
     figure.x_label = "t / " + time.unit;
-    figure.y_label = name;
+    figure.y_label = name + run.unit_of_probe(name);
     figure.curves = {{"", scaled(table["time"], time.scale), table["value"], ink, 1.4}};
     figure.caption = fmt::format("Probe <b>{}</b>, SI units.", html_escaped(name));
     group.figures.push_back(std::move(figure));

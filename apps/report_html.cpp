@@ -38,7 +38,7 @@ std::string tiles(const RunData& run) {
   for (const auto& [name, body] : bodies.items()) {
     const std::string of = several ? ", " + html_escaped(name) : std::string();
     if (const double f = number_at(body, {"peak_force", "value"}); f > 0)
-      tile(with_unit(f, force_unit(run.dimension())), "peak load" + of);
+      tile(with_unit(f, force_unit(run.dimension())), "peak load, resultant" + of);
     if (const double g = number_at(body, {"peak_acceleration_g", "raw", "value"}); g > 0)
       tile(digits(g, 3) + " g", "peak acceleration" + of);
   }
@@ -134,7 +134,9 @@ std::string body_table(const RunData& run) {
     return verdict.contains("grade") && verdict["grade"].is_string() ? html_escaped(verdict["grade"].get<std::string>())
                                                                      : std::string("–");
   });
-  row("peak load", [&](const Body& b) { return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d)); });
+  row("peak load, resultant", [&](const Body& b) {
+    return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d));
+  });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"peak_force", "time"})); });
   row("peak acceleration, raw", [](const Body& b) {
     return digits(number_at(b, {"peak_acceleration_g", "raw", "value"}), 3) + " g";

@@ -57,8 +57,8 @@ void add_body_sentences(const RunData& run, std::vector<std::string>& sentences)
   for (const auto& [name, body] : bodies.items()) {
     const double force = number_at(body, {"peak_force", "value"});
     if (!(force > 0)) continue;
-    std::string text = fmt::format("The largest load on <b>{}</b> was <b>{}</b> at {}", html_escaped(name),
-                                   with_unit(force, force_unit(run.dimension())),
+    std::string text = fmt::format("The largest load on <b>{}</b>, all directions together, was <b>{}</b> at {}",
+                                   html_escaped(name), with_unit(force, force_unit(run.dimension())),
                                    seconds_text(number_at(body, {"peak_force", "time"})));
     const double raw = number_at(body, {"peak_acceleration_g", "raw", "value"});
     if (raw > 0) {

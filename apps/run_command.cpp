@@ -8,6 +8,7 @@
 #include "apps/csv.hpp"
 #include "apps/folder_lock.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/questions.hpp"
 #include "apps/recorder_files.hpp"
 #include "apps/report.hpp"
 #include "apps/resume.hpp"
@@ -69,6 +70,12 @@ Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene
   auto summary = run.summary(end);
   summary.scene = scene_name;
   write_summary(directory, summary);
+  const auto later = fmt::format("splashdown report {} draws it", directory.string());
+  if (end.status == LoopEnd::Status::interrupted && interrupt_received()) {
+    say(options, "no report: " + later);
+    return summary;
+  }
+  leave_at_interrupt(options.quiet ? "" : "\nstopped while the report was drawn: " + later + "\n");
   for (const auto& warning : write_report(directory).warnings) say(options, "note: " + warning);
   return summary;
 }
@@ -140,6 +147,18 @@ Start read_start(const RunOptions& options) {
   return start;
 }
 
+/// What the scene may not mean, and whether it is larger than anybody asked for. Throws SceneError.
+template <int d>
+void ask(const Scene& scene, const RunOptions& options) {
+  const auto cost = predicted_cost<d>(scene);
+  if (!options.quiet)
+    for (const auto& question : questions<d>(scene, cost)) fmt::print(stderr, "question: {}\n", question);
+  if (const auto why = too_large(cost); why && !options.large)
+    throw SceneError({fmt::format(
+        "{}: {}. Use larger element sizes, mind the units (splashdown check says more), or run it with --large.",
+        options.scene.string(), *why)});
+}
+
 /// From the newest checkpoint that the world takes. Throws SceneError, and nothing is changed, if it takes none.
 template <int d>
 void resume(Run<d>& run, const Start& start, const RunOptions& options) {
@@ -181,6 +200,7 @@ int run_scene(const RunOptions& options, Start start) {
   const auto directory = start.plan.directory;
   World<d> world;
   try {
+    ask<d>(scene, options);
     world = build<d>(scene, options.scene);
   } catch (const SceneError& error) {
     return bad_input(error.what());
@@ -191,7 +211,7 @@ int run_scene(const RunOptions& options, Start start) {
     fs::create_directories(directory);
     lock.emplace(directory);
   } catch (const std::exception& error) {
-    return bad_input(error.what());
+    return bad_input(trouble(error));
   }
   try {
     Run<d> run(scene, std::move(world), recorder_settings<d>(scene, directory), start.plan, progress);
@@ -199,10 +219,11 @@ int run_scene(const RunOptions& options, Start start) {
       if (start.resumes()) resume(run, start, options);
       prepare_directory(options, directory, start.file.resolved, start.resumes());
     } catch (const std::exception& error) {
-      return bad_input(error.what());
+      return bad_input(trouble(error));
     }
     if (options.resume && !start.resumes()) say(options, "no checkpoint found: starting from the beginning");
-    catch_interrupts();
+    catch_interrupts(options.quiet ? ""
+                                   : "\nstopping after this step; once more stops at once, without a checkpoint\n");
     try {
       return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
     } catch (const FilesLost& loss) {
@@ -211,7 +232,7 @@ int run_scene(const RunOptions& options, Start start) {
     }
   } catch (const std::exception& error) {
     progress.clear();
-    fmt::print(stderr, "error: {}\n{}\n", error.what(),
+    fmt::print(stderr, "error: {}\n{}\n", trouble(error),
                fs::exists(directory / "checkpoint" / "state")
                    ? fmt::format("The last good state is in {}; --resume continues from there.",
                                  (directory / "checkpoint").string())
@@ -229,6 +250,7 @@ int run_command(const RunOptions& options) {
   } catch (const SceneError& error) {
     return bad_input(error.what());
   }
+  for (const auto& note : start.file.notes) say(options, "note: " + note);
   set_threads(options.threads, start.file.scene.dimension);
   return start.file.scene.dimension == 2 ? run_scene<2>(options, std::move(start))
                                          : run_scene<3>(options, std::move(start));

@@ -105,11 +105,22 @@ std::optional<rigid::Surface<d>> checked_shape(const Body& body, const std::stri
   } catch (const std::invalid_argument& error) {
     if (std::holds_alternative<PolygonShape>(body.shape))
       problems.add(label + ".shape.points", error.what(), "List the corners in order, each once.");
-    if (std::holds_alternative<RevolvedShape>(body.shape))
+    else if (!std::holds_alternative<RevolvedShape>(body.shape))
+      problems.add(label + ".shape", error.what(), "Mind the units of its lengths.");
+    else
       problems.add(label + ".shape.profile", error.what(),
                    "List (r, z) from one end of the axis to the other, each point once.");
     return {};
   }
+}
+
+/// A hull from a file that is larger than its tank is in another unit, most of the time.
+std::string unit_question(const Shape& shape, double extent, double tank) {
+  const auto* file = std::get_if<SurfaceShape>(&shape);
+  if (!file || extent < tank) return {};
+  const double thousandth = 1e-3;  // millimetres, what most programs write
+  return fmt::format("Is its file in millimetres? shape.scale = {:g} makes it {:.3g} m long. ",
+                     file->scale * thousandth, extent * thousandth);
 }
 
 template <int d>
@@ -129,7 +140,8 @@ void check_inside_tank(const Scene& scene, const Body& body, const rigid::Surfac
     if (wide.contains(box)) continue;
     return problems.add(label + (body.path.empty() ? ".position" : ".path"),
                         fmt::format("the body spans {} m and leaves the tank {} m", text<d>(box), text<d>(tank)),
-                        "Move the body or enlarge the tank.");
+                        unit_question(body.shape, box.sizes().maxCoeff(), tank.sizes().maxCoeff()) +
+                            "Move the body or enlarge the tank.");
   }
 }
 

@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "apps/scene_check.hpp"
 #include "apps/scene_override.hpp"
@@ -55,7 +51,7 @@ void read_gravity(Reader& reader, Scene& scene) {
 }
 
 void read_output(Reader& reader, Output& output) {
-  reader.number("interval", output.interval, not_negative("s", "Use 0 for a row every step."));
+  reader.interval("interval", output.interval, not_negative("s", "Use 0 for a row every step."));
   reader.number("frames", output.frames,
                 not_negative("s", "Use e.g. a hundredth of time.end; leave it out for no frames."));
   reader.number("checkpoint", output.checkpoint, positive("s", "Use wall-clock seconds, e.g. 60."));
@@ -68,6 +64,8 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   time.number("end", scene.time.end, positive("s", "Use the simulated time at which the run shall end."),
               Need::required);
   time.number("cfl", scene.time.cfl, share("Use e.g. 0.5."));
+  if (time.holds("end") && time.place("end").line == 0 && !root.context().problems.found_in("time.end"))
+    root.context().clip_to = scene.time.end;
   if (auto fluid = root.table("fluid")) read_fluid(*fluid, scene.fluid.emplace());
   if (scene.fluid)
     for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
@@ -121,6 +119,7 @@ SceneFile read_root(const toml::table& table, const std::filesystem::path& folde
   check_scene(file.scene, labels, problems);
   problems.throw_if_any();
   file.resolved = echo.text();
+  file.notes = std::move(context.notes);
   return file;
 }
 
@@ -137,33 +136,11 @@ void sketch_scene(Sketch& sketch, int dimension) {
   });
 }
 
-toml::table read_toml(const std::string& text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    const auto& place = error.source().begin;
-    throw SceneError({fmt::format("{}:{}: not TOML: {} (column {}). See https://toml.io for the syntax.", name,
-                                  place.line, error.description(), place.column)});
-  }
-}
-
 SceneFile read_scene_text(const std::string& text, const std::string& name, std::span<const std::string> overrides) {
   Problems problems(name);
   auto table = read_toml(text, name);
   for (const auto& argument : overrides) apply_override(table, argument, problems);
   return read_root(table, std::filesystem::path(name).parent_path(), problems);
-}
-
-std::string read_text(const std::filesystem::path& path, const std::string& example) {
-  const auto refuse = [&](const std::string& why) -> SceneError {
-    return SceneError({fmt::format("{}: cannot be read: {}. Name {}.", path.string(), why, example)});
-  };
-  if (std::filesystem::is_directory(path)) throw refuse("it is a folder");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw refuse(std::strerror(errno));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 SceneFile read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {

@@ -16,8 +16,12 @@ class Sketch;
 
 struct SceneFile {
   Scene scene;
-  std::string resolved;  ///< TOML with every value in force; reads to the same scene
+  std::vector<std::string> notes;  ///< what was understood otherwise than it was written
+  std::string resolved;            ///< TOML with every value in force; reads to the same scene
 };
+
+/// Words of a dotted key, at most: parsers and tables of TOML go one call deeper with each.
+inline constexpr int most_key_words = 16;
 
 /// What a file holds. Throws SceneError; `example` is named as a cure.
 std::string read_text(const std::filesystem::path& file, const std::string& example);

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
+#include "apps/scene_geometry.hpp"
 #include "apps/scene_parts.hpp"
 #include "fluid/surface_file.hpp"
 
@@ -61,6 +64,13 @@ struct ReadShape {
     try {
       const auto file = fluid::read_surface_file(surface.file);
       const rigid::Surface<3> hull{surface.scale * file.surface.vertices, file.surface.facets};
+      const double longest = extents<3>(hull).sizes().maxCoeff(), farthest = hull.vertices.cwiseAbs().maxCoeff();
+      if (!(longest >= smallest_length && farthest <= largest_length))
+        return problems.add(reader.key("file"),
+                            fmt::format("is {:g} m long and reaches {:g} m from its origin at scale = {:g}; hulls have "
+                                        "{:g} to {:g} m",
+                                        longest, farthest, surface.scale, smallest_length, largest_length),
+                            "Use metres per unit of the file as scale: 0.001 if it is in millimetres.");
       surface.parts = file.parts;
       surface.read = std::make_shared<rigid::Shape<3>>(rigid::Shape<3>{hull, rigid::mass_properties<3>(hull)});
     } catch (const fluid::SurfaceFileError& error) {

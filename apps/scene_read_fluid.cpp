@@ -62,8 +62,11 @@ void read_region(Reader& reader, Region& region) {
       "velocity", region.velocity,
       any("m/s", "Use metres per second, one number for each axis, e.g. " + axis_example(dimension, -1) + "."));
   if (!reader.holds("velocity_gradient")) return reader.skip("velocity_gradient");
-  reader.matrix("velocity_gradient", region.velocity_gradient,
-                any("1/s", "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0], [0.0, 1.0]]."));
+  reader.matrix(
+      "velocity_gradient", region.velocity_gradient,
+      any("1/s", dimension == 2 ? "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0], [0.0, 1.0]]."
+                                : "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0, 0.0], "
+                                  "[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]."));
   region.velocity_origin = std::visit(Centre{}, region.shape);
   reader.point("velocity_origin", region.velocity_origin, place_rule(dimension));
 }

@@ -3,13 +3,11 @@
 namespace splashdown::apps {
 namespace {
 
-const Rule coordinate = any("m", "Use metres, one number for each axis, e.g. [0.0, 1.0].");
-
 /// When rows of a file of its own are due: an interval or a list, each step without both.
 template <class Entry>
 void read_instants(Reader& reader, Entry& entry) {
   reader.number("interval", entry.interval, not_negative("s", "Use e.g. 0.001, or 0 for every step."));
-  reader.numbers("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
+  reader.times("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
   if (entry.interval && !entry.times.empty())
     reader.context().problems.add(reader.key("times"), "interval and times exclude each other", "Remove one of them.");
   if (!entry.interval && entry.times.empty()) entry.interval = 0;
@@ -28,10 +26,10 @@ void read_patch(Reader& reader, Scene& scene) {
   PatchEntry entry;
   read_name(reader, entry.name, "keel");
   entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
-  reader.point("centre", entry.centre, coordinate);
+  reader.point("centre", entry.centre, place_rule(reader.context().dimension));
   reader.number("radius", entry.radius, positive("m", "Use that of the sensor or panel."));
-  reader.point("min", entry.min, coordinate);
-  reader.point("max", entry.max, coordinate);
+  reader.point("min", entry.min, place_rule(reader.context().dimension));
+  reader.point("max", entry.max, place_rule(reader.context().dimension));
   const bool any_of_disc = reader.holds("centre") || reader.holds("radius");
   const bool any_of_box = reader.holds("min") || reader.holds("max");
   const bool whole = any_of_disc ? reader.holds("centre") && reader.holds("radius") && !any_of_box
@@ -67,7 +65,7 @@ void read_record(Reader& reader, Scene& scene) {
     PressureEntry entry;
     read_name(reader, entry.name, "keel");
     entry.body = read_body_name(reader, "body", scene, Need::optional, "record");
-    reader.point("point", entry.point, coordinate, Need::required);
+    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "surface_elevation") {
     ElevationEntry entry;
@@ -80,7 +78,7 @@ void read_record(Reader& reader, Scene& scene) {
     AccelerationEntry entry;
     read_name(reader, entry.name, "keel");
     entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
-    reader.point("point", entry.point, coordinate, Need::required);
+    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
     scene.records.emplace_back(std::move(entry));
   } else if (kind == "added_mass") {
     AddedMassEntry entry;

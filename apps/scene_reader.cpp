@@ -12,6 +12,9 @@ namespace {
 
 const toml::table no_table;
 
+// Elements cannot follow more, and every point is held against others.
+constexpr std::size_t most_points = 10'000;
+
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -39,6 +42,8 @@ std::string value_text(const toml::node& node) {
 }
 
 }  // namespace
+
+bool is_exact(const toml::node& node) { return !node.is_integer() || node.value<double>().has_value(); }
 
 std::string written(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
@@ -156,6 +161,10 @@ std::optional<double> Reader::number_of(const toml::node& node, const std::strin
     wrong_type(key, "a number" + rule.in_unit(), node, rule.cure);
     return {};
   }
+  if (!is_exact(node)) {
+    context_->problems.add(key, "whole numbers beyond 2^53 are not kept exactly", "Write it with a point, e.g. 1e16.");
+    return {};
+  }
   const double value = *node.value<double>();
   if (!std::isfinite(value)) {
     context_->problems.add(key, "must be finite" + rule.in_unit(), rule.cure);
@@ -163,6 +172,15 @@ std::optional<double> Reader::number_of(const toml::node& node, const std::strin
   }
   if (!rule.holds(value)) {
     context_->problems.add(key, rule.law(), rule.cure);
+    return {};
+  }
+  if (rule.unit == "m" && std::abs(value) > largest_length) {
+    context_->problems.add(key, fmt::format("must not be beyond {:g} m", largest_length),
+                           "Scenes are in metres; no tank is that large.");
+    return {};
+  }
+  if (rule.unit == "m" && rule.low_open && value < smallest_length) {
+    context_->problems.add(key, fmt::format("must not be below {:g} m", smallest_length), rule.cure);
     return {};
   }
   return value;
@@ -338,6 +356,9 @@ void Reader::numbers_by_name(std::string_view name, std::map<std::string, double
     const auto where = fmt::format("{}.{}", key(name), entry.str());
     context_->problems.note(where, place_of(value), value_text(value));
     if (!value.is_number()) context_->problems.add(where, "must be a number", "Use e.g. " + example + ".");
+    if (!is_exact(value))
+      context_->problems.add(where, "whole numbers beyond 2^53 are not kept exactly",
+                             "Write it with a point, e.g. 1e16.");
     target.emplace(entry.str(), value.value<double>().value_or(0));
   }
 }
@@ -361,6 +382,33 @@ void Reader::numbers(std::string_view name, std::vector<double>& target, const R
   if (!target.empty()) context_->echo.add(section_, name, toml_list(target));
 }
 
+/// A time that was given with --set itself is left to the rules.
+bool Reader::clipped(std::string_view name, double& time) {
+  if (!context_->clip_to || time <= *context_->clip_to || place(name).line == 0) return false;
+  context_->notes.push_back(fmt::format("{}: {:g} s lies after time.end = {:g} s of --set: taken at the end", key(name),
+                                        time, *context_->clip_to));
+  time = *context_->clip_to;
+  return true;
+}
+
+void Reader::times(std::string_view name, std::vector<double>& target, const Rule& rule) {
+  if (const auto* node = find(name, Need::optional, {}, {})) {
+    target = list_of(*node, key(name), 0, rule).value_or(target);
+    for (double& time : target) clipped(name, time);
+    const auto once = std::unique(target.begin(), target.end());  // those that were brought to the end
+    if (context_->clip_to) target.erase(once, target.end());
+  }
+  if (!target.empty()) context_->echo.add(section_, name, toml_list(target));
+}
+
+void Reader::interval(std::string_view name, double& target, const Rule& rule) {
+  if (const auto* node = find(name, Need::optional, {}, {})) {
+    target = number_of(*node, key(name), rule).value_or(target);
+    clipped(name, target);
+  }
+  echo(name, target);
+}
+
 void Reader::point(std::string_view name, Point& target, const Rule& rule, Need need) {
   note(name, {.type = Wanted::Type::list, .rule = rule, .length = static_cast<std::size_t>(context_->dimension)}, need);
   const auto meaning = fmt::format("a list of {} numbers{}", context_->dimension, rule.in_unit());
@@ -380,7 +428,10 @@ void Reader::rows(std::string_view name, std::vector<std::vector<double>>& targe
   note(name, {.type = Wanted::Type::rows, .rule = rule, .length = columns}, need);
   const auto meaning = fmt::format("a list of lists of {} numbers{}", columns, rule.in_unit());
   if (const auto* node = find(name, need, meaning, rule.cure)) {
-    if (const auto* array = node->as_array()) {
+    if (const auto* array = node->as_array(); array && array->size() > most_points) {
+      context_->problems.add(key(name), fmt::format("must have {} rows at most, not {}", most_points, array->size()),
+                             "Leave out points that are nearer to each other than an element.");
+    } else if (array) {
       for (const auto& element : *array) {
         auto row = list_of(element, key(name), columns, rule);
         if (!row) return;

@@ -32,9 +32,14 @@ struct ReadContext {
   int dimension = 2;
   std::filesystem::path folder = {};  ///< of the scene file: what relative file names begin at
   Sketch* sketch = nullptr;           ///< set: nothing is read, what is asked for is noted
+  /// Where --set ends the run: times of the file that lie after it are brought to it, with a note.
+  std::optional<double> clip_to = {};
+  std::vector<std::string> notes = {};
 };
 
 Place place_of(const toml::node& node);
+/// False for whole numbers that doubles cannot hold.
+bool is_exact(const toml::node& node);
 /// A value as the user wrote it, near enough.
 std::string written(const toml::node& node);
 
@@ -78,6 +83,9 @@ class Reader {
   bool reference(std::string_view name, std::string& target, const Names& valid, Need need = Need::optional);
   void references(std::string_view name, Names& target, const Names& valid);
   void numbers(std::string_view name, std::vector<double>& target, const Rule& rule);
+  /// The same for times within the run; those that `clip_to` cuts off become it.
+  void times(std::string_view name, std::vector<double>& target, const Rule& rule);
+  void interval(std::string_view name, double& target, const Rule& rule);
   void point(std::string_view name, Point& target, const Rule& rule, Need need = Need::optional);
   void point(std::string_view name, std::optional<Point>& target, const Rule& rule);
   void points(std::string_view name, std::vector<Point>& target, const Rule& rule);
@@ -122,6 +130,7 @@ class Reader {
     context_->echo.add(section_, name, toml_text(value));
   }
   std::string header_of(std::string_view name) const;
+  bool clipped(std::string_view name, double& time);
 
   ReadContext* context_;
   const toml::table* table_;  // null: moved from

@@ -26,7 +26,7 @@ template <>
 struct MakeRegion<2> {
   template <class Other>
   Surface<2> operator()(const Other&) const {
-    throw std::logic_error("a region of three dimensions");
+    throw std::invalid_argument("a region of three dimensions");
   }
   Surface<2> operator()(const BoxRegion& r) const {
     std::vector<Vec<2>> points{vec<2>(r.min), {r.max.x(), r.min.y()}};
@@ -56,7 +56,7 @@ template <>
 struct MakeRegion<3> {
   template <class Other>
   Surface<3> operator()(const Other&) const {
-    throw std::logic_error("a region of two dimensions");
+    throw std::invalid_argument("a region of two dimensions");
   }
   Surface<3> operator()(const BoxRegion& r) const {
     return shifted<3>(rigid::box(r.max - r.min).surface, 0.5 * (r.min + r.max));

@@ -30,6 +30,9 @@ Rule share(std::string cure);
 std::string axis_example(int dimension, double value);
 inline const char* mass_unit(int dimension) { return dimension == 2 ? "kg/m" : "kg"; }
 inline const char* inertia_unit(int dimension) { return dimension == 2 ? "kg m" : "kg m^2"; }
+// Of scenes [m]: with larger ones geometry in double precision has no digits left for elements, with smaller ones none
+// for a tank.
+inline constexpr double largest_length = 1e6, smallest_length = 1e-9;
 /// A point or a displacement.
 Rule place_rule(int dimension);
 

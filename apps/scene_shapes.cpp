@@ -18,7 +18,7 @@ template <>
 struct MakeShape<2> {
   template <class Other>
   rigid::Shape<2> operator()(const Other&) const {
-    throw std::logic_error("a shape of three dimensions");
+    throw std::invalid_argument("a shape of three dimensions");
   }
   rigid::Shape<2> operator()(const PolygonShape& s) const {
     std::vector<Vec<2>> points;
@@ -41,7 +41,7 @@ template <>
 struct MakeShape<3> {
   template <class Other>
   rigid::Shape<3> operator()(const Other&) const {
-    throw std::logic_error("a shape of two dimensions");
+    throw std::invalid_argument("a shape of two dimensions");
   }
   rigid::Shape<3> operator()(const SphereShape& s) const { return rigid::sphere(s.radius); }
   rigid::Shape<3> operator()(const BoxShape& s) const { return rigid::box(s.size); }

@@ -204,7 +204,9 @@ class Chart {
       std::ranges::sort(points);
       std::string text;
       for (const auto& [x, value] : points) text += fmt::format("{:.8g} {:.8g}\n", x, value);
-      add(text, fmt::format("with linespoints {}", style_of(curve)));
+      // A line through random values of several axes would say that they are neighbours.
+      const char* const form = study_.axes[chart_.x].sampled ? "points" : "linespoints";
+      add(text, fmt::format("with {} {}", form, style_of(curve)));
       for (const auto& [status, where] : crosses)
         add(where, fmt::format("with points pt {} ps 0.8 lw 2 lc rgb '{}'",
                                status == Outcome::Status::diverged  ? 2
@@ -218,6 +220,11 @@ class Chart {
   std::string style_of(std::size_t curve) const {
     return fmt::format("lw 2 pt {} ps 0.8 lc rgb '{}'", markers[curve % markers.size()],
                        colours[curve % colours.size()]);
+  }
+
+  /// Words speak for themselves, numbers need the name of what they are.
+  static std::string series_name(const Axis& axis, const AxisValue& value) {
+    return value.number ? axis.name + " = " + value.text : value.text;
   }
 
   /// One for all panels: an empty plot over the whole picture.
@@ -234,7 +241,7 @@ class Chart {
         1 - 45. / height());
     for (std::size_t i = 0; i < axis.values.size(); ++i)
       text += fmt::format("{}NaN with linespoints {} title {} noenhanced", i ? ", \\\n  " : "", style_of(i),
-                          gnuplot_text(axis.values[i].text));
+                          gnuplot_text(series_name(axis, axis.values[i])));
     return text + "\n";
   }
 

@@ -41,6 +41,7 @@ void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector
               const fs::path& folder, bool quiet) {
   auto notes = measure(study, runs, folder, outcomes);
   write_tables(study, runs, outcomes, folder);
+  leave_at_interrupt(quiet ? "" : "\nstopped while the report was drawn: the same command with --collect draws it\n");
   if (study.chart)
     if (auto note = draw_chart(study, runs, outcomes, folder)) notes.push_back(std::move(*note));
   write_report(folder);  // what it warns of, a chart that could not be drawn, is among the notes
@@ -84,9 +85,10 @@ int study_command(const StudyOptions& options) {
   Study study;
   std::vector<StudyRun> runs;
   try {
-    study = read_study(options.study);
-    runs = expand(study);
-    resolve(study, runs);
+    auto plan = plan_study(options.study);
+    study = std::move(plan.study);
+    study.large = options.large;
+    runs = std::move(plan.runs);
   } catch (const SceneError& error) {
     return bad_input(error.what());
   }
@@ -104,7 +106,7 @@ int study_command(const StudyOptions& options) {
     make_study_folder(folder);
     lock.emplace(folder);
   } catch (const std::exception& error) {
-    return bad_input(error.what());
+    return bad_input(trouble(error));
   }
   auto outcomes = outcomes_in(study, runs, folder);
   if (slurm) {

@@ -86,11 +86,13 @@ class Runner {
   fs::path log_of(std::size_t i) const { return folder_ / (runs_[i].name + ".log"); }
 
   void start_what_fits() {
+    busy_ = 0;
     for (std::size_t tries = queue_.size(); tries > 0 && running_.size() < jobs_; --tries) {
       const std::size_t i = queue_.front();
       queue_.pop_front();
       const auto place = folder_ / runs_[i].name;
       if (is_busy(place)) {
+        ++busy_;
         queue_.push_back(i);
         continue;
       }
@@ -123,6 +125,7 @@ class Runner {
       end_.unable.push_back(name + ": " + outcome.cause);
     }
     ++made_;
+    last_end_ = Clock::now();
     // What a run says about its coupling stands in its summary.
     if (outcome.finished() && outcome.status != Outcome::Status::failed) fs::remove(log_of(i));
     auto text = fmt::format("[{}/{}] {}: {}", before_ + made_, runs_.size(), name, word(outcome.status));
@@ -157,15 +160,20 @@ class Runner {
     auto text =
         fmt::format("{:3.0f} %  {} of {} runs, {} at work", 100. * double(before_ + made_) / double(runs_.size()),
                     before_ + made_, runs_.size(), running_.size());
-    if (made_ > 0)
-      text += "  left " + clock_text(seconds_since(started_) * double(queue_.size() + running_.size()) / double(made_));
-    if (running_.empty() && !queue_.empty()) text += "  (waiting for runs of a study that was killed)";
+    if (made_ > 0) {
+      const double between = std::chrono::duration<double>(last_end_ - started_).count() / double(made_);
+      text +=
+          "  left " + clock_text(study_time_left(between, queue_.size() + running_.size(), seconds_since(last_end_)));
+    }
+    if (running_.empty() && busy_ > 0) text += fmt::format("  ({} still written by a study that was killed)", busy_);
     fmt::print("\r\x1b[K{}", text);
     std::fflush(stdout);
   }
 
   void clear() {
-    if (!quiet_ && terminal_) fmt::print("\r\x1b[K");
+    if (quiet_ || !terminal_) return;
+    fmt::print("\r\x1b[K");
+    std::fflush(stdout);  // notes go to the other stream
   }
 
   const Study& study_;
@@ -176,12 +184,17 @@ class Runner {
   bool quiet_, terminal_;
   std::deque<std::size_t> queue_;
   std::list<Running> running_;
-  std::size_t before_ = 0, made_ = 0;
+  std::size_t before_ = 0, made_ = 0, busy_ = 0;
   RunnerEnd end_;
-  Clock::time_point started_ = Clock::now(), shown_at_{};
+  Clock::time_point started_ = Clock::now(), last_end_ = started_, shown_at_{};
 };
 
 }  // namespace
+
+double study_time_left(double between, std::size_t runs, double since) {
+  // The next end is due; what has been waited for it is no longer left.
+  return std::max(0., between * static_cast<double>(runs) - std::min(since, between));
+}
 
 std::vector<std::string> command_of(const Study& study, const StudyRun& run, const fs::path& folder) {
   std::vector<std::string> words = {own_program().string(),
@@ -193,6 +206,8 @@ std::vector<std::string> command_of(const Study& study, const StudyRun& run, con
                                     "1",
                                     "--resume",
                                     "--quiet"};
+  if (study.until) words.insert(words.end(), {"--until", fmt::format("{}", *study.until)});
+  if (study.large) words.emplace_back("--large");
   if (study.budget) words.insert(words.end(), {"--budget", fmt::format("{}", *study.budget)});
   for (const auto& argument : run.set) words.insert(words.end(), {"--set", argument});
   return words;

@@ -12,6 +12,10 @@ namespace splashdown::apps {
 /// The command line of one run; it begins anew or continues, whatever its folder holds.
 std::vector<std::string> command_of(const Study& study, const StudyRun& run, const std::filesystem::path& folder);
 
+/// Seconds left if a run ended every `between` seconds so far, `runs` are to end and the last one did so `since` seconds
+/// ago. Between two ends it goes down and stops, it never grows.
+double study_time_left(double between, std::size_t runs, double since);
+
 struct RunnerEnd {
   bool interrupted = false;
   std::vector<std::string> unable;  ///< runs without an end of their own, each with its reason

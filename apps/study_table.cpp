@@ -37,12 +37,26 @@ Outcome::Status status_of(const std::string& status, const std::string& cause) {
   return failed;
 }
 
+/// Why an entry that summaries have is missing in one.
+std::string why_absent(const std::string& name) {
+  if (name.find(".cfc") != std::string::npos)
+    return name +
+           ": the run has no such pulse: its steps are too long, or the run too short, for the filter. Use a smaller "
+           "time.dt_max, or a class of a lower frequency";
+  return name + ": has no value in this run: what it tells of did not happen";
+}
+
 /// Names in the expressions of one run.
 quantity::Lookup names_of(const Study& study, const StudyRun& run, const Outcome& outcome,
                           const nlohmann::json& summary, const quantity::Table& table) {
   using quantity::Value;
   return [&](const std::string& name) -> std::optional<Value> {
-    if (const auto path = quantity::after("summary", name)) return quantity::find_entry(summary, *path);
+    if (const auto path = quantity::after("summary", name)) {
+      auto entry = quantity::find_entry(summary, *path);
+      // It was checked before the runs that such an entry can be: this run has none.
+      if (!entry) throw std::runtime_error(why_absent(name));
+      return entry;
+    }
     if (auto column = quantity::find_column(table, name)) return column;
     for (std::size_t a = 0; a < study.axes.size(); ++a)
       if (const auto& value = study.axes[a].values[run.value[a]]; study.axes[a].name == name && value.number)
@@ -232,6 +246,11 @@ Outcome outcome_of(const Study& study, const StudyRun& run, const fs::path& fold
   outcome.status = status_of(summary.value("status", ""), outcome.cause);
   for (const auto& [name, path] : from_summary)
     if (const auto value = quantity::find_entry(summary, path)) outcome.numbers[name] = value->numbers.front();
+  // With a later `until`, or without one, it goes on.
+  const double a_step_of_roundoff = 1e-9;
+  if (outcome.status == Outcome::Status::converged &&
+      summary.value("simulated_time", run.stop) < (1 - a_step_of_roundoff) * run.stop)
+    outcome.status = Outcome::Status::interrupted;
   // With a larger budget it goes on.
   if (outcome.status == Outcome::Status::interrupted && study.budget && outcome.cause.starts_with("the budget") &&
       summary.value("wall_seconds", 0.) >= *study.budget)

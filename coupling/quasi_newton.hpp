@@ -12,7 +12,7 @@ namespace splashdown::coupling {
 /// Anderson mixing (Anderson 1965; Walker, Ni 2011), type II with depth m:
 ///   x_{k+1} = x_k + w r_k - (X + w V) c,   c = argmin |r_k - V c|
 /// X, V: differences of the last m iterates and residuals. On an affine map of n dimensions it is GMRES: the
-/// solution after n + 1 passes, whatever w. Each step begins anew.
+/// iterate after n + 1 passes is the solution, whatever w, and pass n + 2 finds that it is. Each step begins anew.
 class Anderson final : public Accelerator {
  public:
   explicit Anderson(double factor, std::size_t depth = 50);

@@ -107,10 +107,15 @@ FacetCount count_facets(const std::filesystem::path& path) {
                  [](unsigned char c) { return std::tolower(c); });
   if (extension != ".stl" && extension != ".obj")
     throw SurfaceFileError(fmt::format("must be an .stl or .obj file, not '{}'", extension), export_again);
+  const char* const cure = "Name a file; relative names begin at the folder of the scene.";
+  std::error_code no_error;  // what cannot be asked for cannot be opened either
+  const auto kind = std::filesystem::status(path, no_error).type();
+  using enum std::filesystem::file_type;
+  if (kind == directory) throw SurfaceFileError("cannot be read: it is a folder", cure);
+  if (kind == fifo || kind == character || kind == block || kind == socket)  // may never end, or never begin
+    throw SurfaceFileError("cannot be read: it is a pipe or a device, not a file", cure);
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw SurfaceFileError(fmt::format("cannot be read: {}", file ? "it is a folder" : std::strerror(errno)),
-                           "Name a file; relative names begin at the folder of the scene.");
+  if (!file) throw SurfaceFileError(fmt::format("cannot be read: {}", std::strerror(errno)), cure);
   if (extension == ".obj") return {SurfaceFormat::obj, count_lines(file, obj_facets, "OBJ")};
 
   constexpr std::uintmax_t header = 84, record = 50;

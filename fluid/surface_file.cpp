@@ -164,6 +164,14 @@ struct Listener : pmp::Default_orientation_visitor {
   Findings* findings;  // CGAL copies its visitors
 };
 
+/// Some edge belongs to one polygon only.
+bool has_open_edge(const Soup& soup) {
+  std::map<std::pair<std::size_t, std::size_t>, int> uses;
+  for (const auto& polygon : soup.polygons)
+    for (std::size_t k = 0; k < polygon.size(); ++k) ++uses[std::minmax(polygon[k], polygon[(k + 1) % polygon.size()])];
+  return std::any_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 1; });
+}
+
 void refuse_disagreement(Soup& soup) {
   Findings findings;
   const Soup given = soup;
@@ -175,7 +183,8 @@ void refuse_disagreement(Soup& soup) {
                     text(given.at(a)), text(given.at(b))),
         unite);
   }
-  if (findings.crowded_point)
+  // Holes that touch in a point meet there like parts: they are told as what they are.
+  if (findings.crowded_point && !has_open_edge(given))
     throw SurfaceFileError(fmt::format("is not the surface of a solid: parts of it touch in the point {}",
                                        text(given.at(*findings.crowded_point))),
                            unite);

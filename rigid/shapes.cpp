@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "rigid/message.hpp"
@@ -63,6 +66,42 @@ bool meet(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c, const Vec<2>& e, do
   return std::min({distance(a, c, e), distance(b, c, e), distance(c, a, b), distance(e, a, b)}) <= tolerance;
 }
 
+struct Range {
+  double low, high;
+};
+using Pair = std::pair<std::size_t, std::size_t>;
+
+/// The first pair i < j, in the order of i and then j, whose ranges come as near as `tolerance` and that is
+/// `refused`. Sorted by their lower ends only those are compared that share a stretch: n log n for outlines.
+template <class Refused>
+std::optional<Pair> first_pair(std::span<const Range> ranges, double tolerance, Refused refused) {
+  std::vector<std::size_t> order(ranges.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return ranges[i].low; });
+  std::optional<Pair> first;
+  for (auto a = order.begin(); a != order.end(); ++a)
+    for (auto b = a + 1; b != order.end() && ranges[*b].low <= ranges[*a].high + tolerance; ++b)
+      if (const Pair pair = std::minmax(*a, *b); (!first || pair < *first) && refused(pair.first, pair.second))
+        first = pair;
+  return first;
+}
+
+/// Of the points' coordinates along the axis in which they are spread more.
+std::vector<Range> ranges_of(std::span<const Vec<2>> points, bool edges) {
+  Vec<2> low = points[0], high = points[0];
+  for (const auto& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const int axis = high.x() - low.x() > high.y() - low.y() ? 0 : 1;
+  std::vector<Range> ranges;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double from = points[i][axis], to = edges ? points[(i + 1) % points.size()][axis] : from;
+    ranges.push_back({std::min(from, to), std::max(from, to)});
+  }
+  return ranges;
+}
+
 void require_simple(std::span<const Vec<2>> points, double tolerance) {
   const std::size_t n = points.size();
   const auto end = [&](std::size_t edge) -> const Vec<2>& { return points[(edge + 1) % n]; };
@@ -72,23 +111,27 @@ void require_simple(std::span<const Vec<2>> points, double tolerance) {
         distance(points[i], points[next], end(next)) <= tolerance)
       throw std::invalid_argument(
           message("polygon: the outline folds back onto itself at point ", next + 1, " ", text(points[next])));
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if ((j + 1) % n == i || !meet(points[i], end(i), points[j], end(j), tolerance)) continue;
-      throw std::invalid_argument(message("polygon: edges ", i + 1, " ", text(points[i]), "-", text(end(i)), " and ",
-                                          j + 1, " ", text(points[j]), "-", text(end(j)),
-                                          " touch or cross; an outline must not meet itself"));
-    }
   }
+  const auto ranges = ranges_of(points, true);
+  const auto pair = first_pair(ranges, tolerance, [&](std::size_t i, std::size_t j) {
+    const bool neighbours = j == i + 1 || (j + 1) % n == i;
+    return !neighbours && meet(points[i], end(i), points[j], end(j), tolerance);
+  });
+  if (!pair) return;
+  const auto [i, j] = *pair;
+  throw std::invalid_argument(message("polygon: edges ", i + 1, " ", text(points[i]), "-", text(end(i)), " and ", j + 1,
+                                      " ", text(points[j]), "-", text(end(j)),
+                                      " touch or cross; an outline must not meet itself"));
 }
 
 void require_distinct(std::span<const Vec<2>> points, double tolerance) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = i + 1; j < points.size(); ++j) {
-      if ((points[i] - points[j]).norm() > tolerance) continue;
-      throw std::invalid_argument(message("polygon: points ", i + 1, " and ", j + 1, " are the same, ", text(points[i]),
-                                          "; the outline closes by itself and repeats no point"));
-    }
-  }
+  const auto ranges = ranges_of(points, false);
+  const auto pair = first_pair(
+      ranges, tolerance, [&](std::size_t i, std::size_t j) { return (points[i] - points[j]).norm() <= tolerance; });
+  if (!pair) return;
+  throw std::invalid_argument(message("polygon: points ", pair->first + 1, " and ", pair->second + 1, " are the same, ",
+                                      text(points[pair->first]),
+                                      "; the outline closes by itself and repeats no point"));
 }
 
 }  // namespace

@@ -85,6 +85,14 @@ int edges_around(double r, double widest, double steep, int around) {
   return std::max(fewest, static_cast<int>(std::ceil(around * std::max(r / widest, steep) - 1e-9)));
 }
 
+/// Before they fill the memory: a needle has as many rings as it is longer than an edge around it.
+void require_few_facets(const char* shape, double rings, int around) {
+  const double most = 1e6;  // as of a hull from a file
+  if (!(2 * rings * around <= most))
+    throw std::invalid_argument(message(shape, ": it is too long for its width: ", rings, " rings of up to ", around,
+                                        " edges; a hull has ", most, " facets at most"));
+}
+
 std::vector<Vec<2>> from_axis_to_axis(std::span<const Vec<2>> profile) {
   std::vector<Vec<2>> points(profile.begin(), profile.end());
   if (points.back().x() > 0) points.emplace_back(0, points.back().y());
@@ -209,6 +217,7 @@ Shape<3> capsule_of_revolution(double radius, double straight, int around) {
   require_positive("capsule", "straight length", straight);
   require_around("capsule", around);
   const double step = 2 * pi * radius / around, half = straight / 2;
+  require_few_facets("capsule", straight / step, around);
   const int arcs = std::max(2, static_cast<int>(std::ceil(around / 4.))),
             bands = std::max(1, static_cast<int>(std::ceil(straight / step)));
   RingMesh mesh;
@@ -246,6 +255,9 @@ Shape<3> revolved(std::span<const Vec<2>> profile, int around) {
   }
   if (twice_area < 0) std::reverse(points.begin(), points.end());
   const double step = 2 * pi * widest / around;
+  double rings = static_cast<double>(points.size());
+  for (std::size_t i = 1; i < points.size(); ++i) rings += (points[i] - points[i - 1]).norm() / step;
+  require_few_facets("revolved", rings, around);
   const auto steep = [&](std::size_t piece) {  // of the piece that ends at this point
     if (piece == 0 || piece == points.size()) return 0.;
     const Vec<2> along = points[piece] - points[piece - 1];

@@ -38,7 +38,8 @@ const std::vector<std::vector<Operator>> levels = {
 class Parser {
  public:
   /// Without a lookup only the syntax counts: names and calls are worth zero.
-  Parser(std::string_view text, const Lookup* lookup) : text_(text), lookup_(lookup) {}
+  Parser(std::string_view text, const Lookup* lookup, std::vector<std::string>* names = nullptr)
+      : text_(text), lookup_(lookup), names_(names) {}
 
   Value parse() {
     Value value = binary(0);
@@ -144,6 +145,7 @@ class Parser {
     while (word_at(at_) || (at_ < text_.size() && text_[at_] == '.')) ++at_;
     const std::string name(text_.substr(start, at_ - start));
     if (take("(")) return call(name);
+    if (names_) names_->push_back(name);
     if (!lookup_) return Value::number(0);
     if (auto value = (*lookup_)(name)) return *value;
     fail(fmt::format("unknown name '{}'", name));
@@ -166,6 +168,7 @@ class Parser {
 
   std::string_view text_;
   const Lookup* lookup_;
+  std::vector<std::string>* names_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
@@ -173,6 +176,12 @@ class Parser {
 }  // namespace
 
 Value evaluate(const std::string& expression, const Lookup& lookup) { return Parser(expression, &lookup).parse(); }
+
+std::vector<std::string> names_in(const std::string& expression) {
+  std::vector<std::string> names;
+  Parser(expression, nullptr, &names).parse();
+  return names;
+}
 
 void check_syntax(const std::string& expression) { Parser(expression, nullptr).parse(); }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/quantity/value.hpp"
 
@@ -22,6 +23,9 @@ Value evaluate(const std::string& expression, const Lookup& lookup);
 
 /// The same for an expression that has to come out as one number.
 double evaluate_number(const std::string& expression, const Lookup& lookup);
+
+/// The names that an expression asks its lookup for, in order; functions are none.
+std::vector<std::string> names_in(const std::string& expression);
 
 /// Throws like evaluate() where the text is not an expression, whatever its names stand for.
 void check_syntax(const std::string& expression);

@@ -1,6 +1,9 @@
 // Every bad scene is refused with file:line, key, value, rule and cure.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+
 #include "apps/scene_read.hpp"
 #include "scenes.hpp"
 
@@ -39,6 +42,16 @@ const std::vector<Mistake> scenes = {
      "must be positive (kg/m^3). Use e.g. 1000"},
     {"density_as_string", "density = 1000", "density = \"heavy\"", 10, "fluid.density = \"heavy\"",
      "must be a number (kg/m^3), not a string"},
+    {"density_beyond_exact_integers", "density = 1000", "density = 9007199254740993", 10,
+     "fluid.density = 9007199254740993", "whole numbers beyond 2^53 are not kept exactly. Write it with a point"},
+    {"passes_beyond_exact_integers", "[output]", "[coupling]\nmax_passes = 9007199254740993\n[output]", 27,
+     "coupling.max_passes = 9007199254740993", "beyond 2^53"},
+    {"decimal_comma", "density = 1000", "density = 1000,5  # g", 10, "not TOML: 1000,5 has a comma",
+     "Numbers have a point: did you mean 1000.5?"},
+    {"length_beyond_any_tank", "max = [2, 1]", "max = [2e9, 1]", 8, "tank.max = [2000000000, 1]",
+     "must not be beyond 1e+06 m. Scenes are in metres"},
+    {"length_below_any_element", "surface = 0.01", "surface = 1e-308", 12, "fluid.size.surface = 1e-308",
+     "must not be below 1e-09 m"},
     {"density_not_finite", "density = 1000", "density = nan", 10, "fluid.density = nan", "must be finite"},
     {"density_infinite", "density = 1000", "density = inf", 10, "fluid.density = inf", "must be finite"},
     {"density_missing", "density = 1000\n", "", 9, "fluid.density is missing", "Use e.g. 1000"},
@@ -286,6 +299,61 @@ TEST(BadScene, a_body_without_mass_must_be_solved_with_the_pressure) {
       messages[0].starts_with("scene.toml:20: body.wedge.mass = 0: a free body without mass needs "
                               "coupling.interface_term = \"rigid\""))
       << messages[0];
+}
+
+/// Seconds that an attempt takes.
+template <class Work>
+double seconds_of(Work work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST(BadScene, keys_of_endless_depth_are_refused_before_anything_follows_them) {
+  std::string deep = "a";
+  for (int i = 0; i < 50'000; ++i) deep += ".a";
+  auto messages = messages_of(testing::wedge_drop + deep + " = 1\n");
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_TRUE(messages[0].starts_with("scene.toml:33: a key has more than 16 words between dots")) << messages[0];
+  messages = messages_of(testing::wedge_drop, {deep + "=1"});
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_TRUE(messages[0].ends_with(": the key has 50001 words. Those of scenes have four at most.")) << messages[0];
+}
+
+TEST(BadScene, dots_in_texts_and_comments_are_no_keys) {
+  const std::string dots(60'000, '.');
+  const auto text = testing::wedge_drop_with("title = \"wedge\"", "title = \"a " + dots + " \\\" b\"  # " + dots);
+  EXPECT_TRUE(messages_of(text).empty()) << ::testing::PrintToString(messages_of(text));
+  EXPECT_TRUE(
+      messages_of(testing::wedge_drop_with("title = \"wedge\"", "title = \"\"\"\n" + dots + "\n\"\"\"")).empty());
+}
+
+TEST(BadScene, an_outline_of_too_many_points_is_refused_at_once) {
+  std::string points;
+  for (int i = 0; i < 200'000; ++i)
+    points += (i ? ", [" : "[") + std::to_string(0.2 * std::cos(i * 3.14159e-5)) + ", " +
+              std::to_string(0.2 * std::sin(i * 3.14159e-5)) + "]";
+  const auto text = testing::wedge_drop_with("{ type = \"wedge\", deadrise_deg = 30, breadth = 0.5 }",
+                                             "{ type = \"polygon\", points = [" + points + "] }");
+  std::vector<std::string> messages;
+  EXPECT_LT(seconds_of([&] { messages = messages_of(text); }), 20);  // twenty times what an idle machine takes
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].find("must have 10000 rows at most, not 200000. Leave out points that are nearer to each other "
+                             "than an element."),
+            std::string::npos)
+      << messages[0];
+}
+
+TEST(BadScene, devices_are_no_scenes) {
+  const auto messages = testing::refusal_of([] { read_scene("/dev/zero"); });
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_TRUE(messages[0].starts_with("/dev/zero: cannot be read: it is a device.")) << messages[0];
+}
+
+TEST(BadScene, a_word_without_its_unit_means_the_key_with_it) {
+  const auto messages = messages_of(testing::wedge_drop_with("size = 0.005", "size = 0.005\npitch = 5"));
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0], "scene.toml:25: body.wedge.pitch = 5: unknown key. Did you mean 'pitch_deg'?");
 }
 
 TEST(BadScene, an_absorber_needs_a_tank) {

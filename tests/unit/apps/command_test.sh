@@ -36,6 +36,19 @@ check "check accepts the scene" exits 0 "$splashdown" check scene.toml
 check "check refuses a bad one" exits 2 "$splashdown" check scene.toml --set time.end=0
 check "report needs a run" exits 2 "$splashdown" report nowhere
 
+check "a run that fills the memory is refused" exits 2 run --set fluid.size.surface=1e-6 --out never
+check "with its size and what asks for it" grep -q 'more than .* GB of memory for .* nodes, more than the 4 GB .* --large' stderr
+check "and nothing is written" test ! -e never
+check "a negative stop is refused" exits 2 "$splashdown" run scene.toml --until -1
+check "in few words" grep -q -e '--until: must be a positive number, not -1' stderr
+touch file
+check "a folder that cannot be made is refused" exits 2 run --out file/run
+check "with its name, the reason and a cure" grep -q '^error: file/run: Not a directory. Use another --out' stderr
+check "a likely slip is asked about" exits 0 "$splashdown" run scene.toml --until 0.001 --set fluid.density=1 --out slip
+check "before the run, which goes on" grep -q 'question: fluid.density = 1: lighter than any liquid .* did you mean 1000?' stderr
+check "and in check" exits 0 "$splashdown" check scene.toml --set fluid.density=1
+check "among the questions" grep -q 'did you mean 1000?' stdout
+
 # A whole run
 check "a run ends well" exits 0 run --out whole
 for file in scene.resolved.toml summary.json bodies.csv fluid.csv probes.csv frames.pvd report.html; do
@@ -145,6 +158,30 @@ for signal in INT TERM; do
   check "SIG$signal ends a run with 130" test $? -eq 130
   check "a checkpoint is there" test -s "signal_$signal/checkpoint/state"
 done
+
+# A request to stop is answered at once, also while figures are drawn
+"$splashdown" run scene.toml --out answered --set time.end=10 >answer_out 2>answer &
+pid=$!
+sleep 0.5
+kill -s INT $pid
+wait $pid
+check "a stop is answered" grep -q 'stopping after this step; once more stops at once' answer
+check "and says where the report comes from" grep -q 'no report: splashdown report answered draws it' answer_out
+mkdir slow && printf '#!/bin/sh\nexec sleep 60\n' >slow/gnuplot && chmod +x slow/gnuplot
+PATH="$PWD/slow:$PATH" "$splashdown" run scene.toml --out drawn --until 0.002 >/dev/null 2>answer &
+pid=$!
+for _ in $(seq 100); do
+  test -e drawn/summary.json && break
+  sleep 0.1
+done
+sleep 0.5
+begin=$SECONDS
+kill -s INT $pid
+wait $pid
+check "a stop while figures are drawn ends with 130" test $? -eq 130
+check "within seconds" test $((SECONDS - begin)) -le 5
+check "with the way to the report" grep -q 'stopped while the report was drawn: splashdown report drawn draws it' answer
+check "and loses nothing" test -s drawn/checkpoint/state
 
 # A light body that the pressure equation does not know, and no pass to spare for it
 check "a run that cannot go on ends with 3" exits 3 run --out failed --set body.wedge.mass=1 \

@@ -1,5 +1,6 @@
 // Scenes in three dimensions: what they are read to, what is refused and how, what a World is built from.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
@@ -325,6 +326,17 @@ TEST_F(SurfaceSceneTest, a_hull_that_is_none_is_told_with_file_line_what_and_cur
   EXPECT_NE(open.find("body.ball.shape.file"), std::string::npos) << open;
   const auto large = told("{ type = \"surface\", file = \"hull.obj\" }");
   EXPECT_NE(large.find("leaves the tank"), std::string::npos) << large;
+  EXPECT_NE(large.find("Is its file in millimetres? shape.scale = 0.001 makes it 0.3 m long. Move the body"),
+            std::string::npos)
+      << large;
+  ASSERT_EQ(::mkfifo((path() / "pipe.stl").c_str(), 0600), 0);
+  const auto pipe = told("{ type = \"surface\", file = \"pipe.stl\" }");
+  EXPECT_NE(pipe.find("cannot be read: it is a pipe or a device, not a file. Name a file"), std::string::npos) << pipe;
+  const auto huge = told("{ type = \"surface\", file = \"hull.obj\", scale = 1e6 }");
+  EXPECT_NE(
+      huge.find("is 3e+08 m long and reaches 3e+08 m from its origin at scale = 1e+06; hulls have 1e-09 to 1e+06 m"),
+      std::string::npos)
+      << huge;
 }
 
 TEST(SpatialScales, count_heights_along_z) {

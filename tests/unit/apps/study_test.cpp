@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -63,11 +64,7 @@ class StudyTest : public ::testing::Test, protected ScratchFolder {
 
   Study read(const std::string& text = good_study) const { return read_study(write("study.toml", text)); }
   std::vector<std::string> messages_of(const std::string& text) const {
-    return testing::refusal_of([&] {
-      const auto study = read(text);
-      auto runs = expand(study);
-      resolve(study, runs);
-    });
+    return testing::refusal_of([&] { plan_study(write("study.toml", text)); });
   }
   /// What a run of this scene would leave behind.
   void leave(const StudyRun& run, const std::string& status, const std::string& cause, double speed) const {
@@ -234,6 +231,18 @@ TEST_F(StudyTest, a_quantity_without_a_value_is_told_once) {
   EXPECT_NE(notes[0].find("unknown name 'vz'"), std::string::npos) << notes[0];
 }
 
+TEST_F(StudyTest, a_legend_of_numbers_says_what_they_are) {
+  const auto study =
+      read(testing::replaced(good_study, "x = \"ratio\"\nseries = \"scheme\"\ny = [\"passes_mean\", \"speed_error\"]",
+                             "x = \"ratio\"\nseries = \"ratio\""));
+  const auto runs = expand(study);
+  const auto script = chart_script(study, runs, std::vector<Outcome>(runs.size()));
+  EXPECT_NE(script.find("ratio = 0.5"), std::string::npos) << script;
+  const auto words = chart_script(read(), runs, std::vector<Outcome>(runs.size()));
+  EXPECT_NE(words.find("plain"), std::string::npos);
+  EXPECT_EQ(words.find("scheme = plain"), std::string::npos);
+}
+
 TEST_F(StudyTest, slurm_gets_one_task_a_run_that_is_not_finished) {
   const auto study = read();
   const auto runs = resolved(study);
@@ -262,6 +271,149 @@ TEST_F(StudyTest, slurm_gets_several_arrays_if_one_would_be_too_long) {
       EXPECT_EQ(scripts[k].find("/" + runs[i].name + "'") != std::string::npos, k == i / 4) << runs[i].name;
 }
 
+TEST_F(StudyTest, time_left_never_grows_while_a_run_is_waited_for) {
+  EXPECT_DOUBLE_EQ(study_time_left(10, 4, 0), 40);
+  double before = 40;
+  for (double since = 0; since < 100; since += 0.5) {
+    EXPECT_LE(study_time_left(10, 4, since), before);
+    before = study_time_left(10, 4, since);
+  }
+  EXPECT_DOUBLE_EQ(before, 30) << "the run that is due, and three others";
+  EXPECT_DOUBLE_EQ(study_time_left(10, 1, 50), 0);
+}
+
+TEST_F(StudyTest, of_a_billion_combinations_is_refused_at_once) {
+  std::string values, axes;
+  for (int i = 0; i < 1000; ++i) values += (i ? ", " : "") + std::to_string(i + 1);
+  for (const char* name : {"a", "b", "c"})
+    axes += std::string("[[axis]]\nname = \"") + name + "\"\nkey = \"body.wedge.mass\"\nvalues = [" + values + "]\n";
+  const auto messages = messages_of("scene = \"scene.toml\"\n" + axes);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(
+      messages[0].find("axis: 1e+09 combinations (1000 of a, 1000 of b, 1000 of c), more than 10000 runs. Use fewer "
+                       "values, or several studies."),
+      std::string::npos)
+      << messages[0];
+}
+
+TEST_F(StudyTest, zipped_axes_vary_together) {
+  auto text = testing::replaced(good_study, "[[quantity]]\nname = \"speed\"",
+                                "[[axis]]\nname = \"size\"\nkey = \"body.wedge.size\"\nzip = \"ratio\"\n"
+                                "values = [0.005, 0.006, 0.007]\n[[quantity]]\nname = \"speed\"");
+  const auto study = read(text);
+  const auto runs = expand(study);
+  ASSERT_EQ(runs.size(), 6u);
+  EXPECT_EQ(runs[0].name, "ratio-1_plain_size-0.005");
+  EXPECT_EQ(runs[5].name, "ratio-0.1_exact_size-0.007");
+  for (const auto& run : runs) EXPECT_EQ(run.value[0], run.value[2]) << run.name;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    EXPECT_EQ(reference_run(study, study.quantities[0], runs[i]), i / 2 * 2 + 1);
+  EXPECT_TRUE(messages_of(text).empty()) << ::testing::PrintToString(messages_of(text));
+}
+
+const std::string sampled_study = R"toml(scene = "scene.toml"
+[samples]
+number = 8
+seed = 3
+[[axis]]
+name = "speed"
+key = "body.wedge.velocity.1"
+range = [-8, -2]
+[[axis]]
+name = "scheme"
+[[axis.case]]
+name = "plain"
+set = ["coupling.relaxation=1"]
+[[axis.case]]
+name = "half"
+set = ["coupling.relaxation=0.5"]
+[[axis]]
+name = "mass"
+key = "body.wedge.mass"
+range = [10, 1000]
+spacing = "log"
+)toml";
+
+TEST_F(StudyTest, random_axes_are_a_latin_hypercube) {
+  const auto study = read(sampled_study);
+  const auto runs = expand(study);
+  ASSERT_EQ(runs.size(), 16u) << "eight combinations with each of two cases";
+  std::set<int> speeds, masses;
+  for (const auto& value : study.axes[0].values) speeds.insert(static_cast<int>((*value.number + 8) / 6 * 8));
+  for (const auto& value : study.axes[2].values)
+    masses.insert(static_cast<int>(std::log10(*value.number / 10) / 2 * 8));
+  EXPECT_EQ(speeds, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7})) << "one in each eighth of the range";
+  EXPECT_EQ(masses, speeds);
+  for (const auto& run : runs) EXPECT_EQ(run.value[0], run.value[2]);
+  const auto plan = plan_study(write("study.toml", sampled_study));
+  ASSERT_EQ(plan.runs.size(), runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) EXPECT_EQ(plan.runs[i].name, runs[i].name);
+  EXPECT_TRUE(messages_of(sampled_study).empty()) << ::testing::PrintToString(messages_of(sampled_study));
+}
+
+TEST_F(StudyTest, a_seed_draws_the_same_values_whatever_stands_beside_them) {
+  const auto values = [&](const std::string& text, std::size_t axis) {
+    std::vector<std::string> texts;
+    const auto study = read(text);
+    for (const auto& value : study.axes[axis].values) texts.push_back(value.text);
+    return texts;
+  };
+  auto alone = sampled_study;
+  alone.erase(alone.find("[[axis]]\nname = \"speed\""),
+              alone.find("[[axis]]\nname = \"scheme\"") - alone.find("[[axis]]\nname = \"speed\""));
+  EXPECT_EQ(values(alone, 1), values(sampled_study, 2));
+  EXPECT_NE(values(testing::replaced(sampled_study, "seed = 3", "seed = 4"), 0), values(sampled_study, 0));
+  EXPECT_NE(values(sampled_study, 0), values(sampled_study, 2));
+  // Portable: nothing of it depends on the machine's library.
+  EXPECT_EQ(values(sampled_study, 0).front(), "-5.45583");
+}
+
+TEST_F(StudyTest, until_stops_runs_and_a_later_one_lets_them_go_on) {
+  const auto short_study = read(testing::replaced(good_study, "budget = 30", "until = 0.004"));
+  const auto runs = resolved(short_study);
+  EXPECT_EQ(runs[0].stop, 0.004);
+  const auto command = command_of(short_study, runs[0], path());
+  const auto until = std::ranges::find(command, "--until");
+  ASSERT_NE(until, command.end());
+  EXPECT_EQ(*(until + 1), "0.004");
+  leave(runs[0], "done", "", 1);
+  write(fs::path(runs[0].name) / "summary.json", R"({"status": "done", "simulated_time": 0.004})");
+  EXPECT_EQ(outcome_of(short_study, runs[0], path() / runs[0].name).status, Outcome::Status::converged);
+  const auto study = read(testing::replaced(good_study, "budget = 30\n", ""));
+  const auto whole = resolved(study);
+  EXPECT_EQ(outcome_of(study, whole[0], path() / whole[0].name).status, Outcome::Status::interrupted) << "it goes on";
+}
+
+TEST_F(StudyTest, all_mistakes_are_told_at_once_before_any_run) {
+  auto text = testing::replaced(good_study, "budget = 30", "budgte = 30");
+  text = testing::replaced(text, "body.wedge.mass", "body.wegde.mass");
+  text = testing::replaced(text, "interface_term=none", "interface_term=non");
+  text = testing::replaced(text, "\"speed/g\"", "\"summary.bodies.wegde.peak_force.value\"");
+  const auto messages = messages_of(text);
+  ASSERT_EQ(messages.size(), 4u) << ::testing::PrintToString(messages);
+  EXPECT_NE(messages[0].find(":4: budgte = 30: unknown key. Did you mean 'budget'?"), std::string::npos) << messages[0];
+  EXPECT_NE(messages[1].find(":11: axis.ratio: body.wegde.mass=100.0: no body is called 'wegde'"), std::string::npos)
+      << messages[1];
+  EXPECT_NE(messages[2].find(":15: axis.scheme: coupling.interface_term=non"), std::string::npos) << messages[2];
+  EXPECT_NE(
+      messages[3].find(":27: quantity.fall.quantity = \"summary.bodies.wegde.peak_force.value\": runs of this scene "
+                       "have no 'summary.bodies.wegde'. Did you mean 'wedge'?"),
+      std::string::npos)
+      << messages[3];
+}
+
+TEST_F(StudyTest, quantities_may_use_every_entry_that_a_run_can_have) {
+  for (const char* good :
+       {"summary.bodies.wedge.peak_acceleration_g.raw.value", "summary.bodies.wedge.peak_acceleration_g.cfc60.delta_v",
+        "summary.bodies.wedge.peak_force_filtered.cfc180.impulse", "summary.bodies.wedge.impulse.1",
+        "summary.bodies.wedge.attitude_deg.pitch.maximum.time", "summary.bodies.wedge.dry_intervals.0.1",
+        "summary.ledger.energy_gain", "summary.coupling.passes_mean", "summary.phases.pressure", "summary.nodes.max",
+        "passes_mean", "ratio", "g", "vy", "summary.bodies.wedge.settled_time", "summary.bodies.wedge.capsized"}) {
+    const auto messages = messages_of(testing::replaced(good_study, "last(vy)", std::string("last(vy) + ") + good));
+    EXPECT_TRUE(messages.empty()) << good << ": " << ::testing::PrintToString(messages);
+  }
+}
+
 using testing::Mistake;
 
 class BadStudyIsRefused : public StudyTest, public ::testing::WithParamInterface<Mistake> {};
@@ -288,6 +440,28 @@ const std::vector<Mistake> studies = {
     {"axis_without_values", "values = [1, 0.5, 0.1]\n", "", 7, "axis.ratio.values is missing", "Use a list"},
     {"empty_values", "[1, 0.5, 0.1]", "[]", 11, "axis.ratio.values = []", "at least one value"},
     {"value_twice", "[1, 0.5, 0.1]", "[1, 0.5, 1]", 11, "axis.ratio.values", "holds 1 twice"},
+    {"value_beyond_exact_integers", "[1, 0.5, 0.1]", "[9007199254740993]", 11, "axis.ratio.values", "beyond 2^53"},
+    {"constant_beyond_exact_integers", "g = 9.81", "g = 9007199254740993", 6, "constants.g", "beyond 2^53"},
+    {"until_beyond_the_end", "budget = 30", "until = 1", 4,
+     "until = 1: must not exceed time.end = 0.01 s of ratio-1_plain", "Use set = "},
+    {"range_without_samples", "scale = 100\nvalues = [1, 0.5, 0.1]", "range = [1, 2]", 10, "axis.ratio.range = [1, 2]",
+     "needs [samples], which says how many values are drawn"},
+    {"range_upside_down", "scale = 100\nvalues = [1, 0.5, 0.1]", "range = [2, 1]", 10, "axis.ratio.range = [2, 1]",
+     "the lower one first"},
+    {"samples_without_a_number", "[constants]", "[samples]\nseed = 2\n[constants]", 5, "samples.number is missing",
+     "Use e.g. 20"},
+    {"zip_of_other_length", "name = \"scheme\"\n", "name = \"scheme\"\nzip = \"ratio\"\n", 14,
+     "axis.scheme.zip = \"ratio\"", "this axis has 2 values, ratio has 3"},
+    {"zip_with_no_axis", "scale = 100", "zip = \"scheme\"", 10, "axis.ratio.zip", "no axis before this one"},
+    {"unknown_column", "last(vy)", "last(vv)", 22, "quantity.speed.quantity = \"last(vv)\": unknown name 'vv'",
+     "Did you mean"},
+    {"table_of_no_body", "bodies.csv:wedge", "bodies.csv:wegde", 22, "quantity.speed.table = \"bodies.csv:wegde\"",
+     "Did you mean 'wedge'?"},
+    {"summary_without_such_an_entry", "last(vy)", "summary.coupling.passes", 22,
+     "quantity.speed.quantity = \"summary.coupling.passes\": runs of this scene have no 'summary.coupling.passes'",
+     "Did you mean 'passes_max'?"},
+    {"summary_entry_that_is_no_number", "last(vy)", "summary.bodies.wedge.peak_force", 22, "quantity.speed.quantity",
+     "Use one of its entries: 'duration', 'impulse'"},
     {"words_with_a_scale", "[1, 0.5, 0.1]", "[\"a\"]", 11, "axis.ratio.values", "must be numbers"},
     {"key_beside_cases", "name = \"scheme\"\n", "name = \"scheme\"\nkey = \"title\"\nvalues = [\"x\"]\n", 12,
      "axis.scheme", "both"},

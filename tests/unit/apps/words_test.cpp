@@ -55,6 +55,25 @@ TEST(Words, a_run_closes_with_its_verdict_in_red_on_a_terminal) {
   EXPECT_NE(colour().find("\x1b[32mresolved\x1b[0m"), std::string::npos);
 }
 
+TEST(Words, a_repair_share_above_the_whole_is_written_out) {
+  Summary summary;
+  auto& body = summary.bodies["hull"];
+  body.landing.first_contact = 0.01;
+  body.impulse = {0, 3};
+  for (const auto& [repair, text] :
+       {std::pair{3.6, "repair share of the impulse 120 %"}, std::pair{0.0372, "repair share of the impulse 1.2 %"},
+        std::pair{0.75, "repair share of the impulse 25 %"}}) {
+    body.impulse_repair = {0, repair};
+    EXPECT_NE(closing_text(summary, "nowhere").find(text), std::string::npos) << closing_text(summary, "nowhere");
+  }
+}
+
+TEST(Words, a_wall_time_that_nobody_waits_for_is_in_days) {
+  EXPECT_EQ(clock_text(99 * 86400), "2376:00:00");
+  EXPECT_EQ(clock_text(4e9), "4.6e+04 days");
+  EXPECT_EQ(clock_text(INFINITY), "inf days");
+}
+
 TEST(Words, progress_says_where_the_run_is) {
   EXPECT_EQ(clock_text(7.4), "0:07");
   EXPECT_EQ(clock_text(750), "12:30");

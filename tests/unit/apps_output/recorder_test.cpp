@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "apps/recorder_rows.hpp"
+#include "apps/recorder_view.hpp"
 #include "apps/report_data.hpp"
 #include "recorded_runs.hpp"
 
@@ -179,6 +181,20 @@ TEST(Recorder, surface_pressure_is_written_at_the_listed_times_only) {
 }
 
 // A wall's point in the frame of its shape, whose origin is the keel, is where the world's point is behind the pose.
+TEST(Recorder, frames_have_sizes_of_drops_and_motion_and_pressure_of_hulls) {
+  StandInDrop drop;
+  const auto& input = drop.at(0.5 * drop_end, dt);
+  const auto frame = take_frame(input);
+  ASSERT_EQ(frame.drop_diameter.size(), frame.x.size());
+  for (std::size_t i = 0; i < frame.x.size(); ++i)
+    EXPECT_NEAR(frame.drop_diameter[i], frame.kind[i] == NodeKind::drop ? 0.01 : 0, 1e-15);
+  const auto& hull = frame.outlines[0];
+  ASSERT_EQ(static_cast<Eigen::Index>(hull.v.size()), hull.surface.vertices.cols());
+  for (const auto& v : hull.v) EXPECT_EQ(v, (fluid::Vec<2>(input.body_velocity_n[0].head<2>())));
+  EXPECT_GT(*std::ranges::max_element(hull.p), 0) << "the keel is wet";
+  EXPECT_EQ(*std::ranges::min_element(hull.p), 0) << "the top is dry";
+}
+
 TEST(Recorder, surface_pressure_has_its_points_in_the_frame_of_the_shape) {
   ScratchFolder folder;
   Recorder<2> recorder(settings_in(folder.path()));

@@ -7,6 +7,7 @@
 
 #include "apps/gnuplot.hpp"
 #include "apps/plain_text.hpp"
+#include "apps/report_figures.hpp"
 #include "apps/report_words.hpp"
 #include "apps/verdict.hpp"
 #include "stand_ins.hpp"
@@ -90,7 +91,7 @@ TEST(Report, without_gnuplot_it_has_its_words_and_says_what_to_install) {
   EXPECT_NE(result.warnings[0].find("sudo apt install gnuplot-nox"), std::string::npos);
   const std::string page = folder.text("report.html");
   EXPECT_NE(page.find("sudo apt install gnuplot-nox"), std::string::npos);
-  EXPECT_NE(page.find("peak load"), std::string::npos);
+  EXPECT_NE(page.find("peak load, resultant"), std::string::npos);
   EXPECT_EQ(page.find("<svg"), std::string::npos);
 }
 
@@ -178,6 +179,25 @@ TEST(Words, numbers_have_the_digits_asked_for) {
   EXPECT_EQ(with_unit(26734.9, "N/m"), "26.73 kN/m");
   EXPECT_EQ(seconds_text(0.0149), "14.9 ms");
   EXPECT_EQ(seconds_text(7500), "2 h 05 min");
+}
+
+TEST(Report, probes_have_the_units_of_their_records) {
+  ScratchFolder folder;
+  folder.write("probes.csv", "time,probe,value\n0,keel,1\n0,gauge,2\n0,seat.ay,3\n0,other,4\n");
+  folder.write("scene.resolved.toml",
+               "[[body]]\nname = \"keel\"\n\n[[record]]\nkind = \"pressure\"\nname = \"keel\"\n\n[[record]]\n"
+               "kind = \"surface_elevation\"\nname = \"gauge\"\n\n[[record]]\nname = \"seat\"\nkind = "
+               "\"acceleration\"\n\n[provenance]\nkind = \"pressure\"\n");
+  folder.write("summary.json", "{}");
+  const auto run = read_run(folder.path());
+  EXPECT_EQ(run.unit_of_probe("keel"), " / Pa");
+  EXPECT_EQ(run.unit_of_probe("gauge"), " / m");
+  EXPECT_EQ(run.unit_of_probe("seat.ay"), " / (m/s²)");
+  EXPECT_EQ(run.unit_of_probe("other"), "");
+  for (const auto& group : figures_of(run)) {
+    if (!group.title.starts_with("Probes")) continue;
+    EXPECT_EQ(group.figures[0].y_label, "keel / Pa");
+  }
 }
 
 }  // namespace

@@ -253,6 +253,8 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   nodes.p.push_back(0);
   nodes.tie.push_back({-1, -1});
   nodes.surface.push_back(1);
+  nodes.volume.assign(nodes.size(), 0);
+  nodes.volume.back() = std::numbers::pi / 4 * 0.01 * 0.01;  // a drop of a centimetre
 
   ledger.volume_initial = 2 * tank_half_width * water_depth;
   ledger.time_integration = -2e-6 * time / drop_end;

@@ -161,6 +161,14 @@ TEST_F(SurfaceFileTest, an_open_surface_is_told_with_its_holes) {
   EXPECT_TRUE(says(told(ascii(without(cube(), {0, 1, 2}))), "2 holes, around (0, 0, -1) with 4 edges, around ("));
 }
 
+TEST_F(SurfaceFileTest, holes_that_touch_in_a_point_are_holes) {
+  const int facets = 12;
+  for (int a = 0; a < facets; ++a)
+    for (int b = a + 1; b < facets; ++b)
+      for (int c = b + 1; c < facets; ++c)
+        EXPECT_TRUE(says(told(ascii(without(cube(), {a, b, c}))), "is not closed: ")) << a << " " << b << " " << c;
+}
+
 TEST_F(SurfaceFileTest, an_inverted_surface_is_refused_whole_or_in_part) {
   EXPECT_EQ(told(ascii(turned(cube(), 0, 12))), "is inside out: all its normals point inward");
   EXPECT_TRUE(says(told(ascii(turned(cube(), 5, 1))), "facets turned against their neighbours, 1 of 12, at ("));

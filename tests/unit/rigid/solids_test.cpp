@@ -171,6 +171,8 @@ TEST(Solids, that_are_none_are_refused_with_rule_and_value) {
   EXPECT_TRUE(says(failure([] { revolved(Profile{{0, 0}, {-1, 1}, {0, 2}}); }), "point 2 (-1, 1)"));
   EXPECT_TRUE(says(failure([] { revolved(Profile{{0, 0}, {1, 1}, {0, 2}, {1, 3}, {0, 4}}); }), "touch or cross"));
   EXPECT_TRUE(says(failure([] { revolved(Profile{{0, 0}, {1, 1}, {1, 1}, {0, 2}}); }), "points 2 and 3 are the same"));
+  EXPECT_TRUE(says(failure([] { revolved(Profile{{0.5, 1e6}, {0.5, 0.1}}); }), "too long for its width"));
+  EXPECT_TRUE(says(failure([] { capsule_of_revolution(1e-3, 1e6); }), "too long for its width"));
 }
 
 }  // namespace splashdown::rigid
