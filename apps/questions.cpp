@@ -40,7 +40,7 @@ void ask_about_gravity(const Scene& scene, Questions& list) {
   }
   const bool held = std::ranges::any_of(scene.bodies, [](const Body& body) { return body.motion != Motion::free; });
   if (scene.fluid && !scene.tank && !held)
-    list.push_back(
+    list.emplace_back(
         "there is gravity, but nothing holds the liquid: it falls freely, and what floats in it too: did you mean to "
         "write a [tank] with min and max?");
 }

@@ -392,6 +392,7 @@ bool Reader::clipped(std::string_view name, double& time) {
 }
 
 void Reader::times(std::string_view name, std::vector<double>& target, const Rule& rule) {
+  note(name, {.type = Wanted::Type::list, .rule = rule});
   if (const auto* node = find(name, Need::optional, {}, {})) {
     target = list_of(*node, key(name), 0, rule).value_or(target);
     for (double& time : target) clipped(name, time);
@@ -402,6 +403,7 @@ void Reader::times(std::string_view name, std::vector<double>& target, const Rul
 }
 
 void Reader::interval(std::string_view name, double& target, const Rule& rule) {
+  note(name, {.type = Wanted::Type::number, .rule = rule});
   if (const auto* node = find(name, Need::optional, {}, {})) {
     target = number_of(*node, key(name), rule).value_or(target);
     clipped(name, target);

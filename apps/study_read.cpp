@@ -84,14 +84,12 @@ std::vector<double> sampled_values(double low, double high, bool log, int number
   return values;
 }
 
-void read_range(Reader& reader, Axis& axis, const std::string& key, const Study& study) {
+void read_range(Reader& reader, Axis& axis, const std::string& key, const std::string& spacing, const Study& study) {
   Problems& problems = reader.context().problems;
   double scale = 1;
   std::vector<double> range;
-  std::string spacing = "linear";
   reader.number("scale", scale, any("", "Use the factor from these values to the scene's key."));
   reader.numbers("range", range, any("", "Use the lowest and the highest value, e.g. range = [-5, 5]."));
-  reader.choice("spacing", spacing, {"linear", "log"});
   axis.sampled = true;
   if (problems.found_in(reader.key("range"))) return;
   const bool log = spacing == "log";
@@ -195,7 +193,11 @@ void read_axis(Reader& reader, Study& study, Columns& columns) {
   reader.text("name", axis.name, "Use a short word; it becomes a column.", Need::required);
   if (listed || !cases) {
     reader.text("key", key, "Name a key of the scene as for --set, e.g. body.wedge.mass.", Need::required);
-    ranged ? read_range(reader, axis, key, study) : read_values(reader, axis, key);
+    std::string spacing = "linear";
+    reader.choice("spacing", spacing, {"linear", "log"});
+    if (reader.holds("spacing") && !ranged)
+      problems.add(reader.key("spacing"), "has no range to space", "Remove it, or use range instead of values.");
+    ranged ? read_range(reader, axis, key, spacing, study) : read_values(reader, axis, key);
   }
   if (ranged && reader.holds("values"))
     problems.add(reader.key("values"), "must not stand beside range", "Use one of the two.");

@@ -283,7 +283,8 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
   find_edges(walls);
 }
 
-// The node at an edge moves with it; the water does where the edge is hollow, and flows around it elsewhere.
+// The node at an edge moves with it; the water does where the edge is hollow, or dips into a surface that wets neither of
+// its sides yet, and flows around it elsewhere.
 template <int d>
 void WallMotion<d>::find_edges(const WallsAt<d>& walls) {
   auto hold = [&](int node, const Mat<d>& directions) {
@@ -293,9 +294,9 @@ void WallMotion<d>::find_edges(const WallsAt<d>& walls) {
   slips_.assign(nodes_.size(), 0);
   for (int i : tied_) {
     const WallTie& tie = nodes_.tie[i];
-    if (!tie.sharp() || !wetted_[i] || nodes_.separates[i]) continue;
+    if (!tie.sharp() || nodes_.spray[i] || (wetted_[i] && nodes_.separates[i])) continue;
     const Wall<d>& wall = walls_[tie.wall];
-    if (wall.is_convex(tie)) {
+    if (wetted_[i] && wall.is_convex(tie)) {
       slips_[i] = 1;
       edges_.push_back(i);
       continue;

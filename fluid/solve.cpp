@@ -53,7 +53,7 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
 }
 
 // The carried velocity, seen at t_{n-1/2} on the new mesh, creates no volume. Nodes that have come to a wall's edge since
-// then share their momentum with it.
+// then, or stick to it, share their momentum with it.
 template <int d>
 Status Fluid<d>::State::repair() {
   const auto scope = timer.scope(pressure);
@@ -86,7 +86,8 @@ Status Fluid<d>::State::repair() {
     // the truncated one may not be, and counts by a half, a quarter, not at all.
     double taken = 1;
     auto gains = [&] {
-      const double given = work_of(r, s_0, s_before);
+      double given = work_of(r, s_0, s_before);
+      for (std::size_t w = 0; w < handed.size(); ++w) given += taken * handed[w].dot(0.5 * (s_0[w] + s_before[w]));
       return equation.kinetic_energy(v) + given > energy_0 + most_gain * (energy_0 + std::abs(given));
     };
     while (taken > 0 && gains()) {
