@@ -262,7 +262,8 @@ void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, c
 }
 
 template <int d>
-WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls)
+WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
+                          std::span<const char> answers)
     : nodes_(nodes), mesh_(mesh), walls_(walls.walls), wetted_(nodes.size(), 0), attached_vertex_(walls.walls.size()) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes.tie[i].wall >= 0) tied_.push_back(static_cast<int>(i));
@@ -280,23 +281,29 @@ WallMotion<d>::WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const Wall
       else
         on_creases_.push_back(i);
     }
-  find_edges(walls);
+  find_edges(walls, answers);
 }
 
-// The node at an edge moves with it; the water does where the edge is hollow, or dips into a surface that wets neither of
-// its sides yet, and flows around it elsewhere.
+// The node at an edge moves with it; the water does where the edge is hollow, and flows around it elsewhere. An edge that is
+// the first of a dry body to dip into the surface takes its node along, and shares its momentum with it.
 template <int d>
-void WallMotion<d>::find_edges(const WallsAt<d>& walls) {
+void WallMotion<d>::find_edges(const WallsAt<d>& walls, std::span<const char> answers) {
   auto hold = [&](int node, const Mat<d>& directions) {
     const int wall = nodes_.tie[node].wall;
     held_.push_back({node, wall, nodes_.x[node] - walls.poses[wall].translation(), directions});
   };
+  std::vector<char> dry(answers.begin(), answers.end());
+  dry.resize(walls_.size(), 0);
+  for (const auto& f : mesh_.boundary)
+    if (f.wall >= 0) dry[f.wall] = 0;
   slips_.assign(nodes_.size(), 0);
   for (int i : tied_) {
     const WallTie& tie = nodes_.tie[i];
-    if (!tie.sharp() || nodes_.spray[i] || (wetted_[i] && nodes_.separates[i])) continue;
+    if (!tie.sharp() || nodes_.spray[i]) continue;
+    const bool first_touch = dry[tie.wall];
+    if (!first_touch && (!wetted_[i] || nodes_.separates[i])) continue;
     const Wall<d>& wall = walls_[tie.wall];
-    if (wetted_[i] && wall.is_convex(tie)) {
+    if (!first_touch && wall.is_convex(tie)) {
       slips_[i] = 1;
       edges_.push_back(i);
       continue;

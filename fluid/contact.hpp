@@ -27,7 +27,8 @@ void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, c
 template <int d>
 class WallMotion {
  public:
-  WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls);
+  /// `answers`: of walls, 1 for those whose motion is solved with the pressure; empty: none.
+  WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const char> answers = {});
 
   /// Nodes with a pressure of their own slip: along a wall v.n = w.n is met by facets, in the mean that the pressure can
   /// keep, and not node by node, which would take momentum from the water that nobody gets. `unknown`: of nodes, -1: p = 0.
@@ -57,7 +58,7 @@ class WallMotion {
   const Mesh<d>& mesh_;
   std::span<const Wall<d>> walls_;
   void find_separations(const Mesh<d>& mesh);
-  void find_edges(const WallsAt<d>& walls);
+  void find_edges(const WallsAt<d>& walls, std::span<const char> answers);
   bool is_chord(int facet, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 

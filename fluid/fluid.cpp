@@ -85,7 +85,7 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
   if (!s.prepared) s.prepare();
   {
     const auto scope = s.timer.scope(assemble);
-    s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses));
+    s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses), response.answers(s.walls.size()));
     if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response,
                           s.wall_motion->held()))
       return {"the pressure matrix could not be factored"};

@@ -28,12 +28,6 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
 }
 
 template <int d>
-bool PressureEquation<d>::responds(std::size_t wall) const {
-  constexpr int m = freedoms<d>;
-  return motions() > 0 && !response_.modes.middleRows(static_cast<Eigen::Index>(wall) * m, m).isZero(0);
-}
-
-template <int d>
 void PressureEquation<d>::hold_mass(std::vector<HeldNode<d>> held, double density) {
   held_.build(std::move(held), modes_.size(), density, lumped_);
   held_modes_.assign(modes_.size(), {});
@@ -42,7 +36,7 @@ void PressureEquation<d>::hold_mass(std::vector<HeldNode<d>> held, double densit
   for (std::size_t c = 0; c < share.size(); ++c) share[c] = 1 / ((d + 2) * per_mass_[c]);
   const AccelerationWeights<d> weights{*mesh_, nodes_->x, around_, gradients_, share, per_nodal_mass_};
   for (std::size_t w = 0; w < modes_.size(); ++w) {
-    if (!responds(w)) continue;
+    if (!response_.moves(w)) continue;
     for (const auto& column : held_.load(w, weights))
       if (unknown_[column.node] >= 0) held_modes_[w].push_back({unknown_[column.node], column.wrench});
   }
@@ -80,7 +74,7 @@ bool PressureEquation<d>::add_bodies() {
   added_mass_(wet, wet) = loads.transpose() * answers;
   held_inertia_.setZero(motions(), motions());
   for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
-    if (!responds(w)) continue;
+    if (!response_.moves(w)) continue;
     const Eigen::MatrixXd moves = response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
     held_inertia_ += moves.transpose() * held_.inertia(w) * moves;
   }

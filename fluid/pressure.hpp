@@ -51,6 +51,17 @@ struct WallResponse {
   Eigen::MatrixXd modes;
   Eigen::MatrixXd inertia;         ///< of these motions; symmetric, not negative
   std::vector<StandIn> stand_ins;  ///< of each wall: local operators instead; empty: none at all
+
+  /// The motions move this wall.
+  bool moves(std::size_t wall) const {
+    constexpr int m = freedoms<d>;
+    return modes.cols() > 0 && !modes.middleRows(static_cast<Eigen::Index>(wall) * m, m).isZero(0);
+  }
+  std::vector<char> answers(std::size_t walls) const {
+    std::vector<char> out(walls);
+    for (std::size_t w = 0; w < walls; ++w) out[w] = moves(w);
+    return out;
+  }
 };
 
 /// Volume of a node over the free surface around it to the power d/(d-1) below which it is the tip of a spike and carries
@@ -136,7 +147,6 @@ class PressureEquation {
   void wall_modes(std::span<const Vec<d>> centres);
   void hold_mass(std::vector<HeldNode<d>> held, double density);
   bool add_bodies();
-  bool responds(std::size_t wall) const;
   Eigen::VectorXd taken_by(const Eigen::VectorXd& phi) const;
   Eigen::VectorXd of_held(std::span<const double> phi) const;
 
