@@ -148,12 +148,13 @@ double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const Wall
 // Gives facets back to walls that cells of the water pierce (pierced.hpp), as long as that leaves less of such cells in the
 // solid. `decide`: what a cell holds. Cells that still do.
 template <class Decide>
-std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const WallsAt<3>& at,
-                               std::vector<Content>& content, const Decide& decide) {
+std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& inner,
+                               const WallsAt<3>& at, std::vector<Content>& content, const Decide& decide) {
   using Cell = std::array<int, 4>;
+  // What a node within the water is joined to; most cells beyond the water have none.
   auto is_mixed = [&](const Cell& cell) {
     return std::any_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall >= 0; }) &&
-           std::any_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall != nodes.tie[cell[0]].wall; });
+           std::any_of(cell.begin(), cell.end(), [&](int n) { return inner[n]; });
   };
   auto misses_water = [&](int c) {
     return content[c] != water && is_mixed(all.cells[c]) && pierced(all.cells[c], nodes, at) > 0;
@@ -262,7 +263,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double
   std::vector<Content> content(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });
   std::vector<int> piercing;
-  if constexpr (d == 3) piercing = recover_walls(all, nodes, walls, content, decide);
+  if constexpr (d == 3) piercing = recover_walls(all, nodes, inner, walls, content, decide);
   fill_cracks(all, content);
 
   Recognised<d> mesh;
