@@ -223,10 +223,9 @@ class Adapter {
 
   void compact() {
     if (report_.removed == 0) return;
-    std::vector<int> kept;
-    for (std::size_t i = 0; i < nodes_.size(); ++i)
-      if (into_[i] == static_cast<int>(i)) kept.push_back(static_cast<int>(i));
-    keep(kept, nodes_, h_, mesh_.boundary);
+    std::vector<char> merged(nodes_.size());
+    for (std::size_t i = 0; i < merged.size(); ++i) merged[i] = into_[i] != static_cast<int>(i);
+    discard(merged, nodes_, h_, mesh_.boundary);
   }
 
   Nodes<d>& nodes_;
@@ -261,9 +260,22 @@ void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<double>& h,
     for (int& n : f.nodes) n = renumber[n];
 }
 
+template <int d>
+bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<double>& h,
+             std::vector<Facet<d>>& boundary) {
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (!marked[i]) kept.push_back(static_cast<int>(i));
+  if (kept.size() == marked.size()) return false;
+  keep(kept, nodes, h, boundary);
+  return true;
+}
+
 template AdaptReport<2> adapt(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&);
 template AdaptReport<3> adapt(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&);
 template void keep(const std::vector<int>&, Nodes<2>&, std::vector<double>&, std::vector<Facet<2>>&);
 template void keep(const std::vector<int>&, Nodes<3>&, std::vector<double>&, std::vector<Facet<3>>&);
+template bool discard(const std::vector<char>&, Nodes<2>&, std::vector<double>&, std::vector<Facet<2>>&);
+template bool discard(const std::vector<char>&, Nodes<3>&, std::vector<double>&, std::vector<Facet<3>>&);
 
 }  // namespace splashdown::fluid

@@ -27,4 +27,8 @@ AdaptReport<d> adapt(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, con
 template <int d>
 void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<double>& h, std::vector<Facet<d>>& boundary);
 
+/// Keeps all nodes but those that are marked; false if none is.
+template <int d>
+bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<double>& h, std::vector<Facet<d>>& boundary);
+
 }  // namespace splashdown::fluid

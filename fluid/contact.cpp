@@ -293,7 +293,6 @@ void WallMotion<d>::find_edges(const WallsAt<d>& walls, std::span<const char> an
     held_.push_back({node, wall, nodes_.x[node] - walls.poses[wall].translation(), directions});
   };
   std::vector<char> dry(answers.begin(), answers.end());
-  dry.resize(walls_.size(), 0);
   for (const auto& f : mesh_.boundary)
     if (f.wall >= 0) dry[f.wall] = 0;
   slips_.assign(nodes_.size(), 0);

@@ -27,8 +27,8 @@ void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, c
 template <int d>
 class WallMotion {
  public:
-  /// `answers`: of walls, 1 for those whose motion is solved with the pressure; empty: none.
-  WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const char> answers = {});
+  /// `answers`: of walls, 1 for those whose motion is solved with the pressure.
+  WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const char> answers);
 
   /// Nodes with a pressure of their own slip: along a wall v.n = w.n is met by facets, in the mean that the pressure can
   /// keep, and not node by node, which would take momentum from the water that nobody gets. `unknown`: of nodes, -1: p = 0.

@@ -82,12 +82,8 @@ class Filler {
       auto found = recognise<d>(out_.nodes, out_.h, out_.mesh.boundary, walls_, outline_decides);
       std::vector<char> goes = out_.nodes.spray;
       for (int n : found.piercing) goes[n] = 1;
-      std::vector<int> kept;
-      for (std::size_t i = 0; i < goes.size(); ++i)
-        if (!goes[i]) kept.push_back(static_cast<int>(i));
       if (found.piercing.empty()) out_.mesh = std::move(found);
-      if (kept.size() == goes.size()) return;
-      keep(kept, out_.nodes, out_.h, out_.mesh.boundary);
+      if (!discard(goes, out_.nodes, out_.h, out_.mesh.boundary)) return;
     }
   }
 

@@ -1,19 +1,15 @@
 #include "fluid/pierced.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
-
-#include "fluid/geometry.hpp"
+#include <limits>
 
 namespace splashdown::fluid {
 namespace {
 
 using Cell = std::array<int, 4>;
 constexpr int gone = -1;
-constexpr double flat =
-    1e-6;  // volume of the smallest cell over all, below which the new ones are no better than the old
+constexpr double flat = 1e-6;            // smallest cell over all: below it the new ones are no better than the old
 constexpr std::size_t largest_ring = 7;  // mean of a Delaunay triangulation: 5.2 cells around an edge
 
 int corner_of(const Cell& cell, int node) {
@@ -46,10 +42,6 @@ Ring ring_around(const Delaunay<3>& mesh, int start, int a, int b) {
   return {};
 }
 
-double volume_of(std::span<const Vec<3>> x, const Cell& cell) {
-  return (x[cell[1]] - x[cell[0]]).cross(x[cell[2]] - x[cell[0]]).dot(x[cell[3]] - x[cell[0]]) / 6;
-}
-
 /// Cells of the fan from node `apex` of the ring.
 std::vector<Cell> fan(const Ring& ring, std::size_t apex, int a, int b) {
   const std::size_t m = ring.nodes.size();
@@ -66,9 +58,9 @@ std::vector<Cell> fan(const Ring& ring, std::size_t apex, int a, int b) {
 double least_share(std::span<const Vec<3>> x, const std::vector<Cell>& cells) {
   double least = std::numeric_limits<double>::max(), sum = 0;
   for (const Cell& cell : cells) {
-    const double volume = volume_of(x, cell);
-    least = std::min(least, volume);
-    sum += std::abs(volume);
+    const double of_cell = volume<3>(corners(x, cell));
+    least = std::min(least, of_cell);
+    sum += std::abs(of_cell);
   }
   return least / sum;
 }

@@ -87,11 +87,10 @@ void Fluid<d>::State::cut(std::size_t liquid) {
       return book_spray(spray);
     }
     nodes.spray = spray;
-    std::vector<int> kept(nodes.size());
-    std::iota(kept.begin(), kept.end(), 0);
-    std::erase_if(kept, [&](int i) { return std::binary_search(found.piercing.begin(), found.piercing.end(), i); });
+    std::vector<char> goes(nodes.size(), 0);
+    for (int n : found.piercing) goes[n] = 1;
     liquid -= found.piercing.size();
-    keep(kept, nodes, work.h, work.mesh.boundary);
+    discard(goes, nodes, work.h, work.mesh.boundary);
   }
 }
 
@@ -109,7 +108,6 @@ void Fluid<d>::State::prepare() {
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const std::size_t liquid = put_drops_last();
   cut(liquid);
-
   separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   land(work.nodes, work.mesh);
   carried_p = work.nodes.p;

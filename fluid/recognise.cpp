@@ -201,8 +201,8 @@ void fill_cracks(const Delaunay<d>& all, std::vector<Content>& content) {
   std::vector<int> thin;
   for (std::size_t c = 0; c < content.size(); ++c)
     if (content[c] == flat_cell || content[c] == dust_cell) thin.push_back(static_cast<int>(c));
-  for (std::size_t left = 0;
-       left != thin.size();) {  // those that touch air or a wall, and those that touch these, open
+  // Those that touch air or a wall are open, and those that touch these.
+  for (std::size_t left = 0; left != thin.size();) {
     left = thin.size();
     std::erase_if(thin, [&](int c) {
       const auto& around = all.neighbours[c];

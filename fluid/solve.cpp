@@ -53,7 +53,7 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
 }
 
 // The carried velocity, seen at t_{n-1/2} on the new mesh, creates no volume. Nodes that have come to a wall's edge since
-// then, or stick to it, share their momentum with it.
+// then share their momentum with it.
 template <int d>
 Status Fluid<d>::State::repair() {
   const auto scope = timer.scope(pressure);

@@ -96,14 +96,12 @@ void Viscosity<d>::find_bonds(const StepView<d>& step) {
   if (bonds_.empty()) return;
   std::stable_sort(bonds_.begin(), bonds_.end(), [](const Bond& p, const Bond& q) { return p.cell < q.cell; });
   bonds_at_.assign(step.mesh.cells.size(), -1);
-  for (std::size_t k = bonds_.size(); k-- > 0;) bonds_at_[bonds_[k].cell] = static_cast<int>(k);
-  for (Bond& bond : bonds_) {
-    const auto same = [&](const Bond& other) { return other.cell == bond.cell; };
-    const auto count = std::count_if(
-        bonds_.begin() + bonds_at_[bond.cell],
-        bonds_.begin() + std::min<std::ptrdiff_t>(bonds_at_[bond.cell] + d + 1, std::ssize(bonds_)), same);
-    bond.stiffness = 4 * static_cast<double>(count) * mu_ * d * bond.share / volume_[bond.cell];
+  std::vector<int> count(step.mesh.cells.size(), 0);
+  for (std::size_t k = bonds_.size(); k-- > 0;) {
+    bonds_at_[bonds_[k].cell] = static_cast<int>(k);
+    ++count[bonds_[k].cell];
   }
+  for (Bond& bond : bonds_) bond.stiffness = 4 * count[bond.cell] * mu_ * d * bond.share / volume_[bond.cell];
 }
 
 // t(v) of a field that is v_b at corner b and 0 at the others: mu P (G.n + G n^T) v_b, G = grad N_b.

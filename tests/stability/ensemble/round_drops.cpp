@@ -53,22 +53,47 @@ Laws laws_of(const Round& body, int dimension, double speed, double h, double fa
   return laws;
 }
 
+/// What both classes draw, in this order.
+struct Drop {
+  Drop(Random& random, std::initializer_list<const char*> kinds, std::initializer_list<int> resolutions)
+      : D(random.log_uniform(0.06, 2)),
+        ratio(random.pick({0.2, 0.3, 0.5, 0.8, 1.0})),
+        froude(random.log_uniform(0.8, 6)),
+        kind(random.pick(kinds)),
+        pitch_deg(random.pick({0.0, 0.0, 10.0, 25.0})),
+        elements(random.pick(resolutions)),
+        oblique(random.chance(1.0 / 3)) {}
+
+  double radius() const { return rounded(D / 2); }
+  double pitch() const { return pitch_deg * std::numbers::pi / 180; }
+  double V() const { return rounded(froude * std::sqrt(g * D)); }  ///< downward, and forward if oblique [m/s]
+  double speed() const { return (oblique ? std::numbers::sqrt2 : 1) * V(); }
+  double h() const { return rounded(D / elements); }
+  std::string what() const {
+    return fmt::format("{} {} D={:.3g} ratio={} Fr={:.2g} pitch={} D/{}", oblique ? "oblique" : "plumb", kind, D, ratio,
+                       froude, pitch_deg, elements);
+  }
+  void describe(const Round& body, SceneText& s) const {
+    s.list("body").word("name", "body").toml("shape", body.shape).set("density", water * ratio);
+  }
+
+  double D, ratio, froude;  ///< size [m], density over water's, V over sqrt(g D)
+  std::string kind;
+  double pitch_deg;
+  int elements;
+  bool oblique;
+};
+
 }  // namespace
 
 Member round_drop(std::uint64_t seed) {
   Random random("round_drops", seed);
-  const double D = random.log_uniform(0.06, 2), R = rounded(D / 2), ratio = random.pick({0.2, 0.3, 0.5, 0.8, 1.0});
-  const double froude = random.log_uniform(0.8, 6), V = rounded(froude * std::sqrt(g * D));
-  const std::string kind = random.pick<const char*>({"circle", "circle", "capsule", "ellipse"});
-  const double pitch_deg = random.pick({0.0, 0.0, 10.0, 25.0});
-  const int elements = random.pick({40, 60, 90});
-  const bool oblique = random.chance(1.0 / 3);
-  const Round body = round_shape(kind, R, pitch_deg * std::numbers::pi / 180);
-  const double L = body.length, h = rounded(D / elements);
+  const Drop drop(random, {"circle", "circle", "capsule", "ellipse"}, {40, 60, 90});
+  const Round body = round_shape(drop.kind, drop.radius(), drop.pitch());
+  const double L = body.length, V = drop.V();
 
   Member m;
-  m.what = fmt::format("{} {} D={:.3g} ratio={} Fr={:.2g} pitch={} D/{}", oblique ? "oblique" : "plumb", kind, D, ratio,
-                       froude, pitch_deg, elements);
+  m.what = drop.what();
   const Basin basin{.title = "Round drop",
                     .end = 1.5 * L / V,  // 1.5 lengths deep, were it not stopped
                     .half_width = 6 * L,
@@ -79,31 +104,25 @@ Member round_drop(std::uint64_t seed) {
                     .growth = 0.12,
                     .wetted_fraction = 0.008};
   SceneText s = basin.scene();
-  s.list("body").word("name", "body").toml("shape", body.shape).set("density", water * ratio);
+  drop.describe(body, s);
   // Half a thousandth of it above the water.
-  s.set("position", Point{0, 1.0005 * body.low}).set("pitch_deg", pitch_deg);
-  s.set("velocity", Point{oblique ? V : 0, -V}).set("size", h);
+  s.set("position", Point{0, 1.0005 * body.low}).set("pitch_deg", drop.pitch_deg);
+  s.set("velocity", Point{drop.oblique ? V : 0, -V}).set("size", drop.h());
   s.table("contact");
   m.scene = s.text();
 
-  m.laws = laws_of(body, 2, (oblique ? std::numbers::sqrt2 : 1) * V, h, basin.air);
+  m.laws = laws_of(body, 2, drop.speed(), drop.h(), basin.air);
   return m;
 }
 
 Member round_drop_in_space(std::uint64_t seed) {
   Random random("round_drops_3d", seed);
-  const double D = random.log_uniform(0.06, 2), R = rounded(D / 2), ratio = random.pick({0.2, 0.3, 0.5, 0.8, 1.0});
-  const double froude = random.log_uniform(0.8, 6), V = rounded(froude * std::sqrt(g * D));
-  const std::string kind = random.pick<const char*>({"sphere", "sphere", "capsule"});
-  const double pitch_deg = random.pick({0.0, 0.0, 10.0, 25.0});
-  const int elements = random.pick({8, 12, 16});
-  const bool oblique = random.chance(1.0 / 3);
-  const Round body = round_solid(kind, R, pitch_deg * std::numbers::pi / 180);
-  const double L = body.length, h = rounded(D / elements);
+  const Drop drop(random, {"sphere", "sphere", "capsule"}, {8, 12, 16});
+  const Round body = round_solid(drop.kind, drop.radius(), drop.pitch());
+  const double L = body.length, V = drop.V();
 
   Member m;
-  m.what = fmt::format("{} {} D={:.3g} ratio={} Fr={:.2g} pitch={} D/{}", oblique ? "oblique" : "plumb", kind, D, ratio,
-                       froude, pitch_deg, elements);
+  m.what = drop.what();
   const Basin basin{.title = "Round drop in space",
                     .end = 0.75 * L / V,
                     .half_width = 2.5 * L,
@@ -115,12 +134,12 @@ Member round_drop_in_space(std::uint64_t seed) {
                     .wetted_fraction = 0.03,
                     .dimension = 3};
   SceneText s = basin.scene();
-  s.list("body").word("name", "body").toml("shape", body.shape).set("density", water * ratio);
-  s.set("position", Point{0, 0, 1.0005 * body.low}).set("pitch_deg", pitch_deg);
-  s.set("velocity", Point{oblique ? V : 0, 0, -V}).set("size", h);
+  drop.describe(body, s);
+  s.set("position", Point{0, 0, 1.0005 * body.low}).set("pitch_deg", drop.pitch_deg);
+  s.set("velocity", Point{drop.oblique ? V : 0, 0, -V}).set("size", drop.h());
   s.table("contact");
   m.scene = s.text();
-  m.laws = laws_of(body, 3, (oblique ? std::numbers::sqrt2 : 1) * V, h, basin.air);
+  m.laws = laws_of(body, 3, drop.speed(), drop.h(), basin.air);
   return m;
 }
 
