@@ -5,38 +5,15 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 
-add_library(splashdown_output STATIC
-  ${CMAKE_CURRENT_LIST_DIR}/attitude.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/csv.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/energy_statistics.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/filters.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/frames.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/gnuplot.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/hull_map.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/landing_statistics.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/plane_picture.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/pulse.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/recorder.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/recorder_energy.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/recorder_files.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/recorder_hulls.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/recorder_probes.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/recorder_rows.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/recorder_view.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_data.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_field.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_figures.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_html.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_hull.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_page.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_picture.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_study.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/report_words.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/statistics.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/summary.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/verdict.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/vtu_grid.cpp)
+set(output_sources
+  record/csv.cpp record/energy.cpp record/files.cpp record/frames.cpp record/hull_map.cpp record/hulls.cpp
+  record/probes.cpp record/recorder.cpp record/rows.cpp record/view.cpp record/vtu_grid.cpp
+  statistics/attitude.cpp statistics/energy_statistics.cpp statistics/filters.cpp statistics/landing_statistics.cpp
+  statistics/pulse.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict.cpp
+  report/data.cpp report/field.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp report/hull.cpp
+  report/page.cpp report/picture.cpp report/plane_picture.cpp report/report.cpp report/study.cpp report/words.cpp)
+list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
+add_library(splashdown_output STATIC ${output_sources})
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
 target_compile_options(splashdown_output PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Werror)
 target_precompile_headers(splashdown_output PRIVATE ${SPLASHDOWN_COMMON_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)

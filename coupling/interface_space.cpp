@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "rigid/mass_properties.hpp"
+#include "rigid/shapes/mass_properties.hpp"
 
 namespace splashdown::coupling {
 

@@ -12,7 +12,7 @@
 
 #include <string>
 
-#include "fluid/interface_laplacian.hpp"
+#include "fluid/pressure/interface_laplacian.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::coupling {
@@ -33,7 +33,7 @@ class NoTerm final : public InterfaceTerm<d> {
   fluid::StandIn stand_in(const rigid::Bodies<d>&, std::size_t) const override { return {}; }
 };
 
-/// Scaling and pieces: fluid/interface_laplacian.hpp.
+/// Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
 template <int d>
 class LaplacianTerm final : public InterfaceTerm<d> {
  public:
@@ -46,7 +46,7 @@ class LaplacianTerm final : public InterfaceTerm<d> {
 };
 
 /// Robin-Neumann: each piece of the hull answers like a mass of its own (Badia, Nobile, Vergara 2008; Astorino, Chouly,
-/// Fernandez 2010). Scaling and pieces: fluid/interface_laplacian.hpp.
+/// Fernandez 2010). Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
 template <int d>
 class RobinTerm final : public InterfaceTerm<d> {
  public:

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "fluid/contact/ventilation.hpp"
 #include "fluid/fluid_state.hpp"
-#include "fluid/initial.hpp"
+#include "fluid/initial/initial.hpp"
 #include "fluid/parallel.hpp"
-#include "fluid/ventilation.hpp"
 #include "fluid/wave_bound.hpp"
 
 namespace splashdown::fluid {

@@ -20,12 +20,12 @@
 #include <string>
 #include <vector>
 
-#include "fluid/mesh.hpp"
+#include "fluid/effects/term.hpp"
+#include "fluid/mesh/mesh.hpp"
 #include "fluid/nodes.hpp"
-#include "fluid/pressure.hpp"
+#include "fluid/pressure/pressure.hpp"
 #include "fluid/spec.hpp"
 #include "fluid/status.hpp"
-#include "fluid/term.hpp"
 
 namespace splashdown::fluid {
 

@@ -8,12 +8,12 @@
 #include <optional>
 #include <vector>
 
-#include "fluid/adapt.hpp"
-#include "fluid/contact.hpp"
+#include "fluid/contact/contact.hpp"
 #include "fluid/fluid.hpp"
-#include "fluid/moving_delaunay.hpp"
+#include "fluid/mesh/adapt.hpp"
+#include "fluid/mesh/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
-#include "fluid/pressure.hpp"
+#include "fluid/pressure/pressure.hpp"
 #include "fluid/timer.hpp"
 
 namespace splashdown::fluid {

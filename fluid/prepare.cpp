@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "fluid/droplets.hpp"
 #include "fluid/fluid_state.hpp"
-#include "fluid/landing.hpp"
+#include "fluid/mesh/droplets.hpp"
+#include "fluid/mesh/landing.hpp"
+#include "fluid/mesh/size_field.hpp"
 #include "fluid/parallel.hpp"
-#include "fluid/size_field.hpp"
 
 namespace splashdown::fluid {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fluid/pressure.hpp"
+#include "fluid/pressure/pressure.hpp"
 
 namespace splashdown::fluid {
 

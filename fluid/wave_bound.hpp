@@ -1,7 +1,7 @@
 // The largest step with which waves on the mesh stay stable.
 #pragma once
 
-#include "fluid/mesh.hpp"
+#include "fluid/mesh/mesh.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {

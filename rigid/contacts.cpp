@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rigid/simplex.hpp"
+#include "rigid/shapes/simplex.hpp"
 
 namespace splashdown::rigid {
 

@@ -9,9 +9,9 @@
 #include <memory>
 #include <numbers>
 
-#include "coupling/steppers.hpp"
-#include "fluid/delaunay.hpp"
-#include "fluid/pressure.hpp"
+#include "coupling/schemes/steppers.hpp"
+#include "fluid/mesh/delaunay.hpp"
+#include "fluid/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"
 
 namespace {

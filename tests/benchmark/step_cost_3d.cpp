@@ -10,9 +10,9 @@
 #include <memory>
 #include <numeric>
 
-#include "fluid/moving_delaunay.hpp"
+#include "fluid/mesh/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
-#include "fluid/pressure.hpp"
+#include "fluid/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"
 #include "tests/unit/coupling/ball_in_tank.hpp"
 

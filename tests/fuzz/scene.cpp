@@ -1,5 +1,5 @@
 // Scenes, with every check but the simulation.
-#include "apps/scene_read.hpp"
+#include "apps/scene/read/read.hpp"
 #include "reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

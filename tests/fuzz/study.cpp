@@ -1,5 +1,5 @@
 // Studies, without the scenes of their runs.
-#include "apps/study.hpp"
+#include "apps/study/study.hpp"
 
 #include "reader.hpp"
 

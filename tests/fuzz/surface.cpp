@@ -1,7 +1,7 @@
 // Hulls: the first byte says which format the rest is called.
-#include "fluid/surface_file.hpp"
+#include "fluid/initial/surface_file.hpp"
 #include "reader.hpp"
-#include "rigid/mass_properties.hpp"
+#include "rigid/shapes/mass_properties.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace splashdown;

@@ -1,7 +1,7 @@
 // All coupling schemes are one: the same bits twice, the same motion, and energy that neither side makes.
 #include <gtest/gtest.h>
 
-#include "coupling/quasi_newton.hpp"
+#include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown {

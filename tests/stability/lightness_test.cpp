@@ -1,7 +1,7 @@
 // Light bodies, small steps: acceleration (M_d - m) g / (m + M_a) and passes that do not grow.
 #include <gtest/gtest.h>
 
-#include "coupling/quasi_newton.hpp"
+#include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown {

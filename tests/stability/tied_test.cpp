@@ -1,7 +1,7 @@
 // Light bodies that joints and contacts hold, in water.
 #include <gtest/gtest.h>
 
-#include "coupling/quasi_newton.hpp"
+#include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown {

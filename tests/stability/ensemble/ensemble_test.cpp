@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "apps/scene_read.hpp"
+#include "apps/scene/read/read.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/stability/ensemble/classes.hpp"
 #include "tests/stability/ensemble/laws.hpp"

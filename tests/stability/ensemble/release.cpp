@@ -5,8 +5,8 @@
 #include <string>
 
 #include "apps/quantity/table.hpp"
-#include "apps/scene_geometry.hpp"
-#include "apps/scene_read.hpp"
+#include "apps/scene/geometry.hpp"
+#include "apps/scene/read/read.hpp"
 #include "tests/stability/ensemble/member.hpp"
 
 namespace splashdown::ensemble {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fluid/surface_file.hpp"
+#include "fluid/initial/surface_file.hpp"
 #include "tests/stability/ensemble/classes.hpp"
 #include "tests/stability/ensemble/random.hpp"
 #include "tests/stability/ensemble/scene_text.hpp"

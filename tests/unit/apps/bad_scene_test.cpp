@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "apps/scene_read.hpp"
+#include "apps/scene/read/read.hpp"
 #include "scenes.hpp"
 
 namespace splashdown::apps {

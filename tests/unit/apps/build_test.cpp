@@ -1,13 +1,13 @@
 // What a World is built from: poses, walls, effects that are there and effects that are not.
-#include "apps/build.hpp"
+#include "apps/run/build.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <numbers>
 
-#include "apps/approach.hpp"
-#include "apps/scene_read.hpp"
+#include "apps/run/approach.hpp"
+#include "apps/scene/read/read.hpp"
 #include "scenes.hpp"
 
 namespace splashdown::apps {

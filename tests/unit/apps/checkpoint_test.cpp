@@ -1,13 +1,13 @@
 // Checkpoints on disk: they read back, two generations are kept, damage is found, scenes are told apart.
-#include "apps/checkpoint.hpp"
+#include "apps/run/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <optional>
 
-#include "apps/resume.hpp"
-#include "apps/scene_read.hpp"
+#include "apps/run/resume.hpp"
+#include "apps/scene/read/read.hpp"
 #include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -9,8 +9,8 @@
 #include <new>
 #include <random>
 
-#include "apps/run.hpp"
-#include "apps/scene_read.hpp"
+#include "apps/run/run.hpp"
+#include "apps/scene/read/read.hpp"
 #include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "apps/scene_read.hpp"
-#include "apps/solid.hpp"
+#include "apps/scene/read/read.hpp"
+#include "apps/scene/solid.hpp"
 #include "scenes.hpp"
 
 namespace splashdown::apps {

@@ -1,7 +1,7 @@
 // --set changes any key under the same rules as the file.
 #include <gtest/gtest.h>
 
-#include "apps/scene_read.hpp"
+#include "apps/scene/read/read.hpp"
 #include "scenes.hpp"
 
 namespace splashdown::apps {

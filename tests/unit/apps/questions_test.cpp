@@ -1,12 +1,12 @@
 // What a scene may not mean is asked, once and with a proposal; scenes that mean it are left alone.
-#include "apps/questions.hpp"
+#include "apps/check/questions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <filesystem>
 
-#include "apps/scene_read.hpp"
+#include "apps/scene/read/read.hpp"
 #include "scenes.hpp"
 
 namespace splashdown::apps {

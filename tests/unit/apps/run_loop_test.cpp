@@ -1,11 +1,11 @@
 // The step loop with a stepper that needs no fluid: exact end times, refused steps, checkpoints, resumption.
-#include "apps/run_loop.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <sstream>
+
+#include "apps/run/loop.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene_read.hpp"
+#include "apps/scene/read/read.hpp"
 
 namespace splashdown::apps::testing {
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <numbers>
 
-#include "apps/build.hpp"
-#include "apps/cost.hpp"
-#include "apps/scales.hpp"
-#include "apps/scene_read.hpp"
-#include "apps/solid.hpp"
+#include "apps/check/cost.hpp"
+#include "apps/check/scales.hpp"
+#include "apps/run/build.hpp"
+#include "apps/scene/read/read.hpp"
+#include "apps/scene/solid.hpp"
 #include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,6 +1,6 @@
 // Studies: how axes expand, which files are refused and how, what folders count as finished, what is
 // measured.
-#include "apps/study.hpp"
+#include "apps/study/study.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <set>
 #include <sstream>
 
-#include "apps/study_chart.hpp"
-#include "apps/study_folder.hpp"
-#include "apps/study_run.hpp"
-#include "apps/study_slurm.hpp"
-#include "apps/study_table.hpp"
+#include "apps/study/chart.hpp"
+#include "apps/study/folder.hpp"
+#include "apps/study/run.hpp"
+#include "apps/study/slurm.hpp"
+#include "apps/study/table.hpp"
 #include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
 

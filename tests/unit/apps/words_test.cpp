@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "apps/closing.hpp"
-#include "apps/commands.hpp"
-#include "apps/cost.hpp"
-#include "apps/progress.hpp"
-#include "apps/run_folder.hpp"
-#include "apps/scales.hpp"
-#include "apps/scene_read.hpp"
-#include "apps/verdict.hpp"
+#include "apps/check/cost.hpp"
+#include "apps/check/scales.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/run/closing.hpp"
+#include "apps/run/folder.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/scene/read/read.hpp"
+#include "apps/statistics/verdict.hpp"
 #include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
 

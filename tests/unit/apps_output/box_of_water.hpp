@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "fluid/mesh.hpp"
+#include "fluid/mesh/mesh.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::apps {

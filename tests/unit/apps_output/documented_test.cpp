@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/frames.hpp"
-#include "apps/recorder_rows.hpp"
+#include "apps/record/frames.hpp"
+#include "apps/record/rows.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/energy_statistics.hpp"
+#include "apps/statistics/energy_statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "apps/recorder_energy.hpp"
+#include "apps/record/energy.hpp"
 #include "box_of_water.hpp"
 #include "stand_ins.hpp"
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "apps/pulse.hpp"
+#include "apps/statistics/pulse.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,10 +1,10 @@
-#include "apps/landing_statistics.hpp"
+#include "apps/statistics/landing_statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "apps/recorder_view.hpp"
+#include "apps/record/view.hpp"
 
 namespace splashdown::apps {
 namespace {

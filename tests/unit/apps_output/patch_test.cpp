@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/recorder_probes.hpp"
+#include "apps/record/probes.hpp"
 #include "box_of_water.hpp"
 
 namespace splashdown::apps {

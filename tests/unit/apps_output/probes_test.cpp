@@ -1,8 +1,8 @@
+#include "apps/record/probes.hpp"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
-
-#include "apps/recorder_probes.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,11 +1,11 @@
-#include "apps/pulse.hpp"
+#include "apps/statistics/pulse.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "apps/statistics.hpp"
+#include "apps/statistics/statistics.hpp"
 
 namespace splashdown::apps {
 namespace {

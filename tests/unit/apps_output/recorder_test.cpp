@@ -1,4 +1,4 @@
-#include "apps/recorder.hpp"
+#include "apps/record/recorder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/recorder_rows.hpp"
-#include "apps/recorder_view.hpp"
-#include "apps/report_data.hpp"
+#include "apps/record/rows.hpp"
+#include "apps/record/view.hpp"
+#include "apps/report/data.hpp"
 #include "recorded_runs.hpp"
 
 namespace splashdown::apps {

@@ -1,15 +1,15 @@
-#include "apps/report.hpp"
+#include "apps/report/report.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "apps/gnuplot.hpp"
-#include "apps/plain_text.hpp"
-#include "apps/report_figures.hpp"
-#include "apps/report_words.hpp"
-#include "apps/verdict.hpp"
+#include "apps/cli/plain_text.hpp"
+#include "apps/report/figures.hpp"
+#include "apps/report/gnuplot.hpp"
+#include "apps/report/words.hpp"
+#include "apps/statistics/verdict.hpp"
 #include "stand_ins.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/schedule.hpp"
+#include "apps/record/schedule.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/plane_picture.hpp"
-#include "apps/recorder_view.hpp"
-#include "apps/report.hpp"
-#include "apps/report_data.hpp"
+#include "apps/record/view.hpp"
+#include "apps/report/data.hpp"
+#include "apps/report/plane_picture.hpp"
+#include "apps/report/report.hpp"
 #include "recorded_runs.hpp"
 
 namespace splashdown::apps {

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "apps/recorder.hpp"
+#include "apps/record/recorder.hpp"
 
 namespace splashdown::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/summary.hpp"
+#include "apps/statistics/summary.hpp"
 
 #include <gtest/gtest.h>
 

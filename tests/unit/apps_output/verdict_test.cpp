@@ -1,4 +1,4 @@
-#include "apps/verdict.hpp"
+#include "apps/statistics/verdict.hpp"
 
 #include <gtest/gtest.h>
 

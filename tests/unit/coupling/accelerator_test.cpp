@@ -5,7 +5,7 @@
 #include <memory>
 #include <sstream>
 
-#include "coupling/quasi_newton.hpp"
+#include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/maps.hpp"
 
 namespace splashdown::coupling {

@@ -1,7 +1,7 @@
 // A ball and a tank of water in space, which the tests of stability and the benchmark share.
 #pragma once
 
-#include "rigid/solids.hpp"
+#include "rigid/shapes/solids.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown::coupling::scenes {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/accelerator.hpp"
+#include "coupling/accelerators/accelerator.hpp"
 
 namespace splashdown::coupling::maps {
 

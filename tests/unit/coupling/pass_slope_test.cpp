@@ -1,5 +1,5 @@
 // The slope that both sides know before the first pass, against its definition and against passes that are made.
-#include "coupling/pass_slope.hpp"
+#include "coupling/accelerators/pass_slope.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What accelerators learn from passes and keep across steps. Laws that all obey: accelerator_test.cpp.
-#include "coupling/quasi_newton.hpp"
+#include "coupling/accelerators/quasi_newton.hpp"
 
 #include <gtest/gtest.h>
 

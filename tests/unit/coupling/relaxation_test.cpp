@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/accelerator.hpp"
+#include "coupling/accelerators/accelerator.hpp"
 #include "tests/unit/coupling/maps.hpp"
 
 namespace splashdown::coupling {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/steppers.hpp"
-#include "rigid/shapes.hpp"
+#include "coupling/schemes/steppers.hpp"
+#include "rigid/shapes/shapes.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::coupling::scenes {

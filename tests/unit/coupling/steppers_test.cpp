@@ -1,10 +1,10 @@
-#include "coupling/steppers.hpp"
+#include "coupling/schemes/steppers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "coupling/quasi_newton.hpp"
+#include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown::coupling {

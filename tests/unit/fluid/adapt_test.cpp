@@ -1,4 +1,4 @@
-#include "fluid/adapt.hpp"
+#include "fluid/mesh/adapt.hpp"
 
 #include <gtest/gtest.h>
 

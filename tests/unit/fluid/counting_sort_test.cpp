@@ -1,4 +1,4 @@
-#include "fluid/counting_sort.hpp"
+#include "fluid/linear/counting_sort.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "fluid/delaunay.hpp"
+#include "fluid/mesh/delaunay.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <set>
 
-#include "fluid/moving_delaunay.hpp"
+#include "fluid/mesh/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "fluid/droplets.hpp"
+#include "fluid/mesh/droplets.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fluid/facet_tree.hpp"
+#include "fluid/mesh/facet_tree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fluid/initial.hpp"
+#include "fluid/initial/initial.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "fluid/size_field.hpp"
+#include "fluid/mesh/size_field.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

@@ -1,8 +1,8 @@
-#include "fluid/inside.hpp"
+#include "fluid/mesh/inside.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fluid/facet_tree.hpp"
+#include "fluid/mesh/facet_tree.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

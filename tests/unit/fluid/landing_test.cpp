@@ -1,4 +1,4 @@
-#include "fluid/landing.hpp"
+#include "fluid/mesh/landing.hpp"
 
 #include <gtest/gtest.h>
 

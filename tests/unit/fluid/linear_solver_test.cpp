@@ -1,4 +1,4 @@
-#include "fluid/linear_solver.hpp"
+#include "fluid/linear/linear_solver.hpp"
 
 #include <gtest/gtest.h>
 

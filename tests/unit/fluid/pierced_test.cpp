@@ -1,4 +1,4 @@
-#include "fluid/pierced.hpp"
+#include "fluid/mesh/pierced.hpp"
 
 #include <gtest/gtest.h>
 

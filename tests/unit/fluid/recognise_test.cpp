@@ -1,4 +1,4 @@
-#include "fluid/recognise.hpp"
+#include "fluid/mesh/recognise.hpp"
 
 #include <gtest/gtest.h>
 

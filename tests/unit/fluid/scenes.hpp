@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "fluid/delaunay.hpp"
 #include "fluid/fluid.hpp"
-#include "fluid/initial.hpp"
+#include "fluid/initial/initial.hpp"
+#include "fluid/mesh/delaunay.hpp"
 
 namespace splashdown::fluid::scenes {
 

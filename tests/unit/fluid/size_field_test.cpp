@@ -1,4 +1,4 @@
-#include "fluid/size_field.hpp"
+#include "fluid/mesh/size_field.hpp"
 
 #include <gtest/gtest.h>
 

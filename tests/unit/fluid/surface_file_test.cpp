@@ -1,5 +1,5 @@
 // Hulls from files: what is read, and what is refused with what, where and how to repair.
-#include "fluid/surface_file.hpp"
+#include "fluid/initial/surface_file.hpp"
 
 #include <gtest/gtest.h>
 

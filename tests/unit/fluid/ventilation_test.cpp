@@ -1,8 +1,8 @@
-#include "fluid/ventilation.hpp"
+#include "fluid/contact/ventilation.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fluid/contact.hpp"
+#include "fluid/contact/contact.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

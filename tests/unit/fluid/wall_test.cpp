@@ -1,4 +1,4 @@
-#include "fluid/wall.hpp"
+#include "fluid/contact/wall.hpp"
 
 #include <gtest/gtest.h>
 

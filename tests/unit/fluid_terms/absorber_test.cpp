@@ -1,4 +1,4 @@
-#include "fluid/absorber.hpp"
+#include "fluid/effects/absorber.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "coupling/steppers.hpp"
+#include "coupling/schemes/steppers.hpp"
 #include "fluid/fluid.hpp"
 
 namespace splashdown::fluid::testing {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "fluid/term.hpp"
+#include "fluid/effects/term.hpp"
 
 namespace splashdown::fluid::testing {
 

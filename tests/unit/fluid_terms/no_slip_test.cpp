@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "basin.hpp"
-#include "fluid/viscosity.hpp"
+#include "fluid/effects/viscosity.hpp"
 
 namespace splashdown::fluid {
 namespace {

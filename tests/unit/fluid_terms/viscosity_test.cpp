@@ -1,5 +1,5 @@
 // Laws of the viscous predictor on a block of fluid, without pressure.
-#include "fluid/viscosity.hpp"
+#include "fluid/effects/viscosity.hpp"
 
 #include <gtest/gtest.h>
 

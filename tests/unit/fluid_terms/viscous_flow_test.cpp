@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "basin.hpp"
-#include "fluid/viscosity.hpp"
+#include "fluid/effects/viscosity.hpp"
 
 namespace splashdown::fluid {
 namespace {

@@ -1,7 +1,7 @@
 // Laws of bodies that touch.
 #include <gtest/gtest.h>
 
-#include "rigid/shapes.hpp"
+#include "rigid/shapes/shapes.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
 namespace splashdown::rigid {

@@ -1,11 +1,11 @@
-#include "rigid/hydrostatics.hpp"
+#include "rigid/shapes/hydrostatics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "rigid/solids.hpp"
+#include "rigid/shapes/solids.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
 namespace splashdown::rigid {

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "rigid/mass_properties.hpp"
+#include "rigid/shapes/mass_properties.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
 namespace splashdown::rigid {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "rigid/shapes.hpp"
+#include "rigid/shapes/shapes.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
 namespace splashdown::rigid {

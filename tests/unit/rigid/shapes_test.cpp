@@ -1,4 +1,4 @@
-#include "rigid/shapes.hpp"
+#include "rigid/shapes/shapes.hpp"
 
 #include <gtest/gtest.h>
 

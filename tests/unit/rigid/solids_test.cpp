@@ -1,5 +1,5 @@
 // Bodies in space: closed, outward, on the exact surface, well-shaped, with the mass properties of the exact shape.
-#include "rigid/solids.hpp"
+#include "rigid/shapes/solids.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // A program that knows the installed package only: one step of a circle under water.
 #include <cstdio>
 
-#include "coupling/steppers.hpp"
-#include "rigid/hydrostatics.hpp"
-#include "rigid/shapes.hpp"
+#include "coupling/schemes/steppers.hpp"
+#include "rigid/shapes/hydrostatics.hpp"
+#include "rigid/shapes/shapes.hpp"
 
 namespace sp = splashdown;
 

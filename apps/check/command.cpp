@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/check/body.hpp"
+#include "apps/check/cost.hpp"
+#include "apps/check/questions.hpp"
+#include "apps/check/scales.hpp"
+#include "apps/check/words.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/cli/plain_text.hpp"
+#include "apps/run/closing.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/scene/geometry.hpp"
+#include "apps/scene/read/read.hpp"
+
+namespace splashdown::apps {
+
+void row(const std::string& head, const std::string& text) { fmt::print("  {:<22}{}\n", head, text); }
+
+std::string rough(double value) {
+  if (!(value >= 10 && value < 1e7)) return fmt::format("{:.2g}", value);
+  const double step = std::pow(10., std::floor(std::log10(value)) - 1);
+  return fmt::format("{:.0f}", std::round(value / step) * step);
+}
+
+namespace {
+
+template <int d>
+void print_ties(const Scene& scene) {
+  for (const auto& joint : scene.joints) {
+    const std::string other = joint.other ? scene.bodies[*joint.other].name : "the world";
+    const std::string where = joint.type == "hinge"    ? fmt::format(" at {} m", text<d>(vec<d>(joint.point)))
+                              : joint.type == "slider" ? fmt::format(" along {}", text<d>(vec<d>(joint.axis)))
+                                                       : "";
+    row(joint.type, fmt::format("{} to {}{}", scene.bodies[joint.body].name, other, where));
+  }
+  if (scene.contact)
+    row("contact",
+        fmt::format("bodies touch each other{}; no rebound, no friction", scene.tank ? " and the tank" : ""));
+}
+
+template <int d>
+void print_liquid(const Scene& scene) {
+  if (!scene.fluid) return;
+  const auto& fluid = *scene.fluid;
+  fmt::print("liquid\n");
+  row("density", fmt::format("{:g} kg/m^3", fluid.density));
+  row("regions", fmt::format("{}", fluid.regions.size()));
+  if (scene.gravity) row("still water level", fmt::format("{:.6g} m", *still_water_level<d>(scene)));
+  row("element sizes", fmt::format("{:g} m at the surface, {:g} m at most, growing {:g} per metre", fluid.size.surface,
+                                   fluid.size.far, fluid.size.growth));
+  if (scene.tank) row("tank", text<d>(extents<d>(*scene.tank)) + " m");
+}
+
+template <int d>
+void print_effects(const Scene& scene) {
+  fmt::print("effects\n");
+  for (const auto& note : effect_notes<d>(scene)) row((note.active ? "on   " : "off  ") + note.name, note.reason);
+  for (const auto& note : neglected<d>(scene)) row("-    " + note.name, note.reason);
+  if (!scene.coupling) return;
+  const auto& c = *scene.coupling;
+  std::string accelerator = fmt::format("accelerator {} from relaxation {:g}", c.accelerator, c.relaxation);
+  if (c.accelerator == "anderson") accelerator += fmt::format(", depth {}", c.depth);
+  if (c.accelerator == "iqn_ils") accelerator += fmt::format(", reuse {}", c.reuse);
+  row("coupling", fmt::format("{}, interface term {}, {}, tolerance {:g}, at most {} passes", c.scheme,
+                              c.interface_term, accelerator, c.tolerance, c.max_passes));
+}
+
+template <int d>
+void print_cost(const Scene& scene, const Cost& cost) {
+  fmt::print("cost (predicted)\n");
+  row("steps", fmt::format("about {} to t = {:g} s; dt about {}, at most {}", rough(cost.steps), scene.time.end,
+                           with_unit(cost.dt, "s"), with_unit(scene.time.dt_max, "s")));
+  if (!scene.fluid) return;
+  const std::string about = cost.at_least ? "> " : "about ";
+  const bool grows = cost.nodes_most > 1.1 * cost.nodes;  // what two digits show
+  row("nodes",
+      about + rough(cost.nodes) + " at the start" + (grows ? ", " + rough(cost.nodes_most) + " later on" : ""));
+  row("memory", about + with_unit(cost.bytes, "B"));
+  row("a step", about + with_unit(cost.seconds_per_step, "s") + " on one core");
+  row("the run", about + clock_text(cost.steps * cost.seconds_per_step) + " on one core");
+  if (scene.fluid->size.hollow)
+    row("not counted", "finer elements at hollows (hollow): more nodes, shorter steps and a longer run than said");
+}
+
+/// Everything a good scene says.
+template <int d>
+void print_scene(const Scene& scene) {
+  const auto s = scales<d>(scene);
+  row("units", d == 2 ? "SI; two-dimensional masses, loads and volumes are per metre of depth" : "SI");
+  row("scales", fmt::format("L = {:.4g} m, U = {:.4g} m/s, L/U = {}", s.length, s.speed,
+                            s.speed > 0 ? with_unit(s.length / s.speed, "s") : "-"));
+  print_liquid<d>(scene);
+  for (const auto& body : scene.bodies) print_body<d>(scene, body);
+  print_ties<d>(scene);
+  print_effects<d>(scene);
+  const auto cost = predicted_cost<d>(scene);
+  print_cost<d>(scene, cost);
+  auto asked = questions<d>(scene, cost);
+  if (const auto why = too_large(cost))
+    asked.push_back(*why + ": did you mean larger element sizes, or lengths in another unit? run asks for --large");
+  if (!asked.empty()) fmt::print("questions\n");
+  for (const auto& question : asked) fmt::print("  {}\n", question);
+}
+
+}  // namespace
+
+int check_command(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  SceneFile file;
+  try {
+    file = read_scene(path, overrides);
+  } catch (const SceneError& error) {
+    return bad_input(error.what());
+  }
+  const auto& scene = file.scene;
+  fmt::print("{}: {}\n", path.string(), scene.title.empty() ? "(no title)" : one_line(scene.title));
+  for (const auto& note : file.notes) fmt::print("  note: {}\n", one_line(note));
+  scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
+  fmt::print("The scene is good. Run it with: splashdown run {}\n", path.string());
+  return exit_code::done;
+}
+
+}  // namespace splashdown::apps

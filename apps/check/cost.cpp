@@ -1,0 +1,251 @@
+#include "apps/check/cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <queue>
+
+#include "apps/check/motion_guess.hpp"
+#include "apps/check/scales.hpp"
+#include "apps/run/build.hpp"
+#include "apps/scene/solid.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using rigid::Surface;
+using rigid::Vec;
+
+// Medians of what the shipped examples take of one core: 600 to 15000 nodes in the plane, 4000 to 70000 in space.
+template <int d>
+struct Share;
+template <>
+struct Share<2> {
+  static constexpr double bytes_a_node = 2e3;
+  static constexpr double seconds_a_node = 6e-6;
+  static constexpr double seconds_a_pass = 0.5e-6;  // a node: one more back-substitution
+  static double nodes(double h) { return 2 / (std::numbers::sqrt3 * h * h); }
+};
+template <>
+struct Share<3> {
+  static constexpr double bytes_a_node = 1e4;
+  static constexpr double seconds_a_node = 4e-5;
+  static constexpr double seconds_a_pass = 2e-6;
+  static double nodes(double h) { return std::numbers::sqrt2 / (h * h * h); }
+};
+constexpr double bytes_of_program = 1e8;
+// Cells that an estimate looks at, at most: in about a second several times the nodes that are run unasked.
+constexpr std::size_t most_cells = 400'000;
+// Nodes in jets and in water that rises, over those that an entering hull itself brings: median of the examples.
+constexpr double jets = 1.8;
+
+/// The element size that a scene asks for and the liquid it fills, with the bodies where they are at a time. The
+/// liquid is that of t = 0: what rises beside a hull is not in it.
+template <int d>
+class SizeEstimate {
+ public:
+  SizeEstimate(const Scene& scene, double time) : size_(scene.fluid->size) {
+    for (const auto& region : scene.fluid->regions) regions_.emplace_back(outline<d>(region));
+    for (const auto& body : scene.bodies) {
+      const Vec<d> moved = guessed_motion<d>(scene, body, time);
+      auto hull = outline<d>(body);
+      hull.vertices.colwise() += moved;
+      const double size = std::max(body.size, size_.wetted_fraction * wetted_half<d>(scene, body, time));
+      bodies_.emplace_back(Solid<d>(hull), size);
+      for (auto bend : hull_bends<d>(scene, body)) {
+        bend.at += moved;
+        if (bend.size >= body.size) continue;
+        bends_.push_back(bend);
+        bend_box_.extend(bend.at);
+        least_bend_ = std::min(least_bend_, bend.size);
+      }
+    }
+    if (scene.tank) {
+      tank_ = extents<d>(*scene.tank);
+      tank_size_ = scene.tank->size;
+    }
+    find_free_surface();
+  }
+
+  double growth() const { return size_.growth; }
+  double far() const { return size_.far; }
+  const std::vector<Solid<d>>& regions() const { return regions_; }
+
+  double h(const Vec<d>& x) const {
+    double h = size_.far;
+    for (const auto& [hull, size] : bodies_) h = std::min(h, grown(size, hull.distance(x)));
+    if (!tank_.isEmpty()) h = std::min(h, grown(tank_size_, to_tank(x)));
+    if (!bends_.empty() && grown(least_bend_, bend_box_.exteriorDistance(x)) < h)
+      for (const auto& bend : bends_) h = std::min(h, grown(bend.size, (x - bend.at).norm()));
+    if (free_.empty()) return h;
+    const auto nearest = free_.nearest(x, std::numeric_limits<double>::max());
+    return std::min(h, grown(size_.surface, std::sqrt(nearest.squared_distance)));
+  }
+
+  bool is_liquid(const Vec<d>& x) const {
+    if (!tank_.isEmpty() && !tank_.contains(x)) return false;
+    for (const auto& [hull, size] : bodies_)
+      if (hull.contains(x)) return false;
+    return std::any_of(regions_.begin(), regions_.end(), [&](const auto& region) { return region.contains(x); });
+  }
+
+ private:
+  double grown(double size, double distance) const { return size + size_.growth * distance; }
+
+  double to_tank(const Vec<d>& x) const {
+    return std::max(0., std::min((x - tank_.min()).minCoeff(), (tank_.max() - x).minCoeff()));
+  }
+
+  /// Facets of regions that lie along no wall.
+  void find_free_surface() {
+    Eigen::Index vertices = 0, facets = 0;
+    for (const auto& region : regions_) {
+      vertices += region.surface().vertices.cols();
+      facets += region.surface().facets.cols();
+    }
+    Surface<d> all;
+    all.vertices.resize(d, vertices);
+    all.facets.resize(d, facets);
+    vertices = facets = 0;
+    for (const auto& region : regions_) {
+      const auto& surface = region.surface();
+      const double near = 1e-6 * region.extents().diagonal().norm();
+      for (Eigen::Index i = 0; i < surface.facets.cols(); ++i) {
+        Vec<d> middle = Vec<d>::Zero();
+        for (int k = 0; k < d; ++k) middle += surface.vertices.col(surface.facets(k, i)) / d;
+        if (!tank_.isEmpty() && !(tank_.contains(middle) && to_tank(middle) > near)) continue;
+        all.facets.col(facets++) = surface.facets.col(i).array() + static_cast<int>(vertices);
+      }
+      all.vertices.middleCols(vertices, surface.vertices.cols()) = surface.vertices;
+      vertices += surface.vertices.cols();
+    }
+    all.facets.conservativeResize(d, facets);
+    free_ = fluid::FacetTree<d>(all.vertices, all.facets);
+  }
+
+  Sizes size_;
+  std::vector<Solid<d>> regions_;
+  std::vector<std::pair<Solid<d>, double>> bodies_;
+  std::vector<HullBend<d>> bends_;
+  Extents<d> bend_box_;  // far from it no bend makes elements smaller
+  double least_bend_ = std::numeric_limits<double>::max();
+  Extents<d> tank_;
+  double tank_size_ = 0;
+  fluid::FacetTree<d> free_;
+};
+
+struct Count {
+  double nodes = 0;
+  bool at_least = false;  ///< there are more: not all cells could be looked at
+};
+
+/// Nodes in a box: cells are halved until h changes little across them, those that hold most nodes first. Cells that
+/// are left when enough have been looked at count with the largest h that they can have.
+template <int d>
+Count nodes_in(const SizeEstimate<d>& estimate, const Extents<d>& all) {
+  struct Cell {
+    Extents<d> box;
+    double h, nodes;
+    bool operator<(const Cell& other) const { return nodes < other.nodes; }
+  };
+  const auto looked_at = [&](const Extents<d>& box) {
+    const double h = estimate.h(box.center());
+    // h grows by `growth` a metre at most, and what is sorted by must be finite.
+    const double least = std::max(h - estimate.growth() * box.diagonal().norm() / 2, 0.1 * h);
+    return Cell{box, h, std::min(box.volume() * Share<d>::nodes(least), std::numeric_limits<double>::max())};
+  };
+  Count count;
+  std::priority_queue<Cell> open;
+  open.push(looked_at(all));
+  std::size_t cells = 1;
+  while (!open.empty()) {
+    const Cell cell = open.top();
+    open.pop();
+    const Vec<d> x = cell.box.center();
+    const bool coarse = cell.box.sizes().maxCoeff() > std::max(2 * cell.h, 0.25 * cell.h / estimate.growth());
+    if (coarse && cells < most_cells) {
+      for (int corner = 0; corner < 1 << d; ++corner, ++cells) {
+        Extents<d> part(x);
+        part.extend(cell.box.corner(static_cast<typename Extents<d>::CornerType>(corner)));
+        open.push(looked_at(part));
+      }
+      continue;
+    }
+    if (!estimate.is_liquid(x)) continue;
+    const double spread = estimate.growth() * cell.box.diagonal().norm() / 2;
+    const double widest = coarse ? std::min(cell.h + spread, std::max(cell.h, estimate.far())) : cell.h;
+    count.nodes += cell.box.volume() * Share<d>::nodes(widest);
+    count.at_least = count.at_least || coarse;
+  }
+  return count;
+}
+
+template <int d>
+double finest(const Scene& scene) {
+  double h = scene.fluid->size.surface;
+  for (const auto& body : scene.bodies) {
+    h = std::min(h, body.size);
+    for (const auto& bend : hull_bends<d>(scene, body)) h = std::min(h, bend.size);
+  }
+  return h;
+}
+
+/// Elements that the contact line meets on the hull in the course of the run.
+template <int d>
+double elements_run_over(const Scene& scene, const Body& body) {
+  const double from = wetted_half<d>(scene, body, 0), to = wetted_half<d>(scene, body, scene.time.end);
+  if (to <= from) return 0;
+  const double share = scene.fluid->size.wetted_fraction, grown = share > 0 ? body.size / share : to;
+  const double middle = std::clamp(grown, from, to);  // from here on elements have `share` of the wetted half
+  return (middle - from) / body.size + (middle < to ? std::log(to / middle) / share : 0);
+}
+
+template <int d>
+Count nodes_at(const Scene& scene, double time) {
+  const SizeEstimate<d> estimate(scene, time);
+  Extents<d> all;
+  for (const auto& region : estimate.regions()) all.extend(region.extents());
+  if (scene.tank) all = all.intersection(extents<d>(*scene.tank));
+  return nodes_in<d>(estimate, all);
+}
+
+}  // namespace
+
+template <int d>
+Cost predicted_cost(const Scene& scene) {
+  Cost cost;
+  cost.dt = scene.time.dt_max;
+  double mean = 0;
+  if (scene.fluid) {
+    // Times at which the bodies' places are looked at: quarters of the run, by the trapezoidal rule.
+    const int quarters = scene.bodies.empty() ? 0 : 4;
+    for (int i = 0; i <= quarters; ++i) {
+      auto [nodes, at_least] = nodes_at<d>(scene, quarters > 0 ? scene.time.end * i / quarters : 0);
+      if (i == 0) cost.nodes = nodes;
+      if (nodes > cost.nodes) nodes += jets * (nodes - cost.nodes);
+      cost.nodes_most = std::max(cost.nodes_most, nodes);
+      cost.at_least = cost.at_least || at_least;
+      mean += quarters > 0 ? nodes * (i == 0 || i == quarters ? 0.5 : 1) / quarters : nodes;
+      if (at_least) {  // large enough to be asked about: the other times cost time and say nothing new
+        mean = nodes;
+        break;
+      }
+    }
+    const double speed = scales<d>(scene).speed;
+    if (speed > 0) cost.dt = std::min(cost.dt, scene.time.cfl * finest<d>(scene) / speed);
+  }
+  cost.steps = scene.time.end / cost.dt;
+  if (scene.fluid)
+    for (const auto& body : scene.bodies)
+      cost.steps = std::max(cost.steps, elements_run_over<d>(scene, body) / scene.time.cfl);
+  cost.dt = scene.time.end / cost.steps;
+  cost.bytes = bytes_of_program + Share<d>::bytes_a_node * cost.nodes_most;
+  cost.seconds_per_step = mean * (Share<d>::seconds_a_node + (scene.coupling ? 2 * Share<d>::seconds_a_pass : 0));
+  return cost;
+}
+
+template Cost predicted_cost<2>(const Scene&);
+template Cost predicted_cost<3>(const Scene&);
+
+}  // namespace splashdown::apps

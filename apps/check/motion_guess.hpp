@@ -1,0 +1,24 @@
+// Where a body will be, without a run: for what a run costs, not for results.
+#pragma once
+
+#include "apps/scene/geometry.hpp"
+
+namespace splashdown::apps {
+
+/// Displacement of the body between t = 0 and `time` [m], without its turning. Prescribed motion as prescribed; free
+/// bodies fall to the water and go on as after a plastic impact on the mass of water that a flat plate of their plan
+/// area would meet, at most until the hull is all under water or beside the tank's walls.
+template <int d>
+rigid::Vec<d> guessed_motion(const Scene& scene, const Body& body, double time);
+
+/// Half the breadth of what will be under water at a time [m], with the water that rises beside a wedge, pi/2 of the
+/// depth (Wagner 1932); at t = 0 without it.
+template <int d>
+double wetted_half(const Scene& scene, const Body& body, double time);
+
+/// What the water adds to a plate on its surface: half of pi/4 b^2 rho a metre for a strip of breadth b, half of
+/// 8/3 rho c^3 for a disc of radius c with the hull's plan area (Lamb 1932, articles 71, 102).
+double impact_mass(double density, const rigid::Surface<2>& hull);
+double impact_mass(double density, const rigid::Surface<3>& hull);
+
+}  // namespace splashdown::apps

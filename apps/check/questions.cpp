@@ -1,0 +1,120 @@
+#include "apps/check/questions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/check/scales.hpp"
+#include "apps/check/words.hpp"
+#include "apps/run/closing.hpp"
+#include "apps/scene/geometry.hpp"
+#include "apps/scene/rules/rules.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using Questions = std::vector<std::string>;
+
+// Who mistakes a unit is wrong by a thousand: mm for m, ms for s, g/cm^3 for kg/m^3.
+constexpr double unit_slip = 1000;
+
+void ask_about_density(const Scene& scene, Questions& list) {
+  const double lightest = 70, heaviest = 13600;  // liquid hydrogen, mercury [kg/m^3]
+  const double density = scene.fluid->density;
+  const double other = density < lightest ? density * unit_slip : density / unit_slip;
+  if (density >= lightest && density <= heaviest) return;
+  list.push_back(fmt::format(
+      "fluid.density = {:g}: {} than any liquid (liquid hydrogen {:g}, mercury {:g} kg/m^3): did you mean {:g}?",
+      density, density < lightest ? "lighter" : "heavier", lightest, heaviest,
+      other >= lightest && other <= heaviest ? other : 1000));
+}
+
+template <int d>
+void ask_about_gravity(const Scene& scene, Questions& list) {
+  auto pull = scene.gravity->acceleration;
+  if (pull[d - 1] > 0) {
+    const auto given = fmt::format("{:g}", pull[d - 1]);
+    list.push_back(fmt::format("gravity.acceleration points upward ({} along {}): did you mean {}?", given,
+                               d == 2 ? "y" : "z", axis_example(d, -pull[d - 1])));
+  }
+  const bool held = std::ranges::any_of(scene.bodies, [](const Body& body) { return body.motion != Motion::free; });
+  if (scene.fluid && !scene.tank && !held)
+    list.emplace_back(
+        "there is gravity, but nothing holds the liquid: it falls freely, and what floats in it too: did you mean to "
+        "write a [tank] with min and max?");
+}
+
+template <int d>
+void ask_about_extent(const Body& body, Questions& list) {
+  const double ship = 460, insect = 1e-3;  // [m] larger and smaller things than these do not land on water
+  const double extent = extents<d>(outline<d>(body)).sizes().maxCoeff();
+  if (extent <= ship && extent >= insect) return;
+  const double factor = extent > ship ? 1 / unit_slip : unit_slip;
+  const char* unit = extent > ship ? "in millimetres" : "in metres already";
+  if (const auto* file = std::get_if<SurfaceShape>(&body.shape))
+    list.push_back(fmt::format(
+        "body.{} is {:.3g} m long: is its file {}? Did you mean shape.scale = {:g}, which makes it {:.3g} m long?",
+        body.name, extent, unit, file->scale * factor, extent * factor));
+  else
+    list.push_back(fmt::format("body.{} is {:.3g} m long: are its lengths {}? Did you mean {:.3g} m?", body.name,
+                               extent, unit, extent * factor));
+}
+
+template <int d>
+void ask_about_sizes(const Scene& scene, Questions& list) {
+  // The finest of the shipped examples has 2000 elements across a body, 6000 across a tank.
+  const double most_across_body = 1e4, most_across_liquid = 1e5;
+  const auto ask = [&](const std::string& key, double size, double extent, double most, const std::string& what) {
+    if (extent / size > most)
+      list.push_back(fmt::format("{} = {:g} m: {} elements across {} of {:g} m: did you mean {:g} m?", key, size,
+                                 rough(extent / size), what, extent, size * unit_slip));
+  };
+  Extents<d> liquid;
+  for (const auto& region : scene.fluid->regions) liquid.extend(extents<d>(outline<d>(region)));
+  ask("fluid.size.surface", scene.fluid->size.surface, liquid.sizes().maxCoeff(), most_across_liquid, "the liquid");
+  for (const auto& body : scene.bodies)
+    if (body.size != scene.fluid->size.surface)
+      ask("body." + body.name + ".size", body.size, extents<d>(outline<d>(body)).sizes().maxCoeff(), most_across_body,
+          "the body");
+}
+
+template <int d>
+void ask_about_end(const Scene& scene, const Cost& cost, Questions& list) {
+  const double many_steps = 1e5, many_times = 1e3;  // twenty and ten times those of the longest example
+  const auto s = scales<d>(scene);
+  const double turnover = s.speed > 0 ? s.length / s.speed : 0;
+  if (turnover == 0 || cost.steps < many_steps || scene.time.end < many_times * turnover) return;
+  list.push_back(
+      fmt::format("time.end = {:g} s: about {} steps, {} times the {} in which things move by their length: did you "
+                  "mean {:g} s?",
+                  scene.time.end, rough(cost.steps), rough(scene.time.end / turnover), with_unit(turnover, "s"),
+                  scene.time.end / unit_slip));
+}
+
+}  // namespace
+
+template <int d>
+Questions questions(const Scene& scene, const Cost& cost) {
+  Questions list;
+  if (scene.gravity) ask_about_gravity<d>(scene, list);
+  for (const auto& body : scene.bodies) ask_about_extent<d>(body, list);
+  if (scene.fluid) {
+    ask_about_density(scene, list);
+    ask_about_sizes<d>(scene, list);
+  }
+  ask_about_end<d>(scene, cost, list);
+  return list;
+}
+
+std::optional<std::string> too_large(const Cost& cost) {
+  if (cost.bytes <= memory_unasked) return {};
+  return fmt::format("the run takes {} {} of memory for {} nodes, more than the {} that are taken unasked",
+                     cost.at_least ? "more than" : "about", with_unit(cost.bytes, "B"), rough(cost.nodes_most),
+                     with_unit(memory_unasked, "B"));
+}
+
+template Questions questions<2>(const Scene&, const Cost&);
+template Questions questions<3>(const Scene&, const Cost&);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,146 @@
+#include "apps/check/scales.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/scene/geometry.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+// Water at 20 C, for numbers of effects that a scene does not name.
+constexpr double water_viscosity = 1e-3;         // [Pa s]
+constexpr double water_surface_tension = 0.073;  // [N/m]
+constexpr double water_sound_speed = 1480;       // [m/s]
+constexpr double air_density = 1.2;              // [kg/m^3]
+
+/// A linear field is fastest on the region's outline.
+template <int d>
+double fastest(const Region& region) {
+  const auto surface = outline<d>(region);
+  double speed = 0;
+  for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) {
+    const rigid::Vec<d> x = surface.vertices.col(i) - vec<d>(region.velocity_origin);
+    speed = std::max(speed, (vec<d>(region.velocity) + region.velocity_gradient.topLeftCorner<d, d>() * x).norm());
+  }
+  return speed;
+}
+
+double fastest(const Body& body) {
+  double speed = body.velocity.norm();
+  for (std::size_t i = 1; i < body.path.size(); ++i)
+    speed = std::max(speed, (body.path[i].position - body.path[i - 1].position).norm() /
+                                (body.path[i].time - body.path[i - 1].time));
+  return speed;
+}
+
+/// Speed at the water after a free fall from where the body is.
+template <int d>
+double at_the_water(const Scene& scene, const Body& body) {
+  const double speed = fastest(body);
+  const auto level = still_water_level<d>(scene);
+  if (body.motion != Motion::free || !scene.gravity || !level) return speed;
+  const double drop = std::max(0., extents<d>(outline<d>(body)).min()[d - 1] - *level);
+  return std::sqrt(speed * speed + 2 * scene.gravity->acceleration.norm() * drop);
+}
+
+std::string number(double value) { return fmt::format("{:.3g}", value); }
+
+EffectNote gravity_note(const Scene& scene, const Scales& s) {
+  const double g = s.gravity > 0 ? s.gravity : 9.81, froude = s.speed / std::sqrt(g * s.length);
+  return {"gravity", scene.gravity.has_value(),
+          fmt::format("Fr = U/sqrt(g L) = {}: {}", number(froude),
+                      froude > 3 ? "inertia rules at first; waves and floating need it" : "waves and weight matter")};
+}
+
+EffectNote viscosity_note(const Scene& scene, const Scales& s) {
+  const auto& viscosity = scene.fluid->viscosity;
+  const double mu = viscosity ? viscosity->dynamic : water_viscosity, reynolds = s.density * s.speed * s.length / mu;
+  return {"viscosity", viscosity.has_value(),
+          fmt::format("Re = rho U L/mu = {}{}: laminar boundary layer of {} L, friction of {} of the dynamic pressure",
+                      number(reynolds), viscosity ? "" : " (water)", number(5 / std::sqrt(reynolds)),
+                      number(1.33 / std::sqrt(reynolds)))};  // Blasius, flat plate
+}
+
+template <int d>
+EffectNote absorber_note(const Scene& scene, const Scales& s) {
+  EffectNote note{"absorber", scene.fluid->absorber.has_value(), "no tank, no ends that reflect waves"};
+  if (!scene.tank || s.gravity == 0) {
+    if (scene.tank) note.reason = "no gravity, no waves to absorb";
+    return note;
+  }
+  const double depth = std::max(0., *still_water_level<d>(scene) - scene.tank->min[d - 1]);
+  const double there_and_back = (scene.tank->max.x() - scene.tank->min.x()) / std::sqrt(s.gravity * depth);
+  note.reason = fmt::format("the fastest waves cross the tank in {} s, the run lasts {} s: {}", number(there_and_back),
+                            number(scene.time.end),
+                            there_and_back > scene.time.end ? "no echo returns" : "echoes return from the ends");
+  return note;
+}
+
+}  // namespace
+
+template <int d>
+std::optional<double> still_water_level(const Scene& scene) {
+  if (!scene.fluid) return {};
+  double level = 0, widest = 0;
+  for (const auto& region : scene.fluid->regions) {
+    const auto box = extents<d>(outline<d>(region));
+    const double wide = box.sizes().template head<d - 1>().prod();
+    if (wide <= widest) continue;
+    widest = wide;
+    const auto* flat = std::get_if<BoxRegion>(&region.shape);
+    level = flat ? flat->max[d - 1] : box.max()[d - 1];
+  }
+  return level;
+}
+
+template <int d>
+Scales scales(const Scene& scene) {
+  Scales s;
+  if (!scene.bodies.empty())
+    s.length = extents<d>(outline<d>(scene.bodies.front())).sizes().maxCoeff();
+  else if (scene.fluid)
+    s.length = extents<d>(outline<d>(scene.fluid->regions.front())).sizes().maxCoeff();
+  s.gravity = scene.gravity ? scene.gravity->acceleration.norm() : 0;
+  s.density = scene.fluid ? scene.fluid->density : 0;
+  for (const auto& body : scene.bodies) s.speed = std::max(s.speed, at_the_water<d>(scene, body));
+  if (scene.fluid)
+    for (const auto& region : scene.fluid->regions) s.speed = std::max(s.speed, fastest<d>(region));
+  if (s.speed == 0) s.speed = std::sqrt(s.gravity * s.length);  // what gravity will make of rest
+  return s;
+}
+
+template <int d>
+std::vector<EffectNote> effect_notes(const Scene& scene) {
+  const auto s = scales<d>(scene);
+  std::vector<EffectNote> notes{gravity_note(scene, s)};
+  if (scene.fluid) {
+    notes.push_back(viscosity_note(scene, s));
+    notes.push_back(absorber_note<d>(scene, s));
+  }
+  return notes;
+}
+
+template <int d>
+std::vector<EffectNote> neglected(const Scene& scene) {
+  const auto s = scales<d>(scene);
+  if (!scene.fluid || s.speed == 0) return {};
+  const double weber = s.density * s.speed * s.speed * s.length / water_surface_tension;
+  return {{"surface tension", false, fmt::format("We = rho U^2 L/sigma = {} (water)", number(weber))},
+          {"compressibility", false, fmt::format("U/c = {} (water)", number(s.speed / water_sound_speed))},
+          {"air", false,
+           fmt::format("rho_air/rho = {}; cushions form under flat bottoms", number(air_density / s.density))}};
+}
+
+template std::optional<double> still_water_level<2>(const Scene&);
+template Scales scales<2>(const Scene&);
+template std::vector<EffectNote> effect_notes<2>(const Scene&);
+template std::vector<EffectNote> neglected<2>(const Scene&);
+template std::optional<double> still_water_level<3>(const Scene&);
+template Scales scales<3>(const Scene&);
+template std::vector<EffectNote> effect_notes<3>(const Scene&);
+template std::vector<EffectNote> neglected<3>(const Scene&);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,117 @@
+// splashdown run | check | study | report | schema
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/version.hpp"
+#include "apps/scene/rules/schema.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+std::string version_text() {
+  auto text = fmt::format("splashdown {} ({})", version(), git_hash());
+  for (const auto& [name, number] : library_versions()) text += fmt::format("\n  {} {}", name, number);
+  return text;
+}
+
+/// CLI11's own exit codes are not ours: 0 for help and version, 2 for everything it refuses.
+int finish(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  return bad_input(fmt::format("{}. See splashdown --help.", error.what()));
+}
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
+  app.set_version_flag("--version", version_text);
+  app.require_subcommand(1);
+  const char* const scene_help = "scene file (TOML; docs/scene.md)";
+  const char* const set_help = "override a key of the scene, e.g. body.wedge.mass=100 (repeatable)";
+
+  // CLI11's own rule prints its upper bound, 1.8e308, digit by digit.
+  const CLI::Validator positive(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
+                   ? std::string()
+                   : fmt::format("must be a positive number, not {}", text);
+      },
+      "POSITIVE");
+  RunOptions run;
+  auto* run_app = app.add_subcommand("run", "Run a scene");
+  run_app->add_option("scene", run.scene, scene_help)->required();
+  run_app->add_option("--out", run.out,
+                      "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
+  run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
+      ->check(CLI::Range(1, 1024));
+  run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")->check(positive);
+  run_app->add_option("--budget", run.budget, "wall seconds after which to stop with a checkpoint (exit code 130)")
+      ->check(positive);
+  auto* resume = run_app->add_flag(
+      "--resume", run.resume, "continue from the folder's checkpoint; refused if there is one that cannot be read");
+  run_app->add_flag("--restart", run.restart, "begin anew and replace what a run of this scene left (the default)")
+      ->excludes(resume);
+  run_app->add_flag("--force", run.force, "replace also what a run of another scene left in the folder");
+  run_app->add_flag("--large", run.large, "run it even if it is predicted to take more than 4 GB of memory");
+  run_app->add_flag("--quiet", run.quiet, "print errors only");
+
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+  auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
+  check_app->add_option("scene", scene, scene_help)->required();
+  check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+
+  StudyOptions study;
+  auto* study_app = app.add_subcommand("study", "Run every combination of a scene's values");
+  study_app->add_option("study", study.study, "study file (TOML; docs/study.md)")->required();
+  study_app->add_option("--out", study.out,
+                        "folder for the runs and tables (default: out/<folder of the study>, or out/<folder>_<file>)");
+  study_app->add_option("--jobs", study.jobs, "runs at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  study_app->add_option("--on", study.on, "where the runs are made")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  study_app->add_flag("--collect", study.collect, "make no runs: tables and chart of those that are there");
+  study_app->add_flag("--large", study.large, "make runs even if they are predicted to take more than 4 GB of memory");
+  study_app->add_flag("--quiet", study.quiet, "print errors only");
+
+  std::filesystem::path directory;
+  auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run or a study");
+  report_app->add_option("directory", directory, "folder of the run or the study")->required();
+
+  std::string schema_of = "scene";
+  auto* schema_app = app.add_subcommand("schema", "Print the JSON Schema of scenes or studies, for editors");
+  schema_app->add_option("what", schema_of, "scene or study")
+      ->check(CLI::IsMember({"scene", "study"}))
+      ->capture_default_str();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return finish(app, error);
+  }
+  if (*run_app) return run_command(run);
+  if (*check_app) return check_command(scene, overrides);
+  if (*study_app) return study_command(study);
+  if (*schema_app) {
+    fmt::print("{}", schema_of == "scene" ? scene_schema() : study_schema());
+    return exit_code::done;
+  }
+  return report_command(directory);
+}
+
+}  // namespace
+}  // namespace splashdown::apps
+
+int main(int argc, char** argv) {
+  try {
+    return splashdown::apps::command_line(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", splashdown::apps::trouble(error));
+    return splashdown::apps::exit_code::cannot_go_on;
+  }
+}

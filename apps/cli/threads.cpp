@@ -1,0 +1,11 @@
+#include "apps/cli/threads.hpp"
+
+#include "fluid/parallel.hpp"
+
+namespace splashdown::apps {
+
+void set_threads(std::optional<int> count, int dimension) {
+  fluid::use_threads(count.value_or(dimension == 2 ? 1 : 0));
+}
+
+}  // namespace splashdown::apps

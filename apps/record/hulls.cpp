@@ -1,0 +1,85 @@
+#include "apps/record/hulls.hpp"
+
+#include <algorithm>
+
+#include "apps/record/frames.hpp"
+#include "apps/record/probes.hpp"
+#include "apps/record/view.hpp"
+
+namespace splashdown::apps {
+
+template <int d>
+fluid::Vec<d> centre_of_mass(const RecorderSettings<d>& settings, const std::string& wall) {
+  const auto found = settings.centre_of_mass.find(wall);
+  return found == settings.centre_of_mass.end() ? fluid::Vec<d>(fluid::Vec<d>::Zero()) : found->second;
+}
+
+template <int d>
+HullReadings<d>::HullReadings(const RecorderSettings<d>& settings)
+    : settings_(settings), peaks_(settings.patches.size()) {
+  for (const auto& record : settings.hull_maps) maps_.emplace_back(record.surface, record.size);
+}
+
+template <int d>
+void HullReadings<d>::read(const fluid::Fluid<d>& fluid, double time) {
+  time_ = time;
+  pressures_.clear();
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    const auto& patch = settings_.patches[i];
+    const int wall = wall_called(fluid, patch.body);
+    const auto& pose = fluid.wall_poses()[static_cast<std::size_t>(wall)];
+    pressures_.push_back(patch_force(fluid.nodes(), fluid.mesh(), wall, pose, patch.region) / patch.area);
+    peaks_[i].offer(pressures_[i], time);
+  }
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const int wall = wall_called(fluid, settings_.hull_maps[i].body);
+    maps_[i].add(fluid.nodes(), fluid.mesh(), wall, fluid.wall_poses()[static_cast<std::size_t>(wall)], time);
+  }
+}
+
+template <int d>
+void HullReadings<d>::summarise(Summary& summary) const {
+  for (std::size_t i = 0; i < peaks_.size(); ++i)
+    summary.patches[settings_.patches[i].name] = {peaks_[i], settings_.patches[i].area};
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const auto& body = settings_.hull_maps[i].body;
+    const auto& p = maps_[i].pressure();
+    const auto top = static_cast<std::size_t>(std::ranges::max_element(p) - p.begin());
+    if (!(maps_[i].time()[top] >= 0)) continue;  // never wet
+    const fluid::Vec<d> at =
+        maps_[i].surface().vertices.col(static_cast<Eigen::Index>(top)) + centre_of_mass(settings_, body);
+    summary.bodies[body].maximum_pressure =
+        MaximumPressure{{p[top], maps_[i].time()[top]}, std::vector<double>(at.data(), at.data() + d)};
+  }
+}
+
+template <int d>
+bool HullReadings<d>::fits_settings() const {
+  const auto fits = [](const HullMap<d>& map) {
+    const auto points = static_cast<std::size_t>(map.surface().vertices.cols());
+    return map.pressure().size() == points && map.time().size() == points;
+  };
+  return peaks_.size() == settings_.patches.size() && std::ranges::all_of(maps_, fits);
+}
+
+template <int d>
+void HullReadings<d>::write() const {
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    const auto& record = settings_.hull_maps[i];
+    auto surface = maps_[i].surface();
+    const SurfaceRuler<d> ruler(record.surface, record.pose);
+    std::vector<double> distance;
+    for (Eigen::Index v = 0; v < surface.vertices.cols(); ++v)
+      distance.push_back(ruler.distance(surface.vertices.col(v)));
+    surface.vertices.colwise() += centre_of_mass(settings_, record.body);
+    write_surface<d>(settings_.directory / ("hull_" + file_name_of(record.body) + ".vtu"), time_, surface,
+                     {{"p_max", maps_[i].pressure()}, {"t_max", maps_[i].time()}, {"s", distance}});
+  }
+}
+
+template fluid::Vec<2> centre_of_mass<2>(const RecorderSettings<2>&, const std::string&);
+template fluid::Vec<3> centre_of_mass<3>(const RecorderSettings<3>&, const std::string&);
+template class HullReadings<2>;
+template class HullReadings<3>;
+
+}  // namespace splashdown::apps

@@ -1,0 +1,353 @@
+#include "apps/record/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "apps/record/csv.hpp"
+#include "apps/record/energy.hpp"
+#include "apps/record/files.hpp"
+#include "apps/record/frames.hpp"
+#include "apps/record/hulls.hpp"
+#include "apps/record/probes.hpp"
+#include "apps/record/rows.hpp"
+#include "apps/record/schedule.hpp"
+#include "apps/record/view.hpp"
+#include "apps/run/bounded_archive.hpp"
+#include "apps/statistics/statistics.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+template <class Record>
+Schedule schedule_of(const Record& record) {
+  if (record.every) return Schedule(*record.every);
+  auto times = record.times;
+  std::ranges::sort(times);
+  return Schedule(std::move(times));
+}
+
+}  // namespace
+
+template <int d>
+struct Recorder<d>::State {
+  RecorderSettings<d> settings;
+  std::map<std::string, CsvFile> files;  ///< by file name; opened when the first row is due
+  bool started = false;
+  double previous_dt = 0;
+  double still_water_level = std::numeric_limits<double>::quiet_NaN();
+  Schedule rows, frames_due;
+  std::vector<Schedule> surface_due, added_mass_due;
+  FrameSeries frames;
+  RunStatistics run;
+  double max_speed_peak = 0;
+  EnergyStatistics energy;
+  std::vector<BodyStatistics<d>> bodies;
+  std::vector<PulseStatistics> equipment;
+  HullReadings<d> hulls;
+  double peak_force = 0;
+  std::vector<std::string> body_names;
+  fluid::Ledger ledger;
+  double speed = 0;
+  bool has_fluid = false;
+  // Not part of the checkpoint.
+  std::optional<Frame<d>> peak;  ///< state at the largest load, until it is written
+  std::map<std::size_t, SurfaceRuler<d>> rulers;
+  std::vector<HullExtent> extents;  ///< of the bodies, once known
+  std::vector<double> submergence;  ///< of the bodies at this step [m]
+
+  explicit State(RecorderSettings<d> s)
+      : settings(std::move(s)),
+        rows(settings.interval),
+        frames_due(settings.frames.value_or(0)),
+        frames(settings.directory),
+        equipment(settings.equipment.size()),
+        hulls(settings) {
+    for (const auto& record : settings.surface_pressure) surface_due.push_back(schedule_of(record));
+    for (const auto& record : settings.added_mass) added_mass_due.push_back(schedule_of(record));
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
+            max_speed_peak, energy, bodies, equipment, hulls, peak_force, body_names, speed, has_fluid,
+            cereal::binary_data(&ledger, sizeof ledger));
+  }
+
+  CsvFile& file(const std::string& name, const std::string& header) {
+    const auto [place, is_new] = files.try_emplace(name, settings.directory / name, header);
+    if (is_new) place->second.create();
+    return place->second;
+  }
+
+  /// Whether what was loaded belongs to records like these.
+  bool fits_settings() const {
+    return body_names.size() == bodies.size() && surface_due.size() == settings.surface_pressure.size() &&
+           added_mass_due.size() == settings.added_mass.size() && equipment.size() == settings.equipment.size() &&
+           hulls.fits_settings();
+  }
+
+  void start(const RecordInput<d>& input);
+  void add_statistics(const RecordInput<d>& input);
+  void write_rows(const RecordInput<d>& input);
+  void write_probes(const RecordInput<d>& input);
+  void write_surface_pressure(const RecordInput<d>& input, std::size_t record);
+  void write_added_mass(const RecordInput<d>& input, const std::string& body);
+  rigid::Vec<d> equipment_acceleration(const RecordInput<d>& input, std::size_t i) const;
+  double probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const;
+  void write_peak();
+};
+
+template <int d>
+void Recorder<d>::State::start(const RecordInput<d>& input) {
+  std::filesystem::create_directories(settings.directory);
+  clear_earlier_run(settings.directory);
+  if (settings.still_water_level)
+    still_water_level = *settings.still_water_level;
+  else if (input.fluid)
+    still_water_level = water_level(*input.fluid);
+  if (input.bodies) bodies.resize(input.bodies->size());
+  if (input.fluid) energy.begin(water_at_start(input));
+  started = true;
+}
+
+template <int d>
+rigid::Vec<d> Recorder<d>::State::equipment_acceleration(const RecordInput<d>& input, std::size_t i) const {
+  const auto& point = settings.equipment[i];
+  const std::size_t body = body_index(*input.bodies, point.body);
+  const rigid::Vec<d> arm = input.bodies->state(body).pose.linear() * point.point;
+  return acceleration_at<d>(arm, input.body_velocity_n[body], input.body_acceleration_n[body]);
+}
+
+template <int d>
+void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
+  const double before = run.steps == 0 ? 0 : 0.5 * previous_dt;
+  const Kick kick{input.time, input.time - before, input.time + 0.5 * input.dt};
+  run.add_step(input.passes);
+  if (input.fluid) {
+    run.add_mesh(input.fluid->nodes().size(), input.fluid->mesh().cells.size());
+    ledger = input.fluid->ledger();
+    speed = max_speed(*input.fluid);
+    max_speed_peak = std::max(max_speed_peak, speed);
+    energy.add(input.time, ledger, body_energies(input));
+  }
+  has_fluid = input.fluid != nullptr;
+  bool new_peak = false;
+  body_names.clear();
+  submergence.clear();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto& spec = input.bodies->spec(b);
+    const auto& pose = input.bodies->state(b).pose;
+    if (extents.size() <= b) extents.push_back(extent_of<d>(spec.surface));
+    submergence.push_back(still_water_level - (pose * spec.surface.vertices).row(d - 1).minCoeff());
+    body_names.push_back(spec.name);
+    bodies[b].add(kick, {input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b], submergence[b],
+                         pose.linear(), extents[b], spec.motion == rigid::Motion::free});
+    new_peak = new_peak || bodies[b].peak_force() > peak_force;
+    peak_force = std::max(peak_force, bodies[b].peak_force());
+  }
+  for (std::size_t i = 0; i < equipment.size(); ++i) {
+    const auto acceleration = equipment_acceleration(input, i);
+    equipment[i].add(kick, {acceleration.data(), static_cast<std::size_t>(d)});
+  }
+  if (input.fluid) hulls.read(*input.fluid, input.time);
+  if (new_peak) peak = take_frame(input);
+  previous_dt = input.dt;
+}
+
+template <int d>
+void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    write_row(file("bodies.csv", bodies_header),
+              BodyRow<d>{input.time, input.bodies->spec(b).name, input.bodies->state(b).pose, input.body_velocity_n[b],
+                         input.body_acceleration_n[b], input.body_load[b], submergence[b]});
+  if (input.fluid) {
+    const auto& fluid = *input.fluid;
+    auto effects = effect_columns(fluid);
+    write_row(
+        file("fluid.csv", fluid_header(effects.names)),
+        FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(), input.passes,
+                 input.residual, input.wall_seconds, speed, energy.gain(), std::move(effects.values)});
+  }
+  write_probes(input);
+}
+
+template <int d>
+double Recorder<d>::State::probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const {
+  fluid::Vec<d> point = probe.point;
+  if (!probe.body.empty()) point = input.bodies->state(body_index(*input.bodies, probe.body)).pose * point;
+  const auto& fluid = *input.fluid;
+  if (const auto p = fluid.pressure_at(point)) return *p;
+  return wall_pressure(fluid.nodes(), fluid.mesh(), point).value_or(0);
+}
+
+template <int d>
+void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
+  const auto put = [&](const std::string& name, double value) {
+    auto& probes = file("probes.csv", probes_header);
+    probes << input.time << name << value;
+    probes.end_row();
+  };
+  if (input.fluid) {
+    for (const auto& probe : settings.pressure_probes) put(probe.name, probe_pressure(input, probe));
+    for (const auto& gauge : settings.gauges)
+      put(gauge.name, surface_elevation(input.fluid->nodes(), input.fluid->mesh(), gauge.at)
+                          .value_or(std::numeric_limits<double>::quiet_NaN()));
+    for (std::size_t i = 0; i < settings.patches.size(); ++i) put(settings.patches[i].name, hulls.pressures()[i]);
+  }
+  for (std::size_t i = 0; i < equipment.size(); ++i) {
+    const auto acceleration = equipment_acceleration(input, i);
+    for (int k = 0; k < d; ++k) put(settings.equipment[i].name + ".a" + "xyz"[k], acceleration(k));
+  }
+}
+
+template <int d>
+void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std::size_t record) {
+  const auto& name = settings.surface_pressure[record].wall;
+  const int wall = wall_called(*input.fluid, name);
+  const auto w = static_cast<std::size_t>(wall);
+  const auto& spec = input.fluid->spec().walls[w];
+  const auto& pose = input.fluid->wall_poses()[w];
+  const fluid::Isometry<d> to_wall = pose.inverse();
+  const fluid::Vec<d> origin = centre_of_mass(settings, name);
+  const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
+  auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
+  for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), wall, ruler, pose)) {
+    const fluid::Vec<d> on_hull = to_wall * point.x + origin;
+    csv << input.time << name;
+    for (int k = 0; k < d; ++k) csv << point.x(k);
+    csv << point.s << point.p;
+    for (int k = 0; k < d; ++k) csv << on_hull(k);
+    csv.end_row();
+  }
+}
+
+template <int d>
+void Recorder<d>::State::write_added_mass(const RecordInput<d>& input, const std::string& body) {
+  const std::size_t wall = body_index(*input.bodies, body);  // body k is wall k
+  write_added_mass_row<d>(file("added_mass.csv", added_mass_header(d)), input.time, body,
+                          input.fluid->added_mass({&wall, 1}), input.fluid->wall_poses()[wall]);
+}
+
+template <int d>
+void Recorder<d>::State::write_peak() {
+  if (!peak) return;
+  write_pieces(settings.directory / "snapshots", "peak", *peak);
+  peak.reset();
+}
+
+template <int d>
+Recorder<d>::Recorder(RecorderSettings<d> settings) : s_(std::make_unique<State>(std::move(settings))) {}
+
+template <int d>
+Recorder<d>::~Recorder() = default;
+
+template <int d>
+void Recorder<d>::record(const RecordInput<d>& input) {
+  State& s = *s_;
+  const bool first = !s.started;
+  if (first) s.start(input);
+  s.add_statistics(input);
+  if (first) write_pieces(s.settings.directory / "snapshots", "start", take_frame(input));
+
+  // Each schedule is asked at each step, so that a last row does not shift the ones after a resume.
+  if (s.rows.due(input.time) || input.last) s.write_rows(input);
+  for (std::size_t r = 0; input.fluid && r < s.surface_due.size(); ++r)
+    if (s.surface_due[r].due(input.time)) s.write_surface_pressure(input, r);
+  for (std::size_t r = 0; input.fluid && r < s.added_mass_due.size(); ++r)
+    if (s.added_mass_due[r].due(input.time)) s.write_added_mass(input, s.settings.added_mass[r].body);
+  if (s.settings.frames && (s.frames_due.due(input.time) || input.last)) s.frames.add(take_frame(input));
+  for (auto& [name, file] : s.files) file.write();
+}
+
+template <int d>
+void Recorder<d>::snapshot(const std::string& name, const RecordInput<d>& input) {
+  write_pieces(s_->settings.directory / "snapshots", file_name_of(name), take_frame(input));
+}
+
+template <int d>
+std::size_t Recorder<d>::bodies() const {
+  return s_->bodies.size();
+}
+
+template <int d>
+void Recorder<d>::check_files() const {
+  for (const auto& [name, file] : s_->files) file.check_in_place();
+}
+
+template <int d>
+void Recorder<d>::copy_tables(const std::filesystem::path& folder) {
+  for (auto& [name, file] : s_->files) file.copy_to(folder / name);
+  s_->peak.reset();  // there is no place for pictures
+}
+
+template <int d>
+void Recorder<d>::finish() {
+  s_->write_peak();
+  if (s_->started) s_->hulls.write();
+  for (auto& [name, file] : s_->files) file.sync();
+}
+
+template <int d>
+void Recorder<d>::summarise(Summary& summary) const {
+  const State& s = *s_;
+  summary.dimension = d;
+  if (s.has_fluid) {
+    summary.nodes = s.run.nodes;
+    summary.elements = s.run.elements;
+    s.energy.summarise(summary.ledger.emplace(summary_of(s.ledger)));
+    summary.fluid = FluidSummary{s.speed, s.max_speed_peak};
+  }
+  if (summary.coupling && s.run.steps > 0) {
+    summary.coupling->passes_mean = static_cast<double>(s.run.passes_sum) / static_cast<double>(s.run.steps);
+    summary.coupling->passes_max = s.run.passes_max;
+  }
+  for (std::size_t b = 0; b < s.body_names.size(); ++b) summary.bodies[s.body_names[b]] = s.bodies[b].summary();
+  for (std::size_t i = 0; i < s.equipment.size(); ++i)
+    summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary(standard_gravity);
+  s.hulls.summarise(summary);
+}
+
+template <int d>
+void Recorder<d>::save(std::ostream& out) {
+  s_->write_peak();
+  std::map<std::string, std::uint64_t> lengths;
+  for (auto& [name, file] : s_->files) lengths[name] = file.sync();
+  cereal::BinaryOutputArchive archive(out);
+  archive(lengths, *s_);
+}
+
+template <int d>
+void Recorder<d>::load(const std::string& bytes) {
+  std::map<std::string, std::uint64_t> lengths;
+  BoundedInputArchive archive(bytes);
+  s_->files.clear();
+  archive(lengths, *s_);
+  if (!archive.rest().empty() || !s_->fits_settings())
+    throw std::runtime_error("holds records of other bodies or points than the scene");
+  // All of them before the first is cut back.
+  for (const auto& [name, length] : lengths) {
+    if (!is_table(name)) throw std::runtime_error("names a table that is none");
+    const auto file = s_->settings.directory / name;
+    const auto present = std::filesystem::is_regular_file(file) ? std::filesystem::file_size(file) : 0;
+    if (present < length)
+      throw std::runtime_error(fmt::format("needs {} bytes of {}, which has {}", length, file.string(), present));
+  }
+  for (const auto& [name, length] : lengths)
+    s_->files.try_emplace(name, s_->settings.directory / name, "").first->second.reopen(length);
+  if (s_->settings.frames) s_->frames.write_index();
+}
+
+template class Recorder<2>;
+template class Recorder<3>;
+
+}  // namespace splashdown::apps

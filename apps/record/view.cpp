@@ -1,0 +1,230 @@
+#include "apps/record/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "fluid/mesh/facet_tree.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+template <int d>
+NodeKind kind_of(const fluid::Nodes<d>& nodes, std::size_t i, bool has_cell) {
+  if (!has_cell) return NodeKind::drop;
+  const auto& tie = nodes.tie[i];
+  if (tie.wall < 0) return nodes.surface[i] ? NodeKind::free_surface : NodeKind::interior;
+  if (tie.vertex >= 0) return NodeKind::wall_vertex;
+  return nodes.surface[i] ? NodeKind::contact : NodeKind::wall;
+}
+
+/// Of the disc or ball of a volume.
+template <int d>
+double diameter(double volume) {
+  return d == 2 ? std::sqrt(4 * volume / std::numbers::pi) : std::cbrt(6 * volume / std::numbers::pi);
+}
+
+/// The wetted facets of a wall and the pressure on them.
+template <int d>
+class WettedWall {
+ public:
+  WettedWall(const fluid::Fluid<d>& fluid, int wall) : nodes_(fluid.nodes()) {
+    for (const auto& facet : fluid.mesh().boundary)
+      if (facet.wall == wall) facets_.push_back(facet.nodes);
+    surface_.facets.resize(d, static_cast<Eigen::Index>(facets_.size()));
+    surface_.vertices.resize(d, d * static_cast<Eigen::Index>(facets_.size()));
+    Eigen::Index corner = 0;
+    for (std::size_t f = 0; f < facets_.size(); ++f)
+      for (int k = 0; k < d; ++k, ++corner) {
+        surface_.vertices.col(corner) = nodes_.x[static_cast<std::size_t>(facets_[f][static_cast<std::size_t>(k)])];
+        surface_.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(corner);
+      }
+    tree_ = fluid::FacetTree<d>(surface_.vertices, surface_.facets);
+  }
+
+  /// At the nearest wetted facet that is not farther away than its half; 0: dry.
+  double pressure(const fluid::Vec<d>& at) const {
+    if (facets_.empty()) return 0;
+    const auto nearest = tree_.nearest(at, std::numeric_limits<double>::max());
+    Eigen::Matrix<double, d, d> corners;
+    for (int k = 0; k < d; ++k) corners.col(k) = surface_.vertices.col(surface_.facets(k, nearest.facet));
+    double longest = 0;
+    for (int k = 0; k < d; ++k) longest = std::max(longest, (corners.col((k + 1) % d) - corners.col(k)).norm());
+    if (nearest.squared_distance > 0.25 * longest * longest) return 0;
+    // Weights of the corners at the nearest point: sum w_k (x_k - x_0) = x - x_0.
+    const Eigen::Matrix<double, d, d - 1> edges = corners.template rightCols<d - 1>().colwise() - corners.col(0);
+    const Eigen::Matrix<double, d - 1, 1> weights = edges.colPivHouseholderQr().solve(nearest.point - corners.col(0));
+    const auto& nodes = facets_[static_cast<std::size_t>(nearest.facet)];
+    double p = (1 - weights.sum()) * nodes_.p[static_cast<std::size_t>(nodes[0])];
+    for (int k = 1; k < d; ++k)
+      p += weights(k - 1) * nodes_.p[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
+    return p;
+  }
+
+ private:
+  const fluid::Nodes<d>& nodes_;
+  std::vector<std::array<int, static_cast<std::size_t>(d)>> facets_;
+  fluid::Surface<d> surface_;
+  fluid::FacetTree<d> tree_;
+};
+
+/// Velocity of a point of a body at `r` from its centre of mass.
+template <int d>
+fluid::Vec<d> velocity_at(const fluid::Vec<d>& r, const rigid::Twist<d>& velocity) {
+  if constexpr (d == 2)
+    return {velocity(0) - velocity(2) * r.y(), velocity(1) + velocity(2) * r.x()};
+  else
+    return velocity.template head<3>() + Eigen::Vector3d(velocity.template tail<3>()).cross(r);
+}
+
+template <int d>
+void take_fluid(const fluid::Fluid<d>& fluid, Frame<d>& frame) {
+  const auto& nodes = fluid.nodes();
+  frame.x = nodes.x;
+  frame.p = nodes.p;
+  frame.cells = fluid.mesh().cells;
+  std::vector<char> has_cell(nodes.size(), 0);
+  for (const auto& cell : frame.cells)
+    for (const int node : cell) has_cell[static_cast<std::size_t>(node)] = 1;
+  frame.v.reserve(nodes.size());
+  frame.kind.reserve(nodes.size());
+  frame.wall.reserve(nodes.size());
+  frame.drop_diameter.assign(nodes.size(), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    frame.v.push_back(fluid.velocity_n(i));
+    frame.kind.push_back(kind_of(nodes, i, has_cell[i] != 0));
+    frame.wall.push_back(nodes.tie[i].wall);
+    if (frame.kind.back() == NodeKind::drop) frame.drop_diameter[i] = diameter<d>(nodes.volume[i]);
+  }
+}
+
+template <int d, class Surface>
+Outline<d> outline_at(const std::string& name, const Surface& surface, const fluid::Isometry<d>& pose) {
+  return {name, {pose * surface.vertices, surface.facets}, pose.linear().col(0)};
+}
+
+}  // namespace
+
+template <int d>
+Frame<d> take_frame(const RecordInput<d>& input) {
+  Frame<d> frame;
+  frame.time = input.time;
+  if (input.fluid) {
+    take_fluid(*input.fluid, frame);
+    const auto& walls = input.fluid->spec().walls;
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      frame.outlines.push_back(outline_at<d>(walls[w].name, walls[w].surface, input.fluid->wall_poses()[w]));
+  }
+  for (std::size_t w = 0; w < frame.outlines.size(); ++w) {
+    auto& outline = frame.outlines[w];
+    const WettedWall<d> wetted(*input.fluid, static_cast<int>(w));
+    const auto& vertices = outline.surface.vertices;
+    for (Eigen::Index i = 0; i < vertices.cols(); ++i) outline.p.push_back(wetted.pressure(vertices.col(i)));
+    outline.v.assign(outline.p.size(), fluid::Vec<d>::Zero());
+  }
+  for (std::size_t b = 0; input.bodies && b < input.bodies->size(); ++b) {
+    const auto& spec = input.bodies->spec(b);
+    const auto& pose = input.bodies->state(b).pose;
+    if (std::ranges::find(frame.outlines, spec.name, &Outline<d>::name) == frame.outlines.end())
+      frame.outlines.push_back(outline_at<d>(spec.name, spec.surface, pose));
+    auto& outline = *std::ranges::find(frame.outlines, spec.name, &Outline<d>::name);
+    outline.v.clear();
+    for (Eigen::Index i = 0; i < outline.surface.vertices.cols(); ++i)
+      outline.v.push_back(
+          velocity_at<d>(outline.surface.vertices.col(i) - pose.translation(), input.body_velocity_n[b]));
+  }
+  return frame;
+}
+
+template <int d>
+int wall_index(const fluid::Fluid<d>& fluid, const std::string& name) {
+  const auto& walls = fluid.spec().walls;
+  const auto found = std::ranges::find(walls, name, &fluid::WallSpec<d>::name);
+  return found == walls.end() ? -1 : static_cast<int>(found - walls.begin());
+}
+
+template <int d>
+int wall_called(const fluid::Fluid<d>& fluid, const std::string& name) {
+  const int wall = wall_index(fluid, name);
+  if (wall < 0) throw std::invalid_argument("a record names the wall \"" + name + "\", which does not exist");
+  return wall;
+}
+
+template <int d>
+std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name) {
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies.spec(b).name == name) return b;
+  throw std::invalid_argument("a record names the body \"" + name + "\", which does not exist");
+}
+
+template <int d>
+rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
+                              const rigid::Twist<d>& acceleration) {
+  if constexpr (d == 2) {
+    const double alpha = acceleration(2), w = velocity(2);
+    return rigid::Vec<2>(acceleration(0) - alpha * r.y() - w * w * r.x(),
+                         acceleration(1) + alpha * r.x() - w * w * r.y());
+  } else {
+    const Eigen::Vector3d alpha = acceleration.template tail<3>(), w = velocity.template tail<3>();
+    return acceleration.template head<3>() + alpha.cross(r) + w.cross(w.cross(r));
+  }
+}
+
+template <int d>
+EffectColumns effect_columns(const fluid::Fluid<d>& fluid) {
+  const auto& nodes = fluid.nodes();
+  std::vector<double> lumped_mass(nodes.size(), 0);
+  double factorial = 1;
+  for (int k = 2; k <= d; ++k) factorial *= k;
+  for (const auto& cell : fluid.mesh().cells) {
+    fluid::Mat<d> edges;
+    const auto& origin = nodes.x[static_cast<std::size_t>(cell[0])];
+    for (std::size_t k = 1; k < cell.size(); ++k)
+      edges.col(static_cast<Eigen::Index>(k) - 1) = nodes.x[static_cast<std::size_t>(cell[k])] - origin;
+    const double share = fluid.spec().density * edges.determinant() / factorial / (d + 1);
+    for (const int node : cell) lumped_mass[static_cast<std::size_t>(node)] += share;
+  }
+  EffectColumns columns;
+  for (const auto& term : fluid.terms())
+    for (const auto& [name, value] : term->diagnostics(nodes, lumped_mass)) {
+      columns.names.push_back(term->name() + "_" + name);
+      columns.values.push_back(value);
+    }
+  return columns;
+}
+
+template <int d>
+double max_speed(const fluid::Fluid<d>& fluid) {
+  double squared = 0;
+  for (std::size_t i = 0; i < fluid.nodes().size(); ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
+  return std::sqrt(squared);
+}
+
+template <int d>
+double water_level(const fluid::Fluid<d>& fluid) {
+  const auto& nodes = fluid.nodes();
+  double level = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& facet : fluid.mesh().boundary) {
+    if (facet.wall >= 0) continue;
+    for (const int node : facet.nodes) level = std::fmax(level, nodes.x[static_cast<std::size_t>(node)](d - 1));
+  }
+  return level;
+}
+
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
+  template Frame<d> take_frame<d>(const RecordInput<d>&);                                                          \
+  template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);                                          \
+  template int wall_called<d>(const fluid::Fluid<d>&, const std::string&);                                         \
+  template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&);                                 \
+  template rigid::Vec<d> acceleration_at<d>(const rigid::Vec<d>&, const rigid::Twist<d>&, const rigid::Twist<d>&); \
+  template EffectColumns effect_columns<d>(const fluid::Fluid<d>&);                                                \
+  template double max_speed<d>(const fluid::Fluid<d>&);                                                            \
+  template double water_level<d>(const fluid::Fluid<d>&);
+SPLASHDOWN_INSTANTIATE(2)
+SPLASHDOWN_INSTANTIATE(3)
+#undef SPLASHDOWN_INSTANTIATE
+
+}  // namespace splashdown::apps

@@ -1,0 +1,337 @@
+#include "apps/report/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "apps/record/frames.hpp"
+#include "apps/report/words.hpp"
+#include "apps/statistics/attitude.hpp"
+#include "apps/statistics/summary.hpp"
+#include "apps/statistics/verdict.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+using Values = std::vector<double>;
+
+constexpr const char* ink = "#0f2f4f";
+constexpr const char* blue = "#2f7fc1";
+constexpr const char* red = "#d1495b";
+constexpr const char* green = "#3a9d7c";
+constexpr const char* amber = "#d98e04";
+constexpr const char* violet = "#7b5ea7";
+constexpr std::array series_colours = {ink, red, blue, amber, green, violet};
+
+Values scaled(const Values& values, double scale, double offset = 0) {
+  Values result(values);
+  for (double& v : result) v = (v - offset) * scale;
+  return result;
+}
+
+Values difference(const Values& a, const Values& b) {
+  Values result(a);
+  for (std::size_t i = 0; i < result.size() && i < b.size(); ++i) result[i] -= b[i];
+  return result;
+}
+
+double largest(const Values& values) {
+  double top = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) top = std::max(top, std::abs(v));
+  return top;
+}
+
+double first_of(const Values& values) { return values.empty() ? 0 : values.front(); }
+
+/// Columns that carry something, next to the largest of their group (1e-6: rounding does not).
+std::vector<std::size_t> present(const std::vector<Values>& group) {
+  double top = 0;
+  for (const auto& values : group) top = std::max(top, largest(values));
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < group.size(); ++k)
+    if (largest(group[k]) > 1e-6 * top && top > 1e-12) indices.push_back(k);
+  return indices;
+}
+
+struct BodyPlotter {
+  const Table& table;
+  std::string body;
+  std::string stem;
+  int dimension;
+  Unit time;
+  Values t;
+
+  BodyPlotter(const RunData& run, const std::string& name, const Table& rows)
+      : table(rows),
+        body(name),
+        stem("body_" + file_name_of(name)),
+        dimension(run.dimension()),
+        time(time_unit(run.end_time())),
+        t(scaled(rows["time"], time.scale)) {}
+
+  Figure empty(const std::string& kind, const std::string& y_label) const {
+    Figure figure;
+    figure.name = stem + "_" + kind;
+    figure.x_label = "t / " + time.unit;
+    figure.y_label = y_label;
+    return figure;
+  }
+
+  char vertical() const { return dimension == 2 ? 'y' : 'z'; }
+
+  /// Total, physical and repair part of one component.
+  Figure load(char axis, const std::string& prefix, const std::string& base_unit, const std::string& what) const {
+    const std::string column = prefix + axis;
+    const Values &total = table[column], &repair = table[column + "_repair"];
+    const Unit unit = si_unit(largest(total), base_unit);
+    Figure figure = empty(column, what + " / (" + unit.unit + ")");
+    figure.curves = {{"total", t, scaled(total, unit.scale), ink, 1.8},
+                     {"physical", t, scaled(difference(total, repair), unit.scale), blue, 1.1},
+                     {"repair", t, scaled(repair, unit.scale), red, 1.1}};
+    double impulse = 0, repair_impulse = 0;
+    for (std::size_t i = 1; i < t.size(); ++i) {
+      const double dt = table["time"][i] - table["time"][i - 1];
+      impulse += 0.5 * dt * (total[i] + total[i - 1]);
+      if (repair.size() == t.size()) repair_impulse += 0.5 * dt * (repair[i] + repair[i - 1]);
+    }
+    const auto top = std::ranges::max_element(total, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
+    if (top != total.end() && std::isfinite(*top)) {
+      const auto i = static_cast<std::size_t>(top - total.begin());
+      figure.marks = {
+          {t[i], *top * unit.scale,
+           fmt::format("{} {} at {} {}", digits(*top * unit.scale, 4), unit.unit, digits(t[i], 4), time.unit)}};
+    }
+    figure.caption = fmt::format(
+        "{} of the water on the body, unfiltered, one value a recorded step: one component, while the peak load above "
+        "is "
+        "the resultant of all, at every step. The repair part is what "
+        "re-meshing "
+        "costs: it makes up {} of the impulse.",
+        what, std::abs(impulse) > 0 ? percent(std::abs(repair_impulse / impulse)) : "nothing");
+    return figure;
+  }
+
+  /// Several components of one quantity.
+  void add_components(std::vector<Figure>& figures, const std::string& kind, const std::string& y_label,
+                      std::vector<Values> values, const std::vector<std::string>& labels,
+                      const std::string& caption) const {
+    Figure figure = empty(kind, y_label);
+    for (const std::size_t k : present(values))
+      figure.curves.push_back({labels[k], t, std::move(values[k]), series_colours[k], 1.6});
+    if (figure.curves.empty()) return;
+    figure.caption = caption;
+    figures.push_back(std::move(figure));
+  }
+
+  /// Without jumps by whole turns [deg].
+  Values angle(const std::string& name) const {
+    Values values = table[name + "_deg"];
+    for (std::size_t i = 1; i < values.size(); ++i) values[i] = continued(values[i], values[i - 1]);
+    return values;
+  }
+
+  const Values& strongest_moment() const {
+    const Values* strongest = &table["mz"];
+    for (const char* column : {"mx", "my"})
+      if (largest(table[column]) > largest(*strongest)) strongest = &table[column];
+    return *strongest;
+  }
+
+  std::vector<Figure> figures() const {
+    std::vector<Figure> figures;
+    const std::string axes = dimension == 2 ? "xy" : "xyz";
+    double top = 0;
+    for (const char axis : axes) top = std::max(top, largest(table[std::string("f") + axis]));
+    for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis)
+      if (const double size = largest(table[std::string("f") + *axis]);
+          size > 0.02 * top && size > 0)  // less is what symmetry leaves
+        figures.push_back(load(*axis, "f", force_unit(dimension),
+                               *axis == vertical() ? "Vertical load" : fmt::format("Load along {}", *axis)));
+    std::vector<Values> v, x, a;
+    std::vector<std::string> names_v, names_x, names_a;
+    for (const char axis : axes) {
+      v.push_back(table[std::string("v") + axis]);
+      x.push_back(scaled(table[std::string(1, axis)], 1, first_of(table[std::string(1, axis)])));
+      a.push_back(scaled(table[std::string("a") + axis], 1 / standard_gravity));
+      names_v.push_back(std::string("v_") + axis);
+      names_x.push_back(std::string(1, axis));
+      names_a.push_back(std::string("a_") + axis);
+    }
+    add_components(figures, "velocity", "velocity / (m/s)", v, names_v, "Velocity of the centre of mass.");
+    add_components(figures, "acceleration", "acceleration / g", a, names_a,
+                   "Acceleration of the centre of mass, unfiltered, in multiples of 9.80665 m/s².");
+    add_components(figures, "displacement", "displacement / m", x, names_x,
+                   "Displacement of the centre of mass since the start.");
+    double turned = 0;
+    std::vector<Values> angles;
+    for (const char* name : attitude_names) {
+      angles.push_back(angle(name));
+      turned = std::max(turned, largest(scaled(angles.back(), 1, first_of(angles.back()))));
+    }
+    if (turned > 1e-6) {
+      for (const char axis : dimension == 2 ? std::string("z") : axes)
+        if (largest(table[std::string("m") + axis]) > 0.02 * largest(strongest_moment()))
+          figures.push_back(load(axis, "m", moment_unit(dimension),
+                                 dimension == 2 ? "Moment" : fmt::format("Moment about {}", axis)));
+      add_components(figures, "attitude", "angle / deg", angles, {attitude_names.begin(), attitude_names.end()},
+                     dimension == 2 ? "Pitch of the body, counter-clockwise positive."
+                                    : "Attitude of the body: roll about its long axis, pitch nose up, heading "
+                                      "counter-clockwise from above.");
+    }
+    add_components(figures, "wetted", dimension == 2 ? "wetted length / m" : "wetted area / m²", {table["wetted"]},
+                   {"wetted"}, "Part of the body's surface that touches water.");
+    add_components(figures, "submergence", "submergence / m", {table["submergence"]}, {"lowest point"},
+                   "Depth of the hull's lowest point below the level of the water at the start; negative above it.");
+    return figures;
+  }
+};
+
+FigureGroup fluid_figures(const RunData& run) {
+  FigureGroup group{"The numerics", {}};
+  const Table& table = run.fluid;
+  if (table.empty()) return group;
+  const Unit time = time_unit(run.end_time());
+  const Values t = scaled(table["time"], time.scale);
+  const auto figure = [&](const std::string& name, const std::string& y_label) {
+    Figure f;
+    f.name = name;
+    f.x_label = "t / " + time.unit;
+    f.y_label = y_label;
+    return f;
+  };
+
+  Figure volume = figure("volume", "change of volume / %");
+  const double whole = first_of(table["volume"]) > 0 ? 100 / first_of(table["volume"]) : 0;
+  Values change = scaled(table["volume"], whole, first_of(table["volume"]));
+  const Values& spray = table["volume_spray"];
+  for (std::size_t i = 0; i < change.size() && i < spray.size(); ++i) change[i] += spray[i] * whole;
+  volume.curves = {{"total", t, change, ink, 1.8},
+                   {"time steps", t, scaled(table["volume_time_integration"], whole), blue, 1.1},
+                   {"created", t, scaled(table["volume_remesh_created"], whole), green, 1.1},
+                   {"deleted", t, scaled(table["volume_remesh_deleted"], whole), red, 1.1}};
+  volume.caption =
+      "Where water appears or vanishes: by moving the nodes, or when the surface is recognised anew. Drops "
+      "count "
+      "as water.";
+  group.figures.push_back(std::move(volume));
+
+  const Values kinetic = table["kinetic_energy"], potential = table["potential_energy"];
+  const Values& work = table["work_on_walls"];
+  Values balance(kinetic.size());
+  for (std::size_t i = 0; i < balance.size(); ++i)
+    balance[i] = kinetic[i] - kinetic[0] + potential[i] - potential[0] + (i < work.size() ? work[i] - work[0] : 0);
+  const Unit energy = si_unit(std::max({largest(scaled(kinetic, 1, first_of(kinetic))),
+                                        largest(scaled(potential, 1, first_of(potential))), largest(work)}),
+                              energy_unit(run.dimension()));
+  Figure ledger = figure("energy", "energy since the start / (" + energy.unit + ")");
+  ledger.curves = {{"kinetic", t, scaled(kinetic, energy.scale, first_of(kinetic)), blue, 1.4},
+                   {"potential", t, scaled(potential, energy.scale, first_of(potential)), green, 1.4},
+                   {"work on walls", t, scaled(work, energy.scale), amber, 1.4},
+                   {"repairs", t, scaled(table["energy_repair"], energy.scale), red, 1.1},
+                   {"balance", t, scaled(balance, energy.scale), ink, 1.8}};
+  ledger.caption =
+      "The water's energy ledger. The balance, kinetic + potential + work done on walls, would stay at zero "
+      "without numerical loss, viscosity and breaking waves.";
+  group.figures.push_back(std::move(ledger));
+
+  const Values& gain = table["energy_gain"];
+  if (const double scale = number_at(run.summary, {"ledger", "energy_scale"}); scale > 0 && !gain.empty()) {
+    Figure relative = figure("energy_gain", "energy gain / %");
+    relative.curves = {{"gain", t, scaled(gain, 100 / scale), ink, 1.8}};
+    for (const auto& [limit, grade, colour] :
+         {std::tuple{unphysical_above, Grade::unphysical, red}, {doubtful_above, Grade::doubtful, amber}})
+      relative.curves.push_back({fmt::format("{:g} %: {}", 100 * limit, name_of(grade)),
+                                 {t.front(), t.back()},
+                                 {100 * limit, 100 * limit},
+                                 colour,
+                                 1.1});
+    relative.caption = fmt::format(
+        "The balance of the ledger over {}, the largest of what there was to give or to take. It falls by viscosity, "
+        "impacts and breaking waves; what rises comes from nowhere, and nothing after it can be trusted above the red "
+        "line.",
+        with_unit(scale, energy_unit(run.dimension())));
+    group.figures.push_back(std::move(relative));
+  }
+
+  Figure step = figure("step", "passes a step");
+  step.counts = true;
+  const Unit dt = si_unit(largest(table["dt"]), "s");
+  const double dt_scale = largest(table["dt"]) < 1e-4 ? 1e6 : dt.scale;
+  step.y2_label = "dt / " + (largest(table["dt"]) < 1e-4 ? std::string("µs") : dt.unit);
+  step.curves = {{"passes", t, table["passes"], amber, 1.2, false, true},
+                 {"dt", t, scaled(table["dt"], dt_scale), ink, 1.4, true}};
+  step.caption = "Coupling passes of each step (left) and the step's size (right).";
+  group.figures.push_back(std::move(step));
+
+  Figure mesh = figure("mesh", "nodes, elements");
+  mesh.zero_line = false;
+  mesh.curves = {{"nodes", t, table["nodes"], ink, 1.6}, {"elements", t, table["elements"], blue, 1.6}};
+  mesh.caption = "Size of the mesh: nodes come and go as the size field follows bodies and surface.";
+  group.figures.push_back(std::move(mesh));
+  return group;
+}
+
+FigureGroup surface_figures(const RunData& run) {
+  FigureGroup group{"Pressure along the walls", {}};
+  for (const auto& [wall, table] : run.surface_pressure) {
+    // Up to six of the recorded instants, evenly chosen.
+    Values instants = table["time"];
+    instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
+    const std::size_t count = std::min<std::size_t>(instants.size(), series_colours.size());
+    const Unit unit = si_unit(largest(table["p"]), "Pa"), time = time_unit(run.end_time());
+    Figure figure;
+    figure.name = "surface_" + file_name_of(wall);
+    figure.x_label = "s / m";
+    figure.y_label = "pressure / " + unit.unit;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double instant = instants[count == 1 ? 0 : k * (instants.size() - 1) / (count - 1)];
+      Curve curve{fmt::format("{} {}", digits(instant * time.scale, 3), time.unit), {}, {}, series_colours[k], 1.4};
+      for (std::size_t i = 0; i < table.rows(); ++i) {
+        if (table["time"][i] != instant) continue;
+        curve.x.push_back(table["s"][i]);
+        curve.y.push_back(table["p"][i] * unit.scale);
+      }
+      curve.points = run.dimension() == 3;  // around a hull there are many points of one distance
+      figure.curves.push_back(std::move(curve));
+    }
+    figure.caption = fmt::format("Pressure on <b>{}</b> over the distance {}from the keel.", html_escaped(wall),
+                                 run.dimension() == 3 ? "" : "along its outline ");
+    group.figures.push_back(std::move(figure));
+  }
+  return group;
+}
+
+FigureGroup probe_figures(const RunData& run) {
+  FigureGroup group{"Probes and gauges", {}};
+  const Unit time = time_unit(run.end_time());
+  for (const auto& [name, table] : run.probes) {
+    Figure figure;
+    figure.name = "probe_" + std::to_string(group.figures.size());
+    figure.x_label = "t / " + time.unit;
+    figure.y_label = name + run.unit_of_probe(name);
+    figure.curves = {{"", scaled(table["time"], time.scale), table["value"], ink, 1.4}};
+    figure.caption = fmt::format("Probe <b>{}</b>, SI units.", html_escaped(name));
+    group.figures.push_back(std::move(figure));
+  }
+  return group;
+}
+
+}  // namespace
+
+std::vector<FigureGroup> figures_of(const RunData& run) {
+  std::vector<FigureGroup> groups;
+  for (const auto& [name, table] : run.bodies)
+    if (!table.empty()) groups.push_back({"Body " + name, BodyPlotter(run, name, table).figures()});
+  groups.push_back(surface_figures(run));
+  groups.push_back(probe_figures(run));
+  groups.push_back(fluid_figures(run));
+  std::erase_if(groups, [](const FigureGroup& group) { return group.figures.empty(); });
+  return groups;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,290 @@
+#include "apps/report/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "apps/report/page.hpp"
+#include "apps/statistics/attitude.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+constexpr std::array phase_colours = {"#0f2f4f", "#2f7fc1", "#3a9d7c", "#d98e04", "#d1495b",
+                                      "#7b5ea7", "#8fb8d8", "#b0a990", "#5f6b76"};
+
+const nlohmann::ordered_json& member(const nlohmann::ordered_json& json, const char* key) {
+  static const nlohmann::ordered_json nothing = nlohmann::ordered_json::object();
+  return json.is_object() && json.contains(key) && json[key].is_object() ? json[key] : nothing;
+}
+
+std::string title_of(const RunData& run) {
+  if (run.summary.is_object()) {
+    const auto scene = run.summary.value("scene", std::string());
+    if (!scene.empty()) return scene;
+  }
+  return folder_name(run.directory);
+}
+
+std::string tiles(const RunData& run) {
+  std::string html;
+  const auto tile = [&](const std::string& value, const std::string& what) { html += html_tile(value, what); };
+  const auto& bodies = member(run.summary, "bodies");
+  const bool several = bodies.size() > 1;
+  for (const auto& [name, body] : bodies.items()) {
+    const std::string of = several ? ", " + html_escaped(name) : std::string();
+    if (const double f = number_at(body, {"peak_force", "value"}); f > 0)
+      tile(with_unit(f, force_unit(run.dimension())), "peak load, resultant" + of);
+    if (const double g = number_at(body, {"peak_acceleration_g", "raw", "value"}); g > 0)
+      tile(digits(g, 3) + " g", "peak acceleration" + of);
+  }
+  if (const double e = number_at(run.summary, {"ledger", "volume_error"}); std::isfinite(e))
+    tile(percent(e), "change of volume");
+  if (const double e = number_at(run.summary, {"ledger", "volume_error_bodies"}); std::isfinite(e))
+    tile(percent(e), "change of volume over the hulls");
+  if (const double g = number_at(run.summary, {"ledger", "energy_gain"}); std::isfinite(g))
+    tile(percent(g), "energy gain of the water");
+  if (const double p = number_at(run.summary, {"coupling", "passes_mean"}); std::isfinite(p))
+    tile(digits(p, 3), "coupling passes a step");
+  if (const double n = number_at(run.summary, {"nodes", "max"}); n > 0) tile(count_text(n), "nodes at most");
+  if (const double w = number_at(run.summary, {"wall_seconds"}); w > 0) tile(seconds_text(w), "wall time");
+  return html_tiles(html);
+}
+
+std::string phase_bar(const RunData& run) {
+  const auto& phases = member(run.summary, "phases");
+  double whole = number_at(run.summary, {"wall_seconds"}), sum = 0;
+  for (const auto& [name, seconds] : phases.items()) sum += seconds.is_number() ? seconds.get<double>() : 0;
+  if (!(sum > 0)) return {};
+  if (!(whole >= sum)) whole = sum;
+  std::string bar, legend;
+  std::size_t k = 0;
+  const auto part = [&](const std::string& name, double seconds, const char* colour) {
+    bar += fmt::format("<div style=\"width:{:.3f}%;background:{}\" title=\"{}: {}\"></div>", 100 * seconds / whole,
+                       colour, html_escaped(name), seconds_text(seconds));
+    legend += fmt::format("<li><i style=\"background:{}\"></i>{} <b>{}</b> · {:.1f} %</li>\n", colour,
+                          html_escaped(name), seconds_text(seconds), 100 * seconds / whole);
+  };
+  for (const auto& [name, seconds] : phases.items())
+    if (seconds.is_number() && seconds.get<double>() > 0)
+      part(name, seconds.get<double>(), phase_colours[k++ % phase_colours.size()]);
+  if (whole - sum > 1e-3 * whole) part("not accounted for", whole - sum, "#cfd8df");
+  return "<h2>Where the time went</h2>\n<div class=\"bar\">" + bar + "</div>\n<ul class=\"legend\">" + legend +
+         "</ul>\n";
+}
+
+std::string figures(const ReportPage& page) {
+  std::string html;
+  for (const auto& [heading, pictures] :
+       {std::pair{"Mesh and pressure", &page.fields}, {"Highest pressure on the hulls", &page.hulls}}) {
+    std::string inside;
+    for (const auto& field : *pictures)
+      if (const auto image = page.images.find(field.name); image != page.images.end())
+        inside += html_figure(image->second, "<b>" + html_escaped(field.title) + "</b>, " + field.caption);
+    if (!inside.empty()) html += fmt::format("<h2>{}</h2>\n<div class=\"grid\">{}</div>\n", heading, inside);
+  }
+  for (const auto& group : page.groups) {
+    std::string inside;
+    for (const auto& figure : group.figures)
+      if (const auto image = page.images.find(figure.name); image != page.images.end())
+        inside += html_figure(image->second, figure.caption);
+    if (!inside.empty())
+      html += "<h2>" + html_escaped(group.title) + "</h2>\n<div class=\"grid\">" + inside + "</div>\n";
+  }
+  return html;
+}
+
+double last_component(const nlohmann::ordered_json& body, const char* key) {
+  if (!body.contains(key) || !body[key].is_array() || body[key].empty() || !body[key].back().is_number()) return NAN;
+  return body[key].back().get<double>();
+}
+
+/// The class that J211 gives for integration to velocity, or the lowest that the run's steps allow.
+const nlohmann::ordered_json& shown_pulse(const nlohmann::ordered_json& acceleration) {
+  for (const char* cfc : {"cfc180", "cfc60", "cfc600", "cfc1000"})
+    if (acceleration.contains(cfc)) return acceleration[cfc];
+  return member(acceleration, "none");
+}
+
+std::string angle_text(const nlohmann::ordered_json& angle) {
+  const auto degrees = [](double value) { return std::isfinite(value) ? fmt::format("{:.1f}°", value) : "–"; };
+  return fmt::format("{} ({} to {})", degrees(number_at(angle, {"end"})),
+                     degrees(number_at(angle, {"minimum", "value"})), degrees(number_at(angle, {"maximum", "value"})));
+}
+
+std::string body_table(const RunData& run) {
+  const auto& bodies = member(run.summary, "bodies");
+  if (bodies.empty()) return {};
+  std::string html = "<h2>Bodies</h2>\n<div class=\"scroll\"><table><thead><tr><th></th>";
+  for (const auto& [name, body] : bodies.items()) html += "<th>" + html_escaped(name) + "</th>";
+  html += "</tr></thead><tbody>\n";
+  const auto row = [&](const std::string& what, const auto& cell) {
+    html += "<tr><td>" + what + "</td>";
+    for (const auto& [name, body] : bodies.items()) html += "<td>" + cell(body) + "</td>";
+    html += "</tr>\n";
+  };
+  using Body = nlohmann::ordered_json;
+  const int d = run.dimension();
+  row("verdict", [](const Body& b) {
+    const auto& verdict = member(b, "verdict");
+    return verdict.contains("grade") && verdict["grade"].is_string() ? html_escaped(verdict["grade"].get<std::string>())
+                                                                     : std::string("–");
+  });
+  row("peak load, resultant", [&](const Body& b) {
+    return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d));
+  });
+  row("at", [](const Body& b) { return seconds_text(number_at(b, {"peak_force", "time"})); });
+  row("peak acceleration, raw", [](const Body& b) {
+    return digits(number_at(b, {"peak_acceleration_g", "raw", "value"}), 3) + " g";
+  });
+  for (const int cfc : {1000, 600, 180, 60})
+    row(fmt::format("peak acceleration, CFC {}", cfc), [&](const Body& b) {
+      const double peak = number_at(b, {"peak_acceleration_g", fmt::format("cfc{}", cfc).c_str(), "value"});
+      return std::isfinite(peak) ? digits(peak, 3) + " g" : std::string("steps too long");
+    });
+  row("its pulse: rise time, duration", [](const Body& b) {
+    const auto& pulse = shown_pulse(member(b, "peak_acceleration_g"));
+    return seconds_text(number_at(pulse, {"rise_time"})) + ", " + seconds_text(number_at(pulse, {"duration"}));
+  });
+  row("its change of velocity", [](const Body& b) {
+    return with_unit(number_at(shown_pulse(member(b, "peak_acceleration_g")), {"delta_v"}), "m/s", 3);
+  });
+  for (const int cfc : {600, 60})
+    row(fmt::format("peak load, CFC {}", cfc), [&](const Body& b) {
+      const double peak = number_at(b, {"peak_force_filtered", fmt::format("cfc{}", cfc).c_str(), "value"});
+      return std::isfinite(peak) ? with_unit(peak, force_unit(d)) : std::string("steps too long");
+    });
+  row("vertical impulse of the load",
+      [&](const Body& b) { return with_unit(last_component(b, "impulse"), d == 2 ? "N s/m" : "N s"); });
+  row("its repair part", [](const Body& b) {
+    const double impulse = last_component(b, "impulse");
+    return impulse != 0 ? percent(last_component(b, "impulse_repair") / impulse) : std::string("–");
+  });
+  row("greatest submergence of the lowest point", [](const Body& b) {
+    return with_unit(number_at(b, {"maximum_submergence", "value"}), "m", 3);
+  });
+  row("at", [](const Body& b) { return seconds_text(number_at(b, {"maximum_submergence", "time"})); });
+  row("first contact", [](const Body& b) { return seconds_text(number_at(b, {"first_contact_time"})); });
+  if (std::ranges::any_of(bodies, [](const Body& b) { return std::isfinite(number_at(b, {"first_contact_time"})); })) {
+    for (const char* angle : attitude_names)
+      if (std::ranges::any_of(bodies, [&](const Body& b) { return member(b, "attitude_deg").contains(angle); }))
+        row(std::string(angle) + " at the end (lowest to highest since contact)",
+            [&](const Body& b) { return angle_text(member(member(b, "attitude_deg"), angle)); });
+    row("capsized", [](const Body& b) {
+      const double since = number_at(b, {"capsized_time"});
+      return std::isfinite(since) ? "since " + seconds_text(since) : std::string("no");
+    });
+    row("left the water again", [](const Body& b) {
+      const double skips = number_at(b, {"skips"});
+      return skips > 0 ? count_text(skips) + " times" : std::string("no");
+    });
+    row("settled", [](const Body& b) {
+      const double settled = number_at(b, {"settled_time"});
+      return std::isfinite(settled) ? "since " + seconds_text(settled) : std::string("not within the run");
+    });
+  }
+  return html +
+         "</tbody></table></div>\n<p class=\"where\">Accelerations are those of the centre of mass in "
+         "multiples of "
+         "9.80665 m/s², raw and filtered by the channel frequency classes of SAE J211. The pulse is that of CFC 180, "
+         "or of the "
+         "lowest class there is: rise time from 10 to 90 % of its peak, duration above 10 %.</p>\n";
+}
+
+std::string equipment_table(const RunData& run) {
+  const auto& points = member(run.summary, "equipment");
+  if (points.empty()) return {};
+  std::string html =
+      "<h2>Equipment</h2>\n<div class=\"scroll\"><table><thead><tr><th>point</th><th>peak g, "
+      "raw</th><th>at</th>"
+      "<th>CFC 1000</th><th>CFC 600</th><th>CFC 180</th><th>CFC 60</th><th>rise time</th><th>duration</th><th>change "
+      "of "
+      "velocity</th></tr></thead><tbody>\n";
+  for (const auto& [name, point] : points.items()) {
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", html_escaped(name),
+                        digits(number_at(point, {"raw", "value"}), 3), seconds_text(number_at(point, {"raw", "time"})));
+    for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"})
+      html += "<td>" + digits(number_at(point, {cfc, "value"}), 3) + "</td>";
+    const auto& pulse = shown_pulse(point);
+    html +=
+        fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", seconds_text(number_at(pulse, {"rise_time"})),
+                    seconds_text(number_at(pulse, {"duration"})), with_unit(number_at(pulse, {"delta_v"}), "m/s", 3));
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string ledger_table(const RunData& run) {
+  const auto& ledger = member(run.summary, "ledger");
+  if (ledger.empty()) return {};
+  const double whole = number_at(ledger, {"volume_initial"});
+  const std::string volume = run.dimension() == 2 ? "m²" : "m³", energy = energy_unit(run.dimension());
+  std::string html =
+      "<h2>Ledger</h2>\n<div class=\"scroll\"><table><thead><tr><th>what</th><th>amount</th><th>of the "
+      "water</th></tr></thead><tbody>\n";
+  for (const auto& [key, name] : {std::pair{"volume_initial", "volume at the start"},
+                                  {"volume_final", "volume at the end"},
+                                  {"volume_time_integration", "changed by moving the nodes"},
+                                  {"volume_remesh_created", "created where the surface was recognised anew"},
+                                  {"volume_remesh_deleted", "deleted there"},
+                                  {"volume_spray", "now carried by drops"}}) {
+    const double amount = number_at(ledger, {key});
+    html += fmt::format("<tr><td>{}</td><td>{} {}</td><td>{}</td></tr>\n", name, digits(amount, 5), volume,
+                        whole > 0 ? digits(100 * amount / whole, 3) + " %" : "–");
+  }
+  for (const auto& [key, name] : {std::pair{"kinetic_energy", "kinetic energy at the end"},
+                                  {"potential_energy", "potential energy at the end"},
+                                  {"work_on_walls", "work done on bodies and walls"},
+                                  {"energy_remesh", "kinetic energy changed by inserting and removing nodes"},
+                                  {"energy_repair", "kinetic energy taken by repairs"},
+                                  {"energy_gain_joule", "largest gain that nothing explains"},
+                                  {"energy_scale", "what there was to give or to take"}})
+    html +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td></td></tr>\n", name, with_unit(number_at(ledger, {key}), energy));
+  return html + "</tbody></table></div>\n";
+}
+
+std::string effects_table(const RunData& run) {
+  const auto& effects = member(run.summary, "effects");
+  const auto &active = member(effects, "active"), &inactive = member(effects, "inactive");
+  if (active.empty() && inactive.empty()) return {};
+  std::string html =
+      "<h2>Effects</h2>\n<div class=\"scroll\"><table><thead><tr><th>effect</th><th>wall "
+      "time</th><th>share</th>"
+      "<th style=\"text-align:left\">why it is off</th></tr></thead><tbody>\n";
+  for (const auto& [name, effect] : active.items())
+    html += fmt::format("<tr><td><b>{}</b></td><td>{}</td><td>{}</td><td></td></tr>\n", html_escaped(name),
+                        seconds_text(number_at(effect, {"seconds"})), percent(number_at(effect, {"share"})));
+  for (const auto& [name, reason] : inactive.items())
+    html += fmt::format("<tr><td>{}</td><td>–</td><td>–</td><td class=\"text\">{}</td></tr>\n", html_escaped(name),
+                        reason.is_string() ? html_escaped(reason.get<std::string>()) : "");
+  return html + "</tbody></table></div>\n";
+}
+
+std::string refusals_table(const RunData& run) {
+  const auto& causes = member(member(run.summary, "coupling"), "rejected_causes");
+  if (causes.empty()) return {};
+  std::string html =
+      "<h2>Refused steps</h2>\n<div "
+      "class=\"scroll\"><table><thead><tr><th>cause</th><th>times</th></tr></thead><tbody>\n";
+  for (const auto& [cause, count] : causes.items())
+    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", html_escaped(cause),
+                        count.is_number() ? count_text(count.get<double>()) : "–");
+  return html + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string html_of(const ReportPage& page) {
+  const auto title = title_of(page.run);
+  return html_page(title, html_header(title, page.run.directory, page.banner, page.warnings) + tiles(page.run) +
+                              phase_bar(page.run) + figures(page) + body_table(page.run) + equipment_table(page.run) +
+                              ledger_table(page.run) + effects_table(page.run) + refusals_table(page.run) +
+                              "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
+                              "in <code>report/</code>.</footer>\n");
+}
+
+}  // namespace splashdown::apps

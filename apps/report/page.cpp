@@ -1,0 +1,138 @@
+#include "apps/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace splashdown::apps {
+
+namespace {
+
+constexpr std::string_view style = R"(
+:root{--ink:#17222d;--soft:#51606e;--line:#e1e7ec;--paper:#fff;--ground:#f4f7f9;--blue:#2f7fc1}
+*{box-sizing:border-box}
+body{margin:0;background:var(--ground);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI","Helvetica Neue",Arial,sans-serif}
+main{max-width:1180px;margin:0 auto;padding:32px 24px 64px}
+h1{font-size:30px;line-height:1.2;margin:0 0 4px;letter-spacing:-.01em}
+h2{font-size:20px;margin:40px 0 12px;letter-spacing:-.005em}
+.where{color:var(--soft);margin:0 0 20px;font-size:14px;overflow-wrap:anywhere}
+.verdict{background:var(--paper);border:1px solid var(--line);border-left:6px solid;border-radius:8px;padding:18px 22px}
+.verdict.good{border-left-color:#3a9d7c}.verdict.fair{border-left-color:#d98e04}.verdict.bad{border-left-color:#d1495b}
+.verdict strong{display:block;font-size:19px;margin-bottom:6px}
+.verdict p{margin:3px 0}
+.verdict b.bad{color:#b8354a}.verdict b.fair{color:#a56a00}
+.verdict.bad{background:#fdf0f1}.verdict.fair{background:#fff8e8}
+.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(165px,1fr));gap:12px;margin:16px 0 0}
+.tile{background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}
+.tile b{display:block;font-size:22px;line-height:1.25;font-variant-numeric:tabular-nums;white-space:nowrap}
+.tile span{color:var(--soft);font-size:13px}
+.bar{display:flex;height:26px;border-radius:6px;overflow:hidden;background:var(--line)}
+.bar div{min-width:1px}
+.legend{display:flex;flex-wrap:wrap;gap:4px 20px;margin:10px 0 0;padding:0;list-style:none;font-size:14px;color:var(--soft)}
+.legend i{display:inline-block;width:11px;height:11px;border-radius:3px;margin-right:7px}
+.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:16px}
+figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:14px 16px 12px}
+figure svg,figure img{display:block;width:100%;height:auto}
+figcaption{color:var(--soft);font-size:14px;margin-top:8px}
+figcaption b{color:var(--ink)}
+.scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:8px}
+table{border-collapse:collapse;width:100%;font-size:14px;font-variant-numeric:tabular-nums}
+th,td{text-align:right;padding:7px 14px;border-top:1px solid var(--line);white-space:nowrap}
+th:first-child,td:first-child{text-align:left}
+thead th{border-top:0;color:var(--soft);font-weight:600}
+td.good{color:#2b7d62}td.fair{color:#a56a00}td.bad{color:#b8354a}
+th.text,td.text{text-align:left}
+td.text{white-space:normal}
+.note{background:#fff8e8;border:1px solid #f0dfb4;border-radius:8px;padding:12px 16px;margin:16px 0 0}
+a{color:var(--blue)}
+code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;background:#eef2f5;border-radius:4px;padding:1px 5px}
+footer{color:var(--soft);font-size:13px;margin-top:40px}
+@media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}}
+)";
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+const char* css_class(Mood mood) {
+  switch (mood) {
+    case Mood::good:
+      return "good";
+    case Mood::fair:
+      return "fair";
+    case Mood::bad:
+      break;
+  }
+  return "bad";
+}
+
+std::string folder_name(const std::filesystem::path& directory) {
+  const auto folder = std::filesystem::absolute(directory).lexically_normal();
+  return (folder.filename().empty() ? folder.parent_path() : folder).filename().string();
+}
+
+std::string html_header(const std::string& title, const std::filesystem::path& directory, const Banner& banner,
+                        const std::vector<std::string>& warnings) {
+  std::string html =
+      fmt::format("<h1>{}</h1>\n<p class=\"where\">{}</p>\n<section class=\"verdict {}\"><strong>{}</strong>\n",
+                  html_escaped(title), html_escaped(std::filesystem::absolute(directory).lexically_normal().string()),
+                  css_class(banner.mood), html_escaped(banner.headline));
+  for (const auto& sentence : banner.sentences) html += "<p>" + sentence + "</p>\n";
+  html += "</section>\n";
+  for (const auto& warning : warnings) html += "<div class=\"note\">" + warning + "</div>\n";
+  return html;
+}
+
+std::string html_tile(const std::string& value, const std::string& what) {
+  return fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", value, what);
+}
+
+std::string html_tiles(const std::string& tiles) {
+  return tiles.empty() ? tiles : "<div class=\"tiles\">\n" + tiles + "</div>\n";
+}
+
+std::string html_figure(const std::string& image, const std::string& caption) {
+  return "<figure>" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string inline_svg(const std::string& svg, const std::string& name) {
+  const std::size_t begin = svg.find("<svg");
+  if (begin == std::string::npos) return {};
+  std::string element = svg.substr(begin);
+  // The first title would show as a tooltip that reads "Gnuplot".
+  if (const std::size_t title = element.find("<title>Gnuplot</title>"); title != std::string::npos)
+    element.erase(title, std::string_view("<title>Gnuplot</title>").size());
+  for (const char* id : {"gpDot", "gpPt", "textstrings", "gnuplot_plot_", "gnuplot_canvas"}) {
+    replace_all(element, fmt::format("id=\"{}", id), fmt::format("id=\"{}_{}", name, id));
+    replace_all(element, fmt::format("id='{}", id), fmt::format("id='{}_{}", name, id));
+    replace_all(element, fmt::format("href='#{}", id), fmt::format("href='#{}_{}", name, id));
+    replace_all(element, fmt::format("url(#{}", id), fmt::format("url(#{}_{}", name, id));
+  }
+  replace_all(element, "font-family=\"Helvetica\"", "font-family=\"system-ui,Helvetica Neue,Arial,sans-serif\"");
+  return element;
+}
+
+std::string inline_png(const std::string& bytes, const std::string& alternative_text) {
+  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(4 * bytes.size() / 3 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k < bytes.size() + 1 ? alphabet[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", html_escaped(alternative_text), text);
+}
+
+std::string html_page(const std::string& title, const std::string& content) {
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
+         html_escaped(title) + " · Splashdown</title>\n<style>" + std::string(style) +
+         "</style></head>\n<body><main>\n" + content + "</main></body></html>\n";
+}
+
+}  // namespace splashdown::apps

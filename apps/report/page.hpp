@@ -1,0 +1,38 @@
+// What the pages of runs and studies share: the look, the heading with its verdict, tiles, figures held in
+// the page.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/report/words.hpp"
+
+namespace splashdown::apps {
+
+inline constexpr const char* no_gnuplot =
+    "gnuplot is not installed, so there are no figures. Install it with \"sudo apt install gnuplot-nox\" and "
+    "run "
+    "\"splashdown report\" again.";
+
+/// One file without links to elsewhere. `content` is HTML.
+std::string html_page(const std::string& title, const std::string& content);
+
+/// Title, folder, verdict, then warnings (HTML).
+std::string html_header(const std::string& title, const std::filesystem::path& directory, const Banner& banner,
+                        const std::vector<std::string>& warnings);
+
+std::string html_tile(const std::string& value, const std::string& what);
+std::string html_tiles(const std::string& tiles);  ///< around them; nothing if there are none
+std::string html_figure(const std::string& image, const std::string& caption);
+const char* css_class(Mood mood);
+
+/// Last part of the path, also of "." and "folder/".
+std::string folder_name(const std::filesystem::path& directory);
+
+/// An <svg> element made fit for a page with many: no prolog, ids of its own, the page's fonts.
+std::string inline_svg(const std::string& svg, const std::string& name);
+/// An <img> element that holds a PNG file's bytes.
+std::string inline_png(const std::string& bytes, const std::string& alternative_text);
+
+}  // namespace splashdown::apps

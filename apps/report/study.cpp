@@ -1,0 +1,212 @@
+#include "apps/report/study.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <regex>
+
+#include "apps/record/csv.hpp"
+#include "apps/report/data.hpp"
+#include "apps/report/gnuplot.hpp"
+#include "apps/report/page.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct StatusWords {
+  const char* status;
+  Mood mood;
+  const char* meaning;  ///< after a number of runs
+};
+
+/// In the order in which they are told. docs/study.md
+constexpr std::array<StatusWords, 6> all_status = {{
+    {"converged", Mood::good, "reached their end"},
+    {"diverged", Mood::bad, "diverged: the coupling's residual grew, or an error exceeds its limit"},
+    {"stalled", Mood::bad, "stalled: the coupling did not converge within its passes, or the budget was spent"},
+    {"failed", Mood::bad, "failed for another reason"},
+    {"interrupted", Mood::fair, "are interrupted; the same command continues them"},
+    {"waiting", Mood::fair, "are waiting; the same command makes them"},
+}};
+
+std::string text_at(const Json& json, const char* key) {
+  return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : std::string();
+}
+
+const Json& list_at(const Json& json, const char* key) {
+  static const Json none = Json::array();
+  return json.contains(key) && json[key].is_array() ? json[key] : none;
+}
+
+struct StudyData {
+  fs::path directory;
+  Json root;
+
+  const Json& runs() const { return list_at(root, "runs"); }
+  std::string title() const {
+    const auto title = text_at(root, "title");
+    return title.empty() ? folder_name(directory) : title;
+  }
+  std::size_t count(const std::string& status) const {
+    std::size_t number = 0;
+    for (const auto& run : runs()) number += text_at(run, "status") == status ? 1 : 0;
+    return number;
+  }
+};
+
+StudyData read_study_folder(const fs::path& directory) {
+  StudyData study{directory, read_json(directory / "study.json")};
+  if (!study.root.is_object() || study.runs().empty())
+    throw std::runtime_error((directory / "study.json").string() + ": is not the table of a study");
+  return study;
+}
+
+Banner banner_of(const StudyData& study) {
+  const std::size_t all = study.runs().size();
+  const std::size_t open = study.count("waiting") + study.count("interrupted"), failed = study.count("failed");
+  Banner banner{failed > 0 ? Mood::bad : open > 0 ? Mood::fair : Mood::good, {}, {}};
+  banner.headline =
+      open > 0 ? fmt::format("{} of {} runs have ended", all - open, all) : fmt::format("All {} runs have ended", all);
+  for (const auto& [status, mood, meaning] : all_status)
+    if (const auto number = study.count(status); number > 0)
+      banner.sentences.push_back(fmt::format("<b>{}</b> {}.", number, meaning));
+  double sum = 0, longest = 0;
+  std::string longest_run;
+  for (const auto& run : study.runs()) {
+    const double seconds = number_at(run, {"numbers", "wall_seconds"});
+    if (!std::isfinite(seconds)) continue;
+    sum += seconds;
+    if (seconds >= longest) longest = seconds, longest_run = text_at(run, "run");
+  }
+  if (sum > 0)
+    banner.sentences.push_back(fmt::format("The runs took <b>{}</b> of wall time together; the longest, {}, {}.",
+                                           seconds_text(sum), html_escaped(longest_run), seconds_text(longest)));
+  return banner;
+}
+
+/// No wider than it was drawn: a chart of one panel would fill the page.
+std::string in_its_width(const std::string& svg) {
+  std::smatch width;
+  if (!std::regex_search(svg, width, std::regex("<svg[^>]* width=\"([0-9]+)\""))) return svg;
+  return fmt::format("<div style=\"max-width:{}px;margin:0 auto\">{}</div>", width[1].str(), svg);
+}
+
+/// The chart as an element of the page; nothing if the study asks for none.
+std::string chart_of(const fs::path& directory, std::vector<std::string>& warnings) {
+  // The script that lies there is not run: a report of somebody else's folder must not carry out what it says.
+  if (!fs::exists(directory / "study.svg") && fs::exists(directory / "study.gnuplot"))
+    warnings.emplace_back("the chart, study.svg, is missing: splashdown study STUDY.toml --collect draws it");
+  if (!fs::exists(directory / "study.svg")) return {};
+  return "<h2>Chart</h2>\n" +
+         html_figure(in_its_width(inline_svg(read_text(directory / "study.svg"), "study")),
+                     "Runs that broke down stand as crosses in the red band, in the colour of their curve. Where "
+                     "curves coincide their points stand a little beside each other.");
+}
+
+std::string axes_table(const StudyData& study) {
+  const auto& axes = list_at(study.root, "axes");
+  if (axes.empty()) return {};
+  std::string html =
+      "<h2>Axes</h2>\n<div class=\"scroll\"><table><thead><tr><th>axis</th><th class=\"text\">what it "
+      "is</th><th>values</th><th class=\"text\"></th></tr></thead><tbody>\n";
+  for (const auto& axis : axes) {
+    std::string values;
+    for (const auto& value : list_at(axis, "values"))
+      values += (values.empty() ? "" : ", ") + html_escaped(value.get<std::string>());
+    html += fmt::format("<tr><td><b>{}</b></td><td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
+                        html_escaped(text_at(axis, "name")), html_escaped(text_at(axis, "label")),
+                        list_at(axis, "values").size(), values);
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+/// Columns in which any run has a number: name and label.
+std::vector<std::pair<std::string, std::string>> columns_of(const StudyData& study) {
+  std::vector<std::pair<std::string, std::string>> columns;
+  for (const auto& column : list_at(study.root, "columns")) {
+    const auto name = text_at(column, "name");
+    bool any = false;
+    for (const auto& run : study.runs()) any |= std::isfinite(number_at(run, {"numbers", name.c_str()}));
+    if (any) columns.emplace_back(name, text_at(column, "label"));
+  }
+  return columns;
+}
+
+std::string number_cell(double value) {
+  if (!std::isfinite(value)) return "<td>–</td>";
+  const bool whole = value == std::round(value) && std::abs(value) < 1e7;
+  return "<td>" + (whole ? count_text(value) : digits(value, 4)) + "</td>";
+}
+
+std::string status_cell(const std::string& status) {
+  for (const auto& words : all_status)
+    if (words.status == status) return fmt::format("<td class=\"{}\"><b>{}</b></td>", css_class(words.mood), status);
+  return "<td>" + html_escaped(status) + "</td>";
+}
+
+std::string runs_table(const StudyData& study) {
+  const auto columns = columns_of(study);
+  std::string html = "<h2>Runs</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th>", rows;
+  for (const auto& axis : list_at(study.root, "axes")) html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
+  html += "<th>status</th>";
+  for (const auto& [name, label] : columns) html += "<th>" + html_escaped(label) + "</th>";
+  html += "</tr></thead><tbody>\n";
+  bool linked = false;
+  for (const auto& run : study.runs()) {
+    const auto name = html_escaped(text_at(run, "run"));
+    const bool has_page = fs::exists(study.directory / text_at(run, "run") / "report.html");
+    linked |= has_page;
+    rows +=
+        has_page ? fmt::format("<tr><td><a href=\"{0}/report.html\">{0}</a></td>", name) : "<tr><td>" + name + "</td>";
+    for (const auto& axis : list_at(study.root, "axes")) {
+      const auto& value = run.at("axes").at(text_at(axis, "name"));
+      rows += "<td>" +
+              (value.is_number() ? fmt::format("{:g}", value.get<double>()) : html_escaped(value.get<std::string>())) +
+              "</td>";
+    }
+    rows += status_cell(text_at(run, "status"));
+    for (const auto& [column, label] : columns) rows += number_cell(number_at(run, {"numbers", column.c_str()}));
+    rows += "</tr>\n";
+  }
+  html += rows + "</tbody></table></div>\n";
+  if (linked) html += "<p class=\"where\">A run's name leads to its own report.</p>\n";
+  return html;
+}
+
+std::string causes_table(const StudyData& study) {
+  std::string rows;
+  for (const auto& run : study.runs())
+    if (const auto cause = text_at(run, "cause"); !cause.empty())
+      rows += fmt::format("<tr><td>{}</td>{}<td class=\"text\">{}</td></tr>\n", html_escaped(text_at(run, "run")),
+                          status_cell(text_at(run, "status")), html_escaped(cause));
+  if (rows.empty()) return rows;
+  return "<h2>Why runs stopped</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th><th>status</th><th "
+         "class=\"text\">cause</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+bool holds_study(const fs::path& directory) { return fs::exists(directory / "study.json"); }
+
+ReportResult write_study_report(const fs::path& directory) {
+  const StudyData study = read_study_folder(directory);
+  ReportResult result{directory / "report.html", {}};
+  const auto chart = chart_of(directory, result.warnings);
+  std::vector<std::string> notes;
+  for (const auto& warning : result.warnings) notes.push_back(html_escaped(warning));
+  write_file_atomically(
+      result.page,
+      html_page(study.title(), html_header(study.title(), directory, banner_of(study), notes) + chart +
+                                   axes_table(study) + runs_table(study) + causes_table(study) +
+                                   "<footer>Made by Splashdown from <code>study.json</code> in this folder; the same "
+                                   "as a table: <code>study.csv</code>.</footer>\n"));
+  return result;
+}
+
+}  // namespace splashdown::apps

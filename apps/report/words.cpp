@@ -1,0 +1,207 @@
+#include "apps/report/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace splashdown::apps {
+
+namespace {
+
+constexpr double volume_error_good = 0.005;  // the bar of all examples (docs/validation.md)
+
+std::string superscript(int exponent) {
+  constexpr std::array raised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(exponent))) text += raised[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
+
+std::string status_sentence(const nlohmann::ordered_json& summary) {
+  const std::string status = summary.value("status", "");
+  if (status == "done") return "The run finished";
+  if (status == "interrupted") return "The run was interrupted and can be resumed";
+  if (status == "failed") return "The run could not go on";
+  return "The run stopped";
+}
+
+std::string text_at(const nlohmann::ordered_json& json, const char* key) {
+  return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
+
+Mood mood_of_grade(const std::string& grade) {
+  if (grade == "unphysical") return Mood::bad;
+  return grade == "doubtful" || grade == "unresolved" ? Mood::fair : Mood::good;
+}
+
+/// The grade into the headline and its reasons first: nothing below counts if they are bad.
+void add_verdict(const nlohmann::ordered_json& summary, Banner& banner) {
+  if (!summary.contains("verdict")) return;  // of an earlier version
+  const auto& verdict = summary["verdict"];
+  const auto grade = text_at(verdict, "grade");
+  banner.mood = std::max(banner.mood, mood_of_grade(grade));
+  if (!grade.empty()) banner.headline += ": " + grade;
+  if (!verdict.is_object() || !verdict.contains("reasons")) return;
+  for (const auto& reason : verdict["reasons"])
+    if (reason.is_string())
+      banner.sentences.push_back("<b class=\"" + std::string(mood_of_grade(grade) == Mood::bad ? "bad" : "fair") +
+                                 "\">" + html_escaped(reason.get<std::string>()) + "</b>");
+}
+
+void add_body_sentences(const RunData& run, std::vector<std::string>& sentences) {
+  const auto& bodies = run.summary.contains("bodies") ? run.summary["bodies"] : nlohmann::ordered_json::object();
+  for (const auto& [name, body] : bodies.items()) {
+    const double force = number_at(body, {"peak_force", "value"});
+    if (!(force > 0)) continue;
+    std::string text = fmt::format("The largest load on <b>{}</b>, all directions together, was <b>{}</b> at {}",
+                                   html_escaped(name), with_unit(force, force_unit(run.dimension())),
+                                   seconds_text(number_at(body, {"peak_force", "time"})));
+    const double raw = number_at(body, {"peak_acceleration_g", "raw", "value"});
+    if (raw > 0) {
+      text += fmt::format("; its centre of mass felt up to <b>{} g</b>", digits(raw, 3));
+      for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"}) {
+        const double filtered = number_at(body, {"peak_acceleration_g", cfc, "value"});
+        if (!std::isfinite(filtered)) continue;
+        text += fmt::format(" ({} g filtered by CFC {})", digits(filtered, 3), cfc + 3);
+        break;
+      }
+    }
+    sentences.push_back(text + ".");
+  }
+}
+
+}  // namespace
+
+Unit si_unit(double largest, const std::string& unit) {
+  largest = std::abs(largest);
+  if (largest >= 1e9) return {1e-9, "G" + unit};
+  if (largest >= 1e6) return {1e-6, "M" + unit};
+  if (largest >= 1e3) return {1e-3, "k" + unit};
+  if (largest >= 0.1 || largest == 0 || !std::isfinite(largest)) return {1, unit};
+  return {1e3, "m" + unit};
+}
+
+Unit time_unit(double end_time) { return end_time < 0.5 ? Unit{1e3, "ms"} : Unit{1, "s"}; }
+
+std::string force_unit(int dimension) { return dimension == 2 ? "N/m" : "N"; }
+std::string moment_unit(int dimension) { return dimension == 2 ? "N m/m" : "N m"; }
+std::string energy_unit(int dimension) { return dimension == 2 ? "J/m" : "J"; }
+
+std::string digits(double value, int count) {
+  if (!std::isfinite(value)) return "–";
+  if (value == 0) return "0";
+  // Of the rounded value: 9.9996 is "10.00", not "10.000".
+  const double rounded = std::abs(value) * (1 + 0.5 * std::pow(10.0, -count));
+  const int magnitude = static_cast<int>(std::floor(std::log10(rounded)));
+  const std::string sign = value < 0 ? "−" : "";
+  if (magnitude >= -4 && magnitude <= 6)
+    return sign + fmt::format("{:.{}f}", std::abs(value), std::max(0, count - 1 - magnitude));
+  return sign +
+         fmt::format("{:.{}f}·10{}", std::abs(value) * std::pow(10.0, -magnitude), count - 1, superscript(magnitude));
+}
+
+std::string with_unit(double value, const std::string& unit, int count) {
+  const auto [scale, name] = si_unit(value, unit);
+  return digits(value * scale, count) + " " + name;
+}
+
+std::string seconds_text(double seconds) {
+  if (!std::isfinite(seconds)) return "–";
+  if (seconds < 1) return digits(seconds * 1e3, 3) + " ms";
+  if (seconds < 120) return digits(seconds, 3) + " s";
+  const auto minutes = static_cast<long>(std::lround(seconds / 60));
+  if (minutes < 60) return fmt::format("{} min", minutes);
+  return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+}
+
+std::string count_text(double count) { return std::isfinite(count) ? fmt::format("{:.0f}", count) : "–"; }
+
+std::string percent(double share) { return digits(100 * share, 2) + " %"; }
+
+std::string html_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+double number_at(const nlohmann::ordered_json& json, std::initializer_list<const char*> path) {
+  const nlohmann::ordered_json* at = &json;
+  for (const char* key : path) {
+    if (!at->is_object() || !at->contains(key)) return std::numeric_limits<double>::quiet_NaN();
+    at = &(*at)[key];
+  }
+  return at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+Banner banner_of(const RunData& run) {
+  if (!run.summary.is_object())
+    return {Mood::fair,
+            "No summary yet",
+            {fmt::format("There is no summary.json: the run is still going on, or it was killed. Its files reach "
+                         "to t = {}.",
+                         seconds_text(run.end_time()))}};
+  const auto& summary = run.summary;
+  const std::string status = summary.value("status", "");
+  Banner banner{status == "done"     ? Mood::good
+                : status == "failed" ? Mood::bad
+                                     : Mood::fair,
+                status_sentence(summary),
+                {}};
+  add_verdict(summary, banner);
+  const bool told = status == "failed" && !banner.sentences.empty();  // the verdict's reason has it
+  if (!told && summary.contains("cause") && summary["cause"].is_string())
+    banner.sentences.push_back("Cause: " + html_escaped(summary["cause"].get<std::string>()));
+  banner.sentences.push_back(fmt::format("<b>{}</b> were simulated in <b>{}</b> of wall time, {} steps.",
+                                         seconds_text(number_at(summary, {"simulated_time"})),
+                                         seconds_text(number_at(summary, {"wall_seconds"})),
+                                         count_text(number_at(summary, {"steps"}))));
+  add_body_sentences(run, banner.sentences);
+  const double error = number_at(summary, {"ledger", "volume_error"});
+  if (std::isfinite(error)) {
+    const bool good = std::abs(error) <= volume_error_good;
+    banner.sentences.push_back(fmt::format("The water's volume changed by <b>{}</b>{}.", percent(error),
+                                           good ? "" : ", more than the 0.5 % that the examples keep"));
+    if (!good && banner.mood == Mood::good) banner.mood = Mood::fair;
+  }
+  const double gain = number_at(summary, {"ledger", "energy_gain"});
+  if (std::isfinite(gain))
+    banner.sentences.push_back(fmt::format(
+        "Its energy rose unexplained by <b>{}</b> of {}, the largest of what there was to give or to take ({}).",
+        percent(gain), with_unit(number_at(summary, {"ledger", "energy_scale"}), energy_unit(run.dimension())),
+        html_escaped(text_at(summary["ledger"], "energy_scale_from"))));
+  const double passes = number_at(summary, {"coupling", "passes_mean"});
+  if (std::isfinite(passes)) {
+    const double rejected = number_at(summary, {"coupling", "rejected_steps"});
+    banner.sentences.push_back(
+        fmt::format("The coupling took {} passes a step on average and {} at most; {}.", digits(passes, 3),
+                    count_text(number_at(summary, {"coupling", "passes_max"})),
+                    rejected > 0 ? count_text(rejected) + " steps were refused and repeated" : "no step was refused"));
+  }
+  return banner;
+}
+
+}  // namespace splashdown::apps

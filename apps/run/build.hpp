@@ -1,0 +1,54 @@
+// Scene to World: the only place that chooses types.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "apps/record/settings.hpp"
+#include "apps/scene/scene.hpp"
+#include "coupling/schemes/stepper.hpp"
+#include "fluid/fluid.hpp"
+#include "rigid/bodies.hpp"
+
+namespace splashdown::apps {
+
+/// What a run drives and what its recorder looks at.
+template <int d>
+struct World {
+  std::unique_ptr<coupling::Stepper> stepper;  ///< owns the parts
+  const fluid::Fluid<d>* fluid = nullptr;      ///< null: no liquid in the scene
+  const rigid::Bodies<d>* bodies = nullptr;    ///< null: no bodies in the scene
+  /// Half-step velocities of the bodies after the last attempt.
+  std::function<std::vector<rigid::Twist<d>>()> trial_velocities;
+};
+
+/// Throws std::invalid_argument if the parts refuse what the scene asks for.
+template <int d>
+World<d> build_world(const Scene& scene);
+
+/// Walls: one a body, in their order, then the tank if there is one.
+template <int d>
+fluid::FluidSpec<d> fluid_spec(const Scene& scene);
+template <int d>
+std::vector<std::unique_ptr<fluid::Term<d>>> fluid_terms(const Scene& scene);
+/// A place where a body's hull is curved.
+template <int d>
+struct HullBend {
+  fluid::Vec<d> at;     ///< world frame, at t = 0
+  double radius, size;  ///< of curvature; of the elements there [m]
+};
+template <int d>
+std::vector<HullBend<d>> hull_bends(const Scene& scene, const Body& body);
+template <int d>
+rigid::BodySpec<d> body_spec(const Body& body);
+std::vector<rigid::JointSpec> joint_specs(const Scene& scene);
+template <int d>
+std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene);
+template <int d>
+std::vector<std::unique_ptr<rigid::Force<d>>> body_forces(const Scene& scene);
+template <int d>
+RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem::path& directory);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,192 @@
+#include "apps/run/closing.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/cli/plain_text.hpp"
+#include "apps/record/frames.hpp"
+#include "apps/run/progress.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+std::string row(const std::string& head, const std::string& text) { return fmt::format("  {:<12}{}\n", head, text); }
+
+/// Two digits, without an exponent.
+std::string percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
+}
+
+std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
+
+std::string impact_text(const BodySummary& body, int dimension) {
+  const auto& a = body.acceleration.raw;
+  if (body.landing.first_contact < 0) return fmt::format("stayed dry, peak acceleration {:.3g} g{}", a.value, at(a));
+  const std::string force = dimension == 2 ? "N/m" : "N";
+  auto text = fmt::format("wet from {}, peak force {}{}, peak acceleration {:.3g} g{}",
+                          with_unit(body.landing.first_contact, "s"), with_unit(body.force.raw.value, force),
+                          at(body.force.raw), a.value, at(a));
+  double total = 0, repair = 0;
+  for (const double value : body.impulse) total += value * value;
+  for (const double value : body.impulse_repair) repair += value * value;
+  if (total > 0) text += fmt::format(", repair share of the impulse {} %", percent(std::sqrt(repair / total)));
+  return text;
+}
+
+/// Filtered peaks of all classes, and the pulse in the class that J211 gives for integration to velocity or the next one.
+std::string pulse_text(const PulseSummary& acceleration) {
+  const auto& classes = acceleration.cfc;
+  if (classes.empty()) return {};
+  std::string names, peaks;
+  for (const auto& [cfc, pulse] : classes) {
+    names += fmt::format("{}{}", names.empty() ? "" : "/", cfc);
+    peaks += fmt::format("{}{:.3g}", peaks.empty() ? "" : ", ", pulse.value);
+  }
+  auto text = fmt::format("CFC {}: {} g", names, peaks);
+  const auto chosen = classes.contains(180) ? classes.find(180) : classes.begin();
+  const auto& [cfc, pulse] = *chosen;
+  if (std::isfinite(pulse.rise_time))
+    text += fmt::format("; pulse (CFC {}) at {}, rise time {}", cfc, with_unit(pulse.time, "s"),
+                        with_unit(pulse.rise_time, "s"));
+  if (std::isfinite(pulse.duration))
+    text += fmt::format(", duration {}, delta v {:.3g} m/s", with_unit(pulse.duration, "s"), pulse.change);
+  return text;
+}
+
+std::string landing_text(const BodySummary& body) {
+  const auto& landing = body.landing;
+  std::string text;
+  if (body.submergence.time >= 0)
+    text += fmt::format("greatest submergence {}{}", with_unit(body.submergence.value, "m"), at(body.submergence));
+  for (const auto& [name, angle] : landing.attitude)
+    text += fmt::format("{}{} {:.1f} deg ({:.1f} to {:.1f})", text.empty() ? "" : ", ", name, angle.end,
+                        angle.lowest.value, angle.highest.value);
+  if (landing.capsized_since >= 0) text += ", capsized at " + with_unit(landing.capsized_since, "s");
+  const auto skips = landing.dry_intervals.size();
+  if (skips > 0)
+    text += fmt::format(", left the water {} time{}, first at {}", skips, skips > 1 ? "s" : "",
+                        with_unit(landing.dry_intervals.front()[0], "s"));
+  if (landing.settled >= 0) text += ", settled at " + with_unit(landing.settled, "s");
+  return text;
+}
+
+std::string body_rows(const std::string& name, const BodySummary& body, int dimension) {
+  auto text = row(name, impact_text(body, dimension));
+  if (const auto pulse = pulse_text(body.acceleration); !pulse.empty()) text += row("", pulse);
+  if (body.landing.first_contact >= 0) text += row("", landing_text(body));
+  if (const auto& highest = body.maximum_pressure)
+    text +=
+        row("", fmt::format("maximum pressure {}{}, at ({:.3g}) m of its shape", with_unit(highest->peak.value, "Pa"),
+                            at(highest->peak), fmt::join(highest->point, ", ")));
+  return text;
+}
+
+std::string equipment_text(const PulseSummary& point) {
+  auto text = fmt::format("peak acceleration {:.3g} g{}", point.raw.value, at(point.raw));
+  if (const auto pulse = pulse_text(point); !pulse.empty()) text += ", " + pulse;
+  return text;
+}
+
+std::string time_text(const Summary& summary) {
+  auto phases = summary.phases;
+  std::sort(phases.begin(), phases.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [name, seconds] : phases) {
+    const double share = 100 * seconds / summary.wall_seconds;
+    if (share < 1) continue;
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, share);
+  }
+  return text;
+}
+
+std::string coupling_text(const CouplingSummary& coupling) {
+  return fmt::format("{}, {}: {:.3g} passes a step, {} at most", coupling.scheme, coupling.interface_term,
+                     coupling.passes_mean, coupling.passes_max);
+}
+
+std::string refused_text(const Summary& summary) {
+  std::string text = fmt::format("{} steps", summary.rejected_steps);
+  for (const auto& [cause, count] : summary.rejected_causes) text += fmt::format("; {}: {}", cause, count);
+  return text;
+}
+
+std::string files_text(const std::filesystem::path& directory, const std::map<std::string, BodySummary>& bodies) {
+  std::string text = directory.string() + "/:";
+  for (const char* name : {"report.html", "summary.json", "bodies.csv", "fluid.csv", "probes.csv",
+                           "surface_pressure.csv", "added_mass.csv", "frames.pvd"})
+    if (std::filesystem::exists(directory / name)) text += fmt::format(" {}", name);
+  for (const auto& [name, body] : bodies)
+    if (body.maximum_pressure) text += fmt::format(" hull_{}.vtu", file_name_of(name));
+  return text;
+}
+
+std::string liquid_text(const Summary& summary) {
+  const auto& ledger = *summary.ledger;
+  auto text = fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final, summary.nodes->max,
+                          100 * ledger.volume_error);
+  if (ledger.volume_error_bodies) text += fmt::format(" ({:.2g} % of the hulls)", 100 * *ledger.volume_error_bodies);
+  return text + fmt::format(", energy gain {:.2g} % of {}", 100 * ledger.energy_gain,
+                            with_unit(ledger.energy_scale, summary.dimension == 2 ? "J/m" : "J"));
+}
+
+/// ANSI (ECMA-48, 8.3.117): 31 red, 33 yellow, 32 green, 1 bold.
+const char* colour_of(Grade grade) {
+  switch (grade) {
+    case Grade::resolved:
+      return "32";
+    case Grade::doubtful:
+    case Grade::unresolved:
+      return "1;33";
+    case Grade::unphysical:
+      break;
+  }
+  return "1;31";
+}
+
+std::string verdict_rows(const Verdict& verdict, Ink ink) {
+  std::string name = name_of(verdict.grade);
+  if (ink == Ink::colour) name = fmt::format("\x1b[{}m{}\x1b[0m", colour_of(verdict.grade), name);
+  auto text = row("verdict", name);
+  for (const auto& reason : verdict.reasons) text += row("", reason);
+  return text;
+}
+
+}  // namespace
+
+std::string with_unit(double value, const std::string& unit) {
+  struct Prefix {
+    double factor;
+    const char* name;
+  };
+  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}};
+  if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);
+  // 0.9995 and more round to a thousand of the next smaller prefix.
+  for (const auto& prefix : prefixes)
+    if (std::abs(value) >= 0.9995 * prefix.factor)
+      return fmt::format("{:.4g} {}{}", value / prefix.factor, prefix.name, unit);
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+std::string closing_text(const Summary& summary, const std::filesystem::path& directory, Ink ink) {
+  auto text = fmt::format(
+      "{}: {} {} in {} steps, {} of wall time\n", one_line(summary.scene), summary.status,
+      with_unit(summary.simulated_time, "s"), summary.steps,
+      summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds) : clock_text(summary.wall_seconds));
+  for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
+  for (const auto& [name, point] : summary.equipment) text += row(name, equipment_text(point));
+  for (const auto& [name, patch] : summary.patches)
+    text += row(name, fmt::format("peak pressure {}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
+                                  at(patch.pressure), patch.area, summary.dimension == 2 ? "m" : "m^2"));
+  if (summary.nodes && summary.ledger) text += row("liquid", liquid_text(summary));
+  if (summary.coupling) text += row("coupling", coupling_text(*summary.coupling));
+  if (summary.rejected_steps > 0) text += row("refused", refused_text(summary));
+  if (summary.wall_seconds > 0) text += row("spent on", time_text(summary));
+  text += row("files", files_text(directory, summary.bodies));
+  text += verdict_rows(summary.verdict, ink);
+  return text;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,99 @@
+#include "apps/run/loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace splashdown::apps {
+namespace {
+
+// The first step sees the scene as it was drawn: node spacing and pressure have not met yet (docs/theory.md).
+constexpr double first_share = 0.2;
+// The leapfrog kick is the mean of two steps; neighbours of similar length keep its second order.
+constexpr double growth = 1.5;
+// Twenty halvings: what no dt of that size cures is no matter of dt.
+constexpr double smallest_share = 1e-6;
+
+struct Attempt {
+  coupling::StepReport report;
+  double dt = 0;
+};
+
+/// What kind of refusal it is: causes carry their numbers behind a colon.
+std::string kind_of(const std::string& cause) { return cause.substr(0, cause.find(": ")); }
+
+coupling::StepReport attempt(coupling::Stepper& stepper, double dt) {
+  try {
+    return stepper.attempt(dt);
+  } catch (const std::exception& error) {
+    return {.cause = error.what()};
+  }
+}
+
+/// Halves dt until the step is accepted, or not worth trying.
+Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterion, LoopState& state, LoopHost& host) {
+  for (;; dt *= 0.5) {
+    auto report = attempt(stepper, dt);
+    if (report.ok()) return {std::move(report), dt};
+    ++state.rejected[kind_of(report.cause)];
+    host.refused(stepper.time(), dt, report.cause);
+    if (dt < smallest_share * criterion) return {std::move(report), dt};
+  }
+}
+
+}  // namespace
+
+double fitted_dt(double dt, double remaining) {
+  if (remaining <= dt) return remaining;
+  return remaining < 2 * dt ? 0.5 * remaining : dt;
+}
+
+LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, LoopHost& host) {
+  using enum LoopEnd::Status;
+  bool undisturbed = true;  // no step has been shortened for the stop time
+  for (;;) {
+    const double time = stepper.time();
+    const bool last = time >= stop;
+    if (undisturbed) {
+      if (!last)
+        if (const auto cause = host.interruption()) {
+          host.checkpoint();
+          return {interrupted, *cause};
+        }
+      if (last || host.checkpoint_due()) host.checkpoint();
+    }
+
+    const double criterion = std::min(stepper.stable_dt(), host.dt_bound());
+    if (!(criterion > 0 && std::isfinite(criterion)))
+      return {failed, fmt::format("the time-step criterion gives dt = {} s", criterion)};
+    if (state.dt_cap == 0) state.dt_cap = first_share * criterion;
+    const double regular = std::min(criterion, state.dt_cap);
+    const double wanted = last ? regular : fitted_dt(regular, stop - time);
+    if (undisturbed && wanted != regular) {
+      host.checkpoint();
+      undisturbed = false;
+    }
+
+    const auto rejected_before = state.rejected;
+    const auto step = attempt_with_cuts(stepper, wanted, criterion, state, host);
+    if (!step.report.ok()) {
+      if (undisturbed) {
+        // A run that is continued from here makes these attempts again, and counts them then.
+        auto rejected = std::exchange(state.rejected, rejected_before);
+        host.checkpoint();
+        state.rejected = std::move(rejected);
+      }
+      return {failed, step.report.cause};
+    }
+    host.record({time, step.dt, state.dt_previous, step.report, last});
+    if (last) return {done, {}};
+    stepper.commit();
+    ++state.steps;
+    state.dt_previous = step.dt;
+    state.dt_cap = growth * (step.dt < wanted ? step.dt : regular);
+  }
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,59 @@
+// The step loop: chooses dt, refuses steps, ends at the stop time exactly.
+//
+//   dt = min(criterion, growth dt_{n-1});  a refused step is tried again with half of it.
+//
+// Nothing here depends on the wall clock except when checkpoints are taken and when a budget ends, neither
+// of which changes a step. The steps that the stop time shortens are taken after a last checkpoint, so a run
+// that is continued beyond it makes the same steps as one that was never stopped.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "coupling/schemes/stepper.hpp"
+
+namespace splashdown::apps {
+
+/// What a continued run needs to know besides the state of its parts.
+struct LoopState {
+  double dt_previous = 0;                ///< of the last committed step; 0 before the first [s]
+  double dt_cap = 0;                     ///< largest dt that the steps before allow; 0 before the first [s]
+  long steps = 0;                        ///< committed
+  std::map<std::string, long> rejected;  ///< refused attempts by cause
+};
+
+/// A step that was tried with success and is not committed yet: everything at `time` is known.
+struct StepMade {
+  double time = 0;  ///< t_n
+  double dt = 0, dt_previous = 0;
+  coupling::StepReport report;
+  bool last = false;  ///< t_n is the stop time; this step is never committed
+};
+
+class LoopHost {
+ public:
+  virtual ~LoopHost() = default;
+  /// Bound on the next step besides the stepper's own criterion [s].
+  virtual double dt_bound() const = 0;
+  virtual void record(const StepMade& step) = 0;
+  virtual void refused(double time, double dt, const std::string& cause) = 0;
+  virtual bool checkpoint_due() = 0;
+  virtual void checkpoint() = 0;
+  /// Why the run shall be interrupted before its next step.
+  virtual std::optional<std::string> interruption() = 0;
+};
+
+struct LoopEnd {
+  enum class Status { done, interrupted, failed };
+  Status status = Status::done;
+  std::string cause;  ///< empty when done
+};
+
+LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, LoopHost& host);
+
+/// The next dt towards an instant `remaining` away: dt itself, or equal parts when two steps or fewer are
+/// left, so that no sliver of a step remains.
+double fitted_dt(double dt, double remaining);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,87 @@
+#include "apps/run/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace splashdown::apps {
+namespace {
+
+constexpr double seconds_between_lines = 5;
+constexpr double seconds_between_renewals = 0.2;
+constexpr double seconds_of_memory = 5;  // of the speed that the time left is judged by
+
+double seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+}  // namespace
+
+std::string clock_text(double wall) {
+  const double day = 86400;
+  if (!(wall < 100 * day)) return fmt::format("{:.2g} days", wall / day);
+  const long whole = static_cast<long>(wall + 0.5);
+  return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
+                      : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string progress_text(const ProgressPoint& point, double left) {
+  auto text = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  step {}  dt {:.2g} s", 100 * point.time / point.stop,
+                          point.time, point.stop, point.steps, point.dt);
+  if (point.nodes) text += fmt::format("  nodes {}", *point.nodes);
+  if (point.passes) text += fmt::format("  passes {}", *point.passes);
+  if (left >= 0) text += fmt::format("  left {}", clock_text(left));
+  return text;
+}
+
+double Progress::time_left(const ProgressPoint& point) {
+  const auto now = Clock::now();
+  if (!rated_) {
+    rated_ = now;
+    rated_time_ = point.time;
+    return -1;
+  }
+  const double span = seconds(now - *rated_);
+  if (span > 0) {
+    const double weight = std::min(1., rate_ == 0 ? 1. : span / seconds_of_memory);
+    rate_ += weight * ((point.time - rated_time_) / span - rate_);
+    rated_ = now;
+    rated_time_ = point.time;
+  }
+  return rate_ > 0 ? (point.stop - point.time) / rate_ : -1;
+}
+
+void Progress::show(const ProgressPoint& point) {
+  if (style_ == Style::none) return;
+  const auto now = Clock::now();
+  if (!last_) {
+    last_ = now;
+    time_left(point);
+    if (style_ == Style::plain) return;
+  } else if (seconds(now - *last_) < (style_ == Style::plain ? seconds_between_lines : seconds_between_renewals)) {
+    return;
+  }
+  last_ = now;
+  const auto text = progress_text(point, time_left(point));
+  if (style_ == Style::plain) {
+    fmt::print("{}\n", text);
+  } else {
+    fmt::print("\r\x1b[K{}", text);  // erases to the end of the line
+    shown_ = true;
+  }
+  std::fflush(stdout);
+}
+
+void Progress::say(const std::string& text) {
+  if (style_ == Style::none) return;
+  clear();
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+void Progress::clear() {
+  if (!shown_) return;
+  fmt::print("\r\x1b[K");
+  std::fflush(stdout);
+  shown_ = false;
+}
+
+}  // namespace splashdown::apps

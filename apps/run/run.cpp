@@ -1,0 +1,252 @@
+#include "apps/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "apps/check/scales.hpp"
+#include "apps/run/approach.hpp"
+#include "apps/run/interrupt.hpp"
+#include "apps/statistics/verdict.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Charges the time until its end to a sum.
+class Charge {
+ public:
+  explicit Charge(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+  ~Charge() { seconds_ += seconds_since(start_); }
+  Charge(const Charge&) = delete;
+  Charge& operator=(const Charge&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+std::map<std::string, double> as_map(const std::vector<std::pair<std::string, double>>& phases) {
+  std::map<std::string, double> result;
+  for (const auto& [name, seconds] : phases) result[name] += seconds;
+  return result;
+}
+
+double sum(const std::map<std::string, double>& phases) {
+  double total = 0;
+  for (const auto& [name, seconds] : phases) total += seconds;
+  return total;
+}
+
+const char* status_word(const LoopEnd& end) {
+  switch (end.status) {
+    case LoopEnd::Status::done:
+      return "done";
+    case LoopEnd::Status::interrupted:
+      return "interrupted";
+    case LoopEnd::Status::failed:
+      break;
+  }
+  return "failed";
+}
+
+}  // namespace
+
+template <int d>
+Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, RunPlan plan, Progress& progress)
+    : scene_(scene),
+      world_(std::move(world)),
+      recorder_(std::move(settings)),
+      plan_(std::move(plan)),
+      progress_(progress) {
+  setup_seconds_ = seconds_since(plan_.started);
+  phases_at_start_ = as_map(world_.stepper->phase_seconds());
+}
+
+template <int d>
+void Run<d>::resume(const Checkpoint& from) {
+  const Charge charge(setup_seconds_);
+  std::istringstream stepper(from.stepper);
+  world_.stepper->load(stepper);
+  if (world_.stepper->time() != from.time || !(from.loop.dt_previous >= 0) || !(from.loop.dt_cap >= 0))
+    throw std::runtime_error("holds times that contradict each other");
+  recorder_.load(from.recorder);
+  if (world_.bodies && from.loop.steps > 0 && recorder_.bodies() != world_.bodies->size())
+    throw std::runtime_error("holds records of other bodies than the scene");
+  loop_ = from.loop;
+  wall_before_ = from.wall_seconds;
+  phases_before_ = from.phases;
+  phases_at_start_ = as_map(world_.stepper->phase_seconds());
+  last_checkpoint_ = Clock::now();  // the one it came from
+}
+
+template <int d>
+LoopEnd Run<d>::go() {
+  const auto end = run_loop(*world_.stepper, loop_, plan_.stop, *this);
+  progress_.clear();
+  recorder_.check_files();
+  const Charge charge(output_seconds_);
+  if (end.status == LoopEnd::Status::done) recorder_.snapshot("end", last_input_);
+  recorder_.finish();
+  return end;
+}
+
+template <int d>
+double Run<d>::dt_bound() const {
+  const double dt_max = scene_.time.dt_max;
+  return world_.fluid && world_.bodies ? std::min(dt_max, approach_dt(*world_.fluid, *world_.bodies)) : dt_max;
+}
+
+template <int d>
+RecordInput<d> Run<d>::input(const StepMade& step) const {
+  RecordInput<d> in;
+  in.fluid = world_.fluid;
+  in.bodies = world_.bodies;
+  in.time = step.time;
+  in.dt = step.dt;
+  in.passes = step.report.passes;
+  in.residual = step.report.residual;
+  in.wall_seconds = wall_seconds();
+  in.last = step.last;
+  if (!world_.bodies) return in;
+  const auto trial = world_.trial_velocities();
+  const double kick = 0.5 * (step.dt_previous + step.dt);
+  for (std::size_t i = 0; i < world_.bodies->size(); ++i) {
+    // Linear between the half steps: their mean for constant dt, the initial velocity at the first step.
+    const rigid::Twist<d>& before = world_.bodies->state(i).velocity;
+    const rigid::Twist<d> acceleration = (trial[i] - before) / kick;
+    in.body_acceleration_n.push_back(acceleration);
+    in.body_velocity_n.push_back(before + 0.5 * step.dt_previous * acceleration);
+    in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : fluid::WallLoad<d>{});
+  }
+  return in;
+}
+
+template <int d>
+void Run<d>::record(const StepMade& step) {
+  const Charge charge(output_seconds_);
+  recorder_.check_files();  // before anything of this step is counted: what is rescued can be continued
+  last_input_ = input(step);
+  recorder_.record(last_input_);
+  ProgressPoint point{
+      .time = step.time, .stop = plan_.stop, .dt = step.dt, .steps = loop_.steps, .nodes = {}, .passes = {}};
+  if (world_.fluid) point.nodes = world_.fluid->nodes().size();
+  if (scene_.coupling) point.passes = step.report.passes;
+  progress_.show(point);
+}
+
+template <int d>
+void Run<d>::refused(double time, double dt, const std::string& cause) {
+  if (refused_at_ == time) return;  // the same step, halved once more
+  refused_at_ = time;
+  progress_.say(fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s, tried again with half: {}", time, dt, cause));
+}
+
+template <int d>
+bool Run<d>::checkpoint_due() {
+  return !last_checkpoint_ || seconds_since(*last_checkpoint_) >= scene_.output.checkpoint;
+}
+
+template <int d>
+void Run<d>::checkpoint() {
+  const Charge charge(output_seconds_);
+  recorder_.check_files();
+  write_checkpoint(plan_.directory / "checkpoint", present());
+  last_checkpoint_ = Clock::now();
+}
+
+template <int d>
+Checkpoint Run<d>::present() {
+  std::ostringstream stepper, recorder;
+  world_.stepper->save(stepper);
+  recorder_.save(recorder);
+  return {.scene = plan_.resolved,
+          .loop = loop_,
+          .time = time(),
+          .wall_seconds = wall_seconds(),
+          .phases = phases(),
+          .stepper = stepper.str(),
+          .recorder = recorder.str()};
+}
+
+template <int d>
+std::optional<std::filesystem::path> Run<d>::rescue() {
+  namespace fs = std::filesystem;
+  const auto name = fs::absolute(plan_.directory).lexically_normal();
+  for (const auto& place : {name, fs::temp_directory_path() / name.filename()}) try {
+      auto folder = fs::path(place.string() + ".rescued");
+      for (int n = 2; fs::exists(folder); ++n) folder = fmt::format("{}.rescued{}", place.string(), n);
+      fs::create_directories(folder);
+      recorder_.copy_tables(folder);
+      write_checkpoint(folder / "checkpoint", present());
+      return folder;
+    } catch (const std::exception&) {  // a disk that is full or gone: the next place
+    }
+  return {};
+}
+
+template <int d>
+std::optional<std::string> Run<d>::interruption() {
+  if (const char* signal = interrupt_received()) return signal;
+  if (plan_.budget && seconds_since(plan_.started) >= *plan_.budget)
+    return fmt::format("the budget of {:g} s is spent", *plan_.budget);
+  return {};
+}
+
+template <int d>
+double Run<d>::wall_seconds() const {
+  return wall_before_ + seconds_since(plan_.started);
+}
+
+template <int d>
+std::map<std::string, double> Run<d>::phases() const {
+  auto result = phases_before_;
+  for (const auto& [name, seconds] : world_.stepper->phase_seconds()) result[name] += seconds;
+  for (const auto& [name, seconds] : phases_at_start_) result[name] -= seconds;
+  result["setup"] += setup_seconds_;
+  result["output"] += output_seconds_;
+  result["other"] = 0;
+  result["other"] = std::max(0., wall_seconds() - sum(result));
+  return result;
+}
+
+template <int d>
+Summary Run<d>::summary(const LoopEnd& end) const {
+  Summary s;
+  s.status = status_word(end);
+  s.cause = end.cause;
+  s.simulated_time = time();
+  s.steps = loop_.steps;
+  s.wall_seconds = wall_seconds();
+  s.rejected_causes = loop_.rejected;
+  for (const auto& [cause, count] : loop_.rejected) s.rejected_steps += count;
+  const auto spent = phases();
+  s.phases.assign(spent.begin(), spent.end());
+  for (const auto& note : effect_notes<d>(scene_)) {
+    const auto found = spent.find(note.name);
+    if (note.active)
+      s.effects.push_back({note.name, found == spent.end() ? 0 : found->second});
+    else
+      s.inactive_effects.push_back({note.name, note.reason});
+  }
+  if (scene_.coupling) {
+    auto& coupling = s.coupling.emplace();
+    coupling.scheme = scene_.coupling->scheme;
+    coupling.interface_term = scene_.coupling->interface_term;
+    coupling.rejected_causes = s.rejected_causes;
+    coupling.rejected_steps = s.rejected_steps;
+  }
+  recorder_.summarise(s);
+  judge(s);
+  return s;
+}
+
+template class Run<2>;
+template class Run<3>;
+
+}  // namespace splashdown::apps

@@ -1,0 +1,79 @@
+// One run of a world: what the step loop calls, with the recorder, the checkpoints and the clock.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/record/recorder.hpp"
+#include "apps/run/build.hpp"
+#include "apps/run/checkpoint.hpp"
+#include "apps/run/loop.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/scene/scene.hpp"
+
+namespace splashdown::apps {
+
+struct RunPlan {
+  std::filesystem::path directory;
+  std::string resolved;          ///< the scene with all values in force
+  double stop = 0;               ///< [s]
+  std::optional<double> budget;  ///< wall seconds
+  std::chrono::steady_clock::time_point started;
+};
+
+template <int d>
+class Run final : private LoopHost {
+ public:
+  Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, RunPlan plan, Progress& progress);
+
+  /// Continues where a checkpoint was taken. Throws std::runtime_error for one that is not of this world; another may be
+  /// tried then.
+  void resume(const Checkpoint& from);
+  /// Steps to the stop time, then finishes the recorder's files.
+  LoopEnd go();
+
+  /// Tables and state beside the folder that was lost, or among the temporary files: where; nothing if no disk takes them.
+  /// Frames and pictures are not among them.
+  std::optional<std::filesystem::path> rescue();
+
+  double time() const { return world_.stepper->time(); }
+  const LoopState& loop() const { return loop_; }
+  Summary summary(const LoopEnd& end) const;
+  /// Half-step velocities of the bodies at the end, one a body [m/s].
+  std::vector<rigid::Twist<d>> velocities() const { return last_input_.body_velocity_n; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double dt_bound() const override;
+  void record(const StepMade& step) override;
+  void refused(double time, double dt, const std::string& cause) override;
+  bool checkpoint_due() override;
+  void checkpoint() override;
+  Checkpoint present();
+  std::optional<std::string> interruption() override;
+
+  RecordInput<d> input(const StepMade& step) const;
+  double wall_seconds() const;
+  std::map<std::string, double> phases() const;
+
+  const Scene& scene_;
+  World<d> world_;
+  Recorder<d> recorder_;
+  RunPlan plan_;
+  Progress& progress_;
+  LoopState loop_;
+  RecordInput<d> last_input_;
+  double wall_before_ = 0;  // spent by the runs that this one continues
+  std::map<std::string, double> phases_before_, phases_at_start_;
+  double setup_seconds_ = 0, output_seconds_ = 0;
+  std::optional<Clock::time_point> last_checkpoint_;
+  std::optional<double> refused_at_;  // time of the last refusal that was told
+};
+
+extern template class Run<2>;
+extern template class Run<3>;
+
+}  // namespace splashdown::apps

@@ -1,0 +1,125 @@
+#include "apps/scene/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include "rigid/shapes/solids.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using rigid::Surface;
+using rigid::Vec;
+
+using Turn = Eigen::AngleAxisd;
+
+}  // namespace
+
+template <int d>
+rigid::MassProperties<d> mass_properties(const Body& body) {
+  auto properties = shape_of<d>(body.shape).at_unit_density;
+  if (body.mass)
+    properties = rigid::with_mass(properties, *body.mass);
+  else if (body.density)
+    properties = rigid::with_density(properties, *body.density);
+  if (body.centre_of_mass) properties.centre = vec<d>(*body.centre_of_mass);
+  constexpr int n = rigid::rotations<d>;
+  if (body.inertia) properties.inertia = body.inertia->bottomRightCorner<n, n>();
+  return properties;
+}
+
+template <>
+Eigen::Matrix2d rotation<2>(const Attitude& attitude) {
+  return Eigen::Rotation2Dd(attitude.pitch_deg * radians).toRotationMatrix();
+}
+
+template <>
+Eigen::Matrix3d rotation<3>(const Attitude& a) {
+  return (Turn(a.heading_deg * radians, Vec<3>::UnitZ()) * Turn(-a.pitch_deg * radians, Vec<3>::UnitY()) *
+          Turn(a.roll_deg * radians, Vec<3>::UnitX()))
+      .toRotationMatrix();
+}
+
+template <>
+rigid::Rotation<2> angular_velocity<2>(const Attitude&, const Attitude& rate) {
+  return rigid::Rotation<2>(rate.pitch_deg * radians);
+}
+
+template <>
+rigid::Rotation<3> angular_velocity<3>(const Attitude& a, const Attitude& rate) {
+  // The nose-up turn is about the axis that the heading has turned, the roll about the nose itself.
+  const Vec<3> across = rotation<3>({.heading_deg = a.heading_deg}) * Vec<3>::UnitY();
+  const Vec<3> nose = rotation<3>({.heading_deg = a.heading_deg, .pitch_deg = a.pitch_deg}) * Vec<3>::UnitX();
+  return radians * (rate.heading_deg * Vec<3>::UnitZ() - rate.pitch_deg * across + rate.roll_deg * nose);
+}
+
+template <int d>
+rigid::Isometry<d> shape_pose(const Point& position, const Attitude& attitude) {
+  rigid::Isometry<d> pose = rigid::Isometry<d>::Identity();
+  pose.linear() = rotation<d>(attitude);
+  pose.translation() = vec<d>(position);
+  return pose;
+}
+
+template <int d>
+Surface<d> outline(const Body& body) {
+  auto surface = shape_of<d>(body.shape).surface;
+  surface.vertices = shape_pose<d>(body) * surface.vertices;
+  return surface;
+}
+
+template <>
+Surface<2> tank_outline<2>(const Tank& tank) {
+  Surface<2> surface;
+  surface.vertices.resize(2, 4);
+  surface.vertices.row(0) << tank.min.x(), tank.min.x(), tank.max.x(), tank.max.x();
+  surface.vertices.row(1) << tank.min.y(), tank.max.y(), tank.max.y(), tank.min.y();
+  surface.facets.resize(2, 4);
+  surface.facets << 0, 1, 2, 3, 1, 2, 3, 0;
+  return surface;
+}
+
+template <>
+Surface<3> tank_outline<3>(const Tank& tank) {
+  Surface<3> surface = rigid::box(tank.max - tank.min).surface;
+  surface.vertices.colwise() += 0.5 * (tank.min + tank.max);
+  surface.facets.row(1).swap(surface.facets.row(2));
+  return surface;
+}
+
+template <int d>
+Extents<d> extents(const Surface<d>& surface) {
+  Extents<d> box;
+  for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) box.extend(surface.vertices.col(i));
+  return box;
+}
+
+template <int d>
+std::string text(const Vec<d>& x, int digits) {
+  const double round_off = 1e-12;  // of coordinates in metres: shown as the zero that is meant
+  std::string list;
+  for (int k = 0; k < d; ++k)
+    list += fmt::format("{}{:.{}g}", k > 0 ? ", " : "", std::abs(x[k]) < round_off ? 0. : x[k], digits);
+  return "(" + list + ")";
+}
+
+template <int d>
+std::string text(const Extents<d>& box) {
+  std::string list;
+  for (int k = 0; k < d; ++k) list += fmt::format("{}[{:g}, {:g}]", k > 0 ? " x " : "", box.min()[k], box.max()[k]);
+  return list;
+}
+
+template rigid::MassProperties<2> mass_properties<2>(const Body&);
+template rigid::MassProperties<3> mass_properties<3>(const Body&);
+template rigid::Isometry<2> shape_pose<2>(const Point&, const Attitude&);
+template rigid::Isometry<3> shape_pose<3>(const Point&, const Attitude&);
+template Surface<2> outline<2>(const Body&);
+template Surface<3> outline<3>(const Body&);
+template Extents<2> extents<2>(const Surface<2>&);
+template Extents<3> extents<3>(const Surface<3>&);
+template std::string text<2>(const Vec<2>&, int);
+template std::string text<3>(const Vec<3>&, int);
+template std::string text<2>(const Extents<2>&);
+template std::string text<3>(const Extents<3>&);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,13 @@
+// A pressure patch of a scene as a piece of space.
+#pragma once
+
+#include "apps/record/patch_region.hpp"
+#include "apps/scene/geometry.hpp"
+
+namespace splashdown::apps {
+
+/// In the frame of `hull`, whose origin is the point `origin` of the shape's frame.
+template <int d>
+PatchRegion<d> patch_region(const PatchEntry& entry, const rigid::Surface<d>& hull, const rigid::Vec<d>& origin);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,18 @@
+// --set key.path=value: changes one value of a scene's TOML before it is read.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+#include "apps/scene/rules/problems.hpp"
+
+namespace splashdown::apps {
+
+/// Elements of arrays of tables are chosen by name or by index, entries of lists by index, both from 0: body.wedge.mass,
+/// body.0.mass, body.wedge.velocity.1. Tables that are absent are created, so an effect can be added; an empty value
+/// removes a key, a table or an element of an array of tables, whose later elements move up. The value is TOML; a bare
+/// word is a string.
+void apply_override(toml::table& root, const std::string& argument, Problems& problems);
+
+}  // namespace splashdown::apps

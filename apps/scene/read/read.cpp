@@ -1,0 +1,151 @@
+#include "apps/scene/read/read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/scene/read/override.hpp"
+#include "apps/scene/read/parts.hpp"
+#include "apps/scene/rules/check.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+/// Finest element size of the scene.
+double finest(const Scene& scene) {
+  double h = std::min(scene.fluid->size.surface, scene.fluid->size.far);
+  if (scene.tank) h = std::min(h, scene.tank->size);
+  for (const auto& body : scene.bodies) h = std::min(h, body.size);
+  return h;
+}
+
+/// Surface waves as short as the elements stay stable in an explicit scheme, which bounds dt by
+/// 2 / sqrt(pi |g| / h) = 1.13 sqrt(h / |g|). Without such waves: a hundred steps at least.
+double default_dt_max(const Scene& scene) {
+  const double g = scene.gravity ? scene.gravity->acceleration.norm() : 0;
+  return scene.fluid && g > 0 ? scene.time.cfl * std::sqrt(finest(scene) / g) : scene.time.end / 100;
+}
+
+bool meets_fluid_freely(const Scene& scene) {
+  return scene.fluid && std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                    [](const Body& body) { return body.motion == Motion::free; });
+}
+
+void read_tank(Reader& reader, Scene& scene) {
+  const Rule place = place_rule(scene.dimension);
+  auto& tank = scene.tank.emplace();
+  reader.point("min", tank.min, place, Need::required);
+  reader.point("max", tank.max, place, Need::required);
+  if (!scene.fluid) return reader.skip("size");
+  tank.size = scene.fluid->size.far;
+  reader.number("size", tank.size, positive("m", "Use e.g. fluid.size.far."));
+}
+
+void read_gravity(Reader& reader, Scene& scene) {
+  const double standard = -9.81;
+  auto& acceleration = scene.gravity.emplace().acceleration;
+  acceleration = standard * Point::Unit(scene.dimension - 1);
+  reader.point("acceleration", acceleration,
+               any("m/s^2", "Use e.g. " + axis_example(scene.dimension, standard) + "; leave the table out for none."));
+}
+
+void read_output(Reader& reader, Output& output) {
+  reader.interval("interval", output.interval, not_negative("s", "Use 0 for a row every step."));
+  reader.number("frames", output.frames,
+                not_negative("s", "Use e.g. a hundredth of time.end; leave it out for no frames."));
+  reader.number("checkpoint", output.checkpoint, positive("s", "Use wall-clock seconds, e.g. 60."));
+}
+
+SceneLabels read_tables(Reader& root, Scene& scene) {
+  SceneLabels labels;
+  root.text("title", scene.title, "Use a short text in quotes.");
+  Reader time = root.table_or_defaults("time");
+  time.number("end", scene.time.end, positive("s", "Use the simulated time at which the run shall end."),
+              Need::required);
+  time.number("cfl", scene.time.cfl, share("Use e.g. 0.5."));
+  if (time.holds("end") && time.place("end").line == 0 && !root.context().problems.found_in("time.end"))
+    root.context().clip_to = scene.time.end;
+  if (auto fluid = root.table("fluid")) read_fluid(*fluid, scene.fluid.emplace());
+  if (scene.fluid)
+    for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
+      labels.regions.push_back(fmt::format("fluid.region[{}]", i));
+  if (auto tank = root.table("tank")) read_tank(*tank, scene);
+  if (auto gravity = root.table("gravity")) read_gravity(*gravity, scene);
+  root.each_table("body", [&](Reader& reader) {
+    labels.bodies.push_back(reader.path());
+    read_body(reader, scene.bodies.emplace_back(), scene);
+  });
+  root.each_table("joint", [&](Reader& reader) {
+    auto joint = read_joint(reader, scene);
+    if (!joint) return;
+    labels.joints.push_back(reader.path());
+    scene.joints.push_back(*joint);
+  });
+  if (root.table("contact")) scene.contact.emplace();
+  scene.time.dt_max = default_dt_max(scene);
+  time.number("dt_max", scene.time.dt_max, positive("s", "Leave it out for a sensible value."));
+  if (meets_fluid_freely(scene)) {
+    Reader coupling = root.table_or_defaults("coupling");
+    read_coupling(coupling, scene.coupling.emplace());
+  } else if (auto coupling = root.table("coupling")) {
+    Coupling nothing_to_couple;  // still checked: a fixed body may be freed by the next --set
+    read_coupling(*coupling, nothing_to_couple);
+  }
+  Reader output = root.table_or_defaults("output");
+  read_output(output, scene.output);
+  root.each_table("record", [&](Reader& reader) {
+    labels.records.push_back(reader.path());
+    const auto before = scene.records.size();
+    read_record(reader, scene);
+    if (scene.records.size() == before) labels.records.pop_back();
+  });
+  return labels;
+}
+
+SceneLabels read_all(ReadContext& context, const toml::table& table, Scene& scene) {
+  Reader root(context, table, "", "");
+  root.ignore("provenance");  // what a run writes into scene.resolved.toml
+  root.integer("dimension", scene.dimension, within(2, 3, "", "Use 2 or 3."));
+  context.dimension = scene.dimension;
+  return read_tables(root, scene);
+}
+
+SceneFile read_root(const toml::table& table, const std::filesystem::path& folder, Problems& problems) {
+  SceneFile file;
+  Echo echo;
+  ReadContext context{.problems = problems, .echo = echo, .folder = folder};
+  const auto labels = read_all(context, table, file.scene);
+  check_scene(file.scene, labels, problems);
+  problems.throw_if_any();
+  file.resolved = echo.text();
+  file.notes = std::move(context.notes);
+  return file;
+}
+
+}  // namespace
+
+void sketch_scene(Sketch& sketch, int dimension) {
+  sketch.explore([&] {
+    Problems nobody_told("");
+    Echo unused;
+    ReadContext context{.problems = nobody_told, .echo = unused, .dimension = dimension, .sketch = &sketch};
+    Scene scene;
+    scene.dimension = dimension;
+    read_all(context, {}, scene);
+  });
+}
+
+SceneFile read_scene_text(const std::string& text, const std::string& name, std::span<const std::string> overrides) {
+  Problems problems(name);
+  auto table = read_toml(text, name);
+  for (const auto& argument : overrides) apply_override(table, argument, problems);
+  return read_root(table, std::filesystem::path(name).parent_path(), problems);
+}
+
+SceneFile read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  const auto text = read_text(path, "a scene file, e.g. examples/wedge_drop/scene.toml");
+  return read_scene_text(text, path.string(), overrides);
+}
+
+}  // namespace splashdown::apps

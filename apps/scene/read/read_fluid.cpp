@@ -1,0 +1,129 @@
+#include <algorithm>
+
+#include "apps/scene/read/parts.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+struct ReadRegionShape {
+  Reader& reader;
+  Rule place = place_rule(reader.context().dimension);
+  Rule extent = positive("m", "Use e.g. 0.5.");
+
+  void operator()(BoxRegion& box) const {
+    reader.point("min", box.min, place, Need::required);
+    reader.point("max", box.max, place, Need::required);
+    if (reader.context().dimension == 2) wave(box);
+  }
+  void wave(BoxRegion& box) const {
+    reader.number("surface_amplitude", box.surface_amplitude,
+                  any("m", "Use e.g. 0.01; leave it out for a flat surface."));
+    if (box.surface_amplitude == 0 && !reader.holds("surface_wavelength") && !reader.holds("surface_phase_deg")) return;
+    reader.number("surface_wavelength", box.surface_wavelength,
+                  positive("m", "Use e.g. twice the tank's length for the first sloshing mode."), Need::required);
+    reader.number("surface_phase_deg", box.surface_phase_deg, any("deg", "Use degrees, e.g. 90."));
+  }
+  void operator()(CircleRegion& circle) const { round(circle); }
+  void operator()(SphereRegion& sphere) const { round(sphere); }
+  void operator()(EllipseRegion& ellipse) const {
+    reader.point("centre", ellipse.centre, place, Need::required);
+    reader.point("semi_axes", ellipse.semi_axes, positive("m", "Use e.g. [1.0, 0.5]."), Need::required);
+  }
+  void operator()(PolygonRegion& polygon) const { reader.points("points", polygon.points, place); }
+
+ private:
+  template <class Round>
+  void round(Round& region) const {
+    reader.point("centre", region.centre, place, Need::required);
+    reader.number("radius", region.radius, extent, Need::required);
+  }
+};
+
+struct Centre {
+  Point operator()(const BoxRegion& box) const { return 0.5 * (box.min + box.max); }
+  Point operator()(const PolygonRegion&) const { return Point::Zero(); }
+  template <class Round>
+  Point operator()(const Round& region) const {
+    return region.centre;
+  }
+};
+
+void read_region(Reader& reader, Region& region) {
+  const int dimension = reader.context().dimension;
+  std::string shape = "box";
+  const Reader::Names planar{"box", "circle", "ellipse", "polygon"}, spatial{"box", "sphere"};
+  if (!reader.choice("shape", shape, dimension == 2 ? planar : spatial, Need::required)) return reader.skip_all();
+  if (shape == "circle") region.shape = CircleRegion{};
+  if (shape == "ellipse") region.shape = EllipseRegion{};
+  if (shape == "polygon") region.shape = PolygonRegion{};
+  if (shape == "sphere") region.shape = SphereRegion{};
+  std::visit(ReadRegionShape{reader}, region.shape);
+  reader.point(
+      "velocity", region.velocity,
+      any("m/s", "Use metres per second, one number for each axis, e.g. " + axis_example(dimension, -1) + "."));
+  if (!reader.holds("velocity_gradient")) return reader.skip("velocity_gradient");
+  reader.matrix(
+      "velocity_gradient", region.velocity_gradient,
+      any("1/s", dimension == 2 ? "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0], [0.0, 1.0]]."
+                                : "Use a square list of lists with zero trace, e.g. [[-1.0, 0.0, 0.0], "
+                                  "[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]."));
+  region.velocity_origin = std::visit(Centre{}, region.shape);
+  reader.point("velocity_origin", region.velocity_origin, place_rule(dimension));
+}
+
+void read_sizes(Reader& reader, Sizes& size) {
+  reader.number("surface", size.surface, positive("m", "Use e.g. a fiftieth of the body's breadth."), Need::required);
+  size.far = size.surface;
+  reader.number("far", size.far, positive("m", "Use fluid.size.surface or more."));
+  reader.number("growth", size.growth, share("Use 0.1 to 0.2: the element size's growth per unit distance."));
+  reader.number("wetted_fraction", size.wetted_fraction,
+                within(0, 0.5, "",
+                       "Use 0 (off), 0.004 to 0.01 in the plane or 0.03 in space: h over the wetted half length, for "
+                       "starting impacts."));
+  reader.number("hollow", size.hollow,
+                positive("", "Use e.g. 0.2, or leave it out: h over the radius of a jet's root."));
+  if (size.hollow)
+    reader.number("hollow_min", size.hollow_min, positive("m", "Use e.g. a quarter of the hull's size."),
+                  Need::required);
+  else
+    reader.skip("hollow_min");
+  reader.number("curvature", size.curvature,
+                positive("", "Use 0.5, or 0.25 where flow around a tight bend matters: h over its radius."));
+}
+
+}  // namespace
+
+void read_fluid(Reader& reader, Fluid& fluid) {
+  reader.number("density", fluid.density, positive("kg/m^3", "Use e.g. 1000 for water."), Need::required);
+  if (auto size = reader.table("size", Need::required)) read_sizes(*size, fluid.size);
+  reader.each_table("region", [&](Reader& region) { read_region(region, fluid.regions.emplace_back()); });
+  if (fluid.regions.empty() && !reader.holds("region"))
+    reader.context().problems.add_missing(reader.key("region"), "a fluid needs liquid to begin with",
+                                          "Write [[fluid.region]] with shape = \"box\", min and max.");
+  if (auto viscosity = reader.table("viscosity")) {
+    auto& target = fluid.viscosity.emplace();
+    viscosity->number("dynamic", target.dynamic,
+                      positive("Pa s", "Use e.g. 1e-3 for water; leave the table out for none."));
+    viscosity->choice("walls", target.walls, {"slip", "no_slip"});
+  }
+  if (auto absorber = reader.table("absorber")) {
+    auto& target = fluid.absorber.emplace();
+    absorber->number("width", target.width, positive("m", "Use one to two of the longest wavelengths."),
+                     Need::required);
+    absorber->number("rate", target.rate, positive("1/s", "Use about the wave's angular frequency."), Need::required);
+  }
+}
+
+void read_coupling(Reader& reader, Coupling& coupling) {
+  reader.choice("scheme", coupling.scheme, {"iterated", "staggered"});
+  reader.choice("interface_term", coupling.interface_term, {"rigid", "laplacian", "robin", "none"});
+  reader.choice("accelerator", coupling.accelerator, {"constant", "aitken", "anderson", "broyden", "iqn_ils", "probe"});
+  reader.number("relaxation", coupling.relaxation, share("Use 1 unless the coupling diverges."));
+  reader.integer("depth", coupling.depth, within(1, 10000, "", "Use e.g. 50: passes that anderson remembers."));
+  reader.integer("reuse", coupling.reuse, within(0, 100, "", "Use 0 to 8: past steps that iqn_ils learns from."));
+  reader.number("tolerance", coupling.tolerance,
+                within(1e-14, 0.1, "", "Use e.g. 1e-8: change of the bodies' velocities from pass to pass, relative."));
+  reader.integer("max_passes", coupling.max_passes, within(1, 10000, "", "Use e.g. 50."));
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,91 @@
+#include "apps/scene/read/parts.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+/// When rows of a file of its own are due: an interval or a list, each step without both.
+template <class Entry>
+void read_instants(Reader& reader, Entry& entry) {
+  reader.number("interval", entry.interval, not_negative("s", "Use e.g. 0.001, or 0 for every step."));
+  reader.times("times", entry.times, not_negative("s", "Use e.g. [0.005, 0.010]."));
+  if (entry.interval && !entry.times.empty())
+    reader.context().problems.add(reader.key("times"), "interval and times exclude each other", "Remove one of them.");
+  if (!entry.interval && entry.times.empty()) entry.interval = 0;
+}
+
+void read_surface_pressure(Reader& reader, Scene& scene) {
+  SurfacePressureEntry entry;
+  auto walls = body_names(scene);
+  if (scene.tank) walls.push_back("tank");
+  reader.reference("wall", entry.wall, walls, Need::required);
+  read_instants(reader, entry);
+  scene.records.emplace_back(std::move(entry));
+}
+
+void read_patch(Reader& reader, Scene& scene) {
+  PatchEntry entry;
+  read_name(reader, entry.name, "keel");
+  entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
+  reader.point("centre", entry.centre, place_rule(reader.context().dimension));
+  reader.number("radius", entry.radius, positive("m", "Use that of the sensor or panel."));
+  reader.point("min", entry.min, place_rule(reader.context().dimension));
+  reader.point("max", entry.max, place_rule(reader.context().dimension));
+  const bool any_of_disc = reader.holds("centre") || reader.holds("radius");
+  const bool any_of_box = reader.holds("min") || reader.holds("max");
+  const bool whole = any_of_disc ? reader.holds("centre") && reader.holds("radius") && !any_of_box
+                                 : reader.holds("min") && reader.holds("max");
+  if (!whole)
+    reader.context().problems.add(reader.key("centre"), "a patch is a disc (centre and radius) or a box (min and max)",
+                                  "Give one of these pairs, in the frame of the body's shape.");
+  scene.records.emplace_back(std::move(entry));
+}
+
+void read_maximum_pressure(Reader& reader, Scene& scene) {
+  MaximumPressureEntry entry;
+  const auto body = read_body_name(reader, "body", scene, Need::required, "record");
+  entry.body = body.value_or(0);
+  if (body) entry.size = scene.bodies[*body].size;
+  reader.number("size", entry.size, positive("m", "Use the distance of the points, e.g. the body's size."));
+  scene.records.emplace_back(std::move(entry));
+}
+
+}  // namespace
+
+void read_record(Reader& reader, Scene& scene) {
+  std::string kind;
+  if (!reader.choice("kind", kind,
+                     {"pressure", "pressure_patch", "maximum_pressure", "surface_pressure", "surface_elevation",
+                      "acceleration", "added_mass"},
+                     Need::required))
+    return reader.skip_all();
+  if (kind == "surface_pressure") return read_surface_pressure(reader, scene);
+  if (kind == "pressure_patch") return read_patch(reader, scene);
+  if (kind == "maximum_pressure") return read_maximum_pressure(reader, scene);
+  if (kind == "pressure") {
+    PressureEntry entry;
+    read_name(reader, entry.name, "keel");
+    entry.body = read_body_name(reader, "body", scene, Need::optional, "record");
+    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
+    scene.records.emplace_back(std::move(entry));
+  } else if (kind == "surface_elevation") {
+    ElevationEntry entry;
+    read_name(reader, entry.name, "keel");
+    const Rule place = any("m", "Use the gauge's horizontal place.");
+    reader.number("x", entry.x, place, Need::required);
+    if (reader.context().dimension == 3) reader.number("y", entry.y, place, Need::required);
+    scene.records.emplace_back(std::move(entry));
+  } else if (kind == "acceleration") {
+    AccelerationEntry entry;
+    read_name(reader, entry.name, "keel");
+    entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
+    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
+    scene.records.emplace_back(std::move(entry));
+  } else if (kind == "added_mass") {
+    AddedMassEntry entry;
+    entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
+    read_instants(reader, entry);
+    scene.records.emplace_back(std::move(entry));
+  }
+}
+
+}  // namespace splashdown::apps

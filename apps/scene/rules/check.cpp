@@ -1,0 +1,50 @@
+#include "apps/scene/rules/check.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+namespace splashdown::apps {
+namespace {
+
+void check_tank(const Scene& scene, Problems& problems) {
+  const auto& tank = *scene.tank;
+  const Point size = tank.max - tank.min;
+  if (size.head(scene.dimension).minCoeff() <= 0)
+    return problems.add("tank.max", "must lie above tank.min on every axis", "Swap them, or mend the signs.");
+  const double least = size.head(scene.dimension).minCoeff();
+  if (scene.fluid && tank.size > least)
+    problems.add("tank.size", fmt::format("must not exceed the tank's smallest side, {:g} m", least),
+                 "Use e.g. a tenth of it.");
+}
+
+void check_times(const Scene& scene, Problems& problems) {
+  if (scene.output.interval > scene.time.end)
+    problems.add("output.interval", fmt::format("must not exceed time.end = {:g} s", scene.time.end),
+                 "Use 0 for a row every step.");
+}
+
+template <int d>
+void check_parts(const Scene& scene, const SceneLabels& labels, Problems& problems) {
+  if (scene.fluid) check_fluid<d>(scene, labels, problems);
+  check_bodies<d>(scene, labels, problems);
+  check_joints(scene, labels, problems);
+  check_records<d>(scene, labels, problems);
+}
+
+}  // namespace
+
+void check_scene(const Scene& read, const SceneLabels& labels, Problems& problems) {
+  if (!read.fluid && read.bodies.empty() && !problems.found_in("fluid") && !problems.found_in("body"))
+    problems.add("", "the scene is empty: it has neither [fluid] nor [[body]]", "Add one of them.");
+  if (read.fluid && read.fluid->absorber && !read.tank && !problems.found_in("tank"))
+    problems.add("fluid.absorber", "needs a [tank]: it acts along the tank's ends", "Add [tank] or remove the table.");
+  // What could not be read must not be judged by its default.
+  Scene scene = read;
+  if (scene.tank && !problems.found_in("tank")) check_tank(scene, problems);
+  if (problems.found_in("tank")) scene.tank.reset();
+  if (problems.found_in("time.end")) scene.time.end = std::numeric_limits<double>::infinity();
+  check_times(scene, problems);
+  scene.dimension == 2 ? check_parts<2>(scene, labels, problems) : check_parts<3>(scene, labels, problems);
+}
+
+}  // namespace splashdown::apps

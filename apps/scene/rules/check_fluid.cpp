@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "apps/scene/rules/check.hpp"
+#include "apps/scene/solid.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+template <int d>
+using Outlines = std::vector<std::optional<Solid<d>>>;
+
+template <int d>
+struct CheckRegionKeys {
+  std::string label;
+  Problems& problems;
+
+  void operator()(const BoxRegion& box) const {
+    const double height = box.max[d - 1] - box.min[d - 1];
+    if (vec<d>(box.max - box.min).minCoeff() <= 0)
+      problems.add(label + ".max", "must lie above min on every axis", "Swap them, or mend the signs.");
+    else if (std::abs(box.surface_amplitude) >= height)
+      problems.add(label + ".surface_amplitude", fmt::format("must stay below the depth of {:g} m", height),
+                   "Use a smaller wave.");
+  }
+  template <class Other>
+  void operator()(const Other&) const {}
+};
+
+void check_sizes(const Scene& scene, Problems& problems) {
+  const auto& size = scene.fluid->size;
+  if (size.far < size.surface && !problems.found_in("fluid.size"))
+    problems.add("fluid.size.far", fmt::format("must not be below fluid.size.surface = {:g} m", size.surface),
+                 "It is the largest element size.");
+  if (!scene.tank) return;
+  const double least = (scene.tank->max - scene.tank->min).head(scene.dimension).minCoeff();
+  if (least > 0 && size.surface > least)
+    problems.add("fluid.size.surface", fmt::format("must not exceed the tank's smallest side, {:g} m", least),
+                 "Use e.g. a fiftieth of it.");
+}
+
+template <int d>
+void check_region(const Scene& scene, const Region& region, const std::string& label, std::optional<Solid<d>>& boundary,
+                  Problems& problems) {
+  const double trace = region.velocity_gradient.trace(), scale = region.velocity_gradient.norm();
+  // Digits that people write: a trace of a millionth of the rates is meant to be zero.
+  if (std::abs(trace) > 1e-6 * scale)
+    problems.add(label + ".velocity_gradient",
+                 fmt::format("must have zero trace, not {:g} 1/s: the liquid keeps its volume", trace),
+                 "Balance its diagonal.");
+  try {
+    boundary.emplace(outline<d>(region));
+  } catch (const std::invalid_argument& error) {
+    if (std::holds_alternative<PolygonRegion>(region.shape))
+      problems.add(label + ".points", error.what(), "List the corners in order, each once.");
+    return;  // for other shapes a rule of a single key has said it already
+  }
+  const auto& box = boundary->extents();
+  if (scene.fluid->size.surface > box.sizes().minCoeff())
+    problems.add("fluid.size.surface",
+                 fmt::format("must not exceed the smallest extent of {}, {:g} m", label, box.sizes().minCoeff()),
+                 "Use e.g. a twentieth of it.");
+  if (!scene.tank) return;
+  const Extents<d> tank = extents<d>(*scene.tank);
+  if (!tank.isEmpty() && (tank.intersection(box).sizes().array() <= 0).any())
+    problems.add(label, fmt::format("lies outside the tank, which spans {} m", text<d>(tank)),
+                 "Move the region or enlarge the tank.");
+}
+
+}  // namespace
+
+template <int d>
+void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& problems) {
+  check_sizes(scene, problems);
+  if (scene.fluid->absorber && scene.tank &&
+      2 * scene.fluid->absorber->width > scene.tank->max.x() - scene.tank->min.x())
+    problems.add("fluid.absorber.width", "must not exceed half the tank's length", "Make the tank longer.");
+  const auto& regions = scene.fluid->regions;
+  Outlines<d> outlines(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (problems.found_in(labels.regions[i])) continue;
+    std::visit(CheckRegionKeys<d>{labels.regions[i], problems}, regions[i].shape);
+    if (problems.found_in(labels.regions[i])) continue;
+    check_region<d>(scene, regions[i], labels.regions[i], outlines[i], problems);
+    for (std::size_t j = 0; j < i; ++j)
+      if (outlines[i] && outlines[j] && overlap<d>(*outlines[i], *outlines[j]))
+        problems.add(labels.regions[i], "overlaps " + labels.regions[j], "Regions may touch, but not share water.");
+  }
+}
+
+template void check_fluid<2>(const Scene&, const SceneLabels&, Problems&);
+template void check_fluid<3>(const Scene&, const SceneLabels&, Problems&);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,266 @@
+// A scene as plain data: what scene.toml says, checked, with every default filled in.
+//
+// An optional table that is absent is an effect that is absent: there are no switches.
+// SI units; angles in degrees where the name says so. Vectors have three entries, the third is zero in
+// two-dimensional scenes. Two-dimensional masses and loads are per metre of depth. The last axis of a scene is up.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "rigid/shapes/shapes.hpp"
+
+namespace splashdown::apps {
+
+using Point = Eigen::Vector3d;
+
+// Shapes of bodies, each in its own frame; the reference point is that frame's origin.
+struct PolygonShape {
+  std::vector<Point> points;  ///< outline, either sense; reference point: the origin of these coordinates
+};
+struct WedgeShape {
+  double deadrise_deg = 30;      ///< of both faces [deg]
+  double breadth = 1;            ///< at the top [m]
+  std::optional<double> height;  ///< keel to top [m]; absent: no vertical sides, a triangle
+};                               ///< reference point: the keel
+struct RectangleShape {
+  double width = 1, height = 1;  ///< [m]; reference point: the centre
+};
+struct CircleShape {
+  double radius = 1;  ///< [m]; reference point: the centre
+};
+struct EllipseShape {
+  Point semi_axes = Point::Ones();  ///< [m]; reference point: the centre
+};
+struct CapsuleShape {
+  double radius = 1, length = 1;  ///< of the round ends; of the straight part between them, along x [m]
+};                                ///< reference point: the centre
+struct BoxShape {
+  Point size = Point::Ones();  ///< [m]; reference point: the centre
+};
+struct SphereShape {
+  double radius = 1;  ///< [m]; reference point: the centre
+};
+struct ConeShape {
+  double deadrise_deg = 30;  ///< between the horizontal and the side [deg]
+  double radius = 1;         ///< of the flat top [m]; reference point: the apex, below
+};
+struct RevolvedShape {
+  std::vector<std::array<double, 2>> profile;  ///< (r, z), turned about the z axis; reference point: r = z = 0
+};
+struct SurfaceShape {
+  std::string file;                             ///< STL or OBJ, absolute
+  double scale = 1;                             ///< metres per unit of the file
+  int parts = 1;                                ///< closed surfaces beside each other
+  std::shared_ptr<const rigid::Shape<3>> read;  ///< in metres; null: could not be read
+};                                              ///< reference point: the origin of the file's coordinates
+/// The capsule exists in two and in three dimensions, the shapes before it in two and those after it in three.
+using Shape = std::variant<PolygonShape, WedgeShape, RectangleShape, CircleShape, EllipseShape, CapsuleShape, BoxShape,
+                           SphereShape, ConeShape, RevolvedShape, SurfaceShape>;
+
+// Liquid regions, in the world frame.
+struct BoxRegion {
+  Point min = Point::Zero(), max = Point::Zero();  ///< corners [m]
+  double surface_amplitude = 0;                    ///< of a cosine elevation of the top side [m]
+  double surface_wavelength = 0;                   ///< [m]; 0: flat
+  double surface_phase_deg = 0;  ///< top = max_y + amplitude cos(2 pi (x - min_x) / wavelength + phase)
+};
+struct CircleRegion {
+  Point centre = Point::Zero();
+  double radius = 1;
+};
+struct EllipseRegion {
+  Point centre = Point::Zero();
+  Point semi_axes = Point::Ones();
+};
+struct PolygonRegion {
+  std::vector<Point> points;
+};
+struct SphereRegion {
+  Point centre = Point::Zero();
+  double radius = 1;
+};
+
+struct Region {
+  std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion, SphereRegion> shape;
+  Point velocity = Point::Zero();                               ///< at t = 0 [m/s]
+  Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();  ///< v = velocity + gradient (x - origin) [1/s]
+  Point velocity_origin = Point::Zero();                        ///< default: the region's centre, 0 for polygons
+};
+
+struct Sizes {
+  double surface = 0;          ///< at the free surface [m]
+  double far = 0;              ///< largest element [m]; default: `surface`
+  double growth = 0.15;        ///< dh/dx; the wedges of docs/validation.md use 0.1
+  double wetted_fraction = 0;  ///< h at a wall is at least this fraction of its wetted half length
+  /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
+  std::optional<double> hollow;
+  double hollow_min = 0;   ///< ... but not below this [m]; needed with `hollow`
+  double curvature = 0.5;  ///< h at a hull over the outline's radius of curvature, at most
+};
+
+struct Viscosity {
+  double dynamic = 1e-3;       ///< [Pa s]; water at 20 C
+  std::string walls = "slip";  ///< "slip" | "no_slip"
+};
+
+struct Absorber {
+  double width = 0;  ///< of the zone at each end of the tank [m]
+  double rate = 0;   ///< damping rate at the wall; rises smoothly from 0 at the zone's edge [1/s]
+};
+
+struct Fluid {
+  double density = 1000;  ///< [kg/m^3]
+  Sizes size;
+  std::vector<Region> regions;
+  std::optional<Viscosity> viscosity;
+  std::optional<Absorber> absorber;
+};
+
+struct Tank {
+  Point min = Point::Zero(), max = Point::Zero();  ///< corners [m]
+  double size = 0;                                 ///< element size at the walls [m]; default: fluid.size.far
+};
+
+struct Gravity {
+  Point acceleration = {0, -9.81, 0};  ///< [m/s^2]; of the standard in three dimensions: {0, 0, -9.81}
+};
+
+enum class Motion { free, fixed, prescribed };
+
+/// Shape frame to world, about the shape's reference point. In two dimensions a turn by `pitch_deg`, counter-clockwise;
+/// in three R = Rz(heading) Ry(-pitch) Rx(roll): heading counter-clockwise from above, nose (x) up, roll about x.
+struct Attitude {
+  double heading_deg = 0, pitch_deg = 0, roll_deg = 0;  ///< [deg]
+};
+
+/// A pose on a prescribed path: piecewise linear in time, angle by angle.
+struct Waypoint {
+  double time = 0;                 ///< [s]
+  Point position = Point::Zero();  ///< of the shape's reference point [m]
+  Attitude attitude;
+};
+
+/// Freedoms of free motion: translations along and rotations about the world's axes.
+inline std::vector<std::string> freedom_names(int dimension) {
+  if (dimension == 2) return {"x", "y", "rotation"};
+  return {"x", "y", "z", "roll", "pitch", "yaw"};
+}
+
+struct Body {
+  std::string name;
+  Shape shape;
+  std::optional<double> mass;           ///< [kg, kg/m]; exactly one of mass and density for free motion
+  std::optional<double> density;        ///< mean density [kg/m^3]
+  std::optional<Point> centre_of_mass;  ///< in the shape's frame [m]; default: the centroid
+  /// About the centre of mass, axes of the shape's frame [kg m^2]; default: of uniform density. In two dimensions the
+  /// last entry alone [kg m].
+  std::optional<Eigen::Matrix3d> inertia;
+  Motion motion = Motion::free;
+  std::vector<std::string> free = freedom_names(2);
+  Point position = Point::Zero();  ///< of the shape's reference point at t = 0 [m]
+  Attitude attitude;               ///< at t = 0
+  Point velocity = Point::Zero();  ///< of the centre of mass at t = 0; constant if prescribed [m/s]
+  Point spin_deg = Point::Zero();  ///< angular velocity at t = 0, world frame; constant if prescribed [deg/s]
+  std::vector<Waypoint> path;      ///< prescribed motion; empty: constant velocity and spin
+  double size = 0;                 ///< element size at the hull [m]; default: fluid.size.surface
+};
+
+/// Ties a body to another one or to the world.
+struct Joint {
+  std::string type = "hinge";  ///< "hinge" | "slider" | "weld"
+  std::size_t body = 0;
+  std::optional<std::size_t> other;  ///< absent: the world
+  Point point = Point::Zero();       ///< world frame, at t = 0 [m]
+  Point axis = Point::UnitZ();       ///< of a slider or a hinge, world frame, at t = 0
+};
+
+/// Present: bodies touch each other and the tank. They do not rebound and do not rub.
+struct Contact {};
+
+struct Coupling {
+  std::string scheme = "iterated";       ///< "iterated" | "staggered"
+  std::string interface_term = "rigid";  ///< "rigid" | "laplacian" | "robin" | "none"
+  std::string accelerator = "constant";  ///< "constant" | "aitken" | "anderson" | "broyden" | "iqn_ils" | "probe"
+  double relaxation = 1;                 ///< only (constant, anderson) or first factor, in (0, 1]
+  int depth = 50;                        ///< passes that anderson remembers
+  int reuse = 0;                         ///< past steps that iqn_ils learns from
+  double tolerance = 1e-8;               ///< of the interface velocities, relative
+  int max_passes = 50;                   ///< more: the step is refused
+};
+
+struct Time {
+  double end = 0;     ///< [s]
+  double cfl = 0.5;   ///< share of an edge by which its ends may approach in one step
+  double dt_max = 0;  ///< [s]; default: cfl sqrt(h_min / |g|), without gravity or fluid end / 100
+};
+
+struct Output {
+  double interval = 0;           ///< between rows of the csv files [s]; 0: every step
+  std::optional<double> frames;  ///< between frames [s]; absent: none
+  double checkpoint = 60;        ///< wall seconds between checkpoints
+};
+
+// Things to record besides the standard files. Points given with a body are in its shape's frame and
+// move with it; others are in the world frame and stay.
+struct PressureEntry {
+  std::string name;
+  Point point = Point::Zero();
+  std::optional<std::size_t> body;
+};
+struct SurfacePressureEntry {
+  std::string wall;                ///< name of a body, or "tank"
+  std::optional<double> interval;  ///< [s]; 0: every step
+  std::vector<double> times;       ///< first step at or after each [s]
+};
+struct ElevationEntry {
+  std::string name;
+  double x = 0, y = 0;  ///< horizontal place [m]; y in three dimensions only
+};
+/// Mean pressure on a part of a hull: a disc around `centre`, or what is between `min` and `max`; shape's frame [m].
+struct PatchEntry {
+  std::string name;
+  std::size_t body = 0;
+  std::optional<Point> centre;
+  std::optional<double> radius;
+  std::optional<Point> min, max;
+};
+/// The highest pressure of the run all over a hull.
+struct MaximumPressureEntry {
+  std::size_t body = 0;
+  double size = 0;  ///< distance of the points [m]; default: that of the elements at the hull
+};
+struct AccelerationEntry {
+  std::string name;
+  std::size_t body = 0;
+  Point point = Point::Zero();  ///< in the shape's frame
+};
+struct AddedMassEntry {
+  std::size_t body = 0;
+  std::optional<double> interval;  ///< [s]; 0: every step
+  std::vector<double> times;       ///< first step at or after each [s]
+};
+using RecordEntry = std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry, AddedMassEntry,
+                                 PatchEntry, MaximumPressureEntry>;
+
+struct Scene {
+  int dimension = 2;
+  std::string title;
+  Time time;
+  std::optional<Fluid> fluid;
+  std::optional<Tank> tank;
+  std::optional<Gravity> gravity;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::optional<Contact> contact;
+  std::optional<Coupling> coupling;  ///< present whenever a free body meets a fluid
+  Output output;
+  std::vector<RecordEntry> records;
+};
+
+}  // namespace splashdown::apps

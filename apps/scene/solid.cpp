@@ -1,0 +1,110 @@
+#include "apps/scene/solid.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace splashdown::apps {
+namespace {
+
+using rigid::Surface;
+using rigid::Vec;
+
+template <int d>
+using Corners = std::array<Vec<d>, static_cast<std::size_t>(d)>;
+
+template <int d>
+Corners<d> corners_of(const Surface<d>& surface, Eigen::Index facet) {
+  Corners<d> corners;
+  for (int k = 0; k < d; ++k) corners[static_cast<std::size_t>(k)] = surface.vertices.col(surface.facets(k, facet));
+  return corners;
+}
+
+template <int d>
+fluid::InsideTest<d> inside_test(const Surface<d>& surface) {
+  std::vector<fluid::Vec<d>> points;
+  for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) points.emplace_back(surface.vertices.col(i));
+  std::vector<fluid::Facet<d>> facets(static_cast<std::size_t>(surface.facets.cols()));
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    for (int k = 0; k < d; ++k)
+      facets[i].nodes[static_cast<std::size_t>(k)] = surface.facets(k, static_cast<Eigen::Index>(i));
+  return {points, facets};
+}
+
+Vec<2> normal_of(const Corners<2>& c) { return Vec<2>(c[1].y() - c[0].y(), c[0].x() - c[1].x()).normalized(); }
+Vec<3> normal_of(const Corners<3>& c) { return (c[1] - c[0]).cross(c[2] - c[0]).normalized(); }
+
+/// Where a line from a to b (0 to 1) meets the surface, with 0 and 1 themselves, in order.
+template <int d>
+std::vector<double> crossings(const Vec<d>& a, const Vec<d>& b, const Surface<d>& surface, double tolerance) {
+  std::vector<double> at{0, 1};
+  const Extents<d> line(a.cwiseMin(b), a.cwiseMax(b));
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    const auto corners = corners_of(surface, f);
+    Extents<d> facet;
+    for (const auto& corner : corners) facet.extend(corner);
+    if (!facet.intersects(line)) continue;
+    const Vec<d> n = normal_of(corners);
+    const double from = n.dot(a - corners[0]), to = n.dot(b - corners[0]);
+    if ((from > 0) == (to > 0)) continue;
+    const double share = from / (from - to);
+    const Vec<d> x = a + share * (b - a);
+    if ((fluid::closest_on(corners, x) - x).norm() <= tolerance) at.push_back(share);
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+/// Some piece of an edge of `a` lies inside `b`.
+template <int d>
+bool reaches_into(const Solid<d>& a, const Solid<d>& b, double tolerance) {
+  const auto& surface = a.surface();
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    const auto corners = corners_of(surface, f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec<d>&from = corners[k], &to = corners[(k + 1) % corners.size()];
+      if (!b.extents().intersects(Extents<d>(from.cwiseMin(to), from.cwiseMax(to)))) continue;
+      const auto at = crossings<d>(from, to, b.surface(), tolerance);
+      for (std::size_t i = 1; i < at.size(); ++i)
+        for (const double share : {at[i - 1], 0.5 * (at[i - 1] + at[i])})
+          if (b.signed_distance(from + share * (to - from)) < -tolerance) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+template <int d>
+Solid<d>::Solid(const Surface<d>& surface)
+    : surface_(surface),
+      box_(apps::extents<d>(surface)),
+      facets_(surface.vertices, surface.facets),
+      inside_(inside_test<d>(surface)) {}
+
+template <int d>
+double Solid<d>::distance(const Vec<d>& point) const {
+  return (facets_.nearest(point, std::numeric_limits<double>::max()).point - point).norm();
+}
+
+template <int d>
+double Solid<d>::signed_distance(const Vec<d>& point) const {
+  return inside_(point) ? -distance(point) : distance(point);
+}
+
+template <int d>
+bool overlap(const Solid<d>& a, const Solid<d>& b) {
+  const double tolerance = 1e-9 * (a.extents().diagonal().norm() + b.extents().diagonal().norm());
+  if (!a.extents().intersects(b.extents())) return false;
+  if (reaches_into(a, b, tolerance) || reaches_into(b, a, tolerance)) return true;
+  // Two surfaces that coincide: no edge enters the other.
+  return (a.extents().center() - b.extents().center()).norm() < tolerance &&
+         (a.extents().sizes() - b.extents().sizes()).norm() < tolerance;
+}
+
+template class Solid<2>;
+template class Solid<3>;
+template bool overlap<2>(const Solid<2>&, const Solid<2>&);
+template bool overlap<3>(const Solid<3>&, const Solid<3>&);
+
+}  // namespace splashdown::apps

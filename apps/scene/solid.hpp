@@ -1,0 +1,35 @@
+// What a closed surface encloses: is a point in it, how deep, and do two of them share space?
+#pragma once
+
+#include "apps/scene/geometry.hpp"
+#include "fluid/mesh/facet_tree.hpp"
+#include "fluid/mesh/inside.hpp"
+
+namespace splashdown::apps {
+
+template <int d>
+class Solid {
+ public:
+  explicit Solid(const rigid::Surface<d>& surface);
+  /// Negative inside [m].
+  double signed_distance(const rigid::Vec<d>& point) const;
+  double distance(const rigid::Vec<d>& point) const;
+  bool contains(const rigid::Vec<d>& point) const { return box_.contains(point) && inside_(point); }
+  const rigid::Surface<d>& surface() const { return surface_; }
+  const Extents<d>& extents() const { return box_; }
+
+ private:
+  rigid::Surface<d> surface_;
+  Extents<d> box_;
+  fluid::FacetTree<d> facets_;
+  fluid::InsideTest<d> inside_;
+};
+
+/// The interiors share more than their boundaries.
+template <int d>
+bool overlap(const Solid<d>& a, const Solid<d>& b);
+
+extern template class Solid<2>;
+extern template class Solid<3>;
+
+}  // namespace splashdown::apps

@@ -1,0 +1,105 @@
+#include "apps/statistics/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/statistics/pulse.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+void offer_if_finite(Peak& peak, double value, double time) {
+  if (std::isfinite(value)) peak.offer(value, time);
+}
+
+void update(RangeCount& range, std::size_t count, bool first) {
+  const auto value = static_cast<long>(count);
+  if (first) range = {value, value, value};
+  range.max = std::max(range.max, value);
+  range.final = value;
+}
+
+}  // namespace
+
+void PulseStatistics::add(const Kick& kick, std::span<const double> value) {
+  double squared = 0;
+  for (const double v : value) squared += v * v;
+  offer_if_finite(raw_, std::sqrt(squared), kick.time);
+  if (history_.ends.empty()) {
+    history_.channels = static_cast<int>(value.size());
+    history_.begin = kick.begin;
+  }
+  history_.append(kick.end, value);
+}
+
+PulseSummary PulseStatistics::summary(double unit) const {
+  PulseSummary summary{pulse_of(history_), filtered_pulses(history_)};
+  static_cast<Peak&>(summary.raw) = raw_;  // its time is t_n, not the middle of the kick
+  summary.raw.value /= unit;
+  for (auto& [cfc, pulse] : summary.cfc) pulse.value /= unit;
+  return summary;
+}
+
+template <int d>
+void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
+  acceleration_.add(kick, {reading.acceleration.data(), static_cast<std::size_t>(d)});
+  const rigid::Wrench<d> total = reading.load.total();
+  for (int k = 0; k < d; ++k) {
+    impulse_[static_cast<std::size_t>(k)] += total(k) * kick.length();
+    impulse_repair_[static_cast<std::size_t>(k)] += reading.load.repair(k) * kick.length();
+  }
+  offer_if_finite(submergence_, reading.submergence, kick.time);
+  offer_if_finite(wetted_, reading.load.wetted, kick.time);
+  force_.add(kick, {total.data(), static_cast<std::size_t>(d)});
+  landing_.add(kick.time, {reading.rotation, reading.velocity, reading.load.wetted, reading.free}, reading.extent);
+}
+
+template <int d>
+BodySummary BodyStatistics<d>::summary() const {
+  BodySummary summary;
+  summary.acceleration = acceleration_.summary(standard_gravity);
+  summary.force = force_.summary();
+  summary.impulse.assign(impulse_.begin(), impulse_.end());
+  summary.impulse_repair.assign(impulse_repair_.begin(), impulse_repair_.end());
+  summary.submergence = submergence_;
+  summary.wetted = wetted_;
+  summary.landing = landing_.summary();
+  return summary;
+}
+
+void RunStatistics::add_step(int passes) {
+  ++steps;
+  passes_sum += passes;
+  passes_max = std::max(passes_max, passes);
+}
+
+void RunStatistics::add_mesh(std::size_t node_count, std::size_t element_count) {
+  update(nodes, node_count, !mesh_seen_);
+  update(elements, element_count, !mesh_seen_);
+  mesh_seen_ = true;
+}
+
+LedgerSummary summary_of(const fluid::Ledger& ledger) {
+  LedgerSummary summary;
+  summary.volume_initial = ledger.volume_initial;
+  summary.volume_final = ledger.volume;
+  // Spray has left the mesh but not the world.
+  if (ledger.volume_initial > 0)
+    summary.volume_error = (ledger.volume + ledger.spray - ledger.volume_initial) / ledger.volume_initial;
+  summary.time_integration = ledger.time_integration;
+  summary.remesh_created = ledger.remesh_created;
+  summary.remesh_deleted = ledger.remesh_deleted;
+  summary.spray = ledger.spray;
+  summary.kinetic_energy = ledger.kinetic_energy;
+  summary.potential_energy = ledger.potential_energy;
+  summary.energy_remesh = ledger.energy_remesh;
+  summary.energy_repair = ledger.energy_repair;
+  summary.work_on_walls = ledger.work_on_walls;
+  return summary;
+}
+
+template class BodyStatistics<2>;
+template class BodyStatistics<3>;
+
+}  // namespace splashdown::apps

@@ -1,0 +1,87 @@
+// Running statistics of a run: peaks, impulses, accelerations. They see every step and survive a resume.
+//
+// Loads and accelerations are averages over the kick around t_n, [t_n - dt_{n-1}/2, t_n + dt_n/2]; impulses
+// and filters use them as such, so that impulse = change of momentum holds to rounding.
+#pragma once
+
+#include <span>
+
+#include "apps/statistics/filters.hpp"
+#include "apps/statistics/landing_statistics.hpp"
+#include "apps/statistics/statistics_archive.hpp"
+#include "fluid/fluid.hpp"
+#include "rigid/bodies.hpp"
+
+namespace splashdown::apps {
+
+/// The kick around t_n.
+struct Kick {
+  double time, begin, end;
+  double length() const { return end - begin; }
+};
+
+/// Peak and history of a vector channel: an acceleration, a force.
+class PulseStatistics {
+ public:
+  void add(const Kick& kick, std::span<const double> value);
+  /// Peaks in units of `unit`, changes as they are.
+  PulseSummary summary(double unit = 1) const;
+  const Peak& peak() const { return raw_; }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(raw_, history_);
+  }
+
+ private:
+  Peak raw_;
+  IntervalHistory history_;
+};
+
+template <int d>
+struct BodyReading {
+  rigid::Twist<d> velocity, acceleration;
+  fluid::WallLoad<d> load;
+  double submergence;                    ///< of the lowest point; nan without a water level [m]
+  Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
+  HullExtent extent;
+  bool free;  ///< the water moves it
+};
+
+template <int d>
+class BodyStatistics {
+ public:
+  void add(const Kick& kick, const BodyReading<d>& reading);
+  BodySummary summary() const;
+  double peak_force() const { return force_.peak().time < 0 ? 0 : force_.peak().value; }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_);
+  }
+
+ private:
+  PulseStatistics acceleration_, force_;
+  Peak submergence_, wetted_;
+  std::array<double, d> impulse_{}, impulse_repair_{};
+  LandingStatistics<d> landing_;
+};
+
+/// Counts of the mesh and of the coupling's passes.
+struct RunStatistics {
+  RangeCount nodes, elements;
+  long steps = 0, passes_sum = 0;
+  int passes_max = 0;
+
+  void add_step(int passes);
+  void add_mesh(std::size_t node_count, std::size_t element_count);
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(nodes, elements, steps, passes_sum, passes_max, mesh_seen_);
+  }
+
+ private:
+  bool mesh_seen_ = false;
+};
+
+LedgerSummary summary_of(const fluid::Ledger& ledger);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,200 @@
+#include "apps/statistics/summary.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/record/csv.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no nan or infinity; null says that there is no number.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json time_or_null(double time) { return time < 0 ? Json(nullptr) : number(time); }
+
+Json json_of(const Peak& peak) {
+  if (peak.time < 0) return nullptr;
+  return {{"value", number(peak.value)}, {"time", number(peak.time)}};
+}
+
+/// `change`: what the channel's integral is called.
+Json json_of(const Pulse& pulse, const char* change) {
+  Json json = json_of(static_cast<const Peak&>(pulse));
+  if (json.is_null()) return json;
+  json["rise_time"] = number(pulse.rise_time);
+  json["duration"] = number(pulse.duration);
+  json[change] = number(pulse.change);
+  return json;
+}
+
+Json json_of(const std::map<int, Pulse>& classes, const char* change) {
+  Json json = Json::object();
+  for (const auto& [cfc, pulse] : classes) json["cfc" + std::to_string(cfc)] = json_of(pulse, change);
+  return json;
+}
+
+Json json_of_acceleration(const PulseSummary& acceleration) {
+  Json json;
+  json["raw"] = json_of(acceleration.raw, "delta_v");
+  json.update(json_of(acceleration.cfc, "delta_v"));
+  return json;
+}
+
+Json json_of(const std::vector<double>& values) {
+  Json json = Json::array();
+  for (const double value : values) json.push_back(number(value));
+  return json;
+}
+
+Json json_of(const Verdict& verdict) { return {{"grade", name_of(verdict.grade)}, {"reasons", verdict.reasons}}; }
+
+Json json_of(const RangeCount& count) {
+  return {{"initial", count.initial}, {"max", count.max}, {"final", count.final}};
+}
+
+Json json_of(const LandingSummary& landing) {
+  Json json;
+  json["first_contact_time"] = time_or_null(landing.first_contact);
+  for (const auto& [name, angle] : landing.attitude)
+    json["attitude_deg"][name] = {
+        {"end", number(angle.end)}, {"minimum", json_of(angle.lowest)}, {"maximum", json_of(angle.highest)}};
+  json["maximum_tilt_deg"] = json_of(landing.maximum_tilt);
+  json["capsized"] = landing.capsized_since >= 0;
+  json["capsized_time"] = time_or_null(landing.capsized_since);
+  json["settled_time"] = time_or_null(landing.settled);
+  json["settled_below"] = number(landing.settled_below);
+  json["settled_window"] = number(landing.settled_window);
+  json["skips"] = landing.dry_intervals.size();
+  json["dry_intervals"] = Json::array();
+  for (const auto& [from, to] : landing.dry_intervals)
+    json["dry_intervals"].push_back({time_or_null(from), time_or_null(to)});
+  return json;
+}
+
+Json json_of(const BodySummary& body) {
+  Json json = {{"peak_acceleration_g", json_of_acceleration(body.acceleration)},
+               {"peak_force", json_of(body.force.raw, "impulse")},
+               {"peak_force_filtered", json_of(body.force.cfc, "impulse")},
+               {"impulse", json_of(body.impulse)},
+               {"impulse_repair", json_of(body.impulse_repair)},
+               {"maximum_submergence", json_of(body.submergence)},
+               {"maximum_wetted", json_of(body.wetted)}};
+  json.update(json_of(body.landing));
+  if (body.maximum_pressure) {
+    json["maximum_pressure"] = json_of(body.maximum_pressure->peak);
+    json["maximum_pressure"]["point"] = json_of(body.maximum_pressure->point);
+  }
+  json["verdict"] = json_of(body.verdict);
+  return json;
+}
+
+Json json_of(const LedgerSummary& ledger) {
+  return {{"volume_initial", number(ledger.volume_initial)},
+          {"volume_final", number(ledger.volume_final)},
+          {"volume_error", number(ledger.volume_error)},
+          {"volume_error_bodies", ledger.volume_error_bodies ? number(*ledger.volume_error_bodies) : Json(nullptr)},
+          {"volume_time_integration", number(ledger.time_integration)},
+          {"volume_remesh_created", number(ledger.remesh_created)},
+          {"volume_remesh_deleted", number(ledger.remesh_deleted)},
+          {"volume_spray", number(ledger.spray)},
+          {"kinetic_energy", number(ledger.kinetic_energy)},
+          {"potential_energy", number(ledger.potential_energy)},
+          {"energy_remesh", number(ledger.energy_remesh)},
+          {"energy_repair", number(ledger.energy_repair)},
+          {"work_on_walls", number(ledger.work_on_walls)},
+          {"energy_gain", number(ledger.energy_gain)},
+          {"energy_gain_joule", number(ledger.energy_gain_joule)},
+          {"energy_gain_time", time_or_null(ledger.energy_gain_time)},
+          {"energy_gain_since", time_or_null(ledger.energy_gain_since)},
+          {"energy_scale", number(ledger.energy_scale)},
+          {"energy_scale_from", ledger.energy_scale_from}};
+}
+
+Json json_of(const std::map<std::string, long>& counts) {
+  Json json = Json::object();
+  for (const auto& [name, count] : counts) json[name] = count;
+  return json;
+}
+
+Json json_of(const CouplingSummary& coupling) {
+  return {{"scheme", coupling.scheme},
+          {"interface_term", coupling.interface_term},
+          {"passes_mean", number(coupling.passes_mean)},
+          {"passes_max", coupling.passes_max},
+          {"rejected_steps", coupling.rejected_steps},
+          {"rejected_causes", json_of(coupling.rejected_causes)}};
+}
+
+Json json_of_effects(const Summary& summary) {
+  Json active = Json::object(), inactive = Json::object();
+  for (const auto& effect : summary.effects)
+    active[effect.name] = {{"seconds", number(effect.seconds)},
+                           {"share", number(summary.wall_seconds > 0 ? effect.seconds / summary.wall_seconds : 0)}};
+  for (const auto& effect : summary.inactive_effects) inactive[effect.name] = effect.reason;
+  return {{"active", active}, {"inactive", inactive}};
+}
+
+}  // namespace
+
+const char* name_of(Grade grade) {
+  switch (grade) {
+    case Grade::resolved:
+      return "resolved";
+    case Grade::doubtful:
+      return "doubtful";
+    case Grade::unresolved:
+      return "unresolved";
+    case Grade::unphysical:
+      break;
+  }
+  return "unphysical";
+}
+
+bool Peak::offer(double v, double t) {
+  if (time >= 0 && !(v > value)) return false;
+  value = v;
+  time = t;
+  return true;
+}
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  json["scene"] = summary.scene;
+  json["dimension"] = summary.dimension;
+  json["status"] = summary.status;
+  if (!summary.cause.empty()) json["cause"] = summary.cause;
+  json["verdict"] = json_of(summary.verdict);
+  json["simulated_time"] = number(summary.simulated_time);
+  json["steps"] = summary.steps;
+  json["wall_seconds"] = number(summary.wall_seconds);
+  json["rejected_steps"] = summary.rejected_steps;
+  json["rejected_causes"] = json_of(summary.rejected_causes);
+  json["phases"] = Json::object();
+  for (const auto& [name, seconds] : summary.phases) json["phases"][name] = number(seconds);
+  json["effects"] = json_of_effects(summary);
+  if (summary.nodes) json["nodes"] = json_of(*summary.nodes);
+  if (summary.elements) json["elements"] = json_of(*summary.elements);
+  if (summary.coupling) json["coupling"] = json_of(*summary.coupling);
+  if (summary.ledger) json["ledger"] = json_of(*summary.ledger);
+  if (summary.fluid)
+    json["fluid"] = {{"max_speed", number(summary.fluid->max_speed)},
+                     {"max_speed_peak", number(summary.fluid->max_speed_peak)}};
+  json["bodies"] = Json::object();
+  for (const auto& [name, body] : summary.bodies) json["bodies"][name] = json_of(body);
+  if (!summary.equipment.empty())
+    for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of_acceleration(point);
+  for (const auto& [name, patch] : summary.patches)
+    json["patches"][name] = {{"peak_pressure", json_of(patch.pressure)}, {"area", number(patch.area)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::filesystem::path& directory, const Summary& summary) {
+  std::filesystem::create_directories(directory);
+  write_file_atomically(directory / "summary.json", to_json(summary));
+}
+
+}  // namespace splashdown::apps

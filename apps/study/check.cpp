@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "apps/quantity/expression.hpp"
+#include "apps/quantity/names.hpp"
+#include "apps/record/rows.hpp"
+#include "apps/scene/read/echo.hpp"
+#include "apps/statistics/attitude.hpp"
+#include "apps/statistics/filters.hpp"
+#include "apps/statistics/summary.hpp"
+#include "apps/study/study.hpp"
+#include "apps/study/table.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using Names = std::vector<std::string>;
+
+PulseSummary all_classes() {
+  PulseSummary pulse;
+  pulse.raw.time = 0;
+  for (const int cfc : channel_frequency_classes) pulse.cfc[cfc].time = 0;
+  return pulse;
+}
+
+BodySummary whole_body(const Scene& scene, std::size_t index) {
+  BodySummary body;
+  const auto d = static_cast<std::size_t>(scene.dimension);
+  body.acceleration = body.force = all_classes();
+  body.impulse = body.impulse_repair = std::vector<double>(d);
+  body.submergence.time = body.wetted.time = body.landing.maximum_tilt.time = 0;
+  for (std::size_t k = 0; k < attitude_names.size(); ++k)
+    if (d == 3 || k == 1) body.landing.attitude.emplace_back(attitude_names[k], AngleSummary{0, {0, 0}, {0, 0}});
+  body.landing.first_contact = body.landing.capsized_since = body.landing.settled = 0;
+  for (const auto& record : scene.records)
+    if (const auto* highest = std::get_if<MaximumPressureEntry>(&record); highest && highest->body == index)
+      body.maximum_pressure = MaximumPressure{.peak = {0, 0}, .point = std::vector<double>(d)};
+  return body;
+}
+
+/// summary.json of a run of this scene in which everything happens that can.
+nlohmann::json fullest_summary(const Scene& scene) {
+  Summary summary;
+  summary.dimension = scene.dimension;
+  if (scene.fluid) {
+    summary.nodes = summary.elements = RangeCount{};
+    summary.ledger.emplace().volume_error_bodies = 0;
+    summary.ledger->energy_gain_time = summary.ledger->energy_gain_since = 0;
+    summary.fluid.emplace();
+  }
+  if (scene.coupling) summary.coupling.emplace();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) summary.bodies[scene.bodies[i].name] = whole_body(scene, i);
+  for (const auto& record : scene.records) {
+    if (const auto* point = std::get_if<AccelerationEntry>(&record)) summary.equipment[point->name] = all_classes();
+    if (const auto* patch = std::get_if<PatchEntry>(&record)) summary.patches[patch->name].pressure.time = 0;
+  }
+  return nlohmann::json::parse(to_json(summary));
+}
+
+/// Entries that only the run can name.
+bool only_the_run_knows(const std::string& path) {
+  for (const char* start : {"phases.", "effects.", "rejected_causes.", "coupling.rejected_causes."})
+    if (path.starts_with(start)) return true;
+  return path.find(".dry_intervals.") != std::string::npos;
+}
+
+/// What is wrong with the path, with the nearest word where it goes astray; empty: nothing.
+std::string astray(const nlohmann::json& root, const std::string& path) {
+  const nlohmann::json* node = &root;
+  std::istringstream words(path);
+  std::string so_far = "summary";
+  for (std::string word; std::getline(words, word, '.');) {
+    Names valid;
+    if (node->is_object())
+      for (const auto& [name, value] : node->items()) valid.push_back(name);
+    else if (node->is_array())
+      for (std::size_t i = 0; i < node->size(); ++i) valid.push_back(fmt::format("{}", i));
+    if (std::ranges::find(valid, word) == valid.end()) {
+      const auto near = nearest(word, valid);
+      return fmt::format("runs of this scene have no '{}.{}'. {}", so_far, word,
+                         !near.empty()   ? "Did you mean '" + near + "'?"
+                         : valid.empty() ? so_far + " is a single value."
+                                         : "There is " + listing(valid) + ".");
+    }
+    node = node->is_object() ? &node->at(word) : &node->at(static_cast<std::size_t>(std::stoul(word)));
+    so_far += "." + word;
+  }
+  if (node->is_object() || node->is_array()) {
+    Names valid;
+    if (node->is_object())
+      for (const auto& [name, value] : node->items()) valid.push_back(name);
+    return fmt::format("'{}' is no number. {}", so_far,
+                       valid.empty() ? "Use one of its entries, e.g. " + so_far + ".0."
+                                     : "Use one of its entries: " + listing(valid) + ".");
+  }
+  if (node->is_string()) return fmt::format("'{}' is a text. Use an entry that is a number.", so_far);
+  return {};
+}
+
+Names split(const std::string& header) {
+  Names names;
+  std::istringstream words(header);
+  for (std::string word; std::getline(words, word, ',');) names.push_back(word);
+  return names;
+}
+
+/// Columns of a file of the run's folder; nothing if it may have others.
+std::optional<Names> columns_of(const std::string& table, const Scene& scene) {
+  const auto file = table.substr(0, table.find(':'));
+  if (file == "bodies.csv") return split(bodies_header);
+  if (file == "probes.csv") return split(probes_header);
+  if (file == "surface_pressure.csv") return split(surface_pressure_header(scene.dimension));
+  if (file == "added_mass.csv") return split(added_mass_header(scene.dimension));
+  const bool effects = scene.fluid && (scene.fluid->viscosity || scene.fluid->absorber);  // have columns of their own
+  if (file == "fluid.csv" && !effects) return split(fluid_header({}));
+  return {};
+}
+
+class Checker {
+ public:
+  Checker(const Study& study, const Scene& scene, Problems& problems)
+      : study_(study), scene_(scene), problems_(problems), summary_(fullest_summary(scene)) {
+    known_ = number_columns();
+    for (const auto& axis : study.axes) known_.push_back(axis.name);
+    for (const auto& [name, value] : study.constants) known_.push_back(name);
+  }
+
+  void check(const StudyQuantity& quantity) {
+    check_body(quantity);
+    std::optional<Names> columns = Names{};
+    if (!quantity.table.empty()) columns = columns_of(quantity.table, scene_);
+    check_names(quantity, "where", quantity.where, columns);
+    check_names(quantity, "quantity", quantity.quantity, columns);
+    known_.push_back(quantity.name);
+    check_names(quantity, "exact", quantity.exact.value_or(""), columns);
+    check_names(quantity, "scale", quantity.scale, columns);
+    if (quantity.has_error()) known_.push_back(quantity.error_name());
+  }
+
+ private:
+  void tell(const StudyQuantity& quantity, const char* key, const std::string& value, const std::string& what) {
+    problems_.add_at(quantity.place,
+                     fmt::format("quantity.{}.{} = {}: {}", quantity.name, key, toml_text(value), what));
+  }
+
+  void check_body(const StudyQuantity& quantity) {
+    const std::string start = "bodies.csv:";
+    if (!quantity.table.starts_with(start)) return;
+    const auto name = quantity.table.substr(start.size());
+    Names bodies;
+    for (const auto& body : scene_.bodies) bodies.push_back(body.name);
+    if (std::ranges::find(bodies, name) != bodies.end()) return;
+    const auto near = nearest(name, bodies);
+    tell(quantity, "table", quantity.table,
+         fmt::format("no body is called '{}'. {}", name,
+                     near.empty() ? "There is " + listing(bodies) + "." : "Did you mean '" + near + "'?"));
+  }
+
+  void check_names(const StudyQuantity& quantity, const char* key, const std::string& expression,
+                   const std::optional<Names>& columns) {
+    if (expression.empty()) return;
+    Names names;
+    try {
+      names = quantity::names_in(expression);
+    } catch (const std::runtime_error&) {
+      return;  // told when it was read
+    }
+    for (const auto& name : names) {
+      if (const auto path = quantity::after("summary", name)) {
+        if (only_the_run_knows(*path)) continue;
+        if (const auto what = astray(summary_, *path); !what.empty()) tell(quantity, key, expression, what);
+        continue;
+      }
+      if (!columns || std::ranges::find(known_, name) != known_.end() ||
+          std::ranges::find(*columns, name) != columns->end())
+        continue;
+      Names valid = known_;
+      valid.insert(valid.end(), columns->begin(), columns->end());
+      const auto near = nearest(name, valid);
+      tell(quantity, key, expression,
+           fmt::format("unknown name '{}'. {}", name,
+                       near.empty() ? "Valid here: " + listing(valid) + ", and summary.PATH."
+                                    : "Did you mean '" + near + "'?"));
+    }
+  }
+
+  const Study& study_;
+  const Scene& scene_;
+  Problems& problems_;
+  nlohmann::json summary_;
+  Names known_;
+};
+
+}  // namespace
+
+void check_quantities(const Study& study, const Scene& scene, Problems& problems) {
+  Checker checker(study, scene, problems);
+  for (const auto& quantity : study.quantities) checker.check(quantity);
+}
+
+}  // namespace splashdown::apps

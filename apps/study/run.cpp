@@ -1,0 +1,221 @@
+#include "apps/study/run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <list>
+#include <thread>
+
+#include "apps/cli/child_process.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/run/folder_lock.hpp"
+#include "apps/run/interrupt.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/study/folder.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A run that outlived a killed study still writes in its folder, until it has saved its checkpoint.
+bool is_busy(const fs::path& folder) {
+  if (!fs::exists(folder)) return false;
+  try {
+    const FolderLock lock(folder, std::chrono::milliseconds(0));
+    return false;
+  } catch (const std::runtime_error&) {
+    return true;
+  }
+}
+
+/// The last line that a run printed.
+std::string last_line(const fs::path& log) {
+  std::ifstream in(log);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) last = line;
+  return last;
+}
+
+class Runner {
+ public:
+  Runner(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes, fs::path folder,
+         int jobs, bool quiet)
+      : study_(study),
+        runs_(runs),
+        outcomes_(outcomes),
+        folder_(std::move(folder)),
+        jobs_(static_cast<std::size_t>(jobs)),
+        quiet_(quiet),
+        terminal_(::isatty(STDOUT_FILENO) != 0) {
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      if (!outcomes[i].finished()) queue_.push_back(i);
+    before_ = runs.size() - queue_.size();
+  }
+
+  RunnerEnd go() {
+    if (before_ > 0) say(fmt::format("{} of {} runs are finished and stay as they are", before_, runs_.size()));
+    write_tables(study_, runs_, outcomes_, folder_);
+    while (!running_.empty() || !queue_.empty()) {
+      if (interrupt_received() && !end_.interrupted) stop();
+      start_what_fits();
+      collect();
+      show();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    clear();
+    return std::move(end_);
+  }
+
+ private:
+  struct Running {
+    std::size_t run;
+    ChildProcess process;
+  };
+
+  fs::path log_of(std::size_t i) const { return folder_ / (runs_[i].name + ".log"); }
+
+  void start_what_fits() {
+    busy_ = 0;
+    for (std::size_t tries = queue_.size(); tries > 0 && running_.size() < jobs_; --tries) {
+      const std::size_t i = queue_.front();
+      queue_.pop_front();
+      const auto place = folder_ / runs_[i].name;
+      if (is_busy(place)) {
+        ++busy_;
+        queue_.push_back(i);
+        continue;
+      }
+      prepare(runs_[i], place);
+      fs::remove(log_of(i));
+      running_.push_back({i, ChildProcess(command_of(study_, runs_[i], place), log_of(i))});
+    }
+  }
+
+  void collect() {
+    for (auto it = running_.begin(); it != running_.end();) {
+      if (const auto end = it->process.end()) {
+        conclude(it->run, *end);
+        it = running_.erase(it);
+      } else {
+        ++it;
+      }
+    }
+  }
+
+  void conclude(std::size_t i, const ChildProcess::End& end) {
+    const auto& name = runs_[i].name;
+    auto& outcome = outcomes_[i];
+    outcome = outcome_of(study_, runs_[i], folder_ / name);
+    if (!outcome.finished() && end.code != exit_code::interrupted) {
+      outcome.cause = end.signal != 0 ? fmt::format("ended by signal {} ({})", end.signal, ::strsignal(end.signal))
+                                      : fmt::format("exit code {}: {}", end.code, last_line(log_of(i)));
+      // Whoever kills a run, the machine when memory is short included, may want it to go on later.
+      outcome.status = end.signal != 0 ? Outcome::Status::interrupted : Outcome::Status::failed;
+      end_.unable.push_back(name + ": " + outcome.cause);
+    }
+    ++made_;
+    last_end_ = Clock::now();
+    // What a run says about its coupling stands in its summary.
+    if (outcome.finished() && outcome.status != Outcome::Status::failed) fs::remove(log_of(i));
+    auto text = fmt::format("[{}/{}] {}: {}", before_ + made_, runs_.size(), name, word(outcome.status));
+    const auto number = [&](const char* column, const char* format) {
+      if (const auto found = outcome.numbers.find(column); found != outcome.numbers.end())
+        text += fmt::format(fmt::runtime(format), found->second);
+    };
+    number("passes_mean", ", {:.3g} passes");
+    number("wall_seconds", ", {:.3g} s");
+    say(text);
+    write_tables(study_, runs_, outcomes_, folder_);
+  }
+
+  void stop() {
+    end_.interrupted = true;
+    queue_.clear();
+    for (const auto& running : running_) running.process.ask_to_stop();
+    say("stopping: the runs save their checkpoints");
+  }
+
+  void say(const std::string& text) {
+    if (quiet_) return;
+    clear();
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+  }
+
+  /// On a terminal one line that renews itself; elsewhere the lines of finished runs are enough.
+  void show() {
+    if (quiet_ || !terminal_ || seconds_since(shown_at_) < 0.2) return;
+    shown_at_ = Clock::now();
+    auto text =
+        fmt::format("{:3.0f} %  {} of {} runs, {} at work", 100. * double(before_ + made_) / double(runs_.size()),
+                    before_ + made_, runs_.size(), running_.size());
+    if (made_ > 0) {
+      const double between = std::chrono::duration<double>(last_end_ - started_).count() / double(made_);
+      text +=
+          "  left " + clock_text(study_time_left(between, queue_.size() + running_.size(), seconds_since(last_end_)));
+    }
+    if (running_.empty() && busy_ > 0) text += fmt::format("  ({} still written by a study that was killed)", busy_);
+    fmt::print("\r\x1b[K{}", text);
+    std::fflush(stdout);
+  }
+
+  void clear() {
+    if (quiet_ || !terminal_) return;
+    fmt::print("\r\x1b[K");
+    std::fflush(stdout);  // notes go to the other stream
+  }
+
+  const Study& study_;
+  const std::vector<StudyRun>& runs_;
+  std::vector<Outcome>& outcomes_;
+  fs::path folder_;
+  std::size_t jobs_;
+  bool quiet_, terminal_;
+  std::deque<std::size_t> queue_;
+  std::list<Running> running_;
+  std::size_t before_ = 0, made_ = 0, busy_ = 0;
+  RunnerEnd end_;
+  Clock::time_point started_ = Clock::now(), last_end_ = started_, shown_at_{};
+};
+
+}  // namespace
+
+double study_time_left(double between, std::size_t runs, double since) {
+  // The next end is due; what has been waited for it is no longer left.
+  return std::max(0., between * static_cast<double>(runs) - std::min(since, between));
+}
+
+std::vector<std::string> command_of(const Study& study, const StudyRun& run, const fs::path& folder) {
+  std::vector<std::string> words = {own_program().string(),
+                                    "run",
+                                    study.scene.string(),
+                                    "--out",
+                                    folder.string(),
+                                    "--threads",
+                                    "1",
+                                    "--resume",
+                                    "--quiet"};
+  if (study.until) words.insert(words.end(), {"--until", fmt::format("{}", *study.until)});
+  if (study.large) words.emplace_back("--large");
+  if (study.budget) words.insert(words.end(), {"--budget", fmt::format("{}", *study.budget)});
+  for (const auto& argument : run.set) words.insert(words.end(), {"--set", argument});
+  return words;
+}
+
+RunnerEnd make_runs(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
+                    const fs::path& folder, int jobs, bool quiet) {
+  return Runner(study, runs, outcomes, folder, jobs, quiet).go();
+}
+
+}  // namespace splashdown::apps

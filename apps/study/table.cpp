@@ -1,0 +1,295 @@
+#include "apps/study/table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "apps/quantity/expression.hpp"
+#include "apps/quantity/names.hpp"
+#include "apps/record/csv.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Columns from summary.json.
+const std::vector<std::pair<std::string, std::string>> from_summary = {
+    {"passes_mean", "coupling.passes_mean"}, {"passes_max", "coupling.passes_max"},
+    {"rejected_steps", "rejected_steps"},    {"steps", "steps"},
+    {"simulated_time", "simulated_time"},    {"wall_seconds", "wall_seconds"}};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Outcome::Status status_of(const std::string& status, const std::string& cause) {
+  using enum Outcome::Status;
+  if (status == "done") return converged;
+  if (status != "failed") return interrupted;
+  if (cause.starts_with("the coupling diverged")) return diverged;
+  if (cause.starts_with("the coupling did not converge")) return stalled;
+  return failed;
+}
+
+/// Why an entry that summaries have is missing in one.
+std::string why_absent(const std::string& name) {
+  if (name.find(".cfc") != std::string::npos)
+    return name +
+           ": the run has no such pulse: its steps are too long, or the run too short, for the filter. Use a smaller "
+           "time.dt_max, or a class of a lower frequency";
+  return name + ": has no value in this run: what it tells of did not happen";
+}
+
+/// Names in the expressions of one run.
+quantity::Lookup names_of(const Study& study, const StudyRun& run, const Outcome& outcome,
+                          const nlohmann::json& summary, const quantity::Table& table) {
+  using quantity::Value;
+  return [&](const std::string& name) -> std::optional<Value> {
+    if (const auto path = quantity::after("summary", name)) {
+      auto entry = quantity::find_entry(summary, *path);
+      // It was checked before the runs that such an entry can be: this run has none.
+      if (!entry) throw std::runtime_error(why_absent(name));
+      return entry;
+    }
+    if (auto column = quantity::find_column(table, name)) return column;
+    for (std::size_t a = 0; a < study.axes.size(); ++a)
+      if (const auto& value = study.axes[a].values[run.value[a]]; study.axes[a].name == name && value.number)
+        return Value::number(*value.number);
+    if (const auto found = outcome.numbers.find(name); found != outcome.numbers.end())
+      return Value::number(found->second);
+    const auto found = study.constants.find(name);
+    if (found == study.constants.end()) return std::nullopt;
+    return Value::number(found->second);
+  };
+}
+
+/// Deviation of one measured value from what it is held against.
+double error_of(const StudyQuantity& quantity, double value, double reference, const quantity::Lookup& names) {
+  const double scale = quantity.scale.empty() ? std::abs(reference) : quantity::evaluate_number(quantity.scale, names);
+  return std::abs(value - reference) / scale;
+}
+
+void measure_one(const Study& study, const StudyQuantity& quantity, const StudyRun& run, const fs::path& folder,
+                 Outcome& outcome) {
+  const auto summary = quantity::read_summary(folder);
+  quantity::Table table;
+  const auto names = names_of(study, run, outcome, summary, table);
+  if (!quantity.table.empty()) table = quantity::read_table(folder, quantity.table);
+  if (!quantity.where.empty()) table = quantity::rows_where(table, quantity.where, names);
+  const double value = quantity::evaluate_number(quantity.quantity, names);
+  outcome.numbers[quantity.name] = value;
+  if (!quantity.exact) return;
+  const double exact = quantity::evaluate_number(*quantity.exact, names);
+  outcome.numbers[quantity.error_name()] = error_of(quantity, value, exact, names);
+}
+
+/// The error that refers to another run; nothing unless both have a value.
+void compare_one(const Study& study, const StudyQuantity& quantity, const StudyRun& run, const Outcome& there,
+                 Outcome& outcome) {
+  const auto mine = std::as_const(outcome.numbers).find(quantity.name), other = there.numbers.find(quantity.name);
+  if (mine == outcome.numbers.end() || other == there.numbers.end()) return;
+  const nlohmann::json no_summary = nlohmann::json::object();
+  const quantity::Table no_table;
+  const auto names = names_of(study, run, outcome, no_summary, no_table);
+  outcome.numbers[quantity.error_name()] = error_of(quantity, mine->second, other->second, names);
+}
+
+/// Coupling passes can agree on velocities that have nothing to do with the motion.
+void judge(const StudyQuantity& quantity, Outcome& outcome) {
+  const auto error = outcome.numbers.find(quantity.error_name());
+  if (outcome.status != Outcome::Status::converged || !quantity.limit || error == outcome.numbers.end()) return;
+  if (error->second <= *quantity.limit) return;  // nan is not
+  outcome.status = Outcome::Status::diverged;
+  outcome.cause = fmt::format("{} = {:.3g} exceeds {:g}", quantity.error_name(), error->second, *quantity.limit);
+}
+
+/// Those of numbers, in the order of study.csv.
+std::vector<std::string> all_number_columns(const Study& study) {
+  auto columns = number_columns();
+  for (const auto& quantity : study.quantities) {
+    columns.push_back(quantity.name);
+    if (quantity.has_error()) columns.push_back(quantity.error_name());
+  }
+  return columns;
+}
+
+/// Text of a csv cell, quoted where RFC 4180 asks for it.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted(1, '"');
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
+}
+
+std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes) {
+  const auto numbers = all_number_columns(study);
+  std::string text = "run";
+  const auto add = [&](const std::string& entry) { text.append(1, ',').append(cell(entry)); };
+  for (const auto& axis : study.axes) add(axis.name);
+  add("status");
+  for (const auto& name : numbers) add(name);
+  add("cause");
+  text += '\n';
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    text += cell(runs[i].name);
+    for (std::size_t a = 0; a < study.axes.size(); ++a) add(study.axes[a].values[runs[i].value[a]].text);
+    add(word(outcomes[i].status));
+    for (const auto& name : numbers) {
+      const auto found = outcomes[i].numbers.find(name);
+      add(found == outcomes[i].numbers.end() ? std::string() : fmt::format("{}", found->second));
+    }
+    add(outcomes[i].cause);
+    text += '\n';
+  }
+  return text;
+}
+
+nlohmann::ordered_json json_of(const Study& study, const std::vector<StudyRun>& runs,
+                               const std::vector<Outcome>& outcomes) {
+  nlohmann::ordered_json root;
+  root["title"] = study.title;
+  root["study"] = study.file.string();
+  root["scene"] = study.scene.string();
+  std::map<std::string, int> counts;
+  for (const auto& outcome : outcomes) ++counts[word(outcome.status)];
+  root["status"] = counts;
+  for (const auto& quantity : study.quantities) root["units"][quantity.name] = quantity.unit;
+  for (const auto& axis : study.axes) {
+    auto& entry = root["axes"].emplace_back();
+    entry["name"] = axis.name;
+    entry["label"] = axis.label;
+    for (const auto& value : axis.values) entry["values"].push_back(value.text);
+  }
+  for (const auto& name : all_number_columns(study))
+    root["columns"].push_back({{"name", name}, {"label", column_label(study, name)}});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    auto& entry = root["runs"].emplace_back();
+    entry["run"] = runs[i].name;
+    for (std::size_t a = 0; a < study.axes.size(); ++a) {
+      const auto& value = study.axes[a].values[runs[i].value[a]];
+      if (value.number)
+        entry["axes"][study.axes[a].name] = *value.number;
+      else
+        entry["axes"][study.axes[a].name] = value.text;
+    }
+    entry["set"] = runs[i].set;
+    entry["status"] = word(outcomes[i].status);
+    if (!outcomes[i].cause.empty()) entry["cause"] = outcomes[i].cause;
+    for (const auto& [name, number] : outcomes[i].numbers) entry["numbers"][name] = number;  // nan becomes null
+  }
+  return root;
+}
+
+}  // namespace
+
+const char* word(Outcome::Status status) {
+  switch (status) {
+    case Outcome::Status::waiting:
+      return "waiting";
+    case Outcome::Status::interrupted:
+      return "interrupted";
+    case Outcome::Status::converged:
+      return "converged";
+    case Outcome::Status::diverged:
+      return "diverged";
+    case Outcome::Status::stalled:
+      return "stalled";
+    case Outcome::Status::failed:
+      break;
+  }
+  return "failed";
+}
+
+std::vector<std::string> number_columns() {
+  std::vector<std::string> names;
+  for (const auto& [name, path] : from_summary) names.push_back(name);
+  return names;
+}
+
+std::string column_label(const Study& study, const std::string& column) {
+  static const std::map<std::string, std::string> known = {
+      {"passes_mean", "passes a step, mean"},   {"passes_max", "passes a step, most"},
+      {"rejected_steps", "refused steps"},      {"steps", "steps"},
+      {"simulated_time", "simulated time (s)"}, {"wall_seconds", "wall time (s)"}};
+  if (const auto found = known.find(column); found != known.end()) return found->second;
+  for (const auto& quantity : study.quantities) {
+    if (quantity.name == column) return quantity.label + (quantity.unit == "-" ? "" : " (" + quantity.unit + ")");
+    if (quantity.error_name() == column) return "error of " + quantity.label;
+  }
+  return column;
+}
+
+std::vector<std::string> outcome_columns() {
+  auto names = number_columns();
+  names.insert(names.end(), {"run", "status", "cause", "summary", "ref"});
+  return names;
+}
+
+bool begun_with(const StudyRun& run, const fs::path& folder) {
+  return text_of(folder / "scene.resolved.toml").starts_with(run.resolved + "\n");
+}
+
+Outcome outcome_of(const Study& study, const StudyRun& run, const fs::path& folder) {
+  Outcome outcome;
+  if (!begun_with(run, folder)) return outcome;
+  outcome.status = Outcome::Status::interrupted;
+  const auto summary = quantity::read_summary(folder);
+  if (!summary.contains("status")) return outcome;
+  outcome.cause = summary.value("cause", "");
+  outcome.status = status_of(summary.value("status", ""), outcome.cause);
+  for (const auto& [name, path] : from_summary)
+    if (const auto value = quantity::find_entry(summary, path)) outcome.numbers[name] = value->numbers.front();
+  // With a later `until`, or without one, it goes on.
+  const double a_step_of_roundoff = 1e-9;
+  if (outcome.status == Outcome::Status::converged &&
+      summary.value("simulated_time", run.stop) < (1 - a_step_of_roundoff) * run.stop)
+    outcome.status = Outcome::Status::interrupted;
+  // With a larger budget it goes on.
+  if (outcome.status == Outcome::Status::interrupted && study.budget && outcome.cause.starts_with("the budget") &&
+      summary.value("wall_seconds", 0.) >= *study.budget)
+    outcome.status = Outcome::Status::stalled;
+  return outcome;
+}
+
+std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>& runs, const fs::path& folder,
+                                 std::vector<Outcome>& outcomes) {
+  std::vector<std::string> notes;
+  for (const auto& quantity : study.quantities) {
+    bool told = false;  // one note a quantity: what fails once usually fails everywhere
+    const auto each = [&](const auto& work) {
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        // A run that broke down has no final state: it counts in passes and seconds only.
+        if (outcomes[i].status != Outcome::Status::converged) continue;
+        try {
+          work(i);
+        } catch (const std::exception& error) {
+          if (!told) notes.push_back(fmt::format("{} of {}: {}", quantity.name, runs[i].name, error.what()));
+          told = true;
+        }
+      }
+    };
+    each([&](std::size_t i) { measure_one(study, quantity, runs[i], folder / runs[i].name, outcomes[i]); });
+    if (quantity.reference.empty()) continue;
+    each([&](std::size_t i) {
+      compare_one(study, quantity, runs[i], outcomes[reference_run(study, quantity, runs[i])], outcomes[i]);
+    });
+  }
+  for (const auto& quantity : study.quantities)
+    for (auto& outcome : outcomes) judge(quantity, outcome);
+  return notes;
+}
+
+void write_tables(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
+                  const fs::path& folder) {
+  write_file_atomically(folder / "study.csv", csv_of(study, runs, outcomes));
+  write_file_atomically(folder / "study.json", json_of(study, runs, outcomes).dump(2) + "\n");
+}
+
+}  // namespace splashdown::apps

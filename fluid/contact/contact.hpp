@@ -1,0 +1,85 @@
+// Where fluid meets walls: nodes that reach a wall slide on it, corners and creases keep nodes, nodes
+// that pass a sharp edge or part from the wall leave it. Only fluid carries nodes: there are no dry wall
+// nodes, so no cell spans a gap and contact neither creates volume nor happens early.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/mesh/recognise.hpp"
+#include "fluid/pressure/held_mass.hpp"
+
+namespace splashdown::fluid {
+
+/// Ties nodes that have reached a wall; puts nodes at wetted corners and creases. `velocities`: of the walls.
+template <int d>
+void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
+         std::span<const Twist<d>> velocities);
+
+/// Finds the nodes at edges of walls where the flow leaves them (Nodes::separates): corners on the free surface, and
+/// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
+/// stands at a crease like at any other place of a wall. `h`: element sizes, `velocities`: of the walls, `gravity`: g.
+template <int d>
+void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
+              std::span<const Twist<d>> velocities, double gravity);
+
+/// What ties nodes to walls on one mesh.
+template <int d>
+class WallMotion {
+ public:
+  /// `answers`: of walls, 1 for those whose motion is solved with the pressure.
+  WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const char> answers);
+
+  /// Nodes with a pressure of their own slip: along a wall v.n = w.n is met by facets, in the mean that the pressure can
+  /// keep, and not node by node, which would take momentum from the water that nobody gets. `unknown`: of nodes, -1: p = 0.
+  void meet_pressure(std::span<const int> unknown);
+
+  struct Moved {
+    std::vector<Vec<d>> x;     ///< at t_{n+1}
+    std::vector<Vec<d>> u;     ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's
+                               ///< velocity where it slips along a wall or separates from an edge
+    std::vector<WallTie> tie;  ///< at t_{n+1}: nodes may leave their wall or turn a corner
+    std::vector<int>
+        slides;  ///< boundary facets where the wall's flux counts: those with nodes that slip, and chords of
+                 ///< their curved wall that stay so
+  };
+  /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
+  void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
+
+  /// Nodes that walls take along in more directions than pressure keeps them in: those in hollow edges and corners that are
+  /// wetted on all sides. Along the normal of a smooth wall it is the pressure that does it.
+  const std::vector<HeldNode<d>>& held() const { return held_; }
+  /// What flows around an edge takes its place from upstream: the fluid's velocity there after the motion that `move` made of
+  /// its velocities v, in place. First-order upwind, a convex combination.
+  void convect(std::span<const Vec<d>> x, double dt, std::span<Vec<d>> u) const;
+
+ private:
+  const Nodes<d>& nodes_;
+  const Mesh<d>& mesh_;
+  std::span<const Wall<d>> walls_;
+  void find_separations(const Mesh<d>& mesh);
+  void find_edges(const WallsAt<d>& walls, std::span<const char> answers);
+  bool is_chord(int facet, std::span<const WallTie> tie) const;
+  bool attached(int wall, const typename Wall<d>::Near& edge) const;
+
+  std::vector<int> tied_;     // and free to slide, but for vertices
+  std::vector<char> wetted_;  // node has a wetted facet
+  struct Separation {
+    int at;
+    std::vector<int> upstream;  // wetted neighbours it takes its velocity from
+    Vec<d> area;                // of the boundary around it
+  };
+  std::vector<Separation> separations_;
+  std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
+  std::vector<int> on_creases_;                     // wetted nodes
+  std::vector<HeldNode<d>> held_;
+  std::vector<char> slips_;   // of nodes: their velocity is the water's, not that of their place on the wall
+  std::vector<int> edges_;    // those of them at edges
+  std::vector<int> by_flux_;  // facets with such a node
+  std::vector<int> chords_;   // facets, at t_n
+};
+
+extern template class WallMotion<2>;
+extern template class WallMotion<3>;
+
+}  // namespace splashdown::fluid

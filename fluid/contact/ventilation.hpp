@@ -1,0 +1,31 @@
+// Where air gets between the fluid and a wall: from the contact line, under suction.
+//
+// A film of thickness delta that runs with v around a hull of curvature kappa is pressed to it by the air alone,
+// p = -rho v^2 kappa delta at the hull. An inviscid film does so to the end of the hull. Water does not: air gets in at the
+// contact line where the boundary layer of the hull separates upstream of it, and films tear (docs/theory.md).
+#pragma once
+
+#include <span>
+
+#include "fluid/mesh/recognise.hpp"
+
+namespace splashdown::fluid {
+
+/// Unties wetted nodes beside the contact line, or beside an edge where the flow separates, that air gets to:
+///
+///   any wall     p < -0.1 rho |v - w|^2 / 2 at the node
+///   curved wall  where water passes fast, |v - w|^2 / 2 > g h, and the mean of p over the facets around is negative:
+///                in films below resolution (plane); and where p < -0.1 rho |v - w|^2 / 2 at the lowest pressure of the wetted
+///                region of negative pressure that the node belongs to
+///
+/// A row of nodes a step. `h`: element sizes, `velocities`: of the walls, `gravity`: g.
+template <int d>
+void ventilate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& at,
+               std::span<const Twist<d>> velocities, double density, double gravity);
+
+extern template void ventilate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
+                               std::span<const Twist<2>>, double, double);
+extern template void ventilate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
+                               std::span<const Twist<3>>, double, double);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,308 @@
+#include "fluid/contact/wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid/geometry.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+double angle_at(const std::array<Vec<2>, 2>&, int) { return 1; }
+double angle_at(const std::array<Vec<3>, 3>& c, int k) {
+  const Vec<3> a = c[(k + 1) % 3] - c[k], b = c[(k + 2) % 3] - c[k];
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+template <int d>
+Vec<d> closest_on_segment(const Vec<d>& a, const Vec<d>& b, const Vec<d>& x) {
+  const Vec<d> e = b - a;
+  return a + std::clamp((x - a).dot(e) / e.squaredNorm(), 0.0, 1.0) * e;
+}
+
+}  // namespace
+
+template <int d>
+Wall<d>::Wall(const WallSpec<d>& spec)
+    : spec_(spec),
+      tree_(spec.surface.vertices, spec.surface.facets),
+      normal_(d, spec.surface.facets.cols()),
+      vertex_normal_(d, spec.surface.vertices.cols()),
+      facets_of_(spec.surface.vertices.cols()),
+      is_corner_(spec.surface.vertices.cols(), 0),
+      is_sharp_(spec.surface.vertices.cols(), 0) {
+  for (int v = 0; v < spec_.surface.vertices.cols(); ++v) box_.extend(spec_.surface.vertices.col(v));
+  tiny_ = 1e-9 * box_.diagonal().norm();
+  find_normals();
+  find_creases();
+  find_corners();
+  find_patches();
+  find_bends();
+  find_convexity();
+}
+
+template <int d>
+void Wall<d>::find_normals() {
+  const auto& facets = spec_.surface.facets;
+  vertex_normal_.setZero();
+  double enclosed = 0;
+  for (int f = 0; f < facets.cols(); ++f) {
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = spec_.surface.vertices.col(facets(k, f));
+    normal_.col(f) = area_vector(corner).normalized();
+    enclosed += corner[0].dot(area_vector(corner));
+    for (int k = 0; k < d; ++k) {
+      vertex_normal_.col(facets(k, f)) += angle_at(corner, k) * normal_.col(f);
+      facets_of_[facets(k, f)].push_back(f);
+    }
+  }
+  turned_inside_out_ = enclosed < 0;
+}
+
+template <int d>
+bool Wall<d>::is_crease(int f, int g) const {
+  return normal_.col(f).dot(normal_.col(g)) < least_smooth_cosine;
+}
+
+// Edges between facets, and chains of those that are creases.
+template <int d>
+void Wall<d>::find_creases() {
+  const auto& facets = spec_.surface.facets;
+  across_.setConstant(d, facets.cols(), -1);
+  crease_of_.setConstant(d, facets.cols(), -1);
+  if constexpr (d == 3) {
+    std::vector<std::vector<std::array<int, 2>>> of_vertex(spec_.surface.vertices.cols());  // facet, edge
+    for (int f = 0; f < facets.cols(); ++f)
+      for (int k = 0; k < d; ++k) {
+        const int a = facets(k, f), b = facets((k + 1) % d, f);
+        for (int g : facets_of_[a])
+          for (int j = 0; j < d; ++j)
+            if (facets(j, g) == b && facets((j + 1) % d, g) == a) across_(k, f) = g;
+        if (across_(k, f) >= 0 && is_crease(f, across_(k, f))) of_vertex[a].push_back({f, k});
+      }
+    // A crease ends where it branches or turns sharply.
+    auto other_end = [&](const std::array<int, 2>& e) { return facets((e[1] + 1) % d, e[0]); };
+    auto along = [&](int from, int to) {
+      return Vec<d>((spec_.surface.vertices.col(to) - spec_.surface.vertices.col(from)).normalized());
+    };
+    for (std::size_t v = 0; v < of_vertex.size(); ++v) {
+      const auto& edges = of_vertex[v];
+      const int at = static_cast<int>(v);
+      is_sharp_[v] = !edges.empty();
+      auto turns = [&] {
+        return along(other_end(edges[0]), at).dot(along(at, other_end(edges[1]))) < least_smooth_cosine;
+      };
+      is_corner_[v] = !edges.empty() && (edges.size() != 2 || turns());
+    }
+    auto follow = [&](int from, int index) {
+      for (auto edge = of_vertex[from][index];;) {
+        const int to = other_end(edge), number = static_cast<int>(creases_.size()) - 1;
+        const int beyond = across_(edge[1], edge[0]);
+        crease_of_(edge[1], edge[0]) = number;
+        for (int j = 0; j < d; ++j)
+          if (facets(j, beyond) == to && facets((j + 1) % d, beyond) == from) crease_of_(j, beyond) = number;
+        creases_.back().push_back({from, to});
+        if (is_corner_[to]) return;
+        const auto& next = of_vertex[to];
+        edge = other_end(next[0]) == from ? next[1] : next[0];
+        if (crease_of_(edge[1], edge[0]) >= 0) return;  // a ring
+        from = to;
+      }
+    };
+    for (bool corners_first : {true, false})
+      for (std::size_t v = 0; v < of_vertex.size(); ++v)
+        for (std::size_t e = 0; e < of_vertex[v].size(); ++e) {
+          const auto [f, k] = of_vertex[v][e];
+          if (crease_of_(k, f) >= 0 || (corners_first && !is_corner_[v])) continue;
+          creases_.emplace_back();
+          follow(static_cast<int>(v), static_cast<int>(e));
+        }
+  }
+}
+
+// Besides the ends of creases: vertices around which the normal turns, as at the tip of a cone.
+template <int d>
+void Wall<d>::find_corners() {
+  for (int v = 0; v < spec_.surface.vertices.cols(); ++v) {
+    if (!is_sharp_[v])
+      for (int f : facets_of_[v])
+        for (int g : facets_of_[v])
+          if (is_crease(f, g)) is_corner_[v] = 1;
+    is_sharp_[v] = is_sharp_[v] || is_corner_[v];
+    if (is_corner_[v]) corners_.push_back(v);
+  }
+}
+
+// Facets that share an edge without a crease belong together.
+template <int d>
+void Wall<d>::find_patches() {
+  const auto& facets = spec_.surface.facets;
+  auto neighbours = [&](int f, int g) {
+    int shared = 0;
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b < d; ++b) shared += facets(a, f) == facets(b, g);
+    return shared == d - 1 && !is_crease(f, g);
+  };
+  patch_of_.assign(facets.cols(), -1);
+  for (int seed = 0; seed < facets.cols(); ++seed) {
+    if (patch_of_[seed] >= 0) continue;
+    const int patch = static_cast<int>(patch_facets_.size());
+    std::vector<int> members{seed};
+    patch_of_[seed] = patch;
+    for (std::size_t i = 0; i < members.size(); ++i)
+      for (int k = 0; k < d; ++k)
+        for (int g : facets_of_[facets(k, members[i])])
+          if (patch_of_[g] < 0 && neighbours(members[i], g)) patch_of_[g] = patch, members.push_back(g);
+    Eigen::Matrix<int, d, Eigen::Dynamic> own(d, members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) own.col(i) = facets.col(members[i]);
+    patch_tree_.emplace_back(spec_.surface.vertices, std::move(own));
+    constexpr double roundoff = 1e-12;
+    is_flat_.push_back(std::all_of(members.begin(), members.end(), [&](int f) {
+      return (normal_.col(f) - normal_.col(seed)).squaredNorm() < roundoff;
+    }));
+    patch_facets_.push_back(std::move(members));
+  }
+}
+
+// Curvature along an edge from the normals at its ends, |(n_j - n_i).(x_j - x_i)| / |x_j - x_i|^2. A sharp vertex has no
+// normal, so edges that end at one are no curve.
+template <int d>
+void Wall<d>::find_bends() {
+  const auto& vertices = spec_.surface.vertices;
+  const auto& facets = spec_.surface.facets;
+  std::vector<double> curvature(vertices.cols(), 0.0);
+  for (int f = 0; f < facets.cols(); ++f)
+    for (int k = 0; k < d; ++k) {
+      const int i = facets(k, f), j = facets((k + 1) % d, f);
+      if (is_sharp_[i] || is_sharp_[j]) continue;
+      const Vec<d> e = vertices.col(j) - vertices.col(i);
+      const double along = (vertex_normal_.col(j).normalized() - vertex_normal_.col(i).normalized()).dot(e);
+      for (int v : {i, j}) curvature[v] = std::max(curvature[v], std::abs(along) / e.squaredNorm());
+    }
+  const double straight = 1e-6 / box_.diagonal().norm();  // roundoff of outlines that are subdivided
+  for (int v = 0; v < vertices.cols(); ++v)
+    if (curvature[v] > straight) bends_.push_back({vertices.col(v), 1 / curvature[v]});
+}
+
+// Seen from each facet, the others at the corner or beyond the crease lie behind it.
+template <int d>
+void Wall<d>::find_convexity() {
+  const auto& vertices = spec_.surface.vertices;
+  const auto& facets = spec_.surface.facets;
+  auto stands_out = [&](int v, int f, int from) {
+    return (vertices.col(v) - vertices.col(from)).dot(normal_.col(f)) > tiny_;
+  };
+  convex_corner_.assign(vertices.cols(), 1);
+  for (int v : corners_)
+    for (int f : facets_of_[v])
+      for (int g : facets_of_[v])
+        for (int k = 0; k < d; ++k)
+          if (stands_out(facets(k, g), f, v)) convex_corner_[v] = 0;
+  convex_crease_.assign(creases_.size(), 1);
+  for (int f = 0; f < facets.cols() && d == 3; ++f)
+    for (int k = 0; k < d; ++k)
+      for (int j = 0; j < d && crease_of_(k, f) >= 0; ++j)
+        if (stands_out(facets(j, across_(k, f)), f, facets(k, f))) convex_crease_[crease_of_(k, f)] = 0;
+}
+
+template <int d>
+typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& local,
+                                        const typename FacetTree<d>::Hit& hit, int facet) const {
+  // The side is taken from the normals of all facets that meet at the closest point, by their angles there (Baerentzen,
+  // Aanaes 2005).
+  Vec<d> normal = normal_.col(facet);
+  int vertex = -1, on_crease = -1;
+  const auto at = [&](int k) { return Vec<d>(spec_.surface.vertices.col(spec_.surface.facets(k % d, facet))); };
+  for (int k = 0; k < d && d == 3; ++k) {
+    if (across_(k, facet) < 0 || (closest_on_segment<d>(at(k), at(k + 1), hit.point) - hit.point).norm() > tiny_)
+      continue;
+    normal = normal_.col(facet) + normal_.col(across_(k, facet));
+    if (crease_of_(k, facet) >= 0) on_crease = crease_of_(k, facet);
+  }
+  for (int k = 0; k < d; ++k) {
+    const int v = spec_.surface.facets(k, facet);
+    if ((at(k) - hit.point).norm() > tiny_) continue;
+    normal = vertex_normal_.col(v);
+    if (is_corner_[v]) vertex = v;
+  }
+  const double side = (local - hit.point).dot(normal) < 0 ? -1.0 : 1.0;
+  return {pose * hit.point,
+          pose.linear() * Vec<d>(normal_.col(facet)),
+          side * std::sqrt(hit.squared_distance),
+          patch_of_[facet],
+          vertex,
+          vertex >= 0 ? -1 : on_crease};
+}
+
+template <int d>
+typename Wall<d>::Near Wall<d>::nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const {
+  const Vec<d> local = pose.inverse() * x;
+  const auto hit = tree_.nearest(local, reach);
+  if (hit.facet < 0) return {x, Vec<d>::Zero(), reach, -1, -1};
+  return near_of(pose, local, hit, hit.facet);
+}
+
+template <int d>
+typename Wall<d>::Near Wall<d>::nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const {
+  const Vec<d> local = pose.inverse() * x;
+  const auto hit = patch_tree_[patch].nearest(local, std::numeric_limits<double>::max());
+  if (hit.facet < 0) return {x, Vec<d>::Zero(), std::numeric_limits<double>::quiet_NaN(), patch, -1};  // x not finite
+  return near_of(pose, local, hit, patch_facets_[patch][hit.facet]);
+}
+
+template <int d>
+typename Wall<d>::OnCrease Wall<d>::on_crease(const Vec<d>& local, int crease) const {
+  OnCrease best{Vec<d>::Constant(std::numeric_limits<double>::infinity()), Vec<d>::Zero()};
+  for (const auto& [a, b] : creases_[crease]) {
+    const Vec<d> from = spec_.surface.vertices.col(a), to = spec_.surface.vertices.col(b);
+    const Vec<d> c = closest_on_segment<d>(from, to, local);
+    if ((c - local).squaredNorm() < (best.point - local).squaredNorm()) best = {c, to - from};
+  }
+  return best;
+}
+
+template <int d>
+Vec<d> Wall<d>::nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
+  return pose * on_crease(pose.inverse() * x, crease).point;
+}
+
+template <int d>
+Vec<d> Wall<d>::crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
+  return pose.linear() * on_crease(pose.inverse() * x, crease).along.normalized();
+}
+
+template <int d>
+typename Wall<d>::Crossing Wall<d>::nearest_crease(const Isometry<d>& pose, const Vec<d>& from,
+                                                   const Vec<d>& to) const {
+  const Vec<d> a = pose.inverse() * from, along = pose.inverse() * to - a;
+  Crossing best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < creases_.size(); ++c)
+    for (const auto& [i, j] : creases_[c]) {
+      // Closest points of two segments (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
+      const Vec<d> b = spec_.surface.vertices.col(i),
+                   edge = spec_.surface.vertices.col(j) - spec_.surface.vertices.col(i);
+      const Vec<d> r = a - b;
+      const double aa = along.squaredNorm(), ee = edge.squaredNorm(), ae = along.dot(edge);
+      const double ar = along.dot(r), er = edge.dot(r), det = aa * ee - ae * ae;
+      double s = det > 1e-12 * aa * ee ? std::clamp((ae * er - ar * ee) / det, 0.0, 1.0) : 0.0;
+      const double t = std::clamp((ae * s + er) / ee, 0.0, 1.0);
+      s = aa > 0 ? std::clamp((t * ae - ar) / aa, 0.0, 1.0) : 0.0;
+      const Vec<d> on_crease = b + t * edge;
+      const double distance = (a + s * along - on_crease).norm();
+      if (distance < best.distance) best = {static_cast<int>(c), on_crease, distance, s};
+    }
+  best.point = pose * best.point;
+  return best;
+}
+
+template <int d>
+double Wall<d>::distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack) const {
+  return std::sqrt(tree_.nearest(pose.inverse() * x, reach, slack).squared_distance);
+}
+
+template class Wall<2>;
+template class Wall<3>;
+
+}  // namespace splashdown::fluid

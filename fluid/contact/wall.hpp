@@ -1,0 +1,116 @@
+// A wall in motion: closest points and sides of its rigid surface, its sharp vertices.
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "fluid/mesh/facet_tree.hpp"
+#include "fluid/nodes.hpp"
+#include "fluid/spec.hpp"
+
+namespace splashdown::fluid {
+
+/// cos 30 degrees. Facets, and lines, that turn by more meet at a crease or a corner; by less they follow a curve.
+constexpr double least_smooth_cosine = 0.5 * std::numbers::sqrt3;
+
+template <int d>
+class Wall {
+ public:
+  explicit Wall(const WallSpec<d>& spec);
+
+  struct Near {
+    Vec<d> point;     ///< closest point of the wall, world frame
+    Vec<d> normal;    ///< of the facet it lies on, out of the solid
+    double distance;  ///< signed: negative inside the solid
+    int patch;        ///< smooth patch the point lies on
+    int vertex;       ///< corner that is the closest point, -1: none
+    int crease = -1;  ///< crease that the closest point lies on, -1: none; corners lie on none
+    bool sharp() const { return vertex >= 0 || crease >= 0; }
+  };
+
+  /// Closest point of the wall in the given pose; distance = +reach where nothing is nearer.
+  Near nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
+  /// The same on one smooth patch alone, wherever x is.
+  Near nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const;
+  /// Closest point of a crease.
+  Vec<d> nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
+  /// Unit vector along the crease where it is nearest.
+  Vec<d> crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
+  struct Crossing {
+    int crease = -1;
+    Vec<d> point = Vec<d>::Zero();  ///< of the crease, world frame
+    double distance = 0;            ///< from there to the segment
+    double share = 0;               ///< of the segment, from `from` to its point nearest to the crease
+  };
+  /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
+  Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
+  /// Whether the solid is convex at this corner or along this crease: water flows around it. In hollow ones it stays.
+  bool is_convex(const WallTie& sharp) const {
+    return sharp.vertex >= 0 ? convex_corner_[sharp.vertex] != 0 : convex_crease_[sharp.crease] != 0;
+  }
+  /// Whether a node could be tied like this: to a patch, corner and crease that there are.
+  bool has(const WallTie& tie) const {
+    return tie.patch >= -1 && tie.patch < static_cast<int>(is_flat_.size()) && tie.vertex >= -1 &&
+           tie.vertex < static_cast<int>(spec_.surface.vertices.cols()) && tie.crease >= -1 &&
+           tie.crease < static_cast<int>(creases_.size());
+  }
+  bool is_flat(int patch) const { return is_flat_[patch] != 0; }
+  bool has_creases() const { return !creases_.empty(); }
+  /// False only where the point is surely farther than `margin` from the solid; cheap.
+  bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
+    return turned_inside_out_ || box_.squaredExteriorDistance(pose.inverse() * x) <= margin * margin;
+  }
+  /// `slack`: relative error allowed.
+  double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
+  Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
+  const std::vector<int>& corners() const { return corners_; }
+  const WallSpec<d>& spec() const { return spec_; }
+  /// A vertex of a smooth patch that is curved there.
+  struct Bend {
+    Vec<d> at;      ///< wall frame
+    double radius;  ///< of curvature, the smallest along the edges that meet there [m]
+  };
+  const std::vector<Bend>& bends() const { return bends_; }
+  bool encloses_fluid() const { return turned_inside_out_; }  ///< a tank
+  /// Box around the surface in the wall frame.
+  const Eigen::AlignedBox<double, d>& box() const { return box_; }
+
+ private:
+  void find_normals();
+  void find_creases();
+  void find_corners();
+  void find_patches();
+  void find_bends();
+  void find_convexity();
+  bool is_crease(int f, int g) const;
+  struct OnCrease {
+    Vec<d> point, along;  // in the wall's frame
+  };
+  OnCrease on_crease(const Vec<d>& local, int crease) const;
+  Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
+
+  WallSpec<d> spec_;
+  FacetTree<d> tree_;
+  std::vector<FacetTree<d>> patch_tree_;
+  std::vector<std::vector<int>> patch_facets_;
+  std::vector<int> patch_of_;
+  std::vector<char> is_flat_;                               // of patches
+  Eigen::Matrix<double, d, Eigen::Dynamic> normal_;         // of facets, unit
+  Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // mean over the facets around a vertex, by their angles
+  std::vector<std::vector<int>> facets_of_;
+  Eigen::Matrix<int, d, Eigen::Dynamic> across_;          // 3D: facet beyond the edge from corner k to the next
+  Eigen::Matrix<int, d, Eigen::Dynamic> crease_of_;       // 3D: crease that this edge is part of, -1: smooth
+  std::vector<std::vector<std::array<int, 2>>> creases_;  // edges of each
+  std::vector<int> corners_;
+  std::vector<Bend> bends_;
+  std::vector<char> is_corner_, is_sharp_;           // of vertices; sharp: a corner or on a crease
+  std::vector<char> convex_corner_, convex_crease_;  // of vertices, of creases
+  Eigen::AlignedBox<double, d> box_;
+  bool turned_inside_out_;  // the solid is outside
+  double tiny_;             // length below which points coincide
+};
+
+extern template class Wall<2>;
+extern template class Wall<3>;
+
+}  // namespace splashdown::fluid

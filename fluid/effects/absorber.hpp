@@ -1,0 +1,41 @@
+// A numerical beach: waves that enter a zone at either end of the tank die out in it.
+//
+//   dv/dt = - r(x) v,   r = rate (1 - s / width)^2 at the distance s < width from an end
+//
+// Integrated exactly over a kick. The quadratic ramp keeps the zone's edge from reflecting; longest wave that
+// is absorbed well: about the zone's width (Larsen, Dancy, Coastal Eng. 7, 1983).
+#pragma once
+
+#include "fluid/effects/term.hpp"
+
+namespace splashdown::fluid {
+
+/// Zones at both ends along the first axis.
+struct AbsorberSpec {
+  double from = 0, to = 0;  ///< the tank's ends [m]
+  double width = 0;         ///< of each zone [m]
+  double rate = 0;          ///< at the ends [1/s]
+};
+
+template <int d>
+class Absorber final : public Term<d> {
+ public:
+  explicit Absorber(const AbsorberSpec& spec) : spec_(spec) {}
+  std::string name() const override { return "absorber"; }
+  Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
+  /// power: rate of change of the kinetic energy [W]
+  std::vector<Diagnostic> diagnostics(const Nodes<d>&, std::span<const double>) const override {
+    return {{"power", power_}};
+  }
+
+ private:
+  double rate_at(const Vec<d>& x) const;
+
+  AbsorberSpec spec_;
+  double power_ = 0;
+};
+
+extern template class Absorber<2>;
+extern template class Absorber<3>;
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,96 @@
+// An effect on the fluid's momentum: present in a scene or absent, never switched.
+//
+// All effects act on the same carried velocity, which belongs to t_{n-1/2} and creates no volume on the mesh
+// of t_n, and add their changes to the predicted one. So their order does not matter, and what vanishes for
+// a fluid at rest (viscosity, damping) leaves it at rest beside gravity.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/mesh/node_cells.hpp"
+#include "fluid/nodes.hpp"
+#include "fluid/spec.hpp"
+#include "fluid/status.hpp"
+#include "fluid/types.hpp"
+
+namespace splashdown::fluid {
+
+/// Motions of walls that answer the fluid: twists of all walls = modes y, inertia of y, and the combinations of them that may
+/// occur (empty: all).
+struct MotionView {
+  const Eigen::MatrixXd &modes, &inertia, &directions;
+};
+
+/// What an effect sees of the fluid during a step.
+template <int d>
+struct StepView {
+  const Nodes<d>& nodes;
+  const Mesh<d>& mesh;
+  double density;                         ///< [kg/m^3]
+  double kick;                            ///< [s]
+  std::span<const double> lumped_volume;  ///< of nodes [m^d]
+  const NodeCells<d>& around;             ///< the cells around each node
+  std::span<const WallSpec<d>> walls;
+  std::span<const Isometry<d>> poses;   ///< of walls, at t_n
+  const MotionView* motions = nullptr;  ///< nullptr: no wall answers
+};
+
+/// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
+template <int d>
+struct Carried {
+  std::span<const Vec<d>> v;
+  std::span<const Twist<d>> walls;
+};
+
+/// What effects add to.
+template <int d>
+struct Predicted {
+  std::span<Vec<d>> v;            ///< of nodes [m/s]
+  std::span<Wrench<d>> on_walls;  ///< impulse on each wall about its origin [N s]
+  /// Of the motions that answer: what an effect that solves for them with the fluid has changed in them, on_walls being the
+  /// impulse that did it. nullptr: none answers.
+  Eigen::VectorXd* answer = nullptr;
+};
+
+/// Name and value of a number worth recording.
+using Diagnostic = std::pair<std::string, double>;
+
+template <int d>
+class Term {
+ public:
+  virtual ~Term() = default;
+  virtual std::string name() const = 0;
+  /// Once a step, before any `predict` of it.
+  virtual Status begin(const StepView<d>& /*step*/) { return {}; }
+  /// Adds the effect of one kick; repeatable.
+  virtual Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) = 0;
+  /// Potential energy per unit mass at a point [J/kg]; 0 for effects that have none.
+  virtual double potential(const Vec<d>& /*x*/) const { return 0; }
+  /// Numbers at t_n, after `predict`; always of the same names. `lumped_mass`: of nodes [kg].
+  virtual std::vector<Diagnostic> diagnostics(const Nodes<d>& /*nodes*/,
+                                              std::span<const double> /*lumped_mass*/) const {
+    return {};
+  }
+  /// Largest stable dt [s]; infinity for effects that set none.
+  virtual double stable_dt() const;
+};
+
+template <int d>
+class Gravity final : public Term<d> {
+ public:
+  explicit Gravity(const Vec<d>& acceleration) : g_(acceleration) {}
+  std::string name() const override { return "gravity"; }
+  Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
+  double potential(const Vec<d>& x) const override { return -g_.dot(x); }
+  /// energy [J]
+  std::vector<Diagnostic> diagnostics(const Nodes<d>& nodes, std::span<const double> lumped_mass) const override;
+
+ private:
+  Vec<d> g_;  ///< [m/s^2]
+};
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,141 @@
+#include "fluid/initial/initial.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "fluid/contact/contact.hpp"
+#include "fluid/initial/parts.hpp"
+#include "fluid/mesh/adapt.hpp"
+#include "fluid/mesh/size_field.hpp"
+#include "fluid/parallel.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double on_wall = 1e-9;  // over the wall's size: roundoff of the clipping
+// While nodes are still few, cells are large for their size field and only the outline tells what is fluid.
+constexpr Alpha outline_decides{std::numeric_limits<double>::infinity(), 0.0, 0.0};
+// Until the node spacing no longer changes visibly; Mesh_3 has done most of it in space.
+template <int d>
+constexpr int smoothing_sweeps = d == 2 ? 30 : 4;
+
+template <int d>
+class Filler {
+ public:
+  Filler(const FluidSpec<d>& spec, const WallsAt<d>& walls)
+      : spec_(spec), walls_(walls), dry_(walls.walls.size(), 0.0) {}
+
+  InitialLiquid<d> run() {
+    for (const auto& liquid : spec_.liquids) outline<d>(liquid, spec_, walls_, out_);
+    if (out_.nodes.size() == 0)
+      throw std::invalid_argument("no liquid: every region lies outside the tank or inside a body");
+    refine();
+    for (std::size_t i = 0; i < out_.nodes.size(); ++i) out_.nodes.v[i] = velocity(out_.nodes.x[i]);
+    return std::move(out_);
+  }
+
+ private:
+  Vec<d> velocity(const Vec<d>& x) const {
+    for (std::size_t k = 0; k < spec_.liquids.size(); ++k)
+      if (spec_.liquids[k].velocity && spec_.liquids.size() == 1) return spec_.liquids[k].velocity(x);
+    // Several regions: the one whose outline contains the node, or is nearest to it.
+    double best = std::numeric_limits<double>::max();
+    Vec<d> v = Vec<d>::Zero();
+    for (const auto& liquid : spec_.liquids) {
+      const Wall<d> outline_wall({"", liquid.boundary, Isometry<d>::Identity(), Twist<d>::Zero(), 0});
+      const auto near =
+          outline_wall.nearest(Isometry<d>::Identity(), x, 2 * outline_wall.box().diagonal().norm() + 1e3);
+      if (near.distance >= best) continue;
+      best = near.distance;
+      v = liquid.velocity ? liquid.velocity(x) : Vec<d>::Zero();
+    }
+    return v;
+  }
+
+  void refine() {
+    std::vector<double>& h = out_.h;
+    auto sizes = [&] {
+      const SizeField<d> field(spec_.size, walls_, dry_, out_.nodes.x, out_.mesh);
+      h.resize(out_.nodes.size());
+      in_parallel(h.size(), [&](std::size_t i) { h[i] = field(out_.nodes.x[i]); });
+    };
+    sizes();
+    const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
+    wet<d>(out_.nodes, h, out_.mesh, walls_, at_rest);
+    sizes();
+    for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
+      cut();
+      if (settled + 1 == smoothing_sweeps<d>) return;
+      const auto report = adapt(out_.nodes, h, out_.mesh, walls_);
+      const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
+      if (quiet || sweep > 60) ++settled;
+      cut();
+      smooth(h);
+      sizes();
+    }
+  }
+
+  // What is water, without nodes that smoothing pushed through a wall: they have no cell then, and are no drops either.
+  void cut() {
+    for (;;) {
+      auto found = recognise<d>(out_.nodes, out_.h, out_.mesh.boundary, walls_, outline_decides);
+      std::vector<char> goes = out_.nodes.spray;
+      for (int n : found.piercing) goes[n] = 1;
+      if (found.piercing.empty()) out_.mesh = std::move(found);
+      if (!discard(goes, out_.nodes, out_.h, out_.mesh.boundary)) return;
+    }
+  }
+
+  // Inner nodes move towards the mean of their neighbours, weighted by how far apart they should be.
+  void smooth(const std::vector<double>& h) {
+    auto& x = out_.nodes.x;
+    std::vector<Vec<d>> push(x.size(), Vec<d>::Zero());
+    std::vector<double> weight(x.size(), 0.0);
+    std::vector<char> fixed(x.size(), 0);
+    for (const auto& f : out_.mesh.boundary)
+      for (int n : f.nodes) fixed[n] = 1;
+    for (const auto& cell : out_.mesh.cells)
+      for (int a = 0; a <= d; ++a)
+        for (int b = 0; b <= d; ++b) {
+          if (a == b) continue;
+          const int i = cell[a], j = cell[b];
+          const Vec<d> e = x[i] - x[j];
+          const double target = 0.5 * (h[i] + h[j]);
+          push[i] += e * (target / e.norm() - 1.0);
+          weight[i] += 1;
+        }
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!fixed[i] && weight[i] > 0) x[i] += 1.2 * push[i] / weight[i];
+  }
+
+  const FluidSpec<d>& spec_;
+  const WallsAt<d>& walls_;
+  const std::vector<double> dry_;
+  InitialLiquid<d> out_;
+};
+
+}  // namespace
+
+template <int d>
+WallTie tie_at(const Vec<d>& x, const WallsAt<d>& walls) {
+  for (std::size_t w = 0; w < walls.walls.size(); ++w) {
+    const double tiny = on_wall * walls.walls[w].box().diagonal().norm();
+    const auto near = walls.walls[w].nearest(walls.poses[w], x, 2 * tiny);
+    if (std::abs(near.distance) < tiny)
+      return {static_cast<int>(w), near.sharp() ? -1 : near.patch, near.vertex, near.crease};
+  }
+  return {};
+}
+
+template <int d>
+InitialLiquid<d> fill(const FluidSpec<d>& spec, const WallsAt<d>& walls) {
+  return Filler<d>(spec, walls).run();
+}
+
+template WallTie tie_at(const Vec<2>&, const WallsAt<2>&);
+template WallTie tie_at(const Vec<3>&, const WallsAt<3>&);
+template InitialLiquid<2> fill(const FluidSpec<2>&, const WallsAt<2>&);
+template InitialLiquid<3> fill(const FluidSpec<3>&, const WallsAt<3>&);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,74 @@
+// In space: CGAL's Mesh_3 fills a skin to the size field.
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Mesh_criteria_3.h>
+#include <CGAL/Mesh_domain_with_polyline_features_3.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Polyhedral_mesh_domain_3.h>
+#include <CGAL/make_mesh_3.h>
+
+#include <map>
+
+#include "fluid/initial/space_parts.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+using Domain = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Polyhedral_mesh_domain_3<Rounded, Kernel>>;
+using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
+using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
+using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
+
+// h times a factor, for Mesh_3.
+struct Sizing {
+  using FT = Kernel::FT;
+  using Point_3 = Kernel::Point_3;
+  using Index = Domain::Index;
+  const SizeField<3>* field;
+  double factor;
+  FT operator()(const Point_3& p, int, const Index&) const { return factor * (*field)(vec(p)); }
+};
+
+// Mesh_3 bounds circumradii from above; these factors make the mean edge about h.
+Complex meshed(const Domain& domain, const SizeField<3>& field) {
+  namespace params = CGAL::parameters;
+  const Sizing edges{&field, 1.0}, facets{&field, 0.75}, cells{&field, 0.8}, sag{&field, 0.1};
+  const Criteria criteria(params::edge_size = edges, params::facet_angle = 25, params::facet_size = facets,
+                          params::facet_distance = sag, params::cell_radius_edge_ratio = 2, params::cell_size = cells);
+  return CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude());
+}
+
+void append(const Complex& complex, const WallsAt<3>& walls, InitialLiquid<3>& out) {
+  const auto& triangulation = complex.triangulation();
+  std::map<Triangulation::Vertex_handle, int> at;
+  auto node = [&](Triangulation::Vertex_handle v) {
+    const auto [known, fresh] = at.try_emplace(v, 0);
+    if (fresh) {
+      const Vec<3> x = vec(triangulation.point(v).point());
+      known->second =
+          out.nodes.add(x, Vec<3>::Zero(), 0, v->in_dimension() < 3 ? tie_at<3>(x, walls) : WallTie{}, false);
+    }
+    return known->second;
+  };
+  for (auto c = complex.cells_in_complex_begin(); c != complex.cells_in_complex_end(); ++c)
+    for (int k = 0; k < 4; ++k) {
+      node(c->vertex(k));
+      const auto other = c->neighbor(k);
+      if (complex.is_in_complex(other)) continue;
+      Facet<3> f;
+      for (int j = 0; j < 3; ++j) f.nodes[j] = node(c->vertex(opposite<3>[k][j]));
+      out.mesh.boundary.push_back(f);
+    }
+}
+
+}  // namespace
+
+void fill_within(const Rounded& skin, const Curves& curves, const SizeField<3>& field, const WallsAt<3>& walls,
+                 InitialLiquid<3>& out) {
+  CGAL::Random random(0);
+  Domain domain(skin, &random);
+  domain.add_features(curves.lines.begin(), curves.lines.end());
+  for (const auto& corner : curves.corners) domain.add_corner(corner);
+  append(meshed(domain, field), walls, out);
+}
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,294 @@
+#include "fluid/initial/surface_file.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/OBJ.h>
+#include <CGAL/IO/STL.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "fluid/initial/facet_count.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+const std::string flip =
+    "Flip it in the tool that made it, e.g. Blender: Mesh > Normals > Recalculate Outside, and export "
+    "it again.";
+const std::string close =
+    "Close it in the tool that made it, e.g. Blender: 3D-Print Toolbox > Make Manifold, or MeshLab: "
+    "Filters > Remeshing > Close Holes, and export it again.";
+const std::string clean =
+    "Remove it, e.g. MeshLab: Filters > Cleaning > Merge Close Vertices and Remove Zero Area Faces, and "
+    "export it again.";
+const std::string unite = "Join the parts, e.g. Blender: Boolean > Union, or mend the place, and export it again.";
+
+/// Points and the polygons between them.
+struct Soup {
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+
+  Vec<3> at(std::size_t point) const { return {points[point].x(), points[point].y(), points[point].z()}; }
+  Vec<3> centre(std::size_t polygon) const {
+    Vec<3> sum = Vec<3>::Zero();
+    for (const auto point : polygons[polygon]) sum += at(point);
+    return sum / static_cast<double>(polygons[polygon].size());
+  }
+  double extent() const {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < points.size(); ++i) box.extend(at(i));
+    return box.diagonal().norm();
+  }
+};
+
+std::string text(const Vec<3>& x) { return fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()); }
+
+Soup read_soup(const std::filesystem::path& path) {
+  const auto expected = count_facets(path);
+  Soup soup;
+  const bool good = expected.format == SurfaceFormat::obj
+                        ? CGAL::IO::read_OBJ(path.string(), soup.points, soup.polygons)
+                        : CGAL::IO::read_STL(path.string(), soup.points, soup.polygons);
+  long triangles = 0;
+  bool whole = good;
+  for (const auto& polygon : soup.polygons) {
+    triangles += static_cast<long>(polygon.size()) - 2;
+    for (const auto point : polygon) whole = whole && point < soup.points.size();
+  }
+  for (std::size_t i = 0; i < soup.points.size(); ++i) whole = whole && soup.at(i).allFinite();
+  if (!whole || triangles != expected.facets)
+    throw SurfaceFileError(
+        fmt::format("is not a whole mesh: {} of {} facets could be read", triangles, expected.facets),
+        "Export it again as STL or OBJ.");
+  if (triangles < 4)
+    throw SurfaceFileError(fmt::format("has {} facets; a closed surface has at least 4", triangles), close);
+  return soup;
+}
+
+/// One point for those that rounding has parted: of single precision, which STL files have, or of their digits.
+void merge_points(Soup& soup) {
+  const double near = 1e-6 * soup.extent();
+  using Cell = std::array<long, 3>;
+  std::map<Cell, std::vector<std::size_t>> cells;
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::size_t> now(soup.points.size());
+  const auto cell_of = [&](const Vec<3>& x) {
+    return Cell{std::lround(x.x() / near), std::lround(x.y() / near), std::lround(x.z() / near)};
+  };
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    const Vec<3> x = soup.at(i);
+    const Cell cell = cell_of(x);
+    std::optional<std::size_t> same;
+    for (int k = 0; k < 27 && !same; ++k) {
+      const auto found =
+          cells.find({cell[0] + (k % 3 + 1) % 3 - 1, cell[1] + (k / 3 % 3 + 1) % 3 - 1, cell[2] + (k / 9 + 1) % 3 - 1});
+      if (found == cells.end()) continue;
+      for (const auto other : found->second)
+        if ((Vec<3>(points[other].x(), points[other].y(), points[other].z()) - x).norm() <= near) same = other;
+    }
+    if (!same) {
+      same = points.size();
+      points.push_back(soup.points[i]);
+      cells[cell].push_back(*same);
+    }
+    now[i] = *same;
+  }
+  soup.points = std::move(points);
+  for (auto& polygon : soup.polygons)
+    for (auto& point : polygon) point = now[point];
+}
+
+/// A polygon that comes back to a corner encloses nothing that facets could be made of.
+void refuse_repeated_corners(const Soup& soup) {
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    auto corners = soup.polygons[f];
+    std::sort(corners.begin(), corners.end());
+    const auto twice = std::adjacent_find(corners.begin(), corners.end());
+    if (twice != corners.end() && corners.size() > 3)  // such triangles have no area
+      throw SurfaceFileError(
+          fmt::format("has a facet that meets its corner {} twice: number {}", text(soup.at(*twice)), f + 1), clean);
+  }
+}
+
+void refuse_without_area(const Soup& soup) {
+  const double flat = 1e-9 * soup.extent();  // height over the longest edge
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    const auto& polygon = soup.polygons[f];
+    Vec<3> area = Vec<3>::Zero();
+    double longest = 0;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec<3> a = soup.at(polygon[k]) - soup.at(polygon[0]),
+                   b = soup.at(polygon[(k + 1) % polygon.size()]) - soup.at(polygon[0]);
+      area += 0.5 * a.cross(b);
+      longest = std::max(longest, (b - a).norm());
+    }
+    if (2 * area.norm() <= flat * longest)
+      throw SurfaceFileError(fmt::format("has a facet without area: number {} at {}", f + 1, text(soup.centre(f))),
+                             clean);
+  }
+}
+
+/// What the orientation of a soup runs into.
+struct Findings {
+  std::vector<std::size_t> turned;
+  std::optional<std::array<std::size_t, 3>> crowded_edge;  // ends and facets of an edge with more than two
+  std::optional<std::size_t> crowded_point;                // where surfaces touch in a point
+};
+
+struct Listener : pmp::Default_orientation_visitor {
+  explicit Listener(Findings& to) : findings(&to) {}
+  void polygon_orientation_reversed(std::size_t polygon) { findings->turned.push_back(polygon); }
+  void non_manifold_edge(std::size_t a, std::size_t b, std::size_t facets) {
+    if (!findings->crowded_edge) findings->crowded_edge = {a, b, facets};
+  }
+  void non_manifold_vertex(std::size_t point, std::size_t) {
+    if (!findings->crowded_point) findings->crowded_point = point;
+  }
+  Findings* findings;  // CGAL copies its visitors
+};
+
+/// Some edge belongs to one polygon only.
+bool has_open_edge(const Soup& soup) {
+  std::map<std::pair<std::size_t, std::size_t>, int> uses;
+  for (const auto& polygon : soup.polygons)
+    for (std::size_t k = 0; k < polygon.size(); ++k) ++uses[std::minmax(polygon[k], polygon[(k + 1) % polygon.size()])];
+  return std::any_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 1; });
+}
+
+void refuse_disagreement(Soup& soup) {
+  Findings findings;
+  const Soup given = soup;
+  pmp::orient_polygon_soup(soup.points, soup.polygons, CGAL::parameters::visitor(Listener(findings)));
+  if (findings.crowded_edge) {
+    const auto& [a, b, facets] = *findings.crowded_edge;
+    throw SurfaceFileError(
+        fmt::format("is not the surface of a solid: {} facets meet at the edge from {} to {}; two must", facets,
+                    text(given.at(a)), text(given.at(b))),
+        unite);
+  }
+  // Holes that touch in a point meet there like parts: they are told as what they are.
+  if (findings.crowded_point && !has_open_edge(given))
+    throw SurfaceFileError(fmt::format("is not the surface of a solid: parts of it touch in the point {}",
+                                       text(given.at(*findings.crowded_point))),
+                           unite);
+  if (findings.turned.empty()) return;
+  const std::size_t turned = std::min(findings.turned.size(), given.polygons.size() - findings.turned.size());
+  const auto first = findings.turned.front();
+  throw SurfaceFileError(fmt::format("has facets turned against their neighbours, {} of {}, at {} (facet {})", turned,
+                                     given.polygons.size(), text(given.centre(first)), first + 1),
+                         flip);
+}
+
+void refuse_holes(const Mesh& mesh) {
+  if (CGAL::is_closed(mesh)) return;
+  std::vector<Mesh::Halfedge_index> holes;
+  pmp::extract_boundary_cycles(mesh, std::back_inserter(holes));
+  struct Hole {
+    int edges = 0;
+    Vec<3> centre = Vec<3>::Zero();
+  };
+  std::vector<Hole> found;
+  for (const auto start : holes) {
+    Hole hole;
+    for (const auto edge : CGAL::halfedges_around_face(start, mesh)) {
+      const auto& p = mesh.point(mesh.target(edge));
+      hole.centre += Vec<3>(p.x(), p.y(), p.z());
+      ++hole.edges;
+    }
+    hole.centre /= hole.edges;
+    found.push_back(hole);
+  }
+  std::sort(found.begin(), found.end(), [](const Hole& a, const Hole& b) { return a.edges > b.edges; });
+  std::string where;
+  const std::size_t most = 3;
+  for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
+    where += fmt::format(", around {} with {} edges", text(found[i].centre), found[i].edges);
+  const char* holes_are = found.size() == 1 ? "hole" : "holes";
+  throw SurfaceFileError(fmt::format("is not closed: {} {}{}", found.size(), holes_are, where), close);
+}
+
+void refuse_crossings(const Mesh& mesh) {
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> crossings;
+  pmp::self_intersections<CGAL::Sequential_tag>(mesh, std::back_inserter(crossings));
+  if (crossings.empty()) return;
+  Vec<3> where = Vec<3>::Zero();
+  for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(crossings.front().first), mesh))
+    where += Vec<3>(mesh.point(corner).x(), mesh.point(corner).y(), mesh.point(corner).z()) / 3;
+  throw SurfaceFileError(
+      fmt::format("crosses itself: {} pairs of facets, the first at {}", crossings.size(), text(where)), unite);
+}
+
+/// Every closed part is turned outward, and none is inside another one.
+int checked_parts(const Mesh& mesh) {
+  std::vector<Mesh> parts;
+  pmp::split_connected_components(mesh, parts);
+  const auto place = [](const Mesh& part) {
+    const auto& p = part.point(*part.vertices().begin());
+    return Vec<3>(p.x(), p.y(), p.z());
+  };
+  for (const auto& part : parts)
+    if (pmp::volume(part) <= 0)
+      throw SurfaceFileError(parts.size() == 1 ? "is inside out: all its normals point inward"
+                                               : fmt::format("has a part that is inside out, at {}", text(place(part))),
+                             flip);
+  for (const auto& outer : parts) {
+    if (parts.size() == 1) break;
+    const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(outer);
+    for (const auto& inner : parts)
+      if (&inner != &outer && side(inner.point(*inner.vertices().begin())) == CGAL::ON_BOUNDED_SIDE)
+        throw SurfaceFileError(
+            fmt::format("has a part inside another one, at {}", text(place(inner))),
+            "Remove it: no water gets there; what it means for the mass goes into mass and inertia.");
+  }
+  return static_cast<int>(parts.size());
+}
+
+}  // namespace
+
+SurfaceFile read_surface_file(const std::filesystem::path& path) {
+  Soup soup = read_soup(path);
+  merge_points(soup);
+  refuse_repeated_corners(soup);
+  refuse_without_area(soup);
+  refuse_disagreement(soup);
+  Mesh mesh;
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
+  if (!CGAL::is_triangle_mesh(mesh)) pmp::triangulate_faces(mesh);
+  refuse_holes(mesh);
+  refuse_crossings(mesh);
+  SurfaceFile file;
+  file.parts = checked_parts(mesh);
+  file.surface.vertices.resize(3, static_cast<Eigen::Index>(mesh.number_of_vertices()));
+  file.surface.facets.resize(3, static_cast<Eigen::Index>(mesh.number_of_faces()));
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    file.surface.vertices.col(static_cast<Eigen::Index>(v.idx())) << p.x(), p.y(), p.z();
+  }
+  Eigen::Index f = 0;
+  for (const auto face : mesh.faces()) {
+    int k = 0;
+    for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
+      file.surface.facets(k++, f) = static_cast<int>(corner.idx());
+    ++f;
+  }
+  return file;
+}
+
+}  // namespace splashdown::fluid

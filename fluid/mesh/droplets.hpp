@@ -1,0 +1,42 @@
+// Drops smaller than the mesh: nodes without cells (Nodes::spray) that fly under the effects alone, each with its own volume V.
+// They are no corners of cells: three drops that meet in the air are not the water between them. With
+//
+//   s = (2 V / sqrt 3)^(1/2) in the plane,  (sqrt 2 V)^(1/3) in space,
+//
+// the size of elements whose nodes hold V each where they are packed most closely:
+//
+//   drops nearer to each other than the mean of their sizes join:      V = V_1 + V_2, mean position and velocity by volume
+//   a drop in the liquid, or nearer to its surface than s / 2, joins it: the nodes of the nearest facet of the surface give
+//     way by V / d each, along the area around them, and take the momentum, v <- (V_k v_k + V/d v) / (V_k + V/d)
+//
+// Both are plastic: volume (to first order in the shift, which is bounded) and momentum are kept, kinetic energy falls.
+#pragma once
+
+#include <vector>
+
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/nodes.hpp"
+
+namespace splashdown::fluid {
+
+/// Size of a drop of this volume [m].
+template <int d>
+double drop_size(double volume);
+
+/// Joins drops that touch. `h`: element size at the nodes; a drop grows no larger than that. The nodes that are left.
+template <int d>
+std::vector<char> join_drops(Nodes<d>& nodes, std::span<const double> h);
+
+/// Joins drops with the liquid that `boundary` encloses. `left`: nodes that are still there; those that join are taken out.
+template <int d>
+void absorb_drops(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& boundary,
+                  std::vector<char>& left);
+
+extern template double drop_size<2>(double);
+extern template double drop_size<3>(double);
+extern template std::vector<char> join_drops(Nodes<2>&, std::span<const double>);
+extern template std::vector<char> join_drops(Nodes<3>&, std::span<const double>);
+extern template void absorb_drops(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, std::vector<char>&);
+extern template void absorb_drops(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, std::vector<char>&);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,35 @@
+#include "fluid/mesh/landing.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+void land(Nodes<d>& nodes, const Mesh<d>& mesh) {
+  constexpr double landed = 3;
+  const std::vector<double> now = nodal_volumes(mesh, nodes.x);
+  std::vector<int> lands;
+  std::vector<char> is_landing(nodes.size(), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    is_landing[i] = nodes.volume[i] > 0 && now[i] > landed * nodes.volume[i];
+    if (is_landing[i]) lands.push_back(static_cast<int>(i));
+  }
+  if (lands.empty()) return;
+  std::vector<Vec<d>> momentum(nodes.size(), Vec<d>::Zero());  // of neighbours, over density
+  std::vector<double> weight(nodes.size(), 0.0);
+  for (const auto& cell : mesh.cells)
+    for (int n : cell) {
+      if (!is_landing[n]) continue;
+      for (int other : cell)
+        if (!is_landing[other]) momentum[n] += now[other] * nodes.v[other], weight[n] += now[other];
+    }
+  for (int n : lands) {
+    if (weight[n] == 0) continue;  // drops that meet in the air
+    const Vec<d> around = momentum[n] / weight[n];
+    nodes.v[n] = around + nodes.volume[n] / now[n] * (nodes.v[n] - around);
+    nodes.p[n] = 0;
+  }
+}
+
+template void land(Nodes<2>&, const Mesh<2>&);
+template void land(Nodes<3>&, const Mesh<3>&);
+
+}  // namespace splashdown::fluid

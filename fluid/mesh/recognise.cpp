@@ -1,0 +1,301 @@
+#include "fluid/mesh/recognise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid/mesh/inside.hpp"
+#include "fluid/mesh/pierced.hpp"
+#include "fluid/parallel.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double flat = 1e-7;         // volume over longest edge^d below which a cell is degenerate
+constexpr double dust = 2e-4;         // volume over h^d below which a cell is no liquid: films of a thousandth of h
+constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, belong to no fluid cell
+constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
+constexpr double facet_sag = 0.1;     // gap between a wetted facet and its wall, at most, over its length
+
+// What a cell holds: cells without volume and all but without it are not asked whether it is water.
+enum Content : char { none, flat_cell, dust_cell, water, closed_crack };
+bool is_filled(Content c) { return c >= water; }
+
+struct Shape {
+  double radius;    // circumradius
+  double fullness;  // volume over longest edge^d
+  bool degenerate;
+};
+
+template <int d>
+Shape shape(const Mat<d>& J) {
+  Vec<d> half;
+  double longest = 0;
+  for (int k = 0; k < d; ++k) {
+    const double squared = J.col(k).squaredNorm();
+    half[k] = 0.5 * squared;
+    longest = std::max(longest, squared);
+    for (int j = 0; j < k; ++j) longest = std::max(longest, (J.col(k) - J.col(j)).squaredNorm());
+  }
+  const double det = J.determinant();
+  const double fullness = det / (factorial<d> * (d == 2 ? longest : longest * std::sqrt(longest)));
+  if (fullness <= flat / factorial<d>) return {0, fullness, true};
+  return {(cofactor(J) * half).norm() / det, fullness, false};
+}
+
+// How deep the facet lies in the solid that `wall` wetted before and the cell stands on: a chord, if the hull is convex.
+template <int d>
+double chord_depth(int wall, const std::array<int, d + 1>& cell, const Nodes<d>& nodes,
+                   const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& at) {
+  auto of_cell = [&](int n) { return std::find(cell.begin(), cell.end(), n) != cell.end(); };
+  for (const auto& f : old_boundary) {
+    if (f.wall != wall || !std::all_of(f.nodes.begin(), f.nodes.end(), of_cell)) continue;
+    Vec<d> centre = Vec<d>::Zero();
+    for (int n : f.nodes) centre += nodes.x[n] / d;
+    return -at.walls[wall].nearest(at.poses[wall], centre, at.walls[wall].box().diagonal().norm()).distance;
+  }
+  return 0;
+}
+
+// Only cells that touch a wall can lie in it. One that stands on a chord of a convex hull reaches into the hull with it;
+// one with all its nodes on the wall lies between a chord and the hull.
+template <int d>
+bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double size, const Nodes<d>& nodes,
+              const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& at) {
+  for (int k = 0; k <= d; ++k) {
+    const int w = nodes.tie[cell[k]].wall;
+    if (w < 0 || (k > 0 && w == nodes.tie[cell[k - 1]].wall)) continue;
+    const double reach = at.walls[w].box().diagonal().norm();
+    if (!at.walls[w].may_touch(at.poses[w], centroid, 0)) continue;
+    const double deeper = -at.walls[w].nearest(at.poses[w], centroid, reach).distance - solid_depth * size;
+    if (deeper <= 0) continue;
+    const auto on_wall = std::count_if(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == w; });
+    if (on_wall != d || deeper > chord_depth<d>(w, cell, nodes, old_boundary, at)) return true;
+  }
+  return false;
+}
+
+template <int d>
+double longest_edge(const Facet<d>& f, const Nodes<d>& nodes) {
+  double longest = 0;
+  for (int a = 0; a < d; ++a)
+    for (int b = a + 1; b < d; ++b) longest = std::max(longest, (nodes.x[f.nodes[b]] - nodes.x[f.nodes[a]]).norm());
+  return longest;
+}
+
+// The facet lies on `wall`: its nodes are tied to it, or to another wall and sit where both meet.
+template <int d>
+bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
+  const double length = longest_edge(f, nodes);
+  Vec<d> centre = Vec<d>::Zero();
+  int patch = -1;
+  bool one_patch = true, at_vertex = false;
+  for (int n : f.nodes) {
+    centre += nodes.x[n] / d;
+    const WallTie& tie = nodes.tie[n];
+    if (tie.wall != wall) {
+      if (tie.wall < 0 || at.walls[wall].distance_unsigned(at.poses[wall], nodes.x[n], length) >= facet_meet * length)
+        return false;
+      at_vertex = true;
+      continue;
+    }
+    one_patch = one_patch && (patch < 0 || patch == tie.patch);
+    patch = tie.patch;
+    at_vertex = at_vertex || tie.sharp();
+  }
+  if (d == 2 && !one_patch && !at_vertex) return false;  // cuts a corner
+  // The chord of a convex hull lies in the solid, however deep: no air is there to be a surface to.
+  return at.walls[wall].nearest(at.poses[wall], centre, length).distance < facet_sag * length;
+}
+
+// In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
+// their pressure would be anything. One across a crease would leave a hole in the water.
+template <int d>
+bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>& nodes, const WallsAt<d>& at) {
+  constexpr double thin = 0.02;  // a regular tetrahedron: 0.12
+  if (d == 2 || fullness > thin) return false;
+  const int wall = nodes.tie[cell[0]].wall;
+  if (wall < 0 || !std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; }))
+    return false;
+  for (int k = 0; k <= d; ++k)
+    if (!lies_on(wall, Facet<d>{facet_nodes(cell, k)}, nodes, at)) return false;
+  return true;
+}
+
+// Volume that a cell between nodes of a wall and of the water has in the solid, from five points in it.
+double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const WallsAt<3>& at) {
+  constexpr double aside = 0.5;  // of the way from the centroid to a corner
+  const auto x = corners(nodes.x, cell);
+  Vec<3> centroid = Vec<3>::Zero();
+  for (int k = 0; k < 4; ++k) centroid += x(k) / 4;
+  int inside = 0, last = -1;
+  for (int n : cell) {
+    const int w = nodes.tie[n].wall;
+    auto on_wall = [&](int other) { return nodes.tie[other].wall == w; };
+    if (w < 0 || w == last || std::all_of(cell.begin(), cell.end(), on_wall)) continue;
+    last = w;
+    auto is_solid = [&](const Vec<3>& point) {
+      const double reach = at.walls[w].box().diagonal().norm();
+      return at.walls[w].may_touch(at.poses[w], point, 0) &&
+             at.walls[w].nearest(at.poses[w], point, reach).distance < 0;
+    };
+    inside += is_solid(centroid);
+    for (int k = 0; k < 4; ++k) inside += is_solid(centroid + aside * (x(k) - centroid));
+  }
+  return inside == 0 ? 0.0 : volume<3>(x) * std::min(inside, 5) / 5;
+}
+
+// Gives facets back to walls that cells of the water pierce (pierced.hpp), as long as that leaves less of such cells in the
+// solid. `decide`: what a cell holds. Cells that still do.
+template <class Decide>
+std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& inner,
+                               const WallsAt<3>& at, std::vector<Content>& content, const Decide& decide) {
+  using Cell = std::array<int, 4>;
+  // What a node within the water is joined to; most cells beyond the water have none.
+  auto is_mixed = [&](const Cell& cell) {
+    return std::any_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall >= 0; }) &&
+           std::any_of(cell.begin(), cell.end(), [&](int n) { return inner[n]; });
+  };
+  auto misses_water = [&](int c) {
+    return content[c] != water && is_mixed(all.cells[c]) && pierced(all.cells[c], nodes, at) > 0;
+  };
+  std::vector<char> misses(all.cells.size());
+  in_parallel(all.cells.size(), [&](std::size_t c) { misses[c] = misses_water(static_cast<int>(c)); });
+  std::vector<int> piercing;
+  for (std::size_t c = 0; c < misses.size(); ++c)
+    if (misses[c]) piercing.push_back(static_cast<int>(c));
+  constexpr double better = 0.999;  // each flip leaves less than that, so that they come to an end
+  for (std::size_t next = 0; next < piercing.size(); ++next) {
+    const int c = piercing[next];
+    const Cell cell = all.cells[c];
+    if (cell[0] < 0 || !misses_water(c)) continue;
+    Flip best;
+    double least = better;
+    auto consider = [&](Flip flip) {
+      if (flip.fresh.empty()) return;
+      double before = 0, after = 0;
+      for (int k : flip.cells) before += pierced(all.cells[k], nodes, at);
+      for (const Cell& f : flip.fresh) after += pierced(f, nodes, at);
+      if (after < least * before) least = after / before, best = std::move(flip);
+    };
+    for (int k = 0; k < 4; ++k) {
+      for (int j = 0; j < k; ++j) consider(without_edge(all, nodes.x, c, cell[j], cell[k]));
+      consider(without_facet(all, nodes.x, c, k));
+    }
+    if (best.fresh.empty()) continue;
+    for (int k : best.cells) content[k] = none;
+    const auto fresh = apply(best, all);
+    content.resize(all.cells.size());
+    for (int f : fresh) {
+      content[f] = decide(all.cells[f]);
+      piercing.push_back(f);
+    }
+  }
+  std::erase_if(piercing, [&](int c) { return all.cells[c][0] < 0 || !misses_water(c); });
+  return piercing;
+}
+
+// Flat cells and dust with water all around are no gap in it: between them there would be a free surface within the water.
+template <int d>
+void fill_cracks(const Delaunay<d>& all, std::vector<Content>& content) {
+  std::vector<int> thin;
+  for (std::size_t c = 0; c < content.size(); ++c)
+    if (content[c] == flat_cell || content[c] == dust_cell) thin.push_back(static_cast<int>(c));
+  // Those that touch air or a wall are open, and those that touch these.
+  for (std::size_t left = 0; left != thin.size();) {
+    left = thin.size();
+    std::erase_if(thin, [&](int c) {
+      const auto& around = all.neighbours[c];
+      const bool opens = std::any_of(around.begin(), around.end(), [&](int n) { return n < 0 || content[n] == none; });
+      if (opens) content[c] = none;
+      return opens;
+    });
+  }
+  for (int c : thin) content[c] = content[c] == dust_cell ? water : closed_crack;
+}
+
+template <int d>
+int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
+  for (int k = 0; k < d; ++k) {
+    const int wall = nodes.tie[f.nodes[k]].wall;
+    if (wall < 0) return -1;
+    if (k > 0 && wall == nodes.tie[f.nodes[k - 1]].wall) continue;
+    if (lies_on(wall, f, nodes, at)) return wall;
+  }
+  return -1;
+}
+
+}  // namespace
+
+template <int d>
+Recognised<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
+                        const WallsAt<d>& walls, const Alpha& limit) {
+  return recognise<d>(delaunay<d>(nodes.x, old_boundary), nodes, h, old_boundary, walls, limit);
+}
+
+template <int d>
+Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double> h,
+                        const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit) {
+  const InsideTest<d> inside(nodes.x, old_boundary);
+  std::vector<char> inner(nodes.size(), 1);
+  for (const auto& f : old_boundary)
+    for (int n : f.nodes) inner[n] = 0;
+
+  auto decide = [&](const std::array<int, d + 1>& cell) -> Content {
+    const Shape s = shape<d>(edge_matrix<d>(corners(nodes.x, cell)));
+    if (s.degenerate || is_film<d>(cell, s.fullness, nodes, walls)) return flat_cell;
+    double size = 0;
+    bool has_inner = false;
+    Vec<d> centroid = Vec<d>::Zero();
+    for (int n : cell) {
+      size += h[n] / (d + 1);
+      centroid += nodes.x[n] / (d + 1);
+      has_inner = has_inner || inner[n];
+    }
+    if (!has_inner && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d)) return dust_cell;
+    const double alpha = s.radius / size;
+    const bool is_water =
+        alpha <= limit.never &&
+        ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&
+        !in_solid<d>(cell, centroid, size, nodes, old_boundary, walls);
+    return is_water ? water : none;
+  };
+  std::vector<Content> content(all.cells.size());
+  in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });
+  std::vector<int> piercing;
+  if constexpr (d == 3) piercing = recover_walls(all, nodes, inner, walls, content, decide);
+  fill_cracks(all, content);
+
+  Recognised<d> mesh;
+  mesh.cells.reserve(all.cells.size());
+  nodes.spray.assign(nodes.size(), 1);
+  nodes.surface.assign(nodes.size(), 0);
+  for (std::size_t c = 0; c < all.cells.size(); ++c) {
+    if (content[c] != water) continue;
+    mesh.cells.push_back(all.cells[c]);
+    for (int k = 0; k <= d; ++k) {
+      nodes.spray[all.cells[c][k]] = 0;
+      const int other = all.neighbours[c][k];
+      if (other >= 0 && is_filled(content[other])) continue;
+      mesh.boundary.push_back({facet_nodes(all.cells[c], k)});
+    }
+  }
+  for (int c : piercing)
+    for (int n : all.cells[c])
+      if (inner[n]) mesh.piercing.push_back(n);
+  std::sort(mesh.piercing.begin(), mesh.piercing.end());
+  mesh.piercing.erase(std::unique(mesh.piercing.begin(), mesh.piercing.end()), mesh.piercing.end());
+  in_parallel(mesh.boundary.size(),
+              [&](std::size_t f) { mesh.boundary[f].wall = wall_of(mesh.boundary[f], nodes, walls); });
+  for (const auto& f : mesh.boundary)
+    if (f.wall < 0)
+      for (int n : f.nodes) nodes.surface[n] = 1;
+  return mesh;
+}
+
+template Recognised<2> recognise(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, const WallsAt<2>&,
+                                 const Alpha&);
+template Recognised<3> recognise(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, const WallsAt<3>&,
+                                 const Alpha&);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,53 @@
+// Which Delaunay cells are fluid? The old boundary, advected with its nodes, decides.
+//
+// With R the circumradius of a cell and h the element size at it:
+//   R > 8 h                      not fluid
+//   R < 0.8 h, an inner node     fluid
+//   R < 0.3 h, boundary nodes    fluid unless inside a wall: lets two parts of fluid join
+//   else                         fluid if the centroid lies inside the advected old boundary
+// The single threshold of the alpha-shape method is the main noise in PFEM loads: it drops cells under the
+// pressure peak or bridges the cavity under a jet (docs/theory.md). Cf. arXiv 2512.20347.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/contact/wall.hpp"
+#include "fluid/mesh/delaunay.hpp"
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/nodes.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+struct WallsAt {
+  std::span<const Wall<d>> walls;
+  std::span<const Isometry<d>> poses;
+};
+
+/// Circumradius over element size at which a cell ...
+struct Alpha {
+  double never = 8.0;  ///< ... spans a gap
+  double inner = 0.8;  ///< ... around an inner node is surely fluid
+  double join = 0.3;   ///< ... joins two surfaces; 0.8 would fill the cavity under a jet
+};
+
+template <int d>
+struct Recognised : Mesh<d> {
+  /// Inner nodes of cells that lie in a wall for some part, in space, though the water around them should be there: without
+  /// them the triangulation has the wall's facets.
+  std::vector<int> piercing;
+};
+
+/// Finds the fluid cells among `all` and labels boundary facets; sets nodes.surface and nodes.spray. `h`: element size at
+/// the nodes [m]; `old_boundary`: closed facets between the same nodes.
+template <int d>
+Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double> h,
+                        const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit = {});
+
+/// Among the cells of the nodes' triangulation.
+template <int d>
+Recognised<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
+                        const WallsAt<d>& walls, const Alpha& limit = {});
+
+}  // namespace splashdown::fluid

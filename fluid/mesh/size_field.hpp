@@ -1,0 +1,43 @@
+// Element size h(x): the smallest of all sources' h_source + growth * distance, at most `far`.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/mesh/recognise.hpp"
+#include "fluid/spec.hpp"
+
+namespace splashdown::fluid {
+
+/// Element size at a bend of a wall [m]: `curvature` times its radius, but no less than a quarter of the wall's own size.
+double size_at_bend(const SizeSpec& spec, double wall_size, double radius);
+
+template <int d>
+class SizeField {
+ public:
+  /// `wetted`: wetted measure of each wall [m in 2D]; `mesh`: its free boundary is a source.
+  SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted, std::span<const Vec<d>> x,
+            const Mesh<d>& mesh);
+  double operator()(const Vec<d>& point) const;
+  double at_wall(std::size_t wall) const { return wall_size_[wall]; }
+
+ private:
+  struct Source {
+    Vec<d> at;
+    double size;
+  };
+  void find_bends();
+  void find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh);
+  void add(std::vector<Source> found);
+
+  SizeSpec spec_;
+  WallsAt<d> walls_;
+  std::vector<double> wall_size_;
+  FacetTree<d> surface_;
+  std::vector<Source> points_;  // bends of walls, hollows
+};
+
+extern template class SizeField<2>;
+extern template class SizeField<3>;
+
+}  // namespace splashdown::fluid
