@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fluid/approach_bound.hpp"
 #include "fluid/contact/ventilation.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/initial/initial.hpp"
@@ -19,8 +20,10 @@ void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& aro
   in_parallel(share.size(), [&](std::size_t c) { share[c] = volume<d>(corners(nodes.x, mesh.cells[c])) / (d + 1); });
   in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.spray[i]) return;
+    const double carried = nodes.volume[i];
     nodes.volume[i] = 0;
     for (const auto [c, k] : around.around(i)) nodes.volume[i] += std::max(0.0, share[c]);  // films may turn over
+    nodes.owed[i] += carried - nodes.volume[i];
   });
 }
 
@@ -74,7 +77,7 @@ double Fluid<d>::stable_dt() const {
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
   dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity())});
   for (const auto& t : s_->terms) dt = std::min(dt, t->stable_dt());
-  return dt;
+  return approach_dt<d>(now.nodes, now.h, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
 }
 
 template <int d>

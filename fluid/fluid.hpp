@@ -43,6 +43,7 @@ struct Ledger {
   double time_integration = 0;  ///< volume change by moving nodes
   double remesh_created = 0;    ///< volume gained when the boundary was recognised anew
   double remesh_deleted = 0;    ///< volume lost there (negative)
+  double returned = 0;          ///< volume that came back at the free surface for what these three changed
   double spray = 0;             ///< volume now carried by separated drops
   double kinetic_energy = 0, potential_energy = 0;
   double energy_remesh = 0;  ///< kinetic energy changed by node insertion and removal

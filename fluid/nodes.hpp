@@ -29,6 +29,7 @@ struct Nodes {
   std::vector<char> spray;      ///< 1: belongs to no cell, flies ballistically
   std::vector<int> vertex;      ///< number in the last triangulation, -1: was not there
   std::vector<double> volume;   ///< share of the cells around it after the last move; spray keeps its own [m^d]
+  std::vector<double> owed;     ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
 
   std::size_t size() const { return x.size(); }
 
@@ -42,6 +43,7 @@ struct Nodes {
     spray.push_back(0);
     vertex.push_back(-1);
     volume.push_back(0);
+    owed.push_back(0);
     return static_cast<int>(x.size()) - 1;
   }
 
@@ -52,7 +54,8 @@ struct Nodes {
       in_parallel(order.size(), [&](std::size_t i) { picked[i] = values[order[i]]; });
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex), pick(volume);
+    pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex);
+    pick(volume), pick(owed);
   }
 };
 

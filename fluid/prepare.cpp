@@ -6,6 +6,7 @@
 #include "fluid/mesh/droplets.hpp"
 #include "fluid/mesh/landing.hpp"
 #include "fluid/mesh/size_field.hpp"
+#include "fluid/mesh/volume_books.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
@@ -17,11 +18,47 @@ void Fluid<d>::State::size_nodes() {
   in_parallel(work.h.size(), [&](std::size_t i) { work.h[i] = field(work.nodes.x[i]); });
 }
 
-// A node that leaves the mesh carries its share of volume; one that comes back brings it.
+// A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it; one that comes back brings
+// it. What stays is owed to the rest.
 template <int d>
 void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
-  for (std::size_t i = 0; i < was_spray.size(); ++i)
-    work.ledger.spray += (work.nodes.spray[i] - was_spray[i]) * work.nodes.volume[i];
+  Nodes<d>& nodes = work.nodes;
+  double leaving = 0, returning = 0, lost = 0;
+  for (const auto& cell : work.mesh.cells) lost -= volume<d>(corners(nodes.x, cell));
+  std::size_t heaviest = 0;
+  for (std::size_t i = 0; i < was_spray.size(); ++i) {
+    const double carried = nodes.volume[i] + nodes.owed[i];
+    if (!was_spray[i] || !nodes.spray[i]) lost += carried;
+    if (nodes.spray[i] > was_spray[i]) leaving += std::max(0.0, carried);
+    if (nodes.spray[i] < was_spray[i]) returning += carried;
+    if (!nodes.spray[i] && (nodes.spray[heaviest] || nodes.volume[i] > nodes.volume[heaviest])) heaviest = i;
+  }
+  work.ledger.spray -= returning;
+  if (leaving == 0) return;
+  const double share = std::clamp(lost / leaving, 0.0, 1.0);
+  for (std::size_t i = 0; i < was_spray.size(); ++i) {
+    if (nodes.spray[i] <= was_spray[i]) continue;
+    const double carried = nodes.volume[i] + nodes.owed[i];
+    nodes.volume[i] = share * std::max(0.0, carried);
+    nodes.owed[i] = 0;
+    work.ledger.spray += nodes.volume[i];
+    if (!nodes.spray[heaviest]) nodes.owed[heaviest] += carried - nodes.volume[i];
+  }
+}
+
+// What nodes that go have carried passes to a neighbour that stays.
+template <int d>
+void Fluid<d>::State::hand_over(const std::vector<char>& goes, const std::vector<std::array<int, d + 1>>& cells) {
+  Nodes<d>& nodes = work.nodes;
+  for (const auto& cell : cells) {
+    const auto heir = std::find_if(cell.begin(), cell.end(), [&](int n) { return !goes[n]; });
+    if (heir == cell.end()) continue;
+    for (int n : cell) {
+      if (!goes[n]) continue;
+      nodes.owed[*heir] += nodes.volume[n] + nodes.owed[n];
+      nodes.volume[n] = nodes.owed[n] = 0;
+    }
+  }
 }
 
 // What all effects' potential energy per mass, -g.x, pulls with; effects that have one are uniform fields.
@@ -89,6 +126,7 @@ void Fluid<d>::State::cut(std::size_t liquid) {
     nodes.spray = spray;
     std::vector<char> goes(nodes.size(), 0);
     for (int n : found.piercing) goes[n] = 1;
+    hand_over(goes, found.cells);
     liquid -= found.piercing.size();
     discard(goes, nodes, work.h, work.mesh.boundary);
   }
@@ -115,7 +153,9 @@ void Fluid<d>::State::prepare() {
   const double adapted = before - now.ledger.volume;
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
   (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
-  work.ledger.volume = after;
+  return_volume(work.nodes, work.mesh, walls_at(work.poses));
+  work.ledger.volume = enclosed_volume(work.mesh.boundary, work.nodes.x);
+  work.ledger.returned += work.ledger.volume - after;
   work.wetted = wetted_measures(work.mesh, work.nodes.x, walls.size());
   prepared = true;
 }

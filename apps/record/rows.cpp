@@ -39,7 +39,7 @@ void put(CsvFile& file, const std::array<double, n>& values) {
 std::string fluid_header(const std::vector<std::string>& effect_columns) {
   std::string header =
       "time,dt,nodes,elements,volume,kinetic_energy,potential_energy,passes,residual,wall_seconds,"
-      "max_speed,volume_time_integration,volume_remesh_created,volume_remesh_deleted,volume_spray,"
+      "max_speed,volume_time_integration,volume_remesh_created,volume_remesh_deleted,volume_returned,volume_spray,"
       "energy_remesh,energy_repair,work_on_walls,energy_gain";
   for (const auto& column : effect_columns) header += "," + column;
   return header;
@@ -78,7 +78,7 @@ void write_row(CsvFile& file, const FluidRow& row) {
   const auto& ledger = row.ledger;
   file << row.time << row.dt << row.nodes << row.elements << ledger.volume << ledger.kinetic_energy
        << ledger.potential_energy << row.passes << row.residual << row.wall_seconds << row.max_speed
-       << ledger.time_integration << ledger.remesh_created << ledger.remesh_deleted << ledger.spray
+       << ledger.time_integration << ledger.remesh_created << ledger.remesh_deleted << ledger.returned << ledger.spray
        << ledger.energy_remesh << ledger.energy_repair << ledger.work_on_walls << row.energy_gain;
   for (const double value : row.effect_values) file << value;
   file.end_row();

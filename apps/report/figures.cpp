@@ -213,11 +213,11 @@ FigureGroup fluid_figures(const RunData& run) {
   volume.curves = {{"total", t, change, ink, 1.8},
                    {"time steps", t, scaled(table["volume_time_integration"], whole), blue, 1.1},
                    {"created", t, scaled(table["volume_remesh_created"], whole), green, 1.1},
-                   {"deleted", t, scaled(table["volume_remesh_deleted"], whole), red, 1.1}};
+                   {"deleted", t, scaled(table["volume_remesh_deleted"], whole), red, 1.1},
+                   {"returned", t, scaled(table["volume_returned"], whole), amber, 1.1}};
   volume.caption =
-      "Where water appears or vanishes: by moving the nodes, or when the surface is recognised anew. Drops "
-      "count "
-      "as water.";
+      "Where the mesh gains or loses water: by moving the nodes, or when the surface is recognised anew. What it lost "
+      "comes back at its free surface. Drops count as water.";
   group.figures.push_back(std::move(volume));
 
   const Values kinetic = table["kinetic_energy"], potential = table["potential_energy"];

@@ -230,6 +230,7 @@ std::string ledger_table(const RunData& run) {
                                   {"volume_time_integration", "changed by moving the nodes"},
                                   {"volume_remesh_created", "created where the surface was recognised anew"},
                                   {"volume_remesh_deleted", "deleted there"},
+                                  {"volume_returned", "returned at the free surface for these three"},
                                   {"volume_spray", "now carried by drops"}}) {
     const double amount = number_at(ledger, {key});
     html += fmt::format("<tr><td>{}</td><td>{} {}</td><td>{}</td></tr>\n", name, digits(amount, 5), volume,

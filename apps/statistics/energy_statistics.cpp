@@ -62,6 +62,9 @@ void EnergyStatistics::summarise(LedgerSummary& summary) const {
   summary.kinetic_deficit = relative(-lowest_kinetic_);
   if (water_.hull_volume > 0)
     summary.volume_error_bodies = (summary.volume_final + summary.spray - summary.volume_initial) / water_.hull_volume;
+  const double least =
+      water_.hull_volume > 0 ? std::min(water_.hull_volume, summary.volume_initial) : summary.volume_initial;
+  summary.returned_share = least > 0 ? summary.returned / least : 0;
 }
 
 }  // namespace splashdown::apps

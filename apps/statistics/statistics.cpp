@@ -90,6 +90,7 @@ LedgerSummary summary_of(const fluid::Ledger& ledger) {
   summary.time_integration = ledger.time_integration;
   summary.remesh_created = ledger.remesh_created;
   summary.remesh_deleted = ledger.remesh_deleted;
+  summary.returned = ledger.returned;
   summary.spray = ledger.spray;
   summary.kinetic_energy = ledger.kinetic_energy;
   summary.potential_energy = ledger.potential_energy;

@@ -100,6 +100,7 @@ Json json_of(const LedgerSummary& ledger) {
           {"volume_time_integration", number(ledger.time_integration)},
           {"volume_remesh_created", number(ledger.remesh_created)},
           {"volume_remesh_deleted", number(ledger.remesh_deleted)},
+          {"volume_returned", number(ledger.returned)},
           {"volume_spray", number(ledger.spray)},
           {"kinetic_energy", number(ledger.kinetic_energy)},
           {"potential_energy", number(ledger.potential_energy)},

@@ -99,7 +99,8 @@ struct BodySummary {
 struct LedgerSummary {
   double volume_initial = 0, volume_final = 0, volume_error = 0;  ///< the last one relative
   std::optional<double> volume_error_bodies;  ///< the same change over the volume of the hulls; absent without bodies
-  double time_integration = 0, remesh_created = 0, remesh_deleted = 0, spray = 0;
+  double returned_share = 0;  ///< `returned` over the volume of the hulls, or over the water if that is less
+  double time_integration = 0, remesh_created = 0, remesh_deleted = 0, returned = 0, spray = 0;
   double kinetic_energy = 0, potential_energy = 0;
   double energy_remesh = 0, energy_repair = 0, work_on_walls = 0;
   double energy_gain = 0;  ///< largest gain that nothing explains, over `energy_scale` (energy_statistics.hpp)

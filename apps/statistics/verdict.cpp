@@ -87,14 +87,31 @@ std::optional<Finding> volume(const Summary& summary) {
                   100 * error, less_water_than_hulls ? "all water" : "the bodies' hulls", found->words)};
 }
 
+// Volume is right again, but not every motion that it missed meanwhile.
+std::optional<Finding> returned(const Summary& summary) {
+  if (!summary.ledger || std::abs(summary.ledger->returned_share) <= unphysical_above) return {};
+  const auto& ledger = *summary.ledger;
+  return Finding{
+      Grade::doubtful,
+      fmt::format("The mesh {} {:.3g} {} that came back at the free surface, {:.3g} % of the bodies' hulls or of "
+                  "the water, above {:g} %. Try finer elements at the surface (fluid.size.surface) and at the "
+                  "bodies (size).",
+                  ledger.returned > 0 ? "lost" : "gained", std::abs(ledger.returned),
+                  summary.dimension == 2 ? "m^2" : "m^3", 100 * std::abs(ledger.returned_share),
+                  100 * unphysical_above)};
+}
+
 bool every_body(const BodySummary&) { return true; }
 bool touched_water(const BodySummary& body) { return body.landing.first_contact >= 0; }
 
 constexpr struct {
   Measurement measure;
   Concern concerns;
-} measurements[] = {
-    {failure, every_body}, {energy_gain, touched_water}, {kinetic_deficit, touched_water}, {volume, touched_water}};
+} measurements[] = {{failure, every_body},
+                    {energy_gain, touched_water},
+                    {kinetic_deficit, touched_water},
+                    {volume, touched_water},
+                    {returned, touched_water}};
 
 void add(Verdict& verdict, const Finding& finding) {
   verdict.grade = std::max(verdict.grade, finding.grade);

@@ -20,7 +20,8 @@ double squared(double x) { return x * x; }
 
 struct Edge {
   int a, b;
-  double ratio;  // length over element size
+  double ratio;           // length over element size
+  bool occupied = false;  // a node that would be merged with one in its middle is there
 };
 
 std::uint64_t key(int a, int b) {
@@ -69,7 +70,8 @@ class Adapter {
                 squared_length > surely_fits * squared(merge_below * size))
               continue;
             const double ratio = std::sqrt(squared_length) / size;
-            if (ratio > split_above) long_ones.push_back({a, b, ratio});
+            if (ratio > split_above)
+              long_ones.push_back({a, b, ratio, has_node_beside(cell, a, b, merge_below * size)});
             if (ratio < merge_below) short_ones.push_back({a, b, ratio});
           }
       }
@@ -82,11 +84,21 @@ class Adapter {
       return p.ratio != q.ratio ? p.ratio < q.ratio : key(p.a, p.b) < key(q.a, q.b);
     };
     std::sort(short_.begin(), short_.end(), order);
-    std::sort(long_.begin(), long_.end(), [&](const Edge& p, const Edge& q) { return order(q, p); });
+    // The same edge in cells where its middle is free comes after one where it is not.
+    std::sort(long_.begin(), long_.end(),
+              [&](const Edge& p, const Edge& q) { return order(q, p) || (!order(p, q) && p.occupied && !q.occupied); });
+  }
+
+  bool has_node_beside(const std::array<int, d + 1>& cell, int a, int b, double reach) const {
+    const Vec<d> middle = 0.5 * (nodes_.x[a] + nodes_.x[b]);
+    return std::any_of(cell.begin(), cell.end(), [&](int n) {
+      return n != a && n != b && (nodes_.x[n] - middle).squaredNorm() < squared(reach);
+    });
   }
 
   void remove(int gone, int kept) {
     into_[gone] = kept;
+    nodes_.owed[kept] += nodes_.volume[gone] + nodes_.owed[gone];
     touched_[gone] = touched_[kept] = 1;
     ++report_.removed;
   }
@@ -190,6 +202,7 @@ class Adapter {
     for (const Edge& e : long_) {
       if (touched_[e.a] || touched_[e.b]) continue;
       touched_[e.a] = touched_[e.b] = 1;
+      if (e.occupied) continue;
       const bool at_boundary = is_boundary_edge(e.a, e.b);
       WallTie tie;
       bool surface = false;

@@ -56,8 +56,8 @@ std::vector<char> join_drops(Nodes<d>& nodes, std::span<const double> h) {
 template <int d>
 void absorb_drops(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& boundary,
                   std::vector<char>& left) {
-  // To give way by more than this, over h, would be no small change of the surface: the volume of such a drop is lost, and
-  // its momentum alone handed over.
+  // To give way by more than this, over h, would be no small change of the surface: such a drop hands over its momentum, and
+  // its volume is owed.
   constexpr double most = 0.25;
   const auto drops = drops_among(nodes.spray, left);
   if (drops.empty()) return;

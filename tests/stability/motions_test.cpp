@@ -41,7 +41,7 @@ void survives(const scenes::Scene& scene, double until) {
   }
   EXPECT_GT(stepper->fluid().loads()[0].wetted, 0);
   const auto& l = stepper->fluid().ledger();
-  EXPECT_NEAR(l.volume, l.volume_initial + l.time_integration + l.remesh_created + l.remesh_deleted,
+  EXPECT_NEAR(l.volume, l.volume_initial + l.time_integration + l.remesh_created + l.remesh_deleted + l.returned,
               1e-12 * l.volume_initial);
 }
 

@@ -260,7 +260,9 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   ledger.time_integration = -2e-6 * time / drop_end;
   ledger.remesh_created = 2e-4 * time / drop_end;
   ledger.remesh_deleted = -1e-4 * std::pow(time / drop_end, 2);
-  ledger.volume = ledger.volume_initial + ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted;
+  ledger.returned = -0.9 * (ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted);
+  ledger.volume = ledger.volume_initial + ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted +
+                  ledger.returned;
   const double lost = 0.5 * 241 * (6.15 * 6.15 - motion.velocity * motion.velocity);
   ledger.kinetic_energy = 0.85 * lost;
   ledger.potential_energy = -2800 + 0.1 * lost;

@@ -63,6 +63,7 @@ TEST(Summary, has_the_keys_of_the_contract) {
                            "/ledger/volume_error",
                            "/ledger/volume_remesh_created",
                            "/ledger/volume_remesh_deleted",
+                           "/ledger/volume_returned",
                            "/ledger/kinetic_energy",
                            "/ledger/potential_energy",
                            "/ledger/work_on_walls",

@@ -80,6 +80,16 @@ TEST(Verdict, kinetic_energy_below_zero_is_unphysical) {
   EXPECT_EQ(summary.verdict.grade, Grade::unphysical);
 }
 
+TEST(Verdict, much_water_that_was_lost_meanwhile_is_doubtful) {
+  auto summary = run_with(0);
+  for (const auto& [share, grade] :
+       {std::pair{0.04, Grade::resolved}, {0.06, Grade::doubtful}, {-0.06, Grade::doubtful}}) {
+    summary.ledger->returned_share = share;
+    judge(summary);
+    EXPECT_EQ(summary.verdict.grade, grade) << share;
+  }
+}
+
 TEST(Verdict, of_a_body_has_the_reasons_that_concern_it) {
   auto summary = run_with(0.5);
   EXPECT_EQ(summary.bodies["hull"].verdict.grade, Grade::unphysical);

@@ -1,0 +1,76 @@
+#include "fluid/approach_bound.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "fluid/mesh/facet_tree.hpp"
+#include "fluid/mesh/parts.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr int few = 4;  // elements across a part whose impact is one
+
+/// The free surface of all water but one part.
+template <int d>
+struct OtherWater {
+  std::vector<int> facets;
+  FacetTree<d> tree;
+
+  OtherWater(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& part, int without) {
+    std::vector<std::array<Vec<d>, d>> corners;
+    for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
+      const auto& facet = mesh.boundary[f];
+      if (facet.wall >= 0 || part[facet.nodes[0]] == without) continue;
+      facets.push_back(static_cast<int>(f));
+      corners.push_back(corners_of(facet, nodes.x));
+    }
+    if (!corners.empty()) tree = FacetTree<d>(corners);
+  }
+};
+
+}  // namespace
+
+template <int d>
+double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
+                   std::span<const Twist<d>> velocity, double cfl, double dt) {
+  std::vector<int> fast;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes.surface[i] && !nodes.spray[i] && nodes.tie[i].wall < 0 && nodes.v[i].norm() * dt > h[i])
+      fast.push_back(static_cast<int>(i));
+  if (fast.empty()) return dt;
+  const std::vector<int> part = parts_of(mesh, nodes.size());
+  std::vector<int> size(nodes.size(), 0);
+  for (int p : part) ++size[p];
+  std::map<int, OtherWater<d>> others;
+  auto meet = [&](int i, double distance, const Vec<d>& towards, const Vec<d>& relative) {
+    const double closing = relative.dot(towards) / (towards.norm() + 1e-300);
+    if (closing * dt > distance) dt = std::min(dt, std::max(cfl * h[i], 0.5 * distance) / closing);
+  };
+  for (int i : fast) {
+    if (size[part[i]] < std::pow(few, d)) continue;
+    const Vec<d>&x = nodes.x[i], &v = nodes.v[i];
+    for (std::size_t w = 0; w < walls.walls.size(); ++w) {
+      const double reach = (v.norm() + velocity[w].norm()) * dt;
+      const auto near = walls.walls[w].nearest(walls.poses[w], x, reach);
+      if (near.distance >= reach || near.distance <= 0) continue;
+      const Vec<d> of_wall = rigid_velocity<d>(velocity[w], near.point - walls.poses[w].translation());
+      meet(i, near.distance, near.point - x, v - of_wall);
+    }
+    const auto& other = others.try_emplace(part[i], nodes, mesh, part, part[i]).first->second;
+    if (other.facets.empty()) continue;
+    const auto hit = other.tree.nearest(x, 2 * v.norm() * dt);
+    if (hit.facet < 0) continue;
+    Vec<d> of_other = Vec<d>::Zero();
+    for (int n : mesh.boundary[other.facets[hit.facet]].nodes) of_other += nodes.v[n] / d;
+    meet(i, std::sqrt(hit.squared_distance), hit.point - x, v - of_other);
+  }
+  return dt;
+}
+
+template double approach_dt(const Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
+                            std::span<const Twist<2>>, double, double);
+template double approach_dt(const Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
+                            std::span<const Twist<3>>, double, double);
+
+}  // namespace splashdown::fluid

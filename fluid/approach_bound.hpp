@@ -1,0 +1,24 @@
+// The largest step in which water that flies towards a wall or towards other water does not pass through it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/contact/contact.hpp"
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/nodes.hpp"
+
+namespace splashdown::fluid {
+
+/// max(cfl h, D / 2) / w over nodes of the free surface that would move by more than h within `dt`: D is the distance to a wall
+/// or to other water, w the speed at which it closes. Drops of a few elements are left out: what they hit hardly feels them.
+template <int d>
+double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
+                   std::span<const Twist<d>> velocity, double cfl, double dt);
+
+extern template double approach_dt(const Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
+                                   std::span<const Twist<2>>, double, double);
+extern template double approach_dt(const Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
+                                   std::span<const Twist<3>>, double, double);
+
+}  // namespace splashdown::fluid

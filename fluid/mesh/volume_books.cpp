@@ -1,0 +1,127 @@
+#include "fluid/mesh/volume_books.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fluid/mesh/parts.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double most = 0.25;  // of its reach that a surface moves by within a step
+
+/// Connected water.
+struct Part {
+  double volume = 0, owed = 0;
+  double room = 0;    // volume by which it grows when its surface moves outwards by its reach
+  double growth = 0;  // what it moves by, over that
+
+  void grow() {
+    const double before = growth;
+    if (room > 0) growth = std::clamp(growth + owed / room, -most, most);
+    owed -= (growth - before) * room;
+  }
+};
+
+/// What parts have no room for goes to the largest one: shreds that a flip has cut off carry shares of cells larger than they are.
+void settle(std::vector<Part>& parts) {
+  if (parts.empty()) return;
+  Part& largest = *std::ranges::max_element(parts, {}, &Part::volume);
+  double left = 0;
+  for (Part& part : parts) {
+    part.grow();
+    if (&part != &largest) left += std::exchange(part.owed, 0.0);
+  }
+  largest.owed += left;
+  largest.grow();
+}
+
+/// The free surface around each node: area vector and measure.
+template <int d>
+struct FreeSurface {
+  std::vector<Vec<d>> area;
+  std::vector<double> measure;
+
+  FreeSurface(const Nodes<d>& nodes, const Mesh<d>& mesh)
+      : area(nodes.size(), Vec<d>::Zero()), measure(nodes.size(), 0.0) {
+    for (const auto& facet : mesh.boundary) {
+      if (facet.wall >= 0) continue;
+      const Vec<d> share = area_vector_of<d>(facet, nodes.x) / d;
+      for (int n : facet.nodes) area[n] += share, measure[n] += share.norm();
+    }
+  }
+
+  /// The way outwards of node i, as long as its reach: the water's thickness there, and no longer than its facets.
+  Vec<d> outwards(std::size_t i, double volume) const {
+    if (measure[i] <= 0) return Vec<d>::Zero();
+    return std::min(volume / measure[i], std::pow(measure[i], 1.0 / (d - 1))) / measure[i] * area[i];
+  }
+};
+
+/// Whether a node would come as near to a wall as it moves: contact is what the next step finds.
+template <int d>
+bool meets_wall(const WallsAt<d>& walls, const Vec<d>& from, const Vec<d>& to) {
+  const double reach = (to - from).norm();
+  for (std::size_t w = 0; w < walls.walls.size(); ++w) {
+    const auto& wall = walls.walls[w];
+    if (reach > 0 && wall.may_touch(walls.poses[w], to, reach) &&
+        wall.nearest(walls.poses[w], to, reach).distance < reach)
+      return true;
+  }
+  return false;
+}
+
+/// Nodes that would squash a cell stay where they are.
+template <int d>
+void keep_order(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::vector<Vec<d>>& moved) {
+  constexpr double least = 0.5;  // of a cell's volume
+  for (bool again = true; again;) {
+    again = false;
+    for (const auto& cell : mesh.cells) {
+      if (std::all_of(cell.begin(), cell.end(), [&](int n) { return moved[n] == x[n]; })) continue;
+      if (volume<d>(corners(moved, cell)) >= least * volume<d>(corners(x, cell))) continue;
+      for (int n : cell) moved[n] = x[n];
+      again = true;
+    }
+  }
+}
+
+}  // namespace
+
+template <int d>
+void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls) {
+  const std::size_t count = nodes.size();
+  const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
+  const FreeSurface<d> surface(nodes, mesh);
+  const std::vector<int> part = parts_of(mesh, nodes.size());
+  std::vector<Vec<d>> outwards(count, Vec<d>::Zero());
+  std::vector<Part> parts(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (nodes.spray[i]) continue;
+    if (nodes.tie[i].wall < 0) outwards[i] = surface.outwards(i, volumes[i]);
+    Part& p = parts[part[i]];
+    p.volume += volumes[i];
+    p.owed += nodes.volume[i] + nodes.owed[i] - volumes[i];
+    p.room += outwards[i].dot(surface.area[i]);
+  }
+  settle(parts);
+  std::vector<Vec<d>> moved = nodes.x;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Part& p = parts[part[i]];
+    if (nodes.spray[i] || p.volume <= 0) continue;
+    nodes.owed[i] = volumes[i] * (1 + (p.growth * p.room + p.owed) / p.volume) - nodes.volume[i];
+    const Vec<d> to = nodes.x[i] + p.growth * outwards[i];
+    if (!meets_wall(walls, nodes.x[i], to)) moved[i] = to;
+  }
+  keep_order(mesh, nodes.x, moved);
+  nodes.x = std::move(moved);
+  const std::vector<double> now = nodal_volumes(mesh, nodes.x);
+  for (std::size_t i = 0; i < count; ++i)
+    if (now[i] > volumes[i]) nodes.v[i] *= std::sqrt(volumes[i] / now[i]);
+}
+
+template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
+template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,30 @@
+// What becomes of volume that the mesh loses or gains.
+//
+// Nodes carry the volume of the cells around them. Moving along curved paths, merging nodes and recognising anew which cells
+// are liquid change what the mesh encloses. The difference is owed to the connected water where it arose, and comes back in
+// the same step: the free surface moves outwards by
+//
+//   dx_i = g l_i A_i / S_i,   g = owed / sum_i l_i |A_i|^2 / S_i,   l_i = min(V_i / S_i, S_i^(1/(d-1)))
+//
+// V_i: volume around node i, A_i: area vector of its free surface, S_i: its measure, so that sheets and tips
+// grow by the same share of their thickness as the rest. Velocities of nodes that gain volume fall so that their kinetic
+// energy stays, v <- v (V before / V after)^1/2: volume comes back without energy. The sum of volume and what is owed,
+// spray included, is the volume that the water began with, to roundoff.
+#pragma once
+
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/mesh/recognise.hpp"
+#include "fluid/nodes.hpp"
+
+namespace splashdown::fluid {
+
+/// Moves free nodes of the surface of `mesh` by what is owed, Nodes::volume + Nodes::owed of before less the volume of the cells now,
+/// and sets Nodes::owed so that this sum is kept. Nodes turn no cells over and enter no walls; tied ones stay on theirs, and water that walls
+/// enclose on all sides has no room: it gets nothing back.
+template <int d>
+void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls);
+
+extern template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
+extern template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,141 @@
+#include "fluid/mesh/volume_books.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+template <class D>
+class VolumeBooks : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(VolumeBooks, Dimensions);
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+template <int d>
+double in_the_books(const Nodes<d>& nodes) {
+  return sum(nodes.volume) + sum(nodes.owed);
+}
+
+template <int d>
+double enclosed(const scenes::Lattice<d>& pool) {
+  return enclosed_volume(pool.mesh.boundary, pool.nodes.x);
+}
+
+template <int d>
+double kinetic_energy(const scenes::Lattice<d>& pool) {
+  const auto volumes = nodal_volumes(pool.mesh, pool.nodes.x);
+  double twice = 0;
+  for (std::size_t i = 0; i < volumes.size(); ++i) twice += volumes[i] * pool.nodes.v[i].squaredNorm();
+  return twice / 2;
+}
+
+/// A pool of volume 1 that the books know, in motion.
+template <int d>
+scenes::Lattice<d> pool() {
+  scenes::Lattice<d> pool(4);
+  pool.nodes.volume = nodal_volumes(pool.mesh, pool.nodes.x);
+  for (std::size_t i = 0; i < pool.nodes.size(); ++i) pool.nodes.v[i] = Vec<d>::Constant(std::sin(double(i)));
+  return pool;
+}
+
+constexpr double lost = 1e-4;
+
+TYPED_TEST(VolumeBooks, what_the_mesh_lost_comes_back_wherever_it_was_lost) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  p.nodes.owed.front() = lost;
+  const double books = in_the_books(p.nodes);
+  return_volume(p.nodes, p.mesh);
+  // Exact but for what the surface's own motion adds, of second order in what the surface moves by over its length.
+  EXPECT_NEAR(enclosed(p), 1 + lost, 100 * lost * lost);
+  EXPECT_NEAR(in_the_books(p.nodes), books, 10 * scenes::eps);
+}
+
+TYPED_TEST(VolumeBooks, what_the_mesh_gained_goes_too) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  p.nodes.owed.back() = -lost;
+  return_volume(p.nodes, p.mesh);
+  EXPECT_NEAR(enclosed(p), 1 - lost, 100 * lost * lost);
+}
+
+TYPED_TEST(VolumeBooks, no_kinetic_energy_comes_with_it) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  p.nodes.owed.front() = lost;
+  const double before = kinetic_energy(p);
+  return_volume(p.nodes, p.mesh);
+  // Neighbours of the surface gain a share of what a surface node gains, and keep their velocity.
+  EXPECT_LE(kinetic_energy(p), before + lost);
+}
+
+TYPED_TEST(VolumeBooks, nothing_moves_where_nothing_is_owed) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  const auto x = p.nodes.x;
+  const auto v = p.nodes.v;
+  return_volume(p.nodes, p.mesh);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_LE((p.nodes.x[i] - x[i]).norm(), 100 * scenes::eps);
+    EXPECT_LE((p.nodes.v[i] - v[i]).norm(), 100 * scenes::eps);
+  }
+}
+
+TYPED_TEST(VolumeBooks, a_surface_moves_by_a_quarter_of_its_reach_at_the_most_and_the_rest_stays_owed) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  p.nodes.owed.front() = 1;
+  return_volume(p.nodes, p.mesh);
+  const double spacing = 0.25;
+  EXPECT_LT(enclosed(p), 1 + 0.25 * spacing);
+  EXPECT_GT(enclosed(p), 1);
+  EXPECT_NEAR(in_the_books(p.nodes), 2, 10 * scenes::eps);
+  const auto volumes = nodal_volumes(p.mesh, p.nodes.x);
+  for (const auto& cell : p.mesh.cells) EXPECT_GT(volume<d>(corners(p.nodes.x, cell)), 0);
+}
+
+TYPED_TEST(VolumeBooks, other_water_does_not_pay) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  const auto other = pool<d>();
+  const auto first = static_cast<int>(p.nodes.size());
+  for (std::size_t i = 0; i < other.nodes.size(); ++i) {
+    const int n = p.nodes.add(other.nodes.x[i] + 3 * Vec<d>::UnitX(), other.nodes.v[i], 0, other.nodes.tie[i],
+                              other.nodes.surface[i]);
+    p.nodes.volume[n] = other.nodes.volume[i];
+  }
+  auto shifted = [&](auto simplex) {
+    for (int& n : simplex) n += first;
+    return simplex;
+  };
+  for (const auto& cell : other.mesh.cells) p.mesh.cells.push_back(shifted(cell));
+  for (const auto& facet : other.mesh.boundary) {
+    p.mesh.boundary.push_back(facet);
+    p.mesh.boundary.back().nodes = shifted(facet.nodes);
+  }
+  p.nodes.owed.front() = lost;
+  const auto x = p.nodes.x;
+  return_volume(p.nodes, p.mesh);
+  EXPECT_NEAR(enclosed(p), 2 + lost, 100 * lost * lost);
+  for (std::size_t i = first; i < x.size(); ++i) EXPECT_LE((p.nodes.x[i] - x[i]).norm(), 100 * scenes::eps);
+}
+
+TYPED_TEST(VolumeBooks, water_without_a_free_surface_keeps_its_shape) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  for (auto& facet : p.mesh.boundary) facet.wall = 0;
+  std::fill(p.nodes.surface.begin(), p.nodes.surface.end(), 0);
+  p.nodes.owed.front() = lost;
+  const auto x = p.nodes.x;
+  return_volume(p.nodes, p.mesh);
+  EXPECT_EQ(p.nodes.x, x);
+  EXPECT_NEAR(in_the_books(p.nodes), 1 + lost, 10 * scenes::eps);
+}
+
+}  // namespace
+}  // namespace splashdown::fluid
