@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -85,9 +86,21 @@ void each_wet_part(const Surface<d>& surface, const Corners<d>& x, const Visit& 
 double upward_measure(const FacetCorners<2>& c) { return c[0].x() - c[1].x(); }
 double upward_measure(const FacetCorners<3>& c) { return 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).z(); }
 
+/// Of the turned vertices, over the centre of mass.
+struct Heights {
+  double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
+};
+
 template <int d>
-double lowest(const Surface<d>& surface, const Isometry<d>& pose) {
-  return (pose.linear() * surface.vertices).row(d - 1).minCoeff() + pose.translation()(d - 1);
+Heights heights(const Surface<d>& surface, const Isometry<d>& pose) {
+  const Vec<d> up = pose.linear().row(d - 1);
+  Heights h;
+  for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) {
+    const double height = up.dot(surface.vertices.col(i));
+    h.least = std::min(h.least, height);
+    h.most = std::max(h.most, height);
+  }
+  return h;
 }
 
 template <int d>
@@ -95,7 +108,7 @@ Floating<d> assess(const Surface<d>& surface, const Isometry<d>& pose, double wa
   Floating<d> f;
   f.pose = pose;
   f.submerged = submerged<d>(surface, pose, water_level);
-  f.draft = water_level - lowest<d>(surface, pose);
+  f.draft = water_level - heights<d>(surface, pose).least - pose.translation()(d - 1);
   const double weakest = f.submerged.waterline_moment.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
   f.metacentric_height = f.submerged.centre(d - 1) + weakest / f.submerged.volume - pose.translation()(d - 1);
   return f;
@@ -149,8 +162,8 @@ Displaced displaced(const Surface<d>& surface, const Isometry<d>& pose, double w
 /// At the height where a body that floats displaces `target`, sought from that of the pose.
 template <int d>
 Floating<d> balanced(const Surface<d>& surface, Isometry<d> trial, double target, double water_level) {
-  const auto heights = (trial.linear() * surface.vertices).row(d - 1).eval();
-  double wet = water_level - heights.maxCoeff(), dry = water_level - heights.minCoeff();
+  const auto [least, most] = heights<d>(surface, trial);
+  double wet = water_level - most, dry = water_level - least;
   double& height = trial.translation()(d - 1);
   // The displaced volume falls with height at the rate of the waterline: Newton, kept between bounds.
   const double resolution = 1e-15 * (dry - wet), round_off = 1e-9 * (dry - wet);
@@ -179,7 +192,7 @@ std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>
   if (!(mass > 0 && density > 0 && std::isfinite(mass) && std::isfinite(density)))
     throw std::invalid_argument(message("floating: mass ", mass, " and density ", density, " must be positive"));
   Isometry<d> immersed = pose;
-  immersed.translation()(d - 1) = water_level - (pose.linear() * surface.vertices).row(d - 1).maxCoeff();
+  immersed.translation()(d - 1) = water_level - heights<d>(surface, pose).most;
   if (displaced<d>(surface, immersed, water_level).volume < mass / density) return std::nullopt;
   return balanced<d>(surface, pose, mass / density, water_level);
 }
@@ -218,27 +231,28 @@ Eigen::Matrix<double, d - 1, d - 1> metacentric_tensor(const Floating<d>& f) {
 /// Descends in energy along the allowed slopes (orthonormal columns) by Newton's method, in steps of a degree at most,
 /// so that it ends in the minimum that the body would come to; never at an unstable balance. Indifferent directions, a
 /// round body's roll, stay as they are. `target` is the displaced volume.
-template <int d>
+template <int d, int n>
 Floating<d> settled(const Surface<d>& surface, Floating<d> f, double target, double water_level,
-                    const Eigen::MatrixXd& allowed) {
+                    const Eigen::Matrix<double, d - 1, n>& allowed) {
+  using Amounts = Eigen::Matrix<double, n, 1>;
   const double extent = (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
   const double balance = 1e-9 * extent;  // a lever that is nothing but round-off
   const double neutral = 1e-4 * extent;  // |GM| of round bodies: that of their facets (a 128-gon: 3e-4 radii)
   const double stride = std::numbers::pi / 180, arrived = 1e-13;
   const int iterations = 1000;
-  const auto along = [&](const Floating<d>& at) -> Eigen::VectorXd { return allowed.transpose() * lever(at); };
+  const auto along = [&](const Floating<d>& at) -> Amounts { return allowed.transpose() * lever(at); };
   for (int i = 0; i < iterations; ++i) {
-    const Eigen::VectorXd down = along(f);
-    const Eigen::MatrixXd tensor = metacentric_tensor(f);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> curvature(allowed.transpose() * tensor * allowed);
-    const Eigen::VectorXd& heights = curvature.eigenvalues();
-    const Eigen::MatrixXd& axes = curvature.eigenvectors();
-    Eigen::VectorXd step;
+    const Amounts down = along(f);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> curvature(allowed.transpose() *
+                                                                               metacentric_tensor(f) * allowed);
+    const auto& heights = curvature.eigenvalues();
+    const auto& axes = curvature.eigenvectors();
+    Amounts step;
     if (down.norm() <= balance && heights(0) < -neutral) {
       const double sense = axes.col(0).sum() < 0 ? -1 : 1;  // counter-clockwise in the plane
       step = sense * stride * axes.col(0);
     } else {
-      Eigen::VectorXd amounts = axes.transpose() * down;
+      Amounts amounts = axes.transpose() * down;
       for (Eigen::Index k = 0; k < amounts.size(); ++k) {
         const bool indifferent = std::abs(heights(k)) <= neutral && std::abs(amounts(k)) <= 0.1 * neutral;
         amounts(k) = indifferent ? 0 : amounts(k) / std::max(std::abs(heights(k)), neutral);
@@ -274,7 +288,8 @@ std::optional<Floating<d>> floating_stable(const Surface<d>& surface, const Isom
                                            double density, double water_level) {
   const auto start = floating<d>(surface, pose, mass, density, water_level);
   if (!start) return start;
-  return settled<d>(surface, *start, mass / density, water_level, Eigen::MatrixXd::Identity(d - 1, d - 1));
+  return settled<d, d - 1>(surface, *start, mass / density, water_level,
+                           Eigen::Matrix<double, d - 1, d - 1>::Identity());
 }
 
 std::vector<Heeled> righting_levers(const Surface<3>& surface, const Floating<3>& rest, double mass, double density,
@@ -287,7 +302,8 @@ std::vector<Heeled> righting_levers(const Surface<3>& surface, const Floating<3>
     Isometry<3> pose = f.pose;
     pose.linear() = tilt<3>((heel - before) * across) * f.pose.linear();
     before = heel;
-    f = settled<3>(surface, balanced<3>(surface, pose, mass / density, water_level), mass / density, water_level, axis);
+    f = settled<3, 1>(surface, balanced<3>(surface, pose, mass / density, water_level), mass / density, water_level,
+                      axis);
     curve.push_back({heel, -lever(f).dot(across), f});
   }
   return curve;
