@@ -1,7 +1,8 @@
 #include "rigid/motions.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
+
+#include "algebra/dense.hpp"
 
 namespace splashdown::rigid {
 
@@ -20,21 +21,14 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<char>& cho
 
 }  // namespace
 
-Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  const Eigen::Index n = A.cols();
-  if (A.rows() == 0 || n == 0) return {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(negligible);
-  return {svd.solve(b), svd.matrixV().rightCols(n - svd.rank())};
-}
-
 Motions::Motions(const Problem& p) : unit_(p.unit), resolution_(p.resolution) {
   const auto scaled = p.unit.cwiseInverse().asDiagonal();
-  const Solutions free = solutions_of(p.equalities * scaled, p.equal - p.equalities * p.before);
+  const algebra::Solutions free =
+      algebra::solutions_of(p.equalities * scaled, p.equal - p.equalities * p.before, negligible);
   origin_ = p.before + scaled * free.point;
   basis_ = free.directions;
   modes_ = scaled * basis_;
-  inertia_ = modes_.transpose() * p.inertia * modes_;
+  inertia_ = algebra::congruence(p.inertia, modes_);
   known_ = modes_.transpose() * (p.impulse - p.inertia * (origin_ - p.before));
   contacts_ = p.contacts * modes_;
   least_ = p.least - p.contacts * origin_;
@@ -43,7 +37,8 @@ Motions::Motions(const Problem& p) : unit_(p.unit), resolution_(p.resolution) {
 }
 
 void Motions::restrict() {
-  const Solutions left = solutions_of(rows_of(contacts_, closed_), rows_of(least_, closed_));
+  const algebra::Solutions left =
+      algebra::solutions_of(rows_of(contacts_, closed_), rows_of(least_, closed_), negligible);
   pushed_ = left.point;
   directions_ = left.directions;
 }
@@ -55,8 +50,8 @@ Eigen::VectorXd Motions::amplitudes(const Eigen::VectorXd& velocity) const {
 Eigen::VectorXd Motions::velocity(const Eigen::VectorXd& impulse) const {
   if (directions_.cols() == 0) return origin_ + modes_ * pushed_;
   const Eigen::VectorXd left = directions_.transpose() * (known_ + modes_.transpose() * impulse - inertia_ * pushed_);
-  const Eigen::MatrixXd inertia = directions_.transpose() * inertia_ * directions_;
-  const Eigen::VectorXd w = inertia.completeOrthogonalDecomposition().solve(left);
+  const Eigen::MatrixXd inertia = algebra::congruence(inertia_, directions_);
+  const Eigen::VectorXd w = algebra::least_squares(inertia, left);
   return origin_ + modes_ * (pushed_ + directions_ * w);
 }
 
@@ -71,7 +66,7 @@ bool Motions::settle(const Eigen::VectorXd& velocity, const Eigen::VectorXd& imp
   const Eigen::VectorXd left = -unspent(velocity, impulse);
   const Eigen::MatrixXd closed = rows_of(contacts_, closed_);
   Eigen::VectorXd pushes(closed.rows());
-  if (closed.rows() > 0) pushes = closed.transpose().completeOrthogonalDecomposition().solve(left);
+  if (closed.rows() > 0) pushes = algebra::least_squares(closed.transpose(), left);
   const double weak = negligible * pushes.cwiseAbs().sum();
   const double slow = resolution_ + negligible * contacts_.rowwise().norm().maxCoeff() * y.norm();
   constexpr int together = 5;

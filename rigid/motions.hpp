@@ -17,14 +17,6 @@
 
 namespace splashdown::rigid {
 
-/// All x with A x = b, x = point + directions w: the point of least norm, orthonormal directions. Conditions that
-/// contradict each other are met in the least-squares sense.
-struct Solutions {
-  Eigen::VectorXd point;
-  Eigen::MatrixXd directions;
-};
-Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-
 class Motions {
  public:
   struct Problem {

@@ -34,10 +34,6 @@ constexpr std::array<StatusWords, 6> all_status = {{
     {"waiting", Mood::fair, "are waiting; the same command makes them"},
 }};
 
-std::string text_at(const Json& json, const char* key) {
-  return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : std::string();
-}
-
 const Json& list_at(const Json& json, const char* key) {
   static const Json none = Json::array();
   return json.contains(key) && json[key].is_array() ? json[key] : none;

@@ -29,10 +29,6 @@ std::string status_sentence(const nlohmann::ordered_json& summary) {
   return "The run stopped";
 }
 
-std::string text_at(const nlohmann::ordered_json& json, const char* key) {
-  return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
-}
-
 Mood mood_of_grade(const std::string& grade) {
   if (grade == "unphysical") return Mood::bad;
   return grade == "doubtful" || grade == "unresolved" ? Mood::fair : Mood::good;
@@ -146,6 +142,10 @@ std::string html_escaped(const std::string& text) {
     }
   }
   return escaped;
+}
+
+std::string text_at(const nlohmann::ordered_json& json, const char* key) {
+  return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
 double number_at(const nlohmann::ordered_json& json, std::initializer_list<const char*> path) {

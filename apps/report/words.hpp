@@ -38,6 +38,8 @@ struct Banner {
 };
 Banner banner_of(const RunData& run);
 
+/// A JSON object's text; none if absent or no text.
+std::string text_at(const nlohmann::ordered_json& json, const char* key);
 /// JSON value at a path such as {"ledger", "volume_error"}; nan if absent or null.
 double number_at(const nlohmann::ordered_json& json, std::initializer_list<const char*> path);
 

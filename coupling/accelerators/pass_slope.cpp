@@ -1,7 +1,8 @@
 #include "coupling/accelerators/pass_slope.hpp"
 
-#include <Eigen/Cholesky>
 #include <vector>
+
+#include "algebra/dense.hpp"
 
 namespace splashdown::coupling {
 namespace {
@@ -16,7 +17,7 @@ Eigen::MatrixXd compliance(const rigid::Bodies<d>& bodies, const std::vector<std
   for (std::size_t k = 0; k < free.size(); ++k)
     of_free.middleCols<m>(m * static_cast<Eigen::Index>(k)) =
         modes.middleRows<m>(m * static_cast<Eigen::Index>(free[k])).transpose();
-  return modes * (all.directions.transpose() * all.inertia * all.directions).ldlt().solve(of_free);
+  return modes * algebra::symmetric_solution(algebra::congruence(all.inertia, all.directions), of_free);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #include "fluid/effects/viscosity.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "algebra/dense.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -267,9 +268,8 @@ bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted
   }
   const Eigen::MatrixXd directions =
       bodies.directions.size() > 0 ? bodies.directions : Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count));
-  const Eigen::MatrixXd allowed = directions.transpose() * total * directions;
-  const Eigen::VectorXd y =
-      directions * allowed.completeOrthogonalDecomposition().solve(directions.transpose() * on_motions(on_walls));
+  const Eigen::MatrixXd allowed = algebra::congruence(total, directions);
+  const Eigen::VectorXd y = directions * algebra::least_squares(allowed, directions.transpose() * on_motions(on_walls));
   for (Eigen::Index k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k].v[i];
     for (std::size_t w = 0; w < on_walls.size(); ++w) on_walls[w] += y[k] * reaction[k][w];

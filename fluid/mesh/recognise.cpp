@@ -11,7 +11,7 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double flat = 1e-7;         // volume over longest edge^d below which a cell is degenerate
+constexpr double degenerate = 1e-7;   // volume over longest edge^d below which a cell is degenerate
 constexpr double dust = 2e-4;         // volume over h^d below which a cell is no liquid: films of a thousandth of h
 constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, belong to no fluid cell
 constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
@@ -39,7 +39,7 @@ Shape shape(const Mat<d>& J) {
   }
   const double det = J.determinant();
   const double fullness = det / (factorial<d> * (d == 2 ? longest : longest * std::sqrt(longest)));
-  if (fullness <= flat / factorial<d>) return {0, fullness, true};
+  if (fullness <= degenerate / factorial<d>) return {0, fullness, true};
   return {(cofactor(J) * half).norm() / det, fullness, false};
 }
 

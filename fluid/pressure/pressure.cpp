@@ -1,11 +1,10 @@
 #include "fluid/pressure/pressure.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "algebra/dense.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
@@ -71,7 +70,7 @@ bool PressureEquation<d>::add_bodies() {
   if (!wet.empty() && !solver_.solve(systems, static_cast<int>(wet.size()), enough)) return false;
   Y_(Eigen::all, wet) = answers;
   added_mass_.setZero(motions(), motions());
-  added_mass_(wet, wet) = loads.transpose() * answers;
+  added_mass_(wet, wet) = algebra::transposed_product(loads, answers);
   held_inertia_.setZero(motions(), motions());
   for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
     if (!response_.moves(w)) continue;
@@ -90,19 +89,16 @@ template <int d>
 void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
   elimination_.setZero(motions(), motions());
   if (directions.cols() == 0) return;
-  const Eigen::MatrixXd total = directions.transpose() * (response_.inertia + added_mass_ + held_inertia_) * directions;
+  const Eigen::MatrixXd total = algebra::congruence(response_.inertia + added_mass_ + held_inertia_, directions);
   const Eigen::VectorXd diagonal = total.diagonal();
   Eigen::VectorXd unit(diagonal.size());
   for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = diagonal[i] > 0 ? 1 / std::sqrt(diagonal[i]) : 0.0;
   const Eigen::MatrixXd scaled = unit.asDiagonal() * total * unit.asDiagonal();
-  const Eigen::MatrixXd inverse = scaled.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = algebra::pseudo_inverse(scaled);
   const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
   // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
-  elimination_ =
-      lifted *
-      (solver_.is_direct() && held_inertia_.isZero(0) ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose()))
-                                                      : inverse) *
-      lifted.transpose();
+  const bool symmetric = solver_.is_direct() && held_inertia_.isZero(0);
+  elimination_ = algebra::lifted(lifted, symmetric ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse);
 }
 
 template <int d>
@@ -313,7 +309,7 @@ bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance, std::v
   if (!guess.empty() && motions() > 0 && !solver_.is_direct()) {
     const Eigen::Map<const Eigen::VectorXd> rhs(r.data(), size());
     const Eigen::VectorXd left = Y_.transpose() * rhs - on_motions(impulses(guess));
-    Eigen::Map<Eigen::VectorXd>(guess.data(), size()) += Y_ * added_mass_.completeOrthogonalDecomposition().solve(left);
+    Eigen::Map<Eigen::VectorXd>(guess.data(), size()) += Y_ * algebra::least_squares(added_mass_, left);
   }
   return solver_.solve(r, 1, tolerance, guess);
 }
@@ -411,7 +407,7 @@ Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> 
       return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
     impulses += left;
   }
-  const Eigen::MatrixXd G = flux.transpose() * impulses;
+  const Eigen::MatrixXd G = algebra::transposed_product(flux, impulses);
   return 0.5 * (G + G.transpose());
 }
 

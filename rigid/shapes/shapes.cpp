@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rigid/message.hpp"
+#include "rigid/shapes/require.hpp"
 
 namespace splashdown::rigid {
 
@@ -19,11 +20,6 @@ using Points = std::vector<Vec<2>>;
 using std::numbers::pi;
 
 std::string text(const Vec<2>& p) { return message("(", p.x(), ", ", p.y(), ")"); }
-
-void require_positive(const char* shape, const char* what, double value) {
-  if (!(value > 0 && std::isfinite(value)))
-    throw std::invalid_argument(message(shape, ": ", what, " is ", value, "; it must be positive"));
-}
 
 void require_segments(const char* shape, int segments) {
   const int fewest = 8;  // an octagon is the coarsest thing that may be called round

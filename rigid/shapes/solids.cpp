@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rigid/message.hpp"
+#include "rigid/shapes/require.hpp"
 
 namespace splashdown::rigid {
 
@@ -16,11 +17,6 @@ namespace {
 
 using std::numbers::pi;
 using Triangle = std::array<int, 3>;
-
-void require_positive(const char* shape, const char* what, double value) {
-  if (!(value > 0 && std::isfinite(value)))
-    throw std::invalid_argument(message(shape, ": ", what, " is ", value, "; it must be positive"));
-}
 
 void require_around(const char* shape, int around) {
   const int fewest = 8;  // an octagon is the coarsest thing that may be called round

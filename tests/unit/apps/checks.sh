@@ -34,6 +34,21 @@ exits() {  # exits CODE COMMAND...: the command ends with this code
   return 1
 }
 
+until_true() {  # until_true COMMAND...: waits for what another process brings about, however busy the machine is
+  local tries
+  for ((tries = 0; tries < 1200; ++tries)); do  # a minute
+    "$@" 2>/dev/null && return 0
+    sleep 0.05
+  done
+  echo "FAIL  after a minute still not: $*"
+  failures=$((failures + 1))
+  return 1
+}
+
+under_way() {  # under_way DIR: the run there holds its folder, listens to signals and has made a few steps
+  [[ -s $1/bodies.csv ]] && (($(wc -l <"$1/bodies.csv") > 5))
+}
+
 killed_after() {  # killed_after SECONDS COMMAND...
   local seconds=$1
   shift

@@ -134,7 +134,7 @@ check "they stay" test -s mine/checkpoint/weights -a -s mine/report/figure.svg
 
 # A folder that goes away under a run
 { "$splashdown" run scene.toml --quiet --out gone/here --set time.end=10 2>gone.said; echo $? >gone.code; } &
-until [[ -s gone/here/bodies.csv ]] && (($(wc -l <gone/here/bodies.csv) > 5)); do sleep 0.05; done
+until_true under_way gone/here
 mv gone/here gone/away  # at once: removing file by file meets pictures that are written meanwhile
 rm -rf gone/away 2>/dev/null
 wait
@@ -152,7 +152,7 @@ check "bit for bit" cmp gone/here.rescued/bodies.csv gone/alone/bodies.csv
 for signal in INT TERM; do
   "$splashdown" run scene.toml --quiet --out "signal_$signal" --set time.end=10 &
   pid=$!
-  sleep 0.5
+  until_true under_way "signal_$signal"
   check "a second run in its folder is refused" exits 2 run --out "signal_$signal"
   kill -s $signal $pid
   wait $pid
@@ -163,19 +163,15 @@ done
 # A request to stop is answered at once, also while figures are drawn
 "$splashdown" run scene.toml --out answered --set time.end=10 >answer_out 2>answer &
 pid=$!
-sleep 0.5
+until_true under_way answered
 kill -s INT $pid
 wait $pid
 check "a stop is answered" grep -q 'stopping after this step; once more stops at once' answer
 check "and says where the report comes from" grep -q 'no report: splashdown report answered draws it' answer_out
-mkdir slow && printf '#!/bin/sh\nexec sleep 60\n' >slow/gnuplot && chmod +x slow/gnuplot
+mkdir slow && printf '#!/bin/sh\ntouch "%s/drawing"\nexec sleep 60\n' "$PWD" >slow/gnuplot && chmod +x slow/gnuplot
 PATH="$PWD/slow:$PATH" "$splashdown" run scene.toml --out drawn --until 0.002 >/dev/null 2>answer &
 pid=$!
-for _ in $(seq 100); do
-  test -e drawn/summary.json && break
-  sleep 0.1
-done
-sleep 0.5
+until_true test -e drawing
 begin=$SECONDS
 kill -s INT $pid
 wait $pid

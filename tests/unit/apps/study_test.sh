@@ -97,7 +97,7 @@ check "results are those of an undisturbed study" same_results whole killed
 
 "$splashdown" study study.toml --quiet --out stopped &
 pid=$!
-sleep 0.3
+until_true compgen -G 'stopped/*/bodies.csv' >/dev/null
 kill -s TERM $pid
 wait $pid
 check "SIGTERM ends a study with 130" test $? -eq 130

@@ -1,0 +1,31 @@
+#include "algebra/dense.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace splashdown::algebra {
+
+Eigen::MatrixXd congruence(const Eigen::MatrixXd& M, const Eigen::MatrixXd& W) { return W.transpose() * M * W; }
+
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.transpose() * B; }
+
+Eigen::MatrixXd lifted(const Eigen::MatrixXd& L, const Eigen::MatrixXd& M) { return L * M * L.transpose(); }
+
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return A.completeOrthogonalDecomposition().solve(b);
+}
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A) { return A.completeOrthogonalDecomposition().pseudoInverse(); }
+
+Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.ldlt().solve(B); }
+
+Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible) {
+  const Eigen::Index n = A.cols();
+  if (A.rows() == 0 || n == 0) return {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(negligible);
+  return {svd.solve(b), svd.matrixV().rightCols(n - svd.rank())};
+}
+
+}  // namespace splashdown::algebra

@@ -1,0 +1,32 @@
+// Dense algebra of matrices whose size is known at run time only: motions, conditions and impulses of bodies.
+//
+// Eigen's templates for such sizes take seconds to compile in every source that names them; these are compiled once.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace splashdown::algebra {
+
+/// W^T M W
+Eigen::MatrixXd congruence(const Eigen::MatrixXd& M, const Eigen::MatrixXd& W);
+/// A^T B
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+/// L M L^T
+Eigen::MatrixXd lifted(const Eigen::MatrixXd& L, const Eigen::MatrixXd& M);
+
+/// The x of least norm with least |A x - b|: complete orthogonal decomposition (Golub, Van Loan, section 5.4.7).
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+/// (Moore, Penrose)
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
+/// A^-1 B with A symmetric and not negative: LDL^T.
+Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// All x with A x = b, x = point + directions w: the point of least norm, orthonormal directions. Conditions that
+/// contradict each other are met in the least-squares sense; singular values below `negligible` of the largest are zero.
+struct Solutions {
+  Eigen::VectorXd point;
+  Eigen::MatrixXd directions;
+};
+Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible);
+
+}  // namespace splashdown::algebra
