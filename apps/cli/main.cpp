@@ -41,12 +41,22 @@ int command_line(int argc, char** argv) {
                    : fmt::format("must be a positive number, not {}", text);
       },
       "POSITIVE");
+  const auto add_refine = [&](CLI::App* command, std::vector<std::string>& set) {
+    command
+        ->add_option_function<std::string>(
+            "--refine", [&set](const std::string& value) { set.push_back("fluid.size.refine=" + value); },
+            "divide all lengths of the mesh, and dt_max, by this; the same as --set fluid.size.refine=X")
+        ->type_name("X")
+        ->check(positive)
+        ->trigger_on_parse(false);
+  };
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run a scene");
   run_app->add_option("scene", run.scene, scene_help)->required();
   run_app->add_option("--out", run.out,
                       "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
   run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  add_refine(run_app, run.overrides);
   run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
       ->check(CLI::Range(1, 1024));
   run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")->check(positive);
@@ -65,6 +75,7 @@ int command_line(int argc, char** argv) {
   auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
   check_app->add_option("scene", scene, scene_help)->required();
   check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  add_refine(check_app, overrides);
 
   StudyOptions study;
   auto* study_app = app.add_subcommand("study", "Run every combination of a scene's values");

@@ -72,18 +72,22 @@ void read_region(Reader& reader, Region& region) {
 }
 
 void read_sizes(Reader& reader, Sizes& size) {
-  reader.number("surface", size.surface, positive("m", "Use e.g. a fiftieth of the body's breadth."), Need::required);
+  // Two decades either way: beyond them it is another scene, or a slip.
+  size.refine = reader.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for elements of half the size."));
+  const auto finer = [&](Rule rule) { return refined(std::move(rule), size.refine); };
+  reader.number("surface", size.surface, finer(positive("m", "Use e.g. a fiftieth of the body's breadth.")),
+                Need::required);
   size.far = size.surface;
-  reader.number("far", size.far, positive("m", "Use fluid.size.surface or more."));
+  reader.number("far", size.far, finer(positive("m", "Use fluid.size.surface or more.")));
   reader.number("growth", size.growth, share("Use 0.1 to 0.2: the element size's growth per unit distance."));
   reader.number("wetted_fraction", size.wetted_fraction,
-                within(0, 0.5, "",
-                       "Use 0 (off), 0.004 to 0.01 in the plane or 0.03 in space: h over the wetted half length, for "
-                       "starting impacts."));
+                finer(within(0, 0.5, "",
+                             "Use 0 (off), 0.004 to 0.01 in the plane or 0.03 in space: h over the wetted half length, "
+                             "for starting impacts.")));
   reader.number("hollow", size.hollow,
                 positive("", "Use e.g. 0.2, or leave it out: h over the radius of a jet's root."));
   if (size.hollow)
-    reader.number("hollow_min", size.hollow_min, positive("m", "Use e.g. a quarter of the hull's size."),
+    reader.number("hollow_min", size.hollow_min, finer(positive("m", "Use e.g. a quarter of the hull's size.")),
                   Need::required);
   else
     reader.skip("hollow_min");
