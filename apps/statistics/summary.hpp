@@ -32,6 +32,30 @@ struct Verdict {
   std::vector<std::string> reasons;  ///< sentences: what, how much, what to do
 };
 
+/// What the steps around a peak say about it (evidence.hpp); nan: nothing.
+struct Evidence {
+  double elements = std::numeric_limits<double>::quiet_NaN();  ///< on half of the wetted width
+  double growing = std::numeric_limits<double>::quiet_NaN();   ///< share of the wetted width that is new
+  double repair = std::numeric_limits<double>::quiet_NaN();    ///< share of the load that came as repair impulses
+  double step = std::numeric_limits<double>::quiet_NaN();      ///< deviation from the steps around it, relative
+  double sideways = std::numeric_limits<double>::quiet_NaN();  ///< load that symmetry forbids, over the load
+  double pressed = std::numeric_limits<double>::quiet_NaN();   ///< elements on half of the width of a patch
+};
+
+/// Of one number (grades.hpp).
+struct NumberGrade {
+  Grade grade = Grade::resolved;
+  double band = 0;  ///< relative, to either side
+  std::vector<std::string> reasons;
+  Evidence evidence;
+};
+
+/// Of a pulse, raw and in the classes that it has.
+struct PulseGrades {
+  std::optional<NumberGrade> raw;
+  std::map<int, NumberGrade> cfc;
+};
+
 struct RangeCount {
   long initial = 0, max = 0, final = 0;
 };
@@ -77,11 +101,15 @@ struct LandingSummary {
 struct MaximumPressure {
   Peak peak;                  ///< [Pa]
   std::vector<double> point;  ///< in the frame of the body's shape [m]
+  Evidence evidence;
 };
 
 struct PatchSummary {
   Peak pressure;    ///< mean over the patch [Pa]
   double area = 0;  ///< [m, m^2]
+  std::string body;
+  Evidence evidence;
+  std::optional<NumberGrade> grade;
 };
 
 struct BodySummary {
@@ -93,6 +121,9 @@ struct BodySummary {
   Peak wetted;                         ///< wetted length or area [m, m^2]
   LandingSummary landing;
   std::optional<MaximumPressure> maximum_pressure;  ///< if a record asks for it
+  double inertial = 1;  ///< |m a| over the load at the largest load, 1 for bodies that are not free
+  PulseGrades acceleration_grades, force_grades;  ///< first with the evidence alone, then graded (grades.hpp)
+  std::optional<NumberGrade> maximum_pressure_grade;
   Verdict verdict;
 };
 
