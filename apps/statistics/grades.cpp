@@ -31,7 +31,7 @@ struct Share {
 };
 
 /// First order: half the size, half the error.
-constexpr double halving_refine = 2;
+constexpr double halving_refine = 2, small_refine = 1.4;
 
 /// What a share must reach to be told: a quarter of the band of resolved numbers adds 3 % to it.
 constexpr double worth_telling = resolved_band / 4;
@@ -154,7 +154,16 @@ std::optional<NextStep> next_step(const Summary& summary) {
   for (const auto& [name, body] : summary.bodies)
     for (const auto& headline : headlines(summary, name)) band = std::max(band, headline.grade->band);
   if (band <= resolved_band || summary.status != "done") return {};
-  return NextStep{halving_refine, summary.wall_seconds * std::pow(halving_refine, cost_exponent(summary.dimension))};
+  const double refine = band <= small_refine * resolved_band ? small_refine : halving_refine;
+  return NextStep{refine, summary.wall_seconds * std::pow(refine, cost_exponent(summary.dimension))};
+}
+
+std::string text_of(const NextStep& next) {
+  const auto time = next.seconds < 90     ? fmt::format("{:.2g} s", next.seconds)
+                    : next.seconds < 5400 ? fmt::format("{:.0f} min", next.seconds / 60)
+                                          : fmt::format("{:.2g} h", next.seconds / 3600);
+  return fmt::format("--refine {:g}, about {}, {}", next.refine, time,
+                     next.refine == halving_refine ? "halves the bands" : "brings the bands to 5 %");
 }
 
 }  // namespace splashdown::apps

@@ -51,11 +51,9 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& body)
 /// one size everywhere would have 3 and 4.
 constexpr double cost_exponent(int dimension) { return dimension == 2 ? 2 : 3; }
 
-/// How a run's bands shrink: what all sizes are to be divided by so that they halve, and what that costs.
-struct NextStep {
-  double refine = 0, seconds = 0;
-};
-/// Nothing to do if every headline is resolved.
+/// Nothing to do if every headline is resolved. Half the size, or as much as the widest band needs to be resolved.
 std::optional<NextStep> next_step(const Summary& summary);
+/// "--refine 2, about 3 min, halves the bands".
+std::string text_of(const NextStep& next);
 
 }  // namespace splashdown::apps

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/record/csv.hpp"
+#include "apps/statistics/grades.hpp"
 
 namespace splashdown::apps {
 
@@ -207,6 +208,10 @@ std::string to_json(const Summary& summary) {
   json["status"] = summary.status;
   if (!summary.cause.empty()) json["cause"] = summary.cause;
   json["verdict"] = json_of(summary.verdict);
+  if (summary.next)
+    json["next"] = {{"refine", summary.next->refine},
+                    {"seconds", number(summary.next->seconds)},
+                    {"text", text_of(*summary.next)}};
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);

@@ -154,6 +154,11 @@ struct CouplingSummary {
   std::map<std::string, long> rejected_causes;
 };
 
+/// What would make a run's bands narrower (grades.hpp).
+struct NextStep {
+  double refine = 0, seconds = 0;  ///< what all sizes are to be divided by, and what that costs of wall time [s]
+};
+
 struct Summary {
   std::string scene;   ///< name of the scene, for headings
   std::string status;  ///< "done", "failed" or "interrupted" (by a signal or a spent budget)
@@ -175,6 +180,7 @@ struct Summary {
   std::map<std::string, BodySummary> bodies;
   std::map<std::string, PulseSummary> equipment;  ///< accelerations; peaks [g]
   std::map<std::string, PatchSummary> patches;
+  std::optional<NextStep> next;  ///< absent: every headline is resolved
 };
 
 std::string to_json(const Summary& summary);

@@ -129,6 +129,7 @@ void judge(Summary& summary) {
   }
   grade_numbers(summary);
   for (auto& [name, body] : summary.bodies) add_numbers(summary, name, body);
+  summary.next = next_step(summary);
 }
 
 }  // namespace splashdown::apps
