@@ -120,6 +120,7 @@ Evidence EvidenceStatistics::about(const Pulse& peak, const IntervalHistory& cha
     evidence.step = step_share(channel, peak.time);
     add_shares(&loads_.values[n * index_at(loads_, peak.time)], evidence);
   } else if (const auto loads = filtered(loads_, *cfc)) {
+    if (const auto smooth = filtered(channel, *cfc)) evidence.step = step_share(*smooth, peak.time);
     add_shares(&loads->values[n * index_at(*loads, peak.time)], evidence);
   }
   return evidence;

@@ -38,7 +38,15 @@ constexpr double worth_telling = resolved_band / 4;
 
 std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-std::vector<Share> shares(int dimension, const Evidence& e, Kind kind, double inertial) {
+/// What a number is of.
+struct Of {
+  int dimension;
+  Kind kind;
+  bool raw = true;
+};
+
+std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
+  const auto [dimension, kind, raw] = of;
   std::vector<Share> list;
   const double near = std::isfinite(e.pressed) ? 1 + point_factor / (1 + e.pressed) : 1;
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
@@ -47,20 +55,20 @@ std::vector<Share> shares(int dimension, const Evidence& e, Kind kind, double in
                                     std::isfinite(e.pressed) ? fmt::format(", {:.2g} on half of the patch", e.pressed)
                                                              : "",
                                     percent_text(mesh))});
-  if (std::isfinite(e.step) || std::isinf(e.step))
+  if (!std::isnan(e.step))
     list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
                                         kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps")});
   if (std::isfinite(e.sideways))
     list.push_back({e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids",
                                             percent_text(e.sideways))});
-  if (std::isfinite(e.repair) && (kind == Kind::pressure || (std::isfinite(e.step) && e.repair >= mostly)))
+  if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && e.repair >= mostly)))
     list.push_back({e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
                                           kind == Kind::pressure ? "which pressures lack" : "whose peak goes as 1/dt")});
   return list;
 }
 
-void grade(NumberGrade& number, int dimension, Kind kind, const BodySummary& body) {
-  const auto list = shares(dimension, number.evidence, kind, body.inertial);
+void grade(NumberGrade& number, const Of& of, const BodySummary& body) {
+  const auto list = shares(of, number.evidence, body.inertial);
   double squared = 0;
   number.reasons.clear();
   for (const auto& share : list) squared += share.error * share.error;
@@ -76,12 +84,12 @@ void grade(NumberGrade& number, int dimension, Kind kind, const BodySummary& bod
   }
 }
 
-void grade(PulseGrades& grades, const PulseSummary& pulses, double least, int dimension, Kind kind,
-           const BodySummary& body) {
+void grade(PulseGrades& grades, const PulseSummary& pulses, double least, Of of, const BodySummary& body) {
   if (grades.raw && !(pulses.raw.value >= least)) grades.raw.reset();
   std::erase_if(grades.cfc, [&](const auto& one) { return !(pulses.cfc.at(one.first).value >= least); });
-  if (grades.raw) grade(*grades.raw, dimension, kind, body);
-  for (auto& [cfc, number] : grades.cfc) grade(number, dimension, kind, body);
+  if (grades.raw) grade(*grades.raw, of, body);
+  of.raw = false;
+  for (auto& [cfc, number] : grades.cfc) grade(number, of, body);
 }
 
 /// Of the class that a body's verdict goes by; without it the raw one.
@@ -118,19 +126,19 @@ void grade_numbers(Summary& summary) {
   for (auto& [name, body] : summary.bodies) {
     const bool touched = body.landing.first_contact >= 0;
     if (!touched) body.acceleration_grades = body.force_grades = {};
-    grade(body.acceleration_grades, body.acceleration, at_rest_g, d, Kind::acceleration, body);
-    grade(body.force_grades, body.force, 0, d, Kind::force, body);
+    grade(body.acceleration_grades, body.acceleration, at_rest_g, {d, Kind::acceleration}, body);
+    grade(body.force_grades, body.force, 0, {d, Kind::force}, body);
     body.maximum_pressure_grade.reset();
     if (!body.maximum_pressure) continue;
     body.maximum_pressure_grade.emplace().evidence = body.maximum_pressure->evidence;
-    grade(*body.maximum_pressure_grade, d, Kind::pressure, body);
+    grade(*body.maximum_pressure_grade, {d, Kind::pressure}, body);
   }
   for (auto& [name, patch] : summary.patches) {
     patch.grade.reset();
     const auto body = summary.bodies.find(patch.body);
     if (body == summary.bodies.end() || !(patch.pressure.value > 0)) continue;
     patch.grade.emplace().evidence = patch.evidence;
-    grade(*patch.grade, d, Kind::pressure, body->second);
+    grade(*patch.grade, {d, Kind::pressure}, body->second);
   }
 }
 

@@ -7,7 +7,7 @@
 //             r  load of a hull whose wetted part stays: 3 % at 17 elements, of first order
 //             A load that mostly carries weight is wrong by as little as its inertial part: times |m a| / load. A pressure is
 //             local: times 1 + 2/(1 + n_p), with n_p elements on half of the patch, 3 at a point
-//   step      raw peaks and patches
+//   step      of filtered peaks in the filtered channel
 //   sideways  symmetric scenes
 //   repair    what pressures lack; a raw peak of a load that is impulse by half or more goes as 1/dt and has no value
 //
