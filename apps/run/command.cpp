@@ -251,6 +251,7 @@ int run_command(const RunOptions& options) {
     return bad_input(error.what());
   }
   for (const auto& note : start.file.notes) say(options, "note: " + note);
+  for (const auto& size : start.file.chosen) say(options, "chosen: " + size);
   set_threads(options.threads, start.file.scene.dimension);
   return start.file.scene.dimension == 2 ? run_scene<2>(options, std::move(start))
                                          : run_scene<3>(options, std::move(start));

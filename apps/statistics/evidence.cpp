@@ -39,7 +39,7 @@ double line_at(const IntervalHistory& history, std::size_t first, std::size_t la
   }
   if (n == 0) return std::numeric_limits<double>::quiet_NaN();
   const double determinant = n * tt - t * t;
-  return n < 3 || determinant <= 0 ? v / n : (tt * v - t * tv) / determinant;
+  return determinant <= 0 ? v / n : (tt * v - t * tv) / determinant;
 }
 
 }  // namespace
@@ -93,8 +93,9 @@ double EvidenceStatistics::step_share(const IntervalHistory& channel, double tim
   const double speed = wet_.values[3 * step_at(time) + 2], h = facet_size(time);
   const double since = share_of_time * std::max(0., time - first_contact_);
   const double reach = speed > 0 && h > 0 ? std::min(h / speed, since) : 0;
-  const auto first = std::min(index_at(channel, time - reach), top > 0 ? top - 1 : 0);
-  const auto last = std::max(index_at(channel, time + reach), std::min(top + 1, channel.ends.size() - 1));
+  const std::size_t final = channel.ends.size() - 1, before = top == final ? 2 : 1, after = top == 0 ? 2 : 1;
+  const auto first = std::min(index_at(channel, time - reach), top - std::min(top, before));
+  const auto last = std::max(index_at(channel, time + reach), std::min(top + after, final));
   const double line = line_at(channel, first, last, top);
   return line > 0 ? std::abs(magnitude(channel, top) / line - 1) : std::numeric_limits<double>::infinity();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/read/fill_sizes.hpp"
 #include "apps/scene/read/override.hpp"
 #include "apps/scene/read/parts.hpp"
 #include "apps/scene/rules/check.hpp"
@@ -114,8 +115,20 @@ SceneLabels read_all(ReadContext& context, const toml::table& table, Scene& scen
   return read_tables(root, scene);
 }
 
-SceneFile read_root(const toml::table& table, const std::filesystem::path& folder, Problems& problems) {
+/// The scene without the sizes that it leaves open; nothing if anything is wrong with it.
+std::optional<Scene> read_without_sizes(const toml::table& table, const std::filesystem::path& folder) {
+  Problems problems("");
+  Echo unused;
+  ReadContext context{.problems = problems, .echo = unused, .folder = folder};
+  Scene scene;
+  read_all(context, table, scene);
+  return problems.empty() ? std::optional(scene) : std::nullopt;
+}
+
+SceneFile read_root(toml::table& table, const std::filesystem::path& folder, Problems& problems) {
   SceneFile file;
+  if (sizes_are_open(table))
+    if (const auto scene = read_without_sizes(table, folder)) file.chosen = fill_sizes(table, *scene);
   Echo echo;
   ReadContext context{.problems = problems, .echo = echo, .folder = folder};
   const auto labels = read_all(context, table, file.scene);

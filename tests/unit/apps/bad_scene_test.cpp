@@ -73,7 +73,6 @@ const std::vector<Mistake> scenes = {
     {"tank_corner_missing", "max = [2, 1]\n", "", 6, "tank.max is missing", "list of 2 numbers"},
     {"tank_size_too_large", "max = [2, 1]", "max = [2, 1]\nsize = 3", 9, "tank.size = 3",
      "must not exceed the tank's smallest side, 2 m"},
-    {"size_table_missing", "[fluid.size]\nsurface = 0.01\nfar = 0.2\n", "", 9, "fluid.size is missing", "[fluid.size]"},
     {"surface_size_zero", "surface = 0.01", "surface = 0", 12, "fluid.size.surface = 0", "must be positive (m)"},
     {"surface_size_beyond_region", "surface = 0.01\nfar = 0.2", "surface = 1.5\nfar = 2", 12,
      "fluid.size.surface = 1.5", "smallest extent of fluid.region[0], 1 m"},
