@@ -153,8 +153,10 @@ std::optional<Convergence> Convergence::of(std::span<const MeshValue> values) {
 double Convergence::fitted(double h) const { return limit_ + first_ * std::pow(h, exponent_) + second_ * h * h; }
 
 double Convergence::error(double h) const {
-  // Terms of opposite sign may cancel at one size, and never do at all of them.
-  return std::abs(first_) * std::pow(h, exponent_) + std::abs(second_) * h * h;
+  const auto at = [&](double x) { return std::abs(fitted(x) - limit_); };
+  // Terms of opposite sign cancel at one size: the largest error up to h counts, which the fit has at h or at its vertex.
+  const double vertex = second_ != 0 ? -first_ / (2 * second_) : 0;
+  return vertex > 0 && vertex < h ? std::max(at(h), at(vertex)) : at(h);
 }
 
 double Convergence::band(const MeshValue& measured) const {
