@@ -26,9 +26,10 @@ struct RunOptions {
   std::optional<double> seconds;               ///< wanted: the same
   std::optional<std::filesystem::path> price;  ///< folder of the price list to choose by
   bool resume = false;
-  bool large = false;    ///< whatever memory it takes
-  bool restart = false;  ///< begin anew, although the folder holds a run of this scene
-  bool force = false;    ///< and although it holds one of another scene
+  bool large = false;      ///< whatever memory it takes
+  bool restart = false;    ///< begin anew, although the folder holds a run of this scene
+  bool no_report = false;  ///< none is drawn at the end
+  bool force = false;      ///< and although it holds one of another scene
   bool quiet = false;
 };
 

@@ -95,6 +95,7 @@ int command_line(int argc, char** argv) {
       ->excludes(resume);
   run_app->add_flag("--force", run.force, "replace also what a run of another scene left in the folder");
   run_app->add_flag("--large", run.large, "run it even if it is predicted to take more than 4 GB of memory");
+  run_app->add_flag("--no-report", run.no_report, "draw no report.html at the end (splashdown report does)");
   run_app->add_flag("--quiet", run.quiet, "print errors only");
 
   std::filesystem::path scene;

@@ -95,7 +95,7 @@ Price probed_price(const RunOptions& options, const Scene& scene, std::string& f
 
 std::string accuracy_text(const std::optional<std::pair<double, std::string>>& accuracy) {
   return accuracy ? fmt::format("a band of {:.2g} % ({})", 100 * accuracy->first, accuracy->second)
-                  : "a band that nobody knows";
+                  : "a band that is not known: too few meshes";
 }
 
 /// Throws SceneError if there is no such mesh.

@@ -163,7 +163,9 @@ bool Ladder::make(const StudyRun& run, const RungSpec& spec) {
   fs::remove(log);
   auto study = study_;
   if (order_.budget) study.budget = std::max(seconds_left(), 0.1);  // none is no budget
-  ChildProcess process(command_of(study, run, place), log);
+  auto words = command_of(study, run, place);
+  words.emplace_back("--no-report");  // the price list has a page of its own
+  ChildProcess process(words, log);
   const double begin = now();
   const auto expected = seconds_at(spec.refine);
   const bool terminal = !order_.quiet && ::isatty(STDOUT_FILENO) != 0;

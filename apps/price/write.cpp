@@ -86,11 +86,33 @@ std::string relative(const std::optional<double>& part, double whole) {
 }
 
 std::string row_text(const PriceRow& row) {
-  if (!row.seconds)
-    return fmt::format("  {:>5g} %  {:>8}          not by refinement up to {:g} times the finest: {}\n",
-                       row.accuracy_percent, "-", farthest_extrapolation, row.decided_by);
   return fmt::format("  {:>5g} %  {:>8}  {:>6.3g}  {}{}\n", row.accuracy_percent, about_time(*row.seconds), *row.refine,
                      row.decided_by, row.extrapolated ? "  (extrapolated)" : "");
+}
+
+/// The first accuracy that refinement does not reach, and what is in its way.
+std::string unreached_text(const Price& price, const PriceRow& row) {
+  auto text = fmt::format("  {:>5g} %         -       -  {}: not by elements up to {:g} times smaller",
+                          row.accuracy_percent, row.decided_by, farthest_extrapolation);
+  for (const auto& quantity : price.quantities)
+    if (quantity.what.name == row.decided_by && quantity.scatter)
+      text += fmt::format("; meshes of equal size differ by {}", relative(quantity.scatter, quantity.value));
+  return text + "\n";
+}
+
+std::string rows_text(const Price& price) {
+  std::string text;
+  for (const auto& row : price.rows) {
+    text += row.seconds ? row_text(row) : unreached_text(price, row);
+    if (!row.seconds) break;  // nor are the closer ones
+  }
+  return text;
+}
+
+/// Why a quantity plays no part in the rows; empty: it does.
+std::string not_counted(const PricedQuantity& quantity) {
+  if (!quantity.fit) return fmt::format("  (on {} meshes: too few)", quantity.rungs.size());
+  return quantity.what.counts ? "" : "  (not counted)";
 }
 
 }  // namespace
@@ -174,7 +196,7 @@ std::string price_text(const Price& price) {
                                  one_line(price.title.empty() ? price.scene : price.title),
                                  static_cast<long>(price.rungs.size()) - replicates, replicates, price.finest());
   if (!price.rows.empty()) text += "  accuracy      time  refine  decided by\n";
-  for (const auto& row : price.rows) text += row_text(row);
+  text += rows_text(price);
   std::size_t width = 8;
   for (const auto& quantity : price.quantities) width = std::max(width, quantity.what.name.size());
   text +=
@@ -186,7 +208,7 @@ std::string price_text(const Price& price) {
                         value_text(quantity.value, quantity.what.unit),
                         band ? fmt::format("+- {:.2g} ({})", *band, relative(band, quantity.value)) : "?",
                         order ? fmt::format("{:.2f}", *order) : "-", relative(quantity.scatter, quantity.value),
-                        quantity.what.counts ? "" : "  (not counted)");
+                        not_counted(quantity));
   }
   for (const auto& quantity : price.quantities)
     if (quantity.fit && !quantity.fit->order())
