@@ -215,6 +215,7 @@ std::string to_json(const Summary& summary) {
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);
+  json["memory_mb"] = number(summary.memory_mb);
   json["rejected_steps"] = summary.rejected_steps;
   json["rejected_causes"] = json_of(summary.rejected_causes);
   json["phases"] = Json::object();

@@ -168,6 +168,7 @@ struct Summary {
   double simulated_time = 0;  ///< [s]
   long steps = 0;
   double wall_seconds = 0;
+  double memory_mb = 0;     ///< largest resident set of the process
   long rejected_steps = 0;  ///< attempts that were refused and repeated with half of dt
   std::map<std::string, long> rejected_causes;
   std::vector<std::pair<std::string, double>> phases;  ///< seconds each
