@@ -74,16 +74,18 @@ double EvidenceStatistics::facet_size(double time) const {
   return dimension() == 2 ? wetted / facets : std::sqrt(wetted / facets / triangle);
 }
 
+double EvidenceStatistics::growing(double time) const {
+  const double now = wetted_length(time), before = wetted_length(0.5 * (time + std::min(time, first_contact_)));
+  return now > 0 ? std::clamp(2 * (1 - before / now), 0., 1.) : 0;
+}
+
 Evidence EvidenceStatistics::at(double time) const {
   Evidence evidence;
   if (wet_.ends.empty() || time < 0) return evidence;
   const double facets = wet_.values[3 * step_at(time)], now = wetted_length(time);
   const double disc = std::sqrt(std::numbers::sqrt3 / (4 * std::numbers::pi));
   if (facets > 0) evidence.elements = dimension() == 2 ? facets / 2 : disc * std::sqrt(facets);
-  if (now > 0) {
-    const double before = wetted_length(0.5 * (time + std::min(time, first_contact_)));
-    evidence.growing = std::clamp(2 * (1 - before / now), 0., 1.);
-  }
+  if (now > 0) evidence.growing = growing(time);
   return evidence;
 }
 
@@ -121,6 +123,8 @@ Evidence EvidenceStatistics::about(const Pulse& peak, const IntervalHistory& cha
     evidence.step = step_share(channel, peak.time);
     add_shares(&loads_.values[n * index_at(loads_, peak.time)], evidence);
   } else if (const auto loads = filtered(loads_, *cfc)) {
+    for (auto i = step_at(peak.time - 1. / *cfc); i < step_at(peak.time); ++i)
+      evidence.growing = std::max(evidence.growing, growing(middle_of(wet_, i)));
     if (const auto smooth = filtered(channel, *cfc)) evidence.step = step_share(*smooth, peak.time);
     add_shares(&loads->values[n * index_at(*loads, peak.time)], evidence);
   }

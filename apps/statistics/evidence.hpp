@@ -5,7 +5,8 @@
 //              tiled by N equilateral triangles of side h, N = pi c^2 / (sqrt(3)/4 h^2), so c/h = 0.371 sqrt(N)
 //   growing    share of the wetted width that came within the half of the time since first contact before the peak, over
 //              that half: min(1, 2 (1 - w(t - T/2)/w(t))) with w the wetted length, in space the root of the area; 1 for a
-//              wedge or cone that enters (w ~ t), 0.6 for a round bottom (w ~ sqrt(t)), 0 for a body afloat
+//              wedge or cone that enters (w ~ t), 0.6 for a round bottom (w ~ sqrt(t)), 0 for a body afloat. Of filtered
+//              peaks the largest within 1/CFC, which the filter remembers
 //   repair     |sum of repair load . load| / |load|^2: the part of the load that came as impulses after remeshing
 //   step       peak over the straight line through the steps around it, minus 1. The line is fitted over the time in which
 //              the hull sinks by an element, h/V to each side, for the mesh knows nothing shorter; at least over the steps
@@ -52,6 +53,7 @@ class EvidenceStatistics {
   int dimension() const { return loads_.channels / 2; }
   std::size_t step_at(double time) const;
   double wetted_length(double time) const;
+  double growing(double time) const;
   /// Elements and growth.
   Evidence at(double time) const;
   /// Repair and sideways shares of loads at one instant: force components, then repair components.
