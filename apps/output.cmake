@@ -8,10 +8,11 @@ find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 set(output_sources
   record/csv.cpp record/energy.cpp record/files.cpp record/frames.cpp record/hull_map.cpp record/hulls.cpp
   record/probes.cpp record/recorder.cpp record/rows.cpp record/view.cpp record/vtu_grid.cpp
-  statistics/attitude.cpp statistics/energy_statistics.cpp statistics/filters.cpp statistics/landing_statistics.cpp
+  statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
+  statistics/grades.cpp statistics/landing_statistics.cpp
   statistics/pulse.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict.cpp
   report/data.cpp report/field.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp report/hull.cpp
-  report/page.cpp report/picture.cpp report/plane_picture.cpp report/report.cpp report/study.cpp report/words.cpp)
+  report/page.cpp report/picture.cpp report/plane_picture.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp)
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 add_library(splashdown_output STATIC ${output_sources})
 target_compile_features(splashdown_output PUBLIC cxx_std_20)

@@ -11,6 +11,7 @@
 #include "apps/cli/plain_text.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/run/progress.hpp"
+#include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
 
@@ -100,6 +101,8 @@ void print_scene(const Scene& scene) {
   auto asked = questions<d>(scene, cost);
   if (const auto why = too_large(cost))
     asked.push_back(*why + ": did you mean larger element sizes, or lengths in another unit? run asks for --large");
+  if (scene.fluid)
+    for (const auto& rule : sizes_against_rules<d>(scene)) row("coarser than advised", rule);
   if (!asked.empty()) fmt::print("questions\n");
   for (const auto& question : asked) fmt::print("  {}\n", question);
 }
@@ -116,6 +119,7 @@ int check_command(const std::filesystem::path& path, const std::vector<std::stri
   const auto& scene = file.scene;
   fmt::print("{}: {}\n", path.string(), scene.title.empty() ? "(no title)" : one_line(scene.title));
   for (const auto& note : file.notes) fmt::print("  note: {}\n", one_line(note));
+  for (const auto& line : file.chosen) row("chosen", line);
   scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
   fmt::print("The scene is good. Run it with: splashdown run {}\n", path.string());
   return exit_code::done;

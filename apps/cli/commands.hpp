@@ -22,10 +22,14 @@ struct RunOptions {
   std::optional<double> until;
   std::optional<double> budget;
   std::optional<int> threads;
+  std::optional<double> accuracy;              ///< wanted, in per cent: chooses fluid.size.refine
+  std::optional<double> seconds;               ///< wanted: the same
+  std::optional<std::filesystem::path> price;  ///< folder of the price list to choose by
   bool resume = false;
-  bool large = false;    ///< whatever memory it takes
-  bool restart = false;  ///< begin anew, although the folder holds a run of this scene
-  bool force = false;    ///< and although it holds one of another scene
+  bool large = false;      ///< whatever memory it takes
+  bool restart = false;    ///< begin anew, although the folder holds a run of this scene
+  bool no_report = false;  ///< none is drawn at the end
+  bool force = false;      ///< and although it holds one of another scene
   bool quiet = false;
 };
 
@@ -39,10 +43,29 @@ struct StudyOptions {
   bool quiet = false;
 };
 
+struct PriceOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> set;
+  std::optional<std::filesystem::path> out;
+  std::vector<std::string> quantities;  ///< NAME=EXPRESSION [from TABLE] [where CONDITION]
+  int rungs = 4;
+  std::vector<double> refines;   ///< in place of the usual ones
+  std::optional<double> budget;  ///< wall seconds for all runs
+  std::optional<int> threads;
+  bool large = false;  ///< whatever memory the runs take
+  bool quiet = false;
+};
+
 int run_command(const RunOptions& options);
+/// With `accuracy` or `seconds`: chooses the mesh, runs it, says what came of it.
+int aimed_run_command(const RunOptions& options);
 int check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
 int study_command(const StudyOptions& options);
+int price_command(const PriceOptions& options);
 int report_command(const std::filesystem::path& directory);
+
+/// Where the price of a scene stands unless --out says otherwise.
+std::filesystem::path price_directory(const std::filesystem::path& scene);
 
 /// What an exception says, in the words of this program: those of the file system name path, reason and cure.
 std::string trouble(const std::exception& error);

@@ -1,4 +1,4 @@
-// splashdown run | check | study | report | schema
+// splashdown run | check | study | price | report | schema
 
 #include <fmt/format.h>
 
@@ -17,6 +17,16 @@ std::string version_text() {
   auto text = fmt::format("splashdown {} ({})", version(), git_hash());
   for (const auto& [name, number] : library_versions()) text += fmt::format("\n  {} {}", name, number);
   return text;
+}
+
+/// "2%" or "2 %"; nothing for anything else.
+std::optional<double> percent_of(std::string text) {
+  double value = 0;
+  if (text.empty() || text.back() != '%') return {};
+  text.pop_back();
+  if (!text.empty() && text.back() == ' ') text.pop_back();
+  if (!CLI::detail::lexical_cast(text, value) || !(value > 0) || !std::isfinite(value)) return {};
+  return value;
 }
 
 /// CLI11's own exit codes are not ours: 0 for help and version, 2 for everything it refuses.
@@ -41,12 +51,22 @@ int command_line(int argc, char** argv) {
                    : fmt::format("must be a positive number, not {}", text);
       },
       "POSITIVE");
+  const auto add_refine = [&](CLI::App* command, std::vector<std::string>& set) {
+    command
+        ->add_option_function<std::string>(
+            "--refine", [&set](const std::string& value) { set.push_back("fluid.size.refine=" + value); },
+            "divide all lengths of the mesh, and dt_max, by this; the same as --set fluid.size.refine=X")
+        ->type_name("X")
+        ->check(positive)
+        ->trigger_on_parse(false);
+  };
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run a scene");
   run_app->add_option("scene", run.scene, scene_help)->required();
   run_app->add_option("--out", run.out,
                       "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
   run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  add_refine(run_app, run.overrides);
   run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
       ->check(CLI::Range(1, 1024));
   run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")->check(positive);
@@ -54,10 +74,28 @@ int command_line(int argc, char** argv) {
       ->check(positive);
   auto* resume = run_app->add_flag(
       "--resume", run.resume, "continue from the folder's checkpoint; refused if there is one that cannot be read");
+  auto* accuracy = run_app->add_option_function<std::string>(
+      "--accuracy", [&run](const std::string& text) { run.accuracy = percent_of(text); },
+      "choose the mesh for this band of the loads, e.g. 2%, by the scene's price list or coarse runs");
+  accuracy->type_name("PERCENT")->check(CLI::Validator(
+      [](const std::string& text) {
+        return percent_of(text) ? std::string() : fmt::format("must be a positive percentage, e.g. 2%, not {}", text);
+      },
+      ""));
+  auto* seconds = run_app->add_option("--seconds", run.seconds, "choose the mesh for a run of these wall seconds");
+  seconds->check(positive);
+  run_app->add_option("--price", run.price,
+                      "folder of the price list to choose by (default: that of splashdown price)");
+  for (auto* aim : {accuracy, seconds}) {
+    aim->excludes(resume);
+    for (const char* other : {"--refine", "--until", "--budget"}) aim->excludes(run_app->get_option(other));
+  }
+  accuracy->excludes(seconds);
   run_app->add_flag("--restart", run.restart, "begin anew and replace what a run of this scene left (the default)")
       ->excludes(resume);
   run_app->add_flag("--force", run.force, "replace also what a run of another scene left in the folder");
   run_app->add_flag("--large", run.large, "run it even if it is predicted to take more than 4 GB of memory");
+  run_app->add_flag("--no-report", run.no_report, "draw no report.html at the end (splashdown report does)");
   run_app->add_flag("--quiet", run.quiet, "print errors only");
 
   std::filesystem::path scene;
@@ -65,6 +103,7 @@ int command_line(int argc, char** argv) {
   auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
   check_app->add_option("scene", scene, scene_help)->required();
   check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  add_refine(check_app, overrides);
 
   StudyOptions study;
   auto* study_app = app.add_subcommand("study", "Run every combination of a scene's values");
@@ -78,6 +117,27 @@ int command_line(int argc, char** argv) {
   study_app->add_flag("--collect", study.collect, "make no runs: tables and chart of those that are there");
   study_app->add_flag("--large", study.large, "make runs even if they are predicted to take more than 4 GB of memory");
   study_app->add_flag("--quiet", study.quiet, "print errors only");
+
+  PriceOptions price;
+  auto* price_app = app.add_subcommand("price", "Say what accuracy costs: a ladder of meshes, bands and seconds");
+  price_app->add_option("scene", price.scene, scene_help)->required();
+  price_app->add_option("--out", price.out,
+                        "folder for the runs and the price list (default: that of run, with _price)");
+  price_app->add_option("--set", price.set, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  price_app
+      ->add_option("--quantity", price.quantities,
+                   "what matters: NAME=EXPRESSION [from TABLE] [where CONDITION] (repeatable; docs/price.md)")
+      ->type_name("NAME=EXPR")
+      ->allow_extra_args(false);
+  price_app->add_option("--rungs", price.rungs, "meshes, each 1.41 times finer than the one before, from half on")
+      ->check(CLI::Range(3, 8))
+      ->capture_default_str();
+  price_app->add_option("--budget", price.budget, "wall seconds for all runs; what does not fit is left out")
+      ->check(positive);
+  price_app->add_option("--threads", price.threads, "threads of each run; default: that of run")
+      ->check(CLI::Range(1, 1024));
+  price_app->add_flag("--large", price.large, "make runs even if they are predicted to take more than 4 GB of memory");
+  price_app->add_flag("--quiet", price.quiet, "print errors only");
 
   std::filesystem::path directory;
   auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run or a study");
@@ -94,9 +154,10 @@ int command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return finish(app, error);
   }
-  if (*run_app) return run_command(run);
+  if (*run_app) return run.accuracy || run.seconds ? aimed_run_command(run) : run_command(run);
   if (*check_app) return check_command(scene, overrides);
   if (*study_app) return study_command(study);
+  if (*price_app) return price_command(price);
   if (*schema_app) {
     fmt::print("{}", schema_of == "scene" ? scene_schema() : study_schema());
     return exit_code::done;

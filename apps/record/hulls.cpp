@@ -1,6 +1,8 @@
 #include "apps/record/hulls.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "apps/record/frames.hpp"
 #include "apps/record/probes.hpp"
@@ -14,15 +16,34 @@ fluid::Vec<d> centre_of_mass(const RecorderSettings<d>& settings, const std::str
   return found == settings.centre_of_mass.end() ? fluid::Vec<d>(fluid::Vec<d>::Zero()) : found->second;
 }
 
+namespace {
+
+/// How far the pressure of a point is off the mean of those that share a facet with it, relative.
+template <int d>
+double above_neighbours(const HullMap<d>& map, std::size_t point) {
+  const auto& facets = map.surface().facets;
+  double sum = 0, count = 0;
+  for (Eigen::Index f = 0; f < facets.cols(); ++f) {
+    if ((facets.col(f).array() != static_cast<int>(point)).all()) continue;
+    for (int k = 0; k < d; ++k) {
+      const auto other = static_cast<std::size_t>(facets(k, f));
+      if (other != point) sum += map.pressure()[other], count += 1;
+    }
+  }
+  return sum > 0 ? std::abs(map.pressure()[point] / (sum / count) - 1) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
 template <int d>
 HullReadings<d>::HullReadings(const RecorderSettings<d>& settings)
-    : settings_(settings), peaks_(settings.patches.size()) {
+    : settings_(settings), peaks_(settings.patches.size()), histories_(settings.patches.size()) {
   for (const auto& record : settings.hull_maps) maps_.emplace_back(record.surface, record.size);
 }
 
 template <int d>
-void HullReadings<d>::read(const fluid::Fluid<d>& fluid, double time) {
-  time_ = time;
+void HullReadings<d>::read(const fluid::Fluid<d>& fluid, const Kick& kick) {
+  const double time = time_ = kick.time;
   pressures_.clear();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
     const auto& patch = settings_.patches[i];
@@ -30,6 +51,8 @@ void HullReadings<d>::read(const fluid::Fluid<d>& fluid, double time) {
     const auto& pose = fluid.wall_poses()[static_cast<std::size_t>(wall)];
     pressures_.push_back(patch_force(fluid.nodes(), fluid.mesh(), wall, pose, patch.region) / patch.area);
     peaks_[i].offer(pressures_[i], time);
+    if (histories_[i].ends.empty()) histories_[i] = {1, kick.begin, {}, {}};
+    histories_[i].append(kick.end, {&pressures_[i], 1});
   }
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const int wall = wall_called(fluid, settings_.hull_maps[i].body);
@@ -40,7 +63,8 @@ void HullReadings<d>::read(const fluid::Fluid<d>& fluid, double time) {
 template <int d>
 void HullReadings<d>::summarise(Summary& summary) const {
   for (std::size_t i = 0; i < peaks_.size(); ++i)
-    summary.patches[settings_.patches[i].name] = {peaks_[i], settings_.patches[i].area};
+    summary.patches[settings_.patches[i].name] =
+        {.pressure = peaks_[i], .area = settings_.patches[i].area, .body = settings_.patches[i].body, .evidence = {}, .grade = {}};
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const auto& body = settings_.hull_maps[i].body;
     const auto& p = maps_[i].pressure();
@@ -49,7 +73,8 @@ void HullReadings<d>::summarise(Summary& summary) const {
     const fluid::Vec<d> at =
         maps_[i].surface().vertices.col(static_cast<Eigen::Index>(top)) + centre_of_mass(settings_, body);
     summary.bodies[body].maximum_pressure =
-        MaximumPressure{{p[top], maps_[i].time()[top]}, std::vector<double>(at.data(), at.data() + d)};
+        MaximumPressure{{p[top], maps_[i].time()[top]}, std::vector<double>(at.data(), at.data() + d), {}};
+    summary.bodies[body].maximum_pressure->evidence.step = above_neighbours<d>(maps_[i], top);
   }
 }
 

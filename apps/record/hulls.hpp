@@ -3,6 +3,7 @@
 
 #include "apps/record/hull_map.hpp"
 #include "apps/record/settings.hpp"
+#include "apps/statistics/statistics.hpp"
 #include "apps/statistics/statistics_archive.hpp"
 #include "apps/statistics/summary.hpp"
 #include "fluid/fluid.hpp"
@@ -15,9 +16,11 @@ class HullReadings {
   /// Keeps the reference.
   explicit HullReadings(const RecorderSettings<d>& settings);
 
-  void read(const fluid::Fluid<d>& fluid, double time);
+  void read(const fluid::Fluid<d>& fluid, const Kick& kick);
   /// Of the patches, in their order, at the step read last [Pa].
   const std::vector<double>& pressures() const { return pressures_; }
+  /// Of a patch, in all steps.
+  const IntervalHistory& history(std::size_t patch) const { return histories_[patch]; }
   void summarise(Summary& summary) const;
   /// hull_BODY.vtu: the surface in the frame of the body's shape with p_max [Pa], t_max [s] (nan: never wet) and s, the
   /// distance from the keel [m].
@@ -28,7 +31,7 @@ class HullReadings {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(time_, peaks_);
+    archive(time_, peaks_, histories_);
     for (auto& map : maps_) archive(map);
   }
 
@@ -36,6 +39,7 @@ class HullReadings {
   const RecorderSettings<d>& settings_;
   double time_ = 0;
   std::vector<Peak> peaks_;
+  std::vector<IntervalHistory> histories_;
   std::vector<HullMap<d>> maps_;
   std::vector<double> pressures_;
 };

@@ -81,6 +81,8 @@ struct RecorderSettings {
   std::vector<AddedMassRecord> added_mass;
   /// Centres of mass of the bodies in the frames of their shapes [m], in which files give points of hulls; without: zero.
   std::map<std::string, fluid::Vec<d>> centre_of_mass;
+  /// By body: horizontal axes along which symmetry of the scene forbids a load.
+  std::map<std::string, std::vector<char>> symmetric;
   std::optional<double> still_water_level;  ///< [m]; absent: top of the free surface at the start
 };
 

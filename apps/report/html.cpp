@@ -37,10 +37,10 @@ std::string tiles(const RunData& run) {
   const bool several = bodies.size() > 1;
   for (const auto& [name, body] : bodies.items()) {
     const std::string of = several ? ", " + html_escaped(name) : std::string();
-    if (const double f = number_at(body, {"peak_force", "value"}); f > 0)
-      tile(with_unit(f, force_unit(run.dimension())), "peak load, resultant" + of);
-    if (const double g = number_at(body, {"peak_acceleration_g", "raw", "value"}); g > 0)
-      tile(digits(g, 3) + " g", "peak acceleration" + of);
+    if (const auto f = headline(body, "peak_force", run.dimension()); f.value > 0)
+      tile(with_unit(f.value, force_unit(run.dimension())), "peak load, resultant" + f.filter + of + f.band);
+    if (const auto a = headline(body, "peak_acceleration_g", run.dimension()); a.value > 0)
+      tile(digits(a.value, 3) + " g", "peak acceleration" + a.filter + of + a.band);
   }
   if (const double e = number_at(run.summary, {"ledger", "volume_error"}); std::isfinite(e))
     tile(percent(e), "change of volume");
@@ -138,15 +138,18 @@ std::string body_table(const RunData& run) {
     return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d));
   });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"peak_force", "time"})); });
+  row("its band", [](const Body& b) { return grade_text(b, {"peak_force"}); });
   row("peak acceleration, raw", [](const Body& b) {
     return digits(number_at(b, {"peak_acceleration_g", "raw", "value"}), 3) + " g";
   });
+  row("its band", [](const Body& b) { return grade_text(b, {"peak_acceleration_g", "raw"}); });
   for (const int cfc : {1000, 600, 180, 60})
     row(fmt::format("peak acceleration, CFC {}", cfc), [&](const Body& b) {
       const double peak = number_at(b, {"peak_acceleration_g", fmt::format("cfc{}", cfc).c_str(), "value"});
       return std::isfinite(peak) ? digits(peak, 3) + " g" : std::string("steps too long");
     });
-  row("its pulse: rise time, duration", [](const Body& b) {
+  row("its band", [](const Body& b) { return grade_text(b, {"peak_acceleration_g", "cfc60"}); });
+  row("the pulse: rise time, duration", [](const Body& b) {
     const auto& pulse = shown_pulse(member(b, "peak_acceleration_g"));
     return seconds_text(number_at(pulse, {"rise_time"})) + ", " + seconds_text(number_at(pulse, {"duration"}));
   });

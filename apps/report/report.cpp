@@ -15,6 +15,7 @@
 #include "apps/report/html.hpp"
 #include "apps/report/hull.hpp"
 #include "apps/report/page.hpp"
+#include "apps/report/price.hpp"
 #include "apps/report/study.hpp"
 
 namespace splashdown::apps {
@@ -55,6 +56,7 @@ void draw(const std::filesystem::path& folder, const std::vector<Figure>& curves
 
 ReportResult write_report(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw std::runtime_error(directory.string() + ": is not a folder");
+  if (holds_price(directory)) return write_price_report(directory);
   if (holds_study(directory)) return write_study_report(directory);
   const RunData data = read_run(directory);
   const auto folder = directory / "report";

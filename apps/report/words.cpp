@@ -48,20 +48,37 @@ void add_verdict(const nlohmann::ordered_json& summary, Banner& banner) {
                                  "\">" + html_escaped(reason.get<std::string>()) + "</b>");
 }
 
+/// " (± 2.1 %)", with the grade if it is not resolved; nothing for what is not graded.
+std::string band_text(const nlohmann::ordered_json& number) {
+  const auto grade = text_at(number, "grade");
+  if (grade.empty()) return {};
+  const double band = number_at(number, {"band_percent"});
+  const auto width = std::isfinite(band) ? "± " + digits(band, 2) + " %" : std::string("no band");
+  return grade == "resolved" ? " (" + width + ")" : " (" + html_escaped(grade) + ", " + width + ")";
+}
+
+const nlohmann::ordered_json& at(const nlohmann::ordered_json& json, std::initializer_list<const char*> path) {
+  static const nlohmann::ordered_json nothing;
+  const auto* node = &json;
+  for (const char* key : path) {
+    if (!node->is_object() || !node->contains(key)) return nothing;
+    node = &(*node)[key];
+  }
+  return *node;
+}
+
 void add_body_sentences(const RunData& run, std::vector<std::string>& sentences) {
-  const auto& bodies = run.summary.contains("bodies") ? run.summary["bodies"] : nlohmann::ordered_json::object();
-  for (const auto& [name, body] : bodies.items()) {
-    const double force = number_at(body, {"peak_force", "value"});
-    if (!(force > 0)) continue;
-    std::string text = fmt::format("The largest load on <b>{}</b>, all directions together, was <b>{}</b> at {}",
-                                   html_escaped(name), with_unit(force, force_unit(run.dimension())),
-                                   seconds_text(number_at(body, {"peak_force", "time"})));
-    const double raw = number_at(body, {"peak_acceleration_g", "raw", "value"});
-    if (raw > 0) {
-      text += fmt::format("; its centre of mass felt up to <b>{} g</b>", digits(raw, 3));
+  for (const auto& [name, body] : at(run.summary, {"bodies"}).items()) {
+    const auto force = headline(body, "peak_force", run.dimension());
+    if (!(force.value > 0)) continue;
+    std::string text = fmt::format("The largest load on <b>{}</b>, all directions together{}, was <b>{}</b>{} at {}",
+                                   html_escaped(name), force.filter, with_unit(force.value, force_unit(run.dimension())),
+                                   force.band, seconds_text(force.time));
+    if (const auto a = headline(body, "peak_acceleration_g", run.dimension()); a.value > 0) {
+      text += fmt::format("; its centre of mass felt up to <b>{} g</b>{}{}", digits(a.value, 3), a.filter, a.band);
       for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"}) {
         const double filtered = number_at(body, {"peak_acceleration_g", cfc, "value"});
-        if (!std::isfinite(filtered)) continue;
+        if (!a.filter.empty() || !std::isfinite(filtered)) continue;
         text += fmt::format(" ({} g filtered by CFC {})", digits(filtered, 3), cfc + 3);
         break;
       }
@@ -71,6 +88,23 @@ void add_body_sentences(const RunData& run, std::vector<std::string>& sentences)
 }
 
 }  // namespace
+
+ReportHeadline headline(const nlohmann::ordered_json& body, const std::string& key, int dimension) {
+  const bool force = key == "peak_force";
+  const auto& filtered = force ? at(body, {"peak_force_filtered", "cfc60"}) : at(body, {"peak_acceleration_g", "cfc60"});
+  const auto& raw = force ? at(body, {"peak_force"}) : at(body, {"peak_acceleration_g", "raw"});
+  const bool is_filtered = dimension == 3 && filtered.is_object();
+  const auto& peak = is_filtered ? filtered : raw;
+  const auto& grade = force ? at(body, is_filtered ? std::initializer_list<const char*>{"grades", "peak_force_filtered", "cfc60"}
+                                                   : std::initializer_list<const char*>{"grades", "peak_force"})
+                            : at(body, {"grades", "peak_acceleration_g", is_filtered ? "cfc60" : "raw"});
+  return {number_at(peak, {"value"}), number_at(peak, {"time"}), is_filtered ? " (CFC 60)" : "", band_text(grade)};
+}
+
+std::string grade_text(const nlohmann::ordered_json& body, std::initializer_list<const char*> path) {
+  const auto text = band_text(at(at(body, {"grades"}), path));
+  return text.empty() ? "–" : text.substr(2, text.size() - 3);
+}
 
 Unit si_unit(double largest, const std::string& unit) {
   largest = std::abs(largest);
@@ -175,6 +209,9 @@ Banner banner_of(const RunData& run) {
   const bool told = status == "failed" && !banner.sentences.empty();  // the verdict's reason has it
   if (!told && summary.contains("cause") && summary["cause"].is_string())
     banner.sentences.push_back("Cause: " + html_escaped(summary["cause"].get<std::string>()));
+  if (const auto next = text_at(at(summary, {"next"}), "text"); !next.empty())
+    banner.sentences.push_back("Next: <code>" + html_escaped(next.substr(0, next.find(','))) + "</code>" +
+                               html_escaped(next.substr(next.find(','))) + ".");
   banner.sentences.push_back(fmt::format("<b>{}</b> were simulated in <b>{}</b> of wall time, {} steps.",
                                          seconds_text(number_at(summary, {"simulated_time"})),
                                          seconds_text(number_at(summary, {"wall_seconds"})),

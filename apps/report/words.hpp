@@ -25,6 +25,16 @@ std::string energy_unit(int dimension);  ///< J/m or J
 std::string digits(double value, int count = 4);
 std::string with_unit(double value, const std::string& unit, int digits = 4);  ///< with an SI prefix
 std::string seconds_text(double seconds);                                      ///< "840 ms", "13.2 s", "2 h 05 min"
+/// A peak of a body that stands for all: raw in the plane, in space, where raw peaks do not converge, of CFC 60.
+struct ReportHeadline {
+  double value, time;
+  std::string filter, band;  ///< " (CFC 60)", " (doubtful, ± 7 %)" or nothing
+};
+/// `key`: "peak_force" or "peak_acceleration_g".
+ReportHeadline headline(const nlohmann::ordered_json& body, const std::string& key, int dimension);
+/// Grade and band of a number of a body, where its grades have it.
+std::string grade_text(const nlohmann::ordered_json& body, std::initializer_list<const char*> path);
+
 std::string percent(double share);
 std::string count_text(double count);
 

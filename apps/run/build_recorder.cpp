@@ -1,4 +1,5 @@
 #include "apps/run/build.hpp"
+#include "apps/run/symmetry.hpp"
 #include "apps/scene/patch.hpp"
 
 namespace splashdown::apps {
@@ -56,7 +57,10 @@ RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem:
   settings.directory = directory;
   settings.interval = scene.output.interval;
   settings.frames = scene.output.frames;
-  for (const auto& body : scene.bodies) settings.centre_of_mass[body.name] = mass_properties<d>(body).centre;
+  for (const auto& body : scene.bodies) {
+    settings.centre_of_mass[body.name] = mass_properties<d>(body).centre;
+    settings.symmetric[body.name] = symmetric_axes<d>(scene, body);
+  }
   for (const auto& record : scene.records) std::visit(AddRecord<d>{scene, settings}, record);
   return settings;
 }

@@ -9,6 +9,7 @@
 #include "apps/cli/plain_text.hpp"
 #include "apps/record/frames.hpp"
 #include "apps/run/progress.hpp"
+#include "apps/statistics/grades.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -22,13 +23,37 @@ std::string percent(double share) {
 
 std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
 
+/// " (+- 2.1 %)", with the grade if it is not resolved; nothing for what is not graded.
+std::string band_text(const NumberGrade* number) {
+  if (!number) return {};
+  const auto band = std::isfinite(number->band) ? fmt::format("+- {} %", percent(number->band)) : "no band";
+  return number->grade == Grade::resolved ? " (" + band + ")" : fmt::format(" ({}, {})", band, name_of(number->grade));
+}
+
+/// The peak that is the headline: in space raw ones do not converge, and CFC 60 stands for them.
+struct Shown {
+  const Pulse* pulse;
+  const NumberGrade* grade;
+  std::string filter;
+};
+Shown shown(const PulseSummary& pulses, const PulseGrades& grades, int dimension) {
+  const auto graded = grades.cfc.find(structures_class);
+  const auto filtered = pulses.cfc.find(structures_class);
+  if (dimension == 3 && filtered != pulses.cfc.end())
+    return {&filtered->second, graded == grades.cfc.end() ? nullptr : &graded->second,
+            fmt::format(" (CFC {})", structures_class)};
+  return {&pulses.raw, grades.raw ? &*grades.raw : nullptr, ""};
+}
+
 std::string impact_text(const BodySummary& body, int dimension) {
-  const auto& a = body.acceleration.raw;
-  if (body.landing.first_contact < 0) return fmt::format("stayed dry, peak acceleration {:.3g} g{}", a.value, at(a));
+  const auto a = shown(body.acceleration, body.acceleration_grades, dimension);
+  const auto f = shown(body.force, body.force_grades, dimension);
+  if (body.landing.first_contact < 0)
+    return fmt::format("stayed dry, peak acceleration {:.3g} g{}", a.pulse->value, at(*a.pulse));
   const std::string force = dimension == 2 ? "N/m" : "N";
-  auto text = fmt::format("wet from {}, peak force {}{}, peak acceleration {:.3g} g{}",
-                          with_unit(body.landing.first_contact, "s"), with_unit(body.force.raw.value, force),
-                          at(body.force.raw), a.value, at(a));
+  auto text = fmt::format("wet from {}, peak force{} {}{}{}, peak acceleration{} {:.3g} g{}{}",
+                          with_unit(body.landing.first_contact, "s"), f.filter, with_unit(f.pulse->value, force),
+                          at(*f.pulse), band_text(f.grade), a.filter, a.pulse->value, at(*a.pulse), band_text(a.grade));
   double total = 0, repair = 0;
   for (const double value : body.impulse) total += value * value;
   for (const double value : body.impulse_repair) repair += value * value;
@@ -37,13 +62,15 @@ std::string impact_text(const BodySummary& body, int dimension) {
 }
 
 /// Filtered peaks of all classes, and the pulse in the class that J211 gives for integration to velocity or the next one.
-std::string pulse_text(const PulseSummary& acceleration) {
+std::string pulse_text(const PulseSummary& acceleration, const PulseGrades& grades = {}) {
   const auto& classes = acceleration.cfc;
   if (classes.empty()) return {};
   std::string names, peaks;
   for (const auto& [cfc, pulse] : classes) {
     names += fmt::format("{}{}", names.empty() ? "" : "/", cfc);
-    peaks += fmt::format("{}{:.3g}", peaks.empty() ? "" : ", ", pulse.value);
+    const auto graded = grades.cfc.find(cfc);
+    peaks += fmt::format("{}{:.3g}{}", peaks.empty() ? "" : ", ", pulse.value,
+                         band_text(cfc == structures_class && graded != grades.cfc.end() ? &graded->second : nullptr));
   }
   auto text = fmt::format("CFC {}: {} g", names, peaks);
   const auto chosen = classes.contains(180) ? classes.find(180) : classes.begin();
@@ -75,12 +102,14 @@ std::string landing_text(const BodySummary& body) {
 
 std::string body_rows(const std::string& name, const BodySummary& body, int dimension) {
   auto text = row(name, impact_text(body, dimension));
-  if (const auto pulse = pulse_text(body.acceleration); !pulse.empty()) text += row("", pulse);
+  if (const auto pulse = pulse_text(body.acceleration, body.acceleration_grades); !pulse.empty())
+    text += row("", pulse);
   if (body.landing.first_contact >= 0) text += row("", landing_text(body));
-  if (const auto& highest = body.maximum_pressure)
-    text +=
-        row("", fmt::format("maximum pressure {}{}, at ({:.3g}) m of its shape", with_unit(highest->peak.value, "Pa"),
-                            at(highest->peak), fmt::join(highest->point, ", ")));
+  if (const auto& highest = body.maximum_pressure; highest && dimension == 2)
+    text += row("", fmt::format("maximum pressure {}{}{}, at ({:.3g}) m of its shape",
+                                with_unit(highest->peak.value, "Pa"), at(highest->peak),
+                                band_text(body.maximum_pressure_grade ? &*body.maximum_pressure_grade : nullptr),
+                                fmt::join(highest->point, ", ")));
   return text;
 }
 
@@ -178,14 +207,16 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
   for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
   for (const auto& [name, point] : summary.equipment) text += row(name, equipment_text(point));
   for (const auto& [name, patch] : summary.patches)
-    text += row(name, fmt::format("peak pressure {}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
-                                  at(patch.pressure), patch.area, summary.dimension == 2 ? "m" : "m^2"));
+    text += row(name, fmt::format("peak pressure {}{}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
+                                  at(patch.pressure), band_text(patch.grade ? &*patch.grade : nullptr), patch.area,
+                                  summary.dimension == 2 ? "m" : "m^2"));
   if (summary.nodes && summary.ledger) text += row("liquid", liquid_text(summary));
   if (summary.coupling) text += row("coupling", coupling_text(*summary.coupling));
   if (summary.rejected_steps > 0) text += row("refused", refused_text(summary));
   if (summary.wall_seconds > 0) text += row("spent on", time_text(summary));
   text += row("files", files_text(directory, summary.bodies));
   text += verdict_rows(summary.verdict, ink);
+  if (summary.next) text += row("next", text_of(*summary.next));
   return text;
 }
 

@@ -70,6 +70,7 @@ Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene
   auto summary = run.summary(end);
   summary.scene = scene_name;
   write_summary(directory, summary);
+  if (options.no_report) return summary;
   const auto later = fmt::format("splashdown report {} draws it", directory.string());
   if (end.status == LoopEnd::Status::interrupted && interrupt_received()) {
     say(options, "no report: " + later);
@@ -100,7 +101,7 @@ int go(Run<d>& run, const std::string& scene_name, const RunOptions& options, co
   if (options.quiet) return exit_code_of(end);
   fmt::print("{}", closing_text(summary, directory, on_terminal() ? Ink::colour : Ink::plain));
   if (end.status == LoopEnd::Status::interrupted) fmt::print("stopped: {}; continue with --resume\n", end.cause);
-  if (end.status == LoopEnd::Status::done)
+  if (end.status == LoopEnd::Status::done && !options.no_report)
     fmt::print("next: open {} in a browser{}\n", (directory / "report.html").string(),
                fs::exists(directory / "frames.pvd") ? ", frames.pvd in ParaView" : "");
   return exit_code_of(end);
@@ -251,6 +252,7 @@ int run_command(const RunOptions& options) {
     return bad_input(error.what());
   }
   for (const auto& note : start.file.notes) say(options, "note: " + note);
+  for (const auto& size : start.file.chosen) say(options, "chosen: " + size);
   set_threads(options.threads, start.file.scene.dimension);
   return start.file.scene.dimension == 2 ? run_scene<2>(options, std::move(start))
                                          : run_scene<3>(options, std::move(start));

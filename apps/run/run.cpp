@@ -1,6 +1,7 @@
 #include "apps/run/run.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <sstream>
@@ -35,6 +36,13 @@ std::map<std::string, double> as_map(const std::vector<std::pair<std::string, do
   std::map<std::string, double> result;
   for (const auto& [name, seconds] : phases) result[name] += seconds;
   return result;
+}
+
+/// Largest resident set of this process. Linux counts in units of 1024 bytes (getrusage(2)).
+double memory_mb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 * 1e-6;
 }
 
 double sum(const std::map<std::string, double>& phases) {
@@ -223,6 +231,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   s.simulated_time = time();
   s.steps = loop_.steps;
   s.wall_seconds = wall_seconds();
+  s.memory_mb = memory_mb();
   s.rejected_causes = loop_.rejected;
   for (const auto& [cause, count] : loop_.rejected) s.rejected_steps += count;
   const auto spent = phases();

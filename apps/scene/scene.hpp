@@ -94,6 +94,7 @@ struct Region {
 };
 
 struct Sizes {
+  double refine = 1;           ///< the lengths and shares that a mesh and dt_max were given have been divided by this
   double surface = 0;          ///< at the free surface [m]
   double far = 0;              ///< largest element [m]; default: `surface`
   double growth = 0.15;        ///< dh/dx; the wedges of docs/validation.md use 0.1

@@ -41,6 +41,18 @@ PulseSummary PulseStatistics::summary(double unit) const {
   return summary;
 }
 
+namespace {
+
+/// Evidence about each peak of a channel that was recorded in the same steps.
+PulseGrades evidence_of(const EvidenceStatistics& steps, const PulseSummary& pulses, const PulseStatistics& channel) {
+  PulseGrades grades;
+  if (pulses.raw.time >= 0) grades.raw.emplace().evidence = steps.about(pulses.raw, channel.history(), {});
+  for (const auto& [cfc, pulse] : pulses.cfc) grades.cfc[cfc].evidence = steps.about(pulse, channel.history(), cfc);
+  return grades;
+}
+
+}  // namespace
+
 template <int d>
 void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
   acceleration_.add(kick, {reading.acceleration.data(), static_cast<std::size_t>(d)});
@@ -52,6 +64,16 @@ void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
   offer_if_finite(submergence_, reading.submergence, kick.time);
   offer_if_finite(wetted_, reading.load.wetted, kick.time);
   force_.add(kick, {total.data(), static_cast<std::size_t>(d)});
+  const auto force = total.template head<d>();
+  const auto repair = reading.load.repair.template head<d>();
+  evidence_.add(kick.begin, kick.end,
+                {{force.begin(), force.end()},
+                 {repair.begin(), repair.end()},
+                 reading.facets,
+                 reading.load.wetted,
+                 reading.velocity.template head<d>().norm(),
+                 reading.symmetric});
+  mass_ = reading.free ? reading.mass : 0;
   landing_.add(kick.time, {reading.rotation, reading.velocity, reading.load.wetted, reading.free}, reading.extent);
 }
 
@@ -65,6 +87,11 @@ BodySummary BodyStatistics<d>::summary() const {
   summary.submergence = submergence_;
   summary.wetted = wetted_;
   summary.landing = landing_.summary();
+  summary.force_grades = evidence_of(evidence_, summary.force, force_);
+  if (mass_ == 0) return summary;  // what moves as prescribed has no acceleration of its own
+  summary.acceleration_grades = evidence_of(evidence_, summary.acceleration, acceleration_);
+  const double inertia = mass_ * standard_gravity * summary.acceleration.raw.value;
+  if (summary.force.raw.value > 0) summary.inertial = std::min(1., inertia / summary.force.raw.value);
   return summary;
 }
 

@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "apps/statistics/evidence.hpp"
 #include "apps/statistics/filters.hpp"
 #include "apps/statistics/landing_statistics.hpp"
 #include "apps/statistics/statistics_archive.hpp"
@@ -27,6 +28,7 @@ class PulseStatistics {
   /// Peaks in units of `unit`, changes as they are.
   PulseSummary summary(double unit = 1) const;
   const Peak& peak() const { return raw_; }
+  const IntervalHistory& history() const { return history_; }
   template <class Archive>
   void serialize(Archive& archive) {
     archive(raw_, history_);
@@ -45,6 +47,9 @@ struct BodyReading {
   Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
   HullExtent extent;
   bool free;  ///< the water moves it
+  double mass = 0;              ///< [kg, kg/m]
+  double facets = 0;            ///< of the mesh, wetted by it
+  std::vector<char> symmetric;  ///< horizontal axes along which no load may act
 };
 
 template <int d>
@@ -52,10 +57,12 @@ class BodyStatistics {
  public:
   void add(const Kick& kick, const BodyReading<d>& reading);
   BodySummary summary() const;
+  const EvidenceStatistics& evidence() const { return evidence_; }
   double peak_force() const { return force_.peak().time < 0 ? 0 : force_.peak().value; }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_);
+    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_,
+            evidence_, mass_);
   }
 
  private:
@@ -63,6 +70,8 @@ class BodyStatistics {
   Peak submergence_, wetted_;
   std::array<double, d> impulse_{}, impulse_repair_{};
   LandingStatistics<d> landing_;
+  EvidenceStatistics evidence_;
+  double mass_ = 0;  ///< of a free body [kg, kg/m]
 };
 
 /// Counts of the mesh and of the coupling's passes.

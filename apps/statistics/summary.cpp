@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/record/csv.hpp"
+#include "apps/statistics/grades.hpp"
 
 namespace splashdown::apps {
 
@@ -52,6 +53,44 @@ Json json_of(const std::vector<double>& values) {
 
 Json json_of(const Verdict& verdict) { return {{"grade", name_of(verdict.grade)}, {"reasons", verdict.reasons}}; }
 
+Json json_of(const Evidence& evidence) {
+  Json json = Json::object();
+  const auto put = [&](const char* key, double value) {
+    if (!std::isnan(value)) json[key] = number(value);
+  };
+  put("elements", evidence.elements);
+  put("growing_share", evidence.growing);
+  put("repair_share", evidence.repair);
+  put("step_share", evidence.step);
+  put("sideways_share", evidence.sideways);
+  put("patch_elements", evidence.pressed);
+  return json;
+}
+
+Json json_of(const NumberGrade& grade) {
+  return {{"grade", name_of(grade.grade)},
+          {"band_percent", number(100 * grade.band)},
+          {"reasons", grade.reasons},
+          {"evidence", json_of(grade.evidence)}};
+}
+
+Json json_of_classes(const std::map<int, NumberGrade>& classes) {
+  Json json = Json::object();
+  for (const auto& [cfc, grade] : classes) json["cfc" + std::to_string(cfc)] = json_of(grade);
+  return json;
+}
+
+/// Under the keys of the numbers themselves.
+Json json_of_grades(const BodySummary& body) {
+  Json json = Json::object(), acceleration = json_of_classes(body.acceleration_grades.cfc);
+  if (body.acceleration_grades.raw) acceleration["raw"] = json_of(*body.acceleration_grades.raw);
+  json["peak_acceleration_g"] = acceleration;
+  if (body.force_grades.raw) json["peak_force"] = json_of(*body.force_grades.raw);
+  json["peak_force_filtered"] = json_of_classes(body.force_grades.cfc);
+  if (body.maximum_pressure_grade) json["maximum_pressure"] = json_of(*body.maximum_pressure_grade);
+  return json;
+}
+
 Json json_of(const RangeCount& count) {
   return {{"initial", count.initial}, {"max", count.max}, {"final", count.final}};
 }
@@ -89,6 +128,7 @@ Json json_of(const BodySummary& body) {
     json["maximum_pressure"]["point"] = json_of(body.maximum_pressure->point);
   }
   json["verdict"] = json_of(body.verdict);
+  json["grades"] = json_of_grades(body);
   return json;
 }
 
@@ -169,9 +209,14 @@ std::string to_json(const Summary& summary) {
   json["status"] = summary.status;
   if (!summary.cause.empty()) json["cause"] = summary.cause;
   json["verdict"] = json_of(summary.verdict);
+  if (summary.next)
+    json["next"] = {{"refine", summary.next->refine},
+                    {"seconds", number(summary.next->seconds)},
+                    {"text", text_of(*summary.next)}};
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);
+  json["memory_mb"] = number(summary.memory_mb);
   json["rejected_steps"] = summary.rejected_steps;
   json["rejected_causes"] = json_of(summary.rejected_causes);
   json["phases"] = Json::object();
@@ -188,8 +233,10 @@ std::string to_json(const Summary& summary) {
   for (const auto& [name, body] : summary.bodies) json["bodies"][name] = json_of(body);
   if (!summary.equipment.empty())
     for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of_acceleration(point);
-  for (const auto& [name, patch] : summary.patches)
+  for (const auto& [name, patch] : summary.patches) {
     json["patches"][name] = {{"peak_pressure", json_of(patch.pressure)}, {"area", number(patch.area)}};
+    if (patch.grade) json["patches"][name]["grades"]["peak_pressure"] = json_of(*patch.grade);
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -32,6 +32,30 @@ struct Verdict {
   std::vector<std::string> reasons;  ///< sentences: what, how much, what to do
 };
 
+/// What the steps around a peak say about it (evidence.hpp); nan: nothing.
+struct Evidence {
+  double elements = std::numeric_limits<double>::quiet_NaN();  ///< on half of the wetted width
+  double growing = std::numeric_limits<double>::quiet_NaN();   ///< share of the wetted width that is new
+  double repair = std::numeric_limits<double>::quiet_NaN();    ///< share of the load that came as repair impulses
+  double step = std::numeric_limits<double>::quiet_NaN();      ///< deviation from the steps around it, relative
+  double sideways = std::numeric_limits<double>::quiet_NaN();  ///< load that symmetry forbids, over the load
+  double pressed = std::numeric_limits<double>::quiet_NaN();   ///< elements on half of the width of a patch
+};
+
+/// Of one number (grades.hpp).
+struct NumberGrade {
+  Grade grade = Grade::resolved;
+  double band = 0;  ///< relative, to either side
+  std::vector<std::string> reasons;
+  Evidence evidence;
+};
+
+/// Of a pulse, raw and in the classes that it has.
+struct PulseGrades {
+  std::optional<NumberGrade> raw;
+  std::map<int, NumberGrade> cfc;
+};
+
 struct RangeCount {
   long initial = 0, max = 0, final = 0;
 };
@@ -77,11 +101,15 @@ struct LandingSummary {
 struct MaximumPressure {
   Peak peak;                  ///< [Pa]
   std::vector<double> point;  ///< in the frame of the body's shape [m]
+  Evidence evidence;
 };
 
 struct PatchSummary {
   Peak pressure;    ///< mean over the patch [Pa]
   double area = 0;  ///< [m, m^2]
+  std::string body;
+  Evidence evidence;
+  std::optional<NumberGrade> grade;
 };
 
 struct BodySummary {
@@ -93,6 +121,9 @@ struct BodySummary {
   Peak wetted;                         ///< wetted length or area [m, m^2]
   LandingSummary landing;
   std::optional<MaximumPressure> maximum_pressure;  ///< if a record asks for it
+  double inertial = 1;  ///< |m a| over the load at the largest load, 1 for bodies that are not free
+  PulseGrades acceleration_grades, force_grades;  ///< first with the evidence alone, then graded (grades.hpp)
+  std::optional<NumberGrade> maximum_pressure_grade;
   Verdict verdict;
 };
 
@@ -124,6 +155,11 @@ struct CouplingSummary {
   std::map<std::string, long> rejected_causes;
 };
 
+/// What would make a run's bands narrower (grades.hpp).
+struct NextStep {
+  double refine = 0, seconds = 0;  ///< what all sizes are to be divided by, and what that costs of wall time [s]
+};
+
 struct Summary {
   std::string scene;   ///< name of the scene, for headings
   std::string status;  ///< "done", "failed" or "interrupted" (by a signal or a spent budget)
@@ -133,6 +169,7 @@ struct Summary {
   double simulated_time = 0;  ///< [s]
   long steps = 0;
   double wall_seconds = 0;
+  double memory_mb = 0;     ///< largest resident set of the process
   long rejected_steps = 0;  ///< attempts that were refused and repeated with half of dt
   std::map<std::string, long> rejected_causes;
   std::vector<std::pair<std::string, double>> phases;  ///< seconds each
@@ -145,6 +182,7 @@ struct Summary {
   std::map<std::string, BodySummary> bodies;
   std::map<std::string, PulseSummary> equipment;  ///< accelerations; peaks [g]
   std::map<std::string, PatchSummary> patches;
+  std::optional<NextStep> next;  ///< absent: every headline is resolved
 };
 
 std::string to_json(const Summary& summary);

@@ -1,11 +1,13 @@
 #include "apps/statistics/verdict.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "apps/report/words.hpp"
+#include "apps/statistics/grades.hpp"
 
 namespace splashdown::apps {
 
@@ -118,6 +120,18 @@ void add(Verdict& verdict, const Finding& finding) {
   verdict.reasons.push_back(finding.reason);
 }
 
+/// A body is worth what its headline numbers are.
+void add_numbers(Summary& summary, const std::string& name, BodySummary& body) {
+  const auto of_run = body.verdict.grade;
+  for (const auto& [what, value, number] : headlines(summary, name)) {
+    if (number->grade <= of_run) continue;
+    Finding finding{number->grade, fmt::format("{}: {} {} within {:.2g} %: {}.", name, what, value, 100 * number->band,
+                                               fmt::join(number->reasons, "; "))};
+    add(body.verdict, finding);
+    add(summary.verdict, finding);
+  }
+}
+
 }  // namespace
 
 void judge(Summary& summary) {
@@ -130,6 +144,9 @@ void judge(Summary& summary) {
     for (auto& [name, body] : summary.bodies)
       if (concerns(body)) add(body.verdict, *finding);
   }
+  grade_numbers(summary);
+  for (auto& [name, body] : summary.bodies) add_numbers(summary, name, body);
+  summary.next = next_step(summary);
 }
 
 }  // namespace splashdown::apps

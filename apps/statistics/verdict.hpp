@@ -3,6 +3,7 @@
 //   gain of energy over what there was to give or to take, kinetic energy below zero, change of volume over the volume of
 //   the hulls or of all water, whichever is less:    > 5 %: unphysical,  > 2 %: doubtful
 //   a run that could not go on: unphysical
+//   headline numbers of bodies whose band is wide (grades.hpp): doubtful, unresolved
 //
 // The limits are those of engineering error bands: a load that is wanted within 5 % cannot come from water whose energy is
 // wrong by more. A change of volume has no innocent cause: liquid has no inlet and no outlet, and drops count. A body is

@@ -27,10 +27,18 @@ PulseSummary all_classes() {
   return pulse;
 }
 
+PulseGrades all_grades() {
+  PulseGrades grades;
+  grades.raw.emplace().evidence = {0, 0, 0, 0, 0, 0};
+  for (const int cfc : channel_frequency_classes) grades.cfc[cfc] = *grades.raw;
+  return grades;
+}
+
 BodySummary whole_body(const Scene& scene, std::size_t index) {
   BodySummary body;
   const auto d = static_cast<std::size_t>(scene.dimension);
   body.acceleration = body.force = all_classes();
+  body.acceleration_grades = body.force_grades = all_grades();
   body.impulse = body.impulse_repair = std::vector<double>(d);
   body.submergence.time = body.wetted.time = body.landing.maximum_tilt.time = 0;
   for (std::size_t k = 0; k < attitude_names.size(); ++k)
@@ -38,7 +46,7 @@ BodySummary whole_body(const Scene& scene, std::size_t index) {
   body.landing.first_contact = body.landing.capsized_since = body.landing.settled = 0;
   for (const auto& record : scene.records)
     if (const auto* highest = std::get_if<MaximumPressureEntry>(&record); highest && highest->body == index)
-      body.maximum_pressure = MaximumPressure{.peak = {0, 0}, .point = std::vector<double>(d)};
+      body.maximum_pressure_grade.emplace(), body.maximum_pressure = MaximumPressure{.peak = {0, 0}, .point = std::vector<double>(d), .evidence = {}};
   return body;
 }
 
@@ -56,7 +64,10 @@ nlohmann::json fullest_summary(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) summary.bodies[scene.bodies[i].name] = whole_body(scene, i);
   for (const auto& record : scene.records) {
     if (const auto* point = std::get_if<AccelerationEntry>(&record)) summary.equipment[point->name] = all_classes();
-    if (const auto* patch = std::get_if<PatchEntry>(&record)) summary.patches[patch->name].pressure.time = 0;
+    if (const auto* patch = std::get_if<PatchEntry>(&record)) {
+      summary.patches[patch->name].pressure.time = 0;
+      summary.patches[patch->name].grade.emplace().evidence = {0, 0, 0, 0, 0, 0};
+    }
   }
   return nlohmann::json::parse(to_json(summary));
 }

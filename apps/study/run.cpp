@@ -197,15 +197,9 @@ double study_time_left(double between, std::size_t runs, double since) {
 }
 
 std::vector<std::string> command_of(const Study& study, const StudyRun& run, const fs::path& folder) {
-  std::vector<std::string> words = {own_program().string(),
-                                    "run",
-                                    study.scene.string(),
-                                    "--out",
-                                    folder.string(),
-                                    "--threads",
-                                    "1",
-                                    "--resume",
-                                    "--quiet"};
+  std::vector<std::string> words = {
+      own_program().string(), "run", study.scene.string(), "--out", folder.string(), "--resume", "--quiet"};
+  if (study.threads) words.insert(words.end(), {"--threads", fmt::format("{}", *study.threads)});
   if (study.until) words.insert(words.end(), {"--until", fmt::format("{}", *study.until)});
   if (study.large) words.emplace_back("--large");
   if (study.budget) words.insert(words.end(), {"--budget", fmt::format("{}", *study.budget)});

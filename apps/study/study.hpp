@@ -73,7 +73,8 @@ struct Study {
   std::optional<double> budget;  ///< wall seconds after which a run has stalled
   std::optional<double> until;   ///< simulated time at which every run stops [s]
   Place until_place;
-  bool large = false;  ///< runs may take whatever memory they need
+  bool large = false;              ///< runs may take whatever memory they need
+  std::optional<int> threads = 1;  ///< of each run; nothing: what a run takes by itself
   std::optional<Samples> samples;
   std::vector<Axis> axes;
   std::vector<StudyQuantity> quantities;

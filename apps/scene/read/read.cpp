@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/read/fill_sizes.hpp"
 #include "apps/scene/read/override.hpp"
 #include "apps/scene/read/parts.hpp"
 #include "apps/scene/rules/check.hpp"
@@ -20,11 +21,13 @@ double finest(const Scene& scene) {
   return h;
 }
 
+double refine_of(const Scene& scene) { return scene.fluid ? scene.fluid->size.refine : 1; }
+
 /// Surface waves as short as the elements stay stable in an explicit scheme, which bounds dt by
 /// 2 / sqrt(pi |g| / h) = 1.13 sqrt(h / |g|). Without such waves: a hundred steps at least.
 double default_dt_max(const Scene& scene) {
   const double g = scene.gravity ? scene.gravity->acceleration.norm() : 0;
-  return scene.fluid && g > 0 ? scene.time.cfl * std::sqrt(finest(scene) / g) : scene.time.end / 100;
+  return scene.fluid && g > 0 ? scene.time.cfl * std::sqrt(finest(scene) / g) : scene.time.end / 100 / refine_of(scene);
 }
 
 bool meets_fluid_freely(const Scene& scene) {
@@ -39,7 +42,7 @@ void read_tank(Reader& reader, Scene& scene) {
   reader.point("max", tank.max, place, Need::required);
   if (!scene.fluid) return reader.skip("size");
   tank.size = scene.fluid->size.far;
-  reader.number("size", tank.size, positive("m", "Use e.g. fluid.size.far."));
+  reader.number("size", tank.size, refined(positive("m", "Use e.g. fluid.size.far."), scene.fluid->size.refine));
 }
 
 void read_gravity(Reader& reader, Scene& scene) {
@@ -84,7 +87,8 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   });
   if (root.table("contact")) scene.contact.emplace();
   scene.time.dt_max = default_dt_max(scene);
-  time.number("dt_max", scene.time.dt_max, positive("s", "Leave it out for a sensible value."));
+  time.number("dt_max", scene.time.dt_max,
+              refined(positive("s", "Leave it out for a sensible value."), refine_of(scene)));
   if (meets_fluid_freely(scene)) {
     Reader coupling = root.table_or_defaults("coupling");
     read_coupling(coupling, scene.coupling.emplace());
@@ -111,8 +115,20 @@ SceneLabels read_all(ReadContext& context, const toml::table& table, Scene& scen
   return read_tables(root, scene);
 }
 
-SceneFile read_root(const toml::table& table, const std::filesystem::path& folder, Problems& problems) {
+/// The scene without the sizes that it leaves open; nothing if anything is wrong with it.
+std::optional<Scene> read_without_sizes(const toml::table& table, const std::filesystem::path& folder) {
+  Problems problems("");
+  Echo unused;
+  ReadContext context{.problems = problems, .echo = unused, .folder = folder};
+  Scene scene;
+  read_all(context, table, scene);
+  return problems.empty() ? std::optional(scene) : std::nullopt;
+}
+
+SceneFile read_root(toml::table& table, const std::filesystem::path& folder, Problems& problems) {
   SceneFile file;
+  if (sizes_are_open(table))
+    if (const auto scene = read_without_sizes(table, folder)) file.chosen = fill_sizes(table, *scene);
   Echo echo;
   ReadContext context{.problems = problems, .echo = echo, .folder = folder};
   const auto labels = read_all(context, table, file.scene);

@@ -17,6 +17,7 @@ class Sketch;
 struct SceneFile {
   Scene scene;
   std::vector<std::string> notes;  ///< what was understood otherwise than it was written
+  std::vector<std::string> chosen;  ///< sizes that the scene left open, and why these: a line each
   std::string resolved;            ///< TOML with every value in force; reads to the same scene
 };
 

@@ -204,7 +204,8 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
   }
   if (scene.fluid) {
     body.size = scene.fluid->size.surface;
-    reader.number("size", body.size, positive("m", "Use e.g. a fiftieth of the body's breadth."));
+    reader.number("size", body.size,
+                  refined(positive("m", "Use e.g. a fiftieth of the body's breadth."), scene.fluid->size.refine));
   } else {
     reader.skip("size");
   }

@@ -72,18 +72,22 @@ void read_region(Reader& reader, Region& region) {
 }
 
 void read_sizes(Reader& reader, Sizes& size) {
-  reader.number("surface", size.surface, positive("m", "Use e.g. a fiftieth of the body's breadth."), Need::required);
+  // Two decades either way: beyond them it is another scene, or a slip.
+  size.refine = reader.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for elements of half the size."));
+  const auto finer = [&](Rule rule) { return refined(std::move(rule), size.refine); };
+  reader.number("surface", size.surface,
+                finer(positive("m", "Leave it out to have sizes chosen, or use e.g. a fifth of the body's breadth.")));
   size.far = size.surface;
-  reader.number("far", size.far, positive("m", "Use fluid.size.surface or more."));
+  reader.number("far", size.far, finer(positive("m", "Use fluid.size.surface or more.")));
   reader.number("growth", size.growth, share("Use 0.1 to 0.2: the element size's growth per unit distance."));
   reader.number("wetted_fraction", size.wetted_fraction,
-                within(0, 0.5, "",
-                       "Use 0 (off), 0.004 to 0.01 in the plane or 0.03 in space: h over the wetted half length, for "
-                       "starting impacts."));
+                finer(within(0, 0.5, "",
+                             "Use 0 (off), 0.004 to 0.01 in the plane or 0.03 in space: h over the wetted half length, "
+                             "for starting impacts.")));
   reader.number("hollow", size.hollow,
                 positive("", "Use e.g. 0.2, or leave it out: h over the radius of a jet's root."));
   if (size.hollow)
-    reader.number("hollow_min", size.hollow_min, positive("m", "Use e.g. a quarter of the hull's size."),
+    reader.number("hollow_min", size.hollow_min, finer(positive("m", "Use e.g. a quarter of the hull's size.")),
                   Need::required);
   else
     reader.skip("hollow_min");
@@ -95,7 +99,8 @@ void read_sizes(Reader& reader, Sizes& size) {
 
 void read_fluid(Reader& reader, Fluid& fluid) {
   reader.number("density", fluid.density, positive("kg/m^3", "Use e.g. 1000 for water."), Need::required);
-  if (auto size = reader.table("size", Need::required)) read_sizes(*size, fluid.size);
+  Reader size = reader.table_or_defaults("size");
+  read_sizes(size, fluid.size);
   reader.each_table("region", [&](Reader& region) { read_region(region, fluid.regions.emplace_back()); });
   if (fluid.regions.empty() && !reader.holds("region"))
     reader.context().problems.add_missing(reader.key("region"), "a fluid needs liquid to begin with",

@@ -180,7 +180,16 @@ std::optional<double> Reader::number_of(const toml::node& node, const std::strin
     context_->problems.add(key, fmt::format("must not be below {:g} m", smallest_length), rule.cure);
     return {};
   }
-  return value;
+  if (rule.divisor == 1) return value;
+  const double in_force = value / rule.divisor;
+  if (!rule.holds(in_force) || (rule.unit == "m" && (in_force > largest_length || in_force < smallest_length))) {
+    context_->problems.add(key,
+                           fmt::format("{}, and so must what fluid.size.refine = {:g} makes of it, {:g}", rule.law(),
+                                       rule.divisor, in_force),
+                           "Use a refine nearer to 1.");
+    return {};
+  }
+  return in_force;
 }
 
 std::optional<std::vector<double>> Reader::list_of(const toml::node& node, const std::string& key, std::size_t length,
@@ -228,6 +237,14 @@ void Reader::number(std::string_view name, std::optional<double>& target, const 
   if (visit_ && holds(name)) target = 1;  // for the keys that hang on it
   if (const auto* node = find(name, Need::optional, {}, {})) target = number_of(*node, key(name), rule);
   if (target) echo(name, *target);
+}
+
+double Reader::divisor(std::string_view name, const Rule& rule) {
+  note(name, {.type = Wanted::Type::number, .rule = rule});
+  double value = 1;
+  if (const auto* node = find(name, Need::optional, {}, {})) value = number_of(*node, key(name), rule).value_or(1.);
+  echo(name, 1.);
+  return value;
 }
 
 void Reader::integer(std::string_view name, int& target, const Rule& rule) {

@@ -72,6 +72,8 @@ class Reader {
 
   void number(std::string_view name, double& target, const Rule& rule, Need need = Need::optional);
   void number(std::string_view name, std::optional<double>& target, const Rule& rule);
+  /// What others are divided by, 1 if it is absent. Their echo is what came of it, hence its own is 1.
+  double divisor(std::string_view name, const Rule& rule);
   void integer(std::string_view name, int& target, const Rule& rule);
   void text(std::string_view name, std::string& target, const std::string& cure, Need need = Need::optional);
   /// The name of a file, made absolute: relative ones begin at the scene's folder.

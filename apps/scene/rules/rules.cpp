@@ -43,4 +43,9 @@ Rule within(double low, double high, std::string unit, std::string cure) {
   return {.unit = std::move(unit), .cure = std::move(cure), .low = low, .high = high};
 }
 
+Rule refined(Rule rule, double refine) {
+  rule.divisor = refine;
+  return rule;
+}
+
 }  // namespace splashdown::apps

@@ -12,6 +12,7 @@ struct Rule {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false;  ///< `low` itself is not allowed
+  double divisor = 1;     ///< the value in force is what is given over this; both have to keep the rule
 
   bool operator==(const Rule&) const = default;
   bool holds(double value) const { return (low_open ? value > low : value >= low) && value <= high; }
@@ -37,5 +38,8 @@ inline constexpr double largest_length = 1e6, smallest_length = 1e-9;
 Rule place_rule(int dimension);
 
 Rule within(double low, double high, std::string unit, std::string cure);
+
+/// The same for a length of the mesh, which fluid.size.refine divides.
+Rule refined(Rule rule, double refine);
 
 }  // namespace splashdown::apps

@@ -53,6 +53,50 @@ TEST(GoodScene, takes_element_sizes_from_the_next_coarser_table) {
   EXPECT_EQ(scene_of(testing::wedge_drop_with("far = 0.2\n", "")).fluid->size.far, 0.01);
 }
 
+/// All lengths of a mesh, and a largest step.
+const std::string sized =
+    testing::replaced(testing::replaced(testing::replaced(testing::wedge_drop, "surface = 0.01\n",
+                                                          "surface = 0.01\nwetted_fraction = 0.02\nhollow = 0.3\n"
+                                                          "hollow_min = 0.003\n"),
+                                        "max = [2, 1]\n", "max = [2, 1]\nsize = 0.3\n"),
+                      "end = 0.02\n", "end = 0.02\ndt_max = 0.001\n");
+
+TEST(GoodScene, refined_twice_is_the_scene_with_all_sizes_halved_by_hand) {
+  const auto halved = std::vector<std::string>{"fluid.size.surface=0.005",
+                                               "fluid.size.far=0.1",
+                                               "fluid.size.wetted_fraction=0.01",
+                                               "fluid.size.hollow_min=0.0015",
+                                               "tank.size=0.15",
+                                               "body.wedge.size=0.0025",
+                                               "time.dt_max=0.0005"};
+  const auto refined = std::vector<std::string>{"fluid.size.refine=2"};
+  EXPECT_EQ(read_scene_text(sized, "t.toml", refined).resolved, read_scene_text(sized, "t.toml", halved).resolved);
+}
+
+TEST(GoodScene, sizes_that_follow_from_others_are_refined_once) {
+  const auto text = testing::replaced(testing::replaced(testing::wedge_drop, "far = 0.2\n", ""), "size = 0.005\n", "");
+  const auto refined = std::vector<std::string>{"fluid.size.refine=2"};
+  const auto scene = read_scene_text(text, "t.toml", refined).scene;
+  for (const double size : {scene.fluid->size.surface, scene.fluid->size.far, scene.tank->size, scene.bodies[0].size})
+    EXPECT_EQ(size, 0.005);
+  EXPECT_EQ(scene.time.dt_max, 0.5 * std::sqrt(0.005 / 9.81));
+}
+
+TEST(GoodScene, refined_keeps_what_is_no_length_of_the_mesh) {
+  const auto refined = std::vector<std::string>{"fluid.size.refine=4"};
+  const auto scene = read_scene_text(sized, "t.toml", refined).scene, plain = read_scene_text(sized, "t.toml").scene;
+  EXPECT_EQ(scene.fluid->size.growth, plain.fluid->size.growth);
+  EXPECT_EQ(scene.fluid->size.curvature, plain.fluid->size.curvature);
+  EXPECT_EQ(scene.fluid->size.hollow, plain.fluid->size.hollow);
+  EXPECT_EQ(scene.time.end, plain.time.end);
+}
+
+TEST(GoodScene, without_gravity_a_hundredth_of_the_end_is_refined_too) {
+  const auto text = testing::replaced(testing::wedge_drop, "[gravity]\nacceleration = [0, -9.81]\n", "");
+  const auto refined = std::vector<std::string>{"fluid.size.refine=2"};
+  EXPECT_EQ(read_scene_text(text, "t.toml", refined).scene.time.dt_max, 0.0001);
+}
+
 TEST(GoodScene, bounds_the_time_step_by_the_shortest_surface_waves) {
   EXPECT_DOUBLE_EQ(scene_of(testing::wedge_drop).time.dt_max, 0.5 * std::sqrt(0.005 / 9.81));
   const auto no_waves = testing::wedge_drop_with("[gravity]\nacceleration = [0, -9.81]\n", "");
@@ -236,6 +280,12 @@ TEST(ResolvedScene, reads_to_itself) {
     const auto twice = read_scene_text(once, "scene.resolved.toml").resolved;
     EXPECT_EQ(once, twice);
   }
+}
+
+TEST(ResolvedScene, of_a_refined_scene_reads_to_itself) {
+  const auto refined = std::vector<std::string>{"fluid.size.refine=1.41"};
+  const auto first = read_scene_text(sized, "t.toml", refined);
+  EXPECT_EQ(read_scene_text(first.resolved, "again.toml").resolved, first.resolved);
 }
 
 TEST(ResolvedScene, holds_the_defaults_in_force) {

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include "apps/cli/commands.hpp"
+#include "apps/price/write.hpp"
+#include "apps/record/csv.hpp"
+#include "apps/report/report.hpp"
+#include "apps/run/folder.hpp"
+#include "apps/run/folder_lock.hpp"
+#include "apps/run/interrupt.hpp"
+#include "apps/scene/read/read.hpp"
+#include "apps/study/folder.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PricePlan {
+  LadderOrder order;
+  std::vector<double> refines;
+  std::string title, digest;
+};
+
+/// Throws SceneError.
+PricePlan plan_of(const PriceOptions& options) {
+  const auto file = read_scene(options.scene, options.set);
+  const auto& scene = file.scene;
+  if (!scene.fluid)
+    throw SceneError({fmt::format("{}: has no [fluid], so there is no mesh to refine. Use splashdown run.",
+                                  options.scene.string())});
+  PricePlan plan;
+  plan.title = scene.title;
+  plan.refines = options.refines.empty() ? rung_refines(options.rungs, scene.fluid->size.refine) : options.refines;
+  plan.digest = digest_of_scene(options.scene, options.set);
+  auto& order = plan.order;
+  order.scene = options.scene;
+  // Absolute: the runs' messages name their folders.
+  order.folder = fs::absolute(options.out.value_or(price_directory(options.scene))).lexically_normal();
+  order.set = options.set;
+  order.threads = options.threads;
+  order.budget = options.budget;
+  order.large = options.large;
+  order.quiet = options.quiet;
+  order.dimension = scene.dimension;
+  auto& quantities = order.quantities;
+  for (const auto& argument : options.quantities) quantities.push_back(parsed_quantity(argument));
+  // Who names quantities wants these at their price; the others are shown beside them.
+  for (auto& quantity : default_quantities(scene)) {
+    quantity.counts &= options.quantities.empty();
+    quantities.push_back(std::move(quantity));
+  }
+  check_price_quantities(quantities, scene);
+  if (quantities.empty())
+    throw SceneError(
+        {fmt::format("{}: has no body and no record to measure. Name what matters, e.g. --quantity "
+                     "\"level=last(value) from probes.csv:gauge\".",
+                     options.scene.string())});
+  return plan;
+}
+
+void write_price(const Price& price, const fs::path& folder, std::vector<std::string>& notes) {
+  write_file_atomically(folder / price_file, price_json(price));
+  if (auto note = draw_price(price, folder)) notes.push_back(std::move(*note));
+  write_report(folder);
+}
+
+int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& options) {
+  const auto& folder = plan.order.folder;
+  auto notes = ladder.end().notes;
+  auto price = price_of(ladder.made(), plan.order.quantities, plan.order.dimension, notes);
+  price.scene = fs::absolute(options.scene).lexically_normal().string();
+  price.title = plan.title;
+  price.scene_digest = plan.digest;
+  leave_at_interrupt(options.quiet ? "" : "\nstopped while the chart was drawn: the same command draws it\n");
+  if (!price.rungs.empty()) write_price(price, folder, notes);
+  if (!options.quiet) {
+    fmt::print("{}", price_text(price));
+    for (const auto& note : notes) fmt::print(stderr, "note: {}\n", note);
+    if (const auto line = price_line(price); !line.empty()) fmt::print("{}\n", line);
+    fmt::print("  files       {}/: report.html price.json{}\n", folder.string(),
+               fs::exists(folder / "price.svg") ? " price.svg" : "");
+    if (ladder.end().interrupted) fmt::print("stopped; the same command continues\n");
+    if (ladder.end().out_of_budget)
+      fmt::print("the budget ended the ladder; with a larger one the same command continues\n");
+  }
+  if (ladder.end().interrupted) return exit_code::interrupted;
+  if (!price.rows.empty()) return exit_code::done;
+  fmt::print(stderr, "error: no price: three meshes have to reach their end, and {} did\n", ladder.made().size());
+  return ladder.end().out_of_budget ? exit_code::interrupted : exit_code::cannot_go_on;
+}
+
+}  // namespace
+
+fs::path price_directory(const fs::path& scene) { return default_directory(scene).string() + "_price"; }
+
+int price_command(const PriceOptions& options) {
+  PricePlan plan;
+  std::optional<Ladder> ladder;
+  std::optional<FolderLock> lock;
+  try {
+    plan = plan_of(options);
+    ladder.emplace(plan.order, possible_rungs(plan.refines));
+    std::string foreign;
+    for (const auto& message : foreign_places(ladder->runs(), plan.order.folder)) foreign += message + "\n";
+    if (fs::exists(plan.order.folder / "study.json"))
+      foreign += fmt::format("{}: holds a study. Use another --out.\n", plan.order.folder.string());
+    if (!foreign.empty()) return bad_input(foreign);
+    make_study_folder(plan.order.folder);
+    lock.emplace(plan.order.folder);
+  } catch (const std::exception& error) {
+    return bad_input(trouble(error));
+  }
+  catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");
+  climb_all(*ladder, plan.refines);
+  return conclude(plan, *ladder, options);
+}
+
+}  // namespace splashdown::apps

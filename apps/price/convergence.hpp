@@ -1,0 +1,68 @@
+// What a ladder of meshes says about a value: order, extrapolation and band by least squares.
+//
+//   phi(h) = phi_0 + alpha h^p,  p unknown, 1 or 2,   or   phi_0 + alpha_1 h + alpha_2 h^2
+//   U(h_i) = F (eps + sigma + |phi_i - fit|)                  h: element size over that of refine = 1 [-]
+//
+// with eps = |fit - phi_0| and sigma the standard deviation of the fit. Each form is fitted with equal weights and with
+// weights 1/h; the fit with the least sigma counts: with an order in [0.5, 2.1) the one of unknown order, above first or
+// second order, below all three. Where sigma is below Delta = (max phi - min phi)/(rungs - 1), F multiplies eps alone, 1.25
+// with such an order and 3 without; elsewhere the data scatter and F = 3 sigma/Delta.
+// Eca and Hoekstra (2014), J. Comput. Phys. 262, 104-130, whose bands are meant for 95 % of cases. With one addition: F eps is
+// at least 1.25 times the error of every order p in [0.5, 2.1) that the scatter leaves possible, (n - 3)(S_p/S - 1) <= t^2 with S
+// the least sum of squares of any order and t Student's. Without it, noise of a twentieth of the finest mesh's error leaves one
+// true value in four outside.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace splashdown::apps {
+
+struct MeshValue {
+  double h;  ///< element size, relative
+  double value;
+};
+
+enum class Form { unknown_order, first_order, second_order, first_and_second_order };
+
+/// The error of the widest order that the values leave possible.
+struct CautiousTerm {
+  double coefficient = 0, exponent = 1;
+  double at(double h) const { return std::abs(coefficient) * std::pow(h, exponent); }
+};
+
+class Convergence {
+ public:
+  /// Nothing with fewer than three sizes or a value that is not finite. Values at sizes within 10 % of each other are
+  /// replicates: they count in the fit and are one rung.
+  static std::optional<Convergence> of(std::span<const MeshValue> values);
+
+  Form form() const { return form_; }
+  /// Of the fit; absent: none in the asymptotic range.
+  std::optional<double> order() const { return order_; }
+  /// Why there is no order; empty: there is one.
+  const std::string& refusal() const { return refusal_; }
+  double extrapolated() const { return limit_; }  ///< phi_0, Richardson's value
+  double deviation() const { return deviation_; }
+  bool scattered() const { return deviation_ >= range_; }
+  double fitted(double h) const;
+  double error(double h) const;  ///< eps; never less at a larger h
+  /// Of a value measured at h, and of one that is still to be measured there.
+  double band(const MeshValue& measured) const;
+  double band(double h) const { return band({h, fitted(h)}); }
+
+ private:
+  Form form_ = Form::first_order;
+  std::optional<double> order_;
+  std::string refusal_;
+  double limit_ = 0, first_ = 0, second_ = 0;  // coefficients of h^exponent and, in the last form, of h^2
+  bool weighted_ = false;
+  CautiousTerm cautious_;
+  double exponent_ = 1, deviation_ = 0, range_ = 0, safety_ = 3;
+
+  friend class Fitter;
+};
+
+}  // namespace splashdown::apps

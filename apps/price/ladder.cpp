@@ -1,0 +1,253 @@
+#include "apps/price/ladder.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "apps/cli/child_process.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/quantity/names.hpp"
+#include "apps/quantity/table.hpp"
+#include "apps/run/interrupt.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/study/folder.hpp"
+#include "apps/study/run.hpp"
+#include "apps/study/table.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+std::string digits_of(double refine) { return fmt::format("{:.4g}", refine); }
+
+std::string last_line(const fs::path& log) {
+  std::ifstream in(log);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) last = line;
+  return last;
+}
+
+Axis refine_axis(const std::vector<RungSpec>& specs) {
+  Axis axis{.name = "refine", .label = "refine", .values = {}};
+  for (const auto& spec : specs) {
+    const auto text = digits_of(spec.refine);
+    axis.values.push_back({text, spec.refine, {"fluid.size.refine=" + text}, {}});
+  }
+  return axis;
+}
+
+bool same(const RungSpec& a, const RungSpec& b) { return digits_of(a.refine) == digits_of(b.refine); }
+
+std::string failure_text(const RungSpec& spec, const std::string& cause) {
+  return fmt::format("refine {} did not reach its end: {}", digits_of(spec.refine), cause);
+}
+
+double predicted_node_steps(const std::vector<Rung>& rungs, double refine, int dimension) {
+  std::vector<std::pair<double, double>> points;
+  for (const auto& rung : rungs)
+    if (!rung.spec.replicate) points.emplace_back(rung.spec.refine, rung.node_steps);
+  if (points.empty()) points.emplace_back(rungs.front().spec.refine, rungs.front().node_steps);
+  std::ranges::sort(points);
+  // Elements ~ refine^d and steps ~ refine: what a mesh of uniform size takes, and no graded one exceeds.
+  const double steepest = dimension + 1;
+  if (points.size() == 1) return points[0].second * std::pow(refine / points[0].first, steepest);
+  std::size_t k = 1;
+  while (k + 1 < points.size() && points[k].first < refine) ++k;
+  const auto& [r0, n0] = points[k - 1];
+  const auto& [r1, n1] = points[k];
+  const double slope = std::clamp(std::log(n1 / n0) / std::log(r1 / r0), 0., steepest);
+  return n1 * std::pow(refine / r1, slope);
+}
+
+}  // namespace
+
+std::vector<double> rung_refines(int rungs, double scene) {
+  std::vector<double> refines;
+  for (int k = 0; k < rungs; ++k) {
+    const double exact = scene * 0.5 * std::pow(2., 0.5 * k);  // sqrt(2): twice the elements in the plane
+    refines.push_back(std::stod(fmt::format("{:.3g}", exact)));
+  }
+  return refines;
+}
+
+std::optional<double> predicted_seconds(const std::vector<Rung>& rungs, double refine, int dimension) {
+  if (rungs.empty()) return {};
+  const double node_steps = predicted_node_steps(rungs, refine, dimension);
+  double weight = 0, x = 0, y = 0;
+  for (const auto& rung : rungs) {
+    weight += rung.node_steps;
+    x += rung.node_steps * std::log(rung.node_steps);
+    y += rung.node_steps * std::log(rung.seconds);
+  }
+  x /= weight, y /= weight;
+  double xx = 0, xy = 0;
+  for (const auto& rung : rungs) {
+    const double dx = std::log(rung.node_steps) - x;
+    xx += rung.node_steps * dx * dx;
+    xy += rung.node_steps * dx * (std::log(rung.seconds) - y);
+  }
+  // Proportional unless the runs say otherwise: less where setting up counts, at most what a direct solver in space takes,
+  // N^2 (George 1973). Runs within a factor of two say nothing but the noise of the clock.
+  const double least_spread = 0.05;  // of log N, weighted: about ln(2)^2 / 9
+  const double slope = xx / weight > least_spread ? std::clamp(xy / xx, 0.5, 2.) : 1;
+  return std::exp(y + slope * (std::log(node_steps) - x));
+}
+
+Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
+    : order_(std::move(order)), possible_(possible), started_(now()) {
+  study_.file = study_.scene = fs::absolute(order_.scene);
+  study_.set = order_.set;
+  study_.large = order_.large;
+  study_.threads = order_.threads;
+  study_.axes = {refine_axis(possible)};
+  runs_ = expand(study_);
+  resolve(study_, runs_);
+}
+
+double Ladder::spent() const { return now() - started_; }
+
+double Ladder::seconds_left() const { return order_.budget ? *order_.budget - spent() : HUGE_VAL; }
+
+std::optional<double> Ladder::seconds_at(double refine) const {
+  return predicted_seconds(made_, refine, order_.dimension);
+}
+
+const StudyRun& Ladder::run_of(const RungSpec& spec) const {
+  const auto found = std::ranges::find_if(possible_, [&](const RungSpec& other) { return same(spec, other); });
+  return runs_[static_cast<std::size_t>(found - possible_.begin())];
+}
+
+bool Ladder::affordable(const RungSpec& spec) const {
+  const auto& run = run_of(spec);
+  if (outcome_of(study_, run, order_.folder / run.name).finished()) return true;
+  return seconds_at(spec.refine).value_or(0) <= seconds_left();
+}
+
+bool Ladder::climb(const RungSpec& spec) {
+  if (end_.interrupted) return false;
+  const auto& run = run_of(spec);
+  if (auto rung = read(run, spec)) {
+    made_.push_back(std::move(*rung));
+    return true;
+  }
+  if (const auto before = outcome_of(study_, run, order_.folder / run.name); before.finished()) {
+    end_.notes.push_back(failure_text(spec, before.cause));
+    return true;
+  }
+  if (!affordable(spec)) {
+    end_.out_of_budget = true;
+    return false;
+  }
+  if (!make(run, spec)) return false;
+  if (auto rung = read(run, spec)) {
+    say(fmt::format("refine {:<6} {:>8.3g} s  {:>9.3g} node-steps  {:>6.0f} MB{}", digits_of(spec.refine),
+                    rung->seconds, rung->node_steps, rung->memory_mb, spec.replicate ? "  (replicate)" : ""));
+    made_.push_back(std::move(*rung));
+  }
+  return true;
+}
+
+bool Ladder::make(const StudyRun& run, const RungSpec& spec) {
+  const auto place = order_.folder / run.name, log = order_.folder / (run.name + ".log");
+  prepare(run, place);
+  fs::remove(log);
+  auto study = study_;
+  if (order_.budget) study.budget = std::max(seconds_left(), 0.1);  // none is no budget
+  auto words = command_of(study, run, place);
+  words.emplace_back("--no-report");  // the price list has a page of its own
+  ChildProcess process(words, log);
+  const double begin = now();
+  const auto expected = seconds_at(spec.refine);
+  const bool terminal = !order_.quiet && ::isatty(STDOUT_FILENO) != 0;
+  std::optional<ChildProcess::End> ended;
+  for (double shown = 0; !(ended = process.end());) {
+    if (interrupt_received() && !end_.interrupted) {
+      end_.interrupted = true;
+      process.ask_to_stop();
+    }
+    if (terminal && now() - shown > 0.2) {
+      shown = now();
+      fmt::print("\r\x1b[Krefine {}: {}{}", digits_of(spec.refine), clock_text(shown - begin),
+                 expected ? " of about " + clock_text(*expected) : "");
+      std::fflush(stdout);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  if (terminal) fmt::print("\r\x1b[K");
+  if (end_.interrupted) return false;
+  if (ended->code == exit_code::interrupted) {
+    end_.out_of_budget = true;
+    return false;
+  }
+  const auto outcome = outcome_of(study_, run, place);
+  if (outcome.status == Outcome::Status::converged) {
+    fs::remove(log);
+    return true;
+  }
+  end_.notes.push_back(failure_text(spec, outcome.cause.empty() ? last_line(log) : outcome.cause));
+  return true;
+}
+
+std::optional<Rung> Ladder::read(const StudyRun& run, const RungSpec& spec) {
+  const auto place = order_.folder / run.name;
+  if (outcome_of(study_, run, place).status != Outcome::Status::converged) return {};
+  return rung_in(place, spec, order_.quantities, end_.notes);
+}
+
+void Ladder::say(const std::string& text) const {
+  if (order_.quiet) return;
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<PriceQuantity>& quantities,
+             std::vector<std::string>& notes) {
+  const auto summary = quantity::read_summary(folder);
+  Rung rung{.spec = spec, .folder = folder.filename().string(), .values = {}};
+  rung.seconds = summary.value("wall_seconds", 0.);
+  rung.memory_mb = summary.value("memory_mb", 0.);
+  rung.node_steps = node_steps_in(folder);
+  for (const auto& quantity : quantities) {
+    std::string why;
+    rung.values.push_back(value_in(folder, quantity, why));
+    if (quantity.asked && !why.empty())
+      notes.push_back(fmt::format("{} at refine {}: {}", quantity.name, digits_of(spec.refine), why));
+  }
+  return rung;
+}
+
+std::vector<RungSpec> possible_rungs(const std::vector<double>& refines) {
+  std::vector<RungSpec> specs;
+  for (const double refine : refines) specs.push_back({refine, false});
+  for (const double refine : refines)
+    for (const double sign : {-1., 1.}) specs.push_back({refine * (1 + sign * replicate_offset), true});
+  return specs;
+}
+
+void climb_all(Ladder& ladder, const std::vector<double>& refines) {
+  const auto replicate = [&](double refine) {
+    for (const double sign : {-1., 1.})
+      if (!ladder.climb({refine * (1 + sign * replicate_offset), true})) return;
+  };
+  for (std::size_t k = 0; k < refines.size(); ++k) {
+    // Before the finest: what a budget leaves out is better a rung than the scatter.
+    if (k + 1 == refines.size() || !ladder.affordable({refines[k], false})) {
+      replicate(refines[k == 0 ? 0 : k - 1]);
+      ladder.climb({refines[k], false});
+      return;
+    }
+    if (!ladder.climb({refines[k], false})) return;
+  }
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,98 @@
+// The runs of a price: one scene at several refinements, one after the other, each in a process of its own.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/price/quantities.hpp"
+#include "apps/study/study.hpp"
+
+namespace splashdown::apps {
+
+inline constexpr int fewest_rungs = 3, usual_rungs = 4, most_rungs = 8;
+/// Replicates stand this share beside the rung that they repeat: another mesh of nearly the same size. With first order
+/// that moves an error by a fiftieth of itself, which is far below the scatter that they are to show.
+inline constexpr double replicate_offset = 0.02;
+
+struct RungSpec {
+  double refine = 1;
+  bool replicate = false;
+};
+
+struct Rung {
+  RungSpec spec;
+  std::string folder;  ///< name within that of the price
+  double seconds = 0, node_steps = 0, memory_mb = 0;
+  std::vector<double> values;  ///< of the quantities, in their order; nan: none
+};
+
+/// A run that is done.
+Rung rung_in(const std::filesystem::path& folder, const RungSpec& spec, const std::vector<PriceQuantity>& quantities,
+             std::vector<std::string>& notes);
+
+/// 0.5, 0.71, 1, 1.41 ... times `scene`, three digits.
+std::vector<double> rung_refines(int rungs, double scene);
+
+/// Seconds of a run at `refine`: node-steps follow refine by power laws from mesh to mesh, seconds follow node-steps by the
+/// power law that fits all runs best, replicates too, weighted by their node-steps. Machines are never quite alone: one run's clock
+/// decides little. Nothing without a run.
+std::optional<double> predicted_seconds(const std::vector<Rung>& rungs, double refine, int dimension);
+
+struct LadderOrder {
+  std::filesystem::path scene, folder;
+  std::vector<std::string> set;
+  std::vector<PriceQuantity> quantities;
+  std::optional<int> threads;  ///< nothing: the program's choice
+  std::optional<double> budget;
+  bool large = false, quiet = false;
+  int dimension = 2;
+};
+
+struct LadderEnd {
+  bool interrupted = false;
+  bool out_of_budget = false;
+  std::vector<std::string> notes;  ///< runs that did not reach their end, each with its reason
+};
+
+class Ladder {
+ public:
+  /// Throws SceneError if the scene cannot be refined so.
+  Ladder(LadderOrder order, const std::vector<RungSpec>& possible);
+
+  const std::vector<Rung>& made() const { return made_; }
+  const LadderEnd& end() const { return end_; }
+  std::vector<StudyRun> runs() const { return runs_; }
+  double seconds_left() const;
+
+  /// Makes the run, or reads it if it is finished; false if the ladder has to end or its cost does not fit in the budget.
+  bool climb(const RungSpec& spec);
+  bool over() const { return end_.interrupted; }
+  /// Whether the run is finished already or is predicted to fit in the budget.
+  bool affordable(const RungSpec& spec) const;
+  std::optional<double> seconds_at(double refine) const;
+  double spent() const;
+
+ private:
+  const StudyRun& run_of(const RungSpec& spec) const;
+  bool make(const StudyRun& run, const RungSpec& spec);
+  std::optional<Rung> read(const StudyRun& run, const RungSpec& spec);
+  void say(const std::string& text) const;
+
+  LadderOrder order_;
+  Study study_;
+  std::vector<RungSpec> possible_;
+  std::vector<StudyRun> runs_;
+  std::vector<Rung> made_;
+  LadderEnd end_;
+  double started_ = 0;
+};
+
+/// Rungs from the coarsest on, and two replicates of the last but one before the last, as the budget allows.
+void climb_all(Ladder& ladder, const std::vector<double>& refines);
+/// All that `climb_all` may want.
+std::vector<RungSpec> possible_rungs(const std::vector<double>& refines);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,180 @@
+#include "apps/price/price.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+
+#include "apps/scene/read/read.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+// As price lists have them: 1, 2, 5.
+constexpr double listed_percent[] = {20, 10, 5, 2, 1, 0.5};
+
+std::optional<double> deviation_of(const std::vector<double>& values) {
+  if (values.size() < 2) return {};
+  double mean = 0, squares = 0;
+  const auto n = static_cast<double>(values.size());
+  for (const double value : values) mean += value / n;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / (n - 1));
+}
+
+/// Of the replicates and the rung that they stand beside.
+std::optional<double> scatter_of(const PricedQuantity& quantity) {
+  if (quantity.replicates.empty()) return {};
+  std::vector<double> values;
+  const double at = quantity.replicates.front().first.spec.refine;
+  for (const auto* list : {&quantity.rungs, &quantity.replicates})
+    for (const auto& [rung, value] : *list)
+      if (std::abs(rung.spec.refine / at - 1) < 3 * replicate_offset) values.push_back(value);
+  return deviation_of(values);
+}
+
+std::optional<Convergence> fit_of(const PricedQuantity& quantity) {
+  std::vector<MeshValue> values;
+  for (const auto* list : {&quantity.rungs, &quantity.replicates})
+    for (const auto& [rung, value] : *list) values.push_back({1 / rung.spec.refine, value});
+  return Convergence::of(values);
+}
+
+/// The least x between two ends for which `holds`, which does for all larger ones.
+template <class Holds>
+double least(double low, double high, const Holds& holds) {
+  if (holds(low)) return low;
+  for (int i = 0; i < 60 && high / low > 1 + 1e-6; ++i) {
+    const double middle = std::sqrt(low * high);
+    (holds(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+std::vector<PriceRow> rows_of(const Price& price) {
+  std::vector<PriceRow> rows;
+  if (price.rungs.empty() || !price.accuracy(price.finest())) return rows;
+  for (const double percent : listed_percent) {
+    PriceRow row{
+        .accuracy_percent = percent, .seconds = {}, .refine = price.refine_for(percent / 100), .decided_by = {}};
+    if (row.refine) row.seconds = price.seconds(*row.refine);
+    row.extrapolated = !row.refine || *row.refine > price.finest();
+    row.decided_by = price.accuracy(row.refine.value_or(farthest_extrapolation * price.finest()))->second;
+    // What the coarsest mesh does better than asked says nothing about coarser ones.
+    const bool same = !rows.empty() && row.refine && rows.back().refine == row.refine;
+    if (same) rows.pop_back();
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+double PricedQuantity::at(double refine) const {
+  for (const auto* list : {&rungs, &replicates})
+    for (const auto& [rung, measured] : *list)
+      if (rung.spec.refine == refine) return measured;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<double> PricedQuantity::band(double refine) const {
+  if (!fit) return {};
+  return std::hypot(fit->band(1 / refine), 2 * scatter.value_or(0));
+}
+
+std::optional<double> PricedQuantity::band_of_finest() const {
+  if (!fit) return {};
+  const auto& [rung, last] = rungs.back();
+  return std::hypot(fit->band({1 / rung.spec.refine, last}), 2 * scatter.value_or(0));
+}
+
+std::optional<double> PricedQuantity::accuracy(double refine) const {
+  const auto width = band(refine);
+  const double size = std::abs(value);
+  if (!width || size == 0) return {};
+  return *width / size;
+}
+
+double Price::finest() const {
+  double finest = 0;
+  for (const auto& rung : rungs)
+    if (!rung.spec.replicate) finest = std::max(finest, rung.spec.refine);
+  return finest;
+}
+
+double Price::coarsest() const {
+  double coarsest = finest();
+  for (const auto& rung : rungs) coarsest = std::min(coarsest, rung.spec.refine);
+  return coarsest;
+}
+
+std::optional<double> Price::seconds(double refine) const { return predicted_seconds(rungs, refine, dimension); }
+
+std::optional<std::pair<double, std::string>> Price::accuracy(double refine) const {
+  std::optional<std::pair<double, std::string>> worst;
+  for (const auto& quantity : quantities) {
+    const auto accuracy = quantity.accuracy(refine);
+    if (quantity.what.counts && accuracy && (!worst || *accuracy > worst->first))
+      worst = {*accuracy, quantity.what.name};
+  }
+  return worst;
+}
+
+std::optional<double> Price::refine_for(double wanted) const {
+  const auto holds = [&](double refine) {
+    const auto worst = accuracy(refine);
+    return worst && worst->first <= wanted;
+  };
+  const double far = farthest_extrapolation * finest();
+  if (rungs.empty() || !holds(far)) return {};
+  return least(coarsest(), far, holds);
+}
+
+std::optional<double> Price::refine_in(double wanted) const {
+  if (rungs.empty()) return {};
+  const double far = farthest_extrapolation * finest();
+  if (*seconds(far) <= wanted) return far;
+  return least(coarsest(), far, [&](double refine) { return *seconds(refine) >= wanted; });
+}
+
+Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>& quantities, int dimension,
+               std::vector<std::string>& notes) {
+  Price price;
+  price.dimension = dimension;
+  price.rungs = rungs;
+  std::ranges::sort(price.rungs, {}, [](const Rung& rung) { return rung.spec.refine; });
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    PricedQuantity priced{.what = quantities[q], .scatter = {}, .fit = {}, .rungs = {}, .replicates = {}};
+    for (const auto& rung : price.rungs)
+      if (std::isfinite(rung.values[q]))
+        (rung.spec.replicate ? priced.replicates : priced.rungs).emplace_back(rung, rung.values[q]);
+    if (priced.rungs.empty()) {
+      notes.push_back(priced.what.name + " is left out: it has no value on any rung");
+      continue;
+    }
+    priced.value = priced.rungs.back().second;
+    priced.scatter = scatter_of(priced);
+    priced.fit = fit_of(priced);
+    price.quantities.push_back(std::move(priced));
+  }
+  price.rows = rows_of(price);
+  return price;
+}
+
+std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set) {
+  set.emplace_back("fluid.size.refine=1");
+  auto table = toml::parse(read_scene(scene, set).resolved);
+  table.erase("title");
+  table.erase("output");
+  std::ostringstream text;
+  text << table;
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a (Fowler, Noll, Vo)
+  for (const unsigned char byte : text.str()) hash = (hash ^ byte) * 1099511628211u;
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,68 @@
+// What accuracy costs: bands of the quantities on each rung, and the refinement and the seconds that a band takes.
+//
+//   band = sqrt(U^2 + (2 s)^2)
+//
+// U: of the fit over the ladder (convergence.hpp); s: standard deviation between meshes of equal size, the quantity's
+// replicates with the rung that they repeat. A single run is one of such meshes, whatever the fit says of their mean.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/price/convergence.hpp"
+#include "apps/price/ladder.hpp"
+
+namespace splashdown::apps {
+
+struct PricedQuantity {
+  PriceQuantity what;
+  double value = 0;                                        ///< of the finest rung
+  std::optional<double> scatter;                           ///< s; absent: no replicates
+  std::optional<Convergence> fit;                          ///< absent: too few rungs
+  std::vector<std::pair<Rung, double>> rungs, replicates;  ///< with the value, from the coarsest on
+
+  double at(double refine) const;                   ///< of the run there; nan: there is none
+  std::optional<double> band(double refine) const;  ///< of a run there [unit]
+  std::optional<double> band_of_finest() const;
+  /// Relative, of a run that is still to be made there; nothing: not known.
+  std::optional<double> accuracy(double refine) const;
+};
+
+struct PriceRow {
+  double accuracy_percent = 0;
+  std::optional<double> seconds, refine;  ///< absent: refinement does not get there
+  bool extrapolated = false;
+  std::string decided_by;  ///< the quantity that asks for most
+};
+
+struct Price {
+  std::string scene, title, scene_digest;
+  int dimension = 2;
+  std::vector<PricedQuantity> quantities;
+  std::vector<Rung> rungs;  ///< all that were made, replicates too
+  std::vector<PriceRow> rows;
+
+  std::optional<double> seconds(double refine) const;
+  double finest() const;
+  double coarsest() const;
+  /// The least relative accuracy that all quantities that count have there; nothing: not known of any.
+  std::optional<std::pair<double, std::string>> accuracy(double refine) const;
+  /// The coarsest mesh with that accuracy, up to `farthest` times finer than any made.
+  std::optional<double> refine_for(double accuracy) const;
+  /// The finest mesh whose run takes no longer, not below the coarsest made.
+  std::optional<double> refine_in(double seconds) const;
+};
+
+/// Beyond it the fit says nothing that could be held against a run.
+inline constexpr double farthest_extrapolation = 4;
+
+/// Quantities without a value on three rungs are left out, and named in `notes`.
+Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>& quantities, int dimension,
+               std::vector<std::string>& notes);
+
+/// Of a scene at refine = 1, whatever its title and output: FNV-1a, 16 hexadecimal digits.
+std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set);
+
+}  // namespace splashdown::apps

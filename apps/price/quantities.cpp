@@ -1,0 +1,177 @@
+#include "apps/price/quantities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "apps/quantity/expression.hpp"
+#include "apps/quantity/names.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+constexpr const char* quantity_cure =
+    "Use e.g. --quantity \"peak=max(smooth(fy, time, 5e-4)) from bodies.csv:wedge\" or "
+    "\"passes=summary.coupling.passes_mean\".";
+
+class Defaults {
+ public:
+  explicit Defaults(const Scene& scene) : scene_(scene) {}
+
+  std::vector<PriceQuantity> all() && {
+    for (const auto& body : scene_.bodies) add_body(body);
+    for (const auto& record : scene_.records) std::visit([this](const auto& entry) { add(entry); }, record);
+    return std::move(quantities_);
+  }
+
+ private:
+  void entry(const std::string& name, const std::string& unit, const std::string& path, bool counts = true) {
+    quantities_.push_back({.name = name, .unit = unit, .counts = counts, .path = path, .measured = {}});
+  }
+  void expression(const std::string& name, const std::string& unit, const std::string& table, const std::string& text,
+                  bool counts = true) {
+    PriceQuantity quantity{.name = name, .unit = unit, .counts = counts, .path = {}, .measured = {}};
+    quantity.measured.name = name;
+    quantity.measured.table = table;
+    quantity.measured.quantity = text;
+    quantities_.push_back(std::move(quantity));
+  }
+
+  void add_body(const Body& body) {
+    if (!scene_.fluid) return;
+    const std::string force = scene_.dimension == 2 ? "N/m" : "N",
+                      impulse = force.substr(0, 1) + " s" + force.substr(1);
+    const std::string of = "bodies." + body.name + ".", up = scene_.dimension == 2 ? "y" : "z";
+    const auto vertical = fmt::format("{}", scene_.dimension - 1);
+    // CFC 60 and 180: whole structures and their velocities (SAE J211-1). Higher classes are left out on coarse rungs.
+    if (body.motion == Motion::free) {
+      entry(body.name + ".peak_g_cfc60", "g", of + "peak_acceleration_g.cfc60.value");
+      entry(body.name + ".peak_g_cfc180", "g", of + "peak_acceleration_g.cfc180.value");
+      entry(body.name + ".peak_g_raw", "g", of + "peak_acceleration_g.raw.value", false);
+    }
+    entry(body.name + ".peak_force_cfc60", force, of + "peak_force_filtered.cfc60.value", body.motion != Motion::free);
+    entry(body.name + ".peak_force_raw", force, of + "peak_force.value", false);
+    entry(body.name + ".impulse", impulse, of + "impulse." + vertical);
+    if (body.motion != Motion::free) return;
+    expression(body.name + ".velocity_change", "m/s", "bodies.csv:" + body.name,
+               fmt::format("last(v{0}) - first(v{0})", up));
+    entry(body.name + ".greatest_submergence", "m", of + "maximum_submergence.value");
+    // The mean of what follows the instant from which it rests: there is none where it does not.
+    if (scene_.gravity) {
+      expression(body.name + ".draft", "m", "bodies.csv:" + body.name, "mean(submergence, time)");
+      quantities_.back().measured.where = "time >= summary." + of + "settled_time";
+    }
+  }
+  void add(const PatchEntry& patch) {
+    entry(patch.name + ".peak_pressure", "Pa", "patches." + patch.name + ".peak_pressure.value");
+  }
+  void add(const AccelerationEntry& point) {
+    entry(point.name + ".peak_g_cfc60", "g", "equipment." + point.name + ".cfc60.value");
+    entry(point.name + ".peak_g_raw", "g", "equipment." + point.name + ".raw.value", false);
+  }
+  void add(const PressureEntry& probe) {
+    expression(probe.name + ".peak_pressure", "Pa", "probes.csv:" + probe.name, "max(value)", false);
+  }
+  void add(const MaximumPressureEntry& map) {
+    const auto& name = scene_.bodies[map.body].name;
+    entry(name + ".maximum_pressure", "Pa", "bodies." + name + ".maximum_pressure.value", false);
+  }
+  template <class Other>
+  void add(const Other&) {}  // curves and matrices: no single number is the one that is meant
+
+  const Scene& scene_;
+  std::vector<PriceQuantity> quantities_;
+};
+
+/// The text from `word` on, taken off.
+std::string taken(std::string& text, const std::string& word) {
+  const auto found = text.rfind(" " + word + " ");
+  if (found == std::string::npos) return {};
+  auto rest = text.substr(found + word.size() + 2);
+  text.erase(found);
+  return rest;
+}
+
+}  // namespace
+
+std::vector<PriceQuantity> default_quantities(const Scene& scene) { return Defaults(scene).all(); }
+
+PriceQuantity parsed_quantity(const std::string& argument) {
+  const auto refuse = [&](const std::string& what) {
+    return SceneError({fmt::format("--quantity {}: {}. {}", argument, what, quantity_cure)});
+  };
+  const auto equals = argument.find('=');
+  PriceQuantity quantity{.name = argument.substr(0, std::min(equals, argument.size())),
+                         .counts = true,
+                         .asked = true,
+                         .path = {},
+                         .measured = {}};
+  const bool plain = std::ranges::all_of(quantity.name, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+  if (equals == std::string::npos || equals == 0 || !plain)
+    throw refuse("must read NAME=EXPRESSION, the name made of letters, digits and _");
+  auto& measured = quantity.measured;
+  std::string text = argument.substr(equals + 1);
+  measured.name = quantity.name;
+  measured.where = taken(text, "where");
+  measured.table = taken(text, "from");
+  measured.quantity = text;
+  measured.place = {"--quantity " + argument, 0};
+  try {
+    quantity::check_syntax(measured.quantity);
+    if (!measured.where.empty()) quantity::check_syntax(measured.where);
+  } catch (const std::runtime_error& error) {
+    throw refuse(error.what());
+  }
+  return quantity;
+}
+
+void check_price_quantities(const std::vector<PriceQuantity>& quantities, const Scene& scene) {
+  Problems problems("");
+  Study study;
+  std::set<std::string> names;
+  for (const auto& quantity : quantities) {
+    if (!names.insert(quantity.name).second && quantity.asked)
+      throw SceneError({fmt::format("--quantity {}=...: there is one of this name. Use another name.", quantity.name)});
+    if (quantity.asked) study.quantities.push_back(quantity.measured);
+  }
+  check_quantities(study, scene, problems);
+  problems.throw_if_any();
+}
+
+double node_steps_in(const std::filesystem::path& folder) {
+  const auto table = quantity::read_table(folder, "fluid.csv");
+  const auto* nodes = table.find("nodes");
+  if (nodes == nullptr || nodes->empty()) return 0;
+  double sum = 0;
+  for (const double n : *nodes) sum += n;
+  return sum / static_cast<double>(nodes->size()) * quantity::read_summary(folder).value("steps", 0.);
+}
+
+double value_in(const std::filesystem::path& folder, const PriceQuantity& quantity, std::string& why) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto summary = quantity::read_summary(folder);
+  const auto& measured = quantity.measured;
+  quantity::Table table;
+  const quantity::Lookup names = [&](const std::string& name) {
+    if (const auto path = quantity::after("summary", name)) return quantity::find_entry(summary, *path);
+    return quantity::find_column(table, name);
+  };
+  try {
+    if (!quantity.path.empty()) {
+      if (const auto entry = quantity::find_entry(summary, quantity.path)) return entry->numbers.front();
+      why = "summary." + quantity.path + " has no value in this run";
+      return none;
+    }
+    if (!measured.table.empty()) table = quantity::read_table(folder, measured.table);
+    if (!measured.where.empty()) table = quantity::rows_where(table, measured.where, names);
+    return quantity::evaluate_number(measured.quantity, names);
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+    return none;
+  }
+}
+
+}  // namespace splashdown::apps

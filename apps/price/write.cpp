@@ -1,0 +1,219 @@
+#include "apps/price/write.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/plain_text.hpp"
+#include "apps/run/closing.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const Rung& rung) {
+  return {{"refine", rung.spec.refine},
+          {"seconds", rung.seconds},
+          {"node_steps", rung.node_steps},
+          {"memory_mb", rung.memory_mb}};
+}
+
+Json json_of(const std::vector<std::pair<Rung, double>>& rungs) {
+  Json list = Json::array();
+  for (const auto& [rung, value] : rungs) {
+    Json entry = {{"refine", rung.spec.refine}, {"value", value}};
+    entry.update(json_of(rung));
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json json_of(const PricedQuantity& quantity) {
+  const auto band = quantity.band_of_finest();
+  const auto& fit = quantity.fit;
+  return {{"value", quantity.value},
+          {"band", number(band)},
+          {"order", fit ? number(fit->order()) : Json(nullptr)},
+          {"scatter", number(quantity.scatter)},
+          {"unit", quantity.what.unit},
+          {"counts", quantity.what.counts},
+          {"richardson", fit ? number(fit->extrapolated()) : Json(nullptr)},
+          {"refused", fit ? fit->refusal() : "fewer than three meshes have a value"},
+          {"path", quantity.what.path},
+          {"expression", quantity.what.measured.quantity},
+          {"from", quantity.what.measured.table},
+          {"where", quantity.what.measured.where},
+          {"rungs", json_of(quantity.rungs)},
+          {"replicates", json_of(quantity.replicates)}};
+}
+
+Rung rung_of(const Json& json, bool replicate) {
+  return {.spec = {json.at("refine").get<double>(), replicate},
+          .folder = json.value("folder", ""),
+          .seconds = json.at("seconds").get<double>(),
+          .node_steps = json.at("node_steps").get<double>(),
+          .memory_mb = json.at("memory_mb").get<double>(),
+          .values = {}};
+}
+
+PriceQuantity quantity_of(const std::string& name, const Json& json) {
+  PriceQuantity quantity{.name = name,
+                         .unit = json.at("unit").get<std::string>(),
+                         .counts = json.at("counts").get<bool>(),
+                         .path = json.at("path").get<std::string>(),
+                         .measured = {}};
+  quantity.measured.name = name;
+  quantity.measured.quantity = json.at("expression").get<std::string>();
+  quantity.measured.table = json.at("from").get<std::string>();
+  quantity.measured.where = json.at("where").get<std::string>();
+  return quantity;
+}
+
+std::string value_text(double value, const std::string& unit) {
+  return unit == "-" ? fmt::format("{:.4g}", value) : with_unit(value, unit);  // without a unit no prefix
+}
+
+std::string relative(const std::optional<double>& part, double whole) {
+  return part && whole != 0 ? fmt::format("{:.2g} %", 100 * std::abs(*part / whole)) : "?";
+}
+
+std::string row_text(const PriceRow& row) {
+  return fmt::format("  {:>5g} %  {:>8}  {:>6.3g}  {}{}\n", row.accuracy_percent, about_time(*row.seconds), *row.refine,
+                     row.decided_by, row.extrapolated ? "  (extrapolated)" : "");
+}
+
+/// The first accuracy that refinement does not reach, and what is in its way.
+std::string unreached_text(const Price& price, const PriceRow& row) {
+  auto text = fmt::format("  {:>5g} %         -       -  {}: not by elements up to {:g} times smaller",
+                          row.accuracy_percent, row.decided_by, farthest_extrapolation);
+  for (const auto& quantity : price.quantities)
+    if (quantity.what.name == row.decided_by && quantity.scatter)
+      text += fmt::format("; meshes of equal size differ by {}", relative(quantity.scatter, quantity.value));
+  return text + "\n";
+}
+
+std::string rows_text(const Price& price) {
+  std::string text;
+  for (const auto& row : price.rows) {
+    text += row.seconds ? row_text(row) : unreached_text(price, row);
+    if (!row.seconds) break;  // nor are the closer ones
+  }
+  return text;
+}
+
+/// Why a quantity plays no part in the rows; empty: it does.
+std::string not_counted(const PricedQuantity& quantity) {
+  if (!quantity.fit) return fmt::format("  (on {} meshes: too few)", quantity.rungs.size());
+  return quantity.what.counts ? "" : "  (not counted)";
+}
+
+}  // namespace
+
+std::string about_time(double seconds) {
+  if (seconds < 100) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 6000) return fmt::format("{:.2g} min", seconds / 60);
+  return fmt::format("{:.2g} h", seconds / 3600);
+}
+
+std::string price_json(const Price& price) {
+  Json root;
+  root["scene"] = price.scene;
+  root["title"] = price.title;
+  root["scene_digest"] = price.scene_digest;
+  root["dimension"] = price.dimension;
+  root["rows"] = Json::array();
+  for (const auto& row : price.rows)
+    root["rows"].push_back({{"accuracy_percent", row.accuracy_percent},
+                            {"seconds", number(row.seconds)},
+                            {"refine", number(row.refine)},
+                            {"extrapolated", row.extrapolated},
+                            {"decided_by", row.decided_by}});
+  root["quantities"] = Json::object();
+  for (const auto& quantity : price.quantities) root["quantities"][quantity.what.name] = json_of(quantity);
+  root["runs"] = Json::array();
+  for (const auto& rung : price.rungs) {
+    root["runs"].push_back(json_of(rung));
+    root["runs"].back()["replicate"] = rung.spec.replicate;
+    root["runs"].back()["folder"] = rung.folder;
+  }
+  return root.dump(2) + "\n";
+}
+
+Price read_price(const std::filesystem::path& file) {
+  try {
+    std::ifstream in(file);
+    const auto root = Json::parse(in);
+    Price price;
+    price.scene = root.at("scene").get<std::string>();
+    price.title = root.at("title").get<std::string>();
+    price.scene_digest = root.at("scene_digest").get<std::string>();
+    price.dimension = root.at("dimension").get<int>();
+    std::vector<PriceQuantity> quantities;
+    for (const auto& run : root.at("runs")) price.rungs.push_back(rung_of(run, run.at("replicate").get<bool>()));
+    for (auto& rung : price.rungs) rung.values.assign(root.at("quantities").size(), NAN);
+    std::size_t q = 0;
+    for (const auto& [name, entry] : root.at("quantities").items()) {
+      quantities.push_back(quantity_of(name, entry));
+      for (const char* list : {"rungs", "replicates"})
+        for (const auto& measured : entry.at(list))
+          for (auto& rung : price.rungs)
+            if (rung.spec.refine == measured.at("refine").get<double>())
+              rung.values[q] = measured.at("value").get<double>();
+      ++q;
+    }
+    std::vector<std::string> unused;
+    auto whole = price_of(price.rungs, quantities, price.dimension, unused);
+    whole.scene = price.scene;
+    whole.title = price.title;
+    whole.scene_digest = price.scene_digest;
+    return whole;
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{}: is not a price list. Make it anew with splashdown price. ({})", file.string(), error.what()));
+  }
+}
+
+std::string price_line(const Price& price) {
+  std::string line;
+  for (const auto& row : price.rows)
+    if (row.seconds)
+      line += fmt::format("{}{:g} %: {}{}", line.empty() ? "" : "; ", row.accuracy_percent, about_time(*row.seconds),
+                          row.extrapolated ? ", extrapolated" : "");
+  return line;
+}
+
+std::string price_text(const Price& price) {
+  const auto replicates = std::ranges::count_if(price.rungs, [](const Rung& rung) { return rung.spec.replicate; });
+  std::string text = fmt::format("{}: {} meshes and {} replicates, the finest at refine {:.3g}\n",
+                                 one_line(price.title.empty() ? price.scene : price.title),
+                                 static_cast<long>(price.rungs.size()) - replicates, replicates, price.finest());
+  if (!price.rows.empty()) text += "  accuracy      time  refine  decided by\n";
+  text += rows_text(price);
+  std::size_t width = 8;
+  for (const auto& quantity : price.quantities) width = std::max(width, quantity.what.name.size());
+  text +=
+      fmt::format("  {:<{}}  {:>12}  {:>20}  {:>5}  {:>7}\n", "quantity", width, "value", "band", "order", "scatter");
+  for (const auto& quantity : price.quantities) {
+    const auto band = quantity.band_of_finest();
+    const auto order = quantity.fit ? quantity.fit->order() : std::nullopt;
+    text += fmt::format("  {:<{}}  {:>12}  {:>20}  {:>5}  {:>7}{}\n", quantity.what.name, width,
+                        value_text(quantity.value, quantity.what.unit),
+                        band ? fmt::format("+- {:.2g} ({})", *band, relative(band, quantity.value)) : "?",
+                        order ? fmt::format("{:.2f}", *order) : "-", relative(quantity.scatter, quantity.value),
+                        not_counted(quantity));
+  }
+  for (const auto& quantity : price.quantities)
+    if (quantity.fit && !quantity.fit->order())
+      text += fmt::format("  no order for {}: {}\n", quantity.what.name, quantity.fit->refusal());
+  return text;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,115 @@
+#include "apps/report/price.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/record/csv.hpp"
+#include "apps/report/data.hpp"
+#include "apps/report/page.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string cell(double value, int count = 4) {
+  return "<td>" + (std::isfinite(value) ? digits(value, count) : std::string("–")) + "</td>";
+}
+
+std::string seconds_cell(double seconds) {
+  return "<td>" + (std::isfinite(seconds) ? seconds_text(seconds) : std::string("–")) + "</td>";
+}
+
+std::string text_at(const Json& json, const char* key) { return html_escaped(json.value(key, "")); }
+
+std::string table(const std::string& title, const std::vector<std::string>& heads, const std::string& rows) {
+  std::string html = "<h2>" + title + "</h2>\n<div class=\"scroll\"><table><thead><tr>";
+  for (const auto& head : heads) html += "<th>" + head + "</th>";
+  return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+std::string rows_table(const Json& price) {
+  std::string rows;
+  for (const auto& row : price.at("rows"))
+    rows += fmt::format("<tr><td><b>{:g} %</b></td>{}{}<td>{}</td><td class=\"text\">{}</td></tr>\n",
+                        number_at(row, {"accuracy_percent"}), seconds_cell(number_at(row, {"seconds"})),
+                        cell(number_at(row, {"refine"}), 3), text_at(row, "decided_by"),
+                        row.at("seconds").is_null()          ? "not by refinement alone"
+                        : row.at("extrapolated").get<bool>() ? "extrapolated"
+                                                             : "measured");
+  return table("What accuracy costs", {"accuracy", "wall time", "refine", "decided by", ""}, rows);
+}
+
+std::string quantities_table(const Json& price) {
+  std::string rows;
+  for (const auto& [name, q] : price.at("quantities").items()) {
+    const double value = number_at(q, {"value"}), band = number_at(q, {"band"});
+    const double percent = 100 * std::abs(band / value);
+    rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}{}{}{}{}<td class=\"text\">{}{}</td></tr>\n",
+                        html_escaped(name), cell(value), text_at(q, "unit"), cell(band, 2), cell(percent, 2),
+                        cell(number_at(q, {"order"}), 2), cell(number_at(q, {"richardson"})),
+                        cell(number_at(q, {"scatter"}), 2), q.at("counts").get<bool>() ? "" : "not counted; ",
+                        text_at(q, "refused"));
+  }
+  return table("Quantities", {"quantity", "finest mesh", "unit", "band ±", "%", "order", "Richardson", "scatter", ""},
+               rows);
+}
+
+std::string runs_table(const fs::path& directory, const Json& price) {
+  std::string rows;
+  for (const auto& run : price.at("runs")) {
+    const auto folder = text_at(run, "folder");
+    const bool page = fs::exists(directory / run.value("folder", "") / "report.html");
+    rows += fmt::format("<tr><td>{}</td>{}{}{}{}<td class=\"text\">{}</td></tr>\n",
+                        page ? fmt::format("<a href=\"{0}/report.html\">{0}</a>", folder) : folder,
+                        cell(number_at(run, {"refine"})), seconds_cell(number_at(run, {"seconds"})),
+                        cell(number_at(run, {"node_steps"}), 3), cell(number_at(run, {"memory_mb"}), 3),
+                        run.at("replicate").get<bool>() ? "replicate" : "");
+  }
+  return table("Runs", {"run", "refine", "wall time", "node-steps", "memory (MB)", ""}, rows);
+}
+
+Banner banner_of(const Json& price) {
+  Banner banner{Mood::good, "What accuracy costs", {}};
+  std::string line;
+  for (const auto& row : price.at("rows"))
+    if (row.at("seconds").is_number())
+      line += fmt::format("{}<b>{:g} %</b>: {}{}", line.empty() ? "" : "; ", number_at(row, {"accuracy_percent"}),
+                          seconds_text(number_at(row, {"seconds"})),
+                          row.at("extrapolated").get<bool>() ? ", extrapolated" : "");
+  if (line.empty()) banner = {Mood::fair, "Too few meshes for a price", {"Three meshes are needed at least."}};
+  if (!line.empty()) banner.sentences.push_back(line + ".");
+  return banner;
+}
+
+}  // namespace
+
+bool holds_price(const fs::path& directory) { return fs::exists(directory / "price.json"); }
+
+ReportResult write_price_report(const fs::path& directory) {
+  const auto price = read_json(directory / "price.json");
+  ReportResult result{directory / "report.html", {}};
+  try {
+    const auto named = price.value("title", "");
+    const auto title = named.empty() ? folder_name(directory) : named;
+    std::string chart;
+    if (fs::exists(directory / "price.svg"))
+      chart = html_figure(
+          inline_svg(read_text(directory / "price.svg"), "price"),
+          "Band of the quantities that count against the wall time of the run: thin lines one by one, thick the "
+          "widest of them. Circles: meshes that no other one beats in both.");
+    write_file_atomically(
+        result.page,
+        html_page(title, html_header(title, directory, banner_of(price), {}) + rows_table(price) + chart +
+                             quantities_table(price) + runs_table(directory, price) +
+                             "<footer>Made by Splashdown from <code>price.json</code> in this folder.</footer>\n"));
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{}: is not a price list ({})", (directory / "price.json").string(), error.what()));
+  }
+  return result;
+}
+
+}  // namespace splashdown::apps

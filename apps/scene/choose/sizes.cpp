@@ -1,0 +1,222 @@
+#include "apps/scene/choose/sizes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "apps/check/motion_guess.hpp"
+#include "apps/check/scales.hpp"
+#include "apps/scene/geometry.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using std::numbers::pi;
+
+template <int d>
+struct Rules;
+template <>
+struct Rules<2> {
+  static constexpr double entering = 50, wetted_fraction = 0.02, wet = 30, growth = 0.1;
+};
+template <>
+struct Rules<3> {
+  static constexpr double entering = 33, wetted_fraction = 0.03, wet = 14, growth = 0.25;
+};
+constexpr double of_calm_surface = 5, of_waves = 20, of_liquid = 30, a_wave = 40, far_of_liquid = 8;
+constexpr double wet_from = 0.02;       // of its height under water at the start: more than a touch
+constexpr double gentle_froude2 = 0.1;  // V^2 / (g c): a hull that is put down, not thrown
+
+double two_digits(double value) {
+  const int digit = static_cast<int>(std::floor(std::log10(value))) - 1;
+  const double step = std::pow(10., std::abs(digit));  // a whole number: what is divided by it is the nearest to its decimals
+  return digit < 0 ? std::round(value * step) / step : std::round(value / step) * step;
+}
+
+template <int d>
+struct Hull {
+  double breadth = 0;  ///< in space the mean of both horizontal extents [m]
+  double half = 0;     ///< c of an entering hull, half of the breadth of a wet one [m]
+  bool enters = false;
+  std::string why;
+
+  double size() const { return half / (enters ? Rules<d>::entering : Rules<d>::wet); }
+};
+
+/// Speed at the water, downward [m/s].
+template <int d>
+double entry_speed(const Scene& scene, const Body& body, double fall) {
+  if (!body.path.empty() || body.motion == Motion::fixed) return 0;
+  const double g = scene.gravity && body.motion == Motion::free ? -scene.gravity->acceleration[d - 1] : 0;
+  const double down = -body.velocity[d - 1];
+  return std::sqrt(std::max(0., (down > 0 ? down * down : 0) + 2 * std::max(0., g) * fall));
+}
+
+template <int d>
+double peak_half_width(const Scene& scene, const Body& body) {
+  const double volume = shape_of<d>(body.shape).at_unit_density.mass, rho = scene.fluid->density;
+  const double mass = body.mass ? *body.mass : body.density.value_or(0) * volume;
+  if constexpr (d == 2) return std::sqrt(2 * mass / (5 * pi * rho));
+  return std::cbrt(3 * mass / (32 * rho));
+}
+
+/// Half of the breadth just above the lowest point, of a flat bottom.
+template <int d>
+double flat_half_width(const rigid::Surface<d>& hull, double height) {
+  const double top = hull.vertices.row(d - 1).minCoeff() + 1e-3 * height;
+  Extents<d> below;
+  for (Eigen::Index v = 0; v < hull.vertices.cols(); ++v)
+    if (hull.vertices(d - 1, v) <= top) below.extend(rigid::Vec<d>(hull.vertices.col(v)));
+  return below.isEmpty() ? 0 : below.sizes().template head<d - 1>().minCoeff() / 2;
+}
+
+template <int d>
+Hull<d> hull_of(const Scene& scene, const Body& body) {
+  const auto surface = outline<d>(body);
+  const auto box = extents<d>(surface);
+  Hull<d> hull;
+  hull.breadth = std::pow(box.sizes().template head<d - 1>().prod(), 1. / (d - 1));
+  const double height = box.sizes()[d - 1], level = still_water_level<d>(scene).value_or(box.min()[d - 1]);
+  const double above = box.min()[d - 1] - level, speed = entry_speed<d>(scene, body, std::max(0., above));
+  const double g = scene.gravity ? scene.gravity->acceleration.norm() : 0;
+  const bool moves = speed * speed > gentle_froude2 * g * hull.breadth / 2 || !body.path.empty();
+  hull.enters = above > -wet_from * height && moves;
+  hull.half = hull.breadth / 2;
+  hull.why = "half of its breadth";
+  if (!hull.enters) return hull;
+  double c = body.motion == Motion::free ? peak_half_width<d>(scene, body) : wetted_half<d>(scene, body, scene.time.end);
+  c = std::max(c, flat_half_width<d>(surface, height));
+  if (!(c > 0 && c < hull.half)) return hull;
+  hull.half = c;
+  hull.why = body.motion == Motion::free ? "half of the wetted width at the largest load"
+                                         : "half of the wetted width at the end";
+  return hull;
+}
+
+template <int d>
+double least_liquid_extent(const Scene& scene) {
+  double least = 0;
+  for (const auto& region : scene.fluid->regions) {
+    auto box = extents<d>(outline<d>(region));
+    if (scene.tank) box = box.intersection(extents<d>(*scene.tank));
+    const double side = box.isEmpty() ? 0 : box.sizes().minCoeff();
+    if (side > 0 && (least == 0 || side < least)) least = side;
+  }
+  return least;
+}
+
+template <int d>
+struct Choice {
+  std::vector<Hull<d>> hulls;
+  double surface = 0, far = 0;
+  std::string surface_why, far_why;
+  bool enters = false;
+};
+
+/// Of a scene without hulls.
+template <int d>
+void choose_for_liquid(const Scene& scene, double least, Choice<d>& choice) {
+  choice.surface = least / of_liquid;
+  choice.surface_why = fmt::format("{:g} elements on the liquid's least extent of {:.3g} m", of_liquid, least);
+  for (const auto& region : scene.fluid->regions)
+    if (const auto* box = std::get_if<BoxRegion>(&region.shape); box && box->surface_amplitude != 0) {
+      choice.surface = std::min(choice.surface, box->surface_wavelength / a_wave);
+      choice.surface_why = fmt::format("{:g} elements on a wave of {:.3g} m", a_wave, box->surface_wavelength);
+    }
+  choice.far = choice.surface;
+  choice.far_why = "that of the surface";
+}
+
+template <int d>
+Choice<d> choose(const Scene& scene) {
+  Choice<d> choice;
+  const double least = least_liquid_extent<d>(scene), g = scene.gravity ? scene.gravity->acceleration.norm() : 0;
+  double breadth = 0;
+  bool waves = false;
+  for (const auto& body : scene.bodies) {
+    const auto& hull = choice.hulls.emplace_back(hull_of<d>(scene, body));
+    choice.enters = choice.enters || hull.enters;
+    breadth = breadth == 0 ? hull.breadth : std::min(breadth, hull.breadth);
+    const auto box = extents<d>(outline<d>(body));
+    const double level = still_water_level<d>(scene).value_or(0);
+    const bool pierces = box.min()[d - 1] < level && box.max()[d - 1] > level;
+    waves = waves || (g > 0 && ((!hull.enters && pierces) || scene.time.end > pi * std::sqrt(hull.breadth / g)));
+  }
+  if (choice.hulls.empty()) {
+    choose_for_liquid<d>(scene, least, choice);
+    return choice;
+  }
+  choice.surface = std::min(breadth / (waves ? of_waves : of_calm_surface), least / far_of_liquid);
+  choice.surface_why = fmt::format(
+      "a {} of the hull's breadth of {:.3g} m{}", waves ? "twentieth" : "fifth", breadth,
+      waves ? ", forty elements on a wave of two breadths" : "; near the hull the hull's size decides");
+  choice.far = std::max(choice.surface, std::min(breadth, least / far_of_liquid));
+  choice.far_why = fmt::format("the hull's breadth, at most an eighth of the liquid's least extent of {:.3g} m", least);
+  return choice;
+}
+
+}  // namespace
+
+template <int d>
+std::vector<ChosenSize> size_rules(const Scene& scene) {
+  const auto choice = choose<d>(scene);
+  if (!(choice.surface > 0)) return {};
+  std::vector<ChosenSize> list;
+  const auto fluid = [&](const char* key, double value, const std::string& why) {
+    list.push_back({"fluid.size", 0, key, value, why});
+  };
+  const double surface = two_digits(choice.surface);
+  fluid("surface", surface, choice.surface_why);
+  fluid("far", std::max(surface, two_digits(choice.far)), choice.far_why);
+  fluid("growth", Rules<d>::growth, d == 2 ? "in the plane" : "in space");
+  if (choice.enters)
+    fluid("wetted_fraction", Rules<d>::wetted_fraction,
+          fmt::format("{:.2g} elements on half of the wetted width once the hull is wetted farther",
+                      1 / Rules<d>::wetted_fraction));
+  for (std::size_t b = 0; b < choice.hulls.size(); ++b) {
+    const auto& hull = choice.hulls[b];
+    const double size = two_digits(hull.size());
+    list.push_back({"body", b, "size", std::min(size, surface),
+                    size < surface ? fmt::format("{:g} elements on {}, {:.2g} m", hull.half / hull.size(), hull.why, hull.half)
+                                   : "that of the surface"});
+  }
+  return list;
+}
+
+template <int d>
+std::vector<std::string> sizes_against_rules(const Scene& scene) {
+  std::vector<std::string> list;
+  const auto choice = choose<d>(scene);
+  const auto& size = scene.fluid->size;
+  const double rounded = 1.05;  // what two digits make of a size
+  for (std::size_t b = 0; b < choice.hulls.size(); ++b) {
+    const auto& hull = choice.hulls[b];
+    const auto& body = scene.bodies[b];
+    if (body.size > rounded * hull.size())
+      list.push_back(fmt::format("body.{}.size = {:.3g} m puts {:.2g} elements on {} ({:.2g} m), not {:g}: use {:.2g} m",
+                                 body.name, body.size, hull.half / body.size, hull.why, hull.half,
+                                 hull.half / hull.size(), two_digits(hull.size())));
+    if (hull.enters && size.wetted_fraction > rounded * Rules<d>::wetted_fraction)
+      list.push_back(fmt::format("fluid.size.wetted_fraction = {:g} leaves {:.2g} elements on half of the wetted width, "
+                                 "not {:.2g}: use {:g}",
+                                 size.wetted_fraction, 1 / size.wetted_fraction, 1 / Rules<d>::wetted_fraction,
+                                 Rules<d>::wetted_fraction));
+  }
+  if (choice.surface > 0 && size.surface > rounded * choice.surface)
+    list.push_back(fmt::format("fluid.size.surface = {:.3g} m is more than {}: use {:.2g} m", size.surface,
+                               choice.surface_why, two_digits(choice.surface)));
+  const double most_growth = 0.3;  // of the examples
+  if (size.growth > most_growth)
+    list.push_back(fmt::format("fluid.size.growth = {:g} is more than {:g}: use {:g}", size.growth, most_growth,
+                               Rules<d>::growth));
+  return list;
+}
+
+template std::vector<ChosenSize> size_rules<2>(const Scene&);
+template std::vector<ChosenSize> size_rules<3>(const Scene&);
+template std::vector<std::string> sizes_against_rules<2>(const Scene&);
+template std::vector<std::string> sizes_against_rules<3>(const Scene&);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,177 @@
+#include "apps/statistics/grades.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "apps/report/words.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+/// An error that falls as 1/n from what was measured at n elements.
+struct FirstOrder {
+  double error, elements;
+  double operator()(double n) const { return error * elements / n; }
+};
+constexpr FirstOrder entering_plane{0.05, 25}, entering_space{0.13, 17}, staying{0.03, 17};
+constexpr double point_factor = 2;  // of the mesh's error at a point, besides the load's own
+constexpr double mostly = 0.5;      // impulse
+constexpr double at_rest_g = 0.02;  // doubtful_above of a g
+
+enum class Kind { acceleration, force, pressure };
+
+/// One error with its words.
+struct Share {
+  double error;
+  std::string words;
+};
+
+/// First order: half the size, half the error.
+constexpr double halving_refine = 2, small_refine = 1.4;
+
+/// What a share must reach to be told: a quarter of the band of resolved numbers adds 3 % to it.
+constexpr double worth_telling = resolved_band / 4;
+
+std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+/// What a number is of.
+struct Of {
+  int dimension;
+  Kind kind;
+  bool raw = true;
+};
+
+std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
+  const auto [dimension, kind, raw] = of;
+  std::vector<Share> list;
+  const double near = std::isfinite(e.pressed) ? 1 + point_factor / (1 + e.pressed) : 1;
+  const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
+  list.push_back({mesh, fmt::format("{:.2g} elements on half of the wetted width{}{}: {}", e.elements,
+                                    e.growing > mostly ? ", which grows" : "",
+                                    std::isfinite(e.pressed) ? fmt::format(", {:.2g} on half of the patch", e.pressed)
+                                                             : "",
+                                    percent_text(mesh))});
+  if (!std::isnan(e.step))
+    list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
+                                        kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps")});
+  if (std::isfinite(e.sideways))
+    list.push_back({e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids",
+                                            percent_text(e.sideways))});
+  if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && e.repair >= mostly)))
+    list.push_back({e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
+                                          kind == Kind::pressure ? "which pressures lack" : "whose peak goes as 1/dt")});
+  return list;
+}
+
+void grade(NumberGrade& number, const Of& of, const BodySummary& body) {
+  const auto list = shares(of, number.evidence, body.inertial);
+  double squared = 0;
+  number.reasons.clear();
+  for (const auto& share : list) squared += share.error * share.error;
+  number.band = std::sqrt(squared);
+  number.grade = grade_of_band(number.band);
+  const auto largest = std::ranges::max_element(list, {}, &Share::error);
+  if (number.grade != Grade::resolved)
+    for (const auto& share : list)
+      if (share.error >= worth_telling || &share == &*largest) number.reasons.push_back(share.words);
+  if (body.verdict.grade > number.grade || (body.verdict.grade == number.grade && number.grade != Grade::resolved)) {
+    number.grade = body.verdict.grade;
+    number.reasons.emplace_back("the water's energy or volume, see the verdict");
+  }
+}
+
+void grade(PulseGrades& grades, const PulseSummary& pulses, double least, Of of, const BodySummary& body) {
+  if (grades.raw && !(pulses.raw.value >= least)) grades.raw.reset();
+  std::erase_if(grades.cfc, [&](const auto& one) { return !(pulses.cfc.at(one.first).value >= least); });
+  if (grades.raw) grade(*grades.raw, of, body);
+  of.raw = false;
+  for (auto& [cfc, number] : grades.cfc) grade(number, of, body);
+}
+
+/// Of the class that a body's verdict goes by; without it the raw one.
+const NumberGrade* headline_of(const PulseGrades& grades) {
+  const auto found = grades.cfc.find(structures_class);
+  if (found != grades.cfc.end()) return &found->second;
+  return grades.raw ? &*grades.raw : nullptr;
+}
+
+std::string class_text(const PulseGrades& grades) {
+  return grades.cfc.contains(structures_class) ? fmt::format(", CFC {}", structures_class) : ", raw";
+}
+
+double value_of(const PulseSummary& pulses, const PulseGrades& grades) {
+  return grades.cfc.contains(structures_class) ? pulses.cfc.at(structures_class).value : pulses.raw.value;
+}
+
+}  // namespace
+
+double mesh_band(int dimension, const Evidence& evidence) {
+  if (!(evidence.elements > 0)) return std::numeric_limits<double>::infinity();
+  const double growing = std::isfinite(evidence.growing) ? evidence.growing : 1;
+  const auto& entering = dimension == 2 ? entering_plane : entering_space;
+  return growing * entering(evidence.elements) + (1 - growing) * staying(evidence.elements);
+}
+
+Grade grade_of_band(double band) {
+  if (band <= resolved_band) return Grade::resolved;
+  return band <= doubtful_band ? Grade::doubtful : Grade::unresolved;
+}
+
+void grade_numbers(Summary& summary) {
+  const int d = summary.dimension;
+  for (auto& [name, body] : summary.bodies) {
+    const bool touched = body.landing.first_contact >= 0;
+    if (!touched) body.acceleration_grades = body.force_grades = {};
+    grade(body.acceleration_grades, body.acceleration, at_rest_g, {d, Kind::acceleration}, body);
+    grade(body.force_grades, body.force, 0, {d, Kind::force}, body);
+    body.maximum_pressure_grade.reset();
+    if (!body.maximum_pressure) continue;
+    body.maximum_pressure_grade.emplace().evidence = body.maximum_pressure->evidence;
+    grade(*body.maximum_pressure_grade, {d, Kind::pressure}, body);
+  }
+  for (auto& [name, patch] : summary.patches) {
+    patch.grade.reset();
+    const auto body = summary.bodies.find(patch.body);
+    if (body == summary.bodies.end() || !(patch.pressure.value > 0)) continue;
+    patch.grade.emplace().evidence = patch.evidence;
+    grade(*patch.grade, {d, Kind::pressure}, body->second);
+  }
+}
+
+std::vector<Headline> headlines(const Summary& summary, const std::string& name) {
+  std::vector<Headline> list;
+  const auto& body = summary.bodies.at(name);
+  if (const auto* a = headline_of(body.acceleration_grades))
+    list.push_back({"peak acceleration" + class_text(body.acceleration_grades),
+                    fmt::format("{:.3g} g", value_of(body.acceleration, body.acceleration_grades)), a});
+  if (const auto* f = headline_of(body.force_grades))
+    list.push_back({"peak force" + class_text(body.force_grades),
+                    with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3), f});
+  for (const auto& [patch_name, patch] : summary.patches)
+    if (patch.body == name && patch.grade)
+      list.push_back({"peak pressure on " + patch_name, with_unit(patch.pressure.value, "Pa", 3), &*patch.grade});
+  return list;
+}
+
+std::optional<NextStep> next_step(const Summary& summary) {
+  double band = 0;
+  for (const auto& [name, body] : summary.bodies)
+    for (const auto& headline : headlines(summary, name)) band = std::max(band, headline.grade->band);
+  if (band <= resolved_band || summary.status != "done") return {};
+  const double refine = band <= small_refine * resolved_band ? small_refine : halving_refine;
+  return NextStep{refine, summary.wall_seconds * std::pow(refine, cost_exponent(summary.dimension))};
+}
+
+std::string text_of(const NextStep& next) {
+  const auto time = next.seconds < 90     ? fmt::format("{:.2g} s", next.seconds)
+                    : next.seconds < 5400 ? fmt::format("{:.0f} min", next.seconds / 60)
+                                          : fmt::format("{:.2g} h", next.seconds / 3600);
+  return fmt::format("--refine {:g}, about {}, {}", next.refine, time,
+                     next.refine == halving_refine ? "halves the bands" : "brings the bands to 5 %");
+}
+
+}  // namespace splashdown::apps

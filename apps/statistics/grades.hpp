@@ -1,0 +1,59 @@
+// A band and a grade for every peak, from what the steps around it say (evidence.hpp).
+//
+//   band = sqrt(mesh^2 + step^2 + sideways^2), of pressures + repair^2: independent errors
+//
+//   mesh      g s(n) + (1 - g) r(n), n elements on half of the wetted width, g the share of it that is growing
+//             s  load of a hull that enters: in the plane 5 % at 25 elements, in space 13 % at 17, of first order
+//             r  load of a hull whose wetted part stays: 3 % at 17 elements, of first order
+//             A load that mostly carries weight is wrong by as little as its inertial part: times |m a| / load. A pressure is
+//             local: times 1 + 2/(1 + n_p), with n_p elements on half of the patch, 3 at a point
+//   step      of filtered peaks in the filtered channel
+//   sideways  symmetric scenes
+//   repair    what pressures lack; a raw peak of a load that is impulse by half or more goes as 1/dt and has no value
+//
+// Where s, r and the factor of pressures come from: docs/guide.md, "The band". First order is less than what is measured
+// for most hulls: a band that promises too much is worse than one that promises too little.
+//
+//   resolved    band <= 5 %, the band of the verdict's energy (verdict.hpp)
+//   doubtful    band <= 10 %: elements of half the size bring it to 5 %
+//   unresolved  above, or no number
+//
+// Numbers that are not graded: peaks of what moves as prescribed or never touched water, and accelerations below 2 % of g,
+// which are of a body at rest.
+#pragma once
+
+#include "apps/statistics/summary.hpp"
+
+namespace splashdown::apps {
+
+inline constexpr double resolved_band = 0.05, doubtful_band = 0.10;
+
+/// SAE J211: loads on structures as a whole.
+inline constexpr int structures_class = 60;
+
+/// Share of the error of the mesh in a load, see above.
+double mesh_band(int dimension, const Evidence& evidence);
+Grade grade_of_band(double band);
+
+/// Turns the evidence of a summary into bands and grades. `bodies.NAME.verdict` must hold what concerns the whole run:
+/// numbers are no better than that.
+void grade_numbers(Summary& summary);
+
+/// The numbers that a body's verdict goes by, with their names: accelerations and loads of CFC 60, raw where the record is too
+/// short or its steps are too long for that class, and means over patches.
+struct Headline {
+  std::string name, value;
+  const NumberGrade* grade = nullptr;
+};
+std::vector<Headline> headlines(const Summary& summary, const std::string& body);
+
+/// Wall time over refinement: all sizes divided by r cost r^this. Fitted to the runs of docs/guide.md, "The band"; elements of
+/// one size everywhere would have 3 and 4.
+constexpr double cost_exponent(int dimension) { return dimension == 2 ? 2 : 3; }
+
+/// Nothing to do if every headline is resolved. Half the size, or as much as the widest band needs to be resolved.
+std::optional<NextStep> next_step(const Summary& summary);
+/// "--refine 2, about 3 min, halves the bands".
+std::string text_of(const NextStep& next);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,87 @@
+// Sizes that a scene leaves open: what is chosen is what could have been written, and it scales with the scene.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "apps/scene/choose/sizes.hpp"
+#include "apps/scene/read/read.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+/// The guide's first scene, `k` times as large with Froude's speeds and times.
+std::string box_scene(double k, const std::string& sizes = "", const std::string& hull_size = "") {
+  const double root = std::sqrt(k);
+  return fmt::format(
+      "[time]\nend = {}\n[gravity]\n[tank]\nmin = [{}, {}]\nmax = [{}, {}]\n[fluid]\ndensity = 1000\n{}"
+      "[[fluid.region]]\nshape = \"box\"\nmin = [{}, {}]\nmax = [{}, 0.0]\n"
+      "[[body]]\nname = \"box\"\nshape = {{type = \"box\", width = {}, height = {}}}\ndensity = 300\n"
+      "position = [0.0, {}]\npitch_deg = 20\nvelocity = [{}, {}]\n{}",
+      0.5 * root, -2 * k, -k, 2 * k, k, sizes, -2 * k, -k, 2 * k, 0.3 * k, 0.2 * k, 0.25 * k, 0.5 * root, -2 * root,
+      hull_size);
+}
+
+SceneFile read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return read_scene_text(text, "scene.toml", overrides);
+}
+
+TEST(ChosenSizes, written_out_are_the_same_scene_bit_for_bit) {
+  const auto open = read(box_scene(1));
+  ASSERT_FALSE(open.chosen.empty());
+  EXPECT_TRUE(read(open.resolved).chosen.empty()) << "scene.resolved.toml names all sizes";
+  EXPECT_EQ(read(open.resolved).resolved, open.resolved);
+  std::string fluid = "[fluid.size]\n", hull;
+  for (const auto& size : size_rules<2>(open.scene))
+    (size.table == "body" ? hull : fluid) += fmt::format("{} = {}\n", size.key, size.value);
+  EXPECT_EQ(read(box_scene(1, fluid, hull)).resolved, open.resolved);
+}
+
+TEST(ChosenSizes, of_a_scene_ten_times_as_large_are_ten_times_as_large) {
+  const auto one = read(box_scene(1)).scene, ten = read(box_scene(10)).scene;
+  const double digits = 1e-12;  // of lengths that were rounded to two
+  EXPECT_NEAR(ten.fluid->size.surface / one.fluid->size.surface, 10, 10 * digits);
+  EXPECT_NEAR(ten.fluid->size.far / one.fluid->size.far, 10, 10 * digits);
+  EXPECT_NEAR(ten.bodies[0].size / one.bodies[0].size, 10, 10 * digits);
+  EXPECT_EQ(ten.fluid->size.growth, one.fluid->size.growth);
+  EXPECT_EQ(ten.fluid->size.wetted_fraction, one.fluid->size.wetted_fraction);
+}
+
+TEST(ChosenSizes, are_divided_by_refine_like_those_that_are_written) {
+  const auto coarse = read(box_scene(1)).scene, fine = read(box_scene(1), {"fluid.size.refine=2"}).scene;
+  EXPECT_EQ(fine.fluid->size.surface, coarse.fluid->size.surface / 2);
+  EXPECT_EQ(fine.fluid->size.wetted_fraction, coarse.fluid->size.wetted_fraction / 2);
+  EXPECT_EQ(fine.bodies[0].size, coarse.bodies[0].size / 2);
+}
+
+TEST(ChosenSizes, leave_alone_what_is_given) {
+  const auto hull = read(box_scene(1, "", "size = 0.004\n"));
+  EXPECT_EQ(hull.scene.bodies[0].size, 0.004);
+  EXPECT_FALSE(hull.chosen.empty());
+  const auto surface = read(box_scene(1, "[fluid.size]\nsurface = 0.02\n"));
+  EXPECT_TRUE(surface.chosen.empty()) << "who names the surface has the defaults for the rest";
+  EXPECT_EQ(surface.scene.bodies[0].size, 0.02);
+  EXPECT_EQ(surface.scene.fluid->size.growth, Sizes{}.growth);
+}
+
+TEST(ChosenSizes, obey_their_own_rules_and_printed_ones_are_told_when_they_do_not) {
+  EXPECT_TRUE(sizes_against_rules<2>(read(box_scene(1)).scene).empty());
+  const auto coarse = sizes_against_rules<2>(read(box_scene(1, "[fluid.size]\nsurface = 0.02\n", "size = 0.01\n")).scene);
+  ASSERT_EQ(coarse.size(), 1u);
+  for (const char* piece : {"body.box.size = 0.01 m", "4.8 elements", "not 50", "use 0.00096 m"})
+    EXPECT_NE(coarse[0].find(piece), std::string::npos) << piece << " is not in: " << coarse[0];
+}
+
+TEST(ChosenSizes, of_a_scene_with_mistakes_are_not_among_them) {
+  try {
+    read(box_scene(1, "", "colour = 1\n"));
+    FAIL() << "an unknown key";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("colour"), std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find("size.surface"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace splashdown::apps

@@ -1,0 +1,223 @@
+// Laws of price lists: fits of manufactured series, seconds, rows, what is written and read back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "apps/price/write.hpp"
+#include "apps/scene/read/read.hpp"
+#include "scenes.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+const std::vector<double> usual = {2, std::sqrt(2.), 1, std::sqrt(0.5)};  // element sizes of the usual ladder
+
+template <class Value>
+std::vector<MeshValue> series(const Value& value, const std::vector<double>& sizes = usual) {
+  std::vector<MeshValue> values;
+  for (const double h : sizes) values.push_back({h, value(h)});
+  return values;
+}
+
+Convergence fit(const std::vector<MeshValue>& values) { return Convergence::of(values).value(); }
+
+class Order : public ::testing::TestWithParam<double> {};
+
+TEST_P(Order, of_an_exact_series_is_found_with_its_limit_and_the_band_is_a_quarter_wider_than_the_error) {
+  const double p = GetParam();
+  const auto values = series([p](double h) { return 7 - 0.3 * std::pow(h, p); });
+  const auto found = fit(values);
+  ASSERT_TRUE(found.order()) << found.refusal();
+  const double digits = 1e-6;  // a search to 1e-9 in p, through the condition of the fit, about 1e2 here
+  EXPECT_NEAR(*found.order(), p, digits);
+  EXPECT_NEAR(found.extrapolated(), 7, digits);
+  EXPECT_NEAR(found.band(values.back()), 1.25 * 0.3 * std::pow(values.back().h, p), digits);
+}
+INSTANTIATE_TEST_SUITE_P(orders, Order, ::testing::Values(0.6, 1., 1.5, 2.));
+
+TEST(Convergence, of_a_higher_order_is_refused_and_bounded_by_one_that_the_method_has) {
+  const auto values = series([](double h) { return 1 + 0.1 * h * h * h; });
+  const auto found = fit(values);
+  EXPECT_FALSE(found.order());
+  EXPECT_NE(found.refusal().find("order 3 lies outside the asymptotic range"), std::string::npos) << found.refusal();
+  EXPECT_EQ(found.form(), Form::second_order);
+  EXPECT_GE(found.band(values.back()), std::abs(values.back().value - 1));
+}
+
+TEST(Convergence, of_a_low_order_is_refused_and_said) {
+  const auto found = fit(series([](double h) { return 1 + 0.1 * std::log(h); }));
+  EXPECT_FALSE(found.order());
+  EXPECT_NE(found.refusal().find("below 0.5"), std::string::npos) << found.refusal();
+}
+
+TEST(Convergence, of_an_oscillating_series_has_a_band_that_holds_all_of_it) {
+  int k = 0;
+  const auto values = series([&](double) { return 5 + (k++ % 2 == 0 ? 0.2 : -0.2); });
+  const auto found = fit(values);
+  EXPECT_TRUE(found.scattered());
+  for (const auto& value : values) EXPECT_GE(found.band(value), 0.2);
+}
+
+TEST(Convergence, of_a_constant_has_no_band) {
+  const auto found = fit(series([](double) { return 4.; }));
+  EXPECT_FALSE(found.order());
+  EXPECT_EQ(found.band(1), 0);
+  EXPECT_NEAR(found.extrapolated(), 4, 1e-12);  // round-off
+}
+
+TEST(Convergence, of_three_meshes_has_a_band_and_no_order) {
+  const auto values = series([](double h) { return 1 + h; }, {2, 1, 0.5});
+  const auto found = fit(values);
+  EXPECT_FALSE(found.order());
+  const double roundoff = 1e-12;
+  EXPECT_NEAR(found.band(values.back()), 3 * 0.5, roundoff);
+}
+
+TEST(Convergence, needs_three_sizes_and_numbers) {
+  const auto line = [](double h) { return 1 + h; };
+  EXPECT_FALSE(Convergence::of(series(line, {2, 1})));
+  EXPECT_FALSE(Convergence::of(series(line, {2, 1, 1.02, 0.98})));  // replicates are one
+  EXPECT_FALSE(Convergence::of(series([](double h) { return h < 1 ? NAN : h; })));
+}
+
+TEST(Convergence, promises_no_less_on_coarser_meshes) {
+  for (const double bend : {-0.3, -0.1, 0.1, 0.3}) {
+    const auto found = fit(series([=](double h) { return 2 + 0.4 * h + bend * h * h; }));
+    for (double h = 0.1; h < 4; h *= 1.1) EXPECT_LE(found.band(h), found.band(1.1 * h) * (1 + 1e-12)) << bend;
+  }
+}
+
+/// Series of an order with noise of a share of the finest mesh's error, two replicates among them.
+double share_within(double p, double noise, int tries) {
+  std::mt19937 random(1);
+  int within = 0;
+  for (int i = 0; i < tries; ++i) {
+    std::normal_distribution<double> normal(0, noise * std::pow(usual.back(), p));
+    auto values = series([&](double h) { return 1 + std::pow(h, p) + normal(random); },
+                         {usual[0], usual[1], usual[2], usual[2] / 0.98, usual[2] / 1.02, usual[3]});
+    within += std::abs(values.back().value - 1) <= fit(values).band(values.back()) ? 1 : 0;
+  }
+  return static_cast<double>(within) / tries;
+}
+
+TEST(Convergence, of_noisy_series_holds_the_true_value_in_nineteen_of_twenty) {
+  for (const double p : {1., 2.})
+    for (const double noise : {0.05, 0.3, 1.}) EXPECT_GE(share_within(p, noise, 200), 0.95) << p << ' ' << noise;
+}
+
+Rung rung(double refine, double seconds, std::vector<double> values, bool replicate = false) {
+  return {.spec = {refine, replicate},
+          .folder = "refine",
+          .seconds = seconds,
+          .node_steps = 1e4 * refine * refine * refine,
+          .memory_mb = 50,
+          .values = std::move(values)};
+}
+
+PriceQuantity named(const std::string& name, bool counts = true) {
+  return {.name = name, .unit = "N", .counts = counts, .path = "bodies." + name, .measured = {}};
+}
+
+/// A ladder of first order with seconds that follow node-steps.
+std::vector<Rung> ladder() {
+  std::vector<Rung> rungs;
+  for (const double refine : {0.5, 0.707, 1., 1.41})
+    rungs.push_back(rung(refine, 2 * std::pow(refine, 3), {10 + 0.1 / refine, std::sin(100 * refine)}));
+  for (const double refine : {0.98, 1.02})
+    rungs.push_back(rung(refine, 2 * std::pow(refine, 3), {10 + 0.1 / refine, std::sin(100 * refine)}, true));
+  return rungs;
+}
+
+Price price() {
+  std::vector<std::string> notes;
+  auto price = price_of(ladder(), {named("smooth"), named("wild", false)}, 2, notes);
+  price.scene = "scene.toml", price.scene_digest = "0";
+  EXPECT_TRUE(notes.empty());
+  return price;
+}
+
+TEST(Price, seconds_follow_the_work) {
+  EXPECT_FALSE(predicted_seconds({}, 1, 2));
+  const double roundoff = 1e-9;
+  for (const double refine : {0.3, 1., 2.5})
+    EXPECT_NEAR(*predicted_seconds(ladder(), refine, 2) / (2 * std::pow(refine, 3)), 1, roundoff);
+  // A single run: a uniform mesh.
+  EXPECT_NEAR(*predicted_seconds({rung(1, 2, {})}, 2, 3), 2 * 16, roundoff);
+}
+
+TEST(Price, one_slow_run_of_six_decides_little) {
+  auto rungs = ladder();
+  rungs[2].seconds *= 2;
+  const double change = *predicted_seconds(rungs, 2, 2) / 16;
+  EXPECT_LT(std::abs(std::log(change)), std::log(2.) / 2);
+}
+
+TEST(Price, a_row_s_mesh_has_its_accuracy_and_none_coarser_has) {
+  const auto list = price();
+  ASSERT_FALSE(list.rows.empty());
+  for (const auto& row : list.rows) {
+    if (!row.refine || *row.refine == list.coarsest()) continue;
+    EXPECT_LE(list.accuracy(*row.refine)->first, 0.01 * row.accuracy_percent);
+    EXPECT_GT(list.accuracy(0.99 * *row.refine)->first, 0.01 * row.accuracy_percent);
+    EXPECT_EQ(row.extrapolated, *row.refine > 1.41);
+    EXPECT_EQ(row.decided_by, "smooth");
+  }
+}
+
+TEST(Price, time_and_mesh_are_inverse) {
+  const auto list = price();
+  for (const double seconds : {1., 5., 20.})
+    EXPECT_NEAR(*list.seconds(*list.refine_in(seconds)) / seconds, 1, 1e-4);  // the bisection ends at 1e-6 in refine
+}
+
+TEST(Price, written_and_read_back_it_says_the_same) {
+  const ScratchFolder folder;
+  const auto again = read_price(folder.write(price_file, price_json(price())));
+  EXPECT_EQ(price_json(again), price_json(price()));
+  EXPECT_EQ(price_text(again), price_text(price()));
+}
+
+TEST(Price, of_a_file_that_is_none_is_refused) {
+  const ScratchFolder folder;
+  const auto file = folder.write(price_file, "{\"rows\": 3}");
+  EXPECT_THROW(read_price(file), std::runtime_error);
+}
+
+TEST(PriceQuantity, is_read_with_its_table_and_condition) {
+  const auto quantity = parsed_quantity("peak=max(fy) from bodies.csv:wedge where time > 0.1");
+  EXPECT_EQ(quantity.name, "peak");
+  EXPECT_EQ(quantity.measured.quantity, "max(fy)");
+  EXPECT_EQ(quantity.measured.table, "bodies.csv:wedge");
+  EXPECT_EQ(quantity.measured.where, "time > 0.1");
+}
+
+TEST(PriceQuantity, that_no_run_can_measure_is_refused_with_a_cure) {
+  const auto scene = read_scene_text(testing::wedge_drop, "scene.toml").scene;
+  for (const char* bad : {"max(fy)", "=3", "a-b=3", "a=max(", "a=max(fx) from bodies.csv:wegde",
+                          "a=summary.bodies.wedge.peek", "a=max(value)"})
+    EXPECT_THROW(check_price_quantities({parsed_quantity(bad)}, scene), SceneError) << bad;
+  EXPECT_NO_THROW(check_price_quantities({parsed_quantity("a=max(fy) from bodies.csv:wedge")}, scene));
+}
+
+TEST(PriceQuantity, defaults_follow_bodies_and_records) {
+  const auto scene = read_scene_text(testing::wedge_drop, "scene.toml").scene;
+  std::vector<std::string> names;
+  for (const auto& quantity : default_quantities(scene)) names.push_back(quantity.name);
+  for (const char* name : {"wedge.peak_g_cfc60", "wedge.impulse", "wedge.velocity_change", "keel.peak_pressure"})
+    EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
+}
+
+TEST(Price, belongs_to_its_scene_whatever_its_refinement_and_title) {
+  const ScratchFolder folder;
+  const auto file = folder.write("scene.toml", testing::wedge_drop);
+  const auto digest = [&](std::vector<std::string> set) { return digest_of_scene(file, std::move(set)); };
+  EXPECT_EQ(digest({}), digest({"fluid.size.refine=2", "title=other", "output.frames=0.1"}));
+  EXPECT_NE(digest({}), digest({"body.wedge.mass=240"}));
+  EXPECT_NE(digest({}), digest({"fluid.size.surface=0.02"}));
+}
+
+}  // namespace
+}  // namespace splashdown::apps

@@ -1,0 +1,162 @@
+// What steps say about peaks, and what bands and grades come of it.
+#include "apps/statistics/grades.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "apps/statistics/evidence.hpp"
+#include "apps/statistics/verdict.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+constexpr double end = 0.1, dt = 1e-3, touch = 0.02;
+using OfTime = std::function<double(double)>;
+
+/// A hull that touches water at `touch` and is wetted over w(t - touch) by facets of one size.
+struct Entry {
+  OfTime force = [](double t) { return 100 * t; };
+  OfTime wetted = [](double t) { return t; };
+  double facet = 1e-3, repair_share = 0, sideways = 0, speed = 1;
+  std::vector<char> symmetric = {1};
+
+  EvidenceStatistics steps;
+  IntervalHistory channel;
+
+  Entry& run() {
+    channel.channels = 2;
+    for (int n = 0; (n + 1) * dt <= end; ++n) {
+      const double since = (n + 0.5) * dt - touch, w = since > 0 ? wetted(since) : 0;
+      const std::vector<double> f = {since > 0 ? sideways * force(since) : 0, since > 0 ? force(since) : 0};
+      steps.add(n * dt, (n + 1) * dt, {f, {0, repair_share * f[1]}, w / facet, w, speed, symmetric});
+      channel.append((n + 1) * dt, f);
+    }
+    return *this;
+  }
+  Evidence at(double time) const {
+    Pulse peak;
+    peak.offer(1, time);
+    return steps.about(peak, channel, {});
+  }
+};
+
+TEST(Evidence, counts_the_elements_on_half_of_the_wetted_width) {
+  EXPECT_NEAR(Entry().run().at(0.0805).elements, 30.25, 1e-9);  // 60.5 mm of 1 mm each
+}
+
+TEST(Evidence, in_space_counts_along_the_radius_of_the_wetted_disc) {
+  EvidenceStatistics steps;
+  const double h = 0.01, radius = 0.2, facets = std::numbers::pi * radius * radius / (std::numbers::sqrt3 / 4 * h * h);
+  for (int n = 0; n < 10; ++n)
+    steps.add(n * dt, (n + 1) * dt, {{0, 0, 1}, {0, 0, 0}, facets, std::numbers::pi * radius * radius, 1, {}});
+  EXPECT_NEAR(steps.at_pressure(5.5 * dt).elements, radius / h, 1e-9);
+  EXPECT_NEAR(steps.facet_size(5.5 * dt), h, 1e-12);
+}
+
+TEST(Evidence, of_a_wedge_grows_of_a_round_bottom_less_of_a_hull_afloat_not) {
+  EXPECT_NEAR(Entry().run().at(0.0805).growing, 1, 0.02);
+  Entry round;
+  round.wetted = [](double t) { return std::sqrt(t); };
+  EXPECT_NEAR(round.run().at(0.0805).growing, 2 - std::sqrt(2), 0.02);
+  Entry afloat;
+  afloat.wetted = [](double) { return 0.1; };
+  EXPECT_NEAR(afloat.run().at(0.0805).growing, 0, 1e-12);
+}
+
+TEST(Evidence, a_single_step_stands_out_and_a_ramp_does_not) {
+  EXPECT_NEAR(Entry().run().at(0.0805).step, 0, 1e-9);
+  EXPECT_NEAR(Entry().run().at(end - dt / 2).step, 0, 1e-9) << "the last step of a load that grows";
+  Entry spike;
+  spike.force = [](double t) { return std::abs(t - 0.0605) < dt / 4 ? 1.42 * 6.05 : 100 * t; };
+  EXPECT_NEAR(spike.run().at(0.0805).step, 0.42, 1e-9);
+}
+
+TEST(Evidence, knows_the_repair_part_and_what_symmetry_forbids) {
+  Entry entry;
+  entry.repair_share = 0.3, entry.sideways = 0.04;
+  EXPECT_NEAR(entry.run().at(0.0805).repair, 0.3 / (1 + 0.04 * 0.04), 1e-12);
+  EXPECT_NEAR(entry.at(0.0805).sideways, 0.04 / std::hypot(1, 0.04), 1e-12);
+  Entry free_to_drift;
+  free_to_drift.sideways = 0.04, free_to_drift.symmetric = {0};
+  EXPECT_TRUE(std::isnan(free_to_drift.run().at(0.0805).sideways));
+}
+
+Summary landing(const Evidence& evidence, int dimension = 2) {
+  Summary summary;
+  summary.status = "done";
+  summary.wall_seconds = 100;
+  summary.dimension = dimension;
+  auto& body = summary.bodies["hull"];
+  body.landing.first_contact = 0;
+  body.acceleration.raw.offer(5, 0.1);
+  body.force.raw.offer(1000, 0.1);
+  body.acceleration_grades.raw.emplace().evidence = body.force_grades.raw.emplace().evidence = evidence;
+  judge(summary);
+  return summary;
+}
+
+Evidence slam(double elements, double step = 0) {
+  Evidence evidence;
+  evidence.elements = elements, evidence.growing = 1, evidence.repair = 0, evidence.step = step;
+  return evidence;
+}
+
+TEST(Grades, follow_the_elements_on_the_wetted_width) {
+  EXPECT_EQ(landing(slam(50)).verdict.grade, Grade::resolved);
+  EXPECT_EQ(landing(slam(15)).verdict.grade, Grade::doubtful);
+  EXPECT_EQ(landing(slam(8)).verdict.grade, Grade::unresolved);
+  const auto of = [](double n, int d) { return landing(slam(n), d).bodies.at("hull").force_grades.raw->band; };
+  EXPECT_NEAR(of(25, 2), 2 * of(50, 2), 1e-12) << "first order";
+  EXPECT_NEAR(of(17, 3), 0.13, 1e-12);
+}
+
+TEST(Grades, a_peak_of_a_single_step_is_unresolved_however_fine_the_mesh) {
+  const auto summary = landing(slam(200, 0.42));
+  EXPECT_EQ(summary.bodies.at("hull").verdict.grade, Grade::unresolved);
+  ASSERT_FALSE(summary.verdict.reasons.empty());
+  EXPECT_NE(summary.verdict.reasons[0].find("stands 42 % off the steps around it"), std::string::npos)
+      << summary.verdict.reasons[0];
+}
+
+TEST(Grades, filtered_peaks_of_class_60_stand_for_the_body_if_the_run_has_them) {
+  auto summary = landing(slam(200, 0.42));
+  auto& body = summary.bodies.at("hull");
+  body.acceleration.cfc[60].offer(4.8, 0.1), body.force.cfc[60].offer(950, 0.1);
+  body.acceleration_grades.cfc[60].evidence = body.force_grades.cfc[60].evidence = slam(200);
+  judge(summary);
+  EXPECT_EQ(summary.verdict.grade, Grade::resolved);
+  EXPECT_EQ(body.force_grades.raw->grade, Grade::unresolved) << "the raw peak keeps its own grade";
+}
+
+TEST(Grades, a_load_that_carries_weight_does_not_depend_on_the_mesh) {
+  auto summary = landing(slam(8));
+  summary.bodies.at("hull").inertial = 0;
+  judge(summary);
+  EXPECT_EQ(summary.bodies.at("hull").force_grades.raw->grade, Grade::resolved);
+}
+
+TEST(Grades, are_no_better_than_the_water_that_they_come_from) {
+  auto summary = landing(slam(200));
+  auto& ledger = summary.ledger.emplace();
+  ledger.energy_gain = 0.03, ledger.energy_gain_time = 0.1;
+  judge(summary);
+  EXPECT_EQ(summary.bodies.at("hull").force_grades.raw->grade, Grade::doubtful);
+  ledger.energy_gain = 0.3;
+  judge(summary);
+  EXPECT_EQ(summary.bodies.at("hull").force_grades.raw->grade, Grade::unphysical);
+}
+
+TEST(Grades, what_to_do_next_halves_the_band_and_says_what_it_costs) {
+  EXPECT_FALSE(landing(slam(50)).next);
+  const auto far = landing(slam(8)), near = landing(slam(20));
+  ASSERT_TRUE(far.next && near.next);
+  EXPECT_EQ(far.next->refine, 2);
+  EXPECT_NEAR(far.next->seconds, 100 * std::pow(2, cost_exponent(2)), 1e-9);
+  EXPECT_LT(near.next->refine, 2);
+}
+
+}  // namespace
+}  // namespace splashdown::apps
