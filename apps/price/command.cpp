@@ -30,7 +30,7 @@ PricePlan plan_of(const PriceOptions& options) {
                                   options.scene.string())});
   PricePlan plan;
   plan.title = scene.title;
-  plan.refines = options.refines.empty() ? rung_refines(options.rungs, scene.fluid->size.refine) : options.refines;
+  plan.refines = rung_refines(options.rungs, scene.fluid->size.refine);
   plan.digest = digest_of_scene(options.scene, options.set);
   auto& order = plan.order;
   order.scene = options.scene;
@@ -42,6 +42,7 @@ PricePlan plan_of(const PriceOptions& options) {
   order.large = options.large;
   order.quiet = options.quiet;
   order.dimension = scene.dimension;
+  if (options.open_water) order.larger_tank = larger_tank_of(scene, options.scene.string());
   auto& quantities = order.quantities;
   for (const auto& argument : options.quantities) quantities.push_back(parsed_quantity(argument));
   // Who names quantities wants these at their price; the others are shown beside them.
@@ -99,7 +100,7 @@ int price_command(const PriceOptions& options) {
   std::optional<FolderLock> lock;
   try {
     plan = plan_of(options);
-    ladder.emplace(plan.order, possible_rungs(plan.refines));
+    ladder.emplace(plan.order, possible_rungs(plan.refines, options.open_water));
     std::string foreign;
     for (const auto& message : foreign_places(ladder->runs(), plan.order.folder)) foreign += message + "\n";
     if (fs::exists(plan.order.folder / "study.json"))
@@ -111,7 +112,7 @@ int price_command(const PriceOptions& options) {
     return bad_input(trouble(error));
   }
   catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");
-  climb_all(*ladder, plan.refines);
+  climb_all(*ladder, plan.refines, options.open_water);
   return conclude(plan, *ladder, options);
 }
 

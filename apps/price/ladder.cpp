@@ -16,6 +16,7 @@
 #include "apps/quantity/table.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/run/progress.hpp"
+#include "apps/scene/read/echo.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/study/run.hpp"
 #include "apps/study/table.hpp"
@@ -37,16 +38,23 @@ std::string last_line(const fs::path& log) {
   return last;
 }
 
-Axis refine_axis(const std::vector<RungSpec>& specs) {
+Axis refine_axis(const std::vector<RungSpec>& specs, const std::vector<std::string>& larger_tank) {
   Axis axis{.name = "refine", .label = "refine", .values = {}};
   for (const auto& spec : specs) {
     const auto text = digits_of(spec.refine);
-    axis.values.push_back({text, spec.refine, {"fluid.size.refine=" + text}, {}});
+    AxisValue value{text, spec.refine, {"fluid.size.refine=" + text}, {}};
+    if (spec.role == Role::larger_tank) {
+      value.text += "_larger_tank";
+      value.set.insert(value.set.end(), larger_tank.begin(), larger_tank.end());
+    }
+    axis.values.push_back(std::move(value));
   }
   return axis;
 }
 
-bool same(const RungSpec& a, const RungSpec& b) { return digits_of(a.refine) == digits_of(b.refine); }
+bool same(const RungSpec& a, const RungSpec& b) {
+  return a.role == b.role && digits_of(a.refine) == digits_of(b.refine);
+}
 
 std::string failure_text(const RungSpec& spec, const std::string& cause) {
   return fmt::format("refine {} did not reach its end: {}", digits_of(spec.refine), cause);
@@ -55,7 +63,7 @@ std::string failure_text(const RungSpec& spec, const std::string& cause) {
 double predicted_node_steps(const std::vector<Rung>& rungs, double refine, int dimension) {
   std::vector<std::pair<double, double>> points;
   for (const auto& rung : rungs)
-    if (!rung.spec.replicate) points.emplace_back(rung.spec.refine, rung.node_steps);
+    if (rung.spec.role == Role::rung) points.emplace_back(rung.spec.refine, rung.node_steps);
   if (points.empty()) points.emplace_back(rungs.front().spec.refine, rungs.front().node_steps);
   std::ranges::sort(points);
   // Elements ~ refine^d and steps ~ refine: what a mesh of uniform size takes, and no graded one exceeds.
@@ -109,7 +117,7 @@ Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
   study_.set = order_.set;
   study_.large = order_.large;
   study_.threads = order_.threads;
-  study_.axes = {refine_axis(possible)};
+  study_.axes = {refine_axis(possible, order_.larger_tank)};
   runs_ = expand(study_);
   resolve(study_, runs_);
 }
@@ -151,7 +159,8 @@ bool Ladder::climb(const RungSpec& spec) {
   if (!make(run, spec)) return false;
   if (auto rung = read(run, spec)) {
     say(fmt::format("refine {:<6} {:>8.3g} s  {:>9.3g} node-steps  {:>6.0f} MB{}", digits_of(spec.refine),
-                    rung->seconds, rung->node_steps, rung->memory_mb, spec.replicate ? "  (replicate)" : ""));
+                    rung->seconds, rung->node_steps, rung->memory_mb,
+                    spec.role == Role::rung ? "" : "  (" + word_of(spec.role) + ")"));
     made_.push_back(std::move(*rung));
   }
   return true;
@@ -226,27 +235,65 @@ Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<Pri
   return rung;
 }
 
-std::vector<RungSpec> possible_rungs(const std::vector<double>& refines) {
+std::string word_of(Role role) {
+  return role == Role::rung ? "rung" : role == Role::replicate ? "replicate" : "larger tank";
+}
+
+std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& name) {
+  if (!scene.tank)
+    throw SceneError({name + ": --open-water: has no [tank] whose walls could be moved away. Leave --open-water out."});
+  const auto d = scene.dimension;
+  const auto text = [d](const Point& point) { return toml_list(std::vector<double>(point.data(), point.data() + d)); };
+  const auto& old = *scene.tank;
+  double level = old.min[d - 1];
+  for (const auto& region : scene.fluid->regions)
+    if (const auto* box = std::get_if<BoxRegion>(&region.shape)) level = std::max(level, box->max[d - 1]);
+  Point low = old.min, high = old.max;
+  for (int k = 0; k + 1 < d; ++k) {
+    const double centre = 0.5 * (low[k] + high[k]), half = 0.5 * tank_growth * (high[k] - low[k]);
+    low[k] = centre - half;
+    high[k] = centre + half;
+  }
+  low[d - 1] = level - tank_growth * (level - low[d - 1]);
+  std::vector<std::string> set = {"tank.min=" + text(low), "tank.max=" + text(high)};
+  for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i) {
+    const auto* box = std::get_if<BoxRegion>(&scene.fluid->regions[i].shape);
+    if (!box) continue;
+    Point from = box->min, to = box->max;
+    for (int k = 0; k < d; ++k) {
+      if (from[k] <= old.min[k]) from[k] = low[k];
+      if (to[k] >= old.max[k]) to[k] = high[k];
+    }
+    set.push_back(fmt::format("fluid.region.{}.min={}", i, text(from)));
+    set.push_back(fmt::format("fluid.region.{}.max={}", i, text(to)));
+  }
+  return set;
+}
+
+std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool open_water) {
   std::vector<RungSpec> specs;
-  for (const double refine : refines) specs.push_back({refine, false});
+  for (const double refine : refines) specs.push_back({refine, Role::rung});
   for (const double refine : refines)
-    for (const double sign : {-1., 1.}) specs.push_back({refine * (1 + sign * replicate_offset), true});
+    for (const double sign : {-1., 1.}) specs.push_back({refine * (1 + sign * replicate_offset), Role::replicate});
+  if (open_water)
+    for (const double refine : refines) specs.push_back({refine, Role::larger_tank});
   return specs;
 }
 
-void climb_all(Ladder& ladder, const std::vector<double>& refines) {
-  const auto replicate = [&](double refine) {
+void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water) {
+  const auto beside = [&](double refine) {
     for (const double sign : {-1., 1.})
-      if (!ladder.climb({refine * (1 + sign * replicate_offset), true})) return;
+      if (!ladder.climb({refine * (1 + sign * replicate_offset), Role::replicate})) return;
+    if (open_water) ladder.climb({refine, Role::larger_tank});
   };
   for (std::size_t k = 0; k < refines.size(); ++k) {
     // Before the finest: what a budget leaves out is better a rung than the scatter.
-    if (k + 1 == refines.size() || !ladder.affordable({refines[k], false})) {
-      replicate(refines[k == 0 ? 0 : k - 1]);
-      ladder.climb({refines[k], false});
+    if (k + 1 == refines.size() || !ladder.affordable({refines[k], Role::rung})) {
+      beside(refines[k == 0 ? 0 : k - 1]);
+      ladder.climb({refines[k], Role::rung});
       return;
     }
-    if (!ladder.climb({refines[k], false})) return;
+    if (!ladder.climb({refines[k], Role::rung})) return;
   }
 }
 
