@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/commands.hpp"
+#include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
 #include "apps/record/csv.hpp"
 #include "apps/report/report.hpp"
@@ -43,6 +44,8 @@ PricePlan plan_of(const PriceOptions& options) {
   order.quiet = options.quiet;
   order.dimension = scene.dimension;
   if (options.open_water) order.larger_tank = larger_tank_of(scene, options.scene.string());
+  order.expected_nodes =
+      expected_nodes(options.scene, options.set, plan.refines.front(), farthest_extrapolation * plan.refines.back());
   auto& quantities = order.quantities;
   for (const auto& argument : options.quantities) quantities.push_back(parsed_quantity(argument));
   // Who names quantities wants these at their price; the others are shown beside them.
@@ -70,6 +73,8 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
   auto notes = ladder.end().notes;
   auto price = price_of(ladder.made(), plan.order.quantities, plan.order.dimension, notes);
   price.scene = fs::absolute(options.scene).lexically_normal().string();
+  price.expected_nodes = plan.order.expected_nodes;
+  list_rows(price);
   price.title = plan.title;
   price.scene_digest = plan.digest;
   leave_at_interrupt(options.quiet ? "" : "\nstopped while the chart was drawn: the same command draws it\n");

@@ -12,6 +12,7 @@
 
 #include "apps/cli/child_process.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/price/cost.hpp"
 #include "apps/quantity/names.hpp"
 #include "apps/quantity/table.hpp"
 #include "apps/run/interrupt.hpp"
@@ -60,23 +61,6 @@ std::string failure_text(const RungSpec& spec, const std::string& cause) {
   return fmt::format("refine {} did not reach its end: {}", digits_of(spec.refine), cause);
 }
 
-double predicted_node_steps(const std::vector<Rung>& rungs, double refine, int dimension) {
-  std::vector<std::pair<double, double>> points;
-  for (const auto& rung : rungs)
-    if (rung.spec.role == Role::rung) points.emplace_back(rung.spec.refine, rung.node_steps);
-  if (points.empty()) points.emplace_back(rungs.front().spec.refine, rungs.front().node_steps);
-  std::ranges::sort(points);
-  // Elements ~ refine^d and steps ~ refine: what a mesh of uniform size takes, and no graded one exceeds.
-  const double steepest = dimension + 1;
-  if (points.size() == 1) return points[0].second * std::pow(refine / points[0].first, steepest);
-  std::size_t k = 1;
-  while (k + 1 < points.size() && points[k].first < refine) ++k;
-  const auto& [r0, n0] = points[k - 1];
-  const auto& [r1, n1] = points[k];
-  const double slope = std::clamp(std::log(n1 / n0) / std::log(r1 / r0), 0., steepest);
-  return n1 * std::pow(refine / r1, slope);
-}
-
 }  // namespace
 
 std::vector<double> rung_refines(int rungs, double scene) {
@@ -86,29 +70,6 @@ std::vector<double> rung_refines(int rungs, double scene) {
     refines.push_back(std::stod(fmt::format("{:.3g}", exact)));
   }
   return refines;
-}
-
-std::optional<double> predicted_seconds(const std::vector<Rung>& rungs, double refine, int dimension) {
-  if (rungs.empty()) return {};
-  const double node_steps = predicted_node_steps(rungs, refine, dimension);
-  double weight = 0, x = 0, y = 0;
-  for (const auto& rung : rungs) {
-    weight += rung.node_steps;
-    x += rung.node_steps * std::log(rung.node_steps);
-    y += rung.node_steps * std::log(rung.seconds);
-  }
-  x /= weight, y /= weight;
-  double xx = 0, xy = 0;
-  for (const auto& rung : rungs) {
-    const double dx = std::log(rung.node_steps) - x;
-    xx += rung.node_steps * dx * dx;
-    xy += rung.node_steps * dx * (std::log(rung.seconds) - y);
-  }
-  // Proportional unless the runs say otherwise: less where setting up counts, at most what a direct solver in space takes,
-  // N^2 (George 1973). Runs within a factor of two say nothing but the noise of the clock.
-  const double least_spread = 0.05;  // of log N, weighted: about ln(2)^2 / 9
-  const double slope = xx / weight > least_spread ? std::clamp(xy / xx, 0.5, 2.) : 1;
-  return std::exp(y + slope * (std::log(node_steps) - x));
 }
 
 Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
@@ -127,7 +88,8 @@ double Ladder::spent() const { return now() - started_; }
 double Ladder::seconds_left() const { return order_.budget ? *order_.budget - spent() : HUGE_VAL; }
 
 std::optional<double> Ladder::seconds_at(double refine) const {
-  return predicted_seconds(made_, refine, order_.dimension);
+  const RunCost cost(made_, order_.expected_nodes, order_.dimension);
+  return cost.known() ? std::optional(cost.seconds(refine)) : std::nullopt;
 }
 
 const StudyRun& Ladder::run_of(const RungSpec& spec) const {
@@ -224,6 +186,7 @@ Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<Pri
   const auto summary = quantity::read_summary(folder);
   Rung rung{.spec = spec, .folder = folder.filename().string(), .values = {}};
   rung.seconds = summary.value("wall_seconds", 0.);
+  rung.steps = summary.value("steps", 0.);
   rung.memory_mb = summary.value("memory_mb", 0.);
   rung.node_steps = node_steps_in(folder);
   for (const auto& quantity : quantities) {

@@ -31,7 +31,7 @@ struct RungSpec {
 struct Rung {
   RungSpec spec;
   std::string folder;  ///< name within that of the price
-  double seconds = 0, node_steps = 0, memory_mb = 0;
+  double seconds = 0, steps = 0, node_steps = 0, memory_mb = 0;
   std::vector<double> values;  ///< of the quantities, in their order; nan: none
 };
 
@@ -42,11 +42,6 @@ Rung rung_in(const std::filesystem::path& folder, const RungSpec& spec, const st
 /// 0.5, 0.71, 1, 1.41 ... times `scene`, three digits.
 std::vector<double> rung_refines(int rungs, double scene);
 
-/// Seconds of a run at `refine`: node-steps follow refine by power laws from mesh to mesh, seconds follow node-steps by the
-/// power law that fits all runs best, replicates too, weighted by their node-steps. Machines are never quite alone: one run's clock
-/// decides little. Nothing without a run.
-std::optional<double> predicted_seconds(const std::vector<Rung>& rungs, double refine, int dimension);
-
 struct LadderOrder {
   std::filesystem::path scene, folder;
   std::vector<std::string> set;
@@ -55,6 +50,7 @@ struct LadderOrder {
   std::optional<double> budget;
   bool large = false, quiet = false;
   int dimension = 2;
+  std::vector<std::pair<double, double>> expected_nodes;  ///< by refine; empty: not known
   std::vector<std::string> larger_tank;  ///< --set arguments that grow the tank; empty: it is what it is
 };
 

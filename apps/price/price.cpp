@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "apps/price/cost.hpp"
 #include "apps/scene/read/read.hpp"
 
 namespace splashdown::apps {
@@ -128,7 +129,10 @@ double Price::coarsest() const {
   return coarsest;
 }
 
-std::optional<double> Price::seconds(double refine) const { return predicted_seconds(rungs, refine, dimension); }
+std::optional<double> Price::seconds(double refine) const {
+  const RunCost cost(rungs, expected_nodes, dimension);
+  return cost.known() ? std::optional(cost.seconds(refine)) : std::nullopt;
+}
 
 std::optional<std::pair<double, std::string>> Price::accuracy(double refine) const {
   std::optional<std::pair<double, std::string>> worst;
@@ -183,9 +187,11 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
     priced.fit = fit_of(priced);
     price.quantities.push_back(std::move(priced));
   }
-  price.rows = rows_of(price);
+  list_rows(price);
   return price;
 }
+
+void list_rows(Price& price) { price.rows = rows_of(price); }
 
 std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set) {
   set.emplace_back("fluid.size.refine=1");

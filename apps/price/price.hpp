@@ -48,6 +48,7 @@ struct Price {
   std::vector<PricedQuantity> quantities;
   std::vector<Rung> rungs;  ///< all that were made, replicates too
   std::vector<PriceRow> rows;
+  std::vector<std::pair<double, double>> expected_nodes;  ///< by refine, of the scene's sizes; empty: not known
 
   std::optional<double> seconds(double refine) const;
   double finest() const;
@@ -66,6 +67,8 @@ inline constexpr double farthest_extrapolation = 4;
 /// Quantities without a value on three rungs are left out, and named in `notes`.
 Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>& quantities, int dimension,
                std::vector<std::string>& notes);
+/// Anew, when the price has learned what nodes its scene expects.
+void list_rows(Price& price);
 
 /// Of a scene at refine = 1, whatever its title and output: FNV-1a, 16 hexadecimal digits.
 std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set);

@@ -65,11 +65,12 @@ Role role_of(const std::string& word) {
 }
 
 Rung rung_of(const Json& json) {
-  for (const char* key : {"refine", "seconds", "node_steps"})
+  for (const char* key : {"refine", "seconds", "steps", "node_steps"})
     if (!(json.at(key).get<double>() > 0)) throw std::runtime_error(fmt::format("{} must be positive", key));
   return {.spec = {json.at("refine").get<double>(), role_of(json.at("role").get<std::string>())},
           .folder = json.value("folder", ""),
           .seconds = json.at("seconds").get<double>(),
+          .steps = json.at("steps").get<double>(),
           .node_steps = json.at("node_steps").get<double>(),
           .memory_mb = json.at("memory_mb").get<double>(),
           .values = {}};
@@ -168,9 +169,11 @@ std::string price_json(const Price& price) {
   root["runs"] = Json::array();
   for (const auto& rung : price.rungs) {
     root["runs"].push_back(json_of(rung));
+    root["runs"].back()["steps"] = rung.steps;
     root["runs"].back()["role"] = word_of(rung.spec.role);
     root["runs"].back()["folder"] = rung.folder;
   }
+  root["expected_nodes"] = price.expected_nodes;
   return root.dump(2) + "\n";
 }
 
@@ -201,6 +204,8 @@ Price read_price(const std::filesystem::path& file) {
     whole.scene = price.scene;
     whole.title = price.title;
     whole.scene_digest = price.scene_digest;
+    whole.expected_nodes = root.at("expected_nodes").get<std::vector<std::pair<double, double>>>();
+    list_rows(whole);
     return whole;
   } catch (const std::exception& error) {
     throw std::runtime_error(

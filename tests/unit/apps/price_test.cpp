@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
 #include "apps/scene/read/read.hpp"
 #include "scenes.hpp"
@@ -112,6 +113,7 @@ Rung rung(double refine, double seconds, std::vector<double> values, Role role =
   return {.spec = {refine, role},
           .folder = "refine",
           .seconds = seconds,
+          .steps = 100 * refine,
           .node_steps = 1e4 * refine * refine * refine,
           .memory_mb = 50,
           .values = std::move(values)};
@@ -140,20 +142,31 @@ Price price() {
   return price;
 }
 
-TEST(Price, seconds_follow_the_work) {
-  EXPECT_FALSE(predicted_seconds({}, 1, 2));
+TEST(RunCost, follows_the_work) {
+  EXPECT_FALSE(RunCost({}, {}, 2).known());
+  const RunCost cost(ladder(), {}, 2);
   const double roundoff = 1e-9;
-  for (const double refine : {0.3, 1., 2.5})
-    EXPECT_NEAR(*predicted_seconds(ladder(), refine, 2) / (2 * std::pow(refine, 3)), 1, roundoff);
+  for (const double refine : {0.3, 1., 2.5}) EXPECT_NEAR(cost.seconds(refine) / (2 * std::pow(refine, 3)), 1, roundoff);
   // A single run: a uniform mesh.
-  EXPECT_NEAR(*predicted_seconds({rung(1, 2, {})}, 2, 3), 2 * 16, roundoff);
+  EXPECT_NEAR(RunCost({rung(1, 2, {})}, {}, 3).seconds(2), 2 * 16, roundoff);
 }
 
-TEST(Price, one_slow_run_of_six_decides_little) {
+TEST(RunCost, takes_what_setting_up_costs_from_the_runs) {
+  auto rungs = ladder();
+  for (auto& rung : rungs) rung.seconds += 3;
+  EXPECT_NEAR(RunCost(rungs, {}, 2).seconds(3), 3 + 2 * 27, 1e-6);
+}
+
+TEST(RunCost, beyond_the_ladder_nodes_follow_what_the_sizes_ask_for) {
+  const RunCost cost(ladder(), {{0.5, 100}, {1.41, 200}, {5.64, 800}}, 2);
+  // Twice as fine, in proportion to nodes (power 1 between the last two) and steps (power 1).
+  EXPECT_NEAR(cost.node_steps(2.82) / cost.node_steps(1.41), 4, 1e-9);
+}
+
+TEST(RunCost, one_slow_run_of_six_decides_little) {
   auto rungs = ladder();
   rungs[2].seconds *= 2;
-  const double change = *predicted_seconds(rungs, 2, 2) / 16;
-  EXPECT_LT(std::abs(std::log(change)), std::log(2.) / 2);
+  EXPECT_LT(std::abs(std::log(RunCost(rungs, {}, 2).seconds(2) / 16)), std::log(2.) / 2);
 }
 
 TEST(Price, a_row_s_mesh_has_its_accuracy_and_none_coarser_has) {
