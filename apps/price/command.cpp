@@ -20,6 +20,7 @@ struct PricePlan {
   LadderOrder order;
   std::vector<double> refines;
   std::string title, digest;
+  bool has_tank = false;
 };
 
 /// Throws SceneError.
@@ -31,6 +32,7 @@ PricePlan plan_of(const PriceOptions& options) {
                                   options.scene.string())});
   PricePlan plan;
   plan.title = scene.title;
+  plan.has_tank = scene.tank.has_value();
   plan.refines = rung_refines(options.rungs, scene.fluid->size.refine);
   plan.digest = digest_of_scene(options.scene, options.set);
   auto& order = plan.order;
@@ -85,6 +87,8 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
     if (const auto line = price_line(price); !line.empty()) fmt::print("{}\n", line);
     fmt::print("  files       {}/: report.html price.json{}\n", folder.string(),
                fs::exists(folder / "price.svg") ? " price.svg" : "");
+    if (plan.has_tank && !options.open_water)
+      fmt::print("what the tank does is not in these bands: if it stands for open water, --open-water adds it\n");
     if (ladder.end().interrupted) fmt::print("stopped; the same command continues\n");
     if (ladder.end().out_of_budget)
       fmt::print("the budget ended the ladder; with a larger one the same command continues\n");

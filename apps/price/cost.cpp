@@ -46,20 +46,13 @@ RunCost::RunCost(const std::vector<Rung>& rungs, ExpectedNodes expected, int dim
   for (const auto& rung : rungs)
     if (rung.spec.role == Role::rung) meshes_.push_back({rung.spec.refine, rung.node_steps, rung.steps});
   std::ranges::sort(meshes_, {}, &Mesh::refine);
-  double n = 0, s = 0, ss = 0, sn = 0, nn = 0;  // of 1/t, N/t and their products: errors relative to t
+  double work = 0;
   for (const auto& rung : rungs) {
-    const double one = 1 / rung.seconds, work = rung.node_steps / rung.seconds;
-    s += one, n += work, ss += one * one, sn += one * work, nn += work * work;
+    work += rung.node_steps;
+    per_node_step_ += rung.seconds - rung.setup_seconds;
+    overhead_ += rung.setup_seconds / static_cast<double>(rungs.size());
   }
-  const double determinant = ss * nn - sn * sn;
-  if (determinant > 1e-9 * ss * nn) {  // round-off, where all runs have the same work
-    overhead_ = (s * nn - n * sn) / determinant;
-    per_node_step_ = (n * ss - s * sn) / determinant;
-  }
-  if (!(overhead_ > 0) || !(per_node_step_ > 0)) {
-    overhead_ = 0;
-    per_node_step_ = nn > 0 ? n / nn : 0;
-  }
+  if (work > 0) per_node_step_ /= work;
   if (meshes_.size() < 2) return;
   double x = 0, y = 0, xx = 0, xy = 0;
   for (const auto& mesh : meshes_) {

@@ -1,10 +1,11 @@
 // Wall seconds of a run at a refinement that was not made, from those that were.
 //
-//   seconds = a + b node-steps,   a >= 0, b > 0, least squares of relative errors over all runs
+//   seconds = setting up (mean of the runs) + b node-steps,   b = sum (seconds - setting up) / sum node-steps
 //
 // Node-steps follow refine by power laws from mesh to mesh. Beyond the finest and the coarsest they are nodes times steps: nodes
 // in proportion to what the scene's sizes ask for (apps/check/cost.hpp), which bends where hulls begin to hold most of them; steps
-// by the power law that fits those of all meshes. Machines are never quite alone: no single run's clock decides.
+// by the power law that fits those of all meshes. Machines are never quite alone: all runs
+// decide together, and the finest, which is most like those to come, most.
 #pragma once
 
 #include <optional>

@@ -31,7 +31,7 @@ struct RungSpec {
 struct Rung {
   RungSpec spec;
   std::string folder;  ///< name within that of the price
-  double seconds = 0, steps = 0, node_steps = 0, memory_mb = 0;
+  double seconds = 0, setup_seconds = 0, steps = 0, node_steps = 0, memory_mb = 0;
   std::vector<double> values;  ///< of the quantities, in their order; nan: none
 };
 

@@ -113,6 +113,7 @@ Rung rung(double refine, double seconds, std::vector<double> values, Role role =
   return {.spec = {refine, role},
           .folder = "refine",
           .seconds = seconds,
+          .setup_seconds = 0,
           .steps = 100 * refine,
           .node_steps = 1e4 * refine * refine * refine,
           .memory_mb = 50,
@@ -153,7 +154,7 @@ TEST(RunCost, follows_the_work) {
 
 TEST(RunCost, takes_what_setting_up_costs_from_the_runs) {
   auto rungs = ladder();
-  for (auto& rung : rungs) rung.seconds += 3;
+  for (auto& rung : rungs) rung.seconds += 3, rung.setup_seconds = 3;
   EXPECT_NEAR(RunCost(rungs, {}, 2).seconds(3), 3 + 2 * 27, 1e-6);
 }
 
