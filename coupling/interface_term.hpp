@@ -12,34 +12,33 @@
 
 #include <string>
 
-#include "fluid/pressure/interface_laplacian.hpp"
-#include "rigid/bodies.hpp"
+#include "coupling/participant.hpp"
 
 namespace splashdown::coupling {
 
 /// A stand-in for the body's answer, which the stepper Partitioned removes pass by pass.
-template <int d>
 class InterfaceTerm {
  public:
   virtual ~InterfaceTerm() = default;
   virtual std::string name() const = 0;
-  virtual fluid::StandIn stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const = 0;
+  /// Of a wall; none for one that does not answer.
+  virtual StandIn stand_in(const WallCoordinates& wall) const = 0;
 };
 
-template <int d>
-class NoTerm final : public InterfaceTerm<d> {
+class NoTerm final : public InterfaceTerm {
  public:
   std::string name() const override { return "none"; }
-  fluid::StandIn stand_in(const rigid::Bodies<d>&, std::size_t) const override { return {}; }
+  StandIn stand_in(const WallCoordinates&) const override { return {}; }
 };
 
 /// Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
-template <int d>
-class LaplacianTerm final : public InterfaceTerm<d> {
+class LaplacianTerm final : public InterfaceTerm {
  public:
   explicit LaplacianTerm(double strength = 1) : strength_(strength) {}
   std::string name() const override { return "laplacian"; }
-  fluid::StandIn stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const override;
+  StandIn stand_in(const WallCoordinates& wall) const override {
+    return {.laplacian = wall.answers ? strength_ / wall.mass : 0};
+  }
 
  private:
   double strength_;  ///< 1: the energy of a translation is exact
@@ -47,16 +46,10 @@ class LaplacianTerm final : public InterfaceTerm<d> {
 
 /// Robin-Neumann: each piece of the hull answers like a mass of its own (Badia, Nobile, Vergara 2008; Astorino, Chouly,
 /// Fernandez 2010). Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
-template <int d>
-class RobinTerm final : public InterfaceTerm<d> {
+class RobinTerm final : public InterfaceTerm {
  public:
   std::string name() const override { return "robin"; }
-  fluid::StandIn stand_in(const rigid::Bodies<d>& bodies, std::size_t body) const override;
+  StandIn stand_in(const WallCoordinates& wall) const override { return {.robin = wall.answers ? 1 / wall.mass : 0}; }
 };
-
-extern template class LaplacianTerm<2>;
-extern template class LaplacianTerm<3>;
-extern template class RobinTerm<2>;
-extern template class RobinTerm<3>;
 
 }  // namespace splashdown::coupling

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "coupling/stored.hpp"
 #include "fluid/fluid_state.hpp"
-#include "fluid/stored.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -36,7 +36,7 @@ struct Loader {
   }
   template <class T>
   void list(std::vector<T>& values) {
-    values.resize(stored_count(in, sizeof(T)));
+    values.resize(coupling::stored_count(in, sizeof(T)));
     in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
   }
 };

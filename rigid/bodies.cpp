@@ -51,6 +51,12 @@ struct Bodies<d>::World {
     if (!fine) throw std::logic_error(message("bodies at t = ", time, " s: ", rule));
   }
 
+  void expect_all(const Eigen::VectorXd& values) const {
+    if (values.size() != m * size())
+      throw std::invalid_argument(
+          message("bodies: ", values.size(), " values for the ", m * size(), " coordinates of ", size(), " bodies"));
+  }
+
   Wrench<d> known_force(std::size_t i) const {
     Wrench<d> sum = Wrench<d>::Zero();
     for (const auto& force : forces) sum += force->wrench(specs[i], states[i].pose, states[i].velocity, time);
@@ -224,6 +230,14 @@ const BodyState<d>& Bodies<d>::state(std::size_t body) const {
   return world_->states.at(body);
 }
 template <int d>
+std::span<const BodyState<d>> Bodies<d>::states() const {
+  return world_->states;
+}
+template <int d>
+std::span<const BodyState<d>> Bodies<d>::trials() const {
+  return world_->trials;
+}
+template <int d>
 double Bodies<d>::time() const {
   return world_->time;
 }
@@ -256,13 +270,18 @@ Mobility<d> Bodies<d>::mobility() const {
 
 template <int d>
 std::span<const BodyState<d>> Bodies<d>::solve(std::span<const Wrench<d>> loads) {
+  return solve(Eigen::VectorXd(world_->kick * world_->stacked(loads)));
+}
+
+template <int d>
+std::span<const BodyState<d>> Bodies<d>::solve(const Eigen::VectorXd& impulses) {
   World& w = *world_;
   w.expect(w.phase != Phase::committed, "solve needs begin first");
-  const Eigen::VectorXd impulse = w.kick * w.stacked(loads);
-  Eigen::VectorXd velocity = w.motions.velocity(impulse);
+  w.expect_all(impulses);
+  Eigen::VectorXd velocity = w.motions.velocity(impulses);
   constexpr int most = 100;  // more changes than contacts in a scene
-  for (int i = 0; w.motions.settle(velocity, impulse); ++i) {
-    velocity = w.motions.velocity(impulse);
+  for (int i = 0; w.motions.settle(velocity, impulses); ++i) {
+    velocity = w.motions.velocity(impulses);
     if (i == most) velocity.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (i == most) break;
   }
@@ -271,21 +290,23 @@ std::span<const BodyState<d>> Bodies<d>::solve(std::span<const Wrench<d>> loads)
 }
 
 template <int d>
-std::span<const BodyState<d>> Bodies<d>::follow(std::span<const Twist<d>> velocities) {
+std::span<const BodyState<d>> Bodies<d>::adopt(const Eigen::VectorXd& velocities) {
   World& w = *world_;
-  w.expect(w.phase != Phase::committed, "follow needs begin first");
-  w.drift(w.stacked(velocities));
+  w.expect(w.phase != Phase::committed, "adopt needs begin first");
+  w.expect_all(velocities);
+  w.drift(velocities);
   return w.trials;
 }
 
 template <int d>
-bool Bodies<d>::settle(std::span<const Wrench<d>> loads) {
+bool Bodies<d>::update_contacts(const Eigen::VectorXd& impulses) {
   World& w = *world_;
-  w.expect(w.phase == Phase::solved, "settle needs a trial first");
+  w.expect(w.phase == Phase::solved, "update_contacts needs a trial first");
+  w.expect_all(impulses);
   Eigen::VectorXd velocities(freedoms<d> * w.size());
   for (Eigen::Index i = 0; i < w.size(); ++i)
     velocities.segment<freedoms<d>>(freedoms<d> * i) = w.trials[static_cast<std::size_t>(i)].velocity;
-  return w.motions.settle(velocities, w.kick * w.stacked(loads));
+  return w.motions.settle(velocities, impulses);
 }
 
 template <int d>

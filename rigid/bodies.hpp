@@ -78,6 +78,8 @@ class Bodies {
   std::size_t size() const;
   const BodySpec<d>& spec(std::size_t body) const;
   const BodyState<d>& state(std::size_t body) const;  ///< at t_n
+  std::span<const BodyState<d>> states() const;       ///< of all, at t_n
+  std::span<const BodyState<d>> trials() const;       ///< of all: the last trial
   double time() const;                                ///< t_n
 
   void begin(double kick, double dt);
@@ -86,10 +88,12 @@ class Bodies {
   Mobility<d> mobility() const;
   /// Trial state at t_{n+1} (pose) and t_{n+1/2} (velocity) under constant loads, one wrench a body.
   std::span<const BodyState<d>> solve(std::span<const Wrench<d>> loads);
-  /// Trial state with half-step velocities that somebody found from `mobility`.
-  std::span<const BodyState<d>> follow(std::span<const Twist<d>> velocities);
-  /// Opens and closes contacts as the last trial asks for if the loads on the bodies are these. False: they were right.
-  bool settle(std::span<const Wrench<d>> loads);
+  /// The same under their impulses over the kick, of all bodies one below the other.
+  std::span<const BodyState<d>> solve(const Eigen::VectorXd& impulses);
+  /// Trial state with half-step velocities of all bodies that somebody found from `mobility`.
+  std::span<const BodyState<d>> adopt(const Eigen::VectorXd& velocities);
+  /// Opens and closes contacts as the last trial asks for if the impulses on all bodies are these. False: they were right.
+  bool update_contacts(const Eigen::VectorXd& impulses);
   /// Accepts the last trial.
   void commit();
 

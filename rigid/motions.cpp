@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "algebra/dense.hpp"
+#include "core/dense.hpp"
 
 namespace splashdown::rigid {
 

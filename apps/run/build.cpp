@@ -1,20 +1,19 @@
 #include "apps/run/build.hpp"
 
-#include <algorithm>
-
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"
+#include "fluid/participant.hpp"
+#include "rigid/participant.hpp"
 
 namespace splashdown::apps {
 namespace {
 
 using coupling::CouplingLimits;
 
-template <int d>
-std::unique_ptr<coupling::InterfaceTerm<d>> interface_term(const Coupling& coupling) {
-  if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm<d>>();
-  if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm<d>>();
-  return std::make_unique<coupling::NoTerm<d>>();
+std::unique_ptr<coupling::InterfaceTerm> interface_term(const Coupling& coupling) {
+  if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm>();
+  if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm>();
+  return std::make_unique<coupling::NoTerm>();
 }
 
 std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
@@ -37,76 +36,47 @@ CouplingLimits limits(const Coupling& coupling) {
 /// Bodies that the fluid cannot move have nothing to agree about: one pass without a term.
 Coupling one_way() { return {.scheme = "staggered", .interface_term = "none"}; }
 
+/// A part for the stepper, and the fluid in it for who looks at it.
 template <int d>
-std::unique_ptr<fluid::Fluid<d>> build_fluid(const Scene& scene) {
-  return std::make_unique<fluid::Fluid<d>>(fluid_spec<d>(scene), fluid_terms<d>(scene));
+std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene, World<d>& world) {
+  auto part = std::make_unique<fluid::Participant<d>>(
+      std::make_unique<fluid::Fluid<d>>(fluid_spec<d>(scene), fluid_terms<d>(scene)));
+  world.fluid = &part->fluid();
+  return part;
 }
 
 template <int d>
-std::unique_ptr<rigid::Bodies<d>> build_bodies(const Scene& scene) {
+std::unique_ptr<coupling::StructurePart> build_bodies(const Scene& scene, World<d>& world) {
   std::vector<rigid::BodySpec<d>> specs;
   for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
-  return std::make_unique<rigid::Bodies<d>>(std::move(specs), body_forces<d>(scene), joint_specs(scene),
-                                            contact_spec<d>(scene));
+  auto part = std::make_unique<rigid::Participant<d>>(std::make_unique<rigid::Bodies<d>>(
+      std::move(specs), body_forces<d>(scene), joint_specs(scene), contact_spec<d>(scene)));
+  world.bodies = &part->bodies();
+  return part;
 }
 
-/// `Stepper` keeps its trial states.
-template <int d, class Stepper>
-std::function<std::vector<rigid::Twist<d>>()> trial_velocities_of(const Stepper* stepper) {
-  return [stepper] {
-    std::vector<rigid::Twist<d>> velocities;
-    for (const auto& state : stepper->trial()) velocities.push_back(state.velocity);
-    return velocities;
-  };
-}
-
-template <int d>
-World<d> fluid_world(const Scene& scene) {
-  World<d> world;
-  auto stepper = std::make_unique<coupling::FluidOnly<d>>(build_fluid<d>(scene));
-  world.fluid = &stepper->fluid();
-  world.stepper = std::move(stepper);
-  return world;
-}
-
-template <int d>
-World<d> bodies_world(const Scene& scene) {
-  World<d> world;
-  auto stepper = std::make_unique<coupling::BodiesOnly<d>>(build_bodies<d>(scene), scene.time.dt_max);
-  world.bodies = &stepper->bodies();
-  world.trial_velocities = trial_velocities_of<d>(stepper.get());
-  world.stepper = std::move(stepper);
-  return world;
-}
-
-template <int d>
-std::unique_ptr<coupling::Coupled<d>> coupled_stepper(const Scene& scene) {
-  const Coupling coupling = scene.coupling.value_or(one_way());
+std::unique_ptr<coupling::Stepper> coupled_stepper(const Coupling& coupling, std::unique_ptr<coupling::FluidPart> fluid,
+                                                   std::unique_ptr<coupling::StructurePart> bodies) {
   if (coupling.interface_term == "rigid")
-    return std::make_unique<coupling::Simultaneous<d>>(build_fluid<d>(scene), build_bodies<d>(scene),
-                                                       coupling.max_passes);
-  return std::make_unique<coupling::Partitioned<d>>(build_fluid<d>(scene), build_bodies<d>(scene),
-                                                    interface_term<d>(coupling), accelerator(coupling),
-                                                    limits(coupling));
-}
-
-template <int d>
-World<d> coupled_world(const Scene& scene) {
-  World<d> world;
-  auto stepper = coupled_stepper<d>(scene);
-  world.fluid = &stepper->fluid();
-  world.bodies = &stepper->bodies();
-  world.trial_velocities = trial_velocities_of<d>(stepper.get());
-  world.stepper = std::move(stepper);
-  return world;
+    return std::make_unique<coupling::Simultaneous>(std::move(fluid), std::move(bodies), coupling.max_passes);
+  return std::make_unique<coupling::Partitioned>(std::move(fluid), std::move(bodies), interface_term(coupling),
+                                                 accelerator(coupling), limits(coupling));
 }
 
 }  // namespace
 
 template <int d>
 World<d> build_world(const Scene& scene) {
-  if (!scene.fluid) return bodies_world<d>(scene);
-  return scene.bodies.empty() ? fluid_world<d>(scene) : coupled_world<d>(scene);
+  World<d> world;
+  auto fluid = scene.fluid ? build_fluid<d>(scene, world) : nullptr;
+  auto bodies = scene.fluid && scene.bodies.empty() ? nullptr : build_bodies<d>(scene, world);
+  if (!fluid)
+    world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
+  else if (!bodies)
+    world.stepper = std::make_unique<coupling::FluidOnly>(std::move(fluid));
+  else
+    world.stepper = coupled_stepper(scene.coupling.value_or(one_way()), std::move(fluid), std::move(bodies));
+  return world;
 }
 
 template World<2> build_world<2>(const Scene&);

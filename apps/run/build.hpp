@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -20,8 +19,6 @@ struct World {
   std::unique_ptr<coupling::Stepper> stepper;  ///< owns the parts
   const fluid::Fluid<d>* fluid = nullptr;      ///< null: no liquid in the scene
   const rigid::Bodies<d>* bodies = nullptr;    ///< null: no bodies in the scene
-  /// Half-step velocities of the bodies after the last attempt.
-  std::function<std::vector<rigid::Twist<d>>()> trial_velocities;
 };
 
 /// Throws std::invalid_argument if the parts refuse what the scene asks for.

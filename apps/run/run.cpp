@@ -122,12 +122,11 @@ RecordInput<d> Run<d>::input(const StepMade& step) const {
   in.wall_seconds = wall_seconds();
   in.last = step.last;
   if (!world_.bodies) return in;
-  const auto trial = world_.trial_velocities();
   const double kick = 0.5 * (step.dt_previous + step.dt);
   for (std::size_t i = 0; i < world_.bodies->size(); ++i) {
     // Linear between the half steps: their mean for constant dt, the initial velocity at the first step.
     const rigid::Twist<d>& before = world_.bodies->state(i).velocity;
-    const rigid::Twist<d> acceleration = (trial[i] - before) / kick;
+    const rigid::Twist<d> acceleration = (world_.bodies->trials()[i].velocity - before) / kick;
     in.body_acceleration_n.push_back(acceleration);
     in.body_velocity_n.push_back(before + 0.5 * step.dt_previous * acceleration);
     in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : fluid::WallLoad<d>{});

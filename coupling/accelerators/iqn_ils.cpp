@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "coupling/accelerators/quasi_newton.hpp"
-#include "fluid/stored.hpp"
+#include "coupling/stored.hpp"
 
 namespace splashdown::coupling {
 namespace {
@@ -46,7 +46,7 @@ void IqnIls::save(std::ostream& out) const {
 }
 
 void IqnIls::load(std::istream& in) {
-  auto count = fluid::stored_count(in, sizeof(std::int64_t));  // of a step without pairs
+  auto count = stored_count(in, sizeof(std::int64_t));  // of a step without pairs
   past_.clear();
   for (; in && count > 0; --count) past_.emplace_back().load(in);
   if (past_.size() > reuse_) past_.resize(reuse_);  // a run may go on with another reuse

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <utility>
 
-#include "fluid/stored.hpp"
+#include "coupling/stored.hpp"
 
 namespace splashdown::coupling {
 namespace {
@@ -18,7 +18,7 @@ void write(std::ostream& out, const Eigen::VectorXd& v) {
 }
 
 void read(std::istream& in, Eigen::VectorXd& v) {
-  v.resize(static_cast<Eigen::Index>(fluid::stored_count(in, sizeof(double))));
+  v.resize(static_cast<Eigen::Index>(stored_count(in, sizeof(double))));
   in.read(reinterpret_cast<char*>(v.data()), v.size() * static_cast<std::streamsize>(sizeof(double)));
 }
 
@@ -79,7 +79,7 @@ void Secants::save(std::ostream& out) const {
 }
 
 void Secants::load(std::istream& in) {
-  auto count = fluid::stored_count(in, 2 * sizeof(std::int64_t));  // a pair: two lengths at least
+  auto count = stored_count(in, 2 * sizeof(std::int64_t));  // a pair: two lengths at least
   pairs_.clear();
   for (; in && count > 0; --count) {
     auto& pair = pairs_.emplace_back();

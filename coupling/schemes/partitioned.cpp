@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <istream>
 #include <limits>
@@ -24,90 +25,76 @@ std::string no_agreement(const char* what, int passes, double residual, const st
   return text.str();
 }
 
+std::streamsize bytes(const Motion& motion) { return motion.size() * static_cast<std::streamsize>(sizeof(double)); }
+
 }  // namespace
 
-template <int d>
-Partitioned<d>::Partitioned(std::unique_ptr<fluid::Fluid<d>> fluid, std::unique_ptr<rigid::Bodies<d>> bodies,
-                            std::unique_ptr<InterfaceTerm<d>> term, std::unique_ptr<Accelerator> accelerator,
-                            CouplingLimits limits)
-    : Coupled<d>(std::move(fluid), std::move(bodies)),
+Partitioned::Partitioned(std::unique_ptr<FluidPart> fluid, std::unique_ptr<StructurePart> structure,
+                         std::unique_ptr<InterfaceTerm> term, std::unique_ptr<Accelerator> accelerator,
+                         CouplingLimits limits)
+    : Coupled(std::move(fluid), std::move(structure)),
       term_(std::move(term)),
       accelerator_(std::move(accelerator)),
       limits_(limits),
-      acceleration_(this->bodies_->size(), fluid::Twist<d>::Zero()) {}
+      acceleration_(Motion::Zero(structure_->scales().size())) {}
 
-template <int d>
-void Partitioned<d>::move_bodies(const std::vector<rigid::Wrench<d>>& loads) {
-  const Stopwatch watch(this->rigid_seconds_);
-  this->keep(bodies_->solve(loads));
+const Motion& Partitioned::move_structure(const Impulse& impulse) {
+  const Stopwatch watch(structure_seconds_);
+  return trial_ = structure_->solve(impulse);
 }
 
-template <int d>
-std::vector<fluid::Twist<d>> Partitioned<d>::trial_velocities() const {
-  std::vector<fluid::Twist<d>> s;
-  for (const auto& t : trial_) s.push_back(t.velocity);
-  return s;
-}
+StepReport Partitioned::attempt(double dt) {
+  const Step step = begin_structure(dt);
+  kick_ = step.kick;
+  InterfaceModel model;
+  for (const auto& wall : structure_->walls()) model.stand_ins.push_back(term_->stand_in(wall));
+  if (const auto status = fluid_->begin(step, model); !status.ok()) return {.cause = status.cause};
 
-template <int d>
-StepReport Partitioned<d>::attempt(double dt) {
-  this->begin_bodies(dt);
-  const std::size_t count = bodies_->size();
-  fluid::WallResponse<d> response;
-  response.stand_ins.resize(fluid_->spec().walls.size());
-  for (std::size_t b = 0; b < count; ++b) response.stand_ins[b] = term_->stand_in(*bodies_, b);
-  if (const auto status = fluid_->begin(kick_, dt, response); !status.ok()) return {.cause = status.cause};
-
-  const double fluid_before = this->fluid_seconds();
+  const double fluid_before = fluid_seconds();
   StepReport report;
   {
-    const Stopwatch watch(this->coupling_seconds_);
-    report = iterate(dt);
+    const Stopwatch watch(coupling_seconds_);
+    report = iterate(step);
   }
-  this->coupling_seconds_ -= this->fluid_seconds() - fluid_before;
-  if (report.ok()) report.cause = fluid_->verdict().cause;
+  coupling_seconds_ -= fluid_seconds() - fluid_before;
+  if (report.ok()) report.cause = fluid_->acceptable().cause;
   return report;
 }
 
-template <int d>
-StepReport Partitioned<d>::iterate(double dt) {
-  const std::size_t count = bodies_->size();
+StepReport Partitioned::iterate(const Step& step) {
   accelerator_->begin_step();
-  if (!fluid_->interface_pieces().empty()) accelerator_->forget();  // remeshed: other nodes
-  move_bodies(std::vector<rigid::Wrench<d>>(count, rigid::Wrench<d>::Zero()));
-  const InterfaceSpace<d> space(*bodies_, fluid_->interface_pieces(), fluid_->spec().density);
-  Interface<d> x{trial_velocities(), {fluid_->interface_impulse().begin(), fluid_->interface_impulse().end()}};
-  double scale = space.velocities(x.twists).norm();  // of free flight
-  std::vector<fluid::Twist<d>> change;
-  for (std::size_t b = 0; b < count; ++b) {
-    change.push_back(bodies_->state(b).velocity - x.twists[b]);
-    if (bodies_->spec(b).motion == rigid::Motion::free)
-      x.twists[b] = bodies_->state(b).velocity + kick_ * acceleration_[b];
-  }
-  if (accelerator_->needs_slope()) accelerator_->set_slope(space.slope(pass_slope(*fluid_, *bodies_)));
+  if (!fluid_->pieces().empty()) accelerator_->forget();  // remeshed: other nodes
+  const Motion before = structure_->motion();
+  Interface x{move_structure(Impulse::Zero(before.size())), fluid_->first_guess()};
+  const InterfaceSpace space(*structure_, fluid_->pieces(), fluid_->density());
+  double scale = space.velocities(x.motion).norm();  // of free flight
+  const Motion change = before - x.motion;
+  for (const auto& wall : structure_->walls())
+    if (wall.answers)
+      x.motion.segment(wall.first, wall.count) =
+          before.segment(wall.first, wall.count) + step.kick * acceleration_.segment(wall.first, wall.count);
+  if (accelerator_->needs_slope()) accelerator_->set_slope(space.slope(pass_slope(*fluid_, *structure_)));
   scale = std::max(scale, space.velocities(change).norm());
   // Where nothing moves there is nothing to agree on but the roundoff of the water's positions.
-  double farthest = 0;
-  for (const auto& node : fluid_->nodes().x) farthest = std::max(farthest, node.norm());
-  const double roundoff = std::numeric_limits<double>::epsilon() * farthest / dt;
+  const double roundoff = fluid_->roundoff() / step.dt;
   const bool at_rest = scale <= roundoff;
-  scale = std::max(scale, this->still(dt));
+  scale = std::max(scale, still(step.dt));
   StepReport report;
   double first = 0, calmest = std::numeric_limits<double>::infinity();
   for (report.passes = 1;; ++report.passes) {
-    if (const auto status = fluid_->solve(this->of_walls(x.twists), x.impulses); !status.ok()) {
+    if (const auto status = fluid_->solve({.motion = x.motion, .lagged = x.lagged, .directions = {}, .known = {}});
+        !status.ok()) {
       // Velocities that grow from pass to pass end beyond what the fluid can follow.
       const bool grew = report.passes > 2 && report.residual > first;
       report.cause = grew ? no_agreement("diverged", report.passes, report.residual, term_->name()) : status.cause;
       return report;
     }
-    move_bodies(this->total_loads());
-    const auto walls_used = fluid_->wall_velocities().first(count);
-    const auto found = fluid_->interface_impulse();
-    const Eigen::VectorXd now = space.vector({{walls_used.begin(), walls_used.end()}, x.impulses});
-    const Eigen::VectorXd image = space.vector({trial_velocities(), {found.begin(), found.end()}});
+    const Solution& found = fluid_->solution();
+    const Motion& answer = move_structure(found.impulse);
+    const Eigen::VectorXd now = space.vector({found.motion, x.lagged});
+    const Eigen::VectorXd image = space.vector({answer, found.lagged});
     // Relative to the calmest pass so far: a wild one would excuse errors of its own size.
-    calmest = std::min(calmest, space.velocities(trial_velocities()).norm());
+    calmest = std::min(calmest, space.velocities(answer).norm());
     const double error = (image - now).norm();
     report.residual = error / std::max(scale, calmest);
     if (!std::isfinite(report.residual)) {
@@ -130,32 +117,22 @@ StepReport Partitioned<d>::iterate(double dt) {
   return report;
 }
 
-template <int d>
-void Partitioned<d>::commit() {
-  for (std::size_t b = 0; b < trial_.size(); ++b)
-    acceleration_[b] = (trial_[b].velocity - bodies_->state(b).velocity) / kick_;
-  Coupled<d>::commit();
+void Partitioned::commit() {
+  acceleration_ = (trial_ - structure_->motion()) / kick_;
+  Coupled::commit();
   accelerator_->commit_step();
 }
 
-template <int d>
-void Partitioned<d>::save(std::ostream& out) const {
-  for (const auto& a : acceleration_)
-    out.write(reinterpret_cast<const char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
-  Coupled<d>::save(out);
+void Partitioned::save(std::ostream& out) const {
+  out.write(reinterpret_cast<const char*>(acceleration_.data()), bytes(acceleration_));
+  Coupled::save(out);
   accelerator_->save(out);
 }
-template <int d>
-void Partitioned<d>::load(std::istream& in) {
-  for (auto& a : acceleration_) {
-    in.read(reinterpret_cast<char*>(a.data()), sizeof(double) * fluid::freedoms<d>);
-    if (!in || !a.allFinite()) throw std::runtime_error("holds no accelerations of the bodies");
-  }
-  Coupled<d>::load(in);
+void Partitioned::load(std::istream& in) {
+  in.read(reinterpret_cast<char*>(acceleration_.data()), bytes(acceleration_));
+  if (!in || !acceleration_.allFinite()) throw std::runtime_error("holds no accelerations of the bodies");
+  Coupled::load(in);
   accelerator_->load(in);
 }
-
-template class Partitioned<2>;
-template class Partitioned<3>;
 
 }  // namespace splashdown::coupling

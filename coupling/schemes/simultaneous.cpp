@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -13,70 +14,70 @@ constexpr double roundoff = 1e-6;
 }  // namespace
 
 /// What Newton's law is short of, relative to the velocities of the step.
-template <int d>
-double Simultaneous<d>::relative(std::span<const fluid::Twist<d>> unloaded, double dt) const {
-  double error = 0, scale = this->still(dt);
-  for (std::size_t b = 0; b < bodies_->size(); ++b) {
-    // Of the points of a body: its velocity, and its turning at the farthest of them.
-    const auto speed = [reach = rigid::reach(bodies_->spec(b))](const fluid::Twist<d>& twist) {
-      return twist.template head<d>().norm() + reach * twist.template tail<fluid::rotations<d>>().norm();
-    };
-    error = std::max(error, speed(fluid_->imbalance()[b]));
-    scale = std::max({scale, speed(unloaded[b]), speed(trial_[b].velocity), speed(bodies_->state(b).velocity)});
+double Simultaneous::relative(const Motion& unloaded, const Motion& loaded, double dt) const {
+  double error = 0, scale = still(dt);
+  const Eigen::VectorXd short_of = structure_->speeds(fluid_->solution().imbalance);
+  const Eigen::VectorXd of[] = {structure_->speeds(unloaded), structure_->speeds(loaded),
+                                structure_->speeds(structure_->motion())};
+  for (Eigen::Index w = 0; w < short_of.size(); ++w) {
+    error = std::max(error, short_of[w]);
+    scale = std::max({scale, of[0][w], of[1][w], of[2][w]});
   }
   return error / scale;
 }
 
-template <int d>
-StepReport Simultaneous<d>::attempt(double dt) {
-  this->begin_bodies(dt);
-  const std::size_t count = bodies_->size();
-  rigid::Mobility<d> bodies = bodies_->mobility();
-  fluid::WallResponse<d> response;
-  response.modes.setZero(static_cast<Eigen::Index>(fluid_->spec().walls.size()) * fluid::freedoms<d>,
-                         bodies.modes.cols());
-  response.modes.topRows(bodies.modes.rows()) = bodies.modes;
-  response.inertia = bodies.inertia;
-  if (const auto status = fluid_->begin(kick_, dt, response); !status.ok()) return {.cause = status.cause};
+std::string Simultaneous::massless_and_dry() const {
+  for (std::size_t w = 0; w < structure_->walls().size(); ++w) {
+    const auto& wall = structure_->walls()[w];
+    if (wall.answers && wall.mass == 0 && fluid_->solution().wetted[static_cast<Eigen::Index>(w)] == 0)
+      return "body \"" + wall.name + "\" has no mass and is out of the water, which had inertia for it; give it a mass";
+  }
+  return {};
+}
 
-  const double fluid_before = this->fluid_seconds();
+StepReport Simultaneous::pass_by_pass(Response response, double dt) {
+  StepReport report;
+  for (report.passes = 1;; ++report.passes) {
+    const auto status = fluid_->solve(
+        {.motion = response.free, .lagged = {}, .directions = response.directions, .known = response.known});
+    if (!status.ok()) {
+      report.cause = status.cause;
+      return report;
+    }
+    const Stopwatch moving(structure_seconds_);
+    const Motion& found = structure_->adopt(fluid_->solution().motion);
+    report.residual = relative(response.free, found, dt);
+    if (!structure_->update_contacts(fluid_->solution().impulse)) return report;
+    if (report.passes == max_passes_) {
+      report.cause = "contacts between bodies keep opening and closing";
+      return report;
+    }
+    response = structure_->response();
+  }
+}
+
+StepReport Simultaneous::attempt(double dt) {
+  const Step step = begin_structure(dt);
+  Response response = structure_->response();
+  if (const auto status = fluid_->begin(step, {.modes = response.modes, .inertia = response.inertia, .stand_ins = {}});
+      !status.ok())
+    return {.cause = status.cause};
+
+  const double fluid_before = fluid_seconds();
   StepReport report;
   {
-    const Stopwatch watch(this->coupling_seconds_);
-    for (report.passes = 1;; ++report.passes) {
-      const auto status = fluid_->solve(this->of_walls(bodies.velocities), {}, {bodies.directions, bodies.impulse});
-      if (!status.ok()) {
-        report.cause = status.cause;
-        break;
-      }
-      const Stopwatch moving(this->rigid_seconds_);
-      this->keep(bodies_->follow(fluid_->wall_velocities().first(count)));
-      report.residual = relative(bodies.velocities, dt);
-      if (!bodies_->settle(this->total_loads())) break;
-      if (report.passes == max_passes_) {
-        report.cause = "contacts between bodies keep opening and closing";
-        break;
-      }
-      bodies = bodies_->mobility();
-    }
+    const Stopwatch watch(coupling_seconds_);
+    report = pass_by_pass(std::move(response), dt);
   }
-  this->coupling_seconds_ -= this->fluid_seconds() - fluid_before;
+  coupling_seconds_ -= fluid_seconds() - fluid_before;
   if (report.ok() && !(report.residual <= roundoff)) {
     std::ostringstream text;
     text << "bodies and water disagree: residual " << report.residual << " with interface_term = \"rigid\"";
     report.cause = text.str();
   }
-  for (std::size_t b = 0; b < count && report.ok(); ++b) {
-    const auto& spec = bodies_->spec(b);
-    if (spec.motion == rigid::Motion::free && spec.mass == 0 && fluid_->loads()[b].wetted == 0)
-      report.cause =
-          "body \"" + spec.name + "\" has no mass and is out of the water, which had inertia for it; give it a mass";
-  }
-  if (report.ok()) report.cause = fluid_->verdict().cause;
+  if (report.ok()) report.cause = massless_and_dry();
+  if (report.ok()) report.cause = fluid_->acceptable().cause;
   return report;
 }
-
-template class Simultaneous<2>;
-template class Simultaneous<3>;
 
 }  // namespace splashdown::coupling

@@ -16,67 +16,48 @@ void LeapfrogClock::load(std::istream& in) {
     throw std::runtime_error("holds no length of the last step");
 }
 
-template <int d>
-StepReport FluidOnly<d>::attempt(double dt) {
+StepReport FluidOnly::attempt(double dt) {
   clock_.start(dt);
-  const std::size_t walls = fluid_->spec().walls.size();
-  const std::vector<fluid::Twist<d>> still(walls, fluid::Twist<d>::Zero());
-  auto status = fluid_->begin(clock_.kick(dt), dt, {});
-  if (status.ok()) status = fluid_->solve(still);
-  if (status.ok()) status = fluid_->verdict();
+  auto status = fluid_->begin({.kick = clock_.kick(dt), .dt = dt}, {});
+  if (status.ok()) status = fluid_->solve({});
+  if (status.ok()) status = fluid_->acceptable();
   return {.cause = status.cause, .passes = 1};
 }
 
-template <int d>
-void FluidOnly<d>::commit() {
-  const std::vector<fluid::Isometry<d>> poses(fluid_->wall_poses().begin(), fluid_->wall_poses().end());
-  fluid_->commit(poses);
+void FluidOnly::commit() {
+  fluid_->commit({});
   clock_.commit();
 }
 
-template <int d>
-void FluidOnly<d>::save(std::ostream& out) const {
+void FluidOnly::save(std::ostream& out) const {
   clock_.save(out);
   fluid_->save(out);
 }
-template <int d>
-void FluidOnly<d>::load(std::istream& in) {
+void FluidOnly::load(std::istream& in) {
   clock_.load(in);
   fluid_->load(in);
 }
 
-template <int d>
-StepReport BodiesOnly<d>::attempt(double dt) {
+StepReport StructureOnly::attempt(double dt) {
   clock_.start(dt);
-  bodies_->begin(clock_.kick(dt), dt);
-  const std::vector<rigid::Wrench<d>> no_load(bodies_->size(), rigid::Wrench<d>::Zero());
-  const auto trial = bodies_->solve(no_load);
-  trial_.assign(trial.begin(), trial.end());
-  for (const auto& state : trial_)
-    if (!state.velocity.allFinite()) return {.cause = "the bodies' velocities are not finite"};
+  structure_->begin({.kick = clock_.kick(dt), .dt = dt});
+  const Motion& trial = structure_->solve(Impulse::Zero(structure_->scales().size()));
+  if (!trial.allFinite()) return {.cause = "the bodies' velocities are not finite"};
   return {.cause = {}, .passes = 1};
 }
 
-template <int d>
-void BodiesOnly<d>::commit() {
-  bodies_->commit();
+void StructureOnly::commit() {
+  structure_->commit();
   clock_.commit();
 }
 
-template <int d>
-void BodiesOnly<d>::save(std::ostream& out) const {
+void StructureOnly::save(std::ostream& out) const {
   clock_.save(out);
-  bodies_->save(out);
+  structure_->save(out);
 }
-template <int d>
-void BodiesOnly<d>::load(std::istream& in) {
+void StructureOnly::load(std::istream& in) {
   clock_.load(in);
-  bodies_->load(in);
+  structure_->load(in);
 }
-
-template class FluidOnly<2>;
-template class FluidOnly<3>;
-template class BodiesOnly<2>;
-template class BodiesOnly<3>;
 
 }  // namespace splashdown::coupling

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/dense.hpp"
+#include "core/dense.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {

@@ -15,7 +15,7 @@ namespace scenes = coupling::scenes;
 constexpr int nodes = 10000;
 constexpr double dt = 1e-3;
 
-std::unique_ptr<coupling::Coupled<2>> circle(bool free) {
+std::unique_ptr<coupling::scenes::Watched<2>> circle(bool free) {
   const double h = std::sqrt(5.0 * 3.0 / nodes) * 0.96;  // what fills the tank with so many
   auto scene = scenes::submerged_circle(1.0 / 3, h);
   scene.fluid.size = {.surface = h, .far = h};

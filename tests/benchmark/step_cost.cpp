@@ -9,10 +9,10 @@
 #include <memory>
 #include <numbers>
 
-#include "coupling/schemes/steppers.hpp"
 #include "fluid/mesh/delaunay.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"
+#include "tests/unit/coupling/watched.hpp"
 
 namespace {
 
@@ -31,7 +31,7 @@ fluid::Surface<2> box(const Vec<2>& low, const Vec<2>& high, bool clockwise) {
 
 // A basin twice as long as deep with about `nodes` nodes and the velocity of a sloshing mode: after some steps
 // the mesh is as irregular as in any run, and a few nodes come and go.
-coupling::FluidOnly<2> basin(int nodes, std::vector<std::unique_ptr<fluid::Term<2>>> terms) {
+coupling::scenes::Watched<2> basin(int nodes, std::vector<std::unique_ptr<fluid::Term<2>>> terms) {
   const double size = std::sqrt(2.0 / nodes) * 0.97;  // what fills the basin with so many
   fluid::FluidSpec<2> spec;
   spec.size = {.surface = size, .far = size};
@@ -49,16 +49,16 @@ coupling::FluidOnly<2> basin(int nodes, std::vector<std::unique_ptr<fluid::Term<
            Vec<2>(std::sin(k * x.x()) * std::cosh(k * (x.y() + 1)), -std::cos(k * x.x()) * std::sinh(k * (x.y() + 1)));
   };
   spec.liquids.push_back(water);
-  return coupling::FluidOnly<2>(std::make_unique<fluid::Fluid<2>>(std::move(spec), std::move(terms)));
+  return coupling::scenes::Watched<2>(std::make_unique<fluid::Fluid<2>>(std::move(spec), std::move(terms)));
 }
 
-void step(coupling::FluidOnly<2>& stepper) {
+void step(coupling::scenes::Watched<2>& stepper) {
   if (!stepper.attempt(stepper.stable_dt()).ok()) std::abort();
   stepper.commit();
 }
 
-coupling::FluidOnly<2>& moving(int nodes, bool with_gravity) {
-  static std::map<std::pair<int, bool>, coupling::FluidOnly<2>> cases;
+coupling::scenes::Watched<2>& moving(int nodes, bool with_gravity) {
+  static std::map<std::pair<int, bool>, coupling::scenes::Watched<2>> cases;
   const auto found = cases.find({nodes, with_gravity});
   if (found != cases.end()) return found->second;
   std::vector<std::unique_ptr<fluid::Term<2>>> terms;

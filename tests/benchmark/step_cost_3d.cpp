@@ -21,7 +21,7 @@ namespace {
 using namespace splashdown;
 namespace scenes = coupling::scenes;
 using fluid::Vec;
-using Stepper = coupling::Simultaneous<3>;
+using Stepper = coupling::scenes::Watched<3>;
 
 Stepper sinking_ball(int nodes) {
   constexpr double half = scenes::BallInTank::half;

@@ -12,7 +12,7 @@ using coupling::Coupled;
 
 struct Scheme {
   const char* name;
-  std::function<std::unique_ptr<Coupled<2>>(const scenes::Scene&, coupling::CouplingLimits)> couple;
+  std::function<std::unique_ptr<coupling::scenes::Watched<2>>(const scenes::Scene&, coupling::CouplingLimits)> couple;
 };
 template <class Term, class Made, class... Arguments>
 Scheme scheme(const char* name, Arguments... arguments) {
@@ -20,9 +20,9 @@ Scheme scheme(const char* name, Arguments... arguments) {
             return scenes::coupled(scene, std::make_unique<Term>(), std::make_unique<Made>(arguments...), limits);
           }};
 }
-using None = coupling::NoTerm<2>;
-using Laplacian = coupling::LaplacianTerm<2>;
-using Robin = coupling::RobinTerm<2>;
+using None = coupling::NoTerm;
+using Laplacian = coupling::LaplacianTerm;
+using Robin = coupling::RobinTerm;
 const Scheme schemes[] = {{"rigid", [](const auto& scene, auto) { return scenes::coupled(scene); }},
                           scheme<Laplacian, coupling::IqnIls>("laplacian_iqn_ils", 1.0),
                           scheme<Laplacian, coupling::Anderson>("laplacian_anderson", 1.0),
@@ -43,15 +43,15 @@ void PrintTo(const Scheme& s, std::ostream* out) { *out << s.name; }
 constexpr int steps = 8;
 constexpr double dt = 1e-3, tolerance = 1e-8;
 
-std::unique_ptr<Coupled<2>> released(const Scheme& s, double ratio, double h = 0.12,
-                                     const fluid::Twist<2>& velocity = fluid::Twist<2>::Zero()) {
+std::unique_ptr<coupling::scenes::Watched<2>> released(const Scheme& s, double ratio, double h = 0.12,
+                                                       const fluid::Twist<2>& velocity = fluid::Twist<2>::Zero()) {
   auto scene = scenes::submerged_circle(ratio, h);
   scene.set_velocity(0, velocity);
   return s.couple(scene, {.tolerance = tolerance});
 }
 
 /// Velocities after each step.
-std::vector<fluid::Twist<2>> velocities(Coupled<2>& stepper, int count = steps) {
+std::vector<fluid::Twist<2>> velocities(coupling::scenes::Watched<2>& stepper, int count = steps) {
   std::vector<fluid::Twist<2>> out;
   for (int i = 0; i < count; ++i) {
     const auto report = stepper.attempt(dt);

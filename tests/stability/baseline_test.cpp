@@ -13,7 +13,7 @@ constexpr std::array steps{1e-3, 1e-3 / 4, 1e-3 / 16};
 constexpr int most_passes = 100;
 
 coupling::StepReport first_step(double ratio, double dt, double relaxation) {
-  return scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>(),
+  return scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm>(),
                          std::make_unique<coupling::ConstantRelaxation>(relaxation), {.max_passes = most_passes})
       ->attempt(dt);
 }
@@ -57,7 +57,7 @@ TEST(Baseline, with_relaxation_fails_for_the_next_lighter_body) {
 TEST(Baseline, of_a_light_body_dropped_on_water_is_refused_where_the_rigid_term_takes_one_pass) {
   for (double ratio : {1.0 / 3, 0.1, 0.01}) {
     const auto scene = scenes::wedge_drop(ratio * 36, 0.001, 0.02);  // 36 kg/m: the wedge full of water
-    EXPECT_EQ(scenes::run(*scenes::coupled(scene, std::make_unique<coupling::NoTerm<2>>()), 25), -1) << ratio;
+    EXPECT_EQ(scenes::run(*scenes::coupled(scene, std::make_unique<coupling::NoTerm>()), 25), -1) << ratio;
     EXPECT_EQ(scenes::run(*scenes::coupled(scene), 25), 1) << ratio;
   }
 }

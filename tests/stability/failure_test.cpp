@@ -56,7 +56,7 @@ TEST_P(Value, in_the_fluid_refuses_the_step_and_leaves_no_trace) {
     double value = 0;
     auto terms = fluid::scenes::gravity({0, -scenes::g});
     terms.push_back(std::make_unique<Spoiler>(value, on_wall));
-    coupling::FluidOnly<2> stepper(
+    coupling::scenes::Watched<2> stepper(
         std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 0.5, 0.1), std::move(terms)));
     ASSERT_GE(scenes::run(stepper, 2, 1e-3), 0);
     const auto before = saved(stepper);
@@ -114,7 +114,7 @@ scenes::Scene without_load() {
   return scene;
 }
 
-coupling::StepReport iterated_step_without_load(std::unique_ptr<coupling::InterfaceTerm<2>> term) {
+coupling::StepReport iterated_step_without_load(std::unique_ptr<coupling::InterfaceTerm> term) {
   return scenes::coupled(without_load(), std::move(term), std::make_unique<coupling::ConstantRelaxation>(0.3))
       ->attempt(1e-3);
 }
@@ -127,8 +127,8 @@ TEST(Start, at_rest_without_any_load_needs_no_passes) {
 }
 
 TEST(Start, at_rest_without_any_load_converges_with_iterated_terms) {
-  EXPECT_TRUE(iterated_step_without_load(std::make_unique<coupling::NoTerm<2>>()).ok());
-  EXPECT_TRUE(iterated_step_without_load(std::make_unique<coupling::LaplacianTerm<2>>()).ok());
+  EXPECT_TRUE(iterated_step_without_load(std::make_unique<coupling::NoTerm>()).ok());
+  EXPECT_TRUE(iterated_step_without_load(std::make_unique<coupling::LaplacianTerm>()).ok());
 }
 
 TEST(Start, of_a_body_in_the_air_far_from_water_is_free_fall) {
@@ -145,7 +145,8 @@ TEST(Liquid, that_is_a_single_droplet_flies) {
   spec.size = {.surface = 1, .far = 1};
   spec.liquids.push_back(
       {fluid::scenes::outline({{0, 0}, {0.1, 0}, {0.05, 0.08}}), [](const auto&) { return fluid::Vec<2>(1, 2); }});
-  coupling::FluidOnly<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::gravity({0, -scenes::g})));
+  coupling::scenes::Watched<2> stepper(
+      std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::gravity({0, -scenes::g})));
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(stepper.attempt(1e-3).ok());
     stepper.commit();
@@ -163,7 +164,7 @@ TEST(Liquid, that_is_nowhere_is_an_error_at_the_start) {
 TEST(Velocity, that_is_not_finite_at_the_start_is_refused) {
   auto spec = fluid::scenes::still_water(1, 1, 0.2);
   spec.liquids[0].velocity = [](const auto&) { return fluid::Vec<2>(nan, 0); };
-  coupling::FluidOnly<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
+  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
   EXPECT_FALSE(stepper.attempt(1e-3).ok());
 }
 

@@ -130,10 +130,10 @@ TEST(NoTerm, amplifies_an_error_by_added_mass_over_mass_a_pass) {
   EXPECT_NEAR(M_a, added_mass(dt), 1e-3 * M_a);
   // Hence G' = -M_a / m: divergence for all bodies lighter than their added mass, whatever dt.
   for (double ratio : {0.1, 1.0 / 3, 0.9}) {
-    const auto none = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>());
+    const auto none = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm>());
     for (double step : {1e-3, 1e-5}) EXPECT_FALSE(none->attempt(step).ok()) << ratio << ' ' << step;
   }
-  const auto heavy = scenes::coupled(scenes::submerged_circle(3), std::make_unique<coupling::NoTerm<2>>());
+  const auto heavy = scenes::coupled(scenes::submerged_circle(3), std::make_unique<coupling::NoTerm>());
   const auto report = heavy->attempt(1e-3);
   EXPECT_TRUE(report.ok()) << report.cause;
   // Passes from the amplification: (M_a / m)^k = 1e-8.
@@ -145,7 +145,7 @@ TEST(NoTerm, amplifies_a_residual_by_added_mass_over_mass_a_pass) {
   const double dt = 1e-4, M_a = added_mass(1e-6);
   for (double ratio : {1.0 / 3, 0.1}) {
     const auto residual_after = [&](int passes) {
-      const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>(),
+      const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm>(),
                                            std::make_unique<coupling::ConstantRelaxation>(1.0),
                                            {.tolerance = 1e-14, .max_passes = passes});
       return stepper->attempt(dt).residual;
@@ -176,9 +176,9 @@ std::pair<coupling::StepReport, fluid::Twist<2>> first_step(double ratio, double
 TEST(Accelerators, make_plain_exchange_converge_to_one_state_for_light_bodies) {
   // Three freedoms: n + 2 = 5 passes on an affine map for the secant schemes, and one or two for its curvature.
   for (double ratio : {1.0 / 3, 0.1}) {
-    const auto reference = first_step<coupling::NoTerm<2>>(ratio, 1e-3, "iqn_ils", 1e-10).second;
+    const auto reference = first_step<coupling::NoTerm>(ratio, 1e-3, "iqn_ils", 1e-10).second;
     for (const char* name : {"aitken", "anderson", "broyden", "iqn_ils"}) {
-      const auto [report, velocity] = first_step<coupling::NoTerm<2>>(ratio, 1e-3, name);
+      const auto [report, velocity] = first_step<coupling::NoTerm>(ratio, 1e-3, name);
       EXPECT_LE(report.passes, name == std::string("aitken") ? 30 : 7) << name << ' ' << ratio;
       EXPECT_LE((velocity - reference).norm(), 1e-5 * reference.norm()) << name << ' ' << ratio;
     }
@@ -199,25 +199,25 @@ void converges_where_plain_exchange_diverges() {
 }
 
 TEST(LaplacianTerm, converges_where_plain_exchange_diverges) {
-  converges_where_plain_exchange_diverges<coupling::LaplacianTerm<2>>();
+  converges_where_plain_exchange_diverges<coupling::LaplacianTerm>();
 }
 
 TEST(RobinTerm, converges_where_plain_exchange_diverges) {
-  converges_where_plain_exchange_diverges<coupling::RobinTerm<2>>();
+  converges_where_plain_exchange_diverges<coupling::RobinTerm>();
 }
 
 TEST(RobinTerm, needs_no_relaxation_for_a_light_body_that_slams) {
   // 2 K + A > S on a hull between contact lines, for any mass: convergence, slower for lighter bodies (docs/theory.md).
-  const auto most_passes = [](double ratio, std::unique_ptr<coupling::InterfaceTerm<2>> term, int steps = 25) {
+  const auto most_passes = [](double ratio, std::unique_ptr<coupling::InterfaceTerm> term, int steps = 25) {
     const auto stepper =
         scenes::coupled(scenes::wedge_drop(ratio * 36, 0.001, 0.02), std::move(term),
                         std::make_unique<coupling::ConstantRelaxation>(1.0), {.tolerance = 1e-6, .max_passes = 500});
     return scenes::run(*stepper, steps);
   };
   for (double ratio : {1.0 / 3, 0.1, 0.01}) {
-    EXPECT_GT(most_passes(ratio, std::make_unique<coupling::RobinTerm<2>>()), 1) << ratio << ": a step was refused";
+    EXPECT_GT(most_passes(ratio, std::make_unique<coupling::RobinTerm>()), 1) << ratio << ": a step was refused";
     // It diverges as soon as the wetted width, and with it M_a, has grown beyond m.
-    EXPECT_EQ(most_passes(ratio, std::make_unique<coupling::NoTerm<2>>(), 50), -1) << ratio;
+    EXPECT_EQ(most_passes(ratio, std::make_unique<coupling::NoTerm>(), 50), -1) << ratio;
   }
 }
 
@@ -228,8 +228,8 @@ TEST(Probe, knows_what_other_schemes_have_to_learn) {
     for (double dt : {1e-3, 1e-3 / 16}) {
       // Roundoff of positions over dt, eps 3 m / dt, is 3e-8 of the speed g dt / 2; a pass amplifies it by M_a / m.
       if (ratio < 1e-2 && dt < 1e-3) continue;
-      EXPECT_LE(first_step<coupling::NoTerm<2>>(ratio, dt, "probe").first.passes, 5) << ratio << ' ' << dt;
-      EXPECT_LE(first_step<coupling::LaplacianTerm<2>>(ratio, dt, "probe").first.passes, 11) << ratio << ' ' << dt;
+      EXPECT_LE(first_step<coupling::NoTerm>(ratio, dt, "probe").first.passes, 5) << ratio << ' ' << dt;
+      EXPECT_LE(first_step<coupling::LaplacianTerm>(ratio, dt, "probe").first.passes, 11) << ratio << ' ' << dt;
     }
 }
 
@@ -238,8 +238,8 @@ TEST(Probe, after_two_passes_is_off_by_no_more_than_the_residual_it_reports) {
   // Relative to the speed of free flight; a coarse tolerance of the reference is a part of r.
   const double dt = 1e-3, free_flight = scenes::g * dt / 2;
   for (double ratio : {10.0, 1.0 / 3, 0.1}) {
-    const auto reference = first_step<coupling::NoTerm<2>>(ratio, dt, "iqn_ils", 1e-10).second;
-    const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm<2>>(),
+    const auto reference = first_step<coupling::NoTerm>(ratio, dt, "iqn_ils", 1e-10).second;
+    const auto stepper = scenes::coupled(scenes::submerged_circle(ratio), std::make_unique<coupling::NoTerm>(),
                                          accelerator("probe"), {.tolerance = 1e-14, .fixed_passes = 2});
     const auto report = stepper->attempt(dt);
     ASSERT_TRUE(report.ok()) << report.cause;
@@ -253,13 +253,13 @@ TEST(Probe, after_two_passes_is_off_by_no_more_than_the_residual_it_reports) {
 TEST(LaplacianTerm, converges_with_aitken_too) {
   // One factor for all modes: slow where the Laplacian is stiff.
   for (double ratio : {1.0 / 3, 0.1})
-    EXPECT_LE(first_step<coupling::LaplacianTerm<2>>(ratio, 1e-3, "aitken", 1e-5).first.passes, 50) << ratio;
+    EXPECT_LE(first_step<coupling::LaplacianTerm>(ratio, 1e-3, "aitken", 1e-5).first.passes, 50) << ratio;
 }
 
 TEST(Aitken, makes_plain_exchange_converge_for_a_light_body) {
   for (double first : {0.3, 0.1, 0.02})
     for (double dt : {1e-3, 1e-3 / 16}) {
-      const auto stepper = scenes::coupled(scenes::submerged_circle(0.1), std::make_unique<coupling::NoTerm<2>>(),
+      const auto stepper = scenes::coupled(scenes::submerged_circle(0.1), std::make_unique<coupling::NoTerm>(),
                                            std::make_unique<coupling::Aitken>(first));
       const auto report = stepper->attempt(dt);
       EXPECT_TRUE(report.ok()) << report.cause;

@@ -12,13 +12,13 @@ using scenes::g;
 using scenes::water;
 
 // Steps as a run takes them: a refused one is halved.
-bool step(coupling::Coupled<2>& stepper, double& dt, double most) {
+bool step(coupling::scenes::Watched<2>& stepper, double& dt, double most) {
   dt = std::min({stepper.stable_dt(), 1.5 * dt, most});
   return scenes::attempt_halving(stepper, dt, 12).ok();
 }
 
 // Of a body at t_n of an attempted step; its velocity is the mean of the two half steps.
-double energy(const coupling::Coupled<2>& stepper, std::size_t body) {
+double energy(const coupling::scenes::Watched<2>& stepper, std::size_t body) {
   const auto& spec = stepper.bodies().spec(body);
   const auto& s = stepper.bodies().state(body);
   const rigid::Twist<2> mean = 0.5 * (s.velocity + stepper.trial()[body].velocity);

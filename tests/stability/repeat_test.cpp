@@ -88,7 +88,7 @@ TEST(Resumed, a_run_continues_bit_for_bit) {
 
 TEST(Resumed, with_passes_and_accelerators_continues_bit_for_bit) {
   const auto make = [] {
-    return scenes::coupled(scenes::submerged_circle(0.5), std::make_unique<coupling::NoTerm<2>>(),
+    return scenes::coupled(scenes::submerged_circle(0.5), std::make_unique<coupling::NoTerm>(),
                            std::make_unique<coupling::Aitken>(0.3));
   };
   const auto whole = make();

@@ -112,7 +112,8 @@ TEST_P(Scale, leaves_each_bit_of_a_collapsing_column) {
     s.fluid = fluid::scenes::still_water(2, 0.5, 0.1);
     s.fluid.liquids[0].boundary = fluid::scenes::rectangle({-1, -0.5}, {-0.5, 0.25});
     s = scaled(s, L, rho);
-    coupling::FluidOnly<2> stepper(std::make_unique<fluid::Fluid<2>>(s.fluid, fluid::scenes::gravity({0, -scenes::g})));
+    coupling::scenes::Watched<2> stepper(
+        std::make_unique<fluid::Fluid<2>>(s.fluid, fluid::scenes::gravity({0, -scenes::g})));
     for (int i = 0; i < 40; ++i) {
       EXPECT_TRUE(stepper.attempt(std::min(stepper.stable_dt(), 0.005 * T)).ok());
       stepper.commit();

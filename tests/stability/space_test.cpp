@@ -15,9 +15,9 @@ using scenes::saved;
 
 constexpr double radius = scenes::BallInTank::radius;
 
-std::unique_ptr<coupling::Simultaneous<3>> ball(double density_ratio, double height, double speed, double h) {
+std::unique_ptr<coupling::scenes::Watched<3>> ball(double density_ratio, double height, double speed, double h) {
   const auto scene = scenes::ball_in_tank(density_ratio, height, speed, h, 4 * h, 32);
-  return std::make_unique<coupling::Simultaneous<3>>(scenes::water_of(scene), scenes::bodies_of(scene));
+  return std::make_unique<coupling::scenes::Watched<3>>(scenes::water_of(scene), scenes::bodies_of(scene));
 }
 
 TEST(BallInSpace, lands_with_the_same_bits_on_any_number_of_threads) {

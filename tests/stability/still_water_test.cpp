@@ -22,7 +22,7 @@ TEST_P(RandomTank, stays_still_for_a_thousand_seconds) {
     spec.size = {.surface = surface, .far = spec.size.far, .growth = between(0.1, 0.3)};
     const double none = std::numeric_limits<double>::infinity();
     spec.step = {.cfl = share, .dt_max = share < 1 ? share * std::sqrt(surface / g) : none};
-    coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(spec, fs::gravity({0, -g})));
+    coupling::scenes::Watched<2> stepper(std::make_unique<Fluid<2>>(spec, fs::gravity({0, -g})));
     double dt = 1e-3;
     while (stepper.time() < 1000) {
       dt = std::min(stepper.stable_dt(), 1.5 * dt);

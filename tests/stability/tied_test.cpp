@@ -24,7 +24,7 @@ scenes::Scene hinged(double ratio, double angle = 0.5) {
   return s;
 }
 
-Vec held_end(const coupling::Coupled<2>& stepper) { return stepper.bodies().state(0).pose * Vec(-0.5, 0); }
+Vec held_end(const coupling::scenes::Watched<2>& stepper) { return stepper.bodies().state(0).pose * Vec(-0.5, 0); }
 
 TEST(Hinged, bodies_of_any_density_take_one_pass_and_leave_roundoff) {
   for (double ratio : {10.0, 1.0, 1.0 / 3, 0.1, 1e-2, 1e-3, 1e-6, 1e-9, 0.0})
@@ -43,7 +43,7 @@ TEST(Hinged, bodies_of_any_density_take_one_pass_and_leave_roundoff) {
 
 TEST(Hinged, accelerators_without_the_term_find_the_same_motion) {
   // To the corrections of the pressure, a part of the mesh's own error.
-  const auto after = [](const std::unique_ptr<coupling::Coupled<2>>& stepper) {
+  const auto after = [](const std::unique_ptr<coupling::scenes::Watched<2>>& stepper) {
     for (int i = 0; i < 4; ++i) {
       const auto report = stepper->attempt(1e-3);
       EXPECT_TRUE(report.ok()) << report.cause;
@@ -53,8 +53,8 @@ TEST(Hinged, accelerators_without_the_term_find_the_same_motion) {
   };
   for (double ratio : {1.0 / 3, 0.1}) {
     const double exact = after(scenes::coupled(hinged(ratio)));
-    const double found = after(scenes::coupled(hinged(ratio), std::make_unique<coupling::NoTerm<2>>(),
-                                               std::make_unique<coupling::IqnIls>(1.0)));
+    const double found = after(
+        scenes::coupled(hinged(ratio), std::make_unique<coupling::NoTerm>(), std::make_unique<coupling::IqnIls>(1.0)));
     EXPECT_NEAR(found, exact, 0.02 * std::abs(exact)) << ratio;
   }
 }

@@ -13,8 +13,8 @@ using Vec = Eigen::Vector2d;
 using scenes::g;
 using scenes::water;
 
-std::unique_ptr<coupling::FluidOnly<2>> at_rest(fluid::FluidSpec<2> spec) {
-  return std::make_unique<coupling::FluidOnly<2>>(
+std::unique_ptr<coupling::scenes::Watched<2>> at_rest(fluid::FluidSpec<2> spec) {
+  return std::make_unique<coupling::scenes::Watched<2>>(
       std::make_unique<fluid::Fluid<2>>(std::move(spec), fluid::scenes::gravity({0, -g})));
 }
 
@@ -22,7 +22,7 @@ std::unique_ptr<coupling::FluidOnly<2>> at_rest(fluid::FluidSpec<2> spec) {
 // condition of the pressure equation, about (depth / h)^2 = 1e3.
 constexpr double roundoff = 1e-9;
 
-void still_for(coupling::FluidOnly<2>& stepper, int steps) {
+void still_for(coupling::scenes::Watched<2>& stepper, int steps) {
   for (int i = 0; i < steps; ++i) {
     ASSERT_TRUE(stepper.attempt(5e-3).ok());
     stepper.commit();

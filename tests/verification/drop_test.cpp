@@ -14,12 +14,13 @@ using Vec = Eigen::Vector2d;
 
 constexpr double A0 = 10;  // [1/s]: rate of strain
 
-std::unique_ptr<coupling::FluidOnly<2>> strained_drop(double h) {
+std::unique_ptr<coupling::scenes::Watched<2>> strained_drop(double h) {
   fluid::FluidSpec<2> spec;
   spec.size = {.surface = h, .far = h};
   spec.liquids.push_back(
       {fluid::scenes::ellipse(1, 1, 512), [](const Vec& x) { return Vec(-A0 * x.x(), A0 * x.y()); }});
-  return std::make_unique<coupling::FluidOnly<2>>(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
+  return std::make_unique<coupling::scenes::Watched<2>>(
+      std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
 }
 
 // Semi-axes of the elliptic drop: v = (-A x, A y), A' = A^2 (a^2 - b^2) / (a^2 + b^2), a' = -A a, b' = A b.

@@ -13,7 +13,8 @@ using fluid::Fluid;
 
 TEST(Hydrostatic, a_column_at_rest_has_a_linear_pressure_and_stays) {
   const double depth = 1, dt = 0.01;
-  coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(1.3, depth, 0.1), fs::gravity({0, -g})));
+  coupling::scenes::Watched<2> stepper(
+      std::make_unique<Fluid<2>>(fs::still_water(1.3, depth, 0.1), fs::gravity({0, -g})));
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(stepper.attempt(dt).ok());
     const auto& nodes = stepper.fluid().nodes();
@@ -28,7 +29,7 @@ TEST(Hydrostatic, a_column_at_rest_has_a_linear_pressure_and_stays) {
 }
 
 TEST(Hydrostatic, a_jump_of_the_step_leaves_the_pressure_alone) {
-  coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(1, 1, 0.15), fs::gravity({0, -g})));
+  coupling::scenes::Watched<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(1, 1, 0.15), fs::gravity({0, -g})));
   for (double dt : {1e-2, 1e-5, 1e-2, 1e-7, 3e-3}) {
     ASSERT_TRUE(stepper.attempt(dt).ok());
     const auto& nodes = stepper.fluid().nodes();
@@ -39,7 +40,7 @@ TEST(Hydrostatic, a_jump_of_the_step_leaves_the_pressure_alone) {
 }
 
 TEST(Hydrostatic, walls_carry_the_weight_of_the_water) {
-  coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(2, 1, 0.2), fs::gravity({0, -g})));
+  coupling::scenes::Watched<2> stepper(std::make_unique<Fluid<2>>(fs::still_water(2, 1, 0.2), fs::gravity({0, -g})));
   ASSERT_TRUE(stepper.attempt(1e-2).ok());
   const auto& load = stepper.fluid().loads()[0];
   EXPECT_NEAR(load.total()[1], -water * g * 2, 1e-8 * water * g);
@@ -74,7 +75,7 @@ TEST(Hydrostatic, water_in_free_fall_weighs_nothing) {
   fluid::FluidSpec<2> spec;
   spec.size = {.surface = 0.1, .far = 0.1};
   spec.liquids.push_back({fs::ellipse(0.5, 0.3, 40), {}});
-  coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(spec, fs::gravity({0, -g})));
+  coupling::scenes::Watched<2> stepper(std::make_unique<Fluid<2>>(spec, fs::gravity({0, -g})));
   const auto lowest = [&] {
     double y = 1;
     for (const auto& x : stepper.fluid().nodes().x) y = std::min(y, x.y());

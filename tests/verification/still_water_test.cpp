@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(ShareOfTheBound, StillWater, testing::Values(0.25, 0.5,
 TEST_P(StillWater, lets_no_ripple_grow) {
   for (const Tank& t : tanks) {
     const double ripple = 1e-6 * t.surface;
-    coupling::FluidOnly<2> stepper(std::make_unique<Fluid<2>>(water_in(t, ripple), fs::gravity({0, -g})));
+    coupling::scenes::Watched<2> stepper(std::make_unique<Fluid<2>>(water_in(t, ripple), fs::gravity({0, -g})));
     double dt = 1e-3, early = 0, late = 0;
     while (stepper.time() < 40) {
       dt = std::min(GetParam() * stepper.stable_dt(), 1.5 * dt);

@@ -188,9 +188,9 @@ shape = {type = "box", width = 1, height = 1}
 )"));
   ASSERT_TRUE(world.stepper->attempt(0.1).ok());
   // Half a kick from t_0: the velocity at t_{1/2}.
-  const auto trial = world.trial_velocities();
+  const auto trial = world.bodies->trials();
   ASSERT_EQ(trial.size(), 1u);
-  EXPECT_NEAR(trial[0][1], 2 - 9.81 * 0.05, eps);
+  EXPECT_NEAR(trial[0].velocity[1], 2 - 9.81 * 0.05, eps);
   world.stepper->commit();
   EXPECT_EQ(world.stepper->time(), 0.1);
   EXPECT_NEAR(world.bodies->state(0).pose.translation().y(), 0.2 - 9.81 * 0.005, eps);

@@ -25,15 +25,17 @@ scenes::Scene three_bodies() {
 }
 
 struct Begun {
-  fluid::Fluid<2> fluid;
-  rigid::Bodies<2> bodies;
+  fluid::Participant<2> fluid;
+  rigid::Participant<2> bodies;
   explicit Begun(const scenes::Scene& scene, double laplacian = 0)
-      : fluid(scene.fluid, fluid::scenes::gravity(scene.gravity)), bodies(scene.bodies, {}) {
-    bodies.begin(kick, dt);
-    fluid::WallResponse<2> response;
-    response.stand_ins.resize(scene.fluid.walls.size());
-    for (std::size_t b : {0, 2}) response.stand_ins[b].laplacian = laplacian / scene.bodies[b].mass;
-    EXPECT_TRUE(fluid.begin(kick, dt, response).ok());
+      : fluid(scenes::water_of(scene)),
+        bodies(std::make_unique<rigid::Bodies<2>>(scene.bodies, std::vector<std::unique_ptr<rigid::Force<2>>>{})) {
+    const Step step{.kick = kick, .dt = dt};
+    bodies.begin(step);
+    InterfaceModel model;
+    const LaplacianTerm term(laplacian);
+    for (const auto& wall : bodies.walls()) model.stand_ins.push_back(term.stand_in(wall));
+    EXPECT_TRUE(fluid.begin(step, model).ok());
   }
 };
 
@@ -50,7 +52,7 @@ TEST(PassSlope, is_the_added_mass_of_all_free_bodies_over_their_mass) {
   const auto scene = three_bodies();
   Begun begun(scene);
   const std::array<std::size_t, 3> all{0, 1, 2};
-  const Matrix M = -begun.fluid.interface_slope(all);  // the added mass without the corrections of the pressure
+  const Matrix M = -begun.fluid.linearised()->slope(all);  // the added mass without the corrections of the pressure
   EXPECT_LE((M - M.transpose()).norm(), 1e-10 * M.norm());
   EXPECT_GT(std::abs(M(0, 6)), 0.01 * M(6, 6)) << "one body feels the other";
   Matrix expected = -compliance(scene) * M;
@@ -78,15 +80,10 @@ TEST(PassSlope, is_that_of_passes_but_for_the_corrections_of_the_pressure) {
   Begun begun(scene);
   const Matrix J = pass_slope(begun.fluid, begun.bodies);
   const auto image = [&](int moved, double by) {
-    std::vector<fluid::Twist<2>> walls(scene.fluid.walls.size(), fluid::Twist<2>::Zero());
-    if (moved >= 0) walls[static_cast<std::size_t>(moved / 3)](moved % 3) = by;
-    EXPECT_TRUE(begun.fluid.solve(walls).ok());
-    std::vector<rigid::Wrench<2>> loads;
-    for (int b = 0; b < 3; ++b) loads.push_back(begun.fluid.loads()[static_cast<std::size_t>(b)].total());
-    Eigen::VectorXd out(9);
-    const auto states = begun.bodies.solve(loads);
-    for (int b = 0; b < 3; ++b) out.segment<3>(3 * b) = states[static_cast<std::size_t>(b)].velocity;
-    return out;
+    Motion motion = Motion::Zero(9);
+    if (moved >= 0) motion[moved] = by;
+    EXPECT_TRUE(begun.fluid.solve({.motion = motion, .lagged = {}, .directions = {}, .known = {}}).ok());
+    return Motion(begun.bodies.solve(begun.fluid.solution().impulse));
   };
   const double speed = 1e-3;  // next to nothing moves
   const Eigen::VectorXd at_rest = image(-1, 0);

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/schemes/steppers.hpp"
 #include "rigid/shapes/shapes.hpp"
+#include "tests/unit/coupling/watched.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::coupling::scenes {
@@ -77,15 +77,15 @@ inline std::unique_ptr<rigid::Bodies<2>> bodies_of(const Scene& scene) {
 }
 
 /// Bodies inside the pressure equation.
-inline std::unique_ptr<Coupled<2>> coupled(const Scene& scene) {
-  return std::make_unique<Simultaneous<2>>(water_of(scene), bodies_of(scene));
+inline std::unique_ptr<Watched<2>> coupled(const Scene& scene) {
+  return std::make_unique<Watched<2>>(water_of(scene), bodies_of(scene));
 }
 
-inline std::unique_ptr<Coupled<2>> coupled(
-    const Scene& scene, std::unique_ptr<InterfaceTerm<2>> term,
+inline std::unique_ptr<Watched<2>> coupled(
+    const Scene& scene, std::unique_ptr<InterfaceTerm> term,
     std::unique_ptr<Accelerator> accelerator = std::make_unique<ConstantRelaxation>(1.0), CouplingLimits limits = {}) {
-  return std::make_unique<Partitioned<2>>(water_of(scene), bodies_of(scene), std::move(term), std::move(accelerator),
-                                          limits);
+  return std::make_unique<Watched<2>>(water_of(scene), bodies_of(scene), std::move(term), std::move(accelerator),
+                                      limits);
 }
 
 /// A circle of radius 0.5 m, 1.5 m deep in a tank of 5 m by 3 m.

@@ -33,10 +33,10 @@ TEST(LeapfrogClock, kicks_are_means_of_neighbouring_steps) {
   EXPECT_EQ(other.kick(0.4), clock.kick(0.4));
 }
 
-TEST(BodiesOnly, flies_straight_without_a_fluid) {
+TEST(StructureOnly, flies_straight_without_a_fluid) {
   auto scene = scenes::submerged_circle(1);
   scene.set_velocity(0, {3, 2, 5});
-  BodiesOnly<2> stepper(
+  scenes::Watched<2> stepper(
       std::make_unique<rigid::Bodies<2>>(scene.bodies, std::vector<std::unique_ptr<rigid::Force<2>>>{}), 0.01);
   for (int i = 0; i < 1000; ++i) {
     ASSERT_TRUE(stepper.attempt(stepper.stable_dt()).ok());
@@ -84,7 +84,7 @@ TEST(Partitioned, a_body_moves_as_its_load_says) {
 TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
   auto scene = scenes::submerged_circle(1);
   scene.bodies[0].motion = rigid::Motion::fixed;
-  const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<ConstantRelaxation>(1.0),
+  const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm>(), std::make_unique<ConstantRelaxation>(1.0),
                                        {.fixed_passes = 1});
   for (int i = 0; i < 3; ++i) {
     const auto report = stepper->attempt(1e-3);
@@ -105,9 +105,9 @@ TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
 }
 
 // Velocity after a step from rest, relative to that with the exact term.
-double departure(std::unique_ptr<InterfaceTerm<2>> term, std::unique_ptr<Accelerator> accelerator, double dt) {
+double departure(std::unique_ptr<InterfaceTerm> term, std::unique_ptr<Accelerator> accelerator, double dt) {
   const auto scene = scenes::submerged_circle(3);  // heavy enough for plain Dirichlet-Neumann
-  const auto after_step = [&](const std::unique_ptr<Coupled<2>>& stepper) {
+  const auto after_step = [&](const std::unique_ptr<scenes::Watched<2>>& stepper) {
     const auto report = stepper->attempt(dt);
     EXPECT_TRUE(report.ok()) << report.cause;
     return stepper->trial()[0].velocity;
@@ -121,10 +121,10 @@ double departure(std::unique_ptr<InterfaceTerm<2>> term, std::unique_ptr<Acceler
 // the interface Laplacian in the matrix each of them is a smaller one.
 TEST(Partitioned, all_terms_and_accelerators_have_the_same_limit) {
   for (double dt : {1e-3, 5e-4}) {
-    const double relaxed = departure(std::make_unique<NoTerm<2>>(), std::make_unique<ConstantRelaxation>(0.5), dt);
-    const double aitken = departure(std::make_unique<NoTerm<2>>(), std::make_unique<Aitken>(0.5), dt);
+    const double relaxed = departure(std::make_unique<NoTerm>(), std::make_unique<ConstantRelaxation>(0.5), dt);
+    const double aitken = departure(std::make_unique<NoTerm>(), std::make_unique<Aitken>(0.5), dt);
     const double laplacian =
-        departure(std::make_unique<LaplacianTerm<2>>(), std::make_unique<ConstantRelaxation>(1.0), dt);
+        departure(std::make_unique<LaplacianTerm>(), std::make_unique<ConstantRelaxation>(1.0), dt);
     EXPECT_LT(relaxed, 1e-5);
     EXPECT_NEAR(aitken, relaxed, 1e-6);
     EXPECT_LT(laplacian, 1e-3);
@@ -133,12 +133,12 @@ TEST(Partitioned, all_terms_and_accelerators_have_the_same_limit) {
 
 TEST(Partitioned, refuses_a_step_without_agreement_and_leaves_the_present_alone) {
   const auto scene = scenes::submerged_circle(0.1);
-  const auto bold = scenes::coupled(scene, std::make_unique<NoTerm<2>>());
+  const auto bold = scenes::coupled(scene, std::make_unique<NoTerm>());
   const auto before = saved(*bold);
   EXPECT_FALSE(bold->attempt(1e-3).ok());
   EXPECT_EQ(saved(*bold), before);
-  const auto patient = scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<ConstantRelaxation>(0.01),
-                                       {.max_passes = 5});
+  const auto patient =
+      scenes::coupled(scene, std::make_unique<NoTerm>(), std::make_unique<ConstantRelaxation>(0.01), {.max_passes = 5});
   const auto report = patient->attempt(1e-3);
   EXPECT_EQ(report.passes, 5);
   EXPECT_NE(report.cause.find("did not converge"), std::string::npos) << report.cause;
@@ -148,7 +148,7 @@ TEST(Partitioned, refuses_a_step_without_agreement_and_leaves_the_present_alone)
 TEST(Partitioned, continues_bit_for_bit_with_what_its_accelerator_has_learnt) {
   const auto scene = scenes::submerged_circle(0.3);
   const auto fresh = [&] {
-    return scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<IqnIls>(1.0, 2));
+    return scenes::coupled(scene, std::make_unique<NoTerm>(), std::make_unique<IqnIls>(1.0, 2));
   };
   const auto straight = fresh(), resumed = fresh();
   ASSERT_GT(scenes::run(*straight, 3), 0);
@@ -160,7 +160,7 @@ TEST(Partitioned, continues_bit_for_bit_with_what_its_accelerator_has_learnt) {
 }
 
 TEST(Partitioned, says_that_the_coupling_diverged) {
-  const auto stepper = scenes::coupled(scenes::submerged_circle(0.1), std::make_unique<NoTerm<2>>());
+  const auto stepper = scenes::coupled(scenes::submerged_circle(0.1), std::make_unique<NoTerm>());
   const auto report = stepper->attempt(1e-3);
   EXPECT_NE(report.cause.find("diverged"), std::string::npos) << report.cause;
   EXPECT_NE(report.cause.find("interface_term = \"rigid\""), std::string::npos) << "the cure: " << report.cause;
@@ -185,7 +185,7 @@ TEST(Partitioned, names_a_cause_when_passes_stand_still_or_end_in_nothing) {
     auto scene = scenes::submerged_circle(0.1);
     scene.set_velocity(0, {0.1, 0, 0});  // a first guess that is not zero
     const auto stepper =
-        scenes::coupled(scene, std::make_unique<NoTerm<2>>(), std::make_unique<Stuck>(factor), {.max_passes = 7});
+        scenes::coupled(scene, std::make_unique<NoTerm>(), std::make_unique<Stuck>(factor), {.max_passes = 7});
     const auto before = saved(*stepper);
     const auto report = stepper->attempt(1e-3);
     EXPECT_FALSE(report.ok()) << factor;
@@ -205,7 +205,7 @@ TEST(Phases, are_those_of_the_parts_and_effects_a_stepper_has) {
   };
   const auto both = scenes::coupled(scene);
   EXPECT_TRUE(has(*both, "rigid") && has(*both, "coupling") && has(*both, "pressure"));
-  const FluidOnly<2> fluid(
+  const scenes::Watched<2> fluid(
       std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 1, 0.2), fluid::scenes::no_terms()));
   EXPECT_FALSE(has(fluid, "rigid") || has(fluid, "coupling"));
   EXPECT_FALSE(has(fluid, "gravity")) << "an absent effect has no timer";

@@ -5,8 +5,8 @@
 #include <memory>
 #include <numbers>
 
-#include "coupling/schemes/steppers.hpp"
 #include "fluid/fluid.hpp"
+#include "tests/unit/coupling/watched.hpp"
 
 namespace splashdown::fluid::testing {
 
@@ -63,17 +63,17 @@ struct Basin {
 };
 
 template <class... Terms>
-coupling::FluidOnly<2> water(const Basin& basin, std::unique_ptr<Terms>... terms) {
+coupling::scenes::Watched<2> water(const Basin& basin, std::unique_ptr<Terms>... terms) {
   std::vector<std::unique_ptr<Term<2>>> list;
   (list.push_back(std::move(terms)), ...);
-  return coupling::FluidOnly<2>(std::make_unique<Fluid<2>>(basin.spec(), std::move(list)));
+  return coupling::scenes::Watched<2>(std::make_unique<Fluid<2>>(basin.spec(), std::move(list)));
 }
 
 inline std::unique_ptr<Gravity<2>> gravity() { return std::make_unique<Gravity<2>>(Vec<2>(0, -9.81)); }
 
 /// Steps to `end`; calls `look(fluid, dt)` between attempt and commit. False if a step is refused.
 template <class Look>
-bool run(coupling::FluidOnly<2>& stepper, double end, Look look) {
+bool run(coupling::scenes::Watched<2>& stepper, double end, Look look) {
   while (stepper.fluid().time() < end * (1 - 1e-12)) {
     const double dt = std::min(stepper.stable_dt(), end - stepper.fluid().time());
     if (!stepper.attempt(dt).cause.empty()) return false;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the build to a scratch prefix and builds and runs a program that knows only the package.
+# Installs the build to a scratch prefix and builds and runs the example that knows only the package.
 #   install_test.sh CMAKE BUILD_DIR CXX_COMPILER CXX_FLAGS
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -15,10 +15,10 @@ trap 'rm -rf "$scratch"' EXIT
 "$compiler" $flags -std=c++20 -fsyntax-only -I"$scratch/prefix/include/splashdown" $(pkg-config --cflags eigen3) \
   "$scratch/headers.cpp"
 
-"$cmake" -S "$here/consumer" -B "$scratch/consumer" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
+"$cmake" -S "$here/../../../examples/library" -B "$scratch/library" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
   -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_CXX_STANDARD=20 -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/configure.log" || {
   cat "$scratch/configure.log"
   exit 1
 }
-"$cmake" --build "$scratch/consumer"
-"$scratch/consumer/consumer"
+"$cmake" --build "$scratch/library"
+"$scratch/library/wedge_load" >"$scratch/loads.txt" || { cat "$scratch/loads.txt"; exit 1; }

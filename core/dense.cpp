@@ -1,4 +1,4 @@
-#include "algebra/dense.hpp"
+#include "core/dense.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>

@@ -1,0 +1,96 @@
+#include "fluid/participant.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace splashdown::fluid {
+namespace {
+
+template <int d>
+Eigen::Index index(std::size_t wall) {
+  return freedoms<d> * static_cast<Eigen::Index>(wall);
+}
+
+/// How many walls these numbers are of, each having so many.
+std::size_t walls_in(Eigen::Index numbers, int each, std::size_t most) {
+  if (numbers % each != 0 || static_cast<std::size_t>(numbers / each) > most)
+    throw std::invalid_argument("fluid: " + std::to_string(numbers) + " numbers are not of its " +
+                                std::to_string(most) + " rigid walls, each of which has " + std::to_string(each));
+  return static_cast<std::size_t>(numbers / each);
+}
+
+}  // namespace
+
+template <int d>
+coupling::Status Participant<d>::begin(const coupling::Step& step, const coupling::InterfaceModel& structure) {
+  const std::size_t walls = fluid_->spec().walls.size();
+  walls_in(structure.modes.rows(), freedoms<d>, walls);
+  kick_ = step.kick;
+  WallResponse<d> response;
+  if (structure.modes.cols() > 0) {
+    response.modes.setZero(index<d>(walls), structure.modes.cols());
+    response.modes.topRows(structure.modes.rows()) = structure.modes;
+    response.inertia = structure.inertia;
+  }
+  if (!structure.stand_ins.empty()) response.stand_ins.resize(walls);
+  for (std::size_t w = 0; w < structure.stand_ins.size(); ++w)
+    response.stand_ins.at(w) = {structure.stand_ins[w].laplacian, structure.stand_ins[w].robin};
+  if (const auto status = fluid_->begin(step.kick, step.dt, response); !status.ok()) return {status.cause};
+  pieces_.clear();
+  for (const auto& piece : fluid_->interface_pieces()) pieces_.push_back({piece.wall, piece.measure});
+  return {};
+}
+
+template <int d>
+coupling::Status Participant<d>::solve(const coupling::Pass& pass) {
+  const std::size_t moved = walls_in(pass.motion.size(), freedoms<d>, fluid_->spec().walls.size());
+  std::vector<Twist<d>> walls(fluid_->spec().walls.size(), Twist<d>::Zero());
+  for (std::size_t w = 0; w < moved; ++w) walls[w] = pass.motion.segment<freedoms<d>>(index<d>(w));
+  const std::span<const double> lagged(pass.lagged.data(), static_cast<std::size_t>(pass.lagged.size()));
+  if (const auto status = fluid_->solve(walls, lagged, {pass.directions, pass.known}); !status.ok())
+    return {status.cause};
+
+  solution_.motion.resize(index<d>(moved));
+  solution_.impulse.resize(index<d>(moved));
+  solution_.imbalance.resize(index<d>(moved));
+  solution_.wetted.resize(static_cast<Eigen::Index>(moved));
+  for (std::size_t w = 0; w < moved; ++w) {
+    const auto of_wall = [w](Eigen::VectorXd& all) { return all.segment<freedoms<d>>(index<d>(w)); };
+    of_wall(solution_.motion) = fluid_->wall_velocities()[w];
+    of_wall(solution_.impulse) = kick_ * fluid_->loads()[w].total();
+    of_wall(solution_.imbalance) = fluid_->imbalance()[w];
+    solution_.wetted[static_cast<Eigen::Index>(w)] = fluid_->loads()[w].wetted;
+  }
+  solution_.lagged = first_guess();
+  return {};
+}
+
+template <int d>
+Eigen::VectorXd Participant<d>::first_guess() const {
+  const auto impulses = fluid_->interface_impulse();
+  return Eigen::Map<const Eigen::VectorXd>(impulses.data(), static_cast<Eigen::Index>(impulses.size()));
+}
+
+template <int d>
+void Participant<d>::commit(const coupling::Placement& walls) {
+  constexpr int numbers = d * (d + 1);
+  std::vector<Isometry<d>> poses(fluid_->wall_poses().begin(), fluid_->wall_poses().end());
+  const std::size_t placed = walls_in(walls.size(), numbers, poses.size());
+  for (std::size_t w = 0; w < placed; ++w)
+    poses[w].matrix().template topRows<d>() =
+        walls.segment<numbers>(numbers * static_cast<Eigen::Index>(w)).template reshaped<Eigen::ColMajor>(d, d + 1);
+  fluid_->commit(poses);
+}
+
+template <int d>
+double Participant<d>::roundoff() const {
+  double farthest = 0;
+  for (const auto& node : fluid_->nodes().x) farthest = std::max(farthest, node.norm());
+  return std::numeric_limits<double>::epsilon() * farthest;
+}
+
+template class Participant<2>;
+template class Participant<3>;
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,102 @@
+#include "rigid/participant.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rigid/shapes/mass_properties.hpp"
+
+namespace splashdown::rigid {
+namespace {
+
+template <int d>
+coupling::Motion stacked(std::span<const BodyState<d>> states) {
+  coupling::Motion all(freedoms<d> * static_cast<Eigen::Index>(states.size()));
+  Eigen::Index at = 0;
+  for (const auto& state : states) all.segment<freedoms<d>>(freedoms<d> * at++) = state.velocity;
+  return all;
+}
+
+}  // namespace
+
+template <int d>
+Participant<d>::Participant(std::unique_ptr<Bodies<d>> bodies) : bodies_(std::move(bodies)) {
+  constexpr int m = freedoms<d>;
+  const auto count = static_cast<Eigen::Index>(bodies_->size());
+  scales_.setOnes(m * count);
+  reach_.resize(count);
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const auto& spec = bodies_->spec(static_cast<std::size_t>(b));
+    const bool free = spec.motion == Motion::free;
+    walls_.push_back({.name = spec.name,
+                      .first = m * b,
+                      .count = m,
+                      .answers = free,
+                      .mass = spec.mass,
+                      .volume = mass_properties<d>(spec.surface).mass});
+    reach_[b] = reach(spec);
+    if (free)
+      scales_.segment(m * b + d, rotations<d>).setConstant(std::sqrt(spec.inertia.trace() / rotations<d> / spec.mass));
+    const auto& vertices = spec.surface.vertices;
+    length_ = std::max(length_, (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm());
+  }
+}
+
+template <int d>
+double Participant<d>::stable_dt() const {
+  constexpr double turn = 0.5;  // [rad]
+  double dt = std::numeric_limits<double>::infinity();
+  for (const auto& state : bodies_->states())
+    dt = std::min(dt, turn / state.velocity.template tail<rotations<d>>().norm());
+  return dt;
+}
+
+template <int d>
+Eigen::VectorXd Participant<d>::speeds(const coupling::Motion& motion) const {
+  Eigen::VectorXd all(reach_.size());
+  for (Eigen::Index b = 0; b < all.size(); ++b) {
+    const Twist<d> twist = motion.segment<freedoms<d>>(freedoms<d> * b);
+    all[b] = twist.template head<d>().norm() + reach_[b] * twist.template tail<rotations<d>>().norm();
+  }
+  return all;
+}
+
+template <int d>
+coupling::Motion Participant<d>::motion() const {
+  return stacked<d>(bodies_->states());
+}
+
+template <int d>
+coupling::Response Participant<d>::response() const {
+  Mobility<d> all = bodies_->mobility();
+  coupling::Motion free(freedoms<d> * static_cast<Eigen::Index>(all.velocities.size()));
+  Eigen::Index at = 0;
+  for (const auto& s : all.velocities) free.segment<freedoms<d>>(freedoms<d> * at++) = s;
+  return {std::move(free), std::move(all.modes), std::move(all.inertia), std::move(all.directions),
+          std::move(all.impulse)};
+}
+
+template <int d>
+const coupling::Motion& Participant<d>::solve(const coupling::Impulse& impulse) {
+  return trial_ = stacked<d>(bodies_->solve(impulse));
+}
+
+template <int d>
+const coupling::Motion& Participant<d>::adopt(const coupling::Motion& motion) {
+  return trial_ = stacked<d>(bodies_->adopt(motion));
+}
+
+template <int d>
+coupling::Placement Participant<d>::placement() const {
+  constexpr int numbers = d * (d + 1);
+  coupling::Placement all(numbers * static_cast<Eigen::Index>(bodies_->size()));
+  Eigen::Index at = 0;
+  for (const auto& state : bodies_->trials())
+    all.segment<numbers>(numbers * at++) = state.pose.matrix().template topRows<d>().reshaped();
+  return all;
+}
+
+template class Participant<2>;
+template class Participant<3>;
+
+}  // namespace splashdown::rigid

@@ -1,0 +1,116 @@
+# Reads every #include of fluid, rigid, coupling and apps and fails with the file, the line and the rule that is broken.
+#   cmake -DROOT=SOURCE_DIR -P include_rules.cmake
+# Rules name files and what they include by regular expressions on paths; a file that a rule is about may not include what the
+# rule names.
+cmake_minimum_required(VERSION 3.25)
+
+set(rules 0)
+# rule(TEXT FILES ... INCLUDES ... [BUT_FILES ...] [BUT_INCLUDES ...])
+function(rule text)
+  cmake_parse_arguments(PARSE_ARGV 1 r "" "FILES;BUT_FILES;INCLUDES;BUT_INCLUDES" "")
+  foreach(field IN ITEMS FILES BUT_FILES INCLUDES BUT_INCLUDES)
+    if(NOT DEFINED r_${field})
+      set(r_${field} "^$")
+    endif()
+    set(rule_${rules}_${field} "${r_${field}}" PARENT_SCOPE)
+  endforeach()
+  set(rule_${rules}_text "${text}" PARENT_SCOPE)
+  math(EXPR rules "${rules} + 1")
+  set(rules ${rules} PARENT_SCOPE)
+endfunction()
+
+# Rooms.
+rule("the program is included by nobody else" FILES "^(fluid|rigid|coupling)/" INCLUDES "^apps/")
+rule("a fluid knows no bodies" FILES "^fluid/" INCLUDES "^rigid/")
+rule("bodies know no fluid" FILES "^rigid/" INCLUDES "^fluid/")
+rule("coupling says what a fluid and a structure are and includes neither" FILES "^coupling/" INCLUDES "^(fluid|rigid)/")
+rule("of coupling, a fluid and bodies know what they implement, in one file each" FILES "^(fluid|rigid)/"
+  BUT_FILES "^(fluid|rigid)/participant\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/stored\\.hpp$")
+rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
+rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
+  BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/(accelerators/|stored\\.hpp$)")
+rule("schemes and types are chosen in apps/run/build*.cpp alone" FILES "^apps/" BUT_FILES "^apps/run/build[a-z_]*\\.cpp$"
+  INCLUDES "^((fluid|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
+
+# Rooms within a room.
+rule("a fluid's parts do not know the whole" FILES "^fluid/.*/" INCLUDES "^fluid/(fluid|fluid_state|participant)\\.hpp")
+rule("the linear algebra knows no water, but for the pattern that cells make" FILES "^fluid/linear/"
+  INCLUDES "^fluid/(mesh|initial|contact|pressure|effects)/" BUT_INCLUDES "^fluid/mesh/node_cells\\.hpp$")
+rule("the mesh knows walls, and nothing of what is solved on it" FILES "^fluid/mesh/"
+  INCLUDES "^fluid/(initial|contact|pressure|effects)/" BUT_INCLUDES "^fluid/contact/wall\\.hpp$")
+rule("the pressure knows neither contact nor effects" FILES "^fluid/pressure/" INCLUDES "^fluid/(initial|contact|effects)/")
+rule("an effect knows neither contact nor the pressure" FILES "^fluid/effects/" INCLUDES "^fluid/(initial|contact|pressure)/")
+rule("contact hands mass to the pressure and knows nothing else of it" FILES "^fluid/contact/"
+  INCLUDES "^fluid/(initial|linear|pressure|effects)/" BUT_INCLUDES "^fluid/pressure/held_mass\\.hpp$")
+rule("the first mesh is made before anything is solved" FILES "^fluid/initial/" INCLUDES "^fluid/(linear|pressure|effects)/")
+rule("shapes know what a body is, not how it moves" FILES "^rigid/shapes/" INCLUDES "^rigid/"
+  BUT_INCLUDES "^rigid/(shapes/|(types|body|embedding|message)\\.hpp$)")
+rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(apps|fluid|rigid|coupling)/" BUT_INCLUDES "^apps/quantity/")
+rule("a scene knows nothing of its run" FILES "^apps/scene/" INCLUDES "^apps/(run|report|check)/")
+rule("what is recorded does not depend on how it is coupled" FILES "^apps/(record|statistics|report)/" INCLUDES "^coupling/")
+
+# Libraries, each with one home.
+rule("CGAL stays in fluid/mesh and fluid/initial" FILES "." BUT_FILES "^fluid/(mesh|initial)/" INCLUDES "^(CGAL|boost)/")
+rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/linear" FILES "." BUT_FILES "^fluid/linear/.*\\.cpp$"
+  INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
+rule("threads are the fluid's" FILES "." BUT_FILES "^fluid/" INCLUDES "^tbb/")
+rule("Bullet stays in rigid/bullet_world.cpp" FILES "." BUT_FILES "^rigid/bullet_world\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
+rule("VTK stays in apps/record" FILES "." BUT_FILES "^apps/record/" INCLUDES "^vtk")
+rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
+rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
+rule("public headers need Eigen and the standard library alone, fluid/parallel.hpp adds TBB" FILES "^(fluid|rigid|coupling)/.*\\.hpp$"
+  BUT_FILES "^fluid/(parallel|initial/space_parts|mesh/triangulation_3)\\.hpp$" INCLUDES "[./]"
+  BUT_INCLUDES "^(fluid|rigid|coupling|Eigen)/")
+
+# The line of the first inclusion of a header in a file.
+function(line_of file header result)
+  file(READ ${ROOT}/${file} text)
+  string(FIND "${text}" "${header}" at)
+  string(SUBSTRING "${text}" 0 ${at} before)
+  string(REGEX MATCHALL "\n" ends "${before}")
+  list(LENGTH ends line)
+  math(EXPR line "${line} + 1")
+  set(${result} ${line} PARENT_SCOPE)
+endfunction()
+
+set(broken "")
+set(inclusions 0)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/fluid/*.[ch]pp ${ROOT}/rigid/*.[ch]pp ${ROOT}/coupling/*.[ch]pp ${ROOT}/apps/*.[ch]pp)
+foreach(file IN LISTS files)
+  set(about "")  # the rules that are about this file
+  math(EXPR last "${rules} - 1")
+  foreach(i RANGE ${last})
+    if(file MATCHES "${rule_${i}_FILES}" AND NOT file MATCHES "${rule_${i}_BUT_FILES}")
+      list(APPEND about ${i})
+    endif()
+  endforeach()
+  file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[^<\"]*([<\"])([^>\"]*)[>\"].*$" "\\1\\2" found "${line}")
+    string(SUBSTRING "${found}" 0 1 quote)
+    string(SUBSTRING "${found}" 1 -1 header)
+    math(EXPR inclusions "${inclusions} + 1")
+    set(texts "")
+    if(quote STREQUAL "\"" AND NOT header MATCHES "^(fluid|rigid|coupling|apps)/")
+      list(APPEND texts "own headers are named from the root")
+    endif()
+    foreach(i IN LISTS about)
+      if(header MATCHES "${rule_${i}_INCLUDES}" AND NOT header MATCHES "${rule_${i}_BUT_INCLUDES}")
+        list(APPEND texts "${rule_${i}_text}")
+      endif()
+    endforeach()
+    foreach(text IN LISTS texts)
+      line_of(${file} "${quote}${header}" number)
+      string(APPEND broken "${file}:${number}: includes ${header}: ${text}\n")
+    endforeach()
+  endforeach()
+endforeach()
+
+if(inclusions EQUAL 0)
+  message(FATAL_ERROR "no #include under ${ROOT}")
+endif()
+if(broken)
+  message(FATAL_ERROR "include rules (docs/extending.md#rooms):\n${broken}")
+endif()
+list(LENGTH files count)
+message(STATUS "${inclusions} inclusions in ${count} files obey ${rules} rules")
