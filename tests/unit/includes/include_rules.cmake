@@ -20,7 +20,8 @@ function(rule text)
 endfunction()
 
 # Rooms.
-rule("the program is included by nobody else" FILES "^(fluid|rigid|coupling)/" INCLUDES "^apps/")
+rule("the program is included by nobody else" FILES "^(core|fluid|rigid|coupling)/" INCLUDES "^apps/")
+rule("what all share knows none of them" FILES "^core/" INCLUDES "^(fluid|rigid|coupling)/")
 rule("a fluid knows no bodies" FILES "^fluid/" INCLUDES "^rigid/")
 rule("bodies know no fluid" FILES "^rigid/" INCLUDES "^fluid/")
 rule("coupling says what a fluid and a structure are and includes neither" FILES "^coupling/" INCLUDES "^(fluid|rigid)/")
@@ -75,7 +76,7 @@ endfunction()
 
 set(broken "")
 set(inclusions 0)
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/fluid/*.[ch]pp ${ROOT}/rigid/*.[ch]pp ${ROOT}/coupling/*.[ch]pp ${ROOT}/apps/*.[ch]pp)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/core/*.[ch]pp ${ROOT}/fluid/*.[ch]pp ${ROOT}/rigid/*.[ch]pp ${ROOT}/coupling/*.[ch]pp ${ROOT}/apps/*.[ch]pp)
 foreach(file IN LISTS files)
   set(about "")  # the rules that are about this file
   math(EXPR last "${rules} - 1")

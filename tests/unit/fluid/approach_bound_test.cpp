@@ -1,0 +1,82 @@
+#include "fluid/approach_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+template <class D>
+class ApproachBound : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ApproachBound, Dimensions);
+
+constexpr double speed = 10, cfl = 0.5, never = 1e3;
+
+/// Free water that flies along the last axis, its surface `gap` away from a wall there.
+template <int d>
+struct Flight {
+  scenes::Lattice<d> water{4};
+  std::vector<double> h = std::vector<double>(water.nodes.size(), 0.25);
+  std::vector<Wall<d>> walls;
+  std::vector<Isometry<d>> poses{Isometry<d>::Identity()};
+  std::vector<Twist<d>> velocity{Twist<d>::Zero()};
+
+  explicit Flight(double gap) {
+    for (auto& v : water.nodes.v) v = speed * Vec<d>::Unit(d - 1);
+    const Vec<d> size = Vec<d>::Constant(2);
+    Surface<d> block;
+    if constexpr (d == 2)
+      block = scenes::rectangle(-size, size);
+    else
+      block = scenes::block(-size, size);
+    walls.emplace_back(WallSpec<d>{"target", block, Isometry<d>::Identity(), Twist<d>::Zero(), 0.25});
+    poses[0].translation() = Vec<d>::Constant(0.5);
+    poses[0].translation()[d - 1] = 1 + gap + size[d - 1];
+  }
+  double dt(double longest) const {
+    return approach_dt<d>(water.nodes, h, water.mesh, {walls, poses}, velocity, cfl, longest);
+  }
+};
+
+TYPED_TEST(ApproachBound, half_of_the_way_to_a_wall_and_no_less_than_a_share_of_an_element) {
+  constexpr int d = TypeParam::value;
+  EXPECT_NEAR(Flight<d>(3).dt(never), 1.5 / speed, 1e-12);
+  EXPECT_NEAR(Flight<d>(0.01).dt(never), cfl * 0.25 / speed, 1e-12);
+}
+
+TYPED_TEST(ApproachBound, short_steps_and_walls_that_fly_along_are_no_bound) {
+  constexpr int d = TypeParam::value;
+  EXPECT_EQ(Flight<d>(0.01).dt(0.02), 0.02);  // less than an element
+  Flight<d> together(0.01);
+  together.velocity[0][d - 1] = speed;
+  EXPECT_EQ(together.dt(never), never);
+}
+
+TYPED_TEST(ApproachBound, other_water_counts_like_a_wall) {
+  constexpr int d = TypeParam::value;
+  Flight<d> flight(100);
+  auto& water = flight.water;
+  const scenes::Lattice<d> pool(4);
+  const auto first = static_cast<int>(water.nodes.size());
+  for (std::size_t i = 0; i < pool.nodes.size(); ++i) {
+    // Upside down: its free surface faces what comes.
+    Vec<d> x = pool.nodes.x[i];
+    x[d - 1] = 3 - x[d - 1];
+    water.nodes.add(x, Vec<d>::Zero(), 0, pool.nodes.tie[i], pool.nodes.surface[i]);
+    flight.h.push_back(0.25);
+  }
+  for (auto cell : pool.mesh.cells) {
+    for (int& n : cell) n += first;
+    water.mesh.cells.push_back(cell);
+  }
+  for (auto facet : pool.mesh.boundary) {
+    for (int& n : facet.nodes) n += first;
+    water.mesh.boundary.push_back(facet);
+  }
+  EXPECT_NEAR(flight.dt(never), 0.5 / speed, 1e-12);
+}
+
+}  // namespace
+}  // namespace splashdown::fluid
