@@ -3,13 +3,16 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/STL.h>
+#include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Projection_traits_3.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
@@ -38,6 +41,8 @@ const std::string close =
 const std::string clean =
     "Remove it, e.g. MeshLab: Filters > Cleaning > Merge Close Vertices and Remove Zero Area Faces, and "
     "export it again.";
+const std::string triangulate =
+    "Cut its facets into triangles, e.g. Blender: Face > Triangulate Faces, and export it again.";
 const std::string unite = "Join the parts, e.g. Blender: Boolean > Union, or mend the place, and export it again.";
 
 /// Points and the polygons between them.
@@ -196,6 +201,22 @@ void refuse_disagreement(Soup& soup) {
                          flip);
 }
 
+/// CGAL's triangulation of a facet believes that its outline, seen along the normal, does not cross itself.
+void refuse_crossed_outlines(const Mesh& mesh) {
+  for (const auto face : mesh.faces()) {
+    std::vector<Kernel::Point_3> corners;
+    for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
+      corners.push_back(mesh.point(corner));
+    if (corners.size() <= 4) continue;  // a diagonal cuts them
+    const CGAL::Projection_traits_3<Kernel> plane(pmp::compute_face_normal(face, mesh));
+    if (CGAL::is_simple_2(corners.begin(), corners.end(), plane)) continue;
+    const auto& p = corners.front();
+    throw SurfaceFileError(fmt::format("has a facet of {} corners whose outline crosses itself, at {}", corners.size(),
+                                       text({p.x(), p.y(), p.z()})),
+                           triangulate);
+  }
+}
+
 void refuse_holes(const Mesh& mesh) {
   if (CGAL::is_closed(mesh)) return;
   std::vector<Mesh::Halfedge_index> holes;
@@ -270,6 +291,7 @@ SurfaceFile read_surface_file(const std::filesystem::path& path) {
   refuse_disagreement(soup);
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
+  refuse_crossed_outlines(mesh);
   if (!CGAL::is_triangle_mesh(mesh)) pmp::triangulate_faces(mesh);
   refuse_holes(mesh);
   refuse_crossings(mesh);
