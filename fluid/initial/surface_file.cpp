@@ -56,11 +56,12 @@ struct Soup {
     for (const auto point : polygons[polygon]) sum += at(point);
     return sum / static_cast<double>(polygons[polygon].size());
   }
-  double extent() const {
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i < points.size(); ++i) box.extend(at(i));
-    return box.diagonal().norm();
+  Eigen::AlignedBox3d box() const {
+    Eigen::AlignedBox3d all;
+    for (std::size_t i = 0; i < points.size(); ++i) all.extend(at(i));
+    return all;
   }
+  double extent() const { return box().diagonal().norm(); }
 };
 
 std::string text(const Vec<3>& x) { return fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()); }
@@ -89,13 +90,17 @@ Soup read_soup(const std::filesystem::path& path) {
 
 /// One point for those that rounding has parted: of single precision, which STL files have, or of their digits.
 void merge_points(Soup& soup) {
+  const Vec<3> origin = soup.box().min();
   const double near = 1e-6 * soup.extent();
+  if (!(near > 0))
+    throw SurfaceFileError(fmt::format("has no extent: all its points are at {}", text(origin)), "Export it again.");
   using Cell = std::array<long, 3>;
   std::map<Cell, std::vector<std::size_t>> cells;
   std::vector<Kernel::Point_3> points;
   std::vector<std::size_t> now(soup.points.size());
   const auto cell_of = [&](const Vec<3>& x) {
-    return Cell{std::lround(x.x() / near), std::lround(x.y() / near), std::lround(x.z() / near)};
+    const Vec<3> count = (x - origin) / near;
+    return Cell{std::lround(count.x()), std::lround(count.y()), std::lround(count.z())};
   };
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
     const Vec<3> x = soup.at(i);

@@ -215,6 +215,11 @@ TEST_F(SurfaceFileTest, a_facet_whose_outline_crosses_itself_is_told_before_it_i
                    "has a facet of 5 corners whose outline crosses itself, at ("));
 }
 
+TEST_F(SurfaceFileTest, points_in_one_place_are_no_hull) {
+  EXPECT_TRUE(says(told(write("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\nf 1 2 3\nf 1 2 3\nf 1 2 3\n")),
+                   "has no extent: all its points are at (1, 2, 3)"));
+}
+
 TEST_F(SurfaceFileTest, a_file_that_was_cut_off_is_told_with_its_length) {
   const auto whole = binary(cube());
   EXPECT_TRUE(says(told(whole.substr(0, 500)), "as a binary STL of 12 facets it would have 684 bytes, not 500"));
