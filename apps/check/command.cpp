@@ -79,8 +79,9 @@ void print_cost(const Scene& scene, const Cost& cost) {
   row("nodes",
       about + rough(cost.nodes) + " at the start" + (grows ? ", " + rough(cost.nodes_most) + " later on" : ""));
   row("memory", about + with_unit(cost.bytes, "B"));
+  row("the start", about + with_unit(cost.seconds_to_start, "s") + " on one core");
   row("a step", about + with_unit(cost.seconds_per_step, "s") + " on one core");
-  row("the run", about + clock_text(cost.steps * cost.seconds_per_step) + " on one core");
+  row("the run", about + clock_text(cost.seconds_to_start + cost.steps * cost.seconds_per_step) + " on one core");
   if (scene.fluid->size.hollow)
     row("not counted", "finer elements at hollows (hollow): more nodes, shorter steps and a longer run than said");
 }

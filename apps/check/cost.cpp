@@ -17,12 +17,15 @@ namespace {
 using rigid::Surface;
 using rigid::Vec;
 
-// Medians of what the shipped examples take of one core: 600 to 15000 nodes in the plane, 4000 to 70000 in space.
+// Medians of what the shipped examples take of one core: 600 to 15000 nodes in the plane, 4000 to 70000 in space. Each
+// is over a node that is counted here; in space runs have a third more of them than are counted.
+// tests/benchmark/cost_guess.py compares.
 template <int d>
 struct Share;
 template <>
 struct Share<2> {
   static constexpr double bytes_a_node = 2e3;
+  static constexpr double seconds_to_start = 1.5e-4;  // a node
   static constexpr double seconds_a_node = 6e-6;
   static constexpr double seconds_a_pass = 0.5e-6;  // a node: one more back-substitution
   static double nodes(double h) { return 2 / (std::numbers::sqrt3 * h * h); }
@@ -30,7 +33,8 @@ struct Share<2> {
 template <>
 struct Share<3> {
   static constexpr double bytes_a_node = 1e4;
-  static constexpr double seconds_a_node = 4e-5;
+  static constexpr double seconds_to_start = 6e-4;
+  static constexpr double seconds_a_node = 5.5e-5;
   static constexpr double seconds_a_pass = 2e-6;
   static double nodes(double h) { return std::numbers::sqrt2 / (h * h * h); }
 };
@@ -241,6 +245,7 @@ Cost predicted_cost(const Scene& scene) {
       cost.steps = std::max(cost.steps, elements_run_over<d>(scene, body) / scene.time.cfl);
   cost.dt = scene.time.end / cost.steps;
   cost.bytes = bytes_of_program + Share<d>::bytes_a_node * cost.nodes_most;
+  cost.seconds_to_start = cost.nodes * Share<d>::seconds_to_start;
   cost.seconds_per_step = mean * (Share<d>::seconds_a_node + (scene.coupling ? 2 * Share<d>::seconds_a_pass : 0));
   return cost;
 }

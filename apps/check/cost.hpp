@@ -10,6 +10,7 @@ struct Cost {
   double nodes_most = 0;        ///< of the run
   bool at_least = false;        ///< the scene asks for more nodes than are counted: all numbers are lower bounds
   double bytes = 0;             ///< of memory
+  double seconds_to_start = 0;  ///< the first mesh and the first factor, on one core
   double seconds_per_step = 0;  ///< on one core, mean of the run
   double dt = 0;                ///< at the characteristic speed [s]
   double steps = 0;

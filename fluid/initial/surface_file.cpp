@@ -3,13 +3,16 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/STL.h>
+#include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Projection_traits_3.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
@@ -38,6 +41,8 @@ const std::string close =
 const std::string clean =
     "Remove it, e.g. MeshLab: Filters > Cleaning > Merge Close Vertices and Remove Zero Area Faces, and "
     "export it again.";
+const std::string triangulate =
+    "Cut its facets into triangles, e.g. Blender: Face > Triangulate Faces, and export it again.";
 const std::string unite = "Join the parts, e.g. Blender: Boolean > Union, or mend the place, and export it again.";
 
 /// Points and the polygons between them.
@@ -51,11 +56,12 @@ struct Soup {
     for (const auto point : polygons[polygon]) sum += at(point);
     return sum / static_cast<double>(polygons[polygon].size());
   }
-  double extent() const {
-    Eigen::AlignedBox3d box;
-    for (std::size_t i = 0; i < points.size(); ++i) box.extend(at(i));
-    return box.diagonal().norm();
+  Eigen::AlignedBox3d box() const {
+    Eigen::AlignedBox3d all;
+    for (std::size_t i = 0; i < points.size(); ++i) all.extend(at(i));
+    return all;
   }
+  double extent() const { return box().diagonal().norm(); }
 };
 
 std::string text(const Vec<3>& x) { return fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()); }
@@ -84,13 +90,17 @@ Soup read_soup(const std::filesystem::path& path) {
 
 /// One point for those that rounding has parted: of single precision, which STL files have, or of their digits.
 void merge_points(Soup& soup) {
+  const Vec<3> origin = soup.box().min();
   const double near = 1e-6 * soup.extent();
+  if (!(near > 0))
+    throw SurfaceFileError(fmt::format("has no extent: all its points are at {}", text(origin)), "Export it again.");
   using Cell = std::array<long, 3>;
   std::map<Cell, std::vector<std::size_t>> cells;
   std::vector<Kernel::Point_3> points;
   std::vector<std::size_t> now(soup.points.size());
   const auto cell_of = [&](const Vec<3>& x) {
-    return Cell{std::lround(x.x() / near), std::lround(x.y() / near), std::lround(x.z() / near)};
+    const Vec<3> count = (x - origin) / near;
+    return Cell{std::lround(count.x()), std::lround(count.y()), std::lround(count.z())};
   };
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
     const Vec<3> x = soup.at(i);
@@ -196,6 +206,22 @@ void refuse_disagreement(Soup& soup) {
                          flip);
 }
 
+/// CGAL's triangulation of a facet believes that its outline, seen along the normal, does not cross itself.
+void refuse_crossed_outlines(const Mesh& mesh) {
+  for (const auto face : mesh.faces()) {
+    std::vector<Kernel::Point_3> corners;
+    for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
+      corners.push_back(mesh.point(corner));
+    if (corners.size() <= 4) continue;  // a diagonal cuts them
+    const CGAL::Projection_traits_3<Kernel> plane(pmp::compute_face_normal(face, mesh));
+    if (CGAL::is_simple_2(corners.begin(), corners.end(), plane)) continue;
+    const auto& p = corners.front();
+    throw SurfaceFileError(fmt::format("has a facet of {} corners whose outline crosses itself, at {}", corners.size(),
+                                       text({p.x(), p.y(), p.z()})),
+                           triangulate);
+  }
+}
+
 void refuse_holes(const Mesh& mesh) {
   if (CGAL::is_closed(mesh)) return;
   std::vector<Mesh::Halfedge_index> holes;
@@ -270,6 +296,7 @@ SurfaceFile read_surface_file(const std::filesystem::path& path) {
   refuse_disagreement(soup);
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
+  refuse_crossed_outlines(mesh);
   if (!CGAL::is_triangle_mesh(mesh)) pmp::triangulate_faces(mesh);
   refuse_holes(mesh);
   refuse_crossings(mesh);

@@ -208,6 +208,18 @@ TEST_F(SurfaceFileTest, what_is_no_mesh_is_told_with_the_line) {
   EXPECT_TRUE(says(told(std::string("solid a\nendsolid a\n")), "has 0 facets"));
 }
 
+TEST_F(SurfaceFileTest, a_facet_whose_outline_crosses_itself_is_told_before_it_is_cut) {
+  // A box, but for one side's outline: it takes in a corner of the opposite side.
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n";
+  EXPECT_TRUE(says(told(write("crossed.obj", points + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5 4\nf 1 5 7 3\nf 2 4 8 6\n")),
+                   "has a facet of 5 corners whose outline crosses itself, at ("));
+}
+
+TEST_F(SurfaceFileTest, points_in_one_place_are_no_hull) {
+  EXPECT_TRUE(says(told(write("point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\nf 1 2 3\nf 1 2 3\nf 1 2 3\n")),
+                   "has no extent: all its points are at (1, 2, 3)"));
+}
+
 TEST_F(SurfaceFileTest, a_file_that_was_cut_off_is_told_with_its_length) {
   const auto whole = binary(cube());
   EXPECT_TRUE(says(told(whole.substr(0, 500)), "as a binary STL of 12 facets it would have 684 bytes, not 500"));
