@@ -50,20 +50,21 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   std::vector<Share> list;
   const double near = std::isfinite(e.pressed) ? 1 + point_factor / (1 + e.pressed) : 1;
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
-  list.push_back({mesh, fmt::format("{:.2g} elements on half of the wetted width{}{}: {}", e.elements,
-                                    e.growing > mostly ? ", which grows" : "",
-                                    std::isfinite(e.pressed) ? fmt::format(", {:.2g} on half of the patch", e.pressed)
-                                                             : "",
-                                    percent_text(mesh))});
+  list.push_back(
+      {mesh, fmt::format("{:.2g} elements on half of the wetted width{}{}: {}", e.elements,
+                         e.growing > mostly ? ", which grows" : "",
+                         std::isfinite(e.pressed) ? fmt::format(", {:.2g} on half of the patch", e.pressed) : "",
+                         percent_text(mesh))});
   if (!std::isnan(e.step))
     list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
                                         kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps")});
   if (std::isfinite(e.sideways))
-    list.push_back({e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids",
-                                            percent_text(e.sideways))});
+    list.push_back(
+        {e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids", percent_text(e.sideways))});
   if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && e.repair >= mostly)))
-    list.push_back({e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
-                                          kind == Kind::pressure ? "which pressures lack" : "whose peak goes as 1/dt")});
+    list.push_back(
+        {e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
+                               kind == Kind::pressure ? "which pressures lack" : "whose peak goes as 1/dt")});
   return list;
 }
 
