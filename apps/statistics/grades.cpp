@@ -36,7 +36,9 @@ constexpr double halving_refine = 2, small_refine = 1.4;
 /// What a share must reach to be told: a quarter of the band of resolved numbers adds 3 % to it.
 constexpr double worth_telling = resolved_band / 4;
 
-std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
+/// Two digits, without an exponent.
+std::string rounded(double value) { return value < 10 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value); }
+std::string percent_text(double share) { return rounded(100 * share) + " %"; }
 
 /// What a number is of.
 struct Of {
@@ -51,9 +53,9 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   const double near = std::isfinite(e.pressed) ? 1 + point_factor / (1 + e.pressed) : 1;
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
   list.push_back(
-      {mesh, fmt::format("{:.2g} elements on half of the wetted width{}{}: {}", e.elements,
+      {mesh, fmt::format("{} elements on half of the wetted width{}{}: {}", rounded(e.elements),
                          e.growing > mostly ? ", which grows" : "",
-                         std::isfinite(e.pressed) ? fmt::format(", {:.2g} on half of the patch", e.pressed) : "",
+                         std::isfinite(e.pressed) ? fmt::format(", {} on half of the patch", rounded(e.pressed)) : "",
                          percent_text(mesh))});
   if (!std::isnan(e.step))
     list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
