@@ -43,14 +43,17 @@ struct StudyOptions {
   bool quiet = false;
 };
 
+/// Three meshes have a band and four an order; the eighth is 5.7 times finer than the scene.
+inline constexpr int fewest_rungs = 3, usual_rungs = 4, most_rungs = 8;
+
 struct PriceOptions {
   std::filesystem::path scene;
   std::vector<std::string> set;
   std::optional<std::filesystem::path> out;
   std::vector<std::string> quantities;  ///< NAME=EXPRESSION [from TABLE] [where CONDITION]
-  int rungs = 4;
-  std::vector<double> refines;   ///< in place of the usual ones
+  int rungs = usual_rungs;
   std::optional<double> budget;  ///< wall seconds for all runs
+  bool open_water = false;       ///< what its tank does to the scene belongs to the band
   std::optional<int> threads;
   bool large = false;  ///< whatever memory the runs take
   bool quiet = false;

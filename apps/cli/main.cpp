@@ -35,45 +35,33 @@ int finish(const CLI::App& app, const CLI::ParseError& error) {
   return bad_input(fmt::format("{}. See splashdown --help.", error.what()));
 }
 
-int command_line(int argc, char** argv) {
-  CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
-  app.set_version_flag("--version", version_text);
-  app.require_subcommand(1);
-  const char* const scene_help = "scene file (TOML; docs/scene.md)";
-  const char* const set_help = "override a key of the scene, e.g. body.wedge.mass=100 (repeatable)";
+constexpr const char* scene_help = "scene file (TOML; docs/scene.md)";
+constexpr const char* set_help = "override a key of the scene, e.g. body.wedge.mass=100 (repeatable)";
 
-  // CLI11's own rule prints its upper bound, 1.8e308, digit by digit.
-  const CLI::Validator positive(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
-                   ? std::string()
-                   : fmt::format("must be a positive number, not {}", text);
-      },
-      "POSITIVE");
-  const auto add_refine = [&](CLI::App* command, std::vector<std::string>& set) {
-    command
-        ->add_option_function<std::string>(
-            "--refine", [&set](const std::string& value) { set.push_back("fluid.size.refine=" + value); },
-            "divide all lengths of the mesh, and dt_max, by this; the same as --set fluid.size.refine=X")
-        ->type_name("X")
-        ->check(positive)
-        ->trigger_on_parse(false);
-  };
-  RunOptions run;
-  auto* run_app = app.add_subcommand("run", "Run a scene");
-  run_app->add_option("scene", run.scene, scene_help)->required();
-  run_app->add_option("--out", run.out,
-                      "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
-  run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
-  add_refine(run_app, run.overrides);
-  run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
-      ->check(CLI::Range(1, 1024));
-  run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")->check(positive);
-  run_app->add_option("--budget", run.budget, "wall seconds after which to stop with a checkpoint (exit code 130)")
-      ->check(positive);
-  auto* resume = run_app->add_flag(
-      "--resume", run.resume, "continue from the folder's checkpoint; refused if there is one that cannot be read");
+/// CLI11's own rule prints its upper bound, 1.8e308, digit by digit.
+CLI::Validator positive_number() {
+  return {[](const std::string& text) {
+            double value = 0;
+            return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
+                       ? std::string()
+                       : fmt::format("must be a positive number, not {}", text);
+          },
+          "POSITIVE"};
+}
+
+/// The last word on it: behind all of --set.
+void add_refine(CLI::App* command, std::vector<std::string>& set) {
+  command
+      ->add_option_function<std::string>(
+          "--refine", [&set](const std::string& value) { set.push_back("fluid.size.refine=" + value); },
+          "divide all lengths of the mesh, and dt_max, by this; the same as --set fluid.size.refine=X")
+      ->type_name("X")
+      ->check(positive_number())
+      ->trigger_on_parse(false);
+}
+
+/// What chooses the mesh.
+void add_aims(CLI::App* run_app, RunOptions& run) {
   auto* accuracy = run_app->add_option_function<std::string>(
       "--accuracy", [&run](const std::string& text) { run.accuracy = percent_of(text); },
       "choose the mesh for this band of the loads, e.g. 2%, by the scene's price list or coarse runs");
@@ -83,29 +71,41 @@ int command_line(int argc, char** argv) {
       },
       ""));
   auto* seconds = run_app->add_option("--seconds", run.seconds, "choose the mesh for a run of these wall seconds");
-  seconds->check(positive);
+  seconds->check(positive_number());
   run_app->add_option("--price", run.price,
                       "folder of the price list to choose by (default: that of splashdown price)");
   for (auto* aim : {accuracy, seconds}) {
-    aim->excludes(resume);
-    for (const char* other : {"--refine", "--until", "--budget"}) aim->excludes(run_app->get_option(other));
+    for (const char* other : {"--resume", "--refine", "--until", "--budget"}) aim->excludes(run_app->get_option(other));
   }
   accuracy->excludes(seconds);
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& run) {
+  auto* run_app = app.add_subcommand("run", "Run a scene");
+  run_app->add_option("scene", run.scene, scene_help)->required();
+  run_app->add_option("--out", run.out,
+                      "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
+  run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  add_refine(run_app, run.overrides);
+  run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
+      ->check(CLI::Range(1, 1024));
+  run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")
+      ->check(positive_number());
+  run_app->add_option("--budget", run.budget, "wall seconds after which to stop with a checkpoint (exit code 130)")
+      ->check(positive_number());
+  auto* resume = run_app->add_flag(
+      "--resume", run.resume, "continue from the folder's checkpoint; refused if there is one that cannot be read");
+  add_aims(run_app, run);
   run_app->add_flag("--restart", run.restart, "begin anew and replace what a run of this scene left (the default)")
       ->excludes(resume);
   run_app->add_flag("--force", run.force, "replace also what a run of another scene left in the folder");
   run_app->add_flag("--large", run.large, "run it even if it is predicted to take more than 4 GB of memory");
   run_app->add_flag("--no-report", run.no_report, "draw no report.html at the end (splashdown report does)");
   run_app->add_flag("--quiet", run.quiet, "print errors only");
+  return run_app;
+}
 
-  std::filesystem::path scene;
-  std::vector<std::string> overrides;
-  auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
-  check_app->add_option("scene", scene, scene_help)->required();
-  check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
-  add_refine(check_app, overrides);
-
-  StudyOptions study;
+CLI::App* add_study(CLI::App& app, StudyOptions& study) {
   auto* study_app = app.add_subcommand("study", "Run every combination of a scene's values");
   study_app->add_option("study", study.study, "study file (TOML; docs/study.md)")->required();
   study_app->add_option("--out", study.out,
@@ -117,8 +117,10 @@ int command_line(int argc, char** argv) {
   study_app->add_flag("--collect", study.collect, "make no runs: tables and chart of those that are there");
   study_app->add_flag("--large", study.large, "make runs even if they are predicted to take more than 4 GB of memory");
   study_app->add_flag("--quiet", study.quiet, "print errors only");
+  return study_app;
+}
 
-  PriceOptions price;
+CLI::App* add_price(CLI::App& app, PriceOptions& price) {
   auto* price_app = app.add_subcommand("price", "Say what accuracy costs: a ladder of meshes, bands and seconds");
   price_app->add_option("scene", price.scene, scene_help)->required();
   price_app->add_option("--out", price.out,
@@ -130,18 +132,41 @@ int command_line(int argc, char** argv) {
       ->type_name("NAME=EXPR")
       ->allow_extra_args(false);
   price_app->add_option("--rungs", price.rungs, "meshes, each 1.41 times finer than the one before, from half on")
-      ->check(CLI::Range(3, 8))
+      ->check(CLI::Range(fewest_rungs, most_rungs))
       ->capture_default_str();
+  price_app->add_flag("--open-water", price.open_water,
+                      "the tank stands for open water: one more run, in a larger tank, for its influence");
   price_app->add_option("--budget", price.budget, "wall seconds for all runs; what does not fit is left out")
-      ->check(positive);
+      ->check(positive_number());
   price_app->add_option("--threads", price.threads, "threads of each run; default: that of run")
       ->check(CLI::Range(1, 1024));
   price_app->add_flag("--large", price.large, "make runs even if they are predicted to take more than 4 GB of memory");
   price_app->add_flag("--quiet", price.quiet, "print errors only");
+  return price_app;
+}
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
+  app.set_version_flag("--version", version_text);
+  app.require_subcommand(1);
+  RunOptions run;
+  const auto* run_app = add_run(app, run);
+
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+  auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
+  check_app->add_option("scene", scene, scene_help)->required();
+  check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  add_refine(check_app, overrides);
+
+  StudyOptions study;
+  const auto* study_app = add_study(app, study);
+  PriceOptions price;
+  const auto* price_app = add_price(app, price);
 
   std::filesystem::path directory;
-  auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run or a study");
-  report_app->add_option("directory", directory, "folder of the run or the study")->required();
+  auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run, a study or a price");
+  report_app->add_option("directory", directory, "folder of the run, the study or the price")->required();
 
   std::string schema_of = "scene";
   auto* schema_app = app.add_subcommand("schema", "Print the JSON Schema of scenes or studies, for editors");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/cli/commands.hpp"
+#include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
 #include "apps/run/folder.hpp"
 #include "apps/run/folder_lock.hpp"
@@ -76,9 +77,10 @@ Price probed_price(const RunOptions& options, const Scene& scene, std::string& f
   order.quiet = options.quiet;
   order.dimension = scene.dimension;
   order.quantities = default_quantities(scene);
+  const double first = scene.fluid->size.refine * first_probe;
+  order.expected_nodes = expected_nodes(options.scene, options.overrides, first, 16 * first);
   std::vector<RungSpec> probes;
-  for (int k = 0; k < most_probes; ++k)
-    probes.push_back({scene.fluid->size.refine * first_probe * std::pow(2., 0.5 * k), false});
+  for (int k = 0; k < most_probes; ++k) probes.push_back({first * std::pow(2., 0.5 * k), Role::rung});
   Ladder ladder(order, probes);
   make_study_folder(order.folder);
   const FolderLock lock(order.folder);
@@ -90,7 +92,9 @@ Price probed_price(const RunOptions& options, const Scene& scene, std::string& f
   }
   from = fmt::format("{} coarse runs in {}", ladder.made().size(), order.folder.string());
   std::vector<std::string> unused;
-  return price_of(ladder.made(), order.quantities, scene.dimension, unused);
+  auto price = price_of(ladder.made(), order.quantities, scene.dimension, unused);
+  price.expected_nodes = std::move(order.expected_nodes);
+  return price;
 }
 
 std::string accuracy_text(const std::optional<std::pair<double, std::string>>& accuracy) {
@@ -148,11 +152,12 @@ std::string reached_text(const Aim& aim, const RunOptions& options, const fs::pa
   auto rungs = aim.price.rungs;
   for (auto& rung : rungs) rung.values.clear();
   for (const auto& quantity : aim.price.quantities)
-    for (auto& rung : rungs) rung.values.push_back(quantity.at(rung.spec.refine));
+    for (auto& rung : rungs) rung.values.push_back(quantity.at(rung.spec));
   std::vector<std::string> unused;
-  auto reached = rung_in(folder, {aim.refine, false}, quantities, unused);
+  auto reached = rung_in(folder, {aim.refine, Role::rung}, quantities, unused);
   const double seconds = reached.seconds;
-  std::erase_if(rungs, [&](const Rung& rung) { return rung.spec.refine == aim.refine; });
+  std::erase_if(rungs,
+                [&](const Rung& rung) { return rung.spec.refine == aim.refine && rung.spec.role == Role::rung; });
   rungs.push_back(std::move(reached));
   const auto price = price_of(rungs, quantities, aim.price.dimension, unused);
   auto text = fmt::format("reached     {} for the run, {:+.0f} % of what was predicted; {}\n", about_time(seconds),

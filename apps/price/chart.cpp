@@ -29,7 +29,7 @@ std::string block(const std::string& name, const std::vector<Work>& points) {
 std::vector<Work> made(const Price& price) {
   std::vector<Work> points;
   for (const auto& rung : price.rungs)
-    if (const auto worst = price.accuracy(rung.spec.refine); worst && !rung.spec.replicate)
+    if (const auto worst = price.accuracy(rung.spec.refine); worst && rung.spec.role == Role::rung)
       points.push_back({rung.seconds, 100 * worst->first});
   return points;
 }

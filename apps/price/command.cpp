@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/commands.hpp"
+#include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
 #include "apps/record/csv.hpp"
 #include "apps/report/report.hpp"
@@ -19,6 +20,7 @@ struct PricePlan {
   LadderOrder order;
   std::vector<double> refines;
   std::string title, digest;
+  bool has_tank = false;
 };
 
 /// Throws SceneError.
@@ -30,7 +32,8 @@ PricePlan plan_of(const PriceOptions& options) {
                                   options.scene.string())});
   PricePlan plan;
   plan.title = scene.title;
-  plan.refines = options.refines.empty() ? rung_refines(options.rungs, scene.fluid->size.refine) : options.refines;
+  plan.has_tank = scene.tank.has_value();
+  plan.refines = rung_refines(options.rungs, scene.fluid->size.refine);
   plan.digest = digest_of_scene(options.scene, options.set);
   auto& order = plan.order;
   order.scene = options.scene;
@@ -42,6 +45,9 @@ PricePlan plan_of(const PriceOptions& options) {
   order.large = options.large;
   order.quiet = options.quiet;
   order.dimension = scene.dimension;
+  if (options.open_water) order.larger_tank = larger_tank_of(scene, options.scene.string());
+  order.expected_nodes =
+      expected_nodes(options.scene, options.set, plan.refines.front(), farthest_extrapolation * plan.refines.back());
   auto& quantities = order.quantities;
   for (const auto& argument : options.quantities) quantities.push_back(parsed_quantity(argument));
   // Who names quantities wants these at their price; the others are shown beside them.
@@ -69,6 +75,8 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
   auto notes = ladder.end().notes;
   auto price = price_of(ladder.made(), plan.order.quantities, plan.order.dimension, notes);
   price.scene = fs::absolute(options.scene).lexically_normal().string();
+  price.expected_nodes = plan.order.expected_nodes;
+  list_rows(price);
   price.title = plan.title;
   price.scene_digest = plan.digest;
   leave_at_interrupt(options.quiet ? "" : "\nstopped while the chart was drawn: the same command draws it\n");
@@ -79,6 +87,8 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
     if (const auto line = price_line(price); !line.empty()) fmt::print("{}\n", line);
     fmt::print("  files       {}/: report.html price.json{}\n", folder.string(),
                fs::exists(folder / "price.svg") ? " price.svg" : "");
+    if (plan.has_tank && !options.open_water)
+      fmt::print("what the tank does is not in these bands: if it stands for open water, --open-water adds it\n");
     if (ladder.end().interrupted) fmt::print("stopped; the same command continues\n");
     if (ladder.end().out_of_budget)
       fmt::print("the budget ended the ladder; with a larger one the same command continues\n");
@@ -99,7 +109,7 @@ int price_command(const PriceOptions& options) {
   std::optional<FolderLock> lock;
   try {
     plan = plan_of(options);
-    ladder.emplace(plan.order, possible_rungs(plan.refines));
+    ladder.emplace(plan.order, possible_rungs(plan.refines, options.open_water));
     std::string foreign;
     for (const auto& message : foreign_places(ladder->runs(), plan.order.folder)) foreign += message + "\n";
     if (fs::exists(plan.order.folder / "study.json"))
@@ -111,7 +121,7 @@ int price_command(const PriceOptions& options) {
     return bad_input(trouble(error));
   }
   catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");
-  climb_all(*ladder, plan.refines);
+  climb_all(*ladder, plan.refines, options.open_water);
   return conclude(plan, *ladder, options);
 }
 

@@ -143,10 +143,12 @@ class Fitter {
         fits.push_back(std::move(found));
       } else {
         any_too_low_ |= p < least_order;
-        refusal = p < least_order
-                      ? fmt::format("it seems to converge with an order below {:g}, or not at all", least_order)
-                      : fmt::format("order {:.2g} lies outside the asymptotic range, {:g} to {:g}",
-                                    std::min(p, search_to), least_order, order_too_high);
+        refusal =
+            p < least_order
+                ? fmt::format("they seem to converge with an order below {:g}, or not at all", least_order)
+                : fmt::format(
+                      "they change faster than with order {:g}, so that the coarsest mesh is too coarse to tell one",
+                      order_too_high);
       }
     }
     return fits;

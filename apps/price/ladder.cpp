@@ -12,10 +12,12 @@
 
 #include "apps/cli/child_process.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/price/cost.hpp"
 #include "apps/quantity/names.hpp"
 #include "apps/quantity/table.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/run/progress.hpp"
+#include "apps/scene/read/echo.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/study/run.hpp"
 #include "apps/study/table.hpp"
@@ -37,36 +39,26 @@ std::string last_line(const fs::path& log) {
   return last;
 }
 
-Axis refine_axis(const std::vector<RungSpec>& specs) {
+Axis refine_axis(const std::vector<RungSpec>& specs, const std::vector<std::string>& larger_tank) {
   Axis axis{.name = "refine", .label = "refine", .values = {}};
   for (const auto& spec : specs) {
     const auto text = digits_of(spec.refine);
-    axis.values.push_back({text, spec.refine, {"fluid.size.refine=" + text}, {}});
+    AxisValue value{text, spec.refine, {"fluid.size.refine=" + text}, {}};
+    if (spec.role == Role::larger_tank) {
+      value.text += "_larger_tank";
+      value.set.insert(value.set.end(), larger_tank.begin(), larger_tank.end());
+    }
+    axis.values.push_back(std::move(value));
   }
   return axis;
 }
 
-bool same(const RungSpec& a, const RungSpec& b) { return digits_of(a.refine) == digits_of(b.refine); }
+bool same(const RungSpec& a, const RungSpec& b) {
+  return a.role == b.role && digits_of(a.refine) == digits_of(b.refine);
+}
 
 std::string failure_text(const RungSpec& spec, const std::string& cause) {
   return fmt::format("refine {} did not reach its end: {}", digits_of(spec.refine), cause);
-}
-
-double predicted_node_steps(const std::vector<Rung>& rungs, double refine, int dimension) {
-  std::vector<std::pair<double, double>> points;
-  for (const auto& rung : rungs)
-    if (!rung.spec.replicate) points.emplace_back(rung.spec.refine, rung.node_steps);
-  if (points.empty()) points.emplace_back(rungs.front().spec.refine, rungs.front().node_steps);
-  std::ranges::sort(points);
-  // Elements ~ refine^d and steps ~ refine: what a mesh of uniform size takes, and no graded one exceeds.
-  const double steepest = dimension + 1;
-  if (points.size() == 1) return points[0].second * std::pow(refine / points[0].first, steepest);
-  std::size_t k = 1;
-  while (k + 1 < points.size() && points[k].first < refine) ++k;
-  const auto& [r0, n0] = points[k - 1];
-  const auto& [r1, n1] = points[k];
-  const double slope = std::clamp(std::log(n1 / n0) / std::log(r1 / r0), 0., steepest);
-  return n1 * std::pow(refine / r1, slope);
 }
 
 }  // namespace
@@ -80,38 +72,24 @@ std::vector<double> rung_refines(int rungs, double scene) {
   return refines;
 }
 
-std::optional<double> predicted_seconds(const std::vector<Rung>& rungs, double refine, int dimension) {
-  if (rungs.empty()) return {};
-  const double node_steps = predicted_node_steps(rungs, refine, dimension);
-  double weight = 0, x = 0, y = 0;
-  for (const auto& rung : rungs) {
-    weight += rung.node_steps;
-    x += rung.node_steps * std::log(rung.node_steps);
-    y += rung.node_steps * std::log(rung.seconds);
-  }
-  x /= weight, y /= weight;
-  double xx = 0, xy = 0;
-  for (const auto& rung : rungs) {
-    const double dx = std::log(rung.node_steps) - x;
-    xx += rung.node_steps * dx * dx;
-    xy += rung.node_steps * dx * (std::log(rung.seconds) - y);
-  }
-  // Proportional unless the runs say otherwise: less where setting up counts, at most what a direct solver in space takes,
-  // N^2 (George 1973). Runs within a factor of two say nothing but the noise of the clock.
-  const double least_spread = 0.05;  // of log N, weighted: about ln(2)^2 / 9
-  const double slope = xx / weight > least_spread ? std::clamp(xy / xx, 0.5, 2.) : 1;
-  return std::exp(y + slope * (std::log(node_steps) - x));
-}
-
 Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
     : order_(std::move(order)), possible_(possible), started_(now()) {
   study_.file = study_.scene = fs::absolute(order_.scene);
   study_.set = order_.set;
   study_.large = order_.large;
   study_.threads = order_.threads;
-  study_.axes = {refine_axis(possible)};
+  study_.axes = {refine_axis(possible, order_.larger_tank)};
   runs_ = expand(study_);
-  resolve(study_, runs_);
+  try {
+    resolve(study_, runs_);
+  } catch (const SceneError& error) {
+    auto messages = error.messages();
+    messages.push_back(
+        fmt::format("{}: the ladder begins at fluid.size.refine = {} and needs a scene there. Begin finer: --set "
+                    "fluid.size.refine=X, about which the ladder is built.",
+                    order_.scene.string(), digits_of(possible.front().refine)));
+    throw SceneError(std::move(messages));
+  }
 }
 
 double Ladder::spent() const { return now() - started_; }
@@ -119,7 +97,8 @@ double Ladder::spent() const { return now() - started_; }
 double Ladder::seconds_left() const { return order_.budget ? *order_.budget - spent() : HUGE_VAL; }
 
 std::optional<double> Ladder::seconds_at(double refine) const {
-  return predicted_seconds(made_, refine, order_.dimension);
+  const RunCost cost(made_, order_.expected_nodes, order_.dimension);
+  return cost.known() ? std::optional(cost.seconds(refine)) : std::nullopt;
 }
 
 const StudyRun& Ladder::run_of(const RungSpec& spec) const {
@@ -151,7 +130,8 @@ bool Ladder::climb(const RungSpec& spec) {
   if (!make(run, spec)) return false;
   if (auto rung = read(run, spec)) {
     say(fmt::format("refine {:<6} {:>8.3g} s  {:>9.3g} node-steps  {:>6.0f} MB{}", digits_of(spec.refine),
-                    rung->seconds, rung->node_steps, rung->memory_mb, spec.replicate ? "  (replicate)" : ""));
+                    rung->seconds, rung->node_steps, rung->memory_mb,
+                    spec.role == Role::rung ? "" : "  (" + word_of(spec.role) + ")"));
     made_.push_back(std::move(*rung));
   }
   return true;
@@ -215,6 +195,8 @@ Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<Pri
   const auto summary = quantity::read_summary(folder);
   Rung rung{.spec = spec, .folder = folder.filename().string(), .values = {}};
   rung.seconds = summary.value("wall_seconds", 0.);
+  if (const auto setup = quantity::find_entry(summary, "phases.setup")) rung.setup_seconds = setup->numbers.front();
+  rung.steps = summary.value("steps", 0.);
   rung.memory_mb = summary.value("memory_mb", 0.);
   rung.node_steps = node_steps_in(folder);
   for (const auto& quantity : quantities) {
@@ -226,27 +208,65 @@ Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<Pri
   return rung;
 }
 
-std::vector<RungSpec> possible_rungs(const std::vector<double>& refines) {
+std::string word_of(Role role) {
+  return role == Role::rung ? "rung" : role == Role::replicate ? "replicate" : "larger tank";
+}
+
+std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& name) {
+  if (!scene.tank)
+    throw SceneError({name + ": --open-water: has no [tank] whose walls could be moved away. Leave --open-water out."});
+  const auto d = scene.dimension;
+  const auto text = [d](const Point& point) { return toml_list(std::vector<double>(point.data(), point.data() + d)); };
+  const auto& old = *scene.tank;
+  double level = old.min[d - 1];
+  for (const auto& region : scene.fluid->regions)
+    if (const auto* box = std::get_if<BoxRegion>(&region.shape)) level = std::max(level, box->max[d - 1]);
+  Point low = old.min, high = old.max;
+  for (int k = 0; k + 1 < d; ++k) {
+    const double centre = 0.5 * (low[k] + high[k]), half = 0.5 * tank_growth * (high[k] - low[k]);
+    low[k] = centre - half;
+    high[k] = centre + half;
+  }
+  low[d - 1] = level - tank_growth * (level - low[d - 1]);
+  std::vector<std::string> set = {"tank.min=" + text(low), "tank.max=" + text(high)};
+  for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i) {
+    const auto* box = std::get_if<BoxRegion>(&scene.fluid->regions[i].shape);
+    if (!box) continue;
+    Point from = box->min, to = box->max;
+    for (int k = 0; k < d; ++k) {
+      if (from[k] <= old.min[k]) from[k] = low[k];
+      if (to[k] >= old.max[k]) to[k] = high[k];
+    }
+    set.push_back(fmt::format("fluid.region.{}.min={}", i, text(from)));
+    set.push_back(fmt::format("fluid.region.{}.max={}", i, text(to)));
+  }
+  return set;
+}
+
+std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool open_water) {
   std::vector<RungSpec> specs;
-  for (const double refine : refines) specs.push_back({refine, false});
+  for (const double refine : refines) specs.push_back({refine, Role::rung});
   for (const double refine : refines)
-    for (const double sign : {-1., 1.}) specs.push_back({refine * (1 + sign * replicate_offset), true});
+    for (const double sign : {-1., 1.}) specs.push_back({refine * (1 + sign * replicate_offset), Role::replicate});
+  if (open_water)
+    for (const double refine : refines) specs.push_back({refine, Role::larger_tank});
   return specs;
 }
 
-void climb_all(Ladder& ladder, const std::vector<double>& refines) {
-  const auto replicate = [&](double refine) {
+void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water) {
+  const auto beside = [&](double refine) {
     for (const double sign : {-1., 1.})
-      if (!ladder.climb({refine * (1 + sign * replicate_offset), true})) return;
+      if (!ladder.climb({refine * (1 + sign * replicate_offset), Role::replicate})) return;
+    if (open_water) ladder.climb({refine, Role::larger_tank});
   };
   for (std::size_t k = 0; k < refines.size(); ++k) {
     // Before the finest: what a budget leaves out is better a rung than the scatter.
-    if (k + 1 == refines.size() || !ladder.affordable({refines[k], false})) {
-      replicate(refines[k == 0 ? 0 : k - 1]);
-      ladder.climb({refines[k], false});
+    if (k + 1 == refines.size() || !ladder.affordable({refines[k], Role::rung})) {
+      beside(refines[k == 0 ? 0 : k - 1]);
+      ladder.climb({refines[k], Role::rung});
       return;
     }
-    if (!ladder.climb({refines[k], false})) return;
+    if (!ladder.climb({refines[k], Role::rung})) return;
   }
 }
 

@@ -12,20 +12,26 @@
 
 namespace splashdown::apps {
 
-inline constexpr int fewest_rungs = 3, usual_rungs = 4, most_rungs = 8;
 /// Replicates stand this share beside the rung that they repeat: another mesh of nearly the same size. With first order
 /// that moves an error by a fiftieth of itself, which is far below the scatter that they are to show.
 inline constexpr double replicate_offset = 0.02;
 
+/// A tank that stands for open water is grown by this for one run: in the plane its influence falls to 4/9, in space to 8/27.
+inline constexpr double tank_growth = 1.5;
+
+enum class Role { rung, replicate, larger_tank };
+/// "rung", "replicate", "larger tank"
+std::string word_of(Role role);
+
 struct RungSpec {
   double refine = 1;
-  bool replicate = false;
+  Role role = Role::rung;
 };
 
 struct Rung {
   RungSpec spec;
   std::string folder;  ///< name within that of the price
-  double seconds = 0, node_steps = 0, memory_mb = 0;
+  double seconds = 0, setup_seconds = 0, steps = 0, node_steps = 0, memory_mb = 0;
   std::vector<double> values;  ///< of the quantities, in their order; nan: none
 };
 
@@ -36,11 +42,6 @@ Rung rung_in(const std::filesystem::path& folder, const RungSpec& spec, const st
 /// 0.5, 0.71, 1, 1.41 ... times `scene`, three digits.
 std::vector<double> rung_refines(int rungs, double scene);
 
-/// Seconds of a run at `refine`: node-steps follow refine by power laws from mesh to mesh, seconds follow node-steps by the
-/// power law that fits all runs best, replicates too, weighted by their node-steps. Machines are never quite alone: one run's clock
-/// decides little. Nothing without a run.
-std::optional<double> predicted_seconds(const std::vector<Rung>& rungs, double refine, int dimension);
-
 struct LadderOrder {
   std::filesystem::path scene, folder;
   std::vector<std::string> set;
@@ -49,6 +50,8 @@ struct LadderOrder {
   std::optional<double> budget;
   bool large = false, quiet = false;
   int dimension = 2;
+  std::vector<std::pair<double, double>> expected_nodes;  ///< by refine; empty: not known
+  std::vector<std::string> larger_tank;  ///< --set arguments that grow the tank; empty: it is what it is
 };
 
 struct LadderEnd {
@@ -69,7 +72,6 @@ class Ladder {
 
   /// Makes the run, or reads it if it is finished; false if the ladder has to end or its cost does not fit in the budget.
   bool climb(const RungSpec& spec);
-  bool over() const { return end_.interrupted; }
   /// Whether the run is finished already or is predicted to fit in the budget.
   bool affordable(const RungSpec& spec) const;
   std::optional<double> seconds_at(double refine) const;
@@ -90,9 +92,13 @@ class Ladder {
   double started_ = 0;
 };
 
-/// Rungs from the coarsest on, and two replicates of the last but one before the last, as the budget allows.
-void climb_all(Ladder& ladder, const std::vector<double>& refines);
+/// The tank and the water in it grown sideways and downwards. Throws SceneError for a scene without a tank.
+std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& name);
+
+/// Rungs from the coarsest on, and before the last one two replicates of the one before it, and that one in a larger tank, as
+/// the budget allows.
+void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water);
 /// All that `climb_all` may want.
-std::vector<RungSpec> possible_rungs(const std::vector<double>& refines);
+std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool open_water);
 
 }  // namespace splashdown::apps

@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "apps/price/cost.hpp"
 #include "apps/scene/read/read.hpp"
 
 namespace splashdown::apps {
@@ -35,6 +36,18 @@ std::optional<double> scatter_of(const PricedQuantity& quantity) {
     for (const auto& [rung, value] : *list)
       if (std::abs(rung.spec.refine / at - 1) < 3 * replicate_offset) values.push_back(value);
   return deviation_of(values);
+}
+
+/// Against the mean of what was measured in the tank as it is, on meshes of that size.
+std::optional<double> tank_influence(const PricedQuantity& quantity, int dimension) {
+  if (quantity.in_larger_tank.empty()) return {};
+  const auto& [larger, value] = quantity.in_larger_tank.front();
+  double sum = 0, count = 0;
+  for (const auto* list : {&quantity.rungs, &quantity.replicates})
+    for (const auto& [rung, measured] : *list)
+      if (std::abs(rung.spec.refine / larger.spec.refine - 1) < 2 * replicate_offset) sum += measured, ++count;
+  if (count == 0) return {};
+  return std::abs(value - sum / count) / (1 - std::pow(tank_growth, -dimension));
 }
 
 std::optional<Convergence> fit_of(const PricedQuantity& quantity) {
@@ -74,22 +87,26 @@ std::vector<PriceRow> rows_of(const Price& price) {
 
 }  // namespace
 
-double PricedQuantity::at(double refine) const {
-  for (const auto* list : {&rungs, &replicates})
+double PricedQuantity::at(const RungSpec& spec) const {
+  for (const auto* list : {&rungs, &replicates, &in_larger_tank})
     for (const auto& [rung, measured] : *list)
-      if (rung.spec.refine == refine) return measured;
+      if (rung.spec.refine == spec.refine && rung.spec.role == spec.role) return measured;
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<std::pair<Rung, double>>& PricedQuantity::list(Role role) {
+  return role == Role::rung ? rungs : role == Role::replicate ? replicates : in_larger_tank;
 }
 
 std::optional<double> PricedQuantity::band(double refine) const {
   if (!fit) return {};
-  return std::hypot(fit->band(1 / refine), 2 * scatter.value_or(0));
+  return std::hypot(fit->band(1 / refine), 2 * scatter.value_or(0)) + tank.value_or(0);
 }
 
 std::optional<double> PricedQuantity::band_of_finest() const {
   if (!fit) return {};
   const auto& [rung, last] = rungs.back();
-  return std::hypot(fit->band({1 / rung.spec.refine, last}), 2 * scatter.value_or(0));
+  return std::hypot(fit->band({1 / rung.spec.refine, last}), 2 * scatter.value_or(0)) + tank.value_or(0);
 }
 
 std::optional<double> PricedQuantity::accuracy(double refine) const {
@@ -102,7 +119,7 @@ std::optional<double> PricedQuantity::accuracy(double refine) const {
 double Price::finest() const {
   double finest = 0;
   for (const auto& rung : rungs)
-    if (!rung.spec.replicate) finest = std::max(finest, rung.spec.refine);
+    if (rung.spec.role == Role::rung) finest = std::max(finest, rung.spec.refine);
   return finest;
 }
 
@@ -112,7 +129,10 @@ double Price::coarsest() const {
   return coarsest;
 }
 
-std::optional<double> Price::seconds(double refine) const { return predicted_seconds(rungs, refine, dimension); }
+std::optional<double> Price::seconds(double refine) const {
+  const RunCost cost(rungs, expected_nodes, dimension);
+  return cost.known() ? std::optional(cost.seconds(refine)) : std::nullopt;
+}
 
 std::optional<std::pair<double, std::string>> Price::accuracy(double refine) const {
   std::optional<std::pair<double, std::string>> worst;
@@ -148,22 +168,30 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
   price.rungs = rungs;
   std::ranges::sort(price.rungs, {}, [](const Rung& rung) { return rung.spec.refine; });
   for (std::size_t q = 0; q < quantities.size(); ++q) {
-    PricedQuantity priced{.what = quantities[q], .scatter = {}, .fit = {}, .rungs = {}, .replicates = {}};
+    PricedQuantity priced{.what = quantities[q],
+                          .scatter = {},
+                          .tank = {},
+                          .fit = {},
+                          .rungs = {},
+                          .replicates = {},
+                          .in_larger_tank = {}};
     for (const auto& rung : price.rungs)
-      if (std::isfinite(rung.values[q]))
-        (rung.spec.replicate ? priced.replicates : priced.rungs).emplace_back(rung, rung.values[q]);
+      if (std::isfinite(rung.values[q])) priced.list(rung.spec.role).emplace_back(rung, rung.values[q]);
     if (priced.rungs.empty()) {
       notes.push_back(priced.what.name + " is left out: it has no value on any rung");
       continue;
     }
     priced.value = priced.rungs.back().second;
     priced.scatter = scatter_of(priced);
+    priced.tank = tank_influence(priced, dimension);
     priced.fit = fit_of(priced);
     price.quantities.push_back(std::move(priced));
   }
-  price.rows = rows_of(price);
+  list_rows(price);
   return price;
 }
+
+void list_rows(Price& price) { price.rows = rows_of(price); }
 
 std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set) {
   set.emplace_back("fluid.size.refine=1");

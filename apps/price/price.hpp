@@ -1,9 +1,11 @@
 // What accuracy costs: bands of the quantities on each rung, and the refinement and the seconds that a band takes.
 //
-//   band = sqrt(U^2 + (2 s)^2)
+//   band = sqrt(U^2 + (2 s)^2) + T
 //
 // U: of the fit over the ladder (convergence.hpp); s: standard deviation between meshes of equal size, the quantity's
 // replicates with the rung that they repeat. A single run is one of such meshes, whatever the fit says of their mean.
+// T, where the tank stands for open water: the change by a tank g = 1.5 times as large over 1 - g^-d. A body and its images in the
+// walls are dipoles, whose flow falls with the distance to the power d (Newman 1977, section 4.9).
 #pragma once
 
 #include <optional>
@@ -18,12 +20,15 @@ namespace splashdown::apps {
 
 struct PricedQuantity {
   PriceQuantity what;
-  double value = 0;                                        ///< of the finest rung
-  std::optional<double> scatter;                           ///< s; absent: no replicates
-  std::optional<Convergence> fit;                          ///< absent: too few rungs
-  std::vector<std::pair<Rung, double>> rungs, replicates;  ///< with the value, from the coarsest on
+  double value = 0;                ///< of the finest rung
+  std::optional<double> scatter;   ///< s; absent: no replicates
+  std::optional<double> tank;      ///< T; absent: not asked for
+  std::optional<Convergence> fit;  ///< absent: too few rungs
+  /// With the value, from the coarsest on.
+  std::vector<std::pair<Rung, double>> rungs, replicates, in_larger_tank;
 
-  double at(double refine) const;                   ///< of the run there; nan: there is none
+  std::vector<std::pair<Rung, double>>& list(Role role);
+  double at(const RungSpec& spec) const;            ///< of the run there; nan: there is none
   std::optional<double> band(double refine) const;  ///< of a run there [unit]
   std::optional<double> band_of_finest() const;
   /// Relative, of a run that is still to be made there; nothing: not known.
@@ -43,6 +48,7 @@ struct Price {
   std::vector<PricedQuantity> quantities;
   std::vector<Rung> rungs;  ///< all that were made, replicates too
   std::vector<PriceRow> rows;
+  std::vector<std::pair<double, double>> expected_nodes;  ///< by refine, of the scene's sizes; empty: not known
 
   std::optional<double> seconds(double refine) const;
   double finest() const;
@@ -61,6 +67,8 @@ inline constexpr double farthest_extrapolation = 4;
 /// Quantities without a value on three rungs are left out, and named in `notes`.
 Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>& quantities, int dimension,
                std::vector<std::string>& notes);
+/// Anew, when the price has learned what nodes its scene expects.
+void list_rows(Price& price);
 
 /// Of a scene at refine = 1, whatever its title and output: FNV-1a, 16 hexadecimal digits.
 std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set);

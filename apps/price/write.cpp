@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/plain_text.hpp"
@@ -52,13 +53,25 @@ Json json_of(const PricedQuantity& quantity) {
           {"from", quantity.what.measured.table},
           {"where", quantity.what.measured.where},
           {"rungs", json_of(quantity.rungs)},
-          {"replicates", json_of(quantity.replicates)}};
+          {"replicates", json_of(quantity.replicates)},
+          {"tank", number(quantity.tank)},
+          {"in_larger_tank", json_of(quantity.in_larger_tank)}};
 }
 
-Rung rung_of(const Json& json, bool replicate) {
-  return {.spec = {json.at("refine").get<double>(), replicate},
+Role role_of(const std::string& word) {
+  for (const Role role : {Role::replicate, Role::larger_tank})
+    if (word == word_of(role)) return role;
+  return Role::rung;
+}
+
+Rung rung_of(const Json& json) {
+  for (const char* key : {"refine", "seconds", "steps", "node_steps"})
+    if (!(json.at(key).get<double>() > 0)) throw std::runtime_error(fmt::format("{} must be positive", key));
+  return {.spec = {json.at("refine").get<double>(), role_of(json.at("role").get<std::string>())},
           .folder = json.value("folder", ""),
           .seconds = json.at("seconds").get<double>(),
+          .setup_seconds = json.value("setup_seconds", 0.),
+          .steps = json.at("steps").get<double>(),
           .node_steps = json.at("node_steps").get<double>(),
           .memory_mb = json.at("memory_mb").get<double>(),
           .values = {}};
@@ -80,6 +93,9 @@ PriceQuantity quantity_of(const std::string& name, const Json& json) {
 std::string value_text(double value, const std::string& unit) {
   return unit == "-" ? fmt::format("{:.4g}", value) : with_unit(value, unit);  // without a unit no prefix
 }
+
+const std::vector<std::pair<const char*, Role>> lists = {
+    {"rungs", Role::rung}, {"replicates", Role::replicate}, {"in_larger_tank", Role::larger_tank}};
 
 std::string relative(const std::optional<double>& part, double whole) {
   return part && whole != 0 ? fmt::format("{:.2g} %", 100 * std::abs(*part / whole)) : "?";
@@ -115,6 +131,19 @@ std::string not_counted(const PricedQuantity& quantity) {
   return quantity.what.counts ? "" : "  (not counted)";
 }
 
+/// Each reason once, with the quantities that have no order for it.
+std::string refusals_text(const Price& price) {
+  std::map<std::string, std::string> names;
+  for (const auto& quantity : price.quantities)
+    if (quantity.fit && !quantity.fit->order()) {
+      auto& list = names[quantity.fit->refusal()];
+      list += (list.empty() ? "" : ", ") + quantity.what.name;
+    }
+  std::string text;
+  for (const auto& [reason, list] : names) text += fmt::format("  no order: {}: {}\n", list, reason);
+  return text;
+}
+
 }  // namespace
 
 std::string about_time(double seconds) {
@@ -141,9 +170,12 @@ std::string price_json(const Price& price) {
   root["runs"] = Json::array();
   for (const auto& rung : price.rungs) {
     root["runs"].push_back(json_of(rung));
-    root["runs"].back()["replicate"] = rung.spec.replicate;
+    root["runs"].back()["steps"] = rung.steps;
+    root["runs"].back()["setup_seconds"] = rung.setup_seconds;
+    root["runs"].back()["role"] = word_of(rung.spec.role);
     root["runs"].back()["folder"] = rung.folder;
   }
+  root["expected_nodes"] = price.expected_nodes;
   return root.dump(2) + "\n";
 }
 
@@ -157,15 +189,15 @@ Price read_price(const std::filesystem::path& file) {
     price.scene_digest = root.at("scene_digest").get<std::string>();
     price.dimension = root.at("dimension").get<int>();
     std::vector<PriceQuantity> quantities;
-    for (const auto& run : root.at("runs")) price.rungs.push_back(rung_of(run, run.at("replicate").get<bool>()));
+    for (const auto& run : root.at("runs")) price.rungs.push_back(rung_of(run));
     for (auto& rung : price.rungs) rung.values.assign(root.at("quantities").size(), NAN);
     std::size_t q = 0;
     for (const auto& [name, entry] : root.at("quantities").items()) {
       quantities.push_back(quantity_of(name, entry));
-      for (const char* list : {"rungs", "replicates"})
+      for (const auto& [list, role] : lists)
         for (const auto& measured : entry.at(list))
           for (auto& rung : price.rungs)
-            if (rung.spec.refine == measured.at("refine").get<double>())
+            if (rung.spec.refine == measured.at("refine").get<double>() && rung.spec.role == role)
               rung.values[q] = measured.at("value").get<double>();
       ++q;
     }
@@ -174,8 +206,10 @@ Price read_price(const std::filesystem::path& file) {
     whole.scene = price.scene;
     whole.title = price.title;
     whole.scene_digest = price.scene_digest;
+    whole.expected_nodes = root.at("expected_nodes").get<std::vector<std::pair<double, double>>>();
+    list_rows(whole);
     return whole;
-  } catch (const Json::exception& error) {
+  } catch (const std::exception& error) {
     throw std::runtime_error(
         fmt::format("{}: is not a price list. Make it anew with splashdown price. ({})", file.string(), error.what()));
   }
@@ -191,10 +225,13 @@ std::string price_line(const Price& price) {
 }
 
 std::string price_text(const Price& price) {
-  const auto replicates = std::ranges::count_if(price.rungs, [](const Rung& rung) { return rung.spec.replicate; });
-  std::string text = fmt::format("{}: {} meshes and {} replicates, the finest at refine {:.3g}\n",
-                                 one_line(price.title.empty() ? price.scene : price.title),
-                                 static_cast<long>(price.rungs.size()) - replicates, replicates, price.finest());
+  const auto number_of = [&](Role role) {
+    return std::ranges::count_if(price.rungs, [=](const Rung& rung) { return rung.spec.role == role; });
+  };
+  std::string text = fmt::format("{}: {} meshes and {} replicates{}, the finest at refine {:.3g}\n",
+                                 one_line(price.title.empty() ? price.scene : price.title), number_of(Role::rung),
+                                 number_of(Role::replicate),
+                                 number_of(Role::larger_tank) > 0 ? ", one in a larger tank" : "", price.finest());
   if (!price.rows.empty()) text += "  accuracy      time  refine  decided by\n";
   text += rows_text(price);
   std::size_t width = 8;
@@ -210,10 +247,7 @@ std::string price_text(const Price& price) {
                         order ? fmt::format("{:.2f}", *order) : "-", relative(quantity.scatter, quantity.value),
                         not_counted(quantity));
   }
-  for (const auto& quantity : price.quantities)
-    if (quantity.fit && !quantity.fit->order())
-      text += fmt::format("  no order for {}: {}\n", quantity.what.name, quantity.fit->refusal());
-  return text;
+  return text + refusals_text(price);
 }
 
 }  // namespace splashdown::apps

@@ -66,7 +66,7 @@ std::string runs_table(const fs::path& directory, const Json& price) {
                         page ? fmt::format("<a href=\"{0}/report.html\">{0}</a>", folder) : folder,
                         cell(number_at(run, {"refine"})), seconds_cell(number_at(run, {"seconds"})),
                         cell(number_at(run, {"node_steps"}), 3), cell(number_at(run, {"memory_mb"}), 3),
-                        run.at("replicate").get<bool>() ? "replicate" : "");
+                        text_at(run, "role"));
   }
   return table("Runs", {"run", "refine", "wall time", "node-steps", "memory (MB)", ""}, rows);
 }

@@ -64,6 +64,7 @@ std::optional<std::string> foreign_results(const fs::path& directory, const fs::
                                            const std::string& resolved) {
   const auto cure = "Use --out with another folder, or --force to replace it.";
   if (fs::exists(directory / "study.json")) return fmt::format("{} holds a study. {}", directory.string(), cure);
+  if (fs::exists(directory / "price.json")) return fmt::format("{} holds a price list. {}", directory.string(), cure);
   if (!fs::exists(directory / "scene.resolved.toml")) {
     for (const char* name : replaced)
       if (fs::exists(directory / name))

@@ -4,14 +4,13 @@
 . "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 wedge_scene 0 | sed 's/^end = .*/end = 0.03/; s/position = .*/position = [0, 0.005]/' >scene.toml
-# Ctrl-C of a terminal that is none: the shell starts what is in the background deaf to SIGINT, hence SIGTERM.
-stopped_after() {  # stopped_after SECONDS COMMAND...: its exit code
-  local seconds=$1
+stopped_at() {  # stopped_at FILE COMMAND...: told to stop when the file is there; its exit code
+  local file=$1
   shift
   "$@" >stdout 2>stderr &
   local pid=$!
-  sleep "$seconds"
-  kill -s TERM $pid 2>/dev/null
+  until [[ -e $file ]]; do sleep 0.01; done
+  kill -s TERM $pid
   wait $pid
 }
 runs_of() { find "$1" -name summary.json -printf '%p %i %T@\n' | sort; }
@@ -21,8 +20,8 @@ check "a price needs a scene" exits 2 "$splashdown" price missing.toml
 check "a quantity that no run can measure is refused" exits 2 price --out never --quantity "a=max(fx) from bodies.csv:wegde"
 check "with its cure" grep -q "Did you mean 'wedge'" stderr
 check "and nothing is written" test ! -e never
-check "a budget that is too small ends without a price" exits 130 price --out list --budget 0.01
-check "a signal ends it" exits 130 stopped_after 0.2 "$splashdown" price scene.toml --rungs 3 --out list
+check "a budget that is too small ends without a price" exits 130 price --out short --budget 0.01
+check "a signal ends it" exits 130 stopped_at list/refine-0.5/scene.resolved.toml "$splashdown" price scene.toml --rungs 3 --out list
 check "the same command goes on" exits 0 price --out list --quantity "slowed=last(vy)+3 from bodies.csv:wedge"
 for file in price.json report.html; do check "it leaves $file" test -s "list/$file"; done
 if command -v gnuplot >/dev/null; then check "and a chart" test -s list/price.svg; fi
@@ -33,7 +32,8 @@ runs_of list >after
 check "makes no run again" cmp before after
 check "rungs have what they cost" grep -q '"node_steps": [1-9]' list/price.json
 check "its page can be written anew" exits 0 "$splashdown" report list
-check "a study's folder is not taken" sh -c 'mkdir study && echo "{}" >study/study.json && ! "$0" price scene.toml --out study' "$splashdown"
+mkdir study && echo '{}' >study/study.json
+check "a study's folder is not taken" exits 2 price --out study
 
 check "a run takes its mesh from the list" exits 0 "$splashdown" run scene.toml --accuracy 50% --price list --out run --no-report
 for word in 'chosen  .*list/price.json' 'predicted ' 'reached .*for the run'; do check "and says $word" grep -q "$word" stdout; done
