@@ -6,7 +6,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 
 set(output_sources
-  record/csv.cpp record/energy.cpp record/files.cpp record/frames.cpp record/hull_map.cpp record/hulls.cpp
+  record/csv.cpp record/energy.cpp record/evidence.cpp record/files.cpp record/frames.cpp record/hull_map.cpp record/hulls.cpp
   record/probes.cpp record/recorder.cpp record/rows.cpp record/view.cpp record/vtu_grid.cpp
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
   statistics/grades.cpp statistics/landing_statistics.cpp

@@ -78,8 +78,7 @@ Price probed_price(const RunOptions& options, const Scene& scene, std::string& f
   order.dimension = scene.dimension;
   order.quantities = default_quantities(scene);
   const double first = scene.fluid->size.refine * first_probe;
-  order.expected_nodes =
-      expected_nodes(options.scene, options.overrides, first, first * std::pow(2., 0.5 * most_probes));
+  order.expected_nodes = expected_nodes(options.scene, options.overrides, first, 16 * first);
   std::vector<RungSpec> probes;
   for (int k = 0; k < most_probes; ++k) probes.push_back({first * std::pow(2., 0.5 * k), Role::rung});
   Ladder ladder(order, probes);

@@ -28,7 +28,7 @@ ExpectedNodes expected_nodes(const std::filesystem::path& scene, std::vector<std
                              double finest) {
   ExpectedNodes points;
   set.emplace_back();
-  for (double refine = coarsest; refine < 1.01 * finest; refine *= std::sqrt(2.)) {
+  for (double refine = coarsest; refine < 1.01 * finest; refine *= 2) {
     set.back() = fmt::format("fluid.size.refine={}", refine);
     try {
       const auto file = read_scene(scene, set);

@@ -20,7 +20,7 @@ namespace splashdown::apps {
 /// By refine, ascending; empty: not known, nodes then go on as node-steps do.
 using ExpectedNodes = std::vector<std::pair<double, double>>;
 
-/// Of the scene at refinements from `coarsest` to `finest`.
+/// Of the scene at refinements from `coarsest` to `finest`, each twice the one before: counting takes a second in space.
 ExpectedNodes expected_nodes(const std::filesystem::path& scene, std::vector<std::string> set, double coarsest,
                              double finest);
 

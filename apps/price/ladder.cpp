@@ -80,7 +80,16 @@ Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
   study_.threads = order_.threads;
   study_.axes = {refine_axis(possible, order_.larger_tank)};
   runs_ = expand(study_);
-  resolve(study_, runs_);
+  try {
+    resolve(study_, runs_);
+  } catch (const SceneError& error) {
+    auto messages = error.messages();
+    messages.push_back(
+        fmt::format("{}: the ladder begins at fluid.size.refine = {} and needs a scene there. Begin finer: --set "
+                    "fluid.size.refine=X, about which the ladder is built.",
+                    order_.scene.string(), digits_of(possible.front().refine)));
+    throw SceneError(std::move(messages));
+  }
 }
 
 double Ladder::spent() const { return now() - started_; }

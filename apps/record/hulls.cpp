@@ -63,8 +63,11 @@ void HullReadings<d>::read(const fluid::Fluid<d>& fluid, const Kick& kick) {
 template <int d>
 void HullReadings<d>::summarise(Summary& summary) const {
   for (std::size_t i = 0; i < peaks_.size(); ++i)
-    summary.patches[settings_.patches[i].name] =
-        {.pressure = peaks_[i], .area = settings_.patches[i].area, .body = settings_.patches[i].body, .evidence = {}, .grade = {}};
+    summary.patches[settings_.patches[i].name] = {.pressure = peaks_[i],
+                                                  .area = settings_.patches[i].area,
+                                                  .body = settings_.patches[i].body,
+                                                  .evidence = {},
+                                                  .grade = {}};
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const auto& body = settings_.hull_maps[i].body;
     const auto& p = maps_[i].pressure();

@@ -10,11 +10,11 @@
 #include <cereal/types/vector.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "apps/record/csv.hpp"
 #include "apps/record/energy.hpp"
+#include "apps/record/evidence.hpp"
 #include "apps/record/files.hpp"
 #include "apps/record/frames.hpp"
 #include "apps/record/hulls.hpp"
@@ -35,20 +35,6 @@ Schedule schedule_of(const Record& record) {
   auto times = record.times;
   std::ranges::sort(times);
   return Schedule(std::move(times));
-}
-
-/// Facets of the mesh on a body's hull; body k is wall k.
-template <int d>
-double wetted_facets(const RecordInput<d>& input, std::size_t body) {
-  if (!input.fluid) return 0;
-  const auto& boundary = input.fluid->mesh().boundary;
-  return static_cast<double>(std::ranges::count(boundary, static_cast<int>(body), &fluid::Facet<d>::wall));
-}
-
-template <int d>
-std::vector<char> symmetric_axes(const RecorderSettings<d>& settings, const std::string& body) {
-  const auto found = settings.symmetric.find(body);
-  return found == settings.symmetric.end() ? std::vector<char>{} : found->second;
 }
 
 }  // namespace
@@ -120,7 +106,6 @@ struct Recorder<d>::State {
   rigid::Vec<d> equipment_acceleration(const RecordInput<d>& input, std::size_t i) const;
   double probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const;
   void write_peak();
-  void add_pressure_evidence(Summary& summary) const;
 };
 
 template <int d>
@@ -262,33 +247,6 @@ void Recorder<d>::State::write_peak() {
   peak.reset();
 }
 
-/// What the mesh and the loads of their bodies say about peaks of pressures.
-template <int d>
-void Recorder<d>::State::add_pressure_evidence(Summary& summary) const {
-  const auto steps_of = [&](const std::string& body) -> const EvidenceStatistics* {
-    const auto found = std::ranges::find(body_names, body);
-    return found == body_names.end() ? nullptr : &bodies[static_cast<std::size_t>(found - body_names.begin())].evidence();
-  };
-  for (std::size_t i = 0; i < settings.patches.size(); ++i) {
-    const auto* steps = steps_of(settings.patches[i].body);
-    auto& patch = summary.patches[settings.patches[i].name];
-    if (!steps || patch.pressure.time < 0) continue;
-    patch.evidence = steps->at_pressure(patch.pressure.time);
-    patch.evidence.step = steps->step_share(hulls.history(i), patch.pressure.time);
-    const double half_width = d == 2 ? patch.area / 2 : std::sqrt(patch.area / std::numbers::pi);
-    patch.evidence.pressed = half_width / steps->facet_size(patch.pressure.time);
-  }
-  for (auto& [name, body] : summary.bodies) {
-    const auto* steps = steps_of(name);
-    if (!steps || !body.maximum_pressure) continue;
-    auto& evidence = body.maximum_pressure->evidence;
-    const double beside = evidence.step;
-    evidence = steps->at_pressure(body.maximum_pressure->peak.time);
-    evidence.step = beside;
-    evidence.pressed = 0;  // a point
-  }
-}
-
 template <int d>
 Recorder<d>::Recorder(RecorderSettings<d> settings) : s_(std::make_unique<State>(std::move(settings))) {}
 
@@ -359,7 +317,12 @@ void Recorder<d>::summarise(Summary& summary) const {
   for (std::size_t i = 0; i < s.equipment.size(); ++i)
     summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary(standard_gravity);
   s.hulls.summarise(summary);
-  s.add_pressure_evidence(summary);
+  const auto steps_of = [&](const std::string& body) -> const EvidenceStatistics* {
+    const auto found = std::ranges::find(s.body_names, body);
+    return found == s.body_names.end() ? nullptr
+                                       : &s.bodies[static_cast<std::size_t>(found - s.body_names.begin())].evidence();
+  };
+  add_pressure_evidence<d>(summary, s.settings, s.hulls, steps_of);
 }
 
 template <int d>

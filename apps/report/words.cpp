@@ -71,9 +71,9 @@ void add_body_sentences(const RunData& run, std::vector<std::string>& sentences)
   for (const auto& [name, body] : at(run.summary, {"bodies"}).items()) {
     const auto force = headline(body, "peak_force", run.dimension());
     if (!(force.value > 0)) continue;
-    std::string text = fmt::format("The largest load on <b>{}</b>, all directions together{}, was <b>{}</b>{} at {}",
-                                   html_escaped(name), force.filter, with_unit(force.value, force_unit(run.dimension())),
-                                   force.band, seconds_text(force.time));
+    std::string text = fmt::format(
+        "The largest load on <b>{}</b>, all directions together{}, was <b>{}</b>{} at {}", html_escaped(name),
+        force.filter, with_unit(force.value, force_unit(run.dimension())), force.band, seconds_text(force.time));
     if (const auto a = headline(body, "peak_acceleration_g", run.dimension()); a.value > 0) {
       text += fmt::format("; its centre of mass felt up to <b>{} g</b>{}{}", digits(a.value, 3), a.filter, a.band);
       for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"}) {
@@ -91,13 +91,15 @@ void add_body_sentences(const RunData& run, std::vector<std::string>& sentences)
 
 ReportHeadline headline(const nlohmann::ordered_json& body, const std::string& key, int dimension) {
   const bool force = key == "peak_force";
-  const auto& filtered = force ? at(body, {"peak_force_filtered", "cfc60"}) : at(body, {"peak_acceleration_g", "cfc60"});
+  const auto& filtered =
+      force ? at(body, {"peak_force_filtered", "cfc60"}) : at(body, {"peak_acceleration_g", "cfc60"});
   const auto& raw = force ? at(body, {"peak_force"}) : at(body, {"peak_acceleration_g", "raw"});
   const bool is_filtered = dimension == 3 && filtered.is_object();
   const auto& peak = is_filtered ? filtered : raw;
-  const auto& grade = force ? at(body, is_filtered ? std::initializer_list<const char*>{"grades", "peak_force_filtered", "cfc60"}
-                                                   : std::initializer_list<const char*>{"grades", "peak_force"})
-                            : at(body, {"grades", "peak_acceleration_g", is_filtered ? "cfc60" : "raw"});
+  const auto& grade =
+      force ? at(body, is_filtered ? std::initializer_list<const char*>{"grades", "peak_force_filtered", "cfc60"}
+                                   : std::initializer_list<const char*>{"grades", "peak_force"})
+            : at(body, {"grades", "peak_acceleration_g", is_filtered ? "cfc60" : "raw"});
   return {number_at(peak, {"value"}), number_at(peak, {"time"}), is_filtered ? " (CFC 60)" : "", band_text(grade)};
 }
 

@@ -36,7 +36,9 @@ constexpr double halving_refine = 2, small_refine = 1.4;
 /// What a share must reach to be told: a quarter of the band of resolved numbers adds 3 % to it.
 constexpr double worth_telling = resolved_band / 4;
 
-std::string percent_text(double share) { return fmt::format("{:.2g} %", 100 * share); }
+/// Two digits, without an exponent.
+std::string rounded(double value) { return value < 10 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value); }
+std::string percent_text(double share) { return rounded(100 * share) + " %"; }
 
 /// What a number is of.
 struct Of {
@@ -50,20 +52,21 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   std::vector<Share> list;
   const double near = std::isfinite(e.pressed) ? 1 + point_factor / (1 + e.pressed) : 1;
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
-  list.push_back({mesh, fmt::format("{:.2g} elements on half of the wetted width{}{}: {}", e.elements,
-                                    e.growing > mostly ? ", which grows" : "",
-                                    std::isfinite(e.pressed) ? fmt::format(", {:.2g} on half of the patch", e.pressed)
-                                                             : "",
-                                    percent_text(mesh))});
+  list.push_back(
+      {mesh, fmt::format("{} elements on half of the wetted width{}{}: {}", rounded(e.elements),
+                         e.growing > mostly ? ", which grows" : "",
+                         std::isfinite(e.pressed) ? fmt::format(", {} on half of the patch", rounded(e.pressed)) : "",
+                         percent_text(mesh))});
   if (!std::isnan(e.step))
     list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
                                         kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps")});
   if (std::isfinite(e.sideways))
-    list.push_back({e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids",
-                                            percent_text(e.sideways))});
+    list.push_back(
+        {e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids", percent_text(e.sideways))});
   if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && e.repair >= mostly)))
-    list.push_back({e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
-                                          kind == Kind::pressure ? "which pressures lack" : "whose peak goes as 1/dt")});
+    list.push_back(
+        {e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
+                               kind == Kind::pressure ? "which pressures lack" : "whose peak goes as 1/dt")});
   return list;
 }
 

@@ -47,7 +47,7 @@ struct Headline {
 };
 std::vector<Headline> headlines(const Summary& summary, const std::string& body);
 
-/// Wall time over refinement: all sizes divided by r cost r^this. Fitted to the runs of docs/guide.md, "The band"; elements of
+/// Wall time over refinement: all sizes divided by r cost r^this. Middle of what docs/guide.md, "The band", measures; elements of
 /// one size everywhere would have 3 and 4.
 constexpr double cost_exponent(int dimension) { return dimension == 2 ? 2 : 3; }
 

@@ -46,7 +46,7 @@ struct BodyReading {
   double submergence;                    ///< of the lowest point; nan without a water level [m]
   Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
   HullExtent extent;
-  bool free;  ///< the water moves it
+  bool free;                    ///< the water moves it
   double mass = 0;              ///< [kg, kg/m]
   double facets = 0;            ///< of the mesh, wetted by it
   std::vector<char> symmetric;  ///< horizontal axes along which no load may act
@@ -61,8 +61,7 @@ class BodyStatistics {
   double peak_force() const { return force_.peak().time < 0 ? 0 : force_.peak().value; }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_,
-            evidence_, mass_);
+    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_, evidence_, mass_);
   }
 
  private:

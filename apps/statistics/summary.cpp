@@ -210,9 +210,8 @@ std::string to_json(const Summary& summary) {
   if (!summary.cause.empty()) json["cause"] = summary.cause;
   json["verdict"] = json_of(summary.verdict);
   if (summary.next)
-    json["next"] = {{"refine", summary.next->refine},
-                    {"seconds", number(summary.next->seconds)},
-                    {"text", text_of(*summary.next)}};
+    json["next"] = {
+        {"refine", summary.next->refine}, {"seconds", number(summary.next->seconds)}, {"text", text_of(*summary.next)}};
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);

@@ -125,8 +125,8 @@ void add_numbers(Summary& summary, const std::string& name, BodySummary& body) {
   const auto of_run = body.verdict.grade;
   for (const auto& [what, value, number] : headlines(summary, name)) {
     if (number->grade <= of_run) continue;
-    Finding finding{number->grade, fmt::format("{}: {} {} within {:.2g} %: {}.", name, what, value, 100 * number->band,
-                                               fmt::join(number->reasons, "; "))};
+    Finding finding{number->grade, fmt::format("{}: {} {} within {:.{}f} %: {}.", name, what, value, 100 * number->band,
+                                               number->band < 0.1 ? 1 : 0, fmt::join(number->reasons, "; "))};
     add(body.verdict, finding);
     add(summary.verdict, finding);
   }

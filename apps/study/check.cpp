@@ -46,7 +46,8 @@ BodySummary whole_body(const Scene& scene, std::size_t index) {
   body.landing.first_contact = body.landing.capsized_since = body.landing.settled = 0;
   for (const auto& record : scene.records)
     if (const auto* highest = std::get_if<MaximumPressureEntry>(&record); highest && highest->body == index)
-      body.maximum_pressure_grade.emplace(), body.maximum_pressure = MaximumPressure{.peak = {0, 0}, .point = std::vector<double>(d), .evidence = {}};
+      body.maximum_pressure_grade.emplace(),
+          body.maximum_pressure = MaximumPressure{.peak = {0, 0}, .point = std::vector<double>(d), .evidence = {}};
   return body;
 }
 

@@ -31,7 +31,8 @@ constexpr double gentle_froude2 = 0.1;  // V^2 / (g c): a hull that is put down,
 
 double two_digits(double value) {
   const int digit = static_cast<int>(std::floor(std::log10(value))) - 1;
-  const double step = std::pow(10., std::abs(digit));  // a whole number: what is divided by it is the nearest to its decimals
+  const double step =
+      std::pow(10., std::abs(digit));  // a whole number: what is divided by it is the nearest to its decimals
   return digit < 0 ? std::round(value * step) / step : std::round(value / step) * step;
 }
 
@@ -86,7 +87,8 @@ Hull<d> hull_of(const Scene& scene, const Body& body) {
   hull.half = hull.breadth / 2;
   hull.why = "half of its breadth";
   if (!hull.enters) return hull;
-  double c = body.motion == Motion::free ? peak_half_width<d>(scene, body) : wetted_half<d>(scene, body, scene.time.end);
+  double c =
+      body.motion == Motion::free ? peak_half_width<d>(scene, body) : wetted_half<d>(scene, body, scene.time.end);
   c = std::max(c, flat_half_width<d>(surface, height));
   if (!(c > 0 && c < hull.half)) return hull;
   hull.half = c;
@@ -149,9 +151,9 @@ Choice<d> choose(const Scene& scene) {
     return choice;
   }
   choice.surface = std::min(breadth / (waves ? of_waves : of_calm_surface), least / far_of_liquid);
-  choice.surface_why = fmt::format(
-      "a {} of the hull's breadth of {:.3g} m{}", waves ? "twentieth" : "fifth", breadth,
-      waves ? ", forty elements on a wave of two breadths" : "; near the hull the hull's size decides");
+  choice.surface_why =
+      fmt::format("a {} of the hull's breadth of {:.3g} m{}", waves ? "twentieth" : "fifth", breadth,
+                  waves ? ", forty elements on a wave of two breadths" : "; near the hull the hull's size decides");
   choice.far = std::max(choice.surface, std::min(breadth, least / far_of_liquid));
   choice.far_why = fmt::format("the hull's breadth, at most an eighth of the liquid's least extent of {:.3g} m", least);
   return choice;
@@ -179,8 +181,9 @@ std::vector<ChosenSize> size_rules(const Scene& scene) {
     const auto& hull = choice.hulls[b];
     const double size = two_digits(hull.size());
     list.push_back({"body", b, "size", std::min(size, surface),
-                    size < surface ? fmt::format("{:g} elements on {}, {:.2g} m", hull.half / hull.size(), hull.why, hull.half)
-                                   : "that of the surface"});
+                    size < surface
+                        ? fmt::format("{:g} elements on {}, {:.2g} m", hull.half / hull.size(), hull.why, hull.half)
+                        : "that of the surface"});
   }
   return list;
 }
@@ -195,14 +198,14 @@ std::vector<std::string> sizes_against_rules(const Scene& scene) {
     const auto& hull = choice.hulls[b];
     const auto& body = scene.bodies[b];
     if (body.size > rounded * hull.size())
-      list.push_back(fmt::format("body.{}.size = {:.3g} m puts {:.2g} elements on {} ({:.2g} m), not {:g}: use {:.2g} m",
-                                 body.name, body.size, hull.half / body.size, hull.why, hull.half,
-                                 hull.half / hull.size(), two_digits(hull.size())));
+      list.push_back(fmt::format(
+          "body.{}.size = {:.3g} m puts {:.2g} elements on {} ({:.2g} m), not {:g}: use {:.2g} m", body.name, body.size,
+          hull.half / body.size, hull.why, hull.half, hull.half / hull.size(), two_digits(hull.size())));
     if (hull.enters && size.wetted_fraction > rounded * Rules<d>::wetted_fraction)
-      list.push_back(fmt::format("fluid.size.wetted_fraction = {:g} leaves {:.2g} elements on half of the wetted width, "
-                                 "not {:.2g}: use {:g}",
-                                 size.wetted_fraction, 1 / size.wetted_fraction, 1 / Rules<d>::wetted_fraction,
-                                 Rules<d>::wetted_fraction));
+      list.push_back(fmt::format(
+          "fluid.size.wetted_fraction = {:g} leaves {:.2g} elements on half of the wetted width, "
+          "not {:.2g}: use {:g}",
+          size.wetted_fraction, 1 / size.wetted_fraction, 1 / Rules<d>::wetted_fraction, Rules<d>::wetted_fraction));
   }
   if (choice.surface > 0 && size.surface > rounded * choice.surface)
     list.push_back(fmt::format("fluid.size.surface = {:.3g} m is more than {}: use {:.2g} m", size.surface,

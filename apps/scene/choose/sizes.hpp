@@ -26,7 +26,7 @@ namespace splashdown::apps {
 
 /// A size that the scene does not name.
 struct ChosenSize {
-  std::string table;  ///< "fluid.size" or "body"
+  std::string table;      ///< "fluid.size" or "body"
   std::size_t index = 0;  ///< of the body
   std::string key;
   double value = 0;

@@ -16,9 +16,9 @@ class Sketch;
 
 struct SceneFile {
   Scene scene;
-  std::vector<std::string> notes;  ///< what was understood otherwise than it was written
+  std::vector<std::string> notes;   ///< what was understood otherwise than it was written
   std::vector<std::string> chosen;  ///< sizes that the scene left open, and why these: a line each
-  std::string resolved;            ///< TOML with every value in force; reads to the same scene
+  std::string resolved;             ///< TOML with every value in force; reads to the same scene
 };
 
 /// Words of a dotted key, at most: parsers and tables of TOML go one call deeper with each.

@@ -1,7 +1,6 @@
 // Sizes that a scene leaves open: what is chosen is what could have been written, and it scales with the scene.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -67,7 +66,8 @@ TEST(ChosenSizes, leave_alone_what_is_given) {
 
 TEST(ChosenSizes, obey_their_own_rules_and_printed_ones_are_told_when_they_do_not) {
   EXPECT_TRUE(sizes_against_rules<2>(read(box_scene(1)).scene).empty());
-  const auto coarse = sizes_against_rules<2>(read(box_scene(1, "[fluid.size]\nsurface = 0.02\n", "size = 0.01\n")).scene);
+  const auto coarse =
+      sizes_against_rules<2>(read(box_scene(1, "[fluid.size]\nsurface = 0.02\n", "size = 0.01\n")).scene);
   ASSERT_EQ(coarse.size(), 1u);
   for (const char* piece : {"body.box.size = 0.01 m", "4.8 elements", "not 50", "use 0.00096 m"})
     EXPECT_NE(coarse[0].find(piece), std::string::npos) << piece << " is not in: " << coarse[0];

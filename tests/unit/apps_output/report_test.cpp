@@ -38,7 +38,8 @@ void make_run(const std::filesystem::path& directory, const std::string& status 
   summary.phases = {{"remesh", 5}, {"pressure", 6}};
   summary.coupling = CouplingSummary{};
   recorder.summarise(summary);
-  for (auto& [name, body] : summary.bodies) body.acceleration_grades = body.force_grades = {};  // a mesh of a few facets
+  for (auto& [name, body] : summary.bodies)
+    body.acceleration_grades = body.force_grades = {};  // a mesh of a few facets
   if (energy_gain > 0) summary.ledger->energy_gain = energy_gain;
   judge(summary);
   write_summary(directory, summary);
