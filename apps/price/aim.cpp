@@ -24,8 +24,8 @@ constexpr double first_probe = 0.25;
 constexpr int most_probes = 12;
 /// An order can be refused with three meshes, and found with four.
 constexpr std::size_t probes_for_accuracy = 4;
-/// Of the seconds asked for: the next probe is made only if it is predicted to take less.
-constexpr double probe_share = 0.1;
+/// Of the seconds asked for: what a further probe may take, and what it may where those made do not reach far enough.
+constexpr double probe_share = 0.1, last_probe_share = 0.25;
 
 struct Aim {
   Price price;
@@ -64,6 +64,15 @@ std::optional<Price> listed_price(const RunOptions& options, std::string& from) 
   return price;
 }
 
+/// Whether a further probe, at `next`, would say too little for what it costs.
+bool enough_probes(const Ladder& ladder, const RunOptions& options, double next) {
+  if (!options.seconds) return ladder.made().size() >= probes_for_accuracy;
+  if (ladder.made().size() < 2) return false;
+  const double share = *ladder.seconds_at(next) / *options.seconds;
+  const double farthest = farthest_extrapolation * ladder.made().back().spec.refine;
+  return share > last_probe_share || (share > probe_share && *ladder.seconds_at(farthest) >= *options.seconds);
+}
+
 /// Coarse runs beside the run's folder.
 Price probed_price(const RunOptions& options, const Scene& scene, std::string& from) {
   LadderOrder order;
@@ -85,9 +94,7 @@ Price probed_price(const RunOptions& options, const Scene& scene, std::string& f
   make_study_folder(order.folder);
   const FolderLock lock(order.folder);
   for (std::size_t k = 0; k < probes.size(); ++k) {
-    const bool enough = options.seconds ? ladder.made().size() >= 2 : ladder.made().size() >= probes_for_accuracy;
-    const double next = ladder.seconds_at(probes[k].refine).value_or(0);
-    if (enough && (!options.seconds || next > probe_share * *options.seconds)) break;
+    if (enough_probes(ladder, options, probes[k].refine)) break;
     if (!ladder.climb(probes[k])) break;
   }
   from = fmt::format("{} coarse runs in {}", ladder.made().size(), order.folder.string());
