@@ -21,7 +21,7 @@ HullReadings<d>::HullReadings(const RecorderSettings<d>& settings)
 }
 
 template <int d>
-void HullReadings<d>::read(const fluid::Fluid<d>& fluid, double time) {
+void HullReadings<d>::read(const fluid::View<d>& fluid, double time) {
   time_ = time;
   pressures_.clear();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {

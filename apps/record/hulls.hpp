@@ -5,7 +5,7 @@
 #include "apps/record/settings.hpp"
 #include "apps/statistics/statistics_archive.hpp"
 #include "apps/statistics/summary.hpp"
-#include "fluid/fluid.hpp"
+#include "fluid/view.hpp"
 
 namespace splashdown::apps {
 
@@ -15,7 +15,7 @@ class HullReadings {
   /// Keeps the reference.
   explicit HullReadings(const RecorderSettings<d>& settings);
 
-  void read(const fluid::Fluid<d>& fluid, double time);
+  void read(const fluid::View<d>& fluid, double time);
   /// Of the patches, in their order, at the step read last [Pa].
   const std::vector<double>& pressures() const { return pressures_; }
   void summarise(Summary& summary) const;
