@@ -15,41 +15,16 @@
 
 #include <iosfwd>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "fluid/effects/term.hpp"
-#include "fluid/mesh/mesh.hpp"
-#include "fluid/nodes.hpp"
 #include "fluid/pressure/pressure.hpp"
-#include "fluid/spec.hpp"
 #include "fluid/status.hpp"
+#include "fluid/view.hpp"
 
 namespace splashdown::fluid {
-
-template <int d>
-struct WallLoad {
-  Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick: acceleration pressure, stresses of effects
-  Wrench<d> repair = Wrench<d>::Zero();    ///< mean over the kick, from the repair impulse
-  double wetted = 0;                       ///< wetted length (2D) or area (3D) [m, m^2]
-  Wrench<d> total() const { return physical + repair; }
-};
-
-/// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D].
-struct Ledger {
-  double volume_initial = 0, volume = 0;
-  double time_integration = 0;  ///< volume change by moving nodes
-  double remesh_created = 0;    ///< volume gained when the boundary was recognised anew
-  double remesh_deleted = 0;    ///< volume lost there (negative)
-  double returned = 0;          ///< volume that came back at the free surface for what these three changed
-  double spray = 0;             ///< volume now carried by separated drops
-  double kinetic_energy = 0, potential_energy = 0;
-  double energy_remesh = 0;  ///< kinetic energy changed by node insertion and removal
-  double energy_repair = 0;  ///< kinetic energy taken by repair impulses
-  double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
-};
 
 /// How the motions of WallResponse are driven in a step.
 struct MotionDrive {
@@ -58,10 +33,10 @@ struct MotionDrive {
 };
 
 template <int d>
-class Fluid {
+class Fluid final : public View<d> {
  public:
   Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms);
-  ~Fluid();
+  ~Fluid() override;
 
   double time() const;       ///< t_n
   double stable_dt() const;  ///< largest dt the criterion allows from t_n
@@ -79,9 +54,6 @@ class Fluid {
   std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
   std::span<const WallLoad<d>> loads() const;                ///< of the last solve
   std::span<const Twist<d>> wall_velocities() const;         ///< half-step velocities the last solve ended with
-  /// Instantaneous added mass G = B A^-1 B^T of some walls together at t_n [kg, kg m, kg m^2; 2D: per metre]: world
-  /// frame, about the walls' reference points, d(d+1)/2 rows a wall. From `begin` to `commit`.
-  Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const;
   /// Slope of `solve`, corrections apart: impulses on these walls and interface impulses, one below the other, by the
   /// walls' twists and the previous interface impulses. From `begin` to `commit`.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls) const;
@@ -91,15 +63,19 @@ class Fluid {
   /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<d>> poses);
 
+  double density() const override;
+  std::span<const WallSpec<d>> walls() const override;
+  std::span<const Isometry<d>> wall_poses() const override;
+  const Nodes<d>& nodes() const override;
+  const Mesh<d>& mesh() const override;
+  const Ledger& ledger() const override;
+  Vec<d> velocity_n(std::size_t node) const override;
+  std::optional<double> pressure_at(const Vec<d>& point) const override;
+  double potential(const Vec<d>& point) const override;
+  std::vector<std::pair<std::string, double>> diagnostics() const override;
+  Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;  ///< from `begin` to `commit`
+
   const FluidSpec<d>& spec() const;
-  const Nodes<d>& nodes() const;
-  const Mesh<d>& mesh() const;
-  const Ledger& ledger() const;
-  std::span<const Isometry<d>> wall_poses() const;  ///< at t_n
-  /// Velocity at t_n: mean of the half-step velocities around it.
-  Vec<d> velocity_n(std::size_t node) const;
-  /// Pressure at a point at t_n; nothing where there is no fluid.
-  std::optional<double> pressure_at(const Vec<d>& point) const;
   const std::vector<std::unique_ptr<Term<d>>>& terms() const;
   /// Seconds spent so far per phase (mesh, assemble, momentum, pressure, move) and, by its name, per effect.
   std::vector<std::pair<std::string, double>> phase_seconds() const;

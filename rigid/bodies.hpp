@@ -25,6 +25,7 @@
 #include "rigid/body.hpp"
 #include "rigid/contacts.hpp"
 #include "rigid/joint.hpp"
+#include "rigid/view.hpp"
 
 namespace splashdown::rigid {
 
@@ -66,21 +67,21 @@ struct Mobility {
 };
 
 template <int d>
-class Bodies {
+class Bodies final : public View<d> {
  public:
   /// Contacts between the bodies and with the planes only if asked for.
   Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces,
          std::vector<JointSpec> joints = {}, std::optional<ContactSpec<d>> contacts = {});
-  ~Bodies();
+  ~Bodies() override;
   Bodies(Bodies&&) noexcept;
   Bodies& operator=(Bodies&&) noexcept;
 
-  std::size_t size() const;
-  const BodySpec<d>& spec(std::size_t body) const;
-  const BodyState<d>& state(std::size_t body) const;  ///< at t_n
-  std::span<const BodyState<d>> states() const;       ///< of all, at t_n
-  std::span<const BodyState<d>> trials() const;       ///< of all: the last trial
-  double time() const;                                ///< t_n
+  std::size_t size() const override;
+  const BodySpec<d>& spec(std::size_t body) const override;
+  const BodyState<d>& state(std::size_t body) const override;
+  std::span<const BodyState<d>> states() const;  ///< of all, at t_n
+  std::span<const BodyState<d>> trials() const;  ///< of all: the last trial
+  double time() const;                           ///< t_n
 
   void begin(double kick, double dt);
   /// Of the begun step, with the contacts that are closed at the moment. The half-step velocities are affine in the

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "apps/check/floating.hpp"
-#include "apps/check/motion_guess.hpp"
+#include "apps/scene/motion_guess.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/build.hpp"
 #include "apps/scene/geometry.hpp"

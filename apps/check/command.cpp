@@ -5,7 +5,7 @@
 #include "apps/check/body.hpp"
 #include "apps/check/cost.hpp"
 #include "apps/check/questions.hpp"
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/check/words.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/plain_text.hpp"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <queue>
 
-#include "apps/check/motion_guess.hpp"
-#include "apps/check/scales.hpp"
+#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/run/build.hpp"
 #include "apps/scene/solid.hpp"
 

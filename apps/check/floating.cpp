@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/check/words.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/statistics/attitude.hpp"

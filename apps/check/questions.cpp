@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/scene/geometry.hpp"

@@ -9,10 +9,8 @@ namespace {
 
 /// Energy per volume at a point [J/m^3].
 template <int d>
-double energy_at(const fluid::Fluid<d>& fluid, const fluid::Vec<d>& x) {
-  double potential = 0;
-  for (const auto& term : fluid.terms()) potential += term->potential(x);
-  return fluid.spec().density * potential;
+double energy_at(const fluid::View<d>& fluid, const fluid::Vec<d>& x) {
+  return fluid.density() * fluid.potential(x);
 }
 
 /// Lowest and highest energy per volume at points.
@@ -46,13 +44,13 @@ double level_energy(const RecordInput<d>& input) {
   const auto& fluid = *input.fluid;
   const auto& ledger = fluid.ledger();
   const std::size_t bodies = input.bodies ? input.bodies->size() : 0;
-  const auto& walls = fluid.spec().walls;
+  const auto walls = fluid.walls();
   if (walls.size() > bodies) return energy_at<d>(fluid, middle_of_level<d>(walls[bodies], ledger.volume_initial));
   return ledger.volume_initial > 0 ? ledger.potential_energy / ledger.volume_initial : 0;
 }
 
 template <int d>
-double moving_hulls(const rigid::Bodies<d>& bodies) {
+double moving_hulls(const rigid::View<d>& bodies) {
   double moving = 0, all = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const double volume = hull_volume<d>(bodies.spec(b).surface);

@@ -174,11 +174,12 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
                          input.body_acceleration_n[b], input.body_load[b], submergence[b]});
   if (input.fluid) {
     const auto& fluid = *input.fluid;
-    auto effects = effect_columns(fluid);
-    write_row(
-        file("fluid.csv", fluid_header(effects.names)),
-        FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(), input.passes,
-                 input.residual, input.wall_seconds, speed, energy.gain(), std::move(effects.values)});
+    std::vector<std::string> names;
+    std::vector<double> values;
+    for (const auto& [name, value] : fluid.diagnostics()) names.push_back(name), values.push_back(value);
+    write_row(file("fluid.csv", fluid_header(names)),
+              FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(),
+                       input.passes, input.residual, input.wall_seconds, speed, energy.gain(), std::move(values)});
   }
   write_probes(input);
 }
@@ -217,7 +218,7 @@ void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std
   const auto& name = settings.surface_pressure[record].wall;
   const int wall = wall_called(*input.fluid, name);
   const auto w = static_cast<std::size_t>(wall);
-  const auto& spec = input.fluid->spec().walls[w];
+  const auto& spec = input.fluid->walls()[w];
   const auto& pose = input.fluid->wall_poses()[w];
   const fluid::Isometry<d> to_wall = pose.inverse();
   const fluid::Vec<d> origin = centre_of_mass(settings, name);

@@ -15,16 +15,16 @@
 
 #include "apps/record/settings.hpp"
 #include "apps/statistics/summary.hpp"
-#include "fluid/fluid.hpp"
-#include "rigid/bodies.hpp"
+#include "fluid/view.hpp"
+#include "rigid/view.hpp"
 
 namespace splashdown::apps {
 
 /// A scene's state at t_n. Vectors have one entry a body, in the order of `bodies`.
 template <int d>
 struct RecordInput {
-  const fluid::Fluid<d>* fluid = nullptr;            ///< null: a scene without liquid
-  const rigid::Bodies<d>* bodies = nullptr;          ///< null: a scene without bodies
+  const fluid::View<d>* fluid = nullptr;             ///< null: a scene without liquid
+  const rigid::View<d>* bodies = nullptr;            ///< null: a scene without bodies
   std::vector<rigid::Twist<d>> body_velocity_n;      ///< mean of the half-step velocities around t_n
   std::vector<rigid::Twist<d>> body_acceleration_n;  ///< their difference over the kick
   std::vector<fluid::WallLoad<d>> body_load;         ///< about the centre of mass; zero where dry

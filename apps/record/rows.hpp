@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/record/csv.hpp"
-#include "fluid/fluid.hpp"
-#include "rigid/bodies.hpp"
+#include "fluid/view.hpp"
+#include "rigid/view.hpp"
 
 namespace splashdown::apps {
 

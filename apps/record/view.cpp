@@ -31,7 +31,7 @@ double diameter(double volume) {
 template <int d>
 class WettedWall {
  public:
-  WettedWall(const fluid::Fluid<d>& fluid, int wall) : nodes_(fluid.nodes()) {
+  WettedWall(const fluid::View<d>& fluid, int wall) : nodes_(fluid.nodes()) {
     for (const auto& facet : fluid.mesh().boundary)
       if (facet.wall == wall) facets_.push_back(facet.nodes);
     surface_.facets.resize(d, static_cast<Eigen::Index>(facets_.size()));
@@ -81,7 +81,7 @@ fluid::Vec<d> velocity_at(const fluid::Vec<d>& r, const rigid::Twist<d>& velocit
 }
 
 template <int d>
-void take_fluid(const fluid::Fluid<d>& fluid, Frame<d>& frame) {
+void take_fluid(const fluid::View<d>& fluid, Frame<d>& frame) {
   const auto& nodes = fluid.nodes();
   frame.x = nodes.x;
   frame.p = nodes.p;
@@ -114,7 +114,7 @@ Frame<d> take_frame(const RecordInput<d>& input) {
   frame.time = input.time;
   if (input.fluid) {
     take_fluid(*input.fluid, frame);
-    const auto& walls = input.fluid->spec().walls;
+    const auto walls = input.fluid->walls();
     for (std::size_t w = 0; w < walls.size(); ++w)
       frame.outlines.push_back(outline_at<d>(walls[w].name, walls[w].surface, input.fluid->wall_poses()[w]));
   }
@@ -140,21 +140,21 @@ Frame<d> take_frame(const RecordInput<d>& input) {
 }
 
 template <int d>
-int wall_index(const fluid::Fluid<d>& fluid, const std::string& name) {
-  const auto& walls = fluid.spec().walls;
+int wall_index(const fluid::View<d>& fluid, const std::string& name) {
+  const auto walls = fluid.walls();
   const auto found = std::ranges::find(walls, name, &fluid::WallSpec<d>::name);
   return found == walls.end() ? -1 : static_cast<int>(found - walls.begin());
 }
 
 template <int d>
-int wall_called(const fluid::Fluid<d>& fluid, const std::string& name) {
+int wall_called(const fluid::View<d>& fluid, const std::string& name) {
   const int wall = wall_index(fluid, name);
   if (wall < 0) throw std::invalid_argument("a record names the wall \"" + name + "\", which does not exist");
   return wall;
 }
 
 template <int d>
-std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name) {
+std::size_t body_index(const rigid::View<d>& bodies, const std::string& name) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies.spec(b).name == name) return b;
   throw std::invalid_argument("a record names the body \"" + name + "\", which does not exist");
@@ -174,37 +174,14 @@ rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& vel
 }
 
 template <int d>
-EffectColumns effect_columns(const fluid::Fluid<d>& fluid) {
-  const auto& nodes = fluid.nodes();
-  std::vector<double> lumped_mass(nodes.size(), 0);
-  double factorial = 1;
-  for (int k = 2; k <= d; ++k) factorial *= k;
-  for (const auto& cell : fluid.mesh().cells) {
-    fluid::Mat<d> edges;
-    const auto& origin = nodes.x[static_cast<std::size_t>(cell[0])];
-    for (std::size_t k = 1; k < cell.size(); ++k)
-      edges.col(static_cast<Eigen::Index>(k) - 1) = nodes.x[static_cast<std::size_t>(cell[k])] - origin;
-    const double share = fluid.spec().density * edges.determinant() / factorial / (d + 1);
-    for (const int node : cell) lumped_mass[static_cast<std::size_t>(node)] += share;
-  }
-  EffectColumns columns;
-  for (const auto& term : fluid.terms())
-    for (const auto& [name, value] : term->diagnostics(nodes, lumped_mass)) {
-      columns.names.push_back(term->name() + "_" + name);
-      columns.values.push_back(value);
-    }
-  return columns;
-}
-
-template <int d>
-double max_speed(const fluid::Fluid<d>& fluid) {
+double max_speed(const fluid::View<d>& fluid) {
   double squared = 0;
   for (std::size_t i = 0; i < fluid.nodes().size(); ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
   return std::sqrt(squared);
 }
 
 template <int d>
-double water_level(const fluid::Fluid<d>& fluid) {
+double water_level(const fluid::View<d>& fluid) {
   const auto& nodes = fluid.nodes();
   double level = std::numeric_limits<double>::quiet_NaN();
   for (const auto& facet : fluid.mesh().boundary) {
@@ -216,13 +193,12 @@ double water_level(const fluid::Fluid<d>& fluid) {
 
 #define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
   template Frame<d> take_frame<d>(const RecordInput<d>&);                                                          \
-  template int wall_index<d>(const fluid::Fluid<d>&, const std::string&);                                          \
-  template int wall_called<d>(const fluid::Fluid<d>&, const std::string&);                                         \
-  template std::size_t body_index<d>(const rigid::Bodies<d>&, const std::string&);                                 \
+  template int wall_index<d>(const fluid::View<d>&, const std::string&);                                           \
+  template int wall_called<d>(const fluid::View<d>&, const std::string&);                                          \
+  template std::size_t body_index<d>(const rigid::View<d>&, const std::string&);                                   \
   template rigid::Vec<d> acceleration_at<d>(const rigid::Vec<d>&, const rigid::Twist<d>&, const rigid::Twist<d>&); \
-  template EffectColumns effect_columns<d>(const fluid::Fluid<d>&);                                                \
-  template double max_speed<d>(const fluid::Fluid<d>&);                                                            \
-  template double water_level<d>(const fluid::Fluid<d>&);
+  template double max_speed<d>(const fluid::View<d>&);                                                             \
+  template double water_level<d>(const fluid::View<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

@@ -11,34 +11,26 @@ Frame<d> take_frame(const RecordInput<d>& input);
 
 /// Index of a wall by name, -1 if there is none.
 template <int d>
-int wall_index(const fluid::Fluid<d>& fluid, const std::string& name);
+int wall_index(const fluid::View<d>& fluid, const std::string& name);
 
 /// The same; throws std::invalid_argument if there is none.
 template <int d>
-int wall_called(const fluid::Fluid<d>& fluid, const std::string& name);
+int wall_called(const fluid::View<d>& fluid, const std::string& name);
 
 /// Index of a body by name; throws std::invalid_argument if there is none.
 template <int d>
-std::size_t body_index(const rigid::Bodies<d>& bodies, const std::string& name);
+std::size_t body_index(const rigid::View<d>& bodies, const std::string& name);
 
 /// Acceleration of a point of a rigid body: a + alpha x r + w x (w x r), r from its centre of mass.
 template <int d>
 rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
                               const rigid::Twist<d>& acceleration);
 
-/// What the effects on the fluid say about themselves; columns are called <effect>_<name>.
-struct EffectColumns {
-  std::vector<std::string> names;
-  std::vector<double> values;
-};
 template <int d>
-EffectColumns effect_columns(const fluid::Fluid<d>& fluid);
-
-template <int d>
-double max_speed(const fluid::Fluid<d>& fluid);
+double max_speed(const fluid::View<d>& fluid);
 
 /// Highest point of the free surface, without drops; nan if there is none [m].
 template <int d>
-double water_level(const fluid::Fluid<d>& fluid);
+double water_level(const fluid::View<d>& fluid);
 
 }  // namespace splashdown::apps

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/run/approach.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/statistics/verdict.hpp"

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "apps/statistics/statistics_archive.hpp"
-#include "fluid/fluid.hpp"
+#include "fluid/view.hpp"
 
 namespace splashdown::apps {
 

@@ -10,8 +10,8 @@
 #include "apps/statistics/filters.hpp"
 #include "apps/statistics/landing_statistics.hpp"
 #include "apps/statistics/statistics_archive.hpp"
-#include "fluid/fluid.hpp"
-#include "rigid/bodies.hpp"
+#include "fluid/view.hpp"
+#include "rigid/view.hpp"
 
 namespace splashdown::apps {
 

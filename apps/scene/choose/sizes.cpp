@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/check/motion_guess.hpp"
-#include "apps/check/scales.hpp"
+#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "apps/check/cost.hpp"
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/run/build.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/solid.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "apps/check/cost.hpp"
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/run/folder.hpp"

@@ -5,128 +5,9 @@
 
 #include "box_of_water.hpp"
 
-namespace splashdown::fluid {
-
-template <int d>
-double Term<d>::stable_dt() const {
-  return 1;
-}
-template class Term<2>;
-template class Term<3>;
-
-template <int d>
-struct Fluid<d>::State {
-  FluidSpec<d> spec;
-  std::vector<std::unique_ptr<Term<d>>> terms;
-  Nodes<d> nodes;
-  Mesh<d> mesh;
-  Ledger ledger;
-  std::vector<Isometry<d>> poses;
-};
-
-template <int d>
-Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms)
-    : s_(std::make_unique<State>(State{std::move(spec), std::move(terms), {}, {}, {}, {}})) {
-  for (const auto& wall : s_->spec.walls) s_->poses.push_back(wall.pose);
-}
-template <int d>
-Fluid<d>::~Fluid() = default;
-template <int d>
-const FluidSpec<d>& Fluid<d>::spec() const {
-  return s_->spec;
-}
-template <int d>
-const Nodes<d>& Fluid<d>::nodes() const {
-  return s_->nodes;
-}
-template <int d>
-const Mesh<d>& Fluid<d>::mesh() const {
-  return s_->mesh;
-}
-template <int d>
-const Ledger& Fluid<d>::ledger() const {
-  return s_->ledger;
-}
-template <int d>
-std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
-  return s_->poses;
-}
-template <int d>
-Vec<d> Fluid<d>::velocity_n(std::size_t node) const {
-  return s_->nodes.v[node];
-}
-template <int d>
-std::optional<double> Fluid<d>::pressure_at(const Vec<d>& point) const {
-  if (point(d - 1) > 0) return std::nullopt;
-  return -s_->spec.density * 9.81 * point(d - 1);
-}
-template <int d>
-Eigen::MatrixXd Fluid<d>::added_mass(std::span<const std::size_t> walls) const {
-  Twist<d> mass = Twist<d>::Zero();
-  for (int k = 0; k < freedoms<d>; ++k) mass(k) = 100 * (k + 1 + s_->poses[walls[0]].translation()(d - 1));
-  return mass.asDiagonal();
-}
-template <int d>
-const std::vector<std::unique_ptr<Term<d>>>& Fluid<d>::terms() const {
-  return s_->terms;
-}
-template class Fluid<2>;
-template class Fluid<3>;
-
-}  // namespace splashdown::fluid
-
-namespace splashdown::rigid {
-
-template <int d>
-struct Bodies<d>::World {
-  std::vector<BodySpec<d>> specs;
-  std::vector<BodyState<d>> states;
-};
-
-template <int d>
-Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>>, std::vector<JointSpec>,
-                  std::optional<ContactSpec<d>>)
-    : world_(std::make_unique<World>()) {
-  for (auto& spec : specs) world_->states.push_back({spec.pose, spec.velocity});
-  world_->specs = std::move(specs);
-}
-template <int d>
-Bodies<d>::~Bodies() = default;
-template <int d>
-std::size_t Bodies<d>::size() const {
-  return world_->specs.size();
-}
-template <int d>
-const BodySpec<d>& Bodies<d>::spec(std::size_t body) const {
-  return world_->specs[body];
-}
-template <int d>
-const BodyState<d>& Bodies<d>::state(std::size_t body) const {
-  return world_->states[body];
-}
-template class Bodies<2>;
-template class Bodies<3>;
-
-}  // namespace splashdown::rigid
-
 namespace splashdown::apps {
 
 namespace {
-
-class StandInGravity final : public fluid::Term<2> {
- public:
-  std::string name() const override { return "gravity"; }
-  fluid::Status predict(const fluid::StepView<2>&, const fluid::Carried<2>&, const fluid::Predicted<2>&) override {
-    return {};
-  }
-  double potential(const fluid::Vec<2>& x) const override { return 9.81 * x.y(); }
-  std::vector<fluid::Diagnostic> diagnostics(const fluid::Nodes<2>& nodes,
-                                             std::span<const double> lumped_mass) const override {
-    double energy = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i) energy += lumped_mass[i] * potential(nodes.x[i]);
-    return {{"energy", energy}};
-  }
-};
 
 fluid::Surface<2> outline(std::initializer_list<fluid::Vec<2>> points) {
   fluid::Surface<2> surface;
@@ -180,36 +61,30 @@ double top_of_water(double x, double depth) {
 }  // namespace
 
 StandInDrop::StandInDrop(int nodes_across) : nodes_across_(nodes_across) {
-  fluid::FluidSpec<2> spec;
-  spec.walls = {{"wedge", wedge()}, {"tank", tank()}};
-  std::vector<std::unique_ptr<fluid::Term<2>>> terms;
-  terms.push_back(std::make_unique<StandInGravity>());
-  fluid_ = std::make_unique<fluid::Fluid<2>>(std::move(spec), std::move(terms));
+  fluid_.gravity = 9.81;
+  fluid_.made = {{"wedge", wedge()}, {"tank", tank()}};
+  fluid_.poses.resize(2, fluid::Isometry<2>::Identity());
   rigid::BodySpec<2> body;
   body.name = "wedge";
   body.surface = {wedge().vertices, wedge().facets};
   body.mass = 241;
-  std::vector<rigid::BodySpec<2>> bodies{body};
-  bodies_ = std::make_unique<rigid::Bodies<2>>(std::move(bodies), std::vector<std::unique_ptr<rigid::Force<2>>>());
-  input_.fluid = fluid_.get();
-  input_.bodies = bodies_.get();
+  bodies_.specs.push_back(body);
+  bodies_.states.push_back({body.pose, body.velocity});
+  input_.fluid = &fluid_;
+  input_.bodies = &bodies_;
 }
-
-StandInDrop::~StandInDrop() = default;
 
 fluid::Surface<2> StandInDrop::hull() { return wedge(); }
 
 const RecordInput<2>& StandInDrop::at(double time, double dt) {
   const Motion motion = motion_at(time);
-  // The stand-ins own their state; only the accessors are const.
-  auto& nodes = const_cast<fluid::Nodes<2>&>(fluid_->nodes());
-  auto& mesh = const_cast<fluid::Mesh<2>&>(fluid_->mesh());
-  auto& ledger = const_cast<fluid::Ledger&>(fluid_->ledger());
-  auto& pose = const_cast<fluid::Isometry<2>&>(fluid_->wall_poses()[0]);
-  auto& body = const_cast<rigid::BodyState<2>&>(bodies_->state(0));
+  auto& nodes = fluid_.at;
+  auto& mesh = fluid_.cells;
+  auto& ledger = fluid_.books;
+  auto& pose = fluid_.poses[0];
   pose = fluid::Isometry<2>::Identity();
   pose.translation() = fluid::Vec<2>(0, 2 * wedge_height / 3 - motion.depth);
-  body.pose = pose;
+  bodies_.states[0].pose = pose;
 
   const int across = nodes_across_, down = across / 2;
   nodes = {};
@@ -296,23 +171,22 @@ fluid::Surface<3> StandInPress::hull() {
 
 // A block of cubes, six tetrahedra each around the diagonal; the box lies on the middle of its upper side.
 StandInPress::StandInPress(int nodes_across) {
-  fluid::FluidSpec<3> spec;
   fluid::Isometry<3> pose = fluid::Isometry<3>::Identity();
   pose.translation().z() = press_half_height;
-  spec.walls = {{"box", hull(), pose}};
-  fluid_ = std::make_unique<fluid::Fluid<3>>(std::move(spec), std::vector<std::unique_ptr<fluid::Term<3>>>());
+  fluid_.made = {{"box", hull(), pose}};
+  fluid_.poses = {pose};
   rigid::BodySpec<3> body;
   body.name = "box";
   body.surface = {hull().vertices, hull().facets};
   body.mass = 100;
   body.pose = pose;
-  std::vector<rigid::BodySpec<3>> bodies{body};
-  bodies_ = std::make_unique<rigid::Bodies<3>>(std::move(bodies), std::vector<std::unique_ptr<rigid::Force<3>>>());
-  input_.fluid = fluid_.get();
-  input_.bodies = bodies_.get();
+  bodies_.specs.push_back(body);
+  bodies_.states.push_back({body.pose, body.velocity});
+  input_.fluid = &fluid_;
+  input_.bodies = &bodies_;
 
-  auto& nodes = const_cast<fluid::Nodes<3>&>(fluid_->nodes());
-  auto& mesh = const_cast<fluid::Mesh<3>&>(fluid_->mesh());
+  auto& nodes = fluid_.at;
+  auto& mesh = fluid_.cells;
   const int n = nodes_across, deep = n / 2;
   const double h = 2.0 / n;
   const auto id = [&](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
@@ -334,10 +208,8 @@ StandInPress::StandInPress(int nodes_across) {
       }
 }
 
-StandInPress::~StandInPress() = default;
-
 const RecordInput<3>& StandInPress::at(double time, double dt) {
-  auto& nodes = const_cast<fluid::Nodes<3>&>(fluid_->nodes());
+  auto& nodes = fluid_.at;
   const double press = press_at(time), area = 4 * press_half_length * press_half_length;
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes.p[i] = press - 9810 * nodes.x[i].z();
   rigid::Twist<3> velocity = rigid::Twist<3>::Zero(), acceleration = rigid::Twist<3>::Zero();

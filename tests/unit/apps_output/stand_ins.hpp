@@ -1,25 +1,73 @@
 // Stand-ins for the fluid and the bodies: a wedge that falls into a box of water, all in closed form, so that
-// the recorder can be driven without a solver. Defines the few members of Fluid and Bodies that it calls.
+// the recorder can be driven without a solver.
 #pragma once
 
-#include <memory>
+#include <vector>
 
 #include "apps/record/recorder.hpp"
 
 namespace splashdown::apps {
 
+/// A fluid that is what it is set to.
+template <int d>
+class DrawnFluid final : public fluid::View<d> {
+ public:
+  std::vector<fluid::WallSpec<d>> made;
+  std::vector<fluid::Isometry<d>> poses;
+  fluid::Nodes<d> at;
+  fluid::Mesh<d> cells;
+  fluid::Ledger books;
+  double gravity = 0;  ///< 0: no such effect
+
+  double density() const override { return 1000; }
+  std::span<const fluid::WallSpec<d>> walls() const override { return made; }
+  std::span<const fluid::Isometry<d>> wall_poses() const override { return poses; }
+  const fluid::Nodes<d>& nodes() const override { return at; }
+  const fluid::Mesh<d>& mesh() const override { return cells; }
+  const fluid::Ledger& ledger() const override { return books; }
+  fluid::Vec<d> velocity_n(std::size_t node) const override { return at.v[node]; }
+  std::optional<double> pressure_at(const fluid::Vec<d>& point) const override {
+    if (point(d - 1) > 0) return std::nullopt;
+    return -density() * 9.81 * point(d - 1);
+  }
+  double potential(const fluid::Vec<d>& point) const override { return gravity * point(d - 1); }
+  std::vector<std::pair<std::string, double>> diagnostics() const override {
+    if (gravity == 0) return {};
+    double energy = 0;
+    const auto volumes = fluid::nodal_volumes(cells, at.x);
+    for (std::size_t i = 0; i < at.size(); ++i) energy += density() * volumes[i] * potential(at.x[i]);
+    return {{"gravity_energy", energy}};
+  }
+  Eigen::MatrixXd added_mass(std::span<const std::size_t> of) const override {
+    fluid::Twist<d> mass = fluid::Twist<d>::Zero();
+    for (int k = 0; k < fluid::freedoms<d>; ++k) mass(k) = 100 * (k + 1 + poses[of[0]].translation()(d - 1));
+    return mass.asDiagonal();
+  }
+};
+
+template <int d>
+class DrawnBodies final : public rigid::View<d> {
+ public:
+  std::vector<rigid::BodySpec<d>> specs;
+  std::vector<rigid::BodyState<d>> states;
+
+  std::size_t size() const override { return specs.size(); }
+  const rigid::BodySpec<d>& spec(std::size_t body) const override { return specs[body]; }
+  const rigid::BodyState<d>& state(std::size_t body) const override { return states[body]; }
+};
+
 /// A wedge drop whose state is a function of time.
 class StandInDrop {
  public:
   explicit StandInDrop(int nodes_across = 24);
-  ~StandInDrop();
+  StandInDrop(const StandInDrop&) = delete;
   /// The state at t_n with the step that starts there.
   const RecordInput<2>& at(double time, double dt);
   static fluid::Surface<2> hull();  ///< body frame
 
  private:
-  std::unique_ptr<fluid::Fluid<2>> fluid_;
-  std::unique_ptr<rigid::Bodies<2>> bodies_;
+  DrawnFluid<2> fluid_;
+  DrawnBodies<2> bodies_;
   RecordInput<2> input_;
   int nodes_across_;
 };
@@ -28,13 +76,13 @@ class StandInDrop {
 class StandInPress {
  public:
   explicit StandInPress(int nodes_across = 8);
-  ~StandInPress();
+  StandInPress(const StandInPress&) = delete;
   const RecordInput<3>& at(double time, double dt);
   static fluid::Surface<3> hull();  ///< body frame
 
  private:
-  std::unique_ptr<fluid::Fluid<3>> fluid_;
-  std::unique_ptr<rigid::Bodies<3>> bodies_;
+  DrawnFluid<3> fluid_;
+  DrawnBodies<3> bodies_;
   RecordInput<3> input_;
 };
 

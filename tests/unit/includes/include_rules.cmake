@@ -49,6 +49,8 @@ rule("shapes know what a body is, not how it moves" FILES "^rigid/shapes/" INCLU
 rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(apps|fluid|rigid|coupling)/" BUT_INCLUDES "^apps/quantity/")
 rule("a scene knows nothing of its run" FILES "^apps/scene/" INCLUDES "^apps/(run|report|check)/")
 rule("what is recorded does not depend on how it is coupled" FILES "^apps/(record|statistics|report)/" INCLUDES "^coupling/")
+rule("records look at views and at the plain data behind them, not at who solves" FILES "^apps/(record|statistics|report)/"
+  INCLUDES "^(fluid|rigid)/" BUT_INCLUDES "^(fluid/(view|nodes|types|geometry|mesh/mesh|mesh/facet_tree)|rigid/(view|body|types))\\.hpp$")
 
 # Libraries, each with one home.
 rule("CGAL stays in fluid/mesh and fluid/initial" FILES "." BUT_FILES "^fluid/(mesh|initial)/" INCLUDES "^(CGAL|boost)/")
@@ -92,7 +94,7 @@ foreach(file IN LISTS files)
     string(SUBSTRING "${found}" 1 -1 header)
     math(EXPR inclusions "${inclusions} + 1")
     set(texts "")
-    if(quote STREQUAL "\"" AND NOT header MATCHES "^(fluid|rigid|coupling|apps)/")
+    if(quote STREQUAL "\"" AND NOT header MATCHES "^(core|fluid|rigid|coupling|apps)/")
       list(APPEND texts "own headers are named from the root")
     endif()
     foreach(i IN LISTS about)

@@ -1,4 +1,4 @@
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "apps/check/motion_guess.hpp"
+#include "apps/scene/motion_guess.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "apps/check/scales.hpp"
+#include "apps/scene/scales.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,0 +1,51 @@
+// What people look at and no step needs.
+#include "fluid/fluid_state.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+double Fluid<d>::density() const {
+  return s_->spec.density;
+}
+
+template <int d>
+std::span<const WallSpec<d>> Fluid<d>::walls() const {
+  return s_->spec.walls;
+}
+
+template <int d>
+double Fluid<d>::potential(const Vec<d>& point) const {
+  double sum = 0;
+  for (const auto& term : s_->terms) sum += term->potential(point);
+  return sum;
+}
+
+template <int d>
+std::vector<std::pair<std::string, double>> Fluid<d>::diagnostics() const {
+  const auto& at = nodes();
+  std::vector<double> lumped_mass(at.size(), 0);
+  double factorial = 1;
+  for (int k = 2; k <= d; ++k) factorial *= k;
+  for (const auto& cell : mesh().cells) {
+    Mat<d> edges;
+    for (int k = 1; k <= d; ++k) edges.col(k - 1) = at.x[cell[k]] - at.x[cell[0]];
+    const double share = s_->spec.density * edges.determinant() / factorial / (d + 1);
+    for (const int node : cell) lumped_mass[node] += share;
+  }
+  std::vector<std::pair<std::string, double>> all;
+  for (const auto& term : s_->terms)
+    for (const auto& [name, value] : term->diagnostics(at, lumped_mass))
+      all.emplace_back(term->name() + "_" + name, value);
+  return all;
+}
+
+template double Fluid<2>::density() const;
+template double Fluid<3>::density() const;
+template std::span<const WallSpec<2>> Fluid<2>::walls() const;
+template std::span<const WallSpec<3>> Fluid<3>::walls() const;
+template double Fluid<2>::potential(const Vec<2>&) const;
+template double Fluid<3>::potential(const Vec<3>&) const;
+template std::vector<std::pair<std::string, double>> Fluid<2>::diagnostics() const;
+template std::vector<std::pair<std::string, double>> Fluid<3>::diagnostics() const;
+
+}  // namespace splashdown::fluid
