@@ -13,6 +13,7 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double split_above = 1.5;
+constexpr double coincide = 0.05;         // distance of nodes that are one, over h
 constexpr double crowd_below = 0.25;      // height of an inner node over a boundary facet, over h
 constexpr double surely_fits = 1 + 1e-9;  // squares of lengths: what is nearer to a limit is looked at closely
 
@@ -21,7 +22,7 @@ double squared(double x) { return x * x; }
 struct Edge {
   int a, b;
   double ratio;           // length over element size
-  bool occupied = false;  // a node that would be merged with one in its middle is there
+  bool occupied = false;  // a node is in its middle
 };
 
 std::uint64_t key(int a, int b) {
@@ -70,8 +71,7 @@ class Adapter {
                 squared_length > surely_fits * squared(merge_below * size))
               continue;
             const double ratio = std::sqrt(squared_length) / size;
-            if (ratio > split_above)
-              long_ones.push_back({a, b, ratio, has_node_beside(cell, a, b, merge_below * size)});
+            if (ratio > split_above) long_ones.push_back({a, b, ratio, has_node_beside(cell, a, b, coincide * size)});
             if (ratio < merge_below) short_ones.push_back({a, b, ratio});
           }
       }
@@ -145,7 +145,6 @@ class Adapter {
     if (!(nodes_.tie[e.a] == nodes_.tie[e.b]) || rank == corner) return false;
     if (rank <= boundary) return true;
     // In the plane a contact line is a point. Two that all but coincide are one.
-    constexpr double coincide = 0.05;
     if (d == 2) return rank == contact_line && e.ratio < coincide;
     return rank != contact_line || is_contact_edge(e);
   }
