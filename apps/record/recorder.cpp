@@ -268,7 +268,11 @@ void Recorder<d>::record(const RecordInput<d>& input) {
     if (s.surface_due[r].due(input.time)) s.write_surface_pressure(input, r);
   for (std::size_t r = 0; input.fluid && r < s.added_mass_due.size(); ++r)
     if (s.added_mass_due[r].due(input.time)) s.write_added_mass(input, s.settings.added_mass[r].body);
-  if (s.settings.frames && (s.frames_due.due(input.time) || input.last)) s.frames.add(take_frame(input));
+  if (s.settings.frames && (s.frames_due.due(input.time) || input.last)) try {
+      s.frames.add(take_frame(input));
+    } catch (const std::exception&) {
+      if (files_in_place()) throw;  // else the next step says so, before anything of it is counted
+    }
   for (auto& [name, file] : s.files) file.write();
 }
 
@@ -285,6 +289,16 @@ std::size_t Recorder<d>::bodies() const {
 template <int d>
 void Recorder<d>::check_files() const {
   for (const auto& [name, file] : s_->files) file.check_in_place();
+}
+
+template <int d>
+bool Recorder<d>::files_in_place() const {
+  try {
+    check_files();
+    return true;
+  } catch (const FilesLost&) {
+    return false;
+  }
 }
 
 template <int d>

@@ -57,6 +57,7 @@ class Recorder {
 
   /// Throws FilesLost if a table that is being written has been removed or replaced.
   void check_files() const;
+  bool files_in_place() const;
   /// The tables as they are, wherever their files went. A picture that is held back is given up.
   void copy_tables(const std::filesystem::path& folder);
 

@@ -163,7 +163,12 @@ template <int d>
 void Run<d>::checkpoint() {
   const Charge charge(output_seconds_);
   recorder_.check_files();
-  write_checkpoint(plan_.directory / "checkpoint", present());
+  try {
+    write_checkpoint(plan_.directory / "checkpoint", present());
+  } catch (const std::exception&) {
+    recorder_.check_files();  // the folder may have gone meanwhile
+    throw;
+  }
   last_checkpoint_ = Clock::now();
 }
 
