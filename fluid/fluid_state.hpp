@@ -34,13 +34,47 @@ struct Present {
   Ledger ledger;
 };
 
+// What a residual asks for: impulses A^-1 r, and how walls answer to them.
+template <int d>
+struct Correction {
+  std::vector<double> residual, impulse;
+  std::vector<Twist<d>> walls;
+  Eigen::VectorXd answer;
+
+  /// r^T A^-1 r
+  double size() const { return of(residual).dot(of(impulse)); }
+  /// The share of this correction after which the residual, r at its start and `next` at its end, is least in that norm;
+  /// all of it if the residual did not feel it.
+  double best_share(const Correction& next) const {
+    const Eigen::VectorXd taken = of(residual) - of(next.residual);
+    const double most = taken.dot(of(impulse) - of(next.impulse)), felt = taken.dot(of(impulse));
+    return most > felt ? std::max(0.0, felt / most) : 1.0;
+  }
+  /// this + share (other - this)
+  void approach(const Correction& other, double share) {
+    of(residual) += share * (of(other.residual) - of(residual));
+    of(impulse) += share * (of(other.impulse) - of(impulse));
+    for (std::size_t w = 0; w < walls.size(); ++w) walls[w] += share * (other.walls[w] - walls[w]);
+    answer += share * (other.answer - answer);
+  }
+
+ private:
+  static auto of(const std::vector<double>& v) {
+    return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+  }
+  static auto of(std::vector<double>& v) {
+    return Eigen::Map<Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+  }
+};
+
 // What one solve works with.
 template <int d>
 struct Trial {
-  std::vector<Vec<d>> v;                         // of nodes, before the pressure
-  std::vector<Twist<d>> s_before;                // of walls, repaired
-  std::vector<Vec<d>> x_mid;                     // where a motion is judged
-  std::vector<double> r, repaired;               // residual, repair impulse
+  std::vector<Vec<d>> v;            // of nodes, before the pressure
+  std::vector<Twist<d>> s_before;   // of walls, repaired
+  std::vector<Vec<d>> x_mid;        // where a motion is judged
+  std::vector<double> r, repaired;  // residual, repair impulse
+  Correction<d> last, next;
   std::vector<Wrench<d>> on_walls;               // impulses of effects
   std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
   Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
@@ -119,11 +153,8 @@ struct Fluid<d>::State {
   void weigh();
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
   void push(const Eigen::VectorXd& impulse);
-  bool solve_with_bodies(std::vector<double>& r, std::vector<Twist<d>>& s, double tolerance);
+  void apply(const Correction<d>& correction, double share);
   void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further);
-  void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s) {
-    answer_to(impulses, s, Eigen::VectorXd::Zero(equation.motions()));
-  }
   double kinetic_energy(std::span<const Vec<d>> v) const;
   double work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0, std::span<const Twist<d>> s_1) const;
   std::vector<double> carried_impulse() const;

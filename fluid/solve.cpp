@@ -148,9 +148,13 @@ Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const d
   return {};
 }
 
+// The matrix stands for what `accelerate` and `move` make of an impulse, which a correction leaves a small part of the
+// residual of. Worn films and slivers may be beyond it: there a correction overshoots, and the next would the more. Such
+// a pair counts with the weights that leave least (Anderson 1965, depth one).
 template <int d>
 Status Fluid<d>::State::correct(std::span<const double> previous) {
-  auto& r = trial.r;
+  Correction<d>& last = trial.last;
+  Correction<d>& next = trial.next;
   const std::size_t count = trial.v.size();
   for (int k = 0;; ++k) {
     v_after = trial.v;
@@ -158,11 +162,22 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
     wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
     if (k == corrections<d>) break;
     in_parallel(count, [&](std::size_t i) { trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]); });
-    equation.motion_residual(trial.x_mid, moved.u, r);
-    equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides, r);
-    lag(r, previous, phi);
-    if (!solve_with_bodies(r, s_after, roughly)) return {"the pressure solve failed"};
-    for (int i = 0; i < equation.size(); ++i) phi[i] += r[i];
+    equation.motion_residual(trial.x_mid, moved.u, next.residual);
+    equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides,
+                            next.residual);
+    lag(next.residual, previous, phi);
+    next.impulse = next.residual;
+    next.walls.assign(walls.size(), Twist<d>::Zero());
+    if (!equation.solve(next.impulse, roughly)) return {"the pressure solve failed"};
+    next.answer = equation.respond(next.impulse, next.walls, Eigen::VectorXd::Zero(equation.motions()));
+    if (k > 0 && next.size() > last.size()) {
+      const double kept = last.best_share(next);
+      apply(last, kept - 1);
+      last.approach(next, kept);
+    } else {
+      std::swap(last, next);
+    }
+    apply(last, 1);
   }
   return {};
 }
@@ -230,13 +245,14 @@ bool Fluid<d>::State::orderly() const {
   return margin >= 0;
 }
 
-// Solves for impulses and lets the motions answer to them.
 template <int d>
-bool Fluid<d>::State::solve_with_bodies(std::vector<double>& r, std::vector<Twist<d>>& s, double tolerance) {
-  if (!equation.solve(r, tolerance)) return false;
-  answer_to(r, s);
-  return true;
+void Fluid<d>::State::apply(const Correction<d>& correction, double share) {
+  for (std::size_t i = 0; i < phi.size(); ++i) phi[i] += share * correction.impulse[i];
+  for (std::size_t w = 0; w < walls.size(); ++w) s_after[w] += share * correction.walls[w];
+  if (equation.motions() > 0) trial.answer += share * correction.answer;
 }
+
+// Lets the motions answer to impulses.
 template <int d>
 void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s,
                                 const Eigen::VectorXd& further) {

@@ -84,7 +84,7 @@ void absorb_drops(Nodes<d>& nodes, std::span<const double> h, const std::vector<
     }
     const auto& corners = boundary[facet[hit.facet]].nodes;
     const bool fits =
-        std::all_of(corners.begin(), corners.end(), [&](int n) { return V / d <= most * h[n] * area[n].norm(); });
+        std::all_of(corners.begin(), corners.end(), [&](int n) { return V / d < most * h[n] * area[n].norm(); });
     for (int n : corners) {
       const double before = nodes.volume[n], share = V / d;
       if (fits) nodes.x[n] += share / area[n].squaredNorm() * area[n];
