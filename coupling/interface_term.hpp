@@ -22,13 +22,13 @@ class InterfaceTerm {
   virtual ~InterfaceTerm() = default;
   virtual std::string name() const = 0;
   /// Of a wall; none for one that does not answer.
-  virtual StandIn stand_in(const WallCoordinates& wall) const = 0;
+  virtual InterfaceOperator interface_operator(const WallCoordinates& wall) const = 0;
 };
 
 class NoTerm final : public InterfaceTerm {
  public:
   std::string name() const override { return "none"; }
-  StandIn stand_in(const WallCoordinates&) const override { return {}; }
+  InterfaceOperator interface_operator(const WallCoordinates&) const override { return {}; }
 };
 
 /// Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
@@ -36,7 +36,7 @@ class LaplacianTerm final : public InterfaceTerm {
  public:
   explicit LaplacianTerm(double strength = 1) : strength_(strength) {}
   std::string name() const override { return "laplacian"; }
-  StandIn stand_in(const WallCoordinates& wall) const override {
+  InterfaceOperator interface_operator(const WallCoordinates& wall) const override {
     return {.laplacian = wall.answers ? strength_ / wall.mass : 0};
   }
 
@@ -49,7 +49,9 @@ class LaplacianTerm final : public InterfaceTerm {
 class RobinTerm final : public InterfaceTerm {
  public:
   std::string name() const override { return "robin"; }
-  StandIn stand_in(const WallCoordinates& wall) const override { return {.robin = wall.answers ? 1 / wall.mass : 0}; }
+  InterfaceOperator interface_operator(const WallCoordinates& wall) const override {
+    return {.robin = wall.answers ? 1 / wall.mass : 0};
+  }
 };
 
 }  // namespace splashdown::coupling

@@ -59,14 +59,14 @@ struct Response {
 };
 
 /// Inverse masses of a local operator on a wall that stands in for the answer of the body behind it [1/kg]; 0: none.
-struct StandIn {
+struct InterfaceOperator {
   double laplacian = 0, robin = 0;
 };
 
 /// What the fluid's own equations know of the structure during a step.
 struct InterfaceModel {
-  Eigen::MatrixXd modes, inertia;  ///< Z, M: the exact term M + Z^T B A^-1 B^T Z; empty: none
-  std::vector<StandIn> stand_ins;  ///< of each wall; empty: none at all
+  Eigen::MatrixXd modes, inertia;                      ///< Z, M: the exact term M + Z^T B A^-1 B^T Z; empty: none
+  std::vector<InterfaceOperator> interface_operators;  ///< of each wall; empty: none at all
 };
 
 /// Piece of a wall with a stand-in.

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "fluid/contact/contact.hpp"
 #include "fluid/mesh/mesh.hpp"
+#include "fluid/mesh/recognise.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {

@@ -30,10 +30,10 @@ void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& aro
 }  // namespace
 
 template <int d>
-Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms) : s_(std::make_unique<State>()) {
+Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effects) : s_(std::make_unique<State>()) {
   s_->spec = std::move(spec);
-  s_->terms = std::move(terms);
-  for (const auto& term : s_->terms) s_->timer.add(term->name());
+  s_->effects = std::move(effects);
+  for (const auto& effect : s_->effects) s_->timer.add(effect->name());
   Present<d>& now = s_->now;
   for (const auto& w : s_->spec.walls) {
     s_->walls.emplace_back(w);
@@ -63,7 +63,7 @@ double Fluid<d>::stable_dt() const {
   constexpr double never = std::numeric_limits<double>::infinity();
   const double squared = least_in_parallel(now.mesh.cells.size(), [&](std::size_t c) {
     const auto& cell = now.mesh.cells[c];
-    // Sheets may deform by more than this; verdict() refuses steps in which they turn over.
+    // Sheets may deform by more than this; acceptable() refuses steps in which they turn over.
     if (std::all_of(cell.begin(), cell.end(), [&](int n) { return now.nodes.surface[n]; })) return never;
     double least = never;
     for (int i = 0; i < d; ++i)
@@ -76,7 +76,7 @@ double Fluid<d>::stable_dt() const {
   });
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
   dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity())});
-  for (const auto& t : s_->terms) dt = std::min(dt, t->stable_dt());
+  for (const auto& effect : s_->effects) dt = std::min(dt, effect->stable_dt());
   return approach_dt<d>(now.nodes, now.h, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
 }
 
@@ -95,9 +95,9 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
     s.wall_motion->meet_pressure(s.equation.unknown());
     s.interface = s.equation.laplacian().means(s.carried_impulse());
   }
-  for (std::size_t t = 0; t < s.terms.size(); ++t) {
-    const auto scope = s.timer.scope(effects + t);
-    if (auto status = s.terms[t]->begin(s.view()); !status.ok()) return status;
+  for (std::size_t t = 0; t < s.effects.size(); ++t) {
+    const auto scope = s.timer.scope(first_effect + t);
+    if (auto status = s.effects[t]->begin(s.view()); !status.ok()) return status;
   }
   return {};
 }
@@ -108,8 +108,8 @@ Status Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> 
 }
 
 template <int d>
-Status Fluid<d>::verdict() const {
-  return s_->orderly() ? Status{} : Status{"an element turns over within the step"};
+Status Fluid<d>::acceptable() const {
+  return s_->no_inverted_elements() ? Status{} : Status{"an element turns over within the step"};
 }
 
 template <int d>
@@ -221,8 +221,8 @@ std::optional<double> Fluid<d>::pressure_at(const Vec<d>& point) const {
 }
 
 template <int d>
-const std::vector<std::unique_ptr<Term<d>>>& Fluid<d>::terms() const {
-  return s_->terms;
+const std::vector<std::unique_ptr<Effect<d>>>& Fluid<d>::effects() const {
+  return s_->effects;
 }
 template <int d>
 std::vector<std::pair<std::string, double>> Fluid<d>::phase_seconds() const {

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "fluid/effects/term.hpp"
+#include "fluid/effects/effect.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "fluid/status.hpp"
 #include "fluid/view.hpp"
@@ -35,7 +35,7 @@ struct MotionDrive {
 template <int d>
 class Fluid final : public View<d> {
  public:
-  Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Term<d>>> terms);
+  Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effects);
   ~Fluid() override;
 
   double time() const;       ///< t_n
@@ -47,7 +47,7 @@ class Fluid final : public View<d> {
   /// interface_impulse() afterwards makes them vanish. Needed with such walls only.
   Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {}, const MotionDrive& drive = {});
   /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
-  Status verdict() const;
+  Status acceptable() const;
   /// Mean physical pressure impulses on the pieces of walls with an interface Laplacian [Pa s]. After `begin` the
   /// first guess, after `solve` its result.
   std::span<const double> interface_impulse() const;
@@ -76,7 +76,7 @@ class Fluid final : public View<d> {
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;  ///< from `begin` to `commit`
 
   const FluidSpec<d>& spec() const;
-  const std::vector<std::unique_ptr<Term<d>>>& terms() const;
+  const std::vector<std::unique_ptr<Effect<d>>>& effects() const;
   /// Seconds spent so far per phase (mesh, assemble, momentum, pressure, move) and, by its name, per effect.
   std::vector<std::pair<std::string, double>> phase_seconds() const;
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "fluid/contact/contact.hpp"
+#include "fluid/contact/wall_motion.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/mesh/adapt.hpp"
 #include "fluid/mesh/moving_delaunay.hpp"
@@ -18,7 +18,7 @@
 
 namespace splashdown::fluid {
 
-enum Phase : std::size_t { remesh, assemble, momentum, pressure, motion, effects };  // effects: the first term
+enum Phase : std::size_t { remesh, assemble, momentum, pressure, motion, first_effect };  // the others follow
 
 // What a checkpoint holds: everything at t_n that the next step is computed from.
 template <int d>
@@ -91,7 +91,7 @@ double squared_length(const Present<d>& at, int i, int j) {
 template <int d>
 struct Fluid<d>::State {
   FluidSpec<d> spec;
-  std::vector<std::unique_ptr<Term<d>>> terms;
+  std::vector<std::unique_ptr<Effect<d>>> effects;
   std::vector<Wall<d>> walls;
   PhaseTimer timer{{"mesh", "assemble", "momentum", "pressure", "move"}};
 
@@ -148,11 +148,11 @@ struct Fluid<d>::State {
   Status solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
   Status repair();
   Status predict(const MotionDrive& drive);
-  Status press(std::span<const Twist<d>> given, std::span<const double> previous);
+  Status solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous);
   Status correct(std::span<const double> previous);
-  void weigh();
+  void evaluate_loads();
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
-  void push(const Eigen::VectorXd& impulse);
+  void apply_body_impulse(const Eigen::VectorXd& impulse);
   void apply(const Correction<d>& correction, double share);
   void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further);
   double kinetic_energy(std::span<const Vec<d>> v) const;
@@ -162,7 +162,7 @@ struct Fluid<d>::State {
     in_parallel(u.size(), [&](std::size_t i) { trial.x_mid[i] = work.nodes.x[i] + by * u[i]; });
   }
   bool finite() const;
-  bool orderly() const;
+  bool no_inverted_elements() const;
 };
 
 }  // namespace splashdown::fluid

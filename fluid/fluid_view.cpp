@@ -16,7 +16,7 @@ std::span<const WallSpec<d>> Fluid<d>::walls() const {
 template <int d>
 double Fluid<d>::potential(const Vec<d>& point) const {
   double sum = 0;
-  for (const auto& term : s_->terms) sum += term->potential(point);
+  for (const auto& effect : s_->effects) sum += effect->potential(point);
   return sum;
 }
 
@@ -33,9 +33,9 @@ std::vector<std::pair<std::string, double>> Fluid<d>::diagnostics() const {
     for (const int node : cell) lumped_mass[node] += share;
   }
   std::vector<std::pair<std::string, double>> all;
-  for (const auto& term : s_->terms)
-    for (const auto& [name, value] : term->diagnostics(at, lumped_mass))
-      all.emplace_back(term->name() + "_" + name, value);
+  for (const auto& effect : s_->effects)
+    for (const auto& [name, value] : effect->diagnostics(at, lumped_mass))
+      all.emplace_back(effect->name() + "_" + name, value);
   return all;
 }
 

@@ -33,9 +33,10 @@ coupling::Status Participant<d>::begin(const coupling::Step& step, const couplin
     response.modes.topRows(structure.modes.rows()) = structure.modes;
     response.inertia = structure.inertia;
   }
-  if (!structure.stand_ins.empty()) response.stand_ins.resize(walls);
-  for (std::size_t w = 0; w < structure.stand_ins.size(); ++w)
-    response.stand_ins.at(w) = {structure.stand_ins[w].laplacian, structure.stand_ins[w].robin};
+  if (!structure.interface_operators.empty()) response.interface_operators.resize(walls);
+  for (std::size_t w = 0; w < structure.interface_operators.size(); ++w)
+    response.interface_operators.at(w) = {structure.interface_operators[w].laplacian,
+                                          structure.interface_operators[w].robin};
   if (const auto status = fluid_->begin(step.kick, step.dt, response); !status.ok()) return {status.cause};
   pieces_.clear();
   for (const auto& piece : fluid_->interface_pieces()) pieces_.push_back({piece.wall, piece.measure});

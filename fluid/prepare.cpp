@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fluid/contact/attachment.hpp"
+#include "fluid/contact/separation.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/mesh/droplets.hpp"
 #include "fluid/mesh/landing.hpp"
@@ -65,8 +67,8 @@ void Fluid<d>::State::hand_over(const std::vector<char>& goes, const std::vector
 template <int d>
 Vec<d> Fluid<d>::State::gravity() const {
   Vec<d> g = Vec<d>::Zero();
-  for (const auto& term : terms)
-    for (int k = 0; k < d; ++k) g[k] -= term->potential(Vec<d>::Unit(k)) - term->potential(Vec<d>::Zero());
+  for (const auto& effect : effects)
+    for (int k = 0; k < d; ++k) g[k] -= effect->potential(Vec<d>::Unit(k)) - effect->potential(Vec<d>::Zero());
   return g;
 }
 
@@ -140,14 +142,14 @@ void Fluid<d>::State::prepare() {
   for (std::size_t i = 0; i < now.nodes.size(); ++i)
     energy_carried += 0.5 * spec.density * now.nodes.volume[i] * now.nodes.v[i].squaredNorm();
   size_nodes();
-  wet<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
+  attach_nodes<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
   if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
   collect_drops();
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const std::size_t liquid = put_drops_last();
   cut(liquid);
   separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
-  land(work.nodes, work.mesh);
+  absorb_droplets(work.nodes, work.mesh);
   carried_p = work.nodes.p;
   const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const double adapted = before - now.ledger.volume;

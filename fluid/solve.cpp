@@ -33,10 +33,10 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   if (auto status = predict(drive); !status.ok()) return status;
   {
     const auto scope = timer.scope(pressure);
-    if (auto status = press(given, previous); !status.ok()) return status;
-    push(drive.impulse);
+    if (auto status = solve_pressure(given, previous); !status.ok()) return status;
+    apply_body_impulse(drive.impulse);
     if (auto status = correct(previous); !status.ok()) return status;
-    weigh();
+    evaluate_loads();
   }
   return finite() ? Status{} : Status{"the solution is not finite"};
 }
@@ -110,18 +110,18 @@ Status Fluid<d>::State::repair() {
 template <int d>
 Status Fluid<d>::State::predict(const MotionDrive& drive) {
   std::vector<Vec<d>> carried;
-  if (!terms.empty()) {
+  if (!effects.empty()) {
     const auto scope = timer.scope(momentum);
     carried = trial.v;
   }
   const MotionView bodies{equation.modes(), equation.inertia(), drive.directions};
   const std::vector<Twist<d>> carried_walls = trial.s_before;
   Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation.motions());
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    const auto scope = timer.scope(effects + t);
+  for (std::size_t t = 0; t < effects.size(); ++t) {
+    const auto scope = timer.scope(first_effect + t);
     const bool answers = equation.motions() > 0;
-    if (auto status = terms[t]->predict(view(answers ? &bodies : nullptr), {carried, carried_walls},
-                                        {trial.v, trial.on_walls, answers ? &answer : nullptr});
+    if (auto status = effects[t]->predict(view(answers ? &bodies : nullptr), {carried, carried_walls},
+                                          {trial.v, trial.on_walls, answers ? &answer : nullptr});
         !status.ok())
       return status;
   }
@@ -136,7 +136,7 @@ Status Fluid<d>::State::predict(const MotionDrive& drive) {
 
 // The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
 template <int d>
-Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const double> previous) {
+Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
   s_after.assign(given.begin(), given.end());
   for (std::size_t w = 0; w < walls.size(); ++w) s_after[w] += trial.s_before[w] - work.velocity[w];
   middle(trial.v, 0.5 * dt);
@@ -144,7 +144,7 @@ Status Fluid<d>::State::press(std::span<const Twist<d>> given, std::span<const d
   if (!previous.empty()) equation.laplacian().add(previous, phi);
   if (!equation.solve(phi, closely, carried_impulse())) return {"the pressure solve failed"};
   answer_to(phi, s_after, equation.on_motions(equation.held().excess(trial.v, s_after)));
-  if (equation.motions() > 0) push(trial.unanswered);
+  if (equation.motions() > 0) apply_body_impulse(trial.unanswered);
   return {};
 }
 
@@ -184,7 +184,7 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
 
 // Loads, pressures and energies of the solution.
 template <int d>
-void Fluid<d>::State::weigh() {
+void Fluid<d>::State::evaluate_loads() {
   trial.handed = equation.held().excess(v_after, s_after);
   interface = equation.laplacian().means(phi);
   loads.assign(walls.size(), {});
@@ -212,7 +212,7 @@ void Fluid<d>::State::weigh() {
     const double mass = spec.density * (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]);
     v_n[i] = 0.5 * (work.nodes.v[i] + moved.u[i]);
     if (work.nodes.spray[i]) ledger.kinetic_energy += 0.5 * mass * v_n[i].squaredNorm();
-    for (const auto& term : terms) ledger.potential_energy += mass * term->potential(work.nodes.x[i]);
+    for (const auto& effect : effects) ledger.potential_energy += mass * effect->potential(work.nodes.x[i]);
   }
   ledger.kinetic_energy += equation.kinetic_energy(v_n);
 }
@@ -228,7 +228,7 @@ bool Fluid<d>::State::finite() const {
 // Elements that carry pressure deform by a fraction of themselves; `stable_dt` sees to it but for what remeshing
 // and contact bring.
 template <int d>
-bool Fluid<d>::State::orderly() const {
+bool Fluid<d>::State::no_inverted_elements() const {
   constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
   const double per_rate = dt / most;
   const double margin = least_in_parallel(work.mesh.cells.size(), [&](std::size_t c) {
@@ -261,7 +261,7 @@ void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist
 
 // A further impulse on the motions: water and bodies answer.
 template <int d>
-void Fluid<d>::State::push(const Eigen::VectorXd& impulse) {
+void Fluid<d>::State::apply_body_impulse(const Eigen::VectorXd& impulse) {
   if (impulse.isZero(0)) return;
   std::vector<double> none(phi.size(), 0.0);
   trial.known += impulse;

@@ -280,7 +280,7 @@ std::span<const BodyState<d>> Bodies<d>::solve(const Eigen::VectorXd& impulses) 
   w.expect_all(impulses);
   Eigen::VectorXd velocity = w.motions.velocity(impulses);
   constexpr int most = 100;  // more changes than contacts in a scene
-  for (int i = 0; w.motions.settle(velocity, impulses); ++i) {
+  for (int i = 0; w.motions.update_contacts(velocity, impulses); ++i) {
     velocity = w.motions.velocity(impulses);
     if (i == most) velocity.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (i == most) break;
@@ -306,7 +306,7 @@ bool Bodies<d>::update_contacts(const Eigen::VectorXd& impulses) {
   Eigen::VectorXd velocities(freedoms<d> * w.size());
   for (Eigen::Index i = 0; i < w.size(); ++i)
     velocities.segment<freedoms<d>>(freedoms<d> * i) = w.trials[static_cast<std::size_t>(i)].velocity;
-  return w.motions.settle(velocities, impulses);
+  return w.motions.update_contacts(velocities, impulses);
 }
 
 template <int d>

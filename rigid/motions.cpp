@@ -59,7 +59,7 @@ Eigen::VectorXd Motions::unspent(const Eigen::VectorXd& velocity, const Eigen::V
   return known_ + modes_.transpose() * impulse - inertia_ * amplitudes(velocity);
 }
 
-bool Motions::settle(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) {
+bool Motions::update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) {
   if (closed_.empty()) return false;
   const Eigen::VectorXd y = amplitudes(velocity), rate = contacts_ * y - least_;
   // Impulses r of the closed contacts: D^T r balances what is left.
@@ -72,7 +72,7 @@ bool Motions::settle(const Eigen::VectorXd& velocity, const Eigen::VectorXd& imp
   constexpr int together = 5;
   bool changed = false;
   Eigen::Index push = 0;
-  for (std::size_t i = 0; i < closed_.size() && !(changed && settled_ >= together); ++i) {
+  for (std::size_t i = 0; i < closed_.size() && !(changed && contact_changes_ >= together); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     // Of contacts that cannot all be closed at once, those that the compromise leaves apart open.
     const bool opens = closed_[i] && (pushes[push] < -weak || rate[row] > slow);
@@ -84,7 +84,7 @@ bool Motions::settle(const Eigen::VectorXd& velocity, const Eigen::VectorXd& imp
   }
   if (changed) {
     restrict();
-    ++settled_;
+    ++contact_changes_;
   }
   return changed;
 }

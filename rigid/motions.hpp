@@ -41,7 +41,7 @@ class Motions {
   /// Impulse on the motions that such a velocity does not account for: Z^T impulse - (Z^T M Z) y.
   Eigen::VectorXd unspent(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) const;
   /// Opens and closes contacts as velocity and impulse ask for. False: they were right.
-  bool settle(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);
+  bool update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);
 
  private:
   void restrict();
@@ -53,8 +53,8 @@ class Motions {
   Eigen::VectorXd least_;                    // b - D s_0
   double resolution_ = 0;
   std::vector<char> closed_;
-  int settled_ = 0;         // how often contacts changed
-  Eigen::VectorXd pushed_;  // amplitudes that closed contacts ask for
+  int contact_changes_ = 0;  // how often contacts changed
+  Eigen::VectorXd pushed_;   // amplitudes that closed contacts ask for
   Eigen::MatrixXd directions_;
 };
 

@@ -40,7 +40,7 @@ Coupling one_way() { return {.scheme = "staggered", .interface_term = "none"}; }
 template <int d>
 std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene, World<d>& world) {
   auto part = std::make_unique<fluid::Participant<d>>(
-      std::make_unique<fluid::Fluid<d>>(fluid_spec<d>(scene), fluid_terms<d>(scene)));
+      std::make_unique<fluid::Fluid<d>>(fluid_spec<d>(scene), fluid_effects<d>(scene)));
   world.fluid = &part->fluid();
   return part;
 }

@@ -29,7 +29,7 @@ World<d> build_world(const Scene& scene);
 template <int d>
 fluid::FluidSpec<d> fluid_spec(const Scene& scene);
 template <int d>
-std::vector<std::unique_ptr<fluid::Term<d>>> fluid_terms(const Scene& scene);
+std::vector<std::unique_ptr<fluid::Effect<d>>> fluid_effects(const Scene& scene);
 /// A place where a body's hull is curved.
 template <int d>
 struct HullBend {

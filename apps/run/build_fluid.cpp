@@ -79,23 +79,23 @@ fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
 }
 
 template <int d>
-std::vector<std::unique_ptr<fluid::Term<d>>> fluid_terms(const Scene& scene) {
-  std::vector<std::unique_ptr<fluid::Term<d>>> terms;
-  if (scene.gravity) terms.push_back(std::make_unique<fluid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
-  if (scene.fluid->viscosity) terms.push_back(std::make_unique<fluid::Viscosity<d>>(scene.fluid->viscosity->dynamic));
+std::vector<std::unique_ptr<fluid::Effect<d>>> fluid_effects(const Scene& scene) {
+  std::vector<std::unique_ptr<fluid::Effect<d>>> effects;
+  if (scene.gravity) effects.push_back(std::make_unique<fluid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
+  if (scene.fluid->viscosity) effects.push_back(std::make_unique<fluid::Viscosity<d>>(scene.fluid->viscosity->dynamic));
   if (scene.fluid->absorber)
-    terms.push_back(std::make_unique<fluid::Absorber<d>>(fluid::AbsorberSpec{.from = scene.tank->min.x(),
-                                                                             .to = scene.tank->max.x(),
-                                                                             .width = scene.fluid->absorber->width,
-                                                                             .rate = scene.fluid->absorber->rate}));
-  return terms;
+    effects.push_back(std::make_unique<fluid::Absorber<d>>(fluid::AbsorberSpec{.from = scene.tank->min.x(),
+                                                                               .to = scene.tank->max.x(),
+                                                                               .width = scene.fluid->absorber->width,
+                                                                               .rate = scene.fluid->absorber->rate}));
+  return effects;
 }
 
 template std::vector<HullBend<2>> hull_bends<2>(const Scene&, const Body&);
 template std::vector<HullBend<3>> hull_bends<3>(const Scene&, const Body&);
 template fluid::FluidSpec<2> fluid_spec<2>(const Scene&);
 template fluid::FluidSpec<3> fluid_spec<3>(const Scene&);
-template std::vector<std::unique_ptr<fluid::Term<2>>> fluid_terms<2>(const Scene&);
-template std::vector<std::unique_ptr<fluid::Term<3>>> fluid_terms<3>(const Scene&);
+template std::vector<std::unique_ptr<fluid::Effect<2>>> fluid_effects<2>(const Scene&);
+template std::vector<std::unique_ptr<fluid::Effect<3>>> fluid_effects<3>(const Scene&);
 
 }  // namespace splashdown::apps

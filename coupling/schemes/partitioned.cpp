@@ -47,7 +47,7 @@ StepReport Partitioned::attempt(double dt) {
   const Step step = begin_structure(dt);
   kick_ = step.kick;
   InterfaceModel model;
-  for (const auto& wall : structure_->walls()) model.stand_ins.push_back(term_->stand_in(wall));
+  for (const auto& wall : structure_->walls()) model.interface_operators.push_back(term_->interface_operator(wall));
   if (const auto status = fluid_->begin(step, model); !status.ok()) return {.cause = status.cause};
 
   const double fluid_before = fluid_seconds();

@@ -59,7 +59,8 @@ StepReport Simultaneous::pass_by_pass(Response response, double dt) {
 StepReport Simultaneous::attempt(double dt) {
   const Step step = begin_structure(dt);
   Response response = structure_->response();
-  if (const auto status = fluid_->begin(step, {.modes = response.modes, .inertia = response.inertia, .stand_ins = {}});
+  if (const auto status =
+          fluid_->begin(step, {.modes = response.modes, .inertia = response.inertia, .interface_operators = {}});
       !status.ok())
     return {.cause = status.cause};
 

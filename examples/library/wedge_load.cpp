@@ -36,7 +36,7 @@ int main() {
   spec.liquids.push_back({{water.surface.vertices.colwise() + Eigen::Vector2d(0, -1.5), water.surface.facets}, {}});
 
   const Eigen::Vector2d g(0, -9.81);
-  std::vector<std::unique_ptr<fluid::Term<2>>> effects;
+  std::vector<std::unique_ptr<fluid::Effect<2>>> effects;
   effects.push_back(std::make_unique<fluid::Gravity<2>>(g));
   std::vector<std::unique_ptr<rigid::Force<2>>> forces;
   forces.push_back(std::make_unique<rigid::Gravity<2>>(g));

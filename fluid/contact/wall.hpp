@@ -74,6 +74,7 @@ class Wall {
   bool encloses_fluid() const { return turned_inside_out_; }  ///< a tank
   /// Box around the surface in the wall frame.
   const Eigen::AlignedBox<double, d>& box() const { return box_; }
+  double diameter() const { return box_.diagonal().norm(); }
 
  private:
   void find_normals();

@@ -6,7 +6,7 @@
 // is absorbed well: about the zone's width (Larsen, Dancy, Coastal Eng. 7, 1983).
 #pragma once
 
-#include "fluid/effects/term.hpp"
+#include "fluid/effects/effect.hpp"
 
 namespace splashdown::fluid {
 
@@ -18,7 +18,7 @@ struct AbsorberSpec {
 };
 
 template <int d>
-class Absorber final : public Term<d> {
+class Absorber final : public Effect<d> {
  public:
   explicit Absorber(const AbsorberSpec& spec) : spec_(spec) {}
   std::string name() const override { return "absorber"; }

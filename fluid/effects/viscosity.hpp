@@ -24,14 +24,14 @@
 // (M + C) y = Z^T f_0, C_jk = sum of u_j over held directions . (M_L + kick K) u_k, so that no mass is too small for any viscosity.
 #pragma once
 
-#include "fluid/effects/term.hpp"
+#include "fluid/effects/effect.hpp"
 #include "fluid/linear/assembly.hpp"
 #include "fluid/linear/linear_solver.hpp"
 
 namespace splashdown::fluid {
 
 template <int d>
-class Viscosity final : public Term<d> {
+class Viscosity final : public Effect<d> {
  public:
   /// `dynamic`: mu [Pa s].
   explicit Viscosity(double dynamic) : mu_(dynamic) {}

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fluid/contact/contact.hpp"
+#include "fluid/contact/attachment.hpp"
 #include "fluid/initial/parts.hpp"
 #include "fluid/mesh/adapt.hpp"
 #include "fluid/mesh/size_field.hpp"
@@ -62,7 +62,7 @@ class Filler {
     };
     sizes();
     const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
-    wet<d>(out_.nodes, h, out_.mesh, walls_, at_rest);
+    attach_nodes<d>(out_.nodes, h, out_.mesh, walls_, at_rest);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
       cut();

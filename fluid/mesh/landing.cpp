@@ -3,7 +3,7 @@
 namespace splashdown::fluid {
 
 template <int d>
-void land(Nodes<d>& nodes, const Mesh<d>& mesh) {
+void absorb_droplets(Nodes<d>& nodes, const Mesh<d>& mesh) {
   constexpr double landed = 3;
   const std::vector<double> now = nodal_volumes(mesh, nodes.x);
   std::vector<int> lands;
@@ -29,7 +29,7 @@ void land(Nodes<d>& nodes, const Mesh<d>& mesh) {
   }
 }
 
-template void land(Nodes<2>&, const Mesh<2>&);
-template void land(Nodes<3>&, const Mesh<3>&);
+template void absorb_droplets(Nodes<2>&, const Mesh<2>&);
+template void absorb_droplets(Nodes<3>&, const Mesh<3>&);
 
 }  // namespace splashdown::fluid

@@ -12,9 +12,9 @@ namespace splashdown::fluid {
 /// For nodes around which the volume V on `mesh` is more than three times Nodes::volume: remeshing alone hardly
 /// doubles it. They also forget what the corrections found for them.
 template <int d>
-void land(Nodes<d>& nodes, const Mesh<d>& mesh);
+void absorb_droplets(Nodes<d>& nodes, const Mesh<d>& mesh);
 
-extern template void land(Nodes<2>&, const Mesh<2>&);
-extern template void land(Nodes<3>&, const Mesh<3>&);
+extern template void absorb_droplets(Nodes<2>&, const Mesh<2>&);
+extern template void absorb_droplets(Nodes<3>&, const Mesh<3>&);
 
 }  // namespace splashdown::fluid

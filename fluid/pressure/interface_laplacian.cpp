@@ -124,7 +124,7 @@ std::vector<Place> sow(const Hull<d>& hull, int count) {
 
 template <int d>
 void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown,
-                                     int wall, const StandIn& stand_in) {
+                                     int wall, const InterfaceOperator& interface_operator) {
   const Hull<d> hull(mesh, nodes.x, wall);
   const auto places = sow(hull, 2 * freedoms<d>);
   const std::size_t first = pieces_.size();
@@ -169,30 +169,30 @@ void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh,
       for (const auto& l : links) links_.push_back({l.a, l.b, inverse_mass * exact.squaredNorm() / energy * l.weight});
     links.clear(), energy = 0;
   };
-  if (stand_in.laplacian != 0) {
+  if (interface_operator.laplacian != 0) {
     for (const auto& border : hull.borders) {
       const int a = places[border.a].piece, b = border.b < 0 ? -1 : places[border.b].piece;
       if (a < 0 || a == b) continue;
       const double distance = (centre[a] - border.centre).norm() + (b < 0 ? 0.0 : (centre[b] - border.centre).norm());
       if (distance > 0) link(a, b, border.measure / distance);
     }
-    scale(stand_in.laplacian);
+    scale(interface_operator.laplacian);
   }
-  if (stand_in.robin != 0) {
+  if (interface_operator.robin != 0) {
     for (int k = 0; k < count; ++k) link(k, -1, pieces_[first + k].measure);
-    scale(stand_in.robin);
+    scale(interface_operator.robin);
   }
 }
 
 template <int d>
 void InterfaceLaplacian<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown,
-                                  std::span<const StandIn> stand_ins) {
+                                  std::span<const InterfaceOperator> interface_operators) {
   pieces_.clear();
   rows_.clear();
   links_.clear();
-  for (std::size_t w = 0; w < stand_ins.size(); ++w)
-    if (stand_ins[w].laplacian != 0 || stand_ins[w].robin != 0)
-      cut_wall(nodes, mesh, unknown, static_cast<int>(w), stand_ins[w]);
+  for (std::size_t w = 0; w < interface_operators.size(); ++w)
+    if (interface_operators[w].laplacian != 0 || interface_operators[w].robin != 0)
+      cut_wall(nodes, mesh, unknown, static_cast<int>(w), interface_operators[w]);
 }
 
 template <int d>

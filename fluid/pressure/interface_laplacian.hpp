@@ -28,7 +28,7 @@
 namespace splashdown::fluid {
 
 /// Inverse masses 1/m for which the operators of a wall stand in [m/kg, 1/kg]; 0: none.
-struct StandIn {
+struct InterfaceOperator {
   double laplacian = 0, robin = 0;
 };
 
@@ -41,9 +41,9 @@ struct InterfacePiece {
 template <int d>
 class InterfaceLaplacian {
  public:
-  /// `stand_ins`: of each wall. `unknown`: of a node, -1: p = 0.
+  /// `interface_operators`: of each wall. `unknown`: of a node, -1: p = 0.
   void build(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown,
-             std::span<const StandIn> stand_ins);
+             std::span<const InterfaceOperator> interface_operators);
   /// Adds K to a matrix, entries outside its pattern included.
   void add_to(SymmetricMatrix& matrix) const;
   /// Q phi.
@@ -62,7 +62,7 @@ class InterfaceLaplacian {
     double weight;
   };
   void cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown, int wall,
-                const StandIn& stand_in);
+                const InterfaceOperator& interface_operator);
 
   std::vector<InterfacePiece> pieces_;
   std::vector<std::vector<Share>> rows_;  // of Q

@@ -20,7 +20,7 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   choose_unknowns();
   wall_modes(centres);
   hold_mass(std::move(held), density);
-  laplacian_.build(nodes, mesh, unknown_, response.stand_ins);
+  laplacian_.build(nodes, mesh, unknown_, response.interface_operators);
   assemble(matrix_);
   laplacian_.add_to(matrix_);
   return (size() == 0 || factored()) && add_bodies();

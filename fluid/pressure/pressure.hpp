@@ -49,8 +49,8 @@ template <int d>
 struct WallResponse {
   /// Motions that are solved with the pressure: twists of all walls, one below the other, a column each. Empty: none.
   Eigen::MatrixXd modes;
-  Eigen::MatrixXd inertia;         ///< of these motions; symmetric, not negative
-  std::vector<StandIn> stand_ins;  ///< of each wall: local operators instead; empty: none at all
+  Eigen::MatrixXd inertia;                             ///< of these motions; symmetric, not negative
+  std::vector<InterfaceOperator> interface_operators;  ///< of each wall: local operators instead; empty: none at all
 
   /// The motions move this wall.
   bool moves(std::size_t wall) const {

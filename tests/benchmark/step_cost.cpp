@@ -31,7 +31,7 @@ fluid::Surface<2> box(const Vec<2>& low, const Vec<2>& high, bool clockwise) {
 
 // A basin twice as long as deep with about `nodes` nodes and the velocity of a sloshing mode: after some steps
 // the mesh is as irregular as in any run, and a few nodes come and go.
-coupling::scenes::Watched<2> basin(int nodes, std::vector<std::unique_ptr<fluid::Term<2>>> terms) {
+coupling::scenes::Watched<2> basin(int nodes, std::vector<std::unique_ptr<fluid::Effect<2>>> effects) {
   const double size = std::sqrt(2.0 / nodes) * 0.97;  // what fills the basin with so many
   fluid::FluidSpec<2> spec;
   spec.size = {.surface = size, .far = size};
@@ -49,7 +49,7 @@ coupling::scenes::Watched<2> basin(int nodes, std::vector<std::unique_ptr<fluid:
            Vec<2>(std::sin(k * x.x()) * std::cosh(k * (x.y() + 1)), -std::cos(k * x.x()) * std::sinh(k * (x.y() + 1)));
   };
   spec.liquids.push_back(water);
-  return coupling::scenes::Watched<2>(std::make_unique<fluid::Fluid<2>>(std::move(spec), std::move(terms)));
+  return coupling::scenes::Watched<2>(std::make_unique<fluid::Fluid<2>>(std::move(spec), std::move(effects)));
 }
 
 void step(coupling::scenes::Watched<2>& stepper) {
@@ -61,9 +61,9 @@ coupling::scenes::Watched<2>& moving(int nodes, bool with_gravity) {
   static std::map<std::pair<int, bool>, coupling::scenes::Watched<2>> cases;
   const auto found = cases.find({nodes, with_gravity});
   if (found != cases.end()) return found->second;
-  std::vector<std::unique_ptr<fluid::Term<2>>> terms;
-  if (with_gravity) terms.push_back(std::make_unique<fluid::Gravity<2>>(Vec<2>(0, -9.81)));
-  auto& made = cases.emplace(std::pair{nodes, with_gravity}, basin(nodes, std::move(terms))).first->second;
+  std::vector<std::unique_ptr<fluid::Effect<2>>> effects;
+  if (with_gravity) effects.push_back(std::make_unique<fluid::Gravity<2>>(Vec<2>(0, -9.81)));
+  auto& made = cases.emplace(std::pair{nodes, with_gravity}, basin(nodes, std::move(effects))).first->second;
   for (int k = 0; k < 10; ++k) step(made);
   return made;
 }

@@ -14,7 +14,7 @@ using scenes::saved;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // An effect that spoils one node's velocity while it is told to.
-class Spoiler final : public fluid::Term<2> {
+class Spoiler final : public fluid::Effect<2> {
  public:
   Spoiler(const double& value, bool on_wall) : value_(value), on_wall_(on_wall) {}
   std::string name() const override { return "spoiler"; }
@@ -54,10 +54,10 @@ class Value : public testing::TestWithParam<double> {};
 TEST_P(Value, in_the_fluid_refuses_the_step_and_leaves_no_trace) {
   for (bool on_wall : {false, true}) {
     double value = 0;
-    auto terms = fluid::scenes::gravity({0, -scenes::g});
-    terms.push_back(std::make_unique<Spoiler>(value, on_wall));
+    auto effects = fluid::scenes::gravity({0, -scenes::g});
+    effects.push_back(std::make_unique<Spoiler>(value, on_wall));
     coupling::scenes::Watched<2> stepper(
-        std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 0.5, 0.1), std::move(terms)));
+        std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 0.5, 0.1), std::move(effects)));
     ASSERT_GE(scenes::run(stepper, 2, 1e-3), 0);
     const auto before = saved(stepper);
     value = GetParam();
@@ -158,13 +158,13 @@ TEST(Liquid, that_is_a_single_droplet_flies) {
 TEST(Liquid, that_is_nowhere_is_an_error_at_the_start) {
   auto spec = fluid::scenes::still_water(1, 1, 0.1);
   spec.liquids[0].boundary = fluid::scenes::rectangle({5, 5}, {6, 6});
-  EXPECT_THROW(fluid::Fluid<2>(spec, fluid::scenes::no_terms()), std::invalid_argument);
+  EXPECT_THROW(fluid::Fluid<2>(spec, fluid::scenes::no_effects()), std::invalid_argument);
 }
 
 TEST(Velocity, that_is_not_finite_at_the_start_is_refused) {
   auto spec = fluid::scenes::still_water(1, 1, 0.2);
   spec.liquids[0].velocity = [](const auto&) { return fluid::Vec<2>(nan, 0); };
-  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
+  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_effects()));
   EXPECT_FALSE(stepper.attempt(1e-3).ok());
 }
 

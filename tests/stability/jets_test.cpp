@@ -25,7 +25,7 @@ Steady jet_on(const fluid::WallSpec<2>& wall, double speed, double tip) {
   spec.walls.push_back(wall);
   spec.liquids.push_back({fluid::scenes::rectangle({-0.5 * width, tip}, {0.5 * width, tip + 9 * width}),
                           [speed](const auto&) { return Vec(0, -speed); }});
-  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
+  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_effects()));
   const double until = 5 * width / speed, from = 3 * width / speed;
   Steady mean{0, Vec::Zero()};
   double dt = 0.002 * width / speed, time = 0;

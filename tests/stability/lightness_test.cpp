@@ -40,7 +40,7 @@ Release release(double ratio, double dt, int steps = 1) {
 
 // Water that the mesh's hull displaces.
 double displaced() {
-  const fluid::Fluid<2> f(scenes::submerged_circle(1).fluid, fluid::scenes::no_terms());
+  const fluid::Fluid<2> f(scenes::submerged_circle(1).fluid, fluid::scenes::no_effects());
   double hull = 0;
   for (const auto& facet : f.mesh().boundary)
     if (facet.wall == 0) hull -= f.nodes().x[facet.nodes[0]].dot(fluid::area_vector_of<2>(facet, f.nodes().x)) / 2;

@@ -46,7 +46,7 @@ TEST_P(Meeting, of_two_drops_keeps_momentum_and_makes_no_energy) {
     spec.liquids.push_back(
         {fluid::scenes::ellipse(radius, radius, 64, centre), [=](const Vec&) { return Vec(0, -side * V); }});
   }
-  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
+  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_effects()));
   double dt = 0.01 * h / V;
   std::optional<Books> first;
   const double end = 4 * radius / V;

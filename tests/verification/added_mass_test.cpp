@@ -24,7 +24,7 @@ coupling::scenes::Scene ring(double h) {
 
 // From the response of the coupled equation to a body that would have moved with velocity s.
 double added_mass(double h, double mass, int axis) {
-  fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_terms());
+  fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_effects());
   const fluid::WallResponse<2> response{fluid::Twist<2>::Unit(axis), Eigen::MatrixXd::Constant(1, 1, mass), {}};
   fluid::Twist<2> s = fluid::Twist<2>::Zero();
   s[axis] = 1;
@@ -39,7 +39,7 @@ const double exact = water * std::numbers::pi * a * a * (b * b - a * a) / (b * b
 // What linear elements find without the corrections: a subspace of the flows, hence less energy than the exact one.
 double error_without_corrections(double h) {
   const std::array<std::size_t, 1> circle{0};
-  fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_terms());
+  fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_effects());
   EXPECT_TRUE(f.begin(1e-3, 1e-3, {}).ok());
   return 1 + f.interface_slope(circle)(1, 1) / exact;
 }
@@ -59,7 +59,7 @@ TEST(AddedMass, as_a_matrix_is_what_the_step_answers_with) {
   // Both take the same corrections; what is left is that the step moves.
   const std::array<std::size_t, 1> circle{0};
   for (double h : {0.2, 0.1, 0.05}) {
-    fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_terms());
+    fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_effects());
     EXPECT_THROW(f.added_mass(circle), std::logic_error) << "no pressure equation yet";
     ASSERT_TRUE(f.begin(1e-3, 1e-3, {}).ok());
     const Eigen::Matrix3d G = f.added_mass(circle);
@@ -94,7 +94,7 @@ TEST(AddedMass, in_a_tank_tends_to_that_in_open_water) {
     scene.fluid.size = {.surface = 0.1 * L, .far = 0.1 * L, .growth = 0.1};
     scene.fluid.liquids.push_back({fluid::scenes::rectangle({-L, -L}, {L, L}), {}});
     scene.add_body(rigid::circle(a, 256), 100, {0, 0}, 0.025);
-    fluid::Fluid<2> f(scene.fluid, fluid::scenes::no_terms());
+    fluid::Fluid<2> f(scene.fluid, fluid::scenes::no_effects());
     const fluid::WallResponse<2> response{Eigen::MatrixXd::Identity(3, 2), 100 * Eigen::Matrix2d::Identity(), {}};
     ASSERT_TRUE(f.begin(1e-6, 1e-6, response).ok());
     ASSERT_TRUE(f.solve(std::vector{fluid::Twist<2>(0, 1, 0)}).ok());

@@ -20,7 +20,7 @@ std::unique_ptr<coupling::scenes::Watched<2>> strained_drop(double h) {
   spec.liquids.push_back(
       {fluid::scenes::ellipse(1, 1, 512), [](const Vec& x) { return Vec(-A0 * x.x(), A0 * x.y()); }});
   return std::make_unique<coupling::scenes::Watched<2>>(
-      std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_terms()));
+      std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_effects()));
 }
 
 // Semi-axes of the elliptic drop: v = (-A x, A y), A' = A^2 (a^2 - b^2) / (a^2 + b^2), a' = -A a, b' = A b.

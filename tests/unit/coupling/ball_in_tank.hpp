@@ -39,9 +39,9 @@ inline BallInTank ball_in_tank(double density_ratio, double height, double speed
 }
 
 inline std::unique_ptr<fluid::Fluid<3>> water_of(const BallInTank& scene) {
-  std::vector<std::unique_ptr<fluid::Term<3>>> terms;
-  terms.push_back(std::make_unique<fluid::Gravity<3>>(fluid::Vec<3>(0, 0, -g)));
-  return std::make_unique<fluid::Fluid<3>>(scene.fluid, std::move(terms));
+  std::vector<std::unique_ptr<fluid::Effect<3>>> effects;
+  effects.push_back(std::make_unique<fluid::Gravity<3>>(fluid::Vec<3>(0, 0, -g)));
+  return std::make_unique<fluid::Fluid<3>>(scene.fluid, std::move(effects));
 }
 
 inline std::unique_ptr<rigid::Bodies<3>> bodies_of(const BallInTank& scene) {

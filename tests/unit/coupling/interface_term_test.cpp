@@ -20,21 +20,21 @@ TEST(InterfaceTerms, have_the_names_a_scene_gives_them) {
 }
 
 TEST(InterfaceTerms, of_a_wall_that_does_not_answer_are_absent) {
-  EXPECT_EQ(LaplacianTerm().stand_in(wall(300, false)).laplacian, 0);
-  EXPECT_EQ(RobinTerm().stand_in(wall(300, false)).robin, 0);
-  EXPECT_EQ(NoTerm().stand_in(wall(300)).laplacian, 0);
-  EXPECT_EQ(RobinTerm().stand_in(wall(0, false)).robin, 0) << "nor does it need a mass";
+  EXPECT_EQ(LaplacianTerm().interface_operator(wall(300, false)).laplacian, 0);
+  EXPECT_EQ(RobinTerm().interface_operator(wall(300, false)).robin, 0);
+  EXPECT_EQ(NoTerm().interface_operator(wall(300)).laplacian, 0);
+  EXPECT_EQ(RobinTerm().interface_operator(wall(0, false)).robin, 0) << "nor does it need a mass";
 }
 
 TEST(RobinTerm, goes_like_one_over_mass) {
-  const double at_300 = RobinTerm().stand_in(wall(300)).robin;
-  EXPECT_NEAR(RobinTerm().stand_in(wall(30)).robin, 10 * at_300, 100 * eps * at_300);
+  const double at_300 = RobinTerm().interface_operator(wall(300)).robin;
+  EXPECT_NEAR(RobinTerm().interface_operator(wall(30)).robin, 10 * at_300, 100 * eps * at_300);
 }
 
 TEST(LaplacianTerm, goes_like_strength_over_mass) {
-  const double at_300 = LaplacianTerm().stand_in(wall(300)).laplacian;
-  EXPECT_NEAR(LaplacianTerm().stand_in(wall(30)).laplacian, 10 * at_300, 100 * eps * at_300);
-  EXPECT_NEAR(LaplacianTerm(2).stand_in(wall(300)).laplacian, 2 * at_300, 10 * eps * at_300);
+  const double at_300 = LaplacianTerm().interface_operator(wall(300)).laplacian;
+  EXPECT_NEAR(LaplacianTerm().interface_operator(wall(30)).laplacian, 10 * at_300, 100 * eps * at_300);
+  EXPECT_NEAR(LaplacianTerm(2).interface_operator(wall(300)).laplacian, 2 * at_300, 10 * eps * at_300);
 }
 
 // Energies of a translation's pressure, phi ~ n, under a stand-in and under the exact term. A ring of water
@@ -49,21 +49,21 @@ double mismatch(const InterfaceTerm& term, int segments) {
   const fluid::scenes::Placed placed(scene.fluid);
   const auto water = fluid::fill<2>(scene.fluid, placed.at());
   const std::vector<fluid::Vec<2>> centre{{0, 0}};
-  const StandIn of_wall = term.stand_in(wall(mass));
+  const InterfaceOperator of_wall = term.interface_operator(wall(mass));
   const fluid::WallResponse<2> response{{}, {}, {{of_wall.laplacian, of_wall.robin}}};
   fluid::PressureEquation<2> equation;
   EXPECT_TRUE(equation.build(water.nodes, water.mesh, scenes::water, centre, response));
-  double stand_in = 0, exact = 0;
+  double interface_operator = 0, exact = 0;
   for (int axis : {0, 1}) {
     std::vector<double> phi(equation.size(), 0.0), flux(equation.size(), 0.0);
     for (std::size_t i = 0; i < water.nodes.size(); ++i)
       if (water.nodes.tie[i].wall == 0) phi[equation.unknown()[i]] = water.nodes.x[i].normalized()[axis];
     equation.laplacian().add(equation.laplacian().means(phi), flux);
-    for (std::size_t i = 0; i < phi.size(); ++i) stand_in += phi[i] * flux[i];
+    for (std::size_t i = 0; i < phi.size(); ++i) interface_operator += phi[i] * flux[i];
     const auto impulse = equation.impulse(0, phi);
     exact += impulse.head<2>().squaredNorm() / mass;
   }
-  return std::abs(stand_in / exact - 1);
+  return std::abs(interface_operator / exact - 1);
 }
 
 TEST(InterfaceTerms, that_stand_in_give_translations_of_a_circle_their_energy) {

@@ -34,7 +34,7 @@ struct Begun {
     bodies.begin(step);
     InterfaceModel model;
     const LaplacianTerm term(laplacian);
-    for (const auto& wall : bodies.walls()) model.stand_ins.push_back(term.stand_in(wall));
+    for (const auto& wall : bodies.walls()) model.interface_operators.push_back(term.interface_operator(wall));
     EXPECT_TRUE(fluid.begin(step, model).ok());
   }
 };

@@ -65,8 +65,8 @@ struct Scene {
 
 inline std::unique_ptr<fluid::Fluid<2>> water_of(const Scene& scene) {
   const bool weighs = scene.gravity != Vec::Zero();
-  return std::make_unique<fluid::Fluid<2>>(scene.fluid,
-                                           weighs ? fluid::scenes::gravity(scene.gravity) : fluid::scenes::no_terms());
+  return std::make_unique<fluid::Fluid<2>>(
+      scene.fluid, weighs ? fluid::scenes::gravity(scene.gravity) : fluid::scenes::no_effects());
 }
 
 inline std::unique_ptr<rigid::Bodies<2>> bodies_of(const Scene& scene) {

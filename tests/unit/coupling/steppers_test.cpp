@@ -206,7 +206,7 @@ TEST(Phases, are_those_of_the_parts_and_effects_a_stepper_has) {
   const auto both = scenes::coupled(scene);
   EXPECT_TRUE(has(*both, "rigid") && has(*both, "coupling") && has(*both, "pressure"));
   const scenes::Watched<2> fluid(
-      std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 1, 0.2), fluid::scenes::no_terms()));
+      std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 1, 0.2), fluid::scenes::no_effects()));
   EXPECT_FALSE(has(fluid, "rigid") || has(fluid, "coupling"));
   EXPECT_FALSE(has(fluid, "gravity")) << "an absent effect has no timer";
   for (const auto& phase : both->phase_seconds()) EXPECT_EQ(phase.second, 0) << phase.first << " before the first step";
@@ -216,7 +216,7 @@ TEST(Gravity, that_a_scene_does_not_name_leaves_no_trace) {
   auto scene = scenes::submerged_circle(0.5);
   scene.gravity.setZero();
   const auto stepper = scenes::coupled(scene);
-  EXPECT_TRUE(stepper->fluid().terms().empty());
+  EXPECT_TRUE(stepper->fluid().effects().empty());
   const auto x = stepper->fluid().nodes().x;
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE(stepper->attempt(1e-2).ok());

@@ -61,8 +61,8 @@ class Water final : public FluidPart, private Linearised {
     M_ = structure.inertia;
     stand_in_ = Vector::Zero(G_.rows());
     pieces_.clear();
-    for (std::size_t k = 0; k < wall_of_.size() && !structure.stand_ins.empty(); ++k) {
-      const StandIn& of_wall = structure.stand_ins.at(wall_of_[k]);
+    for (std::size_t k = 0; k < wall_of_.size() && !structure.interface_operators.empty(); ++k) {
+      const InterfaceOperator& of_wall = structure.interface_operators.at(wall_of_[k]);
       stand_in_[static_cast<Eigen::Index>(k)] = of_wall.laplacian + of_wall.robin;
       if (of_wall.laplacian + of_wall.robin > 0) pieces_.push_back({wall_of_[k], 1});
     }

@@ -30,7 +30,7 @@ TYPED_TEST(Landing, a_drop_brings_its_own_momentum_and_no_more) {
   nodes.volume[drop] = share / 100;
   nodes.v[drop] = Vec<d>::Constant(-20);
   nodes.p[drop] = 1;
-  land(nodes, p.mesh);
+  absorb_droplets(nodes, p.mesh);
   // share * v = drop's momentum + the rest's
   const Vec<d> momentum = share / 100 * Vec<d>::Constant(-20) + 0.99 * share * Vec<d>::Constant(0.5);
   EXPECT_LE((share * nodes.v[drop] - momentum).norm(), 100 * scenes::eps * share);
@@ -47,7 +47,7 @@ TYPED_TEST(Landing, changes_nothing_where_nothing_lands) {
   std::mt19937 random(3);
   for (auto& v : p.nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
   const auto before = p.nodes.v;
-  land(p.nodes, p.mesh);
+  absorb_droplets(p.nodes, p.mesh);
   EXPECT_EQ(p.nodes.v, before);
 }
 

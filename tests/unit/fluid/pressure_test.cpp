@@ -359,7 +359,7 @@ TYPED_TEST(Pressure, added_mass_of_a_wall_is_one_matrix_whatever_the_wall_answer
     ASSERT_TRUE(p.build(answer));
     const Eigen::MatrixXd G = p.equation.added_mass_of(wall);
     // A Laplacian of this size makes A + K stiffer by K / A ~ 1e3 times its size, which is lost when taken out again.
-    const double laplacian = answer.stand_ins.empty() ? 0.0 : answer.stand_ins[0].laplacian,
+    const double laplacian = answer.interface_operators.empty() ? 0.0 : answer.interface_operators[0].laplacian,
                  stiffer = 1 + laplacian * density;
     EXPECT_LE((G - exact).norm(), 10 * eps * condition * stiffer * exact.norm()) << laplacian;
     EXPECT_LE((G - G.transpose()).norm(), 10 * eps * condition * stiffer * exact.norm()) << laplacian;

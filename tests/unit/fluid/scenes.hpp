@@ -79,11 +79,11 @@ inline WallSpec<2> wall(const std::string& name, Surface<2> surface, double size
   return wall<2>(name, std::move(surface), size);
 }
 
-inline std::vector<std::unique_ptr<Term<2>>> no_terms() { return {}; }
-inline std::vector<std::unique_ptr<Term<2>>> gravity(const Vec<2>& g) {
-  std::vector<std::unique_ptr<Term<2>>> terms;
-  terms.push_back(std::make_unique<Gravity<2>>(g));
-  return terms;
+inline std::vector<std::unique_ptr<Effect<2>>> no_effects() { return {}; }
+inline std::vector<std::unique_ptr<Effect<2>>> gravity(const Vec<2>& g) {
+  std::vector<std::unique_ptr<Effect<2>>> effects;
+  effects.push_back(std::make_unique<Gravity<2>>(g));
+  return effects;
 }
 
 /// Water of the given width and depth under y = 0 in an open tank.

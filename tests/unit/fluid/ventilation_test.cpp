@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fluid/contact/contact.hpp"
+#include "fluid/contact/attachment.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -155,7 +155,7 @@ TEST(Ventilation, what_has_left_is_not_on_the_wall) {
     ASSERT_TRUE(film.left(1));
     EXPECT_GT(film.walls[0].nearest(film.pose[0], film.nodes.x[film.at(1, 0)], 1).distance, 0);
     std::vector<double> h(film.nodes.size(), size);
-    wet<2>(film.nodes, h, film.mesh, {film.walls, film.pose}, film.still);
+    attach_nodes<2>(film.nodes, h, film.mesh, {film.walls, film.pose}, film.still);
     EXPECT_TRUE(film.left(1));
   }
 }

@@ -62,10 +62,10 @@ struct Basin {
   }
 };
 
-template <class... Terms>
-coupling::scenes::Watched<2> water(const Basin& basin, std::unique_ptr<Terms>... terms) {
-  std::vector<std::unique_ptr<Term<2>>> list;
-  (list.push_back(std::move(terms)), ...);
+template <class... Effects>
+coupling::scenes::Watched<2> water(const Basin& basin, std::unique_ptr<Effects>... effects) {
+  std::vector<std::unique_ptr<Effect<2>>> list;
+  (list.push_back(std::move(effects)), ...);
   return coupling::scenes::Watched<2>(std::make_unique<Fluid<2>>(basin.spec(), std::move(list)));
 }
 

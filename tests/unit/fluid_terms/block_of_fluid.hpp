@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "fluid/effects/term.hpp"
+#include "fluid/effects/effect.hpp"
 
 namespace splashdown::fluid::testing {
 
@@ -75,13 +75,13 @@ struct Block {
   }
 
   /// One kick: returns the new velocities, and the impulses on walls.
-  std::vector<Vec<d>> predict(Term<d>& term, std::vector<Wrench<d>>* impulses = nullptr) const {
+  std::vector<Vec<d>> predict(Effect<d>& effect, std::vector<Wrench<d>>* impulses = nullptr) const {
     NodeCells<d> around;
     around.build(mesh.cells, nodes.size());
     const StepView<d> view{nodes, mesh, density, kick, lumped_volume, around, walls, poses};
     std::vector<Vec<d>> v = nodes.v;
     std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero());
-    if (!term.begin(view).ok() || !term.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok()) return {};
+    if (!effect.begin(view).ok() || !effect.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok()) return {};
     if (impulses) *impulses = on_walls;
     return v;
   }

@@ -1,27 +1,15 @@
-// Where fluid meets walls: nodes that reach a wall slide on it, corners and creases keep nodes, nodes
-// that pass a sharp edge or part from the wall leave it. Only fluid carries nodes: there are no dry wall
-// nodes, so no cell spans a gap and contact neither creates volume nor happens early.
+// What a wall does to the nodes tied to it: they slide along it, turn its corners, leave it where the flow does, and its edges
+// hold some of them.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "fluid/contact/separation.hpp"
 #include "fluid/mesh/recognise.hpp"
 #include "fluid/pressure/held_mass.hpp"
 
 namespace splashdown::fluid {
-
-/// Ties nodes that have reached a wall; puts nodes at wetted corners and creases. `velocities`: of the walls.
-template <int d>
-void wet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
-         std::span<const Twist<d>> velocities);
-
-/// Finds the nodes at edges of walls where the flow leaves them (Nodes::separates): corners on the free surface, and
-/// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
-/// stands at a crease like at any other place of a wall. `h`: element sizes, `velocities`: of the walls, `gravity`: g.
-template <int d>
-void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
-              std::span<const Twist<d>> velocities, double gravity);
 
 /// What ties nodes to walls on one mesh.
 template <int d>
@@ -57,19 +45,15 @@ class WallMotion {
   const Nodes<d>& nodes_;
   const Mesh<d>& mesh_;
   std::span<const Wall<d>> walls_;
-  void find_separations(const Mesh<d>& mesh);
   void find_edges(const WallsAt<d>& walls, std::span<const char> answers);
+  void move_drop(int i, const Isometry<d>& pose, double dt, Moved& out) const;
+  void move_tied(int i, const Isometry<d>& pose, double dt, Moved& out) const;
   bool is_chord(int facet, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 
   std::vector<int> tied_;     // and free to slide, but for vertices
   std::vector<char> wetted_;  // node has a wetted facet
-  struct Separation {
-    int at;
-    std::vector<int> upstream;  // wetted neighbours it takes its velocity from
-    Vec<d> area;                // of the boundary around it
-  };
-  std::vector<Separation> separations_;
+  std::vector<Separation<d>> separations_;
   std::vector<std::vector<char>> attached_vertex_;  // of each wall: wetted on all sides
   std::vector<int> on_creases_;                     // wetted nodes
   std::vector<HeldNode<d>> held_;

@@ -1,11 +1,11 @@
-#include <limits>
+#include "fluid/effects/effect.hpp"
 
-#include "fluid/effects/term.hpp"
+#include <limits>
 
 namespace splashdown::fluid {
 
 template <int d>
-double Term<d>::stable_dt() const {
+double Effect<d>::stable_dt() const {
   return std::numeric_limits<double>::infinity();
 }
 
@@ -22,8 +22,8 @@ std::vector<Diagnostic> Gravity<d>::diagnostics(const Nodes<d>& nodes, std::span
   return {{"energy", energy}};
 }
 
-template class Term<2>;
-template class Term<3>;
+template class Effect<2>;
+template class Effect<3>;
 template class Gravity<2>;
 template class Gravity<3>;
 

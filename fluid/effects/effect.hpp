@@ -60,9 +60,9 @@ struct Predicted {
 using Diagnostic = std::pair<std::string, double>;
 
 template <int d>
-class Term {
+class Effect {
  public:
-  virtual ~Term() = default;
+  virtual ~Effect() = default;
   virtual std::string name() const = 0;
   /// Once a step, before any `predict` of it.
   virtual Status begin(const StepView<d>& /*step*/) { return {}; }
@@ -80,7 +80,7 @@ class Term {
 };
 
 template <int d>
-class Gravity final : public Term<d> {
+class Gravity final : public Effect<d> {
  public:
   explicit Gravity(const Vec<d>& acceleration) : g_(acceleration) {}
   std::string name() const override { return "gravity"; }

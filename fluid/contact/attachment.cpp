@@ -1,0 +1,221 @@
+#include "fluid/contact/attachment.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "fluid/mesh/boundary_edges.hpp"
+#include "fluid/mesh/facet_tree.hpp"
+#include "fluid/mesh/inside.hpp"
+#include "fluid/parallel.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double on_facet = 0.02;  // a sharp vertex this close to a wetted facet (over h) lies on it
+constexpr double snap = 0.3;       // a boundary node this close to a sharp vertex (over h) moves onto it
+
+template <int d>
+void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& at,
+                  std::span<const Twist<d>> velocities) {
+  in_parallel(nodes.size(), [&](std::size_t i) {
+    if (nodes.tie[i].wall >= 0) return;
+    for (std::size_t w = 0; w < at.walls.size(); ++w) {
+      if (!at.walls[w].may_touch(at.poses[w], nodes.x[i], 0)) continue;
+      // Drops may cross more than an element in a step, nodes of the liquid may not.
+      const double reach = nodes.spray[i] ? at.walls[w].diameter() : h[i];
+      const auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
+      const Vec<d> arm = nodes.x[i] - at.poses[w].translation();
+      // A node that a neighbouring edge let go may touch the wall behind the edge while it flies away.
+      if (near.distance > 0 || (nodes.v[i] - rigid_velocity<d>(velocities[w], arm)).dot(near.normal) > 0) continue;
+      nodes.x[i] = near.point;
+      nodes.tie[i] = {static_cast<int>(w), near.patch, -1};
+      break;
+    }
+  });
+}
+
+// The liquid's boundary, as corners of walls ask for it. A few look at all facets: that is cheaper than what answers many,
+// which is built once, and anew when the boundary has changed.
+template <int d>
+class LiquidBoundary {
+ public:
+  LiquidBoundary(const Nodes<d>& nodes, const Mesh<d>& mesh, std::size_t questions)
+      : nodes_(nodes), mesh_(mesh), many_(questions > few) {}
+  struct Hit {
+    int facet = -1;
+    double distance = std::numeric_limits<double>::max();
+  };
+  /// The nearest facet within `reach`.
+  Hit nearest(const Vec<d>& point, double reach) {
+    if (!many_) return nearest_of_all(point, reach);
+    if (tree_.empty()) {
+      std::vector<std::array<Vec<d>, d>> facets;
+      for (const auto& f : mesh_.boundary) facets.push_back(corners_of(f, nodes_.x));
+      tree_ = FacetTree<d>(facets);
+    }
+    const auto hit = tree_.nearest(point, reach);
+    return hit.facet < 0 ? Hit{} : Hit{hit.facet, std::sqrt(hit.squared_distance)};
+  }
+  bool encloses(const Vec<d>& point) {
+    if (!many_) return is_inside<d>(nodes_.x, mesh_.boundary, point);
+    if (!inside_) inside_.emplace(nodes_.x, mesh_.boundary);
+    return (*inside_)(point);
+  }
+  void changed() {
+    tree_ = {};
+    inside_.reset();
+  }
+
+ private:
+  static constexpr std::size_t few = 30;
+  Hit nearest_of_all(const Vec<d>& point, double reach) const {
+    Hit best{-1, reach};
+    for (std::size_t f = 0; f < mesh_.boundary.size(); ++f) {
+      const auto corner = corners_of(mesh_.boundary[f], nodes_.x);
+      Eigen::AlignedBox<double, d> box(corner[0]);
+      for (int k = 1; k < d; ++k) box.extend(corner[k]);
+      if (box.squaredExteriorDistance(point) > best.distance * best.distance) continue;
+      const double distance = (closest_on(corner, point) - point).norm();
+      if (distance < best.distance) best = {static_cast<int>(f), distance};
+    }
+    return best;
+  }
+
+  const Nodes<d>& nodes_;
+  const Mesh<d>& mesh_;
+  bool many_;
+  FacetTree<d> tree_;
+  std::optional<InsideTest<d>> inside_;
+};
+
+template <int d>
+void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int facet, const Vec<d>& point, WallTie tie) {
+  const Facet<d> old = mesh.boundary[facet];
+  Vec<d> v = Vec<d>::Zero();
+  double p = 0, size = 0;
+  for (int n : old.nodes) v += nodes.v[n] / d, p += nodes.p[n] / d, size += h[n] / d;
+  const int m = nodes.add(point, v, p, tie, old.wall < 0);
+  h.push_back(size);
+  for (int k = 0; k < d; ++k) {
+    Facet<d> part = old;
+    part.nodes[k] = m;
+    if (k == 0)
+      mesh.boundary[facet] = part;
+    else
+      mesh.boundary.push_back(part);
+  }
+}
+
+template <int d>
+void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+  constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
+  struct Corner {
+    int wall, vertex;
+  };
+  std::vector<Corner> dry;
+  for (int w = 0; w < static_cast<int>(at.walls.size()); ++w) {
+    std::vector<char> taken(at.walls[w].spec().surface.vertices.cols(), 0);
+    for (const WallTie& t : nodes.tie)
+      if (t.wall == w && t.vertex >= 0) taken[t.vertex] = 1;
+    for (int v : at.walls[w].corners())
+      if (!taken[v]) dry.push_back({w, v});
+  }
+  if (dry.empty() || h.empty()) return;
+  const double reach = near * *std::max_element(h.begin(), h.end());
+  LiquidBoundary<d> boundary(nodes, mesh, dry.size());
+  for (const auto [w, v] : dry) {
+    const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
+    const auto hit = boundary.nearest(point, reach);
+    if (hit.facet < 0) continue;
+    const Facet<d>& f = mesh.boundary[hit.facet];
+    int closest = f.nodes[0];
+    bool touches = f.wall == w;
+    for (int n : f.nodes) {
+      touches = touches || nodes.tie[n].wall == w;
+      if ((nodes.x[n] - point).norm() < (nodes.x[closest] - point).norm()) closest = n;
+    }
+    const double size = h[closest];
+    const bool arrived =
+        hit.distance < (touches ? on_facet : 1e-9) * size || (hit.distance < near * size && boundary.encloses(point));
+    if (!arrived) continue;
+    const WallTie tie{w, -1, v};
+    if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
+      nodes.x[closest] = point;
+      nodes.tie[closest] = tie;
+    } else {
+      split_facet(nodes, h, mesh, hit.facet, point, tie);
+    }
+    boundary.changed();
+  }
+}
+
+// The edge leaves a smooth patch of the wall over one of its creases.
+template <int d>
+bool passes_crease(const Nodes<d>& nodes, std::span<const double> h, const Wall<d>& wall, const Isometry<d>& pose,
+                   int w, int a, int b, typename Wall<d>::Crossing& at) {
+  const WallTie &tie_a = nodes.tie[a], &tie_b = nodes.tie[b];
+  if (tie_a.wall != w || tie_a.sharp()) return false;
+  const bool turns = tie_b.wall == w;
+  if (turns && (tie_b.sharp() || tie_a.patch == tie_b.patch)) return false;
+  at = wall.nearest_crease(pose, nodes.x[a], nodes.x[b]);
+  return at.distance < (turns ? (nodes.x[a] - nodes.x[b]).norm() : on_facet * h[a]);
+}
+
+template <int d>
+void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+  struct Pass {
+    int a, b, wall;
+    typename Wall<d>::Crossing at;
+  };
+  std::vector<Pass> passes;
+  for (const auto& f : mesh.boundary)
+    for (int k = 0; k < d; ++k) {
+      const int a = f.nodes[k], b = f.nodes[(k + 1) % d], w = nodes.tie[a].wall;
+      if (w < 0 || !at.walls[w].has_creases()) continue;
+      Pass pass{a, b, w, {}};
+      if (passes_crease<d>(nodes, h, at.walls[w], at.poses[w], w, a, b, pass.at)) passes.push_back(pass);
+    }
+  if (passes.empty()) return;
+  const BoundaryEdges<d> edges(mesh.boundary, nodes.size());
+  std::vector<char> touched(nodes.size(), 0);
+  for (const Pass& pass : passes) {
+    if (touched[pass.a] || touched[pass.b]) continue;
+    bool taken = false;  // by a third node of the facets at the edge
+    edges.around(mesh.boundary, pass.a, pass.b, [&](int f) {
+      for (int n : mesh.boundary[f].nodes)
+        taken = taken || (nodes.tie[n].wall == pass.wall && nodes.tie[n].crease == pass.at.crease &&
+                          (nodes.x[n] - pass.at.point).norm() < snap * h[n]);
+    });
+    if (taken) continue;
+    const WallTie tie{pass.wall, -1, -1, pass.at.crease};
+    const int closest = pass.at.share < 0.5 ? pass.a : pass.b;
+    if ((nodes.x[closest] - pass.at.point).norm() < snap * h[closest] && !nodes.tie[closest].sharp()) {
+      nodes.x[closest] = pass.at.point;
+      nodes.tie[closest] = tie;
+      touched[closest] = 1;
+      continue;
+    }
+    touched[pass.a] = touched[pass.b] = 1;
+    const double t = pass.at.share;
+    const int m = nodes.add(pass.at.point, (1 - t) * nodes.v[pass.a] + t * nodes.v[pass.b],
+                            (1 - t) * nodes.p[pass.a] + t * nodes.p[pass.b], tie, false);
+    h.push_back((1 - t) * h[pass.a] + t * h[pass.b]);
+    edges.split(mesh.boundary, pass.a, pass.b, m);
+  }
+}
+
+}  // namespace
+
+template <int d>
+void attach_nodes(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
+                  std::span<const Twist<d>> velocities) {
+  tie_arrivals<d>(nodes, h, walls, velocities);
+  occupy_corners(nodes, h, mesh, walls);
+  occupy_creases(nodes, h, mesh, walls);
+}
+
+template void attach_nodes(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
+template void attach_nodes(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
+
+}  // namespace splashdown::fluid

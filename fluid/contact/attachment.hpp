@@ -1,0 +1,23 @@
+// How nodes get onto walls: those that reach a wall are tied to it and slide there, and its corners and creases get nodes of
+// their own as soon as they are wetted. Only fluid carries nodes: there are no dry wall nodes, so no cell spans a gap and
+// contact neither creates volume nor happens early.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/mesh/recognise.hpp"
+
+namespace splashdown::fluid {
+
+/// Ties nodes that have reached a wall; puts nodes at wetted corners and creases. `velocities`: of the walls.
+template <int d>
+void attach_nodes(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
+                  std::span<const Twist<d>> velocities);
+
+extern template void attach_nodes(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&,
+                                  std::span<const Twist<2>>);
+extern template void attach_nodes(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&,
+                                  std::span<const Twist<3>>);
+
+}  // namespace splashdown::fluid
