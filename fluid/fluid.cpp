@@ -27,6 +27,31 @@ void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& aro
   });
 }
 
+// Where p = 0 is held, no pressure keeps a node's volume. What it gains while it runs ahead of its neighbours is their
+// water, and comes with their momentum. `before`: nodal volumes, before the motion.
+template <int d>
+void entrain(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around, std::span<const int> unknown,
+             std::span<const double> before) {
+  struct Change {
+    std::size_t node;
+    Vec<d> v;
+  };
+  std::vector<Change> changes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double gained = nodes.volume[i] - before[i];
+    if (unknown[i] >= 0 || nodes.spray[i] || nodes.tie[i].sharp() || !(gained > 0)) continue;
+    Vec<d> sum = Vec<d>::Zero();
+    double weight = 0;
+    for (const auto [c, k] : around.around(i)) {
+      const double share = std::max(0.0, volume<d>(corners(nodes.x, mesh.cells[c])));
+      for (int n : mesh.cells[c])
+        if (n != static_cast<int>(i)) sum += share * nodes.v[n], weight += share;
+    }
+    if (weight > 0) changes.push_back({i, (before[i] * nodes.v[i] + gained * (sum / weight)) / nodes.volume[i]});
+  }
+  for (const Change& change : changes) nodes.v[change.node] = change.v;
+}
+
 }  // namespace
 
 template <int d>
@@ -130,6 +155,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   nodes.v = s.moved.u;
   nodes.tie = s.moved.tie;
   share_volumes(nodes, s.work.mesh, s.equation.around());
+  entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
   ventilate<d>(nodes, s.work.h, s.work.mesh, {s.walls, poses}, s.s_after, s.spec.density, s.gravity().norm());
   ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);
   ledger.time_integration += ledger.volume - before;
@@ -198,7 +224,7 @@ std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
 template <int d>
 Vec<d> Fluid<d>::velocity_n(std::size_t node) const {
   const Vec<d>& before = nodes().v[node];
-  return s_->prepared && node < s_->v_after.size() ? Vec<d>(0.5 * (before + s_->moved.u[node])) : before;
+  return s_->prepared && node < s_->v_after.size() ? s_->at_t_n(before, s_->moved.u[node]) : before;
 }
 
 template <int d>

@@ -155,6 +155,10 @@ struct Fluid<d>::State {
   void apply_body_impulse(const Eigen::VectorXd& impulse);
   void apply(const Correction<d>& correction, double share);
   void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further);
+  /// At t_n, from velocities at t_{n-1/2} and t_{n+1/2}.
+  Vec<d> at_t_n(const Vec<d>& before, const Vec<d>& after) const {
+    return before + work.dt / (work.dt + dt) * (after - before);
+  }
   double kinetic_energy(std::span<const Vec<d>> v) const;
   double work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0, std::span<const Twist<d>> s_1) const;
   std::vector<double> carried_impulse() const;

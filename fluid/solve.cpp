@@ -210,7 +210,7 @@ void Fluid<d>::State::evaluate_loads() {
   for (std::size_t i = 0; i < trial.v.size(); ++i) {
     work.nodes.p[i] = equation.unknown()[i] < 0 ? 0.0 : phi[equation.unknown()[i]] / kick;
     const double mass = spec.density * (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]);
-    v_n[i] = 0.5 * (work.nodes.v[i] + moved.u[i]);
+    v_n[i] = at_t_n(work.nodes.v[i], moved.u[i]);
     if (work.nodes.spray[i]) ledger.kinetic_energy += 0.5 * mass * v_n[i].squaredNorm();
     for (const auto& effect : effects) ledger.potential_energy += mass * effect->potential(work.nodes.x[i]);
   }
