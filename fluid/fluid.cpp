@@ -134,7 +134,7 @@ Status Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> 
 
 template <int d>
 Status Fluid<d>::acceptable() const {
-  return s_->no_inverted_elements() ? Status{} : Status{"an element turns over within the step"};
+  return s_->acceptable();
 }
 
 template <int d>

@@ -1,5 +1,5 @@
-// What a fluid holds and what a step of it works with. For fluid.cpp, fluid_checkpoint.cpp, prepare.cpp and solve.cpp
-// alone.
+// What a fluid holds and what a step of it works with. For acceptance.cpp, fluid.cpp, fluid_checkpoint.cpp, prepare.cpp and
+// solve.cpp alone.
 #pragma once
 
 #include <algorithm>
@@ -70,16 +70,20 @@ struct Correction {
 // What one solve works with.
 template <int d>
 struct Trial {
-  std::vector<Vec<d>> v;            // of nodes, before the pressure
-  std::vector<Twist<d>> s_before;   // of walls, repaired
-  std::vector<Vec<d>> x_mid;        // where a motion is judged
-  std::vector<double> r, repaired;  // residual, repair impulse
+  std::vector<Vec<d>> v;             // of nodes, before the pressure
+  std::vector<Twist<d>> s_before;    // of walls, repaired
+  std::vector<Twist<d>> s_unloaded;  // of walls, before the pressure
+  std::vector<Vec<d>> x_mid;         // where a motion is judged
+  std::vector<double> r, repaired;   // residual, repair impulse
   Correction<d> last, next;
   std::vector<Wrench<d>> on_walls;               // impulses of effects
   std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
   Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
   Eigen::VectorXd unanswered;                    // impulses of effects that did not let the motions answer
 };
+
+// By an impulse, over the energies in it: what its truncation and their lumping may feign.
+inline constexpr double most_gain = 0.05;
 
 // Edges that are short enough to be merged, or lie across a film, limit no time step.
 template <int d>
@@ -165,8 +169,12 @@ struct Fluid<d>::State {
   void middle(std::span<const Vec<d>> u, double by) {
     in_parallel(u.size(), [&](std::size_t i) { trial.x_mid[i] = work.nodes.x[i] + by * u[i]; });
   }
+
+  // What a step may not do (acceptance.cpp).
   bool finite() const;
-  bool no_inverted_elements() const;
+  Status acceptable() const;
+  Status no_inverted_elements() const;
+  Status no_energy_from_nowhere() const;
 };
 
 }  // namespace splashdown::fluid

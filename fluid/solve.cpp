@@ -9,8 +9,6 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr int repairs = 2;
-constexpr double most_gain =
-    0.05;  // by a repair, over the energies in it: what its truncation and their lumping may feign
 // Tolerances of iterative solves. Each pass of the repair and of the corrections leaves a tenth of the residual anyhow;
 // the pressure solve takes out what the repair leaves of the flux, the corrections what the pressure solve leaves.
 constexpr double closely = 1e-4, roughly = 1e-2;
@@ -139,6 +137,7 @@ template <int d>
 Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
   s_after.assign(given.begin(), given.end());
   for (std::size_t w = 0; w < walls.size(); ++w) s_after[w] += trial.s_before[w] - work.velocity[w];
+  trial.s_unloaded = s_after;
   middle(trial.v, 0.5 * dt);
   equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
   if (!previous.empty()) equation.laplacian().add(previous, phi);
@@ -215,34 +214,6 @@ void Fluid<d>::State::evaluate_loads() {
     for (const auto& effect : effects) ledger.potential_energy += mass * effect->potential(work.nodes.x[i]);
   }
   ledger.kinetic_energy += equation.kinetic_energy(v_n);
-}
-
-template <int d>
-bool Fluid<d>::State::finite() const {
-  double sum = 0;
-  for (const auto& v : v_after) sum += v.sum();
-  for (const auto& l : loads) sum += l.total().sum();
-  return std::isfinite(sum);
-}
-
-// Elements that carry pressure deform by a fraction of themselves; `stable_dt` sees to it but for what remeshing
-// and contact bring.
-template <int d>
-bool Fluid<d>::State::no_inverted_elements() const {
-  constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
-  const double per_rate = dt / most;
-  const double margin = least_in_parallel(work.mesh.cells.size(), [&](std::size_t c) {
-    double least = std::numeric_limits<double>::infinity();
-    const auto& cell = work.mesh.cells[c];
-    if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) return least;
-    for (int i = 0; i < d; ++i)
-      for (int j = i + 1; j <= d; ++j) {
-        const double change = per_rate * per_rate * (moved.u[cell[i]] - moved.u[cell[j]]).squaredNorm();
-        least = std::min(least, squared_length(work, cell[i], cell[j]) - change);
-      }
-    return least;
-  });
-  return margin >= 0;
 }
 
 template <int d>

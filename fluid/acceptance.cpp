@@ -1,0 +1,96 @@
+// What a step may not do. A step that is refused is tried again with a smaller dt.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid/fluid_state.hpp"
+#include "fluid/parallel.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+template <int d>
+std::string place(const Vec<d>& x) {
+  std::string text = fmt::format("{:.4g}", x[0]);
+  for (int k = 1; k < d; ++k) text += fmt::format(", {:.4g}", x[k]);
+  return "at (" + text + ") m";
+}
+
+}  // namespace
+
+template <int d>
+bool Fluid<d>::State::finite() const {
+  double sum = 0;
+  for (const auto& v : v_after) sum += v.sum();
+  for (const auto& l : loads) sum += l.total().sum();
+  return std::isfinite(sum);
+}
+
+template <int d>
+Status Fluid<d>::State::acceptable() const {
+  if (auto status = no_inverted_elements(); !status.ok()) return status;
+  return no_energy_from_nowhere();
+}
+
+// Elements that carry pressure deform by a fraction of themselves; `stable_dt` sees to it but for what remeshing
+// and contact bring.
+template <int d>
+Status Fluid<d>::State::no_inverted_elements() const {
+  constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
+  const double per_rate = dt / most;
+  const auto margin = [&](std::size_t c) {
+    double least = std::numeric_limits<double>::infinity();
+    const auto& cell = work.mesh.cells[c];
+    if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) return least;
+    for (int i = 0; i < d; ++i)
+      for (int j = i + 1; j <= d; ++j) {
+        const double change = per_rate * per_rate * (moved.u[cell[i]] - moved.u[cell[j]]).squaredNorm();
+        least = std::min(least, squared_length(work, cell[i], cell[j]) - change);
+      }
+    return least;
+  };
+  const std::size_t count = work.mesh.cells.size();
+  if (least_in_parallel(count, margin) >= 0) return {};
+  std::size_t c = 0;
+  while (margin(c) >= 0) ++c;
+  return {"an element turns over within the step: " + place<d>(work.nodes.x[work.mesh.cells[c][0]])};
+}
+
+// The pressure is a projection: what water and walls have after it they had before. Where worn films let it be none, the
+// step is no solution.
+//
+//   T(v) - T(v*) + sum_w I_w . (s_w* + s_w) / 2 - sum_i m_i (u_i - v_i) . u_i <= share of the energies in it
+//
+// I_w: impulse on wall w; v: after the pressure; u: after the motion along walls, which may take nodes along; the lesser of
+// T(v), T(u).
+template <int d>
+Status Fluid<d>::State::no_energy_from_nowhere() const {
+  double given = 0;
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    given += (equation.impulse(w, phi) + trial.handed[w]).dot(0.5 * (trial.s_unloaded[w] + s_after[w]));
+  double taken_along = 0;
+  for (std::size_t i = 0; i < moved.u.size(); ++i)
+    if (!work.nodes.spray[i])
+      taken_along +=
+          spec.density * equation.lumped_volume()[i] * std::max(0.0, (moved.u[i] - v_after[i]).dot(moved.u[i]));
+  const double before = equation.kinetic_energy(trial.v);
+  const double after = std::min(equation.kinetic_energy(v_after), equation.kinetic_energy(moved.u));
+  const double gain = after + given - before - taken_along;
+  const double scale = before + std::abs(given) + taken_along;
+  if (gain <= most_gain * scale) return {};
+  std::size_t fastest = 0;
+  double most = 0;
+  for (std::size_t i = 0; i < moved.u.size(); ++i) {
+    const double change = work.nodes.spray[i] ? 0.0 : (moved.u[i] - trial.v[i]).squaredNorm();
+    if (change > most) most = change, fastest = i;
+  }
+  return {fmt::format("the pressure makes energy: {:.2g} times what there was, {}", gain / scale,
+                      place<d>(work.nodes.x[fastest]))};
+}
+
+template struct Fluid<2>::State;
+template struct Fluid<3>::State;
+
+}  // namespace splashdown::fluid
