@@ -32,13 +32,6 @@ Vec<3> closest_on(const std::array<Vec<3>, 3>& f, const Vec<3>& x) {
 }
 
 template <int d>
-Vec<d> FacetTree<d>::Piece::centre() const {
-  Vec<d> sum = Vec<d>::Zero();
-  for (const auto& c : corner) sum += c / d;
-  return sum;
-}
-
-template <int d>
 typename FacetTree<d>::Box FacetTree<d>::Piece::box() const {
   Box out(corner[0]);
   for (int k = 1; k < d; ++k) out.extend(corner[k]);
@@ -72,7 +65,13 @@ FacetTree<d>::FacetTree(const std::vector<std::array<Vec<d>, d>>& facets) {
   for (std::size_t f = 0; f < facets.size(); ++f) cut({facets[f], static_cast<int>(f)}, part * size);
   branches_.reserve(pieces_.size());
   branches_.emplace_back();
-  build(0, 0, static_cast<int>(pieces_.size()));
+  auto order = keys();
+  build(order, 0, 0, static_cast<int>(pieces_.size()));
+  std::vector<Piece> sorted;
+  sorted.reserve(pieces_.size());
+  for (const Key& key : order) sorted.push_back(pieces_[key.piece]);
+  pieces_ = std::move(sorted);
+  set_boxes();
 }
 
 template <int d>
@@ -99,27 +98,45 @@ void FacetTree<d>::cut(const Piece& piece, double shortest) {
 }
 
 template <int d>
-void FacetTree<d>::build(int branch, int first, int count) {
-  Box box, centres;
-  for (int i = first; i < first + count; ++i) {
-    box.extend(pieces_[i].box());
-    centres.extend(pieces_[i].centre());
+std::vector<typename FacetTree<d>::Key> FacetTree<d>::keys() const {
+  std::vector<Key> out;
+  out.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) {
+    Vec<d> sum = Vec<d>::Zero();
+    for (const auto& c : piece.corner) sum += c / d;
+    out.push_back({sum, static_cast<int>(out.size())});
   }
+  return out;
+}
+
+template <int d>
+void FacetTree<d>::build(std::vector<Key>& keys, int branch, int first, int count) {
   constexpr int leaf_size = 4;
   if (count <= leaf_size) {
-    branches_[branch] = {box, first, count};
+    branches_[branch] = {{}, first, count};
     return;
   }
+  Box centres;
+  for (int i = first; i < first + count; ++i) centres.extend(keys[i].centre);
   int axis;
   centres.sizes().maxCoeff(&axis);
   const int half = count / 2;
-  std::nth_element(pieces_.begin() + first, pieces_.begin() + first + half, pieces_.begin() + first + count,
-                   [&](const Piece& a, const Piece& b) { return a.centre()[axis] < b.centre()[axis]; });
+  std::nth_element(keys.begin() + first, keys.begin() + first + half, keys.begin() + first + count,
+                   [axis](const Key& a, const Key& b) { return a.centre[axis] < b.centre[axis]; });
   const int child = static_cast<int>(branches_.size());
   branches_.resize(branches_.size() + 2);
-  branches_[branch] = {box, child, 0};
-  build(child, first, half);
-  build(child + 1, first + half, count - half);
+  branches_[branch] = {{}, child, 0};
+  build(keys, child, first, half);
+  build(keys, child + 1, first + half, count - half);
+}
+
+template <int d>
+void FacetTree<d>::set_boxes() {
+  for (auto b = branches_.rbegin(); b != branches_.rend(); ++b)  // children stand behind their parents
+    if (b->count > 0)
+      for (int i = b->first; i < b->first + b->count; ++i) b->box.extend(pieces_[i].box());
+    else
+      b->box = branches_[b->first].box.merged(branches_[b->first + 1].box);
 }
 
 template <int d>

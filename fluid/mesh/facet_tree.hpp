@@ -40,11 +40,17 @@ class FacetTree {
   struct Piece {
     std::array<Vec<d>, d> corner;
     int facet;
-    Vec<d> centre() const;
     Box box() const;
   };
+  /// What a piece is sorted by.
+  struct Key {
+    Vec<d> centre;
+    int piece;
+  };
   void cut(const Piece& piece, double shortest);
-  void build(int branch, int first, int count);
+  std::vector<Key> keys() const;
+  void build(std::vector<Key>& keys, int branch, int first, int count);
+  void set_boxes();
 
   std::vector<Piece> pieces_;  // needles come in several: boxes around whole ones hardly tell them apart
   std::vector<Branch> branches_;
