@@ -3,6 +3,7 @@
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(PNG REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 
 set(output_sources
@@ -12,7 +13,8 @@ set(output_sources
   statistics/grades.cpp statistics/landing_statistics.cpp
   statistics/pulse.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict.cpp
   report/data.cpp report/field.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp report/hull.cpp
-  report/page.cpp report/picture.cpp report/plane_picture.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp)
+  report/page.cpp report/picture.cpp report/plane_picture.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
+  report/png.cpp)
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 add_library(splashdown_output STATIC ${output_sources})
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
@@ -21,4 +23,4 @@ target_precompile_headers(splashdown_output PRIVATE ${SPLASHDOWN_COMMON_HEADERS}
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(splashdown_output
   PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt
-  PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+  PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::IOXML PNG::PNG)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -21,6 +22,11 @@ struct Instant {
   PlanePicture picture;
 };
 
+std::string lower_first(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 /// (time, stem) of the frames listed in frames.pvd.
 std::vector<std::pair<double, std::string>> listed_frames(const std::filesystem::path& run) {
   std::vector<std::pair<double, std::string>> frames;
@@ -36,7 +42,11 @@ std::vector<Instant> choose_instants(const std::filesystem::path& run, std::vect
   std::vector<Instant> instants;
   const auto add = [&](const std::string& folder, const std::string& stem, const std::string& title) {
     try {
-      instants.push_back({title, read_picture(run / folder, stem)});
+      auto picture = read_picture(run / folder, stem);
+      if (!instants.empty() && instants.back().picture.time == picture.time)
+        instants.back().title += ", " + lower_first(title);
+      else
+        instants.push_back({title, std::move(picture)});
     } catch (const std::exception& error) {
       warnings.push_back(error.what());
     }
@@ -107,23 +117,18 @@ std::string caption_of(const PlanePicture& picture, const std::string& highest) 
 
 }  // namespace
 
-FieldFigures prepare_field_figures(const std::filesystem::path& run, const std::filesystem::path& folder) {
+FieldFigures prepare_field_figures(const std::filesystem::path& run) {
   FieldFigures result;
   const auto instants = choose_instants(run, result.warnings);
   const Box view = view_of(instants);
   if (!view.valid() || !(view.width() > 0) || !(view.height() > 0)) return result;
   for (const auto& [title, picture] : instants) {
-    auto figure = figure_of(folder, "field_" + std::to_string(result.figures.size()), picture, view);
+    auto figure = figure_of("field_" + std::to_string(result.figures.size()), picture, view);
     figure.title = title;
     figure.caption = caption_of(picture, figure.caption);
     result.figures.push_back(std::move(figure));
   }
   return result;
-}
-
-void remove_field_data(const std::filesystem::path& folder, const FieldFigures& figures) {
-  for (const auto& figure : figures.figures)
-    for (const char* extension : {".bin", ".lines"}) std::filesystem::remove(folder / (figure.name + extension));
 }
 
 }  // namespace splashdown::apps

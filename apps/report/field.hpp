@@ -8,10 +8,11 @@
 namespace splashdown::apps {
 
 struct FieldFigure {
-  std::string name;     ///< of its .png in the report's folder
+  std::string name;     ///< of its .svg in the report's folder
   std::string title;    ///< "Peak load"
   std::string caption;  ///< HTML
-  std::string script;   ///< for gnuplot
+  std::string script;   ///< that draws its axes
+  std::string content;  ///< SVG between them
 };
 
 struct FieldFigures {
@@ -19,11 +20,7 @@ struct FieldFigures {
   std::vector<std::string> warnings;
 };
 
-/// Start, largest load and end from DIR/snapshots, and frames between them from DIR/frames. Writes the data
-/// files into `folder`.
-FieldFigures prepare_field_figures(const std::filesystem::path& run, const std::filesystem::path& folder);
-
-/// Removes the data files, which are large.
-void remove_field_data(const std::filesystem::path& folder, const FieldFigures& figures);
+/// Start, largest load and end from DIR/snapshots, and frames between them from DIR/frames.
+FieldFigures prepare_field_figures(const std::filesystem::path& run);
 
 }  // namespace splashdown::apps

@@ -123,7 +123,7 @@ FigureGroup hull_curves(const std::filesystem::path& run) {
   return group;
 }
 
-FieldFigures prepare_hull_figures(const std::filesystem::path& run, const std::filesystem::path& folder) {
+FieldFigures prepare_hull_figures(const std::filesystem::path& run) {
   FieldFigures result;
   for (const auto& [name, file] : hull_files(run)) {
     try {
@@ -131,7 +131,7 @@ FieldFigures prepare_hull_figures(const std::filesystem::path& run, const std::f
       if (!is_surface(hull)) continue;
       for (const auto& view : views) {
         const PlanePicture picture = seen(hull, view);
-        auto figure = figure_of(folder, "hull_" + file_name_of(name) + "_" + view.name, picture, room_around(picture),
+        auto figure = figure_of("hull_" + file_name_of(name) + "_" + view.name, picture, room_around(picture),
                                 "highest pressure");
         figure.title = name + " " + view.title;
         figure.caption += ", of all instants until t = " + seconds_text(hull.time) + ".";

@@ -11,7 +11,7 @@ namespace splashdown::apps {
 /// From DIR/hull_*.vtu: of outlines, over the distance from the keel.
 FigureGroup hull_curves(const std::filesystem::path& run);
 
-/// The same of surfaces: each hull from below, from the side and from ahead. Writes the data files into `folder`.
-FieldFigures prepare_hull_figures(const std::filesystem::path& run, const std::filesystem::path& folder);
+/// The same of surfaces: each hull from below, from the side and from ahead.
+FieldFigures prepare_hull_figures(const std::filesystem::path& run);
 
 }  // namespace splashdown::apps

@@ -115,19 +115,6 @@ std::string inline_svg(const std::string& svg, const std::string& name) {
   return element;
 }
 
-std::string inline_png(const std::string& bytes, const std::string& alternative_text) {
-  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * bytes.size() / 3 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k < bytes.size() + 1 ? alphabet[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", html_escaped(alternative_text), text);
-}
-
 std::string html_page(const std::string& title, const std::string& content) {
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +

@@ -32,7 +32,5 @@ std::string folder_name(const std::filesystem::path& directory);
 
 /// An <svg> element made fit for a page with many: no prolog, ids of its own, the page's fonts.
 std::string inline_svg(const std::string& svg, const std::string& name);
-/// An <img> element that holds a PNG file's bytes.
-std::string inline_png(const std::string& bytes, const std::string& alternative_text);
 
 }  // namespace splashdown::apps

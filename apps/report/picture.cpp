@@ -3,67 +3,56 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
 
+#include "apps/report/png.hpp"
 #include "apps/report/words.hpp"
 
 namespace splashdown::apps {
 
 namespace {
 
-constexpr int plot_width = 760;                  // of a picture between its axes [pixels]
-constexpr int raster_width = 570;                // of the pressures: gnuplot's time goes with their number
+// Of a figure [pixels]: its width, the picture between the axes, room around it.
+constexpr int figure_width = 1000, plot_width = 760, left = 95, above = 20, below = 85;
 constexpr double faint_edges = 4, edges_of = 9;  // [pixels]: shorter mesh lines would hide the colours
+constexpr std::size_t most_edges = 20000;        // of a picture: browsers scroll a page of several at ease
 
-void write_bytes(const std::filesystem::path& path, std::string_view bytes) {
-  std::ofstream out(path, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!out) throw std::runtime_error(path.string() + ": cannot write");
+struct Stop {
+  double at;
+  std::uint8_t red, green, blue;
+};
+/// From pale to dark by lightness alone, so that it reads in print and with any eyes.
+constexpr Stop stops[] = {{0, 0xdc, 0xec, 0xf5},   {0.12, 0xa9, 0xd3, 0xea}, {0.3, 0x5f, 0xa8, 0xd8},
+                          {0.5, 0x32, 0x72, 0xb4}, {0.68, 0x3f, 0x3f, 0x97}, {0.84, 0x7a, 0x2a, 0x86},
+                          {1, 0xc2, 0x18, 0x5b}};
+
+/// The stops for gnuplot.
+std::string palette_command() {
+  std::string entries;
+  for (const auto& [at, red, green, blue] : stops)
+    entries += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", entries.empty() ? "" : ", ", at, red, green, blue);
+  return "set palette defined (" + entries + ")\n";
 }
 
-bool touches(const Segment& segment, const Box& view) {
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (std::max(segment[0][k], segment[1][k]) < view.low[k]) return false;
-    if (std::min(segment[0][k], segment[1][k]) > view.high[k]) return false;
+/// The stops in equal parts; the last entry, where there is no water, is clear.
+std::array<Colour, 256> palette() {
+  std::array<Colour, 256> colours{};
+  const std::size_t last = colours.size() - 2;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double at = static_cast<double>(i) / static_cast<double>(last);
+    std::size_t k = 1;
+    while (k + 1 < std::size(stops) && stops[k].at < at) ++k;
+    const auto &a = stops[k - 1], &b = stops[k];
+    const double f = (at - a.at) / (b.at - a.at);
+    const auto mix = [&](std::uint8_t from, std::uint8_t to) {
+      return static_cast<std::uint8_t>(std::lround(from + f * (to - from)));
+    };
+    colours[i] = {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue), 255};
   }
-  return true;
-}
-
-void append(fmt::memory_buffer& text, const std::vector<Segment>& segments, const Box& view, double shortest = 0,
-            double longest = INFINITY) {
-  for (const auto& [a, b] : segments) {
-    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-    if (!touches({a, b}, view) || length < shortest || length >= longest) continue;
-    fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n{:.6g} {:.6g}\n\n", a[0], a[1], b[0], b[1]);
-  }
-  // A block must not be empty, or gnuplot's indices shift.
-  text.append(std::string_view("NaN NaN\n\n\n"));
-}
-
-/// Blocks: short and long mesh lines, outline of the water, tanks, drops, then each body as one polygon.
-void write_lines(const std::filesystem::path& path, const PlanePicture& picture, const Box& view) {
-  fmt::memory_buffer text;
-  const double pixel = view.width() / plot_width;
-  append(text, picture.edges, view, faint_edges * pixel, edges_of * pixel);
-  append(text, picture.edges, view, edges_of * pixel);
-  append(text, picture.surface, view);
-  std::vector<Segment> tanks;
-  for (const auto& outline : picture.outlines)
-    if (!outline.encloses_solid) tanks.insert(tanks.end(), outline.segments.begin(), outline.segments.end());
-  append(text, tanks, view);
-  for (const auto& drop : picture.drops) fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n", drop[0], drop[1]);
-  text.append(std::string_view("NaN NaN\n\n\n"));
-  for (const auto& outline : picture.outlines) {
-    if (!outline.encloses_solid) continue;
-    for (const auto& segment : outline.segments)
-      fmt::format_to(std::back_inserter(text), "{:.6g} {:.6g}\n{:.6g} {:.6g}\n", segment[0][0], segment[0][1],
-                     segment[1][0], segment[1][1]);
-    text.append(std::string_view("NaN NaN\n\n\n"));
-  }
-  write_bytes(path, {text.data(), text.size()});
+  return colours;
 }
 
 struct Range {
@@ -88,66 +77,146 @@ Range pressure_range(const Raster& raster) {
   return range;
 }
 
-std::string plot_of(const std::string& name, const Raster& raster, const Box& view, const PlanePicture& picture,
-                    const Range& range, const Unit& unit, const std::string& colour_label) {
-  const double dx = view.width() / raster.width, dy = view.height() / raster.height;
-  std::string plots = fmt::format(
-      "plot '{0}.bin' binary array=({1},{2}) format='%float' dx={3:.9g} dy={4:.9g} origin=({5:.9g},{6:.9g}) "
-      "using ($1*{7}) with image notitle",
-      name, raster.width, raster.height, dx, dy, view.low[0] + 0.5 * dx, view.low[1] + 0.5 * dy, unit.scale);
-  const std::string lines = fmt::format("'{}.lines' index", name);
-  plots += fmt::format(", \\\n  {} 0 with lines lw 0.5 lc rgb '#e80f2f4f' notitle", lines);
-  plots += fmt::format(", \\\n  {} 1 with lines lw 0.6 lc rgb '#c80f2f4f' notitle", lines);
-  plots += fmt::format(", \\\n  {} 2 with lines lw 1.3 lc rgb '#0f2f4f' notitle", lines);
-  plots += fmt::format(", \\\n  {} 3 with lines lw 2.5 lc rgb '#5f6b76' notitle", lines);
-  if (!picture.drops.empty())
-    plots += fmt::format(", \\\n  {} 4 with points pt 7 ps 0.35 lc rgb '#2f7fc1' notitle", lines);
-  int block = 5;
-  for (const auto& outline : picture.outlines) {
-    if (!outline.encloses_solid) continue;
-    plots += fmt::format(", \\\n  {} {} with filledcurves closed fc rgb '#d6d9dc' notitle", lines, block);
-    plots += fmt::format(", \\\n  {} {} with lines lw 2 lc rgb '#39424a' notitle", lines, block);
-    ++block;
+std::string colours_of(const Raster& raster, const Range& range) {
+  static const auto colours = palette();
+  const std::size_t clear = colours.size() - 1, most = clear - 1;
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(raster.values.size());
+  const auto width = static_cast<std::size_t>(raster.width);
+  for (std::size_t row = raster.values.size() / width; row-- > 0;)
+    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+      const double share = std::clamp((raster.values[i] - range.low) / (range.high - range.low), 0.0, 1.0);
+      pixels.push_back(static_cast<std::uint8_t>(
+          std::isfinite(raster.values[i]) ? static_cast<std::size_t>(share * static_cast<double>(most) + 0.5) : clear));
+    }
+  return png_of(pixels, raster.width, colours);
+}
+
+/// Lines and areas of a picture in pixels, y down.
+class Drawing {
+ public:
+  Drawing(const Box& view, int height) : view_(view), height_(height) {}
+
+  double pixels(const Segment& s) const {
+    return plot_width / view_.width() * std::hypot(s[1][0] - s[0][0], s[1][1] - s[0][1]);
   }
+  bool shows(const Segment& segment) const {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (std::max(segment[0][k], segment[1][k]) < view_.low[k]) return false;
+      if (std::min(segment[0][k], segment[1][k]) > view_.high[k]) return false;
+    }
+    return true;
+  }
+  void lines(const std::vector<Segment>& segments, double shortest, double longest, const char* style) {
+    std::string path;
+    for (const auto& s : segments)
+      if (shows(s) && pixels(s) >= shortest && pixels(s) < longest) path += "M" + at(s[0]) + "L" + at(s[1]);
+    add(path, std::string("fill=\"none\" ") + style);
+  }
+  void area(const std::vector<Segment>& outline, const char* style) {
+    std::string path;
+    for (const auto& s : outline) path += (path.empty() ? "M" : "L") + at(s[0]) + "L" + at(s[1]);
+    add(path.empty() ? path : path + "Z", style);
+  }
+  void dots(const std::vector<PlanePoint>& points) {
+    for (const auto& x : points)
+      if (shows({x, x}))
+        content += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"#2f7fc1\"/>\n", across(x), down(x));
+  }
+  std::string content;
+
+ private:
+  double across(const PlanePoint& x) const { return plot_width * (x[0] - view_.low[0]) / view_.width(); }
+  double down(const PlanePoint& x) const { return height_ * (view_.high[1] - x[1]) / view_.height(); }
+  std::string at(const PlanePoint& x) const { return fmt::format("{:.1f} {:.1f}", across(x), down(x)); }
+  void add(const std::string& path, const std::string& style) {
+    if (!path.empty()) content += fmt::format("<path {} d=\"{}\"/>\n", style, path);
+  }
+
+  Box view_;
+  int height_;
+};
+
+/// Mesh lines shorter than this [pixels] are left out.
+double shortest_edge(const Drawing& drawing, const std::vector<Segment>& edges) {
+  std::vector<double> lengths;
+  for (const auto& edge : edges)
+    if (drawing.shows(edge) && drawing.pixels(edge) >= faint_edges) lengths.push_back(drawing.pixels(edge));
+  if (lengths.size() <= most_edges) return faint_edges;
+  const auto at = lengths.end() - static_cast<std::ptrdiff_t>(most_edges);
+  std::ranges::nth_element(lengths, at);
+  return *at;
+}
+
+std::string content_of(const PlanePicture& picture, const Box& view, const Raster& raster, const Range& range) {
+  Drawing drawing(view, raster.height);
+  drawing.content = fmt::format(
+      "<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" stroke-linejoin=\"round\">\n<image width=\"{}\" height=\"{}\" "
+      "xlink:href=\"data:image/png;base64,{}\"/>\n",
+      left, above, plot_width, raster.height, plot_width, raster.height, base64(colours_of(raster, range)));
+  const double shortest = shortest_edge(drawing, picture.edges), longer = std::max(edges_of, shortest);
+  drawing.lines(picture.edges, shortest, longer, "stroke=\"#0f2f4f\" stroke-opacity=\".09\" stroke-width=\".7\"");
+  drawing.lines(picture.edges, longer, INFINITY, "stroke=\"#0f2f4f\" stroke-opacity=\".22\" stroke-width=\".8\"");
+  drawing.lines(picture.surface, 0, INFINITY, "stroke=\"#0f2f4f\" stroke-width=\"1.5\"");
+  for (const auto& outline : picture.outlines)
+    if (!outline.encloses_solid)
+      drawing.lines(outline.segments, 0, INFINITY, "stroke=\"#5f6b76\" stroke-width=\"2.8\"");
+  drawing.dots(picture.drops);
+  for (const auto& outline : picture.outlines)
+    if (outline.encloses_solid)
+      drawing.area(outline.segments, "fill=\"#d6d9dc\" stroke=\"#39424a\" stroke-width=\"2.2\"");
+  return drawing.content + "</svg>\n";
+}
+
+/// Axes and colours' key. gnuplot shows the key beside a plot only, if it is of nothing.
+std::string axes_script(const std::string& name, const Box& view, int height, const Range& range, const Unit& unit,
+                        const std::string& colour_label) {
+  const double canvas = above + height + below;
+  const auto share = [&](double pixels) { return pixels / canvas; };
   return fmt::format(
-             "set output '{}.png'\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
-             "set cbrange [{:.6g}:{:.6g}]\nset cblabel '{} / {}' offset 0.6,0 textcolor rgb "
-             "'#51606e'\n",
+             "reset\nset encoding utf8\nset terminal svg size {},{} dynamic font 'Helvetica,19' noenhanced\n"
+             "set lmargin screen {}\nset rmargin screen {}\nset tmargin screen {:.6g}\nset bmargin screen {:.6g}\n",
+             figure_width, canvas, left / static_cast<double>(figure_width),
+             (left + plot_width) / static_cast<double>(figure_width), 1 - share(above), share(below)) +
+         fmt::format(
+             "set border 15 lw 0.8 lc rgb '#8796a5'\nset tics out scale 0.4 nomirror textcolor rgb '#51606e'\n"
+             "set xlabel 'both axes in m' textcolor rgb '#51606e' offset 0,0.3\nset key off\n"
+             "set colorbox user origin 0.872,{:.6g} size 0.022,{:.6g}\nset format cb '%.4g'\n",
+             share(below), share(height)) +
+         palette_command() +
+         fmt::format(
+             "set output '{}.svg'\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
+             "set cbrange [{:.6g}:{:.6g}]\nset cblabel '{} / {}' offset 0.6,0 textcolor rgb '#51606e'\n"
+             "plot NaN with lines lc palette notitle\n",
              name, view.low[0], view.high[0], view.low[1], view.high[1], range.low * unit.scale,
-             range.high * unit.scale, colour_label, unit.unit) +
-         plots + "\n";
+             range.high * unit.scale, colour_label, unit.unit);
 }
 
 }  // namespace
 
-FieldFigure figure_of(const std::filesystem::path& folder, const std::string& name, const PlanePicture& picture,
-                      const Box& view, const std::string& colour_label) {
+FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view,
+                      const std::string& colour_label) {
   const int height = std::max(1, static_cast<int>(std::lround(plot_width * view.height() / view.width())));
-  const double canvas = height + 105.0;
-  const std::string preamble = fmt::format(
-      "set encoding utf8\nset terminal pngcairo size {},{} font 'Helvetica,19' noenhanced background "
-      "'#ffffff'\n"
-      "set lmargin screen 0.095\nset rmargin screen 0.855\nset tmargin screen {:.4g}\nset bmargin screen "
-      "{:.4g}\n"
-      "set border 15 lw 0.8 lc rgb '#8796a5'\nset tics out scale 0.4 nomirror textcolor rgb '#51606e'\n"
-      "set xlabel 'both axes in m' textcolor rgb '#51606e' offset 0,0.3\nset key off\nset colorbox user origin "
-      "0.872,{:.4g} size 0.022,{:.4g}\n"
-      "set palette defined (0 '#dcecf5', 0.12 '#a9d3ea', 0.3 '#5fa8d8', 0.5 '#3272b4', 0.68 '#3f3f97', "
-      "0.84 '#7a2a86', 1 '#c2185b')\nset format cb '%.4g'\n",
-      1000, canvas, 1 - 20 / canvas, 85 / canvas, 85 / canvas, 1 - 105 / canvas);
-  const Raster raster =
-      rasterise(picture, view.low, view.high, raster_width, std::max(1, height * raster_width / plot_width));
+  const Raster raster = rasterise(picture, view.low, view.high, plot_width, height);
   const Range range = pressure_range(raster);
   const Unit unit = si_unit(std::max(range.high, -range.low), "Pa");
-  write_bytes(folder / (name + ".bin"),
-              {reinterpret_cast<const char*>(raster.values.data()), raster.values.size() * sizeof(float)});
-  write_lines(folder / (name + ".lines"), picture, view);
-  FieldFigure figure{name, {}, {}, preamble + plot_of(name, raster, view, picture, range, unit, colour_label)};
+  FieldFigure figure;
+  figure.name = name;
+  figure.script = axes_script(name, view, height, range, unit, colour_label);
+  figure.content = content_of(picture, view, raster, range);
   float top = -std::numeric_limits<float>::infinity();
   for (const float v : raster.values)
     if (std::isfinite(v)) top = std::max(top, v);
   if (std::isfinite(top)) figure.caption = fmt::format("highest pressure in view {}", with_unit(top, "Pa", 3));
   return figure;
+}
+
+std::string with_content(const std::string& axes, const FieldFigure& figure) {
+  constexpr std::string_view before = "<g id=\"gnuplot_canvas\">";
+  const auto at = axes.find(before);
+  if (at == std::string::npos) throw std::runtime_error(figure.name + ".svg: is not what gnuplot writes");
+  const auto ground = fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
+  return axes.substr(0, at) + ground + figure.content + axes.substr(at);
 }
 
 }  // namespace splashdown::apps

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "apps/report/field.hpp"
@@ -22,8 +21,11 @@ struct Box {
   double height() const { return high[1] - low[1]; }
 };
 
-/// Writes NAME.bin and NAME.lines into `folder`; the figure with its script. Its caption ends with the highest pressure.
-FieldFigure figure_of(const std::filesystem::path& folder, const std::string& name, const PlanePicture& picture,
-                      const Box& view, const std::string& colour_label = "pressure");
+/// The figure; its caption ends with the highest pressure.
+FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view,
+                      const std::string& colour_label = "pressure");
+
+/// The axes that gnuplot drew, with the picture between them.
+std::string with_content(const std::string& axes, const FieldFigure& figure);
 
 }  // namespace splashdown::apps

@@ -15,6 +15,7 @@
 #include "apps/report/html.hpp"
 #include "apps/report/hull.hpp"
 #include "apps/report/page.hpp"
+#include "apps/report/picture.hpp"
 #include "apps/report/price.hpp"
 #include "apps/report/study.hpp"
 
@@ -43,7 +44,9 @@ void draw(const std::filesystem::path& folder, const std::vector<Figure>& curves
     write_text(folder / name, script);
     scripts.push_back(name);
   };
-  for (const auto& field : fields.figures) add(field.name + ".gp", field.script);
+  std::string axes;
+  for (const auto& field : fields.figures) axes += field.script;
+  if (!axes.empty()) add("fields.gp", axes);
   if (!curves.empty()) add("curves.gp", script_of(folder, curves));
   const auto results = run_gnuplot(folder, scripts);
   if (std::ranges::count(results, GnuplotResult::missing) > 0) warnings.emplace_back(no_gnuplot);
@@ -69,20 +72,22 @@ ReportResult write_report(const std::filesystem::path& directory) {
     page.groups.insert(page.groups.end() - (page.groups.empty() ? 0 : 1), std::move(hulls));  // before the numerics
   std::vector<Figure> curves;
   for (const auto& group : page.groups) curves.insert(curves.end(), group.figures.begin(), group.figures.end());
-  FieldFigures fields = prepare_field_figures(directory, folder), hulls = prepare_hull_figures(directory, folder);
+  FieldFigures fields = prepare_field_figures(directory), hulls = prepare_hull_figures(directory);
   result.warnings = fields.warnings;
   result.warnings.insert(result.warnings.end(), hulls.warnings.begin(), hulls.warnings.end());
   const auto of_plane = static_cast<std::ptrdiff_t>(fields.figures.size());
   std::ranges::move(hulls.figures, std::back_inserter(fields.figures));
   draw(folder, curves, fields, result.warnings);
-  remove_field_data(folder, fields);
 
   for (const auto& figure : curves)
     if (const auto file = folder / (figure.name + ".svg"); std::filesystem::exists(file))
       page.images[figure.name] = inline_svg(read_text(file), figure.name);
   for (const auto& field : fields.figures)
-    if (const auto file = folder / (field.name + ".png"); std::filesystem::exists(file))
-      page.images[field.name] = inline_png(read_text(file), field.title);
+    if (const auto file = folder / (field.name + ".svg"); std::filesystem::exists(file)) {
+      const auto picture = with_content(read_text(file), field);
+      write_text(file, picture);
+      page.images[field.name] = inline_svg(picture, field.name);
+    }
   page.hulls.assign(fields.figures.begin() + of_plane, fields.figures.end());
   fields.figures.resize(static_cast<std::size_t>(of_plane));
   page.fields = std::move(fields.figures);

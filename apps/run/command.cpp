@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -63,6 +64,16 @@ std::string failure_text(const LoopEnd& end, const Run<d>& run, const fs::path& 
       run.time(), run.loop().steps, end.cause, (directory / "checkpoint").string());
 }
 
+/// Draws report.html from the files, and counts the time that it takes as the run's.
+void report(Summary& summary, const RunOptions& options, const fs::path& directory) {
+  const auto start = std::chrono::steady_clock::now();
+  for (const auto& warning : write_report(directory).warnings) say(options, "note: " + warning);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  summary.phases.emplace_back("report", seconds);
+  summary.wall_seconds += seconds;
+  write_summary(directory, summary);
+}
+
 /// Writes summary.json and report.html.
 template <int d>
 Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene_name, const RunOptions& options,
@@ -77,7 +88,7 @@ Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene
     return summary;
   }
   leave_at_interrupt(options.quiet ? "" : "\nstopped while the report was drawn: " + later + "\n");
-  for (const auto& warning : write_report(directory).warnings) say(options, "note: " + warning);
+  report(summary, options, directory);
   return summary;
 }
 
@@ -125,11 +136,18 @@ struct Start {
   bool resumes() const { return !from.good.empty(); }
 };
 
+/// Before main only the loader runs, and it waits for nothing: this thread's processor time is the time since then.
+std::chrono::steady_clock::time_point process_start() {
+  timespec used{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return std::chrono::steady_clock::now() - std::chrono::seconds(used.tv_sec) - std::chrono::nanoseconds(used.tv_nsec);
+}
+
 /// Throws SceneError.
 Start read_start(const RunOptions& options) {
   Start start;
   auto& plan = start.plan;
-  plan.started = std::chrono::steady_clock::now();
+  plan.started = process_start();
   plan.budget = options.budget;
   plan.directory = options.out.value_or(default_directory(options.scene));
   start.file = read_scene(options.scene, options.overrides);

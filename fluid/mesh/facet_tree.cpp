@@ -32,13 +32,6 @@ Vec<3> closest_on(const std::array<Vec<3>, 3>& f, const Vec<3>& x) {
 }
 
 template <int d>
-Vec<d> FacetTree<d>::Piece::centre() const {
-  Vec<d> sum = Vec<d>::Zero();
-  for (const auto& c : corner) sum += c / d;
-  return sum;
-}
-
-template <int d>
 typename FacetTree<d>::Box FacetTree<d>::Piece::box() const {
   Box out(corner[0]);
   for (int k = 1; k < d; ++k) out.extend(corner[k]);
@@ -69,10 +62,17 @@ FacetTree<d>::FacetTree(const std::vector<std::array<Vec<d>, d>>& facets) {
   for (const auto& f : facets)
     for (const auto& corner : f) whole.extend(corner);
   const double size = whole.diagonal().norm();
+  roundoff_ = 1e-12 * (size + whole.min().cwiseAbs().cwiseMax(whole.max().cwiseAbs()).norm());
   for (std::size_t f = 0; f < facets.size(); ++f) cut({facets[f], static_cast<int>(f)}, part * size);
   branches_.reserve(pieces_.size());
   branches_.emplace_back();
-  build(0, 0, static_cast<int>(pieces_.size()));
+  auto order = keys();
+  build(order, 0, 0, static_cast<int>(pieces_.size()));
+  std::vector<Piece> sorted;
+  sorted.reserve(pieces_.size());
+  for (const Key& key : order) sorted.push_back(pieces_[key.piece]);
+  pieces_ = std::move(sorted);
+  set_boxes();
 }
 
 template <int d>
@@ -99,27 +99,87 @@ void FacetTree<d>::cut(const Piece& piece, double shortest) {
 }
 
 template <int d>
-void FacetTree<d>::build(int branch, int first, int count) {
-  Box box, centres;
-  for (int i = first; i < first + count; ++i) {
-    box.extend(pieces_[i].box());
-    centres.extend(pieces_[i].centre());
+std::vector<typename FacetTree<d>::Key> FacetTree<d>::keys() const {
+  std::vector<Key> out;
+  out.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) {
+    Vec<d> sum = Vec<d>::Zero();
+    for (const auto& c : piece.corner) sum += c / d;
+    out.push_back({sum, static_cast<int>(out.size())});
   }
+  return out;
+}
+
+template <int d>
+void FacetTree<d>::build(std::vector<Key>& keys, int branch, int first, int count) {
   constexpr int leaf_size = 4;
   if (count <= leaf_size) {
-    branches_[branch] = {box, first, count};
+    branches_[branch] = {{}, first, count, -1};
     return;
   }
+  Box centres;
+  for (int i = first; i < first + count; ++i) centres.extend(keys[i].centre);
   int axis;
   centres.sizes().maxCoeff(&axis);
   const int half = count / 2;
-  std::nth_element(pieces_.begin() + first, pieces_.begin() + first + half, pieces_.begin() + first + count,
-                   [&](const Piece& a, const Piece& b) { return a.centre()[axis] < b.centre()[axis]; });
+  std::nth_element(keys.begin() + first, keys.begin() + first + half, keys.begin() + first + count,
+                   [axis](const Key& a, const Key& b) { return a.centre[axis] < b.centre[axis]; });
   const int child = static_cast<int>(branches_.size());
   branches_.resize(branches_.size() + 2);
-  branches_[branch] = {box, child, 0};
-  build(child, first, half);
-  build(child + 1, first + half, count - half);
+  branches_[branch] = {{}, child, 0, -1};
+  build(keys, child, first, half);
+  build(keys, child + 1, first + half, count - half);
+}
+
+/// Across the normal the box lies along the longest edge.
+template <int d>
+typename FacetTree<d>::TightBox FacetTree<d>::tight_box(int first, int count) const {
+  TightBox out;
+  if constexpr (d == 3) {
+    Vec<3> normal = Vec<3>::Zero(), along = Vec<3>::Zero();
+    for (int i = first; i < first + count; ++i) {
+      const auto& c = pieces_[i].corner;
+      normal += (c[1] - c[0]).cross(c[2] - c[0]);
+      for (int k = 0; k < 3; ++k)
+        if (const Vec<3> e = c[(k + 1) % 3] - c[k]; e.squaredNorm() > along.squaredNorm()) along = e;
+    }
+    if (along.squaredNorm() > 0) along.normalize();
+    normal -= normal.dot(along) * along;
+    if (!(normal.squaredNorm() > 0)) normal = along.unitOrthogonal();
+    normal.normalize();
+    out.axes << normal.transpose(), along.transpose(), normal.cross(along).transpose();
+    for (int i = first; i < first + count; ++i)
+      for (const auto& corner : pieces_[i].corner) out.box.extend(out.axes * corner);
+    out.box.min().array() -= roundoff_;
+    out.box.max().array() += roundoff_;
+  }
+  return out;
+}
+
+template <int d>
+void FacetTree<d>::set_tight_boxes(int branch, int first, int count) {
+  constexpr int few = 8;  // larger branches are hardly flat
+  if (count <= few) {
+    branches_[branch].tight = static_cast<int>(tight_.size());
+    tight_.push_back(tight_box(first, count));
+  }
+  if (branches_[branch].count > 0) return;
+  const int child = branches_[branch].first;
+  set_tight_boxes(child, first, count / 2);
+  set_tight_boxes(child + 1, first + count / 2, count - count / 2);
+}
+
+template <int d>
+void FacetTree<d>::set_boxes() {
+  for (auto b = branches_.rbegin(); b != branches_.rend(); ++b)  // children stand behind their parents
+    if (b->count > 0)
+      for (int i = b->first; i < b->first + b->count; ++i) b->box.extend(pieces_[i].box());
+    else
+      b->box = branches_[b->first].box.merged(branches_[b->first + 1].box);
+  if (d == 2) return;
+  tight_.reserve(2 * pieces_.size());
+  for (std::size_t i = 0; i < pieces_.size(); ++i) tight_.push_back(tight_box(static_cast<int>(i), 1));
+  set_tight_boxes(0, 0, static_cast<int>(pieces_.size()));
 }
 
 template <int d>
@@ -136,9 +196,11 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
     const auto [lower, index] = stack[--top];
     if (lower * loose > best.squared_distance) continue;
     const Branch& b = branches_[index];
+    if (b.tight >= 0 && surely * tight_[b.tight].squared_distance(x) > best.squared_distance) continue;
     if (b.count > 0) {
       for (int i = b.first; i < b.first + b.count; ++i) {
-        if (surely * pieces_[i].box().squaredExteriorDistance(x) > best.squared_distance) continue;
+        const double least = d == 3 ? tight_[i].squared_distance(x) : pieces_[i].box().squaredExteriorDistance(x);
+        if (surely * least > best.squared_distance) continue;
         const Vec<d> c = closest_on(pieces_[i].corner, x);
         const double r = (c - x).squaredNorm();
         if (r < best.squared_distance || (best.facet < 0 && r <= best.squared_distance))
@@ -149,8 +211,8 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
     std::pair<double, int> a{branches_[b.first].box.squaredExteriorDistance(x), b.first};
     std::pair<double, int> c{branches_[b.first + 1].box.squaredExteriorDistance(x), b.first + 1};
     if (a.first < c.first) std::swap(a, c);
-    stack[top++] = a;  // the nearer one is looked at first
-    stack[top++] = c;
+    if (a.first * loose <= best.squared_distance) stack[top++] = a;  // the nearer one is looked at first
+    if (c.first * loose <= best.squared_distance) stack[top++] = c;
   }
   return best;
 }

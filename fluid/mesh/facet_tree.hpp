@@ -1,4 +1,5 @@
 // Nearest facet of a simplicial surface: a bounding-box tree, O(log n) a query, O(n log n) to build.
+// In space pieces, and branches of a few, have tight boxes, too, with an axis along the normal (Gottschalk, Lin, Manocha 1996): upright boxes of slanted facets overlap so much that a cone of needles was asked for two hundred of them a query.
 #pragma once
 
 #include <array>
@@ -33,21 +34,38 @@ class FacetTree {
 
  private:
   using Box = Eigen::AlignedBox<double, d>;
+  /// A box that is turned: rows of `axes` are its directions.
+  struct TightBox {
+    Eigen::Matrix<double, d, d> axes;
+    Box box;
+    double squared_distance(const Vec<d>& x) const { return box.squaredExteriorDistance(axes * x); }
+  };
   struct Branch {
     Box box;
     int first, count;  // leaf: pieces [first, first + count); else count = 0, children first, first + 1
+    int tight = -1;
   };
   struct Piece {
     std::array<Vec<d>, d> corner;
     int facet;
-    Vec<d> centre() const;
     Box box() const;
   };
+  /// What a piece is sorted by.
+  struct Key {
+    Vec<d> centre;
+    int piece;
+  };
   void cut(const Piece& piece, double shortest);
-  void build(int branch, int first, int count);
+  std::vector<Key> keys() const;
+  void build(std::vector<Key>& keys, int branch, int first, int count);
+  void set_boxes();
+  void set_tight_boxes(int branch, int first, int count);
+  TightBox tight_box(int first, int count) const;
 
   std::vector<Piece> pieces_;  // needles come in several: boxes around whole ones hardly tell them apart
   std::vector<Branch> branches_;
+  std::vector<TightBox> tight_;  // of the pieces, then of branches; none in the plane
+  double roundoff_ = 0;          // of coordinates [m]
 };
 
 extern template class FacetTree<2>;

@@ -86,8 +86,8 @@ TEST(SpatialReport, shows_curves_slices_and_the_hull) {
   if (!result.warnings.empty() && result.warnings[0].find("not installed") != std::string::npos)
     GTEST_SKIP() << "gnuplot is not installed";
   EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
-  for (const char* picture : {"field_0.png", "body_box_fz.svg", "body_box_acceleration.svg", "body_box_wetted.svg",
-                              "hull_box_below.png", "hull_box_side.png", "hull_box_ahead.png", "surface_box.svg"})
+  for (const char* picture : {"field_0.svg", "body_box_fz.svg", "body_box_acceleration.svg", "body_box_wetted.svg",
+                              "hull_box_below.svg", "hull_box_side.svg", "hull_box_ahead.svg", "surface_box.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "report" / picture)) << picture;
   EXPECT_NE(folder.text("report.html").find("box from below"), std::string::npos);
 }
