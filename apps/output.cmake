@@ -23,4 +23,4 @@ target_precompile_headers(splashdown_output PRIVATE ${SPLASHDOWN_COMMON_HEADERS}
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(splashdown_output
   PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt
-  PRIVATE VTK::CommonCore VTK::CommonDataModel VTK::IOXML PNG::PNG)
+  PRIVATE splashdown_core VTK::CommonCore VTK::CommonDataModel VTK::IOXML PNG::PNG)

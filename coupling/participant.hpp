@@ -21,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/status.hpp"
+
 namespace splashdown::coupling {
 
 using Motion = Eigen::VectorXd;
@@ -29,11 +31,7 @@ using Impulse = Eigen::VectorXd;
 /// of its pose (wall frame to world), by columns; of an elastic one besides the amplitudes of its modes.
 using Placement = Eigen::VectorXd;
 
-/// Numerical trouble is reported, not thrown: the step is refused. `cause` is empty when all is well.
-struct Status {
-  std::string cause;
-  bool ok() const { return cause.empty(); }
-};
+using splashdown::Status;
 
 struct Step {
   double kick = 0;  ///< how long impulses act [s]

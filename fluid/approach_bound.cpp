@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/facet_tree.hpp"
 #include "fluid/mesh/parts.hpp"
 
 namespace splashdown::fluid {

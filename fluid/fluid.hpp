@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
+#include "core/status.hpp"
 #include "fluid/effects/effect.hpp"
 #include "fluid/pressure/pressure.hpp"
-#include "fluid/status.hpp"
 #include "fluid/view.hpp"
 
 namespace splashdown::fluid {

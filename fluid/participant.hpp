@@ -24,7 +24,7 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
   coupling::Status begin(const coupling::Step& step, const coupling::InterfaceModel& structure) override;
   coupling::Status solve(const coupling::Pass& pass) override;
   const coupling::Solution& solution() const override { return solution_; }
-  coupling::Status acceptable() const override { return {fluid_->acceptable().cause}; }
+  coupling::Status acceptable() const override { return fluid_->acceptable(); }
   void commit(const coupling::Placement& walls) override;
 
   std::span<const coupling::InterfacePiece> pieces() const override { return pieces_; }

@@ -1,10 +1,11 @@
 // Seconds per phase of a step; always on.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "core/stopwatch.hpp"
 
 namespace splashdown::fluid {
 
@@ -16,19 +17,7 @@ class PhaseTimer {
   /// Its number is that of the phases before it.
   void add(std::string phase) { seconds_.emplace_back(std::move(phase), 0.0); }
   /// Charges the time until the scope's end to a phase.
-  class Scope {
-   public:
-    explicit Scope(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
-    ~Scope() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-    Scope(const Scope&) = delete;
-    Scope& operator=(const Scope&) = delete;
-
-   private:
-    using Clock = std::chrono::steady_clock;
-    double& seconds_;
-    Clock::time_point start_;
-  };
-  Scope scope(std::size_t phase) { return Scope(seconds_[phase].second); }
+  Stopwatch scope(std::size_t phase) { return Stopwatch(seconds_[phase].second); }
   const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
 
  private:

@@ -7,10 +7,11 @@
 #include <numbers>
 
 #include "apps/check/floating.hpp"
-#include "apps/scene/motion_guess.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/build.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/motion_guess.hpp"
+#include "core/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -44,17 +45,6 @@ std::string motion_text(const Body& body) {
   return fmt::format("free in {}; starts with {}", fmt::join(body.free, ", "), start(""));
 }
 
-rigid::Vec<2> area_vector(const rigid::Surface<2>& s, Eigen::Index f) {
-  const rigid::Vec<2> edge = s.vertices.col(s.facets(1, f)) - s.vertices.col(s.facets(0, f));
-  return {edge.y(), -edge.x()};
-}
-
-rigid::Vec<3> area_vector(const rigid::Surface<3>& s, Eigen::Index f) {
-  const rigid::Vec<3> a = s.vertices.col(s.facets(0, f)), b = s.vertices.col(s.facets(1, f)),
-                      c = s.vertices.col(s.facets(2, f));
-  return 0.5 * (b - a).cross(c - a);
-}
-
 bool is_round(const Shape& shape) {
   return std::holds_alternative<CircleShape>(shape) || std::holds_alternative<EllipseShape>(shape) ||
          std::holds_alternative<CapsuleShape>(shape) || std::holds_alternative<SphereShape>(shape);
@@ -69,7 +59,9 @@ std::string deadrise_text(const Body& body, const rigid::Surface<d>& hull) {
   double least = 90;
   for (Eigen::Index i = 0; i < hull.facets.cols(); ++i) {
     if ((hull.facets.col(i).array() != lowest).all()) continue;
-    const rigid::Vec<d> n = area_vector(hull, i);
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[static_cast<std::size_t>(k)] = hull.vertices.col(hull.facets(k, i));
+    const Vec<d> n = area_vector(corner);
     const double across = n.template head<d - 1>().norm();
     least = std::min(least, std::atan2(across, std::abs(n[d - 1])) * degrees);
   }

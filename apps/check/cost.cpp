@@ -6,9 +6,9 @@
 #include <numbers>
 #include <queue>
 
+#include "apps/run/build.hpp"
 #include "apps/scene/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
-#include "apps/run/build.hpp"
 #include "apps/scene/solid.hpp"
 
 namespace splashdown::apps {
@@ -125,7 +125,7 @@ class SizeEstimate {
       vertices += surface.vertices.cols();
     }
     all.facets.conservativeResize(d, facets);
-    free_ = fluid::FacetTree<d>(all.vertices, all.facets);
+    free_ = FacetTree<d>(all.vertices, all.facets);
   }
 
   Sizes size_;
@@ -136,7 +136,7 @@ class SizeEstimate {
   double least_bend_ = std::numeric_limits<double>::max();
   Extents<d> tank_;
   double tank_size_ = 0;
-  fluid::FacetTree<d> free_;
+  FacetTree<d> free_;
 };
 
 struct Count {

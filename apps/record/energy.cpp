@@ -9,7 +9,7 @@ namespace {
 
 /// Energy per volume at a point [J/m^3].
 template <int d>
-double energy_at(const fluid::View<d>& fluid, const fluid::Vec<d>& x) {
+double energy_at(const fluid::View<d>& fluid, const Vec<d>& x) {
   return fluid.density() * fluid.potential(x);
 }
 
@@ -28,11 +28,11 @@ class Range {
 
 /// The middle of the surface that the water would have at rest in its tank.
 template <int d>
-fluid::Vec<d> middle_of_level(const fluid::WallSpec<d>& tank, double volume) {
+Vec<d> middle_of_level(const fluid::WallSpec<d>& tank, double volume) {
   Eigen::AlignedBox<double, d> box;
   for (Eigen::Index v = 0; v < tank.surface.vertices.cols(); ++v)
-    box.extend(tank.pose * fluid::Vec<d>(tank.surface.vertices.col(v)));
-  fluid::Vec<d> level = box.center();
+    box.extend(tank.pose * Vec<d>(tank.surface.vertices.col(v)));
+  Vec<d> level = box.center();
   const double height = box.sizes()(d - 1);
   level(d - 1) = box.min()(d - 1) + std::min(height, volume / (box.volume() / height));
   return level;
@@ -61,7 +61,7 @@ double moving_hulls(const rigid::View<d>& bodies) {
 }
 
 template <int d>
-double kinetic_energy(const rigid::BodySpec<d>& body, const rigid::Isometry<d>& pose, const rigid::Twist<d>& velocity) {
+double kinetic_energy(const rigid::BodySpec<d>& body, const Isometry<d>& pose, const Twist<d>& velocity) {
   const double translation = body.mass * velocity.template head<d>().squaredNorm();
   if constexpr (d == 2) {
     return 0.5 * (translation + body.inertia(0, 0) * velocity(2) * velocity(2));
@@ -96,7 +96,7 @@ std::vector<BodyEnergy> body_energies(const RecordInput<d>& input) {
     if (!energy.wet || !energy.free) continue;
     Range height;
     for (Eigen::Index v = 0; v < body.surface.vertices.cols(); ++v)
-      height.offer(energy_at<d>(*input.fluid, pose * rigid::Vec<d>(body.surface.vertices.col(v))));
+      height.offer(energy_at<d>(*input.fluid, pose * Vec<d>(body.surface.vertices.col(v))));
     energy.immersion = 0.5 * hull_volume<d>(body.surface) * height.length();
   }
   return energies;

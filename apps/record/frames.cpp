@@ -56,7 +56,7 @@ void add_scalar(vtkUnstructuredGrid& grid, const char* name, const std::vector<V
 }
 
 template <int d>
-void add_velocity(vtkUnstructuredGrid& grid, const std::vector<fluid::Vec<d>>& values) {
+void add_velocity(vtkUnstructuredGrid& grid, const std::vector<Vec<d>>& values) {
   const auto count = static_cast<vtkIdType>(values.size());
   vtkNew<vtkDoubleArray> velocity;
   velocity->SetName("v");
@@ -135,8 +135,8 @@ std::string file_name_of(const std::string& name) {
 }
 
 template <int d>
-void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
-                   const PointData& data, const fluid::Vec<d>& forward, const std::vector<fluid::Vec<d>>& v) {
+void write_surface(const std::filesystem::path& path, double time, const Surface<d>& surface, const PointData& data,
+                   const Vec<d>& forward, const std::vector<Vec<d>>& v) {
   vtkNew<vtkUnstructuredGrid> grid;
   const auto& [vertices, facets] = surface;
   set_points<d>(
@@ -205,10 +205,10 @@ template std::vector<std::pair<std::string, std::string>> write_pieces<2>(const 
                                                                           const std::string&, const Frame<2>&);
 template std::vector<std::pair<std::string, std::string>> write_pieces<3>(const std::filesystem::path&,
                                                                           const std::string&, const Frame<3>&);
-template void write_surface<2>(const std::filesystem::path&, double, const fluid::Surface<2>&, const PointData&,
-                               const fluid::Vec<2>&, const std::vector<fluid::Vec<2>>&);
-template void write_surface<3>(const std::filesystem::path&, double, const fluid::Surface<3>&, const PointData&,
-                               const fluid::Vec<3>&, const std::vector<fluid::Vec<3>>&);
+template void write_surface<2>(const std::filesystem::path&, double, const Surface<2>&, const PointData&, const Vec<2>&,
+                               const std::vector<Vec<2>>&);
+template void write_surface<3>(const std::filesystem::path&, double, const Surface<3>&, const PointData&, const Vec<3>&,
+                               const std::vector<Vec<3>>&);
 template void FrameSeries::add<2>(const Frame<2>&);
 template void FrameSeries::add<3>(const Frame<3>&);
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fluid/types.hpp"
+#include "core/types.hpp"
 
 namespace splashdown::apps {
 
@@ -27,16 +27,16 @@ enum class NodeKind : unsigned char {
 template <int d>
 struct Outline {
   std::string name;
-  fluid::Surface<d> surface;
-  fluid::Vec<d> forward = fluid::Vec<d>::UnitX();  ///< where the x axis of its frame points
-  std::vector<fluid::Vec<d>> v = {};               ///< of its vertices [m/s]
-  std::vector<double> p = {};                      ///< of the water at its vertices, 0 where it is dry [Pa]
+  Surface<d> surface;
+  Vec<d> forward = Vec<d>::UnitX();  ///< where the x axis of its frame points
+  std::vector<Vec<d>> v = {};        ///< of its vertices [m/s]
+  std::vector<double> p = {};        ///< of the water at its vertices, 0 where it is dry [Pa]
 };
 
 template <int d>
 struct Frame {
   double time = 0;
-  std::vector<fluid::Vec<d>> x, v;
+  std::vector<Vec<d>> x, v;
   std::vector<double> p;
   std::vector<double> drop_diameter;  ///< of the disc or ball of its volume; 0: no drop [m]
   std::vector<NodeKind> kind;
@@ -53,9 +53,9 @@ std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesys
 using PointData = std::vector<std::pair<std::string, std::vector<double>>>;  ///< name and one value a vertex
 /// `forward` is kept as field data; `v`: of the vertices, if there is one a vertex.
 template <int d>
-void write_surface(const std::filesystem::path& path, double time, const fluid::Surface<d>& surface,
-                   const PointData& data = {}, const fluid::Vec<d>& forward = fluid::Vec<d>::UnitX(),
-                   const std::vector<fluid::Vec<d>>& v = {});
+void write_surface(const std::filesystem::path& path, double time, const Surface<d>& surface,
+                   const PointData& data = {}, const Vec<d>& forward = Vec<d>::UnitX(),
+                   const std::vector<Vec<d>>& v = {});
 
 /// frames.pvd with frames/000000.vtu, frames/000000_WALL.vtu, ...
 class FrameSeries {

@@ -14,13 +14,11 @@
 #include <map>
 #include <utility>
 
-#include "fluid/geometry.hpp"
+#include "core/geometry.hpp"
 
 namespace splashdown::apps {
 
 namespace {
-
-using fluid::Vec;
 
 using Edge = std::pair<int, int>;
 
@@ -28,7 +26,7 @@ template <int d>
 using FacetCorners = std::array<int, d>;
 
 template <int d>
-std::vector<FacetCorners<d>> facets_of(const fluid::Surface<d>& surface) {
+std::vector<FacetCorners<d>> facets_of(const Surface<d>& surface) {
   std::vector<FacetCorners<d>> facets(static_cast<std::size_t>(surface.facets.cols()));
   for (std::size_t f = 0; f < facets.size(); ++f)
     for (std::size_t k = 0; k < d; ++k)
@@ -80,7 +78,7 @@ Footprint<d> footprint(const std::array<Vec<d>, d>& corner, const Vec<d>& point)
 }  // namespace
 
 template <int d>
-fluid::Surface<d> refined(fluid::Surface<d> surface, double longest) {
+Surface<d> refined(Surface<d> surface, double longest) {
   std::vector<Vec<d>> x;
   for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) x.push_back(surface.vertices.col(i));
   auto facets = facets_of<d>(surface);
@@ -116,7 +114,7 @@ struct HullMap<d>::Locator {
   vtkNew<vtkStaticPointLocator> tree;
   vtkNew<vtkIdList> found;
 
-  explicit Locator(const fluid::Surface<d>& surface) {
+  explicit Locator(const Surface<d>& surface) {
     vtkNew<vtkPoints> coordinates;
     coordinates->SetDataTypeToDouble();
     for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i)
@@ -134,7 +132,7 @@ struct HullMap<d>::Locator {
 };
 
 template <int d>
-HullMap<d>::HullMap(const fluid::Surface<d>& surface, double size)
+HullMap<d>::HullMap(const Surface<d>& surface, double size)
     : surface_(refined<d>(surface, size)), locator_(std::make_unique<Locator>(surface_)) {
   const auto count = static_cast<std::size_t>(surface_.vertices.cols());
   pressure_.assign(count, 0);
@@ -143,7 +141,7 @@ HullMap<d>::HullMap(const fluid::Surface<d>& surface, double size)
   for (const auto& facet : facets_of<d>(surface_)) {
     std::array<Vec<d>, d> corner;
     for (std::size_t k = 0; k < d; ++k) corner[k] = surface_.vertices.col(facet[k]);
-    for (const int vertex : facet) normal_[static_cast<std::size_t>(vertex)] += fluid::area_vector(corner);
+    for (const int vertex : facet) normal_[static_cast<std::size_t>(vertex)] += area_vector(corner);
   }
   for (auto& normal : normal_) normal.normalize();
 }
@@ -154,14 +152,14 @@ template <int d>
 HullMap<d>::HullMap(HullMap&&) noexcept = default;
 
 template <int d>
-void HullMap<d>::add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const fluid::Isometry<d>& pose,
+void HullMap<d>::add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const Isometry<d>& pose,
                      double time) {
   // Facets are chords: beside a convex edge there is a gap of sagitta times angle, h/8 (h/R)^2 < rim h for h < R/4.
   constexpr double rim = 0.01;
   // Cosine of the angle between normals: a point beside a right-angled edge does not face as the other side does, the edge
   // of a blade of 12 degrees, whose normal is that of both sides together, faces like either.
   constexpr double alike = 0.1;
-  const fluid::Isometry<d> to_wall = pose.inverse();
+  const Isometry<d> to_wall = pose.inverse();
   for (const auto& facet : mesh.boundary) {
     if (facet.wall != wall) continue;
     std::array<Vec<d>, d> corner;
@@ -170,7 +168,7 @@ void HullMap<d>::add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, i
       corner[k] = to_wall * nodes.x[static_cast<std::size_t>(facet.nodes[k])];
       middle += corner[k] / d;
     }
-    const Vec<d> out_of_fluid = fluid::area_vector(corner);
+    const Vec<d> out_of_fluid = area_vector(corner);
     double reach = 0, size = 0;
     for (std::size_t k = 0; k < d; ++k) {
       reach = std::max(reach, (corner[k] - middle).norm());
@@ -191,8 +189,8 @@ void HullMap<d>::add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, i
   }
 }
 
-template fluid::Surface<2> refined<2>(fluid::Surface<2>, double);
-template fluid::Surface<3> refined<3>(fluid::Surface<3>, double);
+template Surface<2> refined<2>(Surface<2>, double);
+template Surface<3> refined<3>(Surface<3>, double);
 template class HullMap<2>;
 template class HullMap<3>;
 

@@ -18,18 +18,17 @@ namespace splashdown::apps {
 
 /// The surface with its longer edges halved until there are none; neighbours stay neighbours.
 template <int d>
-fluid::Surface<d> refined(fluid::Surface<d> surface, double longest);
+Surface<d> refined(Surface<d> surface, double longest);
 
 template <int d>
 class HullMap {
  public:
-  HullMap(const fluid::Surface<d>& surface_in_wall_frame, double size);
+  HullMap(const Surface<d>& surface_in_wall_frame, double size);
   ~HullMap();
   HullMap(HullMap&&) noexcept;
 
-  void add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const fluid::Isometry<d>& pose,
-           double time);
-  const fluid::Surface<d>& surface() const { return surface_; }
+  void add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const Isometry<d>& pose, double time);
+  const Surface<d>& surface() const { return surface_; }
   const std::vector<double>& pressure() const { return pressure_; }  ///< [Pa]; 0 where never wetted
   const std::vector<double>& time() const { return time_; }          ///< [s]; nan where never wetted
 
@@ -41,8 +40,8 @@ class HullMap {
 
  private:
   struct Locator;
-  fluid::Surface<d> surface_;
-  std::vector<fluid::Vec<d>> normal_;  ///< at the points, out of the body
+  Surface<d> surface_;
+  std::vector<Vec<d>> normal_;  ///< at the points, out of the body
   std::vector<double> pressure_, time_;
   std::unique_ptr<Locator> locator_;
 };

@@ -11,9 +11,9 @@
 namespace splashdown::apps {
 
 template <int d>
-fluid::Vec<d> centre_of_mass(const RecorderSettings<d>& settings, const std::string& wall) {
+Vec<d> centre_of_mass(const RecorderSettings<d>& settings, const std::string& wall) {
   const auto found = settings.centre_of_mass.find(wall);
-  return found == settings.centre_of_mass.end() ? fluid::Vec<d>(fluid::Vec<d>::Zero()) : found->second;
+  return found == settings.centre_of_mass.end() ? Vec<d>(Vec<d>::Zero()) : found->second;
 }
 
 namespace {
@@ -73,8 +73,7 @@ void HullReadings<d>::summarise(Summary& summary) const {
     const auto& p = maps_[i].pressure();
     const auto top = static_cast<std::size_t>(std::ranges::max_element(p) - p.begin());
     if (!(maps_[i].time()[top] >= 0)) continue;  // never wet
-    const fluid::Vec<d> at =
-        maps_[i].surface().vertices.col(static_cast<Eigen::Index>(top)) + centre_of_mass(settings_, body);
+    const Vec<d> at = maps_[i].surface().vertices.col(static_cast<Eigen::Index>(top)) + centre_of_mass(settings_, body);
     summary.bodies[body].maximum_pressure =
         MaximumPressure{{p[top], maps_[i].time()[top]}, std::vector<double>(at.data(), at.data() + d), {}};
     summary.bodies[body].maximum_pressure->evidence.step = above_neighbours<d>(maps_[i], top);
@@ -105,8 +104,8 @@ void HullReadings<d>::write() const {
   }
 }
 
-template fluid::Vec<2> centre_of_mass<2>(const RecorderSettings<2>&, const std::string&);
-template fluid::Vec<3> centre_of_mass<3>(const RecorderSettings<3>&, const std::string&);
+template Vec<2> centre_of_mass<2>(const RecorderSettings<2>&, const std::string&);
+template Vec<3> centre_of_mass<3>(const RecorderSettings<3>&, const std::string&);
 template class HullReadings<2>;
 template class HullReadings<3>;
 

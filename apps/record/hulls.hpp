@@ -46,7 +46,7 @@ class HullReadings {
 
 /// Centre of mass of a body in the frame of its shape; zero for the tank.
 template <int d>
-fluid::Vec<d> centre_of_mass(const RecorderSettings<d>& settings, const std::string& wall);
+Vec<d> centre_of_mass(const RecorderSettings<d>& settings, const std::string& wall);
 
 extern template class HullReadings<2>;
 extern template class HullReadings<3>;

@@ -12,42 +12,42 @@
 #include <optional>
 #include <vector>
 
-#include "fluid/geometry.hpp"
+#include "core/geometry.hpp"
 
 namespace splashdown::apps {
 
 template <int d>
 struct PatchRegion {
   struct Side {
-    fluid::Vec<d> normal;
+    Vec<d> normal;
     double offset;  ///< inside: normal . x <= offset
   };
   std::vector<Side> sides;
-  std::optional<fluid::Vec<d>> facing;  ///< only facets of the hull whose normal has a part along it
+  std::optional<Vec<d>> facing;  ///< only facets of the hull whose normal has a part along it
 };
 
 inline constexpr std::size_t disc_sides = 32;
 
 template <int d>
-PatchRegion<d> box_region(const fluid::Vec<d>& min, const fluid::Vec<d>& max) {
+PatchRegion<d> box_region(const Vec<d>& min, const Vec<d>& max) {
   PatchRegion<d> region;
   for (int k = 0; k < d; ++k) {
-    region.sides.push_back({fluid::Vec<d>::Unit(k), max(k)});
-    region.sides.push_back({-fluid::Vec<d>::Unit(k), -min(k)});
+    region.sides.push_back({Vec<d>::Unit(k), max(k)});
+    region.sides.push_back({-Vec<d>::Unit(k), -min(k)});
   }
   return region;
 }
 
 template <int d>
-PatchRegion<d> disc_region(const fluid::Vec<d>& centre, double radius, const fluid::Vec<d>& normal) {
+PatchRegion<d> disc_region(const Vec<d>& centre, double radius, const Vec<d>& normal) {
   PatchRegion<d> region;
   region.facing = normal;
-  const auto bound = [&](const fluid::Vec<d>& direction, double reach) {
+  const auto bound = [&](const Vec<d>& direction, double reach) {
     region.sides.push_back({direction, direction.dot(centre) + reach});
   };
   bound(normal, radius);
   bound(-normal, radius);
-  const fluid::Vec<d> across = normal.unitOrthogonal();
+  const Vec<d> across = normal.unitOrthogonal();
   if constexpr (d == 2) {
     bound(across, radius);
     bound(-across, radius);
@@ -99,9 +99,9 @@ Piece<d> cut(const Piece<d>& piece, const typename PatchRegion<d>::Side& side) {
 
 /// Of a facet of the hull or of the mesh on it, oriented like the hull, both in the body's frame.
 template <int d>
-PatchIntegral integrate(const PatchRegion<d>& region, const std::array<fluid::Vec<d>, d>& facet,
+PatchIntegral integrate(const PatchRegion<d>& region, const std::array<Vec<d>, d>& facet,
                         const std::array<double, d>& pressure) {
-  if (region.facing && !(fluid::area_vector(facet).dot(*region.facing) > 0)) return {};
+  if (region.facing && !(area_vector(facet).dot(*region.facing) > 0)) return {};
   for (const auto& side : region.sides) {
     bool outside = true;
     for (const auto& x : facet) outside = outside && side.normal.dot(x) >= side.offset;
@@ -117,14 +117,14 @@ PatchIntegral integrate(const PatchRegion<d>& region, const std::array<fluid::Ve
   PatchIntegral integral;
   // A segment, or the fan of triangles of a convex polygon.
   for (std::size_t k = d - 1; k < piece.size; ++k) {
-    std::array<fluid::Vec<d>, d> simplex;
+    std::array<Vec<d>, d> simplex;
     double sum = 0;
     for (std::size_t j = 0; j < d; ++j) {
       const auto& corner = piece.corners[j == 0 ? 0 : k + j + 1 - d];
       simplex[j] = corner.template head<d>();
       sum += corner(d);
     }
-    const double area = fluid::area_vector(simplex).norm();
+    const double area = area_vector(simplex).norm();
     integral.area += area;
     integral.force += area * sum / d;
   }
@@ -136,7 +136,7 @@ template <int d, class Surface>
 double patch_area(const PatchRegion<d>& region, const Surface& surface) {
   double area = 0;
   for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
-    std::array<fluid::Vec<d>, d> facet;
+    std::array<Vec<d>, d> facet;
     for (int k = 0; k < d; ++k) facet[static_cast<std::size_t>(k)] = surface.vertices.col(surface.facets(k, f));
     area += integrate<d>(region, facet, {}).area;
   }

@@ -9,8 +9,6 @@ namespace splashdown::apps {
 
 namespace {
 
-using fluid::Vec;
-
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// Barycentric coordinates of the point of a simplex facet nearest to `point`. For triangles the coordinates
@@ -100,9 +98,9 @@ std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::M
 }
 
 template <int d>
-double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const fluid::Isometry<d>& pose,
+double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const Isometry<d>& pose,
                    const PatchRegion<d>& region) {
-  const fluid::Isometry<d> to_wall = pose.inverse();
+  const Isometry<d> to_wall = pose.inverse();
   double force = 0;
   for (const auto& facet : mesh.boundary) {
     if (facet.wall != wall) continue;
@@ -119,7 +117,7 @@ double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int
 }
 
 template <int d>
-SurfaceRuler<d>::SurfaceRuler(const fluid::Surface<d>& surface, const fluid::Isometry<d>& initial)
+SurfaceRuler<d>::SurfaceRuler(const Surface<d>& surface, const Isometry<d>& initial)
     : surface_(surface), start_(static_cast<std::size_t>(surface.facets.cols()), 0.0) {
   const auto& [vertices, facets] = surface_;
   const Eigen::VectorXd height = (initial * vertices).row(d - 1).transpose();
@@ -167,8 +165,7 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 
 template <int d>
 std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                                      int wall, const SurfaceRuler<d>& ruler,
-                                                      const fluid::Isometry<d>& pose) {
+                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose) {
   std::vector<int> wetted;
   for (const auto& facet : mesh.boundary)
     if (facet.wall == wall) wetted.insert(wetted.end(), facet.nodes.begin(), facet.nodes.end());
@@ -177,7 +174,7 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nod
 
   std::vector<SurfacePressurePoint<d>> points;
   points.reserve(wetted.size());
-  const fluid::Isometry<d> to_wall = pose.inverse();
+  const Isometry<d> to_wall = pose.inverse();
   for (const int node : wetted) {
     const Vec<d>& x = nodes.x[index(node)];
     points.push_back({x, ruler.distance(to_wall * x), nodes.p[index(node)]});
@@ -186,15 +183,15 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nod
   return points;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                                \
-  template std::optional<double> surface_elevation<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,             \
-                                                      const Eigen::Matrix<double, d - 1, 1>&);                   \
-  template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, const Vec<d>&); \
-  template double patch_force<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const fluid::Isometry<d>&,  \
-                                 const PatchRegion<d>&);                                                         \
-  template class SurfaceRuler<d>;                                                                                \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                             \
-      const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const SurfaceRuler<d>&, const fluid::Isometry<d>&);
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
+  template std::optional<double> surface_elevation<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,               \
+                                                      const Eigen::Matrix<double, d - 1, 1>&);                     \
+  template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, const Vec<d>&);   \
+  template double patch_force<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const Isometry<d>&,           \
+                                 const PatchRegion<d>&);                                                           \
+  template class SurfaceRuler<d>;                                                                                  \
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, \
+                                                                    int, const SurfaceRuler<d>&, const Isometry<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

@@ -19,19 +19,18 @@ std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const flui
 /// than half that facet: walls are faceted finer or coarser than the fluid, so that a sensor on a wall may
 /// lie outside every cell.
 template <int d>
-std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                    const fluid::Vec<d>& point);
+std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, const Vec<d>& point);
 
 /// Force of the pressure on the region's part of a wall [N/m, N]; `pose` of the wall. Dry parts have no pressure.
 template <int d>
-double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const fluid::Isometry<d>& pose,
+double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const Isometry<d>& pose,
                    const PatchRegion<d>& region);
 
 template <int d>
 struct SurfacePressurePoint {
-  fluid::Vec<d> x;  ///< world frame [m]
-  double s;         ///< distance from the keel [m]; in 2D along the outline, counter-clockwise positive
-  double p;         ///< [Pa]
+  Vec<d> x;  ///< world frame [m]
+  double s;  ///< distance from the keel [m]; in 2D along the outline, counter-clockwise positive
+  double p;  ///< [Pa]
 };
 
 /// Measures distances along a wall's surface from its keel: the lowest point, in the middle of the lowest
@@ -40,23 +39,22 @@ template <int d>
 class SurfaceRuler {
  public:
   /// `initial`: the pose that decides what is lowest.
-  SurfaceRuler(const fluid::Surface<d>& surface, const fluid::Isometry<d>& initial);
+  SurfaceRuler(const Surface<d>& surface, const Isometry<d>& initial);
   /// In 3D the straight distance from the keel.
-  double distance(const fluid::Vec<d>& point_in_wall_frame) const;
+  double distance(const Vec<d>& point_in_wall_frame) const;
 
  private:
-  fluid::Surface<d> surface_;
+  Surface<d> surface_;
   std::vector<double> start_;  ///< of each facet along the outline (2D)
   double length_ = 0;
   double keel_ = 0;
   double orientation_ = 1;
-  fluid::Vec<d> keel_point_;
+  Vec<d> keel_point_;
 };
 
 /// Wetted nodes of a wall, ordered by s.
 template <int d>
 std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                                      int wall, const SurfaceRuler<d>& ruler,
-                                                      const fluid::Isometry<d>& pose);
+                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose);
 
 }  // namespace splashdown::apps

@@ -103,7 +103,7 @@ struct Recorder<d>::State {
   void write_probes(const RecordInput<d>& input);
   void write_surface_pressure(const RecordInput<d>& input, std::size_t record);
   void write_added_mass(const RecordInput<d>& input, const std::string& body);
-  rigid::Vec<d> equipment_acceleration(const RecordInput<d>& input, std::size_t i) const;
+  Vec<d> equipment_acceleration(const RecordInput<d>& input, std::size_t i) const;
   double probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const;
   void write_peak();
 };
@@ -122,10 +122,10 @@ void Recorder<d>::State::start(const RecordInput<d>& input) {
 }
 
 template <int d>
-rigid::Vec<d> Recorder<d>::State::equipment_acceleration(const RecordInput<d>& input, std::size_t i) const {
+Vec<d> Recorder<d>::State::equipment_acceleration(const RecordInput<d>& input, std::size_t i) const {
   const auto& point = settings.equipment[i];
   const std::size_t body = body_index(*input.bodies, point.body);
-  const rigid::Vec<d> arm = input.bodies->state(body).pose.linear() * point.point;
+  const Vec<d> arm = input.bodies->state(body).pose.linear() * point.point;
   return acceleration_at<d>(arm, input.body_velocity_n[body], input.body_acceleration_n[body]);
 }
 
@@ -186,7 +186,7 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
 
 template <int d>
 double Recorder<d>::State::probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const {
-  fluid::Vec<d> point = probe.point;
+  Vec<d> point = probe.point;
   if (!probe.body.empty()) point = input.bodies->state(body_index(*input.bodies, probe.body)).pose * point;
   const auto& fluid = *input.fluid;
   if (const auto p = fluid.pressure_at(point)) return *p;
@@ -220,12 +220,12 @@ void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std
   const auto w = static_cast<std::size_t>(wall);
   const auto& spec = input.fluid->walls()[w];
   const auto& pose = input.fluid->wall_poses()[w];
-  const fluid::Isometry<d> to_wall = pose.inverse();
-  const fluid::Vec<d> origin = centre_of_mass(settings, name);
+  const Isometry<d> to_wall = pose.inverse();
+  const Vec<d> origin = centre_of_mass(settings, name);
   const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
   auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
   for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), wall, ruler, pose)) {
-    const fluid::Vec<d> on_hull = to_wall * point.x + origin;
+    const Vec<d> on_hull = to_wall * point.x + origin;
     csv << input.time << name;
     for (int k = 0; k < d; ++k) csv << point.x(k);
     csv << point.s << point.p;

@@ -23,17 +23,17 @@ namespace splashdown::apps {
 /// A scene's state at t_n. Vectors have one entry a body, in the order of `bodies`.
 template <int d>
 struct RecordInput {
-  const fluid::View<d>* fluid = nullptr;             ///< null: a scene without liquid
-  const rigid::View<d>* bodies = nullptr;            ///< null: a scene without bodies
-  std::vector<rigid::Twist<d>> body_velocity_n;      ///< mean of the half-step velocities around t_n
-  std::vector<rigid::Twist<d>> body_acceleration_n;  ///< their difference over the kick
-  std::vector<fluid::WallLoad<d>> body_load;         ///< about the centre of mass; zero where dry
-  double time = 0;                                   ///< t_n [s]
-  double dt = 0;                                     ///< of the step that starts at t_n [s]
-  int passes = 0;                                    ///< coupling passes of this step
-  double residual = 0;                               ///< of the coupling, relative [-]
-  double wall_seconds = 0;                           ///< spent since the start of the run
-  bool last = false;                                 ///< rows and a frame are due whatever the intervals say
+  const fluid::View<d>* fluid = nullptr;      ///< null: a scene without liquid
+  const rigid::View<d>* bodies = nullptr;     ///< null: a scene without bodies
+  std::vector<Twist<d>> body_velocity_n;      ///< mean of the half-step velocities around t_n
+  std::vector<Twist<d>> body_acceleration_n;  ///< their difference over the kick
+  std::vector<fluid::WallLoad<d>> body_load;  ///< about the centre of mass; zero where dry
+  double time = 0;                            ///< t_n [s]
+  double dt = 0;                              ///< of the step that starts at t_n [s]
+  int passes = 0;                             ///< coupling passes of this step
+  double residual = 0;                        ///< of the coupling, relative [-]
+  double wall_seconds = 0;                    ///< spent since the start of the run
+  bool last = false;                          ///< rows and a frame are due whatever the intervals say
 };
 
 template <int d>

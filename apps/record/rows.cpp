@@ -10,7 +10,7 @@ namespace {
 
 /// Linear and angular part of a planar or spatial twist or wrench, as x y z, x y z.
 template <int d>
-std::array<double, 6> spatial(const Eigen::Matrix<double, rigid::freedoms<d>, 1>& planar_or_spatial) {
+std::array<double, 6> spatial(const Eigen::Matrix<double, freedoms<d>, 1>& planar_or_spatial) {
   const auto& t = planar_or_spatial;
   if constexpr (d == 2)
     return {t(0), t(1), 0, 0, 0, t(2)};
@@ -19,7 +19,7 @@ std::array<double, 6> spatial(const Eigen::Matrix<double, rigid::freedoms<d>, 1>
 }
 
 template <int d>
-std::array<double, 4> quaternion(const rigid::Isometry<d>& pose) {
+std::array<double, 4> quaternion(const Isometry<d>& pose) {
   if constexpr (d == 2) {
     const double half = 0.5 * std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
     return {std::cos(half), 0, 0, std::sin(half)};
@@ -87,8 +87,8 @@ void write_row(CsvFile& file, const FluidRow& row) {
 // Velocities in body axes are s_world = T s_body, T = diag(R, 1) or diag(R, R); the energy s^T G s stays: T^T G T.
 template <int d>
 void write_added_mass_row(CsvFile& file, double time, const std::string& body, const Eigen::MatrixXd& matrix,
-                          const fluid::Isometry<d>& pose) {
-  constexpr int m = fluid::freedoms<d>;
+                          const Isometry<d>& pose) {
+  constexpr int m = freedoms<d>;
   Eigen::Matrix<double, m, m> turn = Eigen::Matrix<double, m, m>::Identity();
   for (int k = 0; k + d <= m; k += d) turn.template block<d, d>(k, k) = pose.linear();
   const Eigen::Matrix<double, m, m> in_body = turn.transpose() * matrix * turn;
@@ -98,10 +98,8 @@ void write_added_mass_row(CsvFile& file, double time, const std::string& body, c
   file.end_row();
 }
 
-template void write_added_mass_row<2>(CsvFile&, double, const std::string&, const Eigen::MatrixXd&,
-                                      const fluid::Isometry<2>&);
-template void write_added_mass_row<3>(CsvFile&, double, const std::string&, const Eigen::MatrixXd&,
-                                      const fluid::Isometry<3>&);
+template void write_added_mass_row<2>(CsvFile&, double, const std::string&, const Eigen::MatrixXd&, const Isometry<2>&);
+template void write_added_mass_row<3>(CsvFile&, double, const std::string&, const Eigen::MatrixXd&, const Isometry<3>&);
 template void write_row<2>(CsvFile&, const BodyRow<2>&);
 template void write_row<3>(CsvFile&, const BodyRow<3>&);
 

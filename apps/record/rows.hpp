@@ -28,8 +28,8 @@ template <int d>
 struct BodyRow {
   double time;
   const std::string& body;
-  rigid::Isometry<d> pose;
-  rigid::Twist<d> velocity, acceleration;
+  Isometry<d> pose;
+  Twist<d> velocity, acceleration;
   fluid::WallLoad<d> load;
   double submergence;  ///< of the lowest point below still water, negative above; nan without water [m]
 };
@@ -51,6 +51,6 @@ void write_row(CsvFile& file, const FluidRow& row);
 /// `matrix`: as Fluid::added_mass of one wall, in the world frame; `pose` of the wall.
 template <int d>
 void write_added_mass_row(CsvFile& file, double time, const std::string& body, const Eigen::MatrixXd& matrix,
-                          const fluid::Isometry<d>& pose);
+                          const Isometry<d>& pose);
 
 }  // namespace splashdown::apps

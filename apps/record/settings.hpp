@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/record/patch_region.hpp"
-#include "fluid/types.hpp"
+#include "core/types.hpp"
 
 namespace splashdown::apps {
 
@@ -16,8 +16,8 @@ namespace splashdown::apps {
 template <int d>
 struct PressureProbe {
   std::string name;
-  fluid::Vec<d> point;  ///< [m] world frame, or the frame of `body` (origin at its centre of mass)
-  std::string body;     ///< the body it moves with; empty: stays in place
+  Vec<d> point;      ///< [m] world frame, or the frame of `body` (origin at its centre of mass)
+  std::string body;  ///< the body it moves with; empty: stays in place
 };
 
 /// Height of the free surface on a vertical line, the highest crossing; nan where there is no water.
@@ -32,7 +32,7 @@ template <int d>
 struct EquipmentPoint {
   std::string name;
   std::string body;
-  fluid::Vec<d> point;  ///< [m] body frame, origin at its centre of mass
+  Vec<d> point;  ///< [m] body frame, origin at its centre of mass
 };
 
 /// Mean pressure on a part of a body's hull; its dry parts count with zero.
@@ -48,9 +48,9 @@ struct PressurePatch {
 template <int d>
 struct HullMapRecord {
   std::string body;
-  fluid::Surface<d> surface;  ///< body frame
-  fluid::Isometry<d> pose;    ///< at t = 0: says what the keel is
-  double size = 0;            ///< distance of the points [m]
+  Surface<d> surface;  ///< body frame
+  Isometry<d> pose;    ///< at t = 0: says what the keel is
+  double size = 0;     ///< distance of the points [m]
 };
 
 /// Pressure along the wetted part of a wall, written to surface_pressure.csv.
@@ -80,7 +80,7 @@ struct RecorderSettings {
   std::vector<SurfacePressureRecord> surface_pressure;
   std::vector<AddedMassRecord> added_mass;
   /// Centres of mass of the bodies in the frames of their shapes [m], in which files give points of hulls; without: zero.
-  std::map<std::string, fluid::Vec<d>> centre_of_mass;
+  std::map<std::string, Vec<d>> centre_of_mass;
   /// By body: horizontal axes along which symmetry of the scene forbids a load.
   std::map<std::string, std::vector<char>> symmetric;
   std::optional<double> still_water_level;  ///< [m]; absent: top of the free surface at the start

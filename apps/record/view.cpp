@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/facet_tree.hpp"
 
 namespace splashdown::apps {
 
@@ -42,11 +42,11 @@ class WettedWall {
         surface_.vertices.col(corner) = nodes_.x[static_cast<std::size_t>(facets_[f][static_cast<std::size_t>(k)])];
         surface_.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(corner);
       }
-    tree_ = fluid::FacetTree<d>(surface_.vertices, surface_.facets);
+    tree_ = FacetTree<d>(surface_.vertices, surface_.facets);
   }
 
   /// At the nearest wetted facet that is not farther away than its half; 0: dry.
-  double pressure(const fluid::Vec<d>& at) const {
+  double pressure(const Vec<d>& at) const {
     if (facets_.empty()) return 0;
     const auto nearest = tree_.nearest(at, std::numeric_limits<double>::max());
     Eigen::Matrix<double, d, d> corners;
@@ -67,13 +67,13 @@ class WettedWall {
  private:
   const fluid::Nodes<d>& nodes_;
   std::vector<std::array<int, static_cast<std::size_t>(d)>> facets_;
-  fluid::Surface<d> surface_;
-  fluid::FacetTree<d> tree_;
+  Surface<d> surface_;
+  FacetTree<d> tree_;
 };
 
 /// Velocity of a point of a body at `r` from its centre of mass.
 template <int d>
-fluid::Vec<d> velocity_at(const fluid::Vec<d>& r, const rigid::Twist<d>& velocity) {
+Vec<d> velocity_at(const Vec<d>& r, const Twist<d>& velocity) {
   if constexpr (d == 2)
     return {velocity(0) - velocity(2) * r.y(), velocity(1) + velocity(2) * r.x()};
   else
@@ -102,7 +102,7 @@ void take_fluid(const fluid::View<d>& fluid, Frame<d>& frame) {
 }
 
 template <int d, class Surface>
-Outline<d> outline_at(const std::string& name, const Surface& surface, const fluid::Isometry<d>& pose) {
+Outline<d> outline_at(const std::string& name, const Surface& surface, const Isometry<d>& pose) {
   return {name, {pose * surface.vertices, surface.facets}, pose.linear().col(0)};
 }
 
@@ -123,7 +123,7 @@ Frame<d> take_frame(const RecordInput<d>& input) {
     const WettedWall<d> wetted(*input.fluid, static_cast<int>(w));
     const auto& vertices = outline.surface.vertices;
     for (Eigen::Index i = 0; i < vertices.cols(); ++i) outline.p.push_back(wetted.pressure(vertices.col(i)));
-    outline.v.assign(outline.p.size(), fluid::Vec<d>::Zero());
+    outline.v.assign(outline.p.size(), Vec<d>::Zero());
   }
   for (std::size_t b = 0; input.bodies && b < input.bodies->size(); ++b) {
     const auto& spec = input.bodies->spec(b);
@@ -161,12 +161,10 @@ std::size_t body_index(const rigid::View<d>& bodies, const std::string& name) {
 }
 
 template <int d>
-rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
-                              const rigid::Twist<d>& acceleration) {
+Vec<d> acceleration_at(const Vec<d>& r, const Twist<d>& velocity, const Twist<d>& acceleration) {
   if constexpr (d == 2) {
     const double alpha = acceleration(2), w = velocity(2);
-    return rigid::Vec<2>(acceleration(0) - alpha * r.y() - w * w * r.x(),
-                         acceleration(1) + alpha * r.x() - w * w * r.y());
+    return Vec<2>(acceleration(0) - alpha * r.y() - w * w * r.x(), acceleration(1) + alpha * r.x() - w * w * r.y());
   } else {
     const Eigen::Vector3d alpha = acceleration.template tail<3>(), w = velocity.template tail<3>();
     return acceleration.template head<3>() + alpha.cross(r) + w.cross(w.cross(r));
@@ -191,13 +189,13 @@ double water_level(const fluid::View<d>& fluid) {
   return level;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
-  template Frame<d> take_frame<d>(const RecordInput<d>&);                                                          \
-  template int wall_index<d>(const fluid::View<d>&, const std::string&);                                           \
-  template int wall_called<d>(const fluid::View<d>&, const std::string&);                                          \
-  template std::size_t body_index<d>(const rigid::View<d>&, const std::string&);                                   \
-  template rigid::Vec<d> acceleration_at<d>(const rigid::Vec<d>&, const rigid::Twist<d>&, const rigid::Twist<d>&); \
-  template double max_speed<d>(const fluid::View<d>&);                                                             \
+#define SPLASHDOWN_INSTANTIATE(d)                                                      \
+  template Frame<d> take_frame<d>(const RecordInput<d>&);                              \
+  template int wall_index<d>(const fluid::View<d>&, const std::string&);               \
+  template int wall_called<d>(const fluid::View<d>&, const std::string&);              \
+  template std::size_t body_index<d>(const rigid::View<d>&, const std::string&);       \
+  template Vec<d> acceleration_at<d>(const Vec<d>&, const Twist<d>&, const Twist<d>&); \
+  template double max_speed<d>(const fluid::View<d>&);                                 \
   template double water_level<d>(const fluid::View<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)

@@ -23,8 +23,7 @@ std::size_t body_index(const rigid::View<d>& bodies, const std::string& name);
 
 /// Acceleration of a point of a rigid body: a + alpha x r + w x (w x r), r from its centre of mass.
 template <int d>
-rigid::Vec<d> acceleration_at(const rigid::Vec<d>& r, const rigid::Twist<d>& velocity,
-                              const rigid::Twist<d>& acceleration);
+Vec<d> acceleration_at(const Vec<d>& r, const Twist<d>& velocity, const Twist<d>& acceleration);
 
 template <int d>
 double max_speed(const fluid::View<d>& fluid);

@@ -191,6 +191,26 @@ struct BodyPlotter {
   }
 };
 
+/// `empty`: with its axes alone.
+Figure gain_figure(const RunData& run, const Values& t, const Figure& empty) {
+  const double scale = number_at(run.summary, {"ledger", "energy_scale"});
+  Figure relative = empty;
+  relative.curves = {{"gain", t, scaled(run.fluid["energy_gain"], 100 / scale), ink, 1.8}};
+  for (const auto& [limit, grade, colour] :
+       {std::tuple{unphysical_above, Grade::unphysical, red}, {doubtful_above, Grade::doubtful, amber}})
+    relative.curves.push_back({fmt::format("{:g} %: {}", 100 * limit, name_of(grade)),
+                               {t.front(), t.back()},
+                               {100 * limit, 100 * limit},
+                               colour,
+                               1.1});
+  relative.caption = fmt::format(
+      "The balance of the ledger over {}, the largest of what there was to give or to take. It falls by viscosity, "
+      "impacts and breaking waves; what rises comes from nowhere, and nothing after it can be trusted above the red "
+      "line.",
+      with_unit(scale, energy_unit(run.dimension())));
+  return relative;
+}
+
 FigureGroup fluid_figures(const RunData& run) {
   FigureGroup group{"The numerics", {}};
   const Table& table = run.fluid;
@@ -239,24 +259,8 @@ FigureGroup fluid_figures(const RunData& run) {
       "without numerical loss, viscosity and breaking waves.";
   group.figures.push_back(std::move(ledger));
 
-  const Values& gain = table["energy_gain"];
-  if (const double scale = number_at(run.summary, {"ledger", "energy_scale"}); scale > 0 && !gain.empty()) {
-    Figure relative = figure("energy_gain", "energy gain / %");
-    relative.curves = {{"gain", t, scaled(gain, 100 / scale), ink, 1.8}};
-    for (const auto& [limit, grade, colour] :
-         {std::tuple{unphysical_above, Grade::unphysical, red}, {doubtful_above, Grade::doubtful, amber}})
-      relative.curves.push_back({fmt::format("{:g} %: {}", 100 * limit, name_of(grade)),
-                                 {t.front(), t.back()},
-                                 {100 * limit, 100 * limit},
-                                 colour,
-                                 1.1});
-    relative.caption = fmt::format(
-        "The balance of the ledger over {}, the largest of what there was to give or to take. It falls by viscosity, "
-        "impacts and breaking waves; what rises comes from nowhere, and nothing after it can be trusted above the red "
-        "line.",
-        with_unit(scale, energy_unit(run.dimension())));
-    group.figures.push_back(std::move(relative));
-  }
+  if (number_at(run.summary, {"ledger", "energy_scale"}) > 0 && !table["energy_gain"].empty())
+    group.figures.push_back(gain_figure(run, t, figure("energy_gain", "energy gain / %")));
 
   Figure step = figure("step", "passes a step");
   step.counts = true;

@@ -116,6 +116,11 @@ std::string angle_text(const nlohmann::ordered_json& angle) {
                      degrees(number_at(angle, {"minimum", "value"})), degrees(number_at(angle, {"maximum", "value"})));
 }
 
+std::string since_text(const nlohmann::ordered_json& body, const char* key, const char* otherwise) {
+  const double since = number_at(body, {key});
+  return std::isfinite(since) ? "since " + seconds_text(since) : std::string(otherwise);
+}
+
 std::string body_table(const RunData& run) {
   const auto& bodies = member(run.summary, "bodies");
   if (bodies.empty()) return {};
@@ -177,18 +182,12 @@ std::string body_table(const RunData& run) {
       if (std::ranges::any_of(bodies, [&](const Body& b) { return member(b, "attitude_deg").contains(angle); }))
         row(std::string(angle) + " at the end (lowest to highest since contact)",
             [&](const Body& b) { return angle_text(member(member(b, "attitude_deg"), angle)); });
-    row("capsized", [](const Body& b) {
-      const double since = number_at(b, {"capsized_time"});
-      return std::isfinite(since) ? "since " + seconds_text(since) : std::string("no");
-    });
+    row("capsized", [](const Body& b) { return since_text(b, "capsized_time", "no"); });
     row("left the water again", [](const Body& b) {
       const double skips = number_at(b, {"skips"});
       return skips > 0 ? count_text(skips) + " times" : std::string("no");
     });
-    row("settled", [](const Body& b) {
-      const double settled = number_at(b, {"settled_time"});
-      return std::isfinite(settled) ? "since " + seconds_text(settled) : std::string("not within the run");
-    });
+    row("settled", [](const Body& b) { return since_text(b, "settled_time", "not within the run"); });
   }
   return html +
          "</tbody></table></div>\n<p class=\"where\">Accelerations are those of the centre of mass in "

@@ -11,11 +11,6 @@ namespace splashdown::apps {
 namespace {
 
 template <int d>
-fluid::Surface<d> fluid_surface(const rigid::Surface<d>& surface) {
-  return {surface.vertices, surface.facets};
-}
-
-template <int d>
 std::function<fluid::Vec<d>(const fluid::Vec<d>&)> velocity_field(const Region& region) {
   if (region.velocity.isZero(0) && region.velocity_gradient.isZero(0)) return {};
   const fluid::Vec<d> velocity = vec<d>(region.velocity), origin = vec<d>(region.velocity_origin);
@@ -26,11 +21,7 @@ std::function<fluid::Vec<d>(const fluid::Vec<d>&)> velocity_field(const Region& 
 template <int d>
 fluid::WallSpec<d> hull(const Body& body) {
   const auto spec = body_spec<d>(body);
-  return {.name = spec.name,
-          .surface = fluid_surface<d>(spec.surface),
-          .pose = spec.pose,
-          .velocity = spec.velocity,
-          .size = body.size};
+  return {.name = spec.name, .surface = spec.surface, .pose = spec.pose, .velocity = spec.velocity, .size = body.size};
 }
 
 fluid::SizeSpec size_spec(const Sizes& size) {
@@ -63,13 +54,12 @@ fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
   spec.density = liquid.density;
   spec.size = size_spec(liquid.size);
   spec.step = {.cfl = scene.time.cfl, .dt_max = scene.time.dt_max};
-  for (const auto& region : liquid.regions)
-    spec.liquids.push_back({fluid_surface<d>(outline<d>(region)), velocity_field<d>(region)});
+  for (const auto& region : liquid.regions) spec.liquids.push_back({outline<d>(region), velocity_field<d>(region)});
   for (const auto& body : scene.bodies) spec.walls.push_back(hull<d>(body));
   if (scene.tank) {
     fluid::WallSpec<d> tank;
     tank.name = "tank";
-    tank.surface = fluid_surface<d>(tank_outline<d>(*scene.tank));
+    tank.surface = tank_outline<d>(*scene.tank);
     tank.size = scene.tank->size;
     spec.walls.push_back(std::move(tank));
   }

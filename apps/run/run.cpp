@@ -7,30 +7,14 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "apps/scene/scales.hpp"
 #include "apps/run/approach.hpp"
 #include "apps/run/interrupt.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/statistics/verdict.hpp"
+#include "core/stopwatch.hpp"
 
 namespace splashdown::apps {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Charges the time until its end to a sum.
-class Charge {
- public:
-  explicit Charge(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
-  ~Charge() { seconds_ += seconds_since(start_); }
-  Charge(const Charge&) = delete;
-  Charge& operator=(const Charge&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_;
-};
 
 std::map<std::string, double> as_map(const std::vector<std::pair<std::string, double>>& phases) {
   std::map<std::string, double> result;
@@ -78,7 +62,7 @@ Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, Ru
 
 template <int d>
 void Run<d>::resume(const Checkpoint& from) {
-  const Charge charge(setup_seconds_);
+  const Stopwatch charge(setup_seconds_);
   std::istringstream stepper(from.stepper);
   world_.stepper->load(stepper);
   if (world_.stepper->time() != from.time || !(from.loop.dt_previous >= 0) || !(from.loop.dt_cap >= 0))
@@ -98,7 +82,7 @@ LoopEnd Run<d>::go() {
   const auto end = run_loop(*world_.stepper, loop_, plan_.stop, *this);
   progress_.clear();
   recorder_.check_files();
-  const Charge charge(output_seconds_);
+  const Stopwatch charge(output_seconds_);
   if (end.status == LoopEnd::Status::done) recorder_.snapshot("end", last_input_);
   recorder_.finish();
   return end;
@@ -136,7 +120,7 @@ RecordInput<d> Run<d>::input(const StepMade& step) const {
 
 template <int d>
 void Run<d>::record(const StepMade& step) {
-  const Charge charge(output_seconds_);
+  const Stopwatch charge(output_seconds_);
   recorder_.check_files();  // before anything of this step is counted: what is rescued can be continued
   last_input_ = input(step);
   recorder_.record(last_input_);
@@ -161,7 +145,7 @@ bool Run<d>::checkpoint_due() {
 
 template <int d>
 void Run<d>::checkpoint() {
-  const Charge charge(output_seconds_);
+  const Stopwatch charge(output_seconds_);
   recorder_.check_files();
   try {
     write_checkpoint(plan_.directory / "checkpoint", present());

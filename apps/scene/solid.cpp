@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/closest_point.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -49,7 +51,7 @@ std::vector<double> crossings(const Vec<d>& a, const Vec<d>& b, const Surface<d>
     if ((from > 0) == (to > 0)) continue;
     const double share = from / (from - to);
     const Vec<d> x = a + share * (b - a);
-    if ((fluid::closest_on(corners, x) - x).norm() <= tolerance) at.push_back(share);
+    if ((closest_on(corners, x) - x).norm() <= tolerance) at.push_back(share);
   }
   std::sort(at.begin(), at.end());
   return at;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/scene/geometry.hpp"
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/facet_tree.hpp"
 #include "fluid/mesh/inside.hpp"
 
 namespace splashdown::apps {
@@ -21,7 +21,7 @@ class Solid {
  private:
   rigid::Surface<d> surface_;
   Extents<d> box_;
-  fluid::FacetTree<d> facets_;
+  FacetTree<d> facets_;
   fluid::InsideTest<d> inside_;
 };
 

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "rigid/types.hpp"
+#include "core/types.hpp"
 
 namespace splashdown::apps {
 

@@ -11,7 +11,7 @@ constexpr double calm_share = 0.02;  // the usual band of settling times, of the
 
 /// Speed of heave, roll and pitch of the hull's farthest point.
 template <int d>
-double oscillation(const rigid::Twist<d>& velocity, double reach) {
+double oscillation(const Twist<d>& velocity, double reach) {
   double spin = 0;
   if constexpr (d == 2)
     spin = std::abs(velocity(2));
@@ -23,7 +23,7 @@ double oscillation(const rigid::Twist<d>& velocity, double reach) {
 }  // namespace
 
 template <int d>
-HullExtent extent_of(const rigid::Surface<d>& surface) {
+HullExtent extent_of(const Surface<d>& surface) {
   const auto& x = surface.vertices;
   if (x.cols() == 0) return {};
   return {x.colwise().norm().maxCoeff(), (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff()};
@@ -87,7 +87,7 @@ LandingSummary LandingStatistics<d>::summary() const {
 
 template class LandingStatistics<2>;
 template class LandingStatistics<3>;
-template HullExtent extent_of<2>(const rigid::Surface<2>&);
-template HullExtent extent_of<3>(const rigid::Surface<3>&);
+template HullExtent extent_of<2>(const Surface<2>&);
+template HullExtent extent_of<3>(const Surface<3>&);
 
 }  // namespace splashdown::apps

@@ -23,12 +23,12 @@ struct HullExtent {
   double reach = 0, length = 0;
 };
 template <int d>
-HullExtent extent_of(const rigid::Surface<d>& surface_in_body_frame);
+HullExtent extent_of(const Surface<d>& surface_in_body_frame);
 
 template <int d>
 struct LandingReading {
   Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
-  rigid::Twist<d> velocity;              ///< at t_n
+  Twist<d> velocity;                     ///< at t_n
   double wetted = 0;                     ///< [m, m^2]
   bool free = true;                      ///< a body that the water moves
 };

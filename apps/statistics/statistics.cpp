@@ -56,7 +56,7 @@ PulseGrades evidence_of(const EvidenceStatistics& steps, const PulseSummary& pul
 template <int d>
 void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
   acceleration_.add(kick, {reading.acceleration.data(), static_cast<std::size_t>(d)});
-  const rigid::Wrench<d> total = reading.load.total();
+  const Wrench<d> total = reading.load.total();
   for (int k = 0; k < d; ++k) {
     impulse_[static_cast<std::size_t>(k)] += total(k) * kick.length();
     impulse_repair_[static_cast<std::size_t>(k)] += reading.load.repair(k) * kick.length();

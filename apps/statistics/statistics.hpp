@@ -41,7 +41,7 @@ class PulseStatistics {
 
 template <int d>
 struct BodyReading {
-  rigid::Twist<d> velocity, acceleration;
+  Twist<d> velocity, acceleration;
   fluid::WallLoad<d> load;
   double submergence;                    ///< of the lowest point; nan without a water level [m]
   Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame

@@ -1,8 +1,8 @@
 // What all couplings of a fluid with a structure share.
 #include <algorithm>
 
+#include "core/stopwatch.hpp"
 #include "coupling/schemes/steppers.hpp"
-#include "coupling/stopwatch.hpp"
 
 namespace splashdown::coupling {
 

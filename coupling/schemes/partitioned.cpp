@@ -6,10 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/stopwatch.hpp"
 #include "coupling/accelerators/pass_slope.hpp"
 #include "coupling/interface_space.hpp"
 #include "coupling/schemes/steppers.hpp"
-#include "coupling/stopwatch.hpp"
 
 namespace splashdown::coupling {
 namespace {

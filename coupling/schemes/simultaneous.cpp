@@ -2,8 +2,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/stopwatch.hpp"
 #include "coupling/schemes/steppers.hpp"
-#include "coupling/stopwatch.hpp"
 
 namespace splashdown::coupling {
 namespace {

@@ -4,8 +4,9 @@
 #include <limits>
 #include <optional>
 
+#include "core/closest_point.hpp"
+#include "core/facet_tree.hpp"
 #include "fluid/mesh/boundary_edges.hpp"
-#include "fluid/mesh/facet_tree.hpp"
 #include "fluid/mesh/inside.hpp"
 #include "fluid/parallel.hpp"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/closest_point.hpp"
 #include "fluid/geometry.hpp"
 
 namespace splashdown::fluid {
@@ -13,12 +14,6 @@ double angle_at(const std::array<Vec<2>, 2>&, int) { return 1; }
 double angle_at(const std::array<Vec<3>, 3>& c, int k) {
   const Vec<3> a = c[(k + 1) % 3] - c[k], b = c[(k + 2) % 3] - c[k];
   return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-template <int d>
-Vec<d> closest_on_segment(const Vec<d>& a, const Vec<d>& b, const Vec<d>& x) {
-  const Vec<d> e = b - a;
-  return a + std::clamp((x - a).dot(e) / e.squaredNorm(), 0.0, 1.0) * e;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/facet_tree.hpp"
 #include "fluid/nodes.hpp"
 #include "fluid/spec.hpp"
 

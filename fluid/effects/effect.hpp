@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/status.hpp"
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/mesh/node_cells.hpp"
 #include "fluid/nodes.hpp"
 #include "fluid/spec.hpp"
-#include "fluid/status.hpp"
 #include "fluid/types.hpp"
 
 namespace splashdown::fluid {

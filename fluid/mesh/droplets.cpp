@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/facet_tree.hpp"
 #include "fluid/mesh/inside.hpp"
 
 namespace splashdown::fluid {

@@ -18,8 +18,8 @@ class Spoiler final : public fluid::Effect<2> {
  public:
   Spoiler(const double& value, bool on_wall) : value_(value), on_wall_(on_wall) {}
   std::string name() const override { return "spoiler"; }
-  fluid::Status predict(const fluid::StepView<2>& step, const fluid::Carried<2>&,
-                        const fluid::Predicted<2>& predicted) override {
+  Status predict(const fluid::StepView<2>& step, const fluid::Carried<2>&,
+                 const fluid::Predicted<2>& predicted) override {
     if (value_ == 0) return {};
     const auto& nodes = step.nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i)

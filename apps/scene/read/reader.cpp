@@ -10,8 +10,6 @@
 namespace splashdown::apps {
 namespace {
 
-const toml::table no_table;
-
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -30,14 +28,6 @@ const char* type_name(const toml::node& node) {
   }
 }
 
-/// Short enough for a message; nothing for tables.
-std::string value_text(const toml::node& node) {
-  if (node.is_table() || node.is_array_of_tables()) return {};
-  constexpr std::size_t longest = 60;
-  const auto text = written(node);
-  return text.size() <= longest ? text : text.substr(0, longest) + "...";
-}
-
 }  // namespace
 
 bool is_exact(const toml::node& node) { return !node.is_integer() || node.value<double>().has_value(); }
@@ -54,6 +44,13 @@ std::string written(const toml::node& node) {
   std::ostringstream stream;
   node.visit([&](const auto& value) { stream << value; });
   return stream.str();
+}
+
+std::string written_short(const toml::node& node) {
+  if (node.is_table() || node.is_array_of_tables()) return {};
+  constexpr std::size_t longest = 60;
+  const auto text = written(node);
+  return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 
 Place place_of(const toml::node& node) {
@@ -90,7 +87,7 @@ Reader::~Reader() {
   const Names valid(known_.begin(), known_.end());
   for (const auto& [name, node] : *table_) {
     if (known_.contains(name.str()) || ignored_.contains(name.str())) continue;
-    context_->problems.note(key(name), place_of(node), value_text(node));
+    context_->problems.note(key(name), place_of(node), written_short(node));
     context_->problems.add_unknown(key(name), valid);
   }
 }
@@ -142,7 +139,7 @@ const toml::node* Reader::find(std::string_view name, Need need, const std::stri
   known_.emplace(name);
   const toml::node* node = table_->get(name);
   if (node)
-    context_->problems.note(key(name), place_of(*node), value_text(*node));
+    context_->problems.note(key(name), place_of(*node), written_short(*node));
   else if (need == Need::required)
     context_->problems.add_missing(key(name), meaning, cure);
   return node;
@@ -258,89 +255,6 @@ void Reader::integer(std::string_view name, int& target, const Rule& rule) {
   echo(name, target);
 }
 
-void Reader::text(std::string_view name, std::string& target, const std::string& cure, Need need) {
-  note(name, {.type = Wanted::Type::text, .hint = cure}, need);
-  if (const auto* node = find(name, need, "a string", cure)) {
-    if (node->is_string())
-      target = *node->value<std::string>();
-    else
-      wrong_type(key(name), "a string", *node, cure);
-  }
-  echo(name, target);
-}
-
-void Reader::file(std::string_view name, std::string& target, const std::string& cure) {
-  note(name, {.type = Wanted::Type::text, .hint = cure}, Need::required);
-  if (const auto* node = find(name, Need::required, "the name of a file", cure)) {
-    if (node->is_string())
-      target = std::filesystem::absolute(context_->folder / *node->value<std::string>()).lexically_normal().string();
-    else
-      wrong_type(key(name), "a string", *node, cure);
-  }
-  echo(name, target);
-}
-
-bool Reader::choice(std::string_view name, std::string& target, const Names& valid, Need need) {
-  if (visit_) {
-    note(name, {.type = Wanted::Type::word, .words = valid}, need);
-    const auto found = std::find(valid.begin(), valid.end(), target);
-    const std::size_t usual = found == valid.end() ? 0 : static_cast<std::size_t>(found - valid.begin());
-    const auto picked = context_->sketch->decide("word " + header_of(name), valid.size(), usual);
-    visit_->usual[std::string(name)] = need == Need::optional && picked == usual;
-    visit_->picked[std::string(name)] = target = valid[picked];
-    return true;
-  }
-  const auto cure = "Use " + listing(valid) + ".";
-  const auto* node = find(name, need, "one of " + listing(valid), cure);
-  bool good = need == Need::optional;
-  if (node) {
-    const auto word = node->value<std::string>();
-    good = node->is_string() && std::find(valid.begin(), valid.end(), *word) != valid.end();
-    const auto near = node->is_string() ? nearest(*word, valid) : std::string();
-    if (good)
-      target = *word;
-    else if (!node->is_string())
-      wrong_type(key(name), "a string", *node, cure);
-    else
-      context_->problems.add(key(name), "must be " + listing(valid),
-                             near.empty() ? cure : "Did you mean '" + near + "'?");
-  }
-  echo(name, target);
-  return good;
-}
-
-void Reader::choices(std::string_view name, Names& target, const Names& valid) {
-  note(name, {.type = Wanted::Type::words, .words = valid});
-  const auto cure = "Use a list of " + listing(valid) + ".";
-  if (const auto* node = find(name, Need::optional, {}, {})) {
-    Names words;
-    bool good = node->is_array();
-    if (good)
-      for (const auto& element : *node->as_array()) {
-        const auto word = element.value<std::string>();
-        good = good && word && std::find(valid.begin(), valid.end(), *word) != valid.end() &&
-               std::find(words.begin(), words.end(), *word) == words.end();
-        if (word) words.push_back(*word);
-      }
-    if (good)
-      target = words;
-    else
-      context_->problems.add(key(name), "must be a list of " + listing(valid) + ", each once", cure);
-  }
-  context_->echo.add(section_, name, toml_list(target));
-}
-
-bool Reader::reference(std::string_view name, std::string& target, const Names& valid, Need need) {
-  if (!visit_) return choice(name, target, valid, need);
-  note(name, {.type = Wanted::Type::text}, need);
-  return false;
-}
-
-void Reader::references(std::string_view name, Names& target, const Names& valid) {
-  if (!visit_) return choices(name, target, valid);
-  note(name, {.type = Wanted::Type::texts});
-}
-
 const toml::node* Reader::node(std::string_view name, Need need, const std::string& meaning, const std::string& cure,
                                std::vector<Wanted::Type> wanted) {
   for (const auto type : wanted) note(name, {.type = type, .hint = cure}, need);
@@ -351,76 +265,6 @@ const toml::node* Reader::named_node(const std::string& name) {
   if (!visit_) return find(name, Need::optional, {}, {});
   visit_->others = Wanted{};
   return nullptr;
-}
-
-void Reader::numbers_by_name(std::string_view name, std::map<std::string, double>& target, const std::string& example) {
-  if (visit_) {
-    note(name,
-         {.type = Wanted::Type::table, .hint = "Names with numbers, e.g. " + example + ".", .header = header_of(name)});
-    context_->sketch->open(header_of(name)).others = Wanted{.type = Wanted::Type::number};
-    return;
-  }
-  const auto* node = find(name, Need::optional, {}, {});
-  if (!node) return;
-  const auto* table = node->as_table();
-  if (!table)
-    return context_->problems.add(key(name), "must be a table",
-                                  fmt::format("Write [{}] with NAME = NUMBER.", header_of(name)));
-  for (const auto& [entry, value] : *table) {
-    const auto where = fmt::format("{}.{}", key(name), entry.str());
-    context_->problems.note(where, place_of(value), value_text(value));
-    if (!value.is_number()) context_->problems.add(where, "must be a number", "Use e.g. " + example + ".");
-    if (!is_exact(value))
-      context_->problems.add(where, "whole numbers beyond 2^53 are not kept exactly",
-                             "Write it with a point, e.g. 1e16.");
-    target.emplace(entry.str(), value.value<double>().value_or(0));
-  }
-}
-
-std::optional<Reader> Reader::table(std::string_view name, Need need) {
-  if (visit_) {
-    note(name, {.type = Wanted::Type::table, .header = header_of(name)}, need);
-    return Reader(*context_, no_table, key(name), header_of(name));
-  }
-  const auto cure = "Write [" + header_of(name) + "] with its keys below.";
-  const auto* node = find(name, need, "a table", cure);
-  if (!node) return {};
-  if (const auto* table = node->as_table()) return Reader(*context_, *table, key(name), header_of(name));
-  wrong_type(key(name), "a table", *node, cure);
-  return {};
-}
-
-Reader Reader::table_or_defaults(std::string_view name) {
-  if (!visit_)
-    if (auto reader = table(name)) return std::move(*reader);
-  note(name, {.type = Wanted::Type::table, .header = header_of(name), .even_absent = true});
-  return Reader(*context_, no_table, key(name), header_of(name));
-}
-
-void Reader::each_table(std::string_view name, const std::function<void(Reader&)>& read) {
-  if (visit_) {
-    note(name, {.type = Wanted::Type::tables, .header = header_of(name)});
-    Reader reader(*context_, no_table, fmt::format("{}[0]", key(name)), header_of(name), true);
-    return read(reader);
-  }
-  const auto cure = "Write [[" + header_of(name) + "]], once for each.";
-  const auto* node = find(name, Need::optional, {}, {});
-  if (!node) return;
-  const auto* array = node->as_array();
-  if (!array || !std::all_of(array->begin(), array->end(), [](const auto& n) { return n.is_table(); })) {
-    wrong_type(key(name), "an array of tables", *node, cure);
-    return;
-  }
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const auto& table = *array->get(i)->as_table();
-    const auto own = one_line(table["name"].value<std::string>().value_or(""));
-    const bool by_name = !own.empty() && names.insert(own).second;
-    // One at a time: its sub-tables must be echoed before the next element opens.
-    Reader reader(*context_, table, by_name ? key(name) + "." + own : fmt::format("{}[{}]", key(name), i),
-                  header_of(name), true);
-    read(reader);
-  }
 }
 
 }  // namespace splashdown::apps

@@ -42,6 +42,8 @@ Place place_of(const toml::node& node);
 bool is_exact(const toml::node& node);
 /// A value as the user wrote it, near enough.
 std::string written(const toml::node& node);
+/// The same, short enough for a message; nothing for tables.
+std::string written_short(const toml::node& node);
 
 class Reader {
  public:

@@ -16,7 +16,7 @@ double area_of(const fluid::Surface<d>& surface) {
   for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
     std::array<fluid::Vec<d>, d> corner;
     for (int k = 0; k < d; ++k) corner[static_cast<std::size_t>(k)] = surface.vertices.col(surface.facets(k, f));
-    area += fluid::area_vector(corner).norm();
+    area += area_vector(corner).norm();
   }
   return area;
 }

@@ -1,7 +1,8 @@
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/facet_tree.hpp"
 
 #include <gtest/gtest.h>
 
+#include "core/closest_point.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/closest_point.hpp"
+#include "core/facet_tree.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

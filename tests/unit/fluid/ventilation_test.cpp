@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fluid/contact/attachment.hpp"
-#include "tests/unit/fluid/scenes.hpp"
+#include "tests/unit/fluid/contact.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -158,6 +158,68 @@ TEST(Ventilation, what_has_left_is_not_on_the_wall) {
     attach_nodes<2>(film.nodes, h, film.mesh, {film.walls, film.pose}, film.still);
     EXPECT_TRUE(film.left(1));
   }
+}
+
+template <class Dimension>
+struct VentilationOfFlatWalls : testing::Test {};
+TYPED_TEST_SUITE(VentilationOfFlatWalls, scenes::Dimensions);
+
+// Nodes of a tank's walls that air gets to: the row below the contact line. Water passes them at `speed`, with suction of this
+// many dynamic pressures; the tank itself is much faster and turns.
+template <int d>
+void expect_first_row(double suction, bool leaves) {
+  constexpr int across = 4;
+  scenes::Tank<d> tank(across);
+  tank.velocity[0].setConstant(10);
+  for (std::size_t i = 0; i < tank.nodes.size(); ++i) {
+    const Vec<d> arm = tank.nodes.x[i] - tank.pose[0].translation();
+    tank.nodes.v[i] = rigid_velocity<d>(tank.velocity[0], arm) + speed * Vec<d>::Unit(0);
+    tank.nodes.p[i] = tank.nodes.surface[i] ? 0 : -suction * dynamic;
+  }
+  const auto before = tank.nodes;
+  const std::vector<double> h(tank.nodes.size(), size);
+  ventilate<d>(tank.nodes, h, tank.mesh, tank.at(), tank.velocity, density, gravity);
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    if (before.tie[i].wall < 0) continue;
+    const bool left = tank.nodes.tie[i].wall < 0, first_row = before.x[i][d - 1] == 1 - 1.0 / across;
+    EXPECT_EQ(left, leaves && first_row) << before.x[i].transpose();
+    const double off = tank.walls[0].nearest(tank.pose[0], tank.nodes.x[i], 1).distance;
+    EXPECT_EQ(off > 1e-3 * 1e-6 * size, left) << "what has left is off the wall";
+  }
+}
+
+TYPED_TEST(VentilationOfFlatWalls, air_gets_to_one_row_of_nodes_a_step_under_strong_suction_alone) {
+  expect_first_row<TypeParam::value>(0.2, true);
+  expect_first_row<TypeParam::value>(0.05, false);
+}
+
+// A triangle at the contact line of a cone and one behind it, whose far corner has this suction, in dynamic pressures.
+bool leaves_a_cone(double suction_behind) {
+  scenes::Walls<3> cone;
+  cone.add_wall(scenes::cone(1, 1, 24));
+  Nodes<3> nodes;
+  auto add = [&](double angle, double radius, double p, bool surface) {
+    const auto near =
+        cone.walls[0].nearest(cone.pose[0], {radius * std::cos(angle), radius * std::sin(angle), radius}, 1);
+    nodes.add(near.point, speed * Vec<3>(std::cos(angle), std::sin(angle), 1).normalized(), p * dynamic,
+              {0, near.patch, -1}, surface);
+  };
+  add(0.3, 0.60, 0, true);
+  add(0.2, 0.55, -0.02, false);
+  add(0.4, 0.55, -0.02, false);
+  add(0.3, 0.50, -suction_behind, false);
+  Mesh<3> mesh;
+  mesh.boundary = {{{0, 1, 2}, 0}, {{1, 3, 2}, 0}};
+  const std::vector<double> h(nodes.size(), size);
+  ventilate<3>(nodes, h, mesh, cone.at(), cone.velocity, density, gravity);
+  EXPECT_EQ(nodes.tie[1].wall, nodes.tie[2].wall);
+  EXPECT_EQ(nodes.tie[3].wall, 0) << "not beside the contact line";
+  return nodes.tie[1].wall < 0;
+}
+
+TEST(VentilationInSpace, air_gets_to_strong_suction_along_a_curved_hull) {
+  EXPECT_TRUE(leaves_a_cone(0.5));
+  EXPECT_FALSE(leaves_a_cone(0.1));
 }
 
 }  // namespace

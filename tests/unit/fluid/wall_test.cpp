@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "core/closest_point.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

@@ -50,7 +50,7 @@ rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(ap
 rule("a scene knows nothing of its run" FILES "^apps/scene/" INCLUDES "^apps/(run|report|check)/")
 rule("what is recorded does not depend on how it is coupled" FILES "^apps/(record|statistics|report)/" INCLUDES "^coupling/")
 rule("records look at views and at the plain data behind them, not at who solves" FILES "^apps/(record|statistics|report)/"
-  INCLUDES "^(fluid|rigid)/" BUT_INCLUDES "^(fluid/(view|nodes|types|geometry|mesh/mesh|mesh/facet_tree)|rigid/(view|body|types))\\.hpp$")
+  INCLUDES "^(fluid|rigid)/" BUT_INCLUDES "^(fluid/(view|nodes|mesh/mesh)|rigid/(view|body))\\.hpp$")
 
 # Libraries, each with one home.
 rule("CGAL stays in fluid/mesh and fluid/initial" FILES "." BUT_FILES "^fluid/(mesh|initial)/" INCLUDES "^(CGAL|boost)/")
@@ -61,9 +61,9 @@ rule("Bullet stays in rigid/bullet_world.cpp" FILES "." BUT_FILES "^rigid/bullet
 rule("VTK stays in apps/record" FILES "." BUT_FILES "^apps/record/" INCLUDES "^vtk")
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
-rule("public headers need Eigen and the standard library alone, fluid/parallel.hpp adds TBB" FILES "^(fluid|rigid|coupling)/.*\\.hpp$"
+rule("public headers need Eigen and the standard library alone, fluid/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
   BUT_FILES "^fluid/(parallel|initial/space_parts|mesh/triangulation_3)\\.hpp$" INCLUDES "[./]"
-  BUT_INCLUDES "^(fluid|rigid|coupling|Eigen)/")
+  BUT_INCLUDES "^(core|fluid|rigid|coupling|Eigen)/")
 
 # The line of the first inclusion of a header in a file.
 function(line_of file header result)

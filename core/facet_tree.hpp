@@ -5,13 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "fluid/types.hpp"
+#include "core/types.hpp"
 
-namespace splashdown::fluid {
-
-/// Closest point of a facet.
-Vec<2> closest_on(const std::array<Vec<2>, 2>& facet, const Vec<2>& x);
-Vec<3> closest_on(const std::array<Vec<3>, 3>& facet, const Vec<3>& x);
+namespace splashdown {
 
 template <int d>
 class FacetTree {
@@ -71,4 +67,4 @@ class FacetTree {
 extern template class FacetTree<2>;
 extern template class FacetTree<3>;
 
-}  // namespace splashdown::fluid
+}  // namespace splashdown

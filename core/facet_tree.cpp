@@ -1,35 +1,11 @@
-#include "fluid/mesh/facet_tree.hpp"
+#include "core/facet_tree.hpp"
 
 #include <algorithm>
 #include <limits>
 
-namespace splashdown::fluid {
+#include "core/closest_point.hpp"
 
-Vec<2> closest_on(const std::array<Vec<2>, 2>& f, const Vec<2>& x) {
-  const Vec<2> e = f[1] - f[0];
-  const double t = std::clamp((x - f[0]).dot(e) / e.squaredNorm(), 0.0, 1.0);
-  return f[0] + t * e;
-}
-
-namespace {
-Vec<3> closest_on_edge(const Vec<3>& a, const Vec<3>& b, const Vec<3>& x) {
-  const Vec<3> e = b - a;
-  return a + std::clamp((x - a).dot(e) / e.squaredNorm(), 0.0, 1.0) * e;
-}
-}  // namespace
-
-Vec<3> closest_on(const std::array<Vec<3>, 3>& f, const Vec<3>& x) {
-  const Vec<3> n = (f[1] - f[0]).cross(f[2] - f[0]);
-  bool inside = true;
-  for (int k = 0; k < 3; ++k) inside = inside && n.dot((f[(k + 1) % 3] - f[k]).cross(x - f[k])) >= 0;
-  if (inside) return x - n * (n.dot(x - f[0]) / n.squaredNorm());
-  Vec<3> best = f[0];
-  for (int k = 0; k < 3; ++k) {
-    const Vec<3> c = closest_on_edge(f[k], f[(k + 1) % 3], x);
-    if ((c - x).squaredNorm() < (best - x).squaredNorm()) best = c;
-  }
-  return best;
-}
+namespace splashdown {
 
 template <int d>
 typename FacetTree<d>::Box FacetTree<d>::Piece::box() const {
@@ -220,4 +196,4 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
 template class FacetTree<2>;
 template class FacetTree<3>;
 
-}  // namespace splashdown::fluid
+}  // namespace splashdown

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace splashdown::fluid {
+namespace splashdown {
 
 /// Why a step may be refused. `cause` is empty when all is well.
 struct Status {
@@ -11,4 +11,4 @@ struct Status {
   bool ok() const { return cause.empty(); }
 };
 
-}  // namespace splashdown::fluid
+}  // namespace splashdown

@@ -1,0 +1,99 @@
+// Dimension-generic geometry of simplices and rigid motions.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "core/types.hpp"
+
+namespace splashdown {
+
+// Matrix of cofactors: det(J) J^-T without the division, so that flat cells are harmless.
+inline Mat<2> cofactor(const Mat<2>& J) {
+  Mat<2> c;
+  c << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
+  return c;
+}
+inline Mat<3> cofactor(const Mat<3>& J) {
+  Mat<3> c;
+  c.col(0) = J.col(1).cross(J.col(2));
+  c.col(1) = J.col(2).cross(J.col(0));
+  c.col(2) = J.col(0).cross(J.col(1));
+  return c;
+}
+
+template <int d>
+inline constexpr double factorial = d == 0 ? 1.0 : d* factorial<(d > 0 ? d - 1 : 0)>;
+template <>
+inline constexpr double factorial<0> = 1.0;
+
+/// Columns |e| grad N_j of a simplex with corners x_j; equally the gradients of its volume.
+template <int d>
+using VolumeGradients = Eigen::Matrix<double, d, d + 1>;
+
+template <int d, class Corner>
+Mat<d> edge_matrix(const Corner& corner) {
+  const Vec<d> x0 = corner(0);
+  Mat<d> J;
+  for (int j = 0; j < d; ++j) J.col(j) = corner(j + 1) - x0;
+  return J;
+}
+
+/// Signed volume |e| of a simplex; `corner(j)` gives its corners.
+template <int d, class Corner>
+double volume(const Corner& corner) {
+  return edge_matrix<d>(corner).determinant() / factorial<d>;
+}
+
+template <int d, class Corner>
+VolumeGradients<d> volume_gradients(const Corner& corner) {
+  VolumeGradients<d> g;
+  g.template rightCols<d>() = cofactor(edge_matrix<d>(corner)) / factorial<d>;
+  g.col(0) = -g.template rightCols<d>().rowwise().sum();
+  return g;
+}
+
+// Area vector (normal times measure) of an oriented facet.
+inline Vec<2> area_vector(const std::array<Vec<2>, 2>& f) { return {f[1].y() - f[0].y(), f[0].x() - f[1].x()}; }
+inline Vec<3> area_vector(const std::array<Vec<3>, 3>& f) { return 0.5 * (f[1] - f[0]).cross(f[2] - f[0]); }
+
+// w x r and r x f with the rotation vector's own number of entries.
+inline Vec<2> cross(const Eigen::Matrix<double, 1, 1>& w, const Vec<2>& r) { return {-w[0] * r.y(), w[0] * r.x()}; }
+inline Vec<3> cross(const Vec<3>& w, const Vec<3>& r) { return w.cross(r); }
+inline Eigen::Matrix<double, 1, 1> moment(const Vec<2>& r, const Vec<2>& f) {
+  return Eigen::Matrix<double, 1, 1>(r.x() * f.y() - r.y() * f.x());
+}
+inline Vec<3> moment(const Vec<3>& r, const Vec<3>& f) { return r.cross(f); }
+
+/// Velocity of a rigid body's point at r from its reference point.
+template <int d>
+Vec<d> rigid_velocity(const Twist<d>& s, const Vec<d>& r) {
+  return s.template head<d>() + cross(Eigen::Matrix<double, rotations<d>, 1>(s.template tail<rotations<d>>()), r);
+}
+
+/// Wrench about the reference point of a force f that acts at r from it.
+template <int d>
+Wrench<d> wrench_of(const Vec<d>& r, const Vec<d>& f) {
+  Wrench<d> w;
+  w << f, moment(r, f);
+  return w;
+}
+
+// exp(angle of w): rotation by w [rad].
+inline Mat<2> rotation(const Eigen::Matrix<double, 1, 1>& w) { return Eigen::Rotation2Dd(w[0]).toRotationMatrix(); }
+inline Mat<3> rotation(const Vec<3>& w) {
+  const double angle = w.norm();
+  return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix() : Mat<3>::Identity();
+}
+
+/// Pose after dt at constant twist: x + dt V, exp(dt w) R.
+template <int d>
+Isometry<d> moved(const Isometry<d>& pose, const Twist<d>& s, double dt) {
+  Isometry<d> out = pose;
+  out.translation() += dt * s.template head<d>();
+  out.linear() = rotation(Eigen::Matrix<double, rotations<d>, 1>(dt * s.template tail<rotations<d>>())) * pose.linear();
+  return out;
+}
+
+}  // namespace splashdown

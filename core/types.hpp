@@ -1,0 +1,38 @@
+// Types that all rooms share. World frame, SI units; two-dimensional quantities are per metre of depth.
+//
+// A twist stacks the linear velocity V [m/s] of a reference point and the angular velocity w [rad/s], a wrench the force F [N]
+// and the moment M [N m] about that point. In two dimensions w and M have one entry (counter-clockwise positive).
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+
+namespace splashdown {
+
+template <int d>
+using Vec = Eigen::Matrix<double, d, 1>;
+template <int d>
+using Mat = Eigen::Matrix<double, d, d>;
+template <int d>
+using Isometry = Eigen::Transform<double, d, Eigen::Isometry>;
+
+/// Rotational and total degrees of freedom: 1 and 3 in two dimensions, 3 and 6 in three.
+template <int d>
+inline constexpr int rotations = d*(d - 1) / 2;
+template <int d>
+inline constexpr int freedoms = d + rotations<d>;
+
+template <int d>
+using Twist = Eigen::Matrix<double, freedoms<d>, 1>;
+template <int d>
+using Wrench = Eigen::Matrix<double, freedoms<d>, 1>;
+
+/// Closed, oriented simplicial surface: polyline (d = 2) or triangle mesh (d = 3). Normals point out of what the surface
+/// encloses: a 2D outline runs counter-clockwise, in 3D the right-hand rule gives the normal.
+template <int d>
+struct Surface {
+  Eigen::Matrix<double, d, Eigen::Dynamic> vertices;  ///< [m], d x n
+  Eigen::Matrix<int, d, Eigen::Dynamic> facets;       ///< vertex indices, d x m
+};
+
+}  // namespace splashdown

@@ -1,0 +1,184 @@
+// Bodies that the pressure equation solves for: eliminated on the factor, and what they get of a solution.
+#include <cmath>
+#include <limits>
+
+#include "core/dense.hpp"
+#include "fluid/pressure/pressure.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+bool PressureEquation<d>::add_bodies() {
+  constexpr int m = freedoms<d>;
+  Y_.setZero(size(), motions());
+  for (std::size_t w = 0; w < modes_.size(); ++w) {
+    if (motions() == 0) break;
+    const Eigen::MatrixXd moves = response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    for (const Mode& mode : modes_[w]) Y_.row(mode.unknown) += mode.row.transpose() * moves;
+  }
+  std::vector<int> wet;  // motions that the water feels
+  for (int k = 0; k < motions(); ++k)
+    if (!Y_.col(k).isZero(0)) wet.push_back(k);
+  const Eigen::MatrixXd loads = Y_(Eigen::all, wet);  // B^T Z
+  Eigen::MatrixXd answers = loads;
+  // The motions obey Newton's law with whatever answers these are; what they leave of the flux the corrections find.
+  constexpr double enough = 1e-4;
+  const std::span<double> systems(answers.data(), static_cast<std::size_t>(answers.size()));
+  if (!wet.empty() && !solver_.solve(systems, static_cast<int>(wet.size()), enough)) return false;
+  Y_(Eigen::all, wet) = answers;
+  added_mass_.setZero(motions(), motions());
+  added_mass_(wet, wet) = algebra::transposed_product(loads, answers);
+  held_inertia_.setZero(motions(), motions());
+  for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
+    if (!response_.moves(w)) continue;
+    const Eigen::MatrixXd moves = response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    held_inertia_ += moves.transpose() * held_.inertia(w) * moves;
+  }
+  if (!held_.empty())
+    for (int k = 0; k < motions(); ++k)
+      held_inertia_.col(k) += of_held({Y_.col(k).data(), static_cast<std::size_t>(size())});
+  allow(Eigen::MatrixXd::Identity(motions(), motions()));
+  return true;
+}
+
+// Directions in which neither body nor water has inertia stay as they are.
+template <int d>
+void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
+  elimination_.setZero(motions(), motions());
+  if (directions.cols() == 0) return;
+  const Eigen::MatrixXd total = algebra::congruence(response_.inertia + added_mass_ + held_inertia_, directions);
+  const Eigen::VectorXd diagonal = total.diagonal();
+  Eigen::VectorXd unit(diagonal.size());
+  for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = diagonal[i] > 0 ? 1 / std::sqrt(diagonal[i]) : 0.0;
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * total * unit.asDiagonal();
+  const Eigen::MatrixXd inverse = algebra::pseudo_inverse(scaled);
+  const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
+  // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
+  const bool symmetric = solver_.is_direct() && held_inertia_.isZero(0);
+  elimination_ = algebra::lifted(lifted, symmetric ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse);
+}
+
+template <int d>
+bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance, std::vector<double> guess) {
+  if (size() == 0) return true;
+  // Least error in the energy norm: G y = Y^T (r - A guess), and A Y = B^T Z.
+  if (!guess.empty() && motions() > 0 && !solver_.is_direct()) {
+    const Eigen::Map<const Eigen::VectorXd> rhs(r.data(), size());
+    const Eigen::VectorXd left = Y_.transpose() * rhs - on_motions(impulses(guess));
+    Eigen::Map<Eigen::VectorXd>(guess.data(), size()) += Y_ * algebra::least_squares(added_mass_, left);
+  }
+  return solver_.solve(r, 1, tolerance, guess);
+}
+
+template <int d>
+Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s,
+                                             const Eigen::VectorXd& further) const {
+  if (motions() == 0) return {};
+  const Eigen::VectorXd y = response(on_motions(impulses(phi)) + of_held(phi) + further);
+  Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * y;
+  move(y, s);
+  return y;
+}
+
+// Z^T R phi
+template <int d>
+Eigen::VectorXd PressureEquation<d>::of_held(std::span<const double> phi) const {
+  std::vector<Wrench<d>> loads(held_modes_.size(), Wrench<d>::Zero());
+  for (std::size_t w = 0; w < loads.size(); ++w)
+    for (const Mode& mode : held_modes_[w]) loads[w] += mode.row * phi[mode.unknown];
+  return on_motions(loads);
+}
+
+template <int d>
+Eigen::VectorXd PressureEquation<d>::on_motions(std::span<const Wrench<d>> impulses) const {
+  constexpr int m = freedoms<d>;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(motions());
+  if (motions() == 0) return sum;
+  for (std::size_t w = 0; w < impulses.size(); ++w)
+    sum += response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m).transpose() * impulses[w];
+  return sum;
+}
+
+template <int d>
+void PressureEquation<d>::move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const {
+  constexpr int m = freedoms<d>;
+  if (motions() == 0) return;
+  const Eigen::VectorXd twists = response_.modes * y;
+  for (std::size_t w = 0; w < s.size(); ++w) s[w] += twists.segment<m>(static_cast<Eigen::Index>(w) * m);
+}
+
+template <int d>
+std::vector<Wrench<d>> PressureEquation<d>::impulses(std::span<const double> phi) const {
+  std::vector<Wrench<d>> loads;
+  for (std::size_t w = 0; w < modes_.size(); ++w) loads.push_back(impulse(w, phi));
+  return loads;
+}
+
+template <int d>
+Wrench<d> PressureEquation<d>::impulse(std::size_t wall, std::span<const double> phi) const {
+  Wrench<d> load = Wrench<d>::Zero();
+  for (const Mode& mode : modes_[wall]) load += mode.row * phi[mode.unknown];
+  return load;
+}
+
+template <int d>
+Eigen::MatrixXd PressureEquation<d>::interface_slope(std::span<const std::size_t> walls) {
+  constexpr int m = freedoms<d>;
+  const auto pieces = static_cast<Eigen::Index>(laplacian_.pieces().size());
+  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  Eigen::MatrixXd phi = Eigen::MatrixXd::Zero(size(), count + pieces);
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]]) phi.row(mode.unknown).segment(k * m, m) -= mode.row.transpose();
+  std::vector<double> unit(static_cast<std::size_t>(pieces), 0.0), flux;
+  for (Eigen::Index k = 0; k < pieces; ++k) {
+    flux.assign(size(), 0.0);
+    unit[k] = 1;
+    laplacian_.add(unit, flux);
+    unit[k] = 0;
+    phi.col(count + k) = Eigen::Map<const Eigen::VectorXd>(flux.data(), size());
+  }
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(count + pieces, count + pieces);
+  if (phi.size() == 0) return slope;
+  if (!solver_.solve({phi.data(), static_cast<std::size_t>(phi.size())}, static_cast<int>(phi.cols())))
+    return slope.array() + std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]]) slope.middleRows(k * m, m) += mode.row * phi.row(mode.unknown);
+  for (Eigen::Index k = 0; k < phi.cols(); ++k) {
+    const auto means = laplacian_.means({phi.col(k).data(), static_cast<std::size_t>(size())});
+    slope.col(k).tail(pieces) = Eigen::Map<const Eigen::VectorXd>(means.data(), pieces);
+  }
+  return slope;
+}
+
+template <int d>
+Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
+  constexpr int m = freedoms<d>;
+  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  Eigen::MatrixXd flux = Eigen::MatrixXd::Zero(size(), count);
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]])
+      flux.row(mode.unknown).segment(static_cast<Eigen::Index>(k) * m, m) += mode.row.transpose();
+  // An interface Laplacian in the factor is one body's answer, not the water's.
+  LinearSolver without{most_direct<d>};
+  LinearSolver& solver = laplacian_.pieces().empty() ? solver_ : without;
+  if (&solver == &without && flux.size() > 0) {
+    SymmetricMatrix water;
+    assemble(water);
+    without.factor(water);
+  }
+  Eigen::MatrixXd impulses = Eigen::MatrixXd::Zero(size(), count);
+  for (int pass = 0; pass <= corrections<d> && flux.size() > 0; ++pass) {
+    Eigen::MatrixXd left = flux;
+    for (Eigen::Index k = 0; k < count && pass > 0; ++k) left.col(k) -= taken_by(impulses.col(k));
+    if (!solver.solve({left.data(), static_cast<std::size_t>(left.size())}, static_cast<int>(count)))
+      return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
+    impulses += left;
+  }
+  const Eigen::MatrixXd G = algebra::transposed_product(flux, impulses);
+  return 0.5 * (G + G.transpose());
+}
+
+template class PressureEquation<2>;
+template class PressureEquation<3>;
+
+}  // namespace splashdown::fluid
