@@ -109,5 +109,20 @@ TYPED_TEST(Droplets, that_land_raise_the_surface_by_their_volume_and_bring_their
   EXPECT_NEAR(enclosed_volume(pool.mesh.boundary, nodes.x) - enclosed, V, 1e-2 * V);
 }
 
+// Both sides of a sheet without thickness: the nodes of its facets have no area that could give way.
+TYPED_TEST(Droplets, without_volume_leave_a_surface_without_area_where_it_is) {
+  constexpr int d = TypeParam::value;
+  Nodes<d> nodes;
+  Facet<d> front;
+  front.wall = -1;
+  for (int k = 0; k < d; ++k) front.nodes[k] = nodes.add(Vec<d>::Unit(k), Vec<d>::Zero(), 0, {}, true);
+  Facet<d> back = front;
+  std::swap(back.nodes[0], back.nodes[1]);
+  add_drop<d>(nodes, Vec<d>::Constant(1.0 / d), Vec<d>::Ones(), 0);
+  std::vector<char> left(nodes.size(), 1);
+  absorb_drops<d>(nodes, std::vector<double>(nodes.size(), 1.0), {front, back}, left);
+  for (int k = 0; k < d; ++k) EXPECT_EQ(nodes.x[k], Vec<d>(Vec<d>::Unit(k)));
+}
+
 }  // namespace
 }  // namespace splashdown::fluid
