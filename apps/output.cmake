@@ -11,13 +11,11 @@ set(output_sources
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
   statistics/grades.cpp statistics/landing_statistics.cpp
   statistics/pulse.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict.cpp
-  report/data.cpp report/field.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp report/hull.cpp
-  report/page.cpp report/picture.cpp report/plane_picture.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp)
+  report/price.cpp report/data.cpp report/field.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp report/hull.cpp
+  report/page.cpp report/picture.cpp report/plane_picture.cpp report/report.cpp report/study.cpp report/words.cpp)
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 add_library(splashdown_output STATIC ${output_sources})
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
-target_compile_options(splashdown_output PRIVATE ${SPLASHDOWN_WARNINGS})
-target_precompile_headers(splashdown_output PRIVATE ${SPLASHDOWN_COMMON_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(splashdown_output
   PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt

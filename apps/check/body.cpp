@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "apps/check/floating.hpp"
-#include "apps/scene/motion_guess.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/build.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/motion_guess.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -103,7 +103,8 @@ void print_inertia(const rigid::BodySpec<2>& spec) {
 }
 
 void print_inertia(const rigid::BodySpec<3>& spec) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spec.inertia);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(spec.inertia);  // in closed form: for six digits
   row("inertia", fmt::format("{} kg m^2 about the centre of mass (radii of gyration {} m)",
                              text<3>(rigid::Vec<3>(spec.inertia.diagonal())),
                              text<3>(rigid::Vec<3>((spec.inertia.diagonal() / spec.mass).cwiseSqrt()), 5)));
