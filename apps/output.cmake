@@ -18,8 +18,6 @@ set(output_sources
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 add_library(splashdown_output STATIC ${output_sources})
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
-target_compile_options(splashdown_output PRIVATE ${SPLASHDOWN_WARNINGS})
-target_precompile_headers(splashdown_output PRIVATE ${SPLASHDOWN_COMMON_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(splashdown_output
   PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt

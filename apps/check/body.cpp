@@ -95,7 +95,8 @@ void print_inertia(const rigid::BodySpec<2>& spec) {
 }
 
 void print_inertia(const rigid::BodySpec<3>& spec) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spec.inertia);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(spec.inertia);  // in closed form: for six digits
   row("inertia", fmt::format("{} kg m^2 about the centre of mass (radii of gyration {} m)",
                              text<3>(rigid::Vec<3>(spec.inertia.diagonal())),
                              text<3>(rigid::Vec<3>((spec.inertia.diagonal() / spec.mass).cwiseSqrt()), 5)));

@@ -208,10 +208,6 @@ Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<Pri
   return rung;
 }
 
-std::string word_of(Role role) {
-  return role == Role::rung ? "rung" : role == Role::replicate ? "replicate" : "larger tank";
-}
-
 std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& name) {
   if (!scene.tank)
     throw SceneError({name + ": --open-water: has no [tank] whose walls could be moved away. Leave --open-water out."});

@@ -146,6 +146,10 @@ std::string refusals_text(const Price& price) {
 
 }  // namespace
 
+std::string word_of(Role role) {
+  return role == Role::rung ? "rung" : role == Role::replicate ? "replicate" : "larger tank";
+}
+
 std::string about_time(double seconds) {
   if (seconds < 100) return fmt::format("{:.2g} s", seconds);
   if (seconds < 6000) return fmt::format("{:.2g} min", seconds / 60);

@@ -78,20 +78,22 @@ bool reaches_into(const Solid<d>& a, const Solid<d>& b, double tolerance) {
 }  // namespace
 
 template <int d>
-Solid<d>::Solid(const Surface<d>& surface)
-    : surface_(surface),
-      box_(apps::extents<d>(surface)),
-      facets_(surface.vertices, surface.facets),
-      inside_(inside_test<d>(surface)) {}
+Solid<d>::Solid(const Surface<d>& surface) : surface_(surface), box_(apps::extents<d>(surface)) {}
+
+template <int d>
+const typename Solid<d>::Search& Solid<d>::search() const {
+  if (!search_) search_ = Search{{surface_.vertices, surface_.facets}, inside_test<d>(surface_)};
+  return *search_;
+}
 
 template <int d>
 double Solid<d>::distance(const Vec<d>& point) const {
-  return (facets_.nearest(point, std::numeric_limits<double>::max()).point - point).norm();
+  return (search().facets.nearest(point, std::numeric_limits<double>::max()).point - point).norm();
 }
 
 template <int d>
 double Solid<d>::signed_distance(const Vec<d>& point) const {
-  return inside_(point) ? -distance(point) : distance(point);
+  return search().inside(point) ? -distance(point) : distance(point);
 }
 
 template <int d>

@@ -1,6 +1,8 @@
 // What a closed surface encloses: is a point in it, how deep, and do two of them share space?
 #pragma once
 
+#include <optional>
+
 #include "apps/scene/geometry.hpp"
 #include "core/facet_tree.hpp"
 #include "fluid/mesh/inside.hpp"
@@ -14,15 +16,21 @@ class Solid {
   /// Negative inside [m].
   double signed_distance(const rigid::Vec<d>& point) const;
   double distance(const rigid::Vec<d>& point) const;
-  bool contains(const rigid::Vec<d>& point) const { return box_.contains(point) && inside_(point); }
+  bool contains(const rigid::Vec<d>& point) const { return box_.contains(point) && search().inside(point); }
   const rigid::Surface<d>& surface() const { return surface_; }
   const Extents<d>& extents() const { return box_; }
 
  private:
+  struct Search {
+    FacetTree<d> facets;
+    fluid::InsideTest<d> inside;
+  };
+  // Made when first asked for: bodies whose boxes do not meet need none, and to make it took most of reading a scene in space.
+  const Search& search() const;
+
   rigid::Surface<d> surface_;
   Extents<d> box_;
-  FacetTree<d> facets_;
-  fluid::InsideTest<d> inside_;
+  mutable std::optional<Search> search_;
 };
 
 /// The interiors share more than their boundaries.

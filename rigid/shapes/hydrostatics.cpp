@@ -103,13 +103,33 @@ Heights heights(const Surface<d>& surface, const Isometry<d>& pose) {
   return h;
 }
 
+/// Eigenvalues in ascending order, and their vectors. In closed form: Eigen's way for any size takes longer to compile than the rest
+/// of this file.
+template <int n>
+struct Principal {
+  Eigen::Matrix<double, n, 1> values;
+  Eigen::Matrix<double, n, n> axes;
+
+  explicit Principal(const Eigen::Matrix<double, n, n>& symmetric) {
+    if constexpr (n == 1) {
+      values(0) = symmetric(0, 0);
+      axes(0, 0) = 1;
+    } else {
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> solver;
+      solver.computeDirect(symmetric);
+      values = solver.eigenvalues();
+      axes = solver.eigenvectors();
+    }
+  }
+};
+
 template <int d>
 Floating<d> assess(const Surface<d>& surface, const Isometry<d>& pose, double water_level) {
   Floating<d> f;
   f.pose = pose;
   f.submerged = submerged<d>(surface, pose, water_level);
   f.draft = water_level - heights<d>(surface, pose).least - pose.translation()(d - 1);
-  const double weakest = f.submerged.waterline_moment.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+  const double weakest = Principal<d - 1>(f.submerged.waterline_moment).values(0);
   f.metacentric_height = f.submerged.centre(d - 1) + weakest / f.submerged.volume - pose.translation()(d - 1);
   return f;
 }
@@ -243,10 +263,7 @@ Floating<d> settled(const Surface<d>& surface, Floating<d> f, double target, dou
   const auto along = [&](const Floating<d>& at) -> Amounts { return allowed.transpose() * lever(at); };
   for (int i = 0; i < iterations; ++i) {
     const Amounts down = along(f);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> curvature(allowed.transpose() *
-                                                                               metacentric_tensor(f) * allowed);
-    const auto& heights = curvature.eigenvalues();
-    const auto& axes = curvature.eigenvectors();
+    const auto& [heights, axes] = Principal<n>(allowed.transpose() * metacentric_tensor(f) * allowed);
     Amounts step;
     if (down.norm() <= balance && heights(0) < -neutral) {
       const double sense = axes.col(0).sum() < 0 ? -1 : 1;  // counter-clockwise in the plane

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -114,9 +115,10 @@ std::string read_text(const std::filesystem::path& path, const std::string& exam
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw refuse(std::strerror(errno));
   constexpr std::size_t most = 16'000'000;  // a hundred times the longest outline that is read
-  std::string text(most + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string text;
+  std::array<char, 65536> piece;
+  while (text.size() <= most && (stream.read(piece.data(), piece.size()) || stream.gcount() > 0))
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
   if (text.size() > most) throw refuse(fmt::format("it has more than {} MB", most / 1'000'000));
   return text;
 }
