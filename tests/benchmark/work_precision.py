@@ -94,8 +94,8 @@ CASES = {
                  [["--refine=0.12"], ["--refine=0.18"], ["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"]]),
     "wedge_drop": ("wedge_drop/scene.toml", wedge_drop,
                    [["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"]]),
-    "light_capsule": ("capsule_drop_2d/scene.toml", capsule, [["--refine=0.7"], ["--refine=1"]]),
-    "cone_45": ("cone_entry/scene_45.toml", cone, [["--refine=0.5"], ["--refine=0.71"], ["--refine=1"]]),
+    "light_capsule": ("capsule_drop_2d/scene.toml", capsule, [["--refine=0.7", "--until=0.3"], ["--refine=1", "--until=0.3"]]),
+    "cone_45": ("cone_entry/scene_45.toml", cone, [["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"]]),
 }
 
 
