@@ -1,0 +1,50 @@
+// A step of the fluid alone, walls moved by hand: what its parts do for each other.
+#include <gtest/gtest.h>
+
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double width = 1, depth = 0.5, size = 0.05;
+
+// Wetted nodes below the free surface that are tied to the upright wall at x = -width/2 (side = -1) or width/2 (+1).
+int tied_to(const Fluid<2>& water, double side) {
+  int count = 0;
+  for (std::size_t i = 0; i < water.nodes().size(); ++i) {
+    const auto& x = water.nodes().x[i];
+    count += water.nodes().tie[i].wall == 0 && std::abs(x.x() - side * 0.5 * width) < 0.1 * size;
+  }
+  return count;
+}
+
+TEST(FluidStep, air_gets_behind_a_wall_that_is_pulled_from_the_water) {
+  // Water at rest without gravity, whose tank is jerked to the right: its left wall pushes, its right one pulls.
+  Fluid<2> water(scenes::still_water(width, depth, size), scenes::no_effects());
+  const double dt = 1e-3;
+  const std::vector<Twist<2>> jerk{{1, 0, 0}};
+  ASSERT_TRUE(water.begin(dt, dt, {}).ok());
+  const int left = tied_to(water, -1), right = tied_to(water, 1);
+  ASSERT_TRUE(water.solve(jerk).ok());
+  water.commit(std::vector<Isometry<2>>{moved<2>(Isometry<2>::Identity(), jerk[0], dt)});
+  EXPECT_EQ(tied_to(water, 1), right - 1) << "a row a step, from the contact line";
+  EXPECT_EQ(tied_to(water, -1), left);
+}
+
+TEST(FluidStep, what_a_velocity_lacks_of_keeping_the_volume_is_repaired_and_loads_nothing) {
+  // All of the water flows to the right into the wall: nobody has done that, it is no load. Each pass of the repair leaves a tenth
+  // of what there was, two a hundredth; the rest counts as pressure.
+  auto spec = scenes::still_water(width, depth, size);
+  spec.liquids[0].velocity = [](const Vec<2>&) { return Vec<2>(1, 0); };
+  Fluid<2> water(std::move(spec), scenes::no_effects());
+  const double dt = 1e-6;  // nothing moves
+  const std::vector<Twist<2>> still{Twist<2>::Zero()};
+  ASSERT_TRUE(water.begin(dt, dt, {}).ok());
+  ASSERT_TRUE(water.solve(still).ok());
+  const auto& load = water.loads()[0];
+  EXPECT_GT(load.repair[0], 0);
+  EXPECT_LT(std::abs(load.physical[0]), 0.01 * load.repair[0]);
+}
+
+}  // namespace
+}  // namespace splashdown::fluid
