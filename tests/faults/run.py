@@ -14,6 +14,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -125,6 +126,7 @@ def write_table(faults, results):
 
 
 def main():
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(130))  # by way of `finally`: the sources are sound again
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--copy", type=pathlib.Path, default=ROOT / "build/faults")
     parser.add_argument("--jobs", type=int, default=max(1, (os.cpu_count() or 2) // 2))

@@ -32,8 +32,8 @@ TEST(FluidStep, air_gets_behind_a_wall_that_is_pulled_from_the_water) {
 }
 
 TEST(FluidStep, what_a_velocity_lacks_of_keeping_the_volume_is_repaired_and_loads_nothing) {
-  // All of the water flows to the right into the wall: nobody has done that, it is no load. Each pass of the repair leaves a tenth
-  // of what there was, two a hundredth; the rest counts as pressure.
+  // All of the water flows to the right into the wall: nobody has done that, it is no load. What one pass of the repair leaves of it
+  // counts as pressure, 0.0109 of the repair here, and 0.0022 after the second: half of the first is asked for.
   auto spec = scenes::still_water(width, depth, size);
   spec.liquids[0].velocity = [](const Vec<2>&) { return Vec<2>(1, 0); };
   Fluid<2> water(std::move(spec), scenes::no_effects());
@@ -43,7 +43,21 @@ TEST(FluidStep, what_a_velocity_lacks_of_keeping_the_volume_is_repaired_and_load
   ASSERT_TRUE(water.solve(still).ok());
   const auto& load = water.loads()[0];
   EXPECT_GT(load.repair[0], 0);
-  EXPECT_LT(std::abs(load.physical[0]), 0.01 * load.repair[0]);
+  EXPECT_LT(std::abs(load.physical[0]), 0.005 * load.repair[0]);
+}
+
+TEST(FluidStep, what_a_tank_gets_the_water_loses_corners_included) {
+  // The nodes in the lower corners move with the tank and hand their momentum over.
+  Fluid<2> water(scenes::still_water(width, depth, 2 * size), scenes::no_effects());
+  const double dt = 1e-6;  // nothing moves
+  const std::vector<Twist<2>> jerk{{1, 0, 0}};
+  ASSERT_TRUE(water.begin(dt, dt, {}).ok());
+  ASSERT_TRUE(water.solve(jerk).ok());
+  const auto volumes = nodal_volumes(water.mesh(), water.nodes().x);
+  double momentum = 0;
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    momentum += water.density() * volumes[i] * (2 * water.velocity_n(i).x() - water.nodes().v[i].x());
+  EXPECT_NEAR(dt * water.loads()[0].total()[0], -momentum, 1e-6 * momentum);
 }
 
 }  // namespace
