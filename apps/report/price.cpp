@@ -22,7 +22,7 @@ std::string seconds_cell(double seconds) {
   return "<td>" + (std::isfinite(seconds) ? seconds_text(seconds) : std::string("–")) + "</td>";
 }
 
-std::string text_at(const Json& json, const char* key) { return html_escaped(json.value(key, "")); }
+std::string escaped_at(const Json& json, const char* key) { return html_escaped(json.value(key, "")); }
 
 std::string table(const std::string& title, const std::vector<std::string>& heads, const std::string& rows) {
   std::string html = "<h2>" + title + "</h2>\n<div class=\"scroll\"><table><thead><tr>";
@@ -35,7 +35,7 @@ std::string rows_table(const Json& price) {
   for (const auto& row : price.at("rows"))
     rows += fmt::format("<tr><td><b>{:g} %</b></td>{}{}<td>{}</td><td class=\"text\">{}</td></tr>\n",
                         number_at(row, {"accuracy_percent"}), seconds_cell(number_at(row, {"seconds"})),
-                        cell(number_at(row, {"refine"}), 3), text_at(row, "decided_by"),
+                        cell(number_at(row, {"refine"}), 3), escaped_at(row, "decided_by"),
                         row.at("seconds").is_null()          ? "not by refinement alone"
                         : row.at("extrapolated").get<bool>() ? "extrapolated"
                                                              : "measured");
@@ -48,10 +48,10 @@ std::string quantities_table(const Json& price) {
     const double value = number_at(q, {"value"}), band = number_at(q, {"band"});
     const double percent = 100 * std::abs(band / value);
     rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}{}{}{}{}<td class=\"text\">{}{}</td></tr>\n",
-                        html_escaped(name), cell(value), text_at(q, "unit"), cell(band, 2), cell(percent, 2),
+                        html_escaped(name), cell(value), escaped_at(q, "unit"), cell(band, 2), cell(percent, 2),
                         cell(number_at(q, {"order"}), 2), cell(number_at(q, {"richardson"})),
                         cell(number_at(q, {"scatter"}), 2), q.at("counts").get<bool>() ? "" : "not counted; ",
-                        text_at(q, "refused"));
+                        escaped_at(q, "refused"));
   }
   return table("Quantities", {"quantity", "finest mesh", "unit", "band ±", "%", "order", "Richardson", "scatter", ""},
                rows);
@@ -60,13 +60,13 @@ std::string quantities_table(const Json& price) {
 std::string runs_table(const fs::path& directory, const Json& price) {
   std::string rows;
   for (const auto& run : price.at("runs")) {
-    const auto folder = text_at(run, "folder");
+    const auto folder = escaped_at(run, "folder");
     const bool page = fs::exists(directory / run.value("folder", "") / "report.html");
     rows += fmt::format("<tr><td>{}</td>{}{}{}{}<td class=\"text\">{}</td></tr>\n",
                         page ? fmt::format("<a href=\"{0}/report.html\">{0}</a>", folder) : folder,
                         cell(number_at(run, {"refine"})), seconds_cell(number_at(run, {"seconds"})),
                         cell(number_at(run, {"node_steps"}), 3), cell(number_at(run, {"memory_mb"}), 3),
-                        text_at(run, "role"));
+                        escaped_at(run, "role"));
   }
   return table("Runs", {"run", "refine", "wall time", "node-steps", "memory (MB)", ""}, rows);
 }
