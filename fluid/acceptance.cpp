@@ -58,12 +58,12 @@ Status Fluid<d>::State::no_inverted_elements() const {
   return {"an element turns over within the step: " + place<d>(work.nodes.x[work.mesh.cells[c][0]])};
 }
 
-// The pressure is a projection: what water and walls have after it they had before. Where worn films let it be none, the
-// step is no solution.
+// Repair and pressure are projections: what water and walls have after them they had before. Where worn films let them be
+// none, the step is no solution.
 //
-//   T(v) - T(v*) + sum_w I_w . (s_w* + s_w) / 2 - sum_i m_i (u_i - v_i) . u_i <= share of the energies in it
+//   T(v) - max(T(v_0), T(v*)) + sum_w I_w . (s_w* + s_w) / 2 - sum_i m_i (u_i - v_i) . u_i <= share of the energies in it
 //
-// I_w: impulse on wall w; v: after the pressure; u: after the motion along walls, which may take nodes along; the lesser of
+// I_w: impulse on wall w; v_0: before the repair, v*: before the pressure, v: after the pressure; u: after the motion along walls, which may take nodes along; the lesser of
 // T(v), T(u).
 template <int d>
 Status Fluid<d>::State::no_energy_from_nowhere() const {
@@ -75,7 +75,7 @@ Status Fluid<d>::State::no_energy_from_nowhere() const {
     if (!work.nodes.spray[i])
       taken_along +=
           spec.density * equation.lumped_volume()[i] * std::max(0.0, (moved.u[i] - v_after[i]).dot(moved.u[i]));
-  const double before = equation.kinetic_energy(trial.v);
+  const double before = std::max(energy_before, equation.kinetic_energy(trial.v));
   const double after = std::min(equation.kinetic_energy(v_after), equation.kinetic_energy(moved.u));
   const double gain = after + given - before - taken_along;
   const double scale = before + std::abs(given) + taken_along;
