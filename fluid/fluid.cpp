@@ -8,22 +8,24 @@
 #include "fluid/contact/ventilation.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/initial/initial.hpp"
+#include "fluid/mesh/volume_books.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/wave_bound.hpp"
 
 namespace splashdown::fluid {
 namespace {
 
+// Where films turn over, cells count as less than nothing, nodes as nothing.
 template <int d>
 void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around) {
   std::vector<double> share(mesh.cells.size());
   in_parallel(share.size(), [&](std::size_t c) { share[c] = volume<d>(corners(nodes.x, mesh.cells[c])) / (d + 1); });
   in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.spray[i]) return;
-    const double carried = nodes.volume[i];
-    nodes.volume[i] = 0;
-    for (const auto [c, k] : around.around(i)) nodes.volume[i] += std::max(0.0, share[c]);  // films may turn over
-    nodes.owed[i] += carried - nodes.volume[i];
+    double now = 0;
+    for (const auto [c, k] : around.around(i)) now += share[c];
+    nodes.owed[i] += nodes.volume[i] - std::max(0.0, now);
+    nodes.volume[i] = std::max(0.0, now);
   });
 }
 
@@ -154,11 +156,17 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   nodes.x = s.moved.x;
   nodes.v = s.moved.u;
   nodes.tie = s.moved.tie;
+  const WallsAt<d> arrived{s.walls, poses};
   share_volumes(nodes, s.work.mesh, s.equation.around());
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
-  ventilate<d>(nodes, s.work.h, s.work.mesh, {s.walls, poses}, s.s_after, s.spec.density, s.gravity().norm());
+  const double moved = enclosed_volume(s.work.mesh.boundary, nodes.x);
+  return_volume(nodes, s.work.mesh, arrived, s.free_water);
+  share_volumes(nodes, s.work.mesh, s.equation.around());
+  s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
+  ventilate<d>(nodes, s.work.h, s.work.mesh, arrived, s.s_after, s.spec.density, s.gravity().norm());
   ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);
-  ledger.time_integration += ledger.volume - before;
+  ledger.time_integration += moved - before;
+  ledger.returned += ledger.volume - moved;
   ledger.energy_repair += s.energy_repaired - s.energy_before;
   ledger.energy_remesh += s.energy_before - s.energy_carried;
   ledger.work_on_walls = s.now.ledger.work_on_walls + s.kick * s.power_on_walls;

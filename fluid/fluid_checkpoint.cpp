@@ -103,6 +103,7 @@ void Fluid<d>::load(std::istream& in) {
   check(loaded, s_->walls);
   s_->now = std::move(loaded);
   s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
+  s_->now.nodes.inherited.assign(s_->now.nodes.size(), {});
   s_->prepared = false;
 }
 

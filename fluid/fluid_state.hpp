@@ -11,6 +11,7 @@
 #include "fluid/contact/wall_motion.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/mesh/adapt.hpp"
+#include "fluid/mesh/free_water.hpp"
 #include "fluid/mesh/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure/pressure.hpp"
@@ -70,11 +71,12 @@ struct Correction {
 // What one solve works with.
 template <int d>
 struct Trial {
-  std::vector<Vec<d>> v;             // of nodes, before the pressure
-  std::vector<Twist<d>> s_before;    // of walls, repaired
-  std::vector<Twist<d>> s_unloaded;  // of walls, before the pressure
-  std::vector<Vec<d>> x_mid;         // where a motion is judged
-  std::vector<double> r, repaired;   // residual, repair impulse
+  std::vector<Vec<d>> v;                      // of nodes, before the pressure
+  typename FreeWater<d>::Moments free_water;  // what it has before the pressure
+  std::vector<Twist<d>> s_before;             // of walls, repaired
+  std::vector<Twist<d>> s_unloaded;           // of walls, before the pressure
+  std::vector<Vec<d>> x_mid;                  // where a motion is judged
+  std::vector<double> r, repaired;            // residual, repair impulse
   Correction<d> last, next;
   std::vector<Wrench<d>> on_walls;               // impulses of effects
   std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
@@ -103,6 +105,8 @@ struct Fluid<d>::State {
   Present<d> work;        // now, remeshed
   bool prepared = false;  // work belongs to now
   MovingDelaunay<d> triangulation;
+  FreeWater<d> free_water;                      // of the mesh of work
+  typename FreeWater<d>::Moments free_carried;  // by it into the step
 
   double kick = 0, dt = 0;
   PressureEquation<d> equation;

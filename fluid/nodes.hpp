@@ -1,6 +1,7 @@
 // The fluid's particles, one array per quantity.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "fluid/parallel.hpp"
@@ -18,6 +19,29 @@ struct WallTie {
   bool operator==(const WallTie&) const = default;
 };
 
+/// Volume, momentum and kinetic energy, the latter two over the density.
+template <int d>
+struct VelocityMoments {
+  double volume = 0;                 ///< [m^d]
+  Vec<d> momentum = Vec<d>::Zero();  ///< [m^d m/s]
+  double energy = 0;                 ///< [m^d m^2/s^2]
+
+  static VelocityMoments of(double volume, const Vec<d>& v) {
+    return {volume, volume * v, 0.5 * volume * v.squaredNorm()};
+  }
+  VelocityMoments& operator+=(const VelocityMoments& b) {
+    volume += b.volume, momentum += b.momentum, energy += b.energy;
+    return *this;
+  }
+  VelocityMoments& operator-=(const VelocityMoments& b) {
+    volume -= b.volume, momentum -= b.momentum, energy -= b.energy;
+    return *this;
+  }
+  Vec<d> mean_velocity() const { return volume > 0 ? Vec<d>(momentum / volume) : Vec<d>::Zero(); }
+  /// Of the motion about the centre of mass; zero where cancellation leaves less.
+  double inner_energy() const { return std::max(0.0, energy - 0.5 * momentum.dot(mean_velocity())); }
+};
+
 template <int d>
 struct Nodes {
   std::vector<Vec<d>> x;        ///< position at t_n [m]
@@ -30,6 +54,7 @@ struct Nodes {
   std::vector<int> vertex;      ///< number in the last triangulation, -1: was not there
   std::vector<double> volume;   ///< share of the cells around it after the last move; spray keeps its own [m^d]
   std::vector<double> owed;     ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
+  std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
 
   std::size_t size() const { return x.size(); }
 
@@ -44,7 +69,20 @@ struct Nodes {
     vertex.push_back(-1);
     volume.push_back(0);
     owed.push_back(0);
+    inherited.emplace_back();
     return static_cast<int>(x.size()) - 1;
+  }
+
+  /// What node i carries.
+  VelocityMoments<d> carried(std::size_t i) const { return VelocityMoments<d>::of(volume[i], v[i]); }
+
+  /// Node `heir` gets what node `gone` has carried, inherited and been owed.
+  void bequeath(std::size_t gone, std::size_t heir) {
+    owed[heir] += volume[gone] + owed[gone];
+    inherited[heir] += carried(gone);
+    inherited[heir] += inherited[gone];
+    volume[gone] = owed[gone] = 0;
+    inherited[gone] = {};
   }
 
   /// Keeps the nodes named in `order`, in that order.
@@ -55,7 +93,7 @@ struct Nodes {
       values.swap(picked);
     };
     pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex);
-    pick(volume), pick(owed);
+    pick(volume), pick(owed), pick(inherited);
   }
 };
 

@@ -36,15 +36,19 @@ void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
     if (!nodes.spray[i] && (nodes.spray[heaviest] || nodes.volume[i] > nodes.volume[heaviest])) heaviest = i;
   }
   work.ledger.spray -= returning;
-  if (leaving == 0) return;
-  const double share = std::clamp(lost / leaving, 0.0, 1.0);
+  const double share = leaving > 0 ? std::clamp(lost / leaving, 0.0, 1.0) : 0.0;
   for (std::size_t i = 0; i < was_spray.size(); ++i) {
     if (nodes.spray[i] <= was_spray[i]) continue;
     const double carried = nodes.volume[i] + nodes.owed[i];
-    nodes.volume[i] = share * std::max(0.0, carried);
+    const double flies = share * std::max(0.0, carried);
+    if (!nodes.spray[heaviest]) {
+      nodes.bequeath(i, heaviest);
+      nodes.owed[heaviest] -= flies;
+      nodes.inherited[heaviest] -= VelocityMoments<d>::of(flies, nodes.v[i]);
+    }
+    nodes.volume[i] = flies;
     nodes.owed[i] = 0;
-    work.ledger.spray += nodes.volume[i];
-    if (!nodes.spray[heaviest]) nodes.owed[heaviest] += carried - nodes.volume[i];
+    work.ledger.spray += flies;
   }
 }
 
@@ -56,9 +60,7 @@ void Fluid<d>::State::hand_over(const std::vector<char>& goes, const std::vector
     const auto heir = std::find_if(cell.begin(), cell.end(), [&](int n) { return !goes[n]; });
     if (heir == cell.end()) continue;
     for (int n : cell) {
-      if (!goes[n]) continue;
-      nodes.owed[*heir] += nodes.volume[n] + nodes.owed[n];
-      nodes.volume[n] = nodes.owed[n] = 0;
+      if (goes[n]) nodes.bequeath(n, *heir);
     }
   }
 }
@@ -148,6 +150,9 @@ void Fluid<d>::State::prepare() {
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const std::size_t liquid = put_drops_last();
   cut(liquid);
+  free_water = FreeWater<d>(work.mesh, work.nodes);
+  free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
+  std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
   separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   absorb_droplets(work.nodes, work.mesh);
   carried_p = work.nodes.p;
@@ -155,7 +160,8 @@ void Fluid<d>::State::prepare() {
   const double adapted = before - now.ledger.volume;
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
   (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
-  return_volume(work.nodes, work.mesh, walls_at(work.poses));
+  return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water);
+  free_water.give_back(free_carried, nodal_volumes(work.mesh, work.nodes.x), work.nodes.v);
   work.ledger.volume = enclosed_volume(work.mesh.boundary, work.nodes.x);
   work.ledger.returned += work.ledger.volume - after;
   work.wetted = wetted_measures(work.mesh, work.nodes.x, walls.size());

@@ -28,7 +28,10 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   trial.answer = trial.known;
   if (drive.directions.size() > 0 || drive.impulse.size() > 0) equation.allow(drive.directions);
   if (auto status = repair(); !status.ok()) return status;
+  // Pressure changes no momentum of free water; masses that are held up (PressureEquation) may.
+  free_water.give_back(free_carried, equation.lumped_volume(), trial.v);
   if (auto status = predict(drive); !status.ok()) return status;
+  trial.free_water = free_water.moments(equation.lumped_volume(), trial.v);
   {
     const auto scope = timer.scope(pressure);
     if (auto status = solve_pressure(given, previous); !status.ok()) return status;

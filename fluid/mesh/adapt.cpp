@@ -98,7 +98,7 @@ class Adapter {
 
   void remove(int gone, int kept) {
     into_[gone] = kept;
-    nodes_.owed[kept] += nodes_.volume[gone] + nodes_.owed[gone];
+    nodes_.bequeath(gone, kept);
     touched_[gone] = touched_[kept] = 1;
     ++report_.removed;
   }
@@ -164,9 +164,11 @@ class Adapter {
       if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
       if (rank_a == rank_b) {
         if (!may_merge_with_its_like(rank_a, e)) continue;
+        nodes_.inherited[e.a] += nodes_.carried(e.a);
         nodes_.x[e.a] = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);
         nodes_.v[e.a] = 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]);
         nodes_.p[e.a] = 0.5 * (nodes_.p[e.a] + nodes_.p[e.b]);
+        nodes_.inherited[e.a] -= nodes_.carried(e.a);
         attach(e.a);
         remove(e.b, e.a);
       } else if (rank_a > rank_b) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "fluid/mesh/parts.hpp"
-
 namespace splashdown::fluid {
 namespace {
 
@@ -90,11 +88,11 @@ void keep_order(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::vector<V
 }  // namespace
 
 template <int d>
-void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls) {
+void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, const FreeWater<d>& free) {
   const std::size_t count = nodes.size();
   const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
   const FreeSurface<d> surface(nodes, mesh);
-  const std::vector<int> part = parts_of(mesh, nodes.size());
+  const std::vector<int>& part = free.part();
   std::vector<Vec<d>> outwards(count, Vec<d>::Zero());
   std::vector<Part> parts(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -117,11 +115,15 @@ void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls
   keep_order(mesh, nodes.x, moved);
   nodes.x = std::move(moved);
   const std::vector<double> now = nodal_volumes(mesh, nodes.x);
+  const auto moments = free.moments(volumes, nodes.v);
   for (std::size_t i = 0; i < count; ++i)
-    if (now[i] > volumes[i]) nodes.v[i] *= std::sqrt(volumes[i] / now[i]);
+    if (now[i] > volumes[i]) {
+      const Vec<d> w = free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>::Zero();
+      nodes.v[i] = w + std::sqrt(volumes[i] / now[i]) * (nodes.v[i] - w);
+    }
 }
 
-template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
-template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
+template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
+template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
 
 }  // namespace splashdown::fluid

@@ -8,10 +8,12 @@
 //
 // V_i: volume around node i, A_i: area vector of its free surface, S_i: its measure, so that sheets and tips
 // grow by the same share of their thickness as the rest. Velocities of nodes that gain volume fall so that their kinetic
-// energy stays, v <- v (V before / V after)^1/2: volume comes back without energy. The sum of volume and what is owed,
+// energy stays, v <- w + (v - w) (V before / V after)^1/2, w: mean velocity of free water, zero where walls are: volume comes
+// back without energy. The sum of volume and what is owed,
 // spray included, is the volume that the water began with, to roundoff.
 #pragma once
 
+#include "fluid/mesh/free_water.hpp"
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/mesh/recognise.hpp"
 #include "fluid/nodes.hpp"
@@ -22,9 +24,9 @@ namespace splashdown::fluid {
 /// and sets Nodes::owed so that this sum is kept. Nodes turn no cells over and enter no walls; tied ones stay on theirs, and water that walls
 /// enclose on all sides has no room: it gets nothing back.
 template <int d>
-void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls);
+void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, const FreeWater<d>& free);
 
-extern template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
-extern template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
+extern template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
+extern template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
 
 }  // namespace splashdown::fluid

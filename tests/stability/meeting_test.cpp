@@ -65,5 +65,33 @@ TEST_P(Meeting, of_two_drops_keeps_momentum_and_makes_no_energy) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Meeting, testing::Range<std::uint64_t>(1, 9));
 
+// A drop on a plate turns into sheets that are thinned to nothing: what they lose of their volume comes back, and their
+// fronts, which carry no pressure, bring no energy.
+TEST(Drop, that_meets_a_plate_keeps_its_volume_and_makes_no_energy) {
+  const double radius = 0.1, h = radius / 6, V = 20;
+  fluid::FluidSpec<2> spec;
+  spec.density = water;
+  spec.size = {.surface = h, .far = 2 * h, .growth = 0.2};
+  spec.step.dt_max = h / V;
+  const auto tank = fluid::scenes::rectangle({-8 * radius, 0}, {8 * radius, 8 * radius});
+  spec.walls.push_back(fluid::scenes::wall("tank", fluid::scenes::turned_inside_out(tank), 2 * h));
+  spec.liquids.push_back(
+      {fluid::scenes::ellipse(radius, radius, 64, Vec(0, radius + 0.5 * h)), [=](const Vec&) { return Vec(0, -V); }});
+  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_effects()));
+  double dt = 0.01 * h / V;
+  const double initial = stepper.fluid().ledger().volume, energy = 0.5 * water * initial * V * V;
+  const double end = 4 * radius / V;
+  while (stepper.time() < end) {
+    dt = std::min(stepper.stable_dt(), 1.5 * dt);
+    ASSERT_TRUE(coupling::scenes::attempt_halving(stepper, dt, 20).ok()) << stepper.time();
+    stepper.commit();
+    const auto& ledger = stepper.fluid().ledger();
+    // Bounds as those of the meeting drops.
+    ASSERT_LE(ledger.kinetic_energy, energy * (1 + 1e-3)) << "at " << stepper.time() / end;
+    ASSERT_LE(std::abs(ledger.volume + ledger.spray - initial), 5e-3 * initial) << "at " << stepper.time() / end;
+  }
+  EXPECT_GT(std::abs(stepper.fluid().ledger().returned), 5e-3 * initial) << "nothing was lost: this tests nothing";
+}
+
 }  // namespace
 }  // namespace splashdown

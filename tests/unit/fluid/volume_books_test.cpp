@@ -44,6 +44,11 @@ scenes::Lattice<d> pool() {
   return pool;
 }
 
+template <int d>
+void give_volume_back(scenes::Lattice<d>& pool, const WallsAt<d>& walls = {}) {
+  return_volume<d>(pool.nodes, pool.mesh, walls, FreeWater<d>(pool.mesh, pool.nodes));
+}
+
 constexpr double lost = 1e-4;
 
 TYPED_TEST(VolumeBooks, what_the_mesh_lost_comes_back_wherever_it_was_lost) {
@@ -51,7 +56,7 @@ TYPED_TEST(VolumeBooks, what_the_mesh_lost_comes_back_wherever_it_was_lost) {
   auto p = pool<d>();
   p.nodes.owed.front() = lost;
   const double books = in_the_books(p.nodes);
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   // Exact but for what the surface's own motion adds, of second order in what the surface moves by over its length.
   EXPECT_NEAR(enclosed(p), 1 + lost, 100 * lost * lost);
   EXPECT_NEAR(in_the_books(p.nodes), books, 10 * scenes::eps);
@@ -61,7 +66,7 @@ TYPED_TEST(VolumeBooks, what_the_mesh_gained_goes_too) {
   constexpr int d = TypeParam::value;
   auto p = pool<d>();
   p.nodes.owed.back() = -lost;
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   EXPECT_NEAR(enclosed(p), 1 - lost, 100 * lost * lost);
 }
 
@@ -70,7 +75,7 @@ TYPED_TEST(VolumeBooks, no_kinetic_energy_comes_with_it) {
   auto p = pool<d>();
   p.nodes.owed.front() = 100 * lost;
   const double before = kinetic_energy(p);
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   EXPECT_LE(kinetic_energy(p), before * (1 + 100 * scenes::eps));
 }
 
@@ -79,7 +84,7 @@ TYPED_TEST(VolumeBooks, nothing_moves_where_nothing_is_owed) {
   auto p = pool<d>();
   const auto x = p.nodes.x;
   const auto v = p.nodes.v;
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_LE((p.nodes.x[i] - x[i]).norm(), 100 * scenes::eps);
     EXPECT_LE((p.nodes.v[i] - v[i]).norm(), 100 * scenes::eps);
@@ -90,7 +95,7 @@ TYPED_TEST(VolumeBooks, a_surface_moves_by_a_quarter_of_its_reach_at_the_most_an
   constexpr int d = TypeParam::value;
   auto p = pool<d>();
   p.nodes.owed.front() = 1;
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   const double spacing = 0.25;
   EXPECT_LT(enclosed(p), 1 + 0.25 * spacing);
   EXPECT_GT(enclosed(p), 1);
@@ -120,7 +125,7 @@ TYPED_TEST(VolumeBooks, other_water_does_not_pay) {
   }
   p.nodes.owed.front() = lost;
   const auto x = p.nodes.x;
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   EXPECT_NEAR(enclosed(p), 2 + lost, 100 * lost * lost);
   for (std::size_t i = first; i < x.size(); ++i) EXPECT_LE((p.nodes.x[i] - x[i]).norm(), 100 * scenes::eps);
 }
@@ -132,7 +137,7 @@ TYPED_TEST(VolumeBooks, water_without_a_free_surface_keeps_its_shape) {
   std::fill(p.nodes.surface.begin(), p.nodes.surface.end(), 0);
   p.nodes.owed.front() = lost;
   const auto x = p.nodes.x;
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   EXPECT_EQ(p.nodes.x, x);
   EXPECT_NEAR(in_the_books(p.nodes), 1 + lost, 10 * scenes::eps);
 }
@@ -154,7 +159,7 @@ TYPED_TEST(VolumeBooks, the_surface_moves_into_no_wall) {
   poses[0].translation() = centre;
   p.nodes.owed.front() = lost;
   const auto x = p.nodes.x;
-  return_volume<d>(p.nodes, p.mesh, {walls, poses});
+  give_volume_back(p, {walls, poses});
   EXPECT_EQ(p.nodes.x, x);
   EXPECT_NEAR(in_the_books(p.nodes), 1 + lost, 10 * scenes::eps);
 }
@@ -171,7 +176,7 @@ TYPED_TEST(VolumeBooks, what_a_shred_has_no_room_for_goes_to_the_water) {
   }
   p.mesh.cells.push_back(cell);
   p.nodes.owed[first] = lost;
-  return_volume<d>(p.nodes, p.mesh, {});
+  give_volume_back(p);
   EXPECT_NEAR(enclosed(p), 1 + lost, 100 * lost * lost);
 }
 

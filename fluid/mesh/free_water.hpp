@@ -1,0 +1,54 @@
+// Water that no wall touches: effects alone change its momentum.
+//
+// Nodal volumes change, V_i -> V_i', where nodes move, merge and part, where volume comes back and where the water is
+// triangulated anew; velocities stay with the nodes. For each connected part that no wall touches, with
+//
+//   M = sum V_i,  P = sum V_i v_i,  T = 1/2 sum V_i |v_i|^2 - |P|^2 / 2 M     of all that its nodes carried before
+//   M', w' = sum V_i' v_i / M', T'                                             of them afterwards
+//
+//   v_i <- P / M + min(1, (T / T')^1/2) (v_i - w')
+//
+// keeps the mean velocity, and the motion about it gains no energy. The momentum of volume that a part has lost or gained,
+// (M - M') P / M, goes where that volume goes, to the largest part (volume_books.hpp): of a single one P is kept. A uniform
+// shift is the least change of velocities that does it, and no strain.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/nodes.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+class FreeWater {
+ public:
+  /// Of each part, at its first node; nothing where no part is free.
+  using Moments = std::vector<VelocityMoments<d>>;
+
+  FreeWater() = default;
+  /// Which water of `mesh` hangs together, and which of it is free.
+  FreeWater(const Mesh<d>& mesh, const Nodes<d>& nodes);
+
+  /// Of each node the first one of its part (parts_of).
+  const std::vector<int>& part() const { return part_; }
+  /// Whether the node is a corner of cells of a part that no wall touches.
+  bool has(std::size_t node) const { return any_ && free_[part_[node]]; }
+
+  /// What nodal volumes with these velocities amount to, and, if not empty, what nodes have inherited.
+  Moments moments(std::span<const double> volumes, std::span<const Vec<d>> v,
+                  std::span<const VelocityMoments<d>> inherited = {}) const;
+  /// Gives parts the velocity that they had, with no more energy, and the largest one what the others have left of momentum.
+  void give_back(const Moments& had, std::span<const double> volumes, std::vector<Vec<d>>& v) const;
+
+ private:
+  bool any_ = false;
+  std::vector<int> part_;
+  std::vector<char> free_;  // of the first node of each part
+};
+
+extern template class FreeWater<2>;
+extern template class FreeWater<3>;
+
+}  // namespace splashdown::fluid
