@@ -34,12 +34,7 @@ Soup<d> soup(int count, std::mt19937& random) {
   return s;
 }
 
-template <class Dimension>
-struct FacetTreeIn : testing::Test {};
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(FacetTreeIn, Dimensions);
-
-TYPED_TEST(WeightsIn, are_those_of_the_foot_however_thin_the_facet) {
+TEST(WeightsIn, are_those_of_the_foot_however_thin_the_facet) {
   for (const double width : {1.0, 1e-3, 1e-6}) {
     const std::array<Vec<3>, 3> facet = {Vec<3>(1, 2, 3), Vec<3>(2, 2.5, 3), Vec<3>(1.5, 2.25 + width, 3)};
     const Vec<3> foot = facet[0] + 0.25 * (facet[1] - facet[0]) + 0.5 * (facet[2] - facet[0]);
@@ -58,7 +53,12 @@ TEST(WeightsIn, of_edges_without_length_are_nothing) {
   EXPECT_EQ(weights_in({Vec<2>(1, 1), Vec<2>(1, 1)}, Vec<2>(2, 2))[0], 0);
 }
 
-TEST(FacetTreeIn, no_point_of_a_facet_is_closer_than_the_closest) {
+template <class Dimension>
+struct FacetTreeIn : testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(FacetTreeIn, Dimensions);
+
+TYPED_TEST(FacetTreeIn, no_point_of_a_facet_is_closer_than_the_closest) {
   constexpr int d = TypeParam::value;
   std::mt19937 random(1);
   const auto s = soup<d>(200, random);
