@@ -20,9 +20,9 @@ inline Vec<2> closest_on(const std::array<Vec<2>, 2>& facet, const Vec<2>& x) {
 }
 Vec<3> closest_on(const std::array<Vec<3>, 3>& facet, const Vec<3>& x);
 
-/// Of the foot of x on a line or plane of a facet: foot = facet[0] + sum_k w_k (facet[k] - facet[0]). By Gram and
-/// Schmidt, written out: a general
-/// solver takes longer to compile than all that calls it. Edges without length have no share.
+/// Of the foot of x on the line or plane of a facet: foot = facet[0] + sum_k w_k (facet[k] - facet[0]). By Gram and
+/// Schmidt, written out: a general solver takes longer to compile than all that calls it. Edges without length have no
+/// share.
 inline Vec<1> weights_in(const std::array<Vec<2>, 2>& facet, const Vec<2>& x) {
   const Vec<2> e = facet[1] - facet[0];
   const double length2 = e.squaredNorm();
