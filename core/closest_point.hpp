@@ -1,4 +1,4 @@
-// Closest points of segments and triangles.
+// Closest points of segments and triangles, and where in them a point lies.
 #pragma once
 
 #include <algorithm>
@@ -19,5 +19,22 @@ inline Vec<2> closest_on(const std::array<Vec<2>, 2>& facet, const Vec<2>& x) {
   return closest_on_segment<2>(facet[0], facet[1], x);
 }
 Vec<3> closest_on(const std::array<Vec<3>, 3>& facet, const Vec<3>& x);
+
+/// Of the foot of x on the line or plane of a facet: foot = facet[0] + sum_k w_k (facet[k] - facet[0]). By Gram and
+/// Schmidt, written out: a general solver takes longer to compile than all that calls it. Edges without length have no
+/// share.
+inline Vec<1> weights_in(const std::array<Vec<2>, 2>& facet, const Vec<2>& x) {
+  const Vec<2> e = facet[1] - facet[0];
+  const double length2 = e.squaredNorm();
+  return Vec<1>(length2 > 0 ? e.dot(x - facet[0]) / length2 : 0.0);
+}
+inline Vec<2> weights_in(const std::array<Vec<3>, 3>& facet, const Vec<3>& x) {
+  const Vec<3> a = facet[1] - facet[0], b = facet[2] - facet[0], r = x - facet[0];
+  const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0.0; };
+  const double along = share(a.dot(b), a.squaredNorm()), first = share(a.dot(r), a.squaredNorm());
+  const Vec<3> across = b - along * a;
+  const double second = share(across.dot(r - first * a), across.squaredNorm());
+  return {first - second * along, second};
+}
 
 }  // namespace splashdown

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene/scales.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/read/echo.hpp"
 #include "apps/scene/rules/rules.hpp"
+#include "apps/scene/scales.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -61,6 +62,39 @@ void ask_about_extent(const Body& body, Questions& list) {
                                extent, unit, extent * factor));
 }
 
+/// In the plane a mass is one per metre of depth, in space one of the whole body.
+template <int d>
+void ask_about_mass(const Body& body, Questions& list) {
+  const double lightest = 1, heaviest = 22600;  // below air, 1.2, and a thousandth of water; osmium [kg/m^3]
+  const double mass = mass_properties<d>(body).mass, volume = shape_of<d>(body.shape).at_unit_density.mass;
+  const double density = mass / volume;
+  if (mass == 0 || (density >= lightest && density <= heaviest)) return;
+  const bool light = density < lightest;
+  const double other = light ? unit_slip : 1 / unit_slip;
+  list.push_back(fmt::format("body.{} has a mean density of {:.3g} kg/m^3: {}: did you mean {} = {:.4g}?", body.name,
+                             density, light ? "lighter than air" : "denser than any matter (osmium 22600)",
+                             body.mass ? "mass" : "density", (body.mass ? mass : density) * other));
+}
+
+template <int d>
+void ask_about_velocity(const Body& body, double water_level, Questions& list) {
+  const double up = body.velocity[d - 1], lowest = extents<d>(outline<d>(body)).min()[d - 1];
+  if (body.motion != Motion::free || up <= 0 || lowest < water_level) return;
+  std::vector<double> down(body.velocity.data(), body.velocity.data() + d);
+  down.back() = -up;
+  list.push_back(fmt::format("body.{}.velocity points upward, away from the water ({:g} along {}): did you mean {}?",
+                             body.name, up, d == 2 ? "y" : "z", toml_list(down)));
+}
+
+void ask_about_frames(const Scene& scene, Questions& list) {
+  const double a_film = 100;  // frames
+  if (!scene.output.frames || *scene.output.frames <= scene.time.end) return;
+  list.push_back(
+      fmt::format("output.frames = {:g} s is the time from frame to frame, and the run ends at {:g} s: did "
+                  "you mean {:g}, for {:g} frames?",
+                  *scene.output.frames, scene.time.end, scene.time.end / a_film, a_film));
+}
+
 template <int d>
 void ask_about_sizes(const Scene& scene, Questions& list) {
   // The finest of the shipped examples has 2000 elements across a body, 6000 across a tank.
@@ -98,12 +132,18 @@ template <int d>
 Questions questions(const Scene& scene, const Cost& cost) {
   Questions list;
   if (scene.gravity) ask_about_gravity<d>(scene, list);
-  for (const auto& body : scene.bodies) ask_about_extent<d>(body, list);
+  const auto level = still_water_level<d>(scene);
+  for (const auto& body : scene.bodies) {
+    ask_about_extent<d>(body, list);
+    if (body.mass || body.density) ask_about_mass<d>(body, list);
+    if (level) ask_about_velocity<d>(body, *level, list);
+  }
   if (scene.fluid) {
     ask_about_density(scene, list);
     ask_about_sizes<d>(scene, list);
   }
   ask_about_end<d>(scene, cost, list);
+  ask_about_frames(scene, list);
   return list;
 }
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/version.hpp"
+#include "apps/scene/rules/problems.hpp"
 #include "apps/scene/rules/schema.hpp"
 
 namespace splashdown::apps {
@@ -29,10 +31,42 @@ std::optional<double> percent_of(std::string text) {
   return value;
 }
 
+/// What is written where no subcommand, no option and no file is looked for, with what was meant by it.
+std::string unexpected(const CLI::App& app, const std::string& word) {
+  const auto* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+  const auto known = fmt::format("See splashdown {}--help.", command == &app ? "" : command->get_name() + " ");
+  if (command == &app && word.ends_with(".toml"))
+    return fmt::format("{0}: what is to be done with it? Use e.g. splashdown run {0}. {1}", word, known);
+  std::vector<std::string> words;
+  if (command == &app)
+    for (const auto* other : app.get_subcommands({})) words.push_back(other->get_name());
+  for (const auto* option : command->get_options())
+    for (const auto& name : option->get_lnames()) words.push_back("--" + name);
+  const auto near = nearest(word, words);
+  return fmt::format("{}: {}. {}", word, command == &app ? "there is no such command" : "not expected here",
+                     near.empty() ? known : fmt::format("Did you mean {}?", near));
+}
+
 /// CLI11's own exit codes are not ours: 0 for help and version, 2 for everything it refuses.
-int finish(const CLI::App& app, const CLI::ParseError& error) {
+int finish(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  if (app.get_subcommands().empty() && argc > 1) return bad_input(unexpected(app, argv[1]));
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    const auto rest = app.remaining(true);
+    const auto option = std::ranges::find_if(rest, [](const auto& word) { return word.starts_with("-"); });
+    if (!rest.empty()) return bad_input(unexpected(app, option == rest.end() ? rest.front() : *option));
+  }
   return bad_input(fmt::format("{}. See splashdown --help.", error.what()));
+}
+
+/// --set time.end 0.1, with a blank, would take the value for another argument.
+CLI::Validator key_and_value() {
+  return {[](const std::string& text) {
+            return text.find('=') != std::string::npos
+                       ? std::string()
+                       : fmt::format("must read KEY=VALUE, without blanks, e.g. --set {}=1", text);
+          },
+          ""};
 }
 
 constexpr const char* scene_help = "scene file (TOML; docs/scene.md)";
@@ -85,7 +119,10 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   run_app->add_option("scene", run.scene, scene_help)->required();
   run_app->add_option("--out", run.out,
                       "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
-  run_app->add_option("--set", run.overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  run_app->add_option("--set", run.overrides, set_help)
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->check(key_and_value());
   add_refine(run_app, run.overrides);
   run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
       ->check(CLI::Range(1, 1024));
@@ -125,7 +162,10 @@ CLI::App* add_price(CLI::App& app, PriceOptions& price) {
   price_app->add_option("scene", price.scene, scene_help)->required();
   price_app->add_option("--out", price.out,
                         "folder for the runs and the price list (default: that of run, with _price)");
-  price_app->add_option("--set", price.set, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  price_app->add_option("--set", price.set, set_help)
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->check(key_and_value());
   price_app
       ->add_option("--quantity", price.quantities,
                    "what matters: NAME=EXPRESSION [from TABLE] [where CONDITION] (repeatable; docs/price.md)")
@@ -156,7 +196,10 @@ int command_line(int argc, char** argv) {
   std::vector<std::string> overrides;
   auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
   check_app->add_option("scene", scene, scene_help)->required();
-  check_app->add_option("--set", overrides, set_help)->type_name("KEY=VALUE")->allow_extra_args(false);
+  check_app->add_option("--set", overrides, set_help)
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->check(key_and_value());
   add_refine(check_app, overrides);
 
   StudyOptions study;
@@ -177,7 +220,7 @@ int command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return finish(app, error);
+    return finish(app, error, argc, argv);
   }
   if (*run_app) return run.accuracy || run.seconds ? aimed_run_command(run) : run_command(run);
   if (*check_app) return check_command(scene, overrides);

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/dense.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -73,8 +75,7 @@ class Fitter {
     for (Eigen::Index k = 1; k < columns; ++k)
       matrix.col(k) = h_.array().pow(exponents[static_cast<std::size_t>(k - 1)]);
     const Eigen::VectorXd root = weights.cwiseSqrt();
-    const Eigen::VectorXd solution =
-        (root.asDiagonal() * matrix).colPivHouseholderQr().solve(Eigen::VectorXd(root.cwiseProduct(phi_)));
+    const Eigen::VectorXd solution = algebra::least_squares(root.asDiagonal() * matrix, root.cwiseProduct(phi_));
     Convergence result;
     result.form_ = form;
     result.limit_ = solution[0];

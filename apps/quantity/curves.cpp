@@ -88,7 +88,7 @@ Column smoothed(const Column& y, const Column& x, double width) {
       normal += powers * powers.transpose();
       right += powers * y[k];
     }
-    result.push_back(normal.ldlt().solve(right)[0]);
+    result.push_back(normal.inverse().row(0).dot(right));
   }
   return result;
 }

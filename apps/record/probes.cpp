@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/closest_point.hpp"
+
 namespace splashdown::apps {
 
 namespace {
@@ -15,10 +17,7 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 /// of the projection are clipped and normalised: exact inside, close enough outside for a distance test.
 template <int d>
 Eigen::Matrix<double, d, 1> nearest_weights(const std::array<Vec<d>, d>& corners, const Vec<d>& point) {
-  Eigen::Matrix<double, d, d - 1> edges;
-  for (int k = 1; k < d; ++k) edges.col(k - 1) = corners[index(k)] - corners[0];
-  const Eigen::Matrix<double, d - 1, 1> local =
-      (edges.transpose() * edges).ldlt().solve(edges.transpose() * (point - corners[0]));
+  const Vec<d - 1> local = weights_in(corners, point);
   Eigen::Matrix<double, d, 1> weights;
   weights << 1 - local.sum(), local;
   weights = weights.cwiseMax(0);

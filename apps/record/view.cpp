@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/closest_point.hpp"
 #include "core/facet_tree.hpp"
 
 namespace splashdown::apps {
@@ -49,14 +50,13 @@ class WettedWall {
   double pressure(const Vec<d>& at) const {
     if (facets_.empty()) return 0;
     const auto nearest = tree_.nearest(at, std::numeric_limits<double>::max());
-    Eigen::Matrix<double, d, d> corners;
-    for (int k = 0; k < d; ++k) corners.col(k) = surface_.vertices.col(surface_.facets(k, nearest.facet));
+    std::array<Vec<d>, d> corners;
+    for (std::size_t k = 0; k < d; ++k)
+      corners[k] = surface_.vertices.col(surface_.facets(static_cast<Eigen::Index>(k), nearest.facet));
     double longest = 0;
-    for (int k = 0; k < d; ++k) longest = std::max(longest, (corners.col((k + 1) % d) - corners.col(k)).norm());
+    for (std::size_t k = 0; k < d; ++k) longest = std::max(longest, (corners[(k + 1) % d] - corners[k]).norm());
     if (nearest.squared_distance > 0.25 * longest * longest) return 0;
-    // Weights of the corners at the nearest point: sum w_k (x_k - x_0) = x - x_0.
-    const Eigen::Matrix<double, d, d - 1> edges = corners.template rightCols<d - 1>().colwise() - corners.col(0);
-    const Eigen::Matrix<double, d - 1, 1> weights = edges.colPivHouseholderQr().solve(nearest.point - corners.col(0));
+    const Vec<d - 1> weights = weights_in(corners, nearest.point);
     const auto& nodes = facets_[static_cast<std::size_t>(nearest.facet)];
     double p = (1 - weights.sum()) * nodes_.p[static_cast<std::size_t>(nodes[0])];
     for (int k = 1; k < d; ++k)

@@ -352,6 +352,10 @@ Study read_study(const std::filesystem::path& file) {
 Study read_study(const std::filesystem::path& file, Problems& problems) {
   const auto table =
       read_toml(read_text(file, "a study file, e.g. examples/coupling_schemes/study.toml"), file.string());
+  if (!table.contains("scene") && (table["fluid"].is_table() || table["body"].is_array_of_tables()))
+    throw SceneError(
+        {fmt::format("{0}: is a scene, not a study. Use splashdown run {0}, or name it in a study: scene = \"{1}\".",
+                     file.string(), file.filename().string())});
   Study study;
   study.file = file;
   {

@@ -1,12 +1,17 @@
 // In space: CGAL's Mesh_3 fills a skin to the size field.
+#include <CGAL/Mesh_3/C3T3_helpers.h>
+#include <CGAL/Mesh_3/Mesher_3.h>
+#include <CGAL/Mesh_3/Protect_edges_sizing_field.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_domain_with_polyline_features_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
-#include <CGAL/make_mesh_3.h>
 
+#include <iterator>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "fluid/initial/space_parts.hpp"
 
@@ -28,13 +33,37 @@ struct Sizing {
   FT operator()(const Point_3& p, int, const Index&) const { return factor * (*field)(vec(p)); }
 };
 
+// What make_mesh_3 of CGAL 5.5 does first. It is not called itself: its optimisers, which are not wanted, are a quarter of what there is to
+// compile here.
+void protect_edges(const Domain& domain, const Sizing& size, Complex& complex) {
+  CGAL::Mesh_3::Protect_edges_sizing_field<Complex, Domain, Sizing>(complex, domain, size)(true);
+  if (complex.triangulation().dimension() == 3) {
+    CGAL::Mesh_3::C3T3_helpers<Complex, Domain>(complex, domain).update_restricted_facets();
+    if (complex.number_of_facets() > 0) return;
+  }
+  // Too few edges to begin with: points of the surface.
+  std::vector<std::pair<Kernel::Point_3, Domain::Index>> points;
+  domain.construct_initial_points_object()(std::back_inserter(points));
+  const auto weighted = complex.triangulation().geom_traits().construct_weighted_point_3_object();
+  for (const auto& [point, index] : points) {
+    const auto v = complex.triangulation().insert(weighted(point));
+    if (v == Triangulation::Vertex_handle()) continue;  // hidden
+    complex.set_dimension(v, 2);
+    complex.set_index(v, index);
+  }
+}
+
 // Mesh_3 bounds circumradii from above; these factors make the mean edge about h.
 Complex meshed(const Domain& domain, const SizeField<3>& field) {
   namespace params = CGAL::parameters;
   const Sizing edges{&field, 1.0}, facets{&field, 0.75}, cells{&field, 0.8}, sag{&field, 0.1};
   const Criteria criteria(params::edge_size = edges, params::facet_angle = 25, params::facet_size = facets,
                           params::facet_distance = sag, params::cell_radius_edge_ratio = 2, params::cell_size = cells);
-  return CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude());
+  Complex complex;
+  protect_edges(domain, edges, complex);
+  CGAL::Mesh_3::Mesher_3<Complex, Criteria, Domain>(complex, domain, criteria).refine_mesh();
+  complex.clear_manifold_info();
+  return complex;
 }
 
 void append(const Complex& complex, const WallsAt<3>& walls, InitialLiquid<3>& out) {

@@ -27,6 +27,11 @@ std::vector<std::string> words_of(const std::string& path) {
   return words;
 }
 
+std::string without_blanks_around(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t");
+  return begin == std::string::npos ? std::string() : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+}
+
 bool is_bare_word(const std::string& text) {
   return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) &&
          std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
@@ -120,18 +125,22 @@ void apply_override(toml::table& root, const std::string& argument, Problems& pr
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)
     return refuse("must read key.path=value. Use e.g. --set fluid.density=1025.");
-  const auto words = words_of(argument.substr(0, equals));
+  const auto words = words_of(without_blanks_around(argument.substr(0, equals)));
   if (std::any_of(words.begin(), words.end(), [](const auto& word) { return word.empty(); }))
     return refuse("a word of the key is empty. Use e.g. --set fluid.density=1025.");
   if (words.size() > static_cast<std::size_t>(most_key_words))
     return refuse(fmt::format("the key has {} words. Those of scenes have four at most.", words.size()));
-  const bool removes = equals + 1 == argument.size();
-  auto value = parsed(removes ? "{}" : argument.substr(equals + 1), source);
-  const auto comma = argument.find(',', equals), digits = argument.find_first_not_of("0123456789+-,", equals + 1);
-  if (!value && comma != std::string::npos && digits == std::string::npos) {
-    auto point = argument.substr(equals + 1);
-    point[comma - equals - 1] = '.';
-    return refuse("numbers have a point, not a comma: did you mean " + point + "?");
+  const auto given = without_blanks_around(argument.substr(equals + 1));
+  const bool removes = given.empty();
+  auto value = parsed(removes ? "{}" : given, source);
+  const auto comma = given.find(',');
+  if (!value && comma != std::string::npos && given.find_first_not_of("0123456789+-., ") == std::string::npos) {
+    if (given.find(',', comma + 1) != std::string::npos || given.find('.') != std::string::npos)
+      return refuse(fmt::format("a list stands in brackets: did you mean [{}]?", given));
+    auto point = given;
+    point[comma] = '.';
+    return refuse(fmt::format(
+        "numbers have a point, not a comma, and lists stand in brackets: did you mean {} or [{}]?", point, given));
   }
   if (!value)
     return refuse("the value is not TOML. Use a number, a word, true, [1, 2] or \"a text\" (mind the shell's quotes).");

@@ -107,10 +107,27 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   return labels;
 }
 
+/// Whether the tank's corners, or the places of bodies, have so many numbers.
+bool has_points_of(std::size_t numbers, const toml::table& table) {
+  const auto fits = [&](const toml::node_view<const toml::node>& point) {
+    return point.is_array() && point.as_array()->size() == numbers;
+  };
+  if (fits(table["tank"]["min"])) return true;
+  const auto* bodies = table["body"].as_array();
+  return bodies && std::ranges::any_of(*bodies, [&](const toml::node& body) {
+           return body.is_table() && fits((*body.as_table())["position"]);
+         });
+}
+
 SceneLabels read_all(ReadContext& context, const toml::table& table, Scene& scene) {
   Reader root(context, table, "", "");
   root.ignore("provenance");  // what a run writes into scene.resolved.toml
   root.integer("dimension", scene.dimension, within(2, 3, "", "Use 2 or 3."));
+  if (!table.contains("dimension") && has_points_of(3, table)) {
+    context.problems.add_missing("dimension", "the tank and the bodies are in space, and without it a scene is plane",
+                                 "Write dimension = 3 above the first table.");
+    scene.dimension = 3;
+  }
   context.dimension = scene.dimension;
   return read_tables(root, scene);
 }
@@ -155,11 +172,19 @@ void sketch_scene(Sketch& sketch, int dimension) {
 SceneFile read_scene_text(const std::string& text, const std::string& name, std::span<const std::string> overrides) {
   Problems problems(name);
   auto table = read_toml(text, name);
+  if (table["axis"].is_array_of_tables() || table["scene"].is_string())
+    throw SceneError({fmt::format("{0}: is a study, not a scene. Use splashdown study {0}.", name)});
   for (const auto& argument : overrides) apply_override(table, argument, problems);
   return read_root(table, std::filesystem::path(name).parent_path(), problems);
 }
 
 SceneFile read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  const auto kind = path.extension().string();
+  if (kind == ".stl" || kind == ".STL" || kind == ".obj" || kind == ".OBJ")
+    throw SceneError({fmt::format(
+        "{}: is a hull, not a scene. Name a scene in which a body has shape = {{type = \"surface\", file = "
+        "\"{}\"}}.",
+        path.string(), path.filename().string())});
   const auto text = read_text(path, "a scene file, e.g. examples/wedge_drop/scene.toml");
   return read_scene_text(text, path.string(), overrides);
 }

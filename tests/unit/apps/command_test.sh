@@ -27,6 +27,21 @@ check "help is no error" exits 0 "$splashdown" --help
 check "version is no error" exits 0 "$splashdown" --version
 check "an unknown option is refused" exits 2 "$splashdown" run scene.toml --bogus
 check "a missing subcommand is refused" exits 2 "$splashdown"
+check "a scene without a subcommand, too" exits 2 "$splashdown" scene.toml
+check "with the subcommand that is meant" grep -q 'scene.toml: what is to be done with it? Use e.g. splashdown run scene.toml' stderr
+check "a misspelt subcommand is refused" exits 2 "$splashdown" rum scene.toml
+check "with the right one" grep -q 'rum: there is no such command. Did you mean run?' stderr
+check "a misspelt option is refused" exits 2 "$splashdown" run scene.toml --thread 2
+check "with the right one" grep -q -e '--thread: not expected here. Did you mean --threads?' stderr
+check "a blank for an equals sign is refused" exits 2 "$splashdown" check scene.toml --set time.end 1
+check "with how it is written" grep -q 'must read KEY=VALUE, without blanks, e.g. --set time.end=1' stderr
+check "a hull is no scene" exits 2 "$splashdown" check hull.stl
+check "and stands in one" grep -q 'hull.stl: is a hull, not a scene. Name a scene in which a body has' stderr
+check "a scene is no study" exits 2 "$splashdown" study scene.toml
+check "and is run" grep -q 'scene.toml: is a scene, not a study. Use splashdown run scene.toml' stderr
+printf 'scene = "scene.toml"\n' >study.toml
+check "a study is no scene" exits 2 "$splashdown" run study.toml
+check "and is made" grep -q 'study.toml: is a study, not a scene. Use splashdown study study.toml' stderr
 check "a missing scene file is refused" exits 2 "$splashdown" run missing.toml
 check "a bad scene is refused" exits 2 "$splashdown" run scene.toml --set fluid.density=-3 --out never
 check "with its key, value, rule and cure" grep -q 'fluid.density = -3: must be positive (kg/m^3). Use' stderr

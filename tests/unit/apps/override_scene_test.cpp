@@ -103,6 +103,10 @@ TEST(Override, of_the_end_brings_later_times_of_records_to_it_with_a_note) {
 
 TEST(Override, later_ones_win) { EXPECT_EQ(with({"fluid.density=1", "fluid.density=2"}).fluid->density, 2); }
 
+TEST(Override, may_have_blanks_around_the_equals_sign) {
+  EXPECT_EQ(with({"fluid.density = 1025 "}).fluid->density, 1025);
+}
+
 TEST(Override, is_checked_like_the_file_and_named_in_the_message) {
   EXPECT_EQ(refusal("fluid.density=-3"),
             "--set fluid.density=-3: fluid.density = -3: must be positive (kg/m^3). Use e.g. 1000 for water.");
@@ -122,7 +126,10 @@ TEST(Override, that_names_nothing_is_refused) {
   EXPECT_TRUE(refusal("fluid.density.x=1").starts_with("--set fluid.density.x=1: fluid.density is a single value"));
   EXPECT_TRUE(refusal("fluid.region.0=1").find("is a whole table") != std::string::npos);
   EXPECT_EQ(refusal("fluid.density=1,5"),
-            "--set fluid.density=1,5: numbers have a point, not a comma: did you mean 1.5?");
+            "--set fluid.density=1,5: numbers have a point, not a comma, and lists stand in brackets: did you mean 1.5 "
+            "or [1,5]?");
+  EXPECT_EQ(refusal("body.wedge.position=0,-1.5"),
+            "--set body.wedge.position=0,-1.5: a list stands in brackets: did you mean [0,-1.5]?");
   EXPECT_TRUE(refusal("nonsense").starts_with("--set nonsense: must read key.path=value"));
   EXPECT_TRUE(refusal("=1").find("must read key.path=value") != std::string::npos);
   EXPECT_TRUE(refusal("fluid..density=1").find("a word of the key is empty") != std::string::npos);

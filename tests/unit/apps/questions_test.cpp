@@ -55,6 +55,16 @@ const std::vector<Slip> slips = {
      "0.5 s?"},
     {"body_size_in_millimetres", "size = 0.005", "size = 1e-5",
      "body.wedge.size = 1e-05 m: 50000 elements across the body of 0.5 m: did you mean 0.01 m?"},
+    {"mass_in_grams", "mass = 241", "mass = 241e3",
+     "body.wedge has a mean density of 6.68e+06 kg/m^3: denser than any matter (osmium 22600): did you mean mass = "
+     "241?"},
+    {"body_density_in_grams", "mass = 241", "density = 0.3",
+     "body.wedge has a mean density of 0.3 kg/m^3: lighter than air: did you mean density = 300?"},
+    {"velocity_upward", "[0, -6.15]", "[0, 6.15]",
+     "body.wedge.velocity points upward, away from the water (6.15 along y): did you mean [0.0, -6.15]?"},
+    {"frames_a_second", "interval = 0.001", "frames = 50",
+     "output.frames = 50 s is the time from frame to frame, and the run ends at 0.02 s: did you mean 0.0002, for 100 "
+     "frames?"},
 };
 INSTANTIATE_TEST_SUITE_P(Table, Slips, ::testing::ValuesIn(slips),
                          [](const auto& test) { return std::string(test.param.name); });

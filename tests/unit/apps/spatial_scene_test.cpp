@@ -59,6 +59,12 @@ shape = { type = "cone", deadrise_deg = 30, radius = 0.3 }
 
 Scene scene_of(const std::string& text) { return read_scene_text(text, "scene.toml").scene; }
 
+TEST(SpatialScene, without_its_dimension_is_told_that_alone) {
+  EXPECT_EQ(messages_of(testing::replaced(landing, "dimension = 3\n", "")),
+            std::vector<std::string>{"scene.toml:1: dimension is missing: the tank and the bodies are in space, and "
+                                     "without it a scene is plane. Write dimension = 3 above the first table."});
+}
+
 std::string landing_with(const std::string& from, const std::string& to) {
   return testing::replaced(landing, from, to);
 }

@@ -34,6 +34,25 @@ Soup<d> soup(int count, std::mt19937& random) {
   return s;
 }
 
+TEST(WeightsIn, are_those_of_the_foot_however_thin_the_facet) {
+  for (const double width : {1.0, 1e-3, 1e-6}) {
+    const std::array<Vec<3>, 3> facet = {Vec<3>(1, 2, 3), Vec<3>(2, 2.5, 3), Vec<3>(1.5, 2.25 + width, 3)};
+    const Vec<3> foot = facet[0] + 0.25 * (facet[1] - facet[0]) + 0.5 * (facet[2] - facet[0]);
+    const Vec<2> weights = weights_in(facet, foot + Vec<3>(0, 0, 7));
+    // What rounding the corners leaves of a direction across.
+    EXPECT_NEAR(weights[0], 0.25, 1e-15 / width + 1e-15);
+    EXPECT_NEAR(weights[1], 0.5, 1e-15 / width + 1e-15);
+  }
+  EXPECT_DOUBLE_EQ(weights_in({Vec<2>(1, 1), Vec<2>(3, 1)}, Vec<2>(1.5, 4))[0], 0.25);
+}
+
+TEST(WeightsIn, of_edges_without_length_are_nothing) {
+  const Vec<3> a(1, 2, 3), b(2, 2, 3);
+  EXPECT_EQ(weights_in({a, a, a}, b), Vec<2>(0, 0));
+  EXPECT_EQ(weights_in({a, b, b}, b), Vec<2>(1, 0));
+  EXPECT_EQ(weights_in({Vec<2>(1, 1), Vec<2>(1, 1)}, Vec<2>(2, 2))[0], 0);
+}
+
 template <class Dimension>
 struct FacetTreeIn : testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
