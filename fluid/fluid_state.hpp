@@ -11,7 +11,7 @@
 #include "fluid/contact/wall_motion.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/mesh/adapt.hpp"
-#include "fluid/mesh/moving_delaunay.hpp"
+#include "fluid/mesh/delaunay/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "fluid/timer.hpp"

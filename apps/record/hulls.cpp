@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/record/probes.hpp"
 #include "apps/record/view.hpp"
 

@@ -1,7 +1,7 @@
 // What is read off the hulls in every step: mean pressures of patches, the highest pressures all over.
 #pragma once
 
-#include "apps/record/hull_map.hpp"
+#include "apps/record/frames/hull_map.hpp"
 #include "apps/record/settings.hpp"
 #include "apps/statistics/statistics.hpp"
 #include "apps/statistics/statistics_archive.hpp"

@@ -12,17 +12,17 @@
 #include <limits>
 #include <stdexcept>
 
-#include "apps/record/csv.hpp"
-#include "apps/record/energy.hpp"
-#include "apps/record/evidence.hpp"
-#include "apps/record/files.hpp"
-#include "apps/record/frames.hpp"
+#include "apps/record/tables/csv.hpp"
+#include "apps/record/tables/energy.hpp"
+#include "apps/record/tables/evidence.hpp"
+#include "apps/record/tables/files.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/record/hulls.hpp"
 #include "apps/record/probes.hpp"
-#include "apps/record/rows.hpp"
+#include "apps/record/tables/rows.hpp"
 #include "apps/record/schedule.hpp"
 #include "apps/record/view.hpp"
-#include "apps/run/bounded_archive.hpp"
+#include "apps/run/folder/bounded_archive.hpp"
 #include "apps/statistics/statistics.hpp"
 
 namespace splashdown::apps {

@@ -1,7 +1,7 @@
 // What pictures and rows need from a running scene, taken as plain values.
 #pragma once
 
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/record/recorder.hpp"
 
 namespace splashdown::apps {

@@ -11,7 +11,7 @@
 
 #include "apps/run/run.hpp"
 #include "apps/scene/read/read.hpp"
-#include "scenes.hpp"
+#include "tests/unit/apps/scenes.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {

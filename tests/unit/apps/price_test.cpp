@@ -8,7 +8,7 @@
 #include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
 #include "apps/scene/read/read.hpp"
-#include "scenes.hpp"
+#include "tests/unit/apps/scenes.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {

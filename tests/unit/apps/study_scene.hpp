@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "apps/study/study.hpp"
-#include "scenes.hpp"
+#include "tests/unit/apps/scenes.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps::testing {

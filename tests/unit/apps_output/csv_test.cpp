@@ -1,4 +1,4 @@
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "apps/record/rows.hpp"
+#include "apps/record/tables/rows.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {

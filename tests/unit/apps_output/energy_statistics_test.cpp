@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "apps/record/energy.hpp"
+#include "apps/record/tables/energy.hpp"
 #include "box_of_water.hpp"
 #include "stand_ins.hpp"
 

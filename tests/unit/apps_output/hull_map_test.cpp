@@ -1,4 +1,4 @@
-#include "apps/record/hull_map.hpp"
+#include "apps/record/frames/hull_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/record/rows.hpp"
+#include "apps/record/tables/rows.hpp"
 #include "apps/record/view.hpp"
 #include "apps/report/data.hpp"
 #include "recorded_runs.hpp"

@@ -6,7 +6,7 @@
 
 #include "apps/record/view.hpp"
 #include "apps/report/data.hpp"
-#include "apps/report/plane_picture.hpp"
+#include "apps/report/pictures/plane_picture.hpp"
 #include "apps/report/report.hpp"
 #include "recorded_runs.hpp"
 

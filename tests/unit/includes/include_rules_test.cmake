@@ -28,7 +28,7 @@ check(rigid/participant.cpp "\"coupling/schemes/steppers.hpp\"" "participants im
 check(coupling/accelerators/a.cpp "\"coupling/participant.hpp\"" "accelerators see vectors")
 check(coupling/accelerators/pass_slope.cpp "\"coupling/participant.hpp\"" "")
 check(apps/run/run.cpp "\"coupling/schemes/steppers.hpp\"" "schemes and types are chosen")
-check(apps/run/build.cpp "\"coupling/schemes/steppers.hpp\"" "")
+check(apps/run/build/build.cpp "\"coupling/schemes/steppers.hpp\"" "")
 check(fluid/mesh/a.cpp "\"fluid/fluid.hpp\"" "a fluid's parts")
 check(fluid/linear/a.cpp "\"fluid/mesh/mesh.hpp\"" "the linear algebra")
 check(fluid/mesh/a.hpp "\"fluid/pressure/pressure.hpp\"" "the mesh knows")
