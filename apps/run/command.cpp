@@ -13,8 +13,8 @@
 #include "apps/run/closing.hpp"
 #include "apps/run/folder/folder.hpp"
 #include "apps/run/folder/folder_lock.hpp"
-#include "apps/run/interrupt.hpp"
 #include "apps/run/folder/resume.hpp"
+#include "apps/run/interrupt.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scene/read/read.hpp"
 

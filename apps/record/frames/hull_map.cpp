@@ -152,8 +152,7 @@ template <int d>
 HullMap<d>::HullMap(HullMap&&) noexcept = default;
 
 template <int d>
-void HullMap<d>::add(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const Isometry<d>& pose,
-                     double time) {
+void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const Isometry<d>& pose, double time) {
   // Facets are chords: beside a convex edge there is a gap of sagitta times angle, h/8 (h/R)^2 < rim h for h < R/4.
   constexpr double rim = 0.01;
   // Cosine of the angle between normals: a point beside a right-angled edge does not face as the other side does, the edge

@@ -9,7 +9,7 @@ namespace {
 
 /// Energy per volume at a point [J/m^3].
 template <int d>
-double energy_at(const fluid::View<d>& fluid, const Vec<d>& x) {
+double energy_at(const FluidView<d>& fluid, const Vec<d>& x) {
   return fluid.density() * fluid.potential(x);
 }
 
@@ -28,7 +28,7 @@ class Range {
 
 /// The middle of the surface that the water would have at rest in its tank.
 template <int d>
-Vec<d> middle_of_level(const fluid::WallSpec<d>& tank, double volume) {
+Vec<d> middle_of_level(const WallSpec<d>& tank, double volume) {
   Eigen::AlignedBox<double, d> box;
   for (Eigen::Index v = 0; v < tank.surface.vertices.cols(); ++v)
     box.extend(tank.pose * Vec<d>(tank.surface.vertices.col(v)));
@@ -50,18 +50,18 @@ double level_energy(const RecordInput<d>& input) {
 }
 
 template <int d>
-double moving_hulls(const rigid::View<d>& bodies) {
+double moving_hulls(const BodiesView<d>& bodies) {
   double moving = 0, all = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const double volume = hull_volume<d>(bodies.spec(b).surface);
     all += volume;
-    if (bodies.spec(b).motion != rigid::Motion::fixed) moving += volume;
+    if (bodies.spec(b).motion != BodyMotion::fixed) moving += volume;
   }
   return moving > 0 ? moving : all;
 }
 
 template <int d>
-double kinetic_energy(const rigid::BodySpec<d>& body, const Isometry<d>& pose, const Twist<d>& velocity) {
+double kinetic_energy(const BodySpec<d>& body, const Isometry<d>& pose, const Twist<d>& velocity) {
   const double translation = body.mass * velocity.template head<d>().squaredNorm();
   if constexpr (d == 2) {
     return 0.5 * (translation + body.inertia(0, 0) * velocity(2) * velocity(2));
@@ -90,7 +90,7 @@ std::vector<BodyEnergy> body_energies(const RecordInput<d>& input) {
     const auto& body = input.bodies->spec(b);
     const auto& pose = input.bodies->state(b).pose;
     auto& energy = energies.emplace_back();
-    energy.free = body.motion == rigid::Motion::free;
+    energy.free = body.motion == BodyMotion::free;
     energy.wet = input.body_load[b].wetted > 0;
     energy.kinetic = kinetic_energy<d>(body, pose, input.body_velocity_n[b]);
     if (!energy.wet || !energy.free) continue;

@@ -11,7 +11,7 @@ double wetted_facets(const RecordInput<d>& input, std::size_t body) {
   if (!input.fluid) return 0;
   const auto& boundary = input.fluid->mesh().boundary;
   const int wall = static_cast<int>(body);  // body k is wall k
-  return static_cast<double>(std::ranges::count(boundary, wall, &fluid::Facet<d>::wall));
+  return static_cast<double>(std::ranges::count(boundary, wall, &Facet<d>::wall));
 }
 
 template <int d>

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/record/tables/csv.hpp"
-#include "fluid/view.hpp"
-#include "rigid/view.hpp"
+#include "core/bodies_view.hpp"
+#include "core/fluid_view.hpp"
 
 namespace splashdown::apps {
 
@@ -30,14 +30,14 @@ struct BodyRow {
   const std::string& body;
   Isometry<d> pose;
   Twist<d> velocity, acceleration;
-  fluid::WallLoad<d> load;
+  WallLoad<d> load;
   double submergence;  ///< of the lowest point below still water, negative above; nan without water [m]
 };
 
 struct FluidRow {
   double time, dt;
   std::size_t nodes, elements;
-  const fluid::Ledger& ledger;
+  const Ledger& ledger;
   int passes;
   double residual, wall_seconds;
   double max_speed;

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "apps/report/pictures/field.hpp"
 #include "apps/report/figures.hpp"
+#include "apps/report/pictures/field.hpp"
 
 namespace splashdown::apps {
 

@@ -27,9 +27,7 @@ Eigen::Vector3d in_space(const Rotation<d>& rotation) {
 
 template <int d>
 Eigen::Matrix<double, d, d> turn_by(const Rotation<d>& angle) {
-  const Eigen::Vector3d vector = in_space<d>(angle);
-  const Eigen::AngleAxisd turn(vector.norm(), vector.stableNormalized());
-  return turn.toRotationMatrix().topLeftCorner<d, d>();
+  return rotation(angle);
 }
 
 Attitude between(const Attitude& a, const Attitude& b, double share) {

@@ -10,7 +10,7 @@ namespace splashdown::apps {
 
 /// A fluid that is what it is set to.
 template <int d>
-class DrawnFluid final : public fluid::View<d> {
+class DrawnFluid final : public FluidView<d> {
  public:
   std::vector<fluid::WallSpec<d>> made;
   std::vector<fluid::Isometry<d>> poses;
@@ -46,7 +46,7 @@ class DrawnFluid final : public fluid::View<d> {
 };
 
 template <int d>
-class DrawnBodies final : public rigid::View<d> {
+class DrawnBodies final : public BodiesView<d> {
  public:
   std::vector<rigid::BodySpec<d>> specs;
   std::vector<rigid::BodyState<d>> states;

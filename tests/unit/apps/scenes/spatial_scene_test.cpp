@@ -7,12 +7,12 @@
 #include <numbers>
 
 #include "apps/check/cost.hpp"
-#include "apps/scene/scales.hpp"
 #include "apps/run/build/build.hpp"
 #include "apps/scene/read/read.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/scene/solid.hpp"
-#include "tests/unit/apps/scenes.hpp"
 #include "tests/scratch_folder.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "apps/check/cost.hpp"
-#include "apps/scene/scales.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/run/folder/folder.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/scene/read/read.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/statistics/verdict.hpp"
-#include "tests/unit/apps/scenes.hpp"
 #include "tests/scratch_folder.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -7,11 +7,22 @@
 #include <utility>
 #include <vector>
 
-#include "fluid/mesh/mesh.hpp"
-#include "fluid/nodes.hpp"
-#include "fluid/spec.hpp"
+#include "core/mesh.hpp"
+#include "core/nodes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown {
+
+/// A rigid surface that bounds the fluid: a body's hull or the inside of a tank.
+template <int d>
+struct WallSpec {
+  std::string name;
+  /// Wall frame; encloses the solid. A tank is a surface turned inside out (clockwise outline in 2D).
+  Surface<d> surface;
+  Isometry<d> pose = Isometry<d>::Identity();  ///< wall frame to world at t = 0
+  Twist<d> velocity = Twist<d>::Zero();        ///< of the wall frame's origin, at t = 0
+  double size = 0;                             ///< element size at the wall [m]
+  bool sticks = false;                         ///< no slip: the wall drags viscous fluid along (viscosity.hpp)
+};
 
 template <int d>
 struct WallLoad {
@@ -36,9 +47,9 @@ struct Ledger {
 };
 
 template <int d>
-class View {
+class FluidView {
  public:
-  virtual ~View() = default;
+  virtual ~FluidView() = default;
   virtual double density() const = 0;                           ///< [kg/m^3]
   virtual std::span<const WallSpec<d>> walls() const = 0;       ///< as they were made
   virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n
@@ -58,4 +69,4 @@ class View {
   virtual Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const = 0;
 };
 
-}  // namespace splashdown::fluid
+}  // namespace splashdown

@@ -1,11 +1,11 @@
-#include "fluid/parallel.hpp"
+#include "core/parallel.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <memory>
 
-namespace splashdown::fluid {
+namespace splashdown {
 
 void use_threads(int count) {
   static std::unique_ptr<tbb::global_control> limit;
@@ -18,4 +18,4 @@ int threads() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-}  // namespace splashdown::fluid
+}  // namespace splashdown
