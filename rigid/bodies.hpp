@@ -24,7 +24,7 @@
 
 #include "core/bodies_view.hpp"
 #include "rigid/body.hpp"
-#include "rigid/contacts.hpp"
+#include "rigid/contact/contacts.hpp"
 #include "rigid/joint.hpp"
 
 namespace splashdown::rigid {

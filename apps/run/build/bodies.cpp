@@ -2,6 +2,7 @@
 
 #include "apps/run/build/build.hpp"
 #include "apps/scene/geometry.hpp"
+#include "core/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -23,11 +24,6 @@ Eigen::Vector3d in_space(const Rotation<d>& rotation) {
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
   vector.tail<rigid::rotations<d>>() = rotation;
   return vector;
-}
-
-template <int d>
-Eigen::Matrix<double, d, d> turn_by(const Rotation<d>& angle) {
-  return rotation(angle);
 }
 
 Attitude between(const Attitude& a, const Attitude& b, double share) {
@@ -61,7 +57,7 @@ std::function<Isometry<d>(double)> steady_motion(const Isometry<d>& start, const
   return [start, velocity](double time) {
     const Rotation<d> angle = velocity.template tail<rigid::rotations<d>>() * time;
     Isometry<d> pose = start;
-    pose.linear() = turn_by<d>(angle) * start.linear();
+    pose.linear() = splashdown::rotation(angle) * start.linear();
     pose.pretranslate(velocity.template head<d>() * time);
     return pose;
   };
