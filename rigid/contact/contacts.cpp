@@ -90,7 +90,9 @@ std::vector<int> facets_within(const Placed<d>& hull, const Vec<d>& at, double d
 template <int d>
 bool contains(const Placed<d>& hull, const Vec<d>& x) {
   const Vec<d> at = hull.seen(x);
-  return is_inside(seen_from(x, hull, facets_within(hull, at, hull.hull->distance(at))), flush * hull.size);
+  return is_inside(
+      seen_from(x, hull, facets_within(hull, at, hull.hull->distance(at, std::numeric_limits<double>::infinity()))),
+      flush * hull.size);
 }
 
 /// Whether vertex v, resting on a face with normal n, has its hull on the free side.
@@ -130,17 +132,27 @@ std::optional<Touch<d>> nearest_rest(const Placed<d>& moving, int v, const std::
   return best;
 }
 
-/// The nearest place of a hull on which a vertex of another one may rest. One that is inside may have to leave by a far facet.
+/// Of a vertex from a hull; infinity beyond reach, unless it may be inside.
 template <int d>
-std::optional<Touch<d>> touch_of_vertex(const Placed<d>& moving, int v, const Placed<d>& touched, double reach) {
+double distance(const Placed<d>& hull, const Vec<d>& x, double reach) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const double near_by = hull.hull->distance(hull.seen(x), reach + flush * hull.size);
+  return near_by == any && hull.has_near(x, 0) ? hull.hull->distance(hull.seen(x), any) : near_by;
+}
+
+/// The nearest place of a hull on which a vertex of another one, `least` from it, may rest. One that is inside may have to leave by a
+/// far facet; what is outside of a convex hull sees one place only.
+template <int d>
+std::optional<Touch<d>> touch_of_vertex(const Placed<d>& moving, int v, const Placed<d>& touched, double least,
+                                        double reach) {
   const Vec<d> x = moving.x.col(v), at = touched.seen(x);
-  const double resolution = flush * touched.size, least = touched.hull->distance(at);
+  const double resolution = flush * touched.size;
   const auto nearest = seen_from(x, touched, facets_within(touched, at, least));
   const bool inside = is_inside(nearest, resolution);
   if (!inside && least > reach + resolution) return {};
   auto best = nearest_rest(moving, v, nearest, inside, resolution);
   if (best && best->distance() > least + resolution) best.reset();  // there may be a nearer one
-  if (!best)
+  if (!best && (inside || !touched.hull->is_convex()))
     best = nearest_rest(moving, v,
                         seen_from(x, touched, inside ? touched.hull->all_facets() : facets_within(touched, at, reach)),
                         inside, resolution);
@@ -181,9 +193,12 @@ Condition<d> condition(std::size_t a, std::size_t b, const Vec<d>& centre_a, con
 template <int d>
 std::vector<Touch<d>> touches_of_vertices(const Placed<d>& a, const Placed<d>& b, double reach) {
   std::vector<Touch<d>> all;
-  for (int v = 0; v < a.x.cols(); ++v)
-    if (b.has_near(a.x.col(v), reach))
-      if (const auto touch = touch_of_vertex(a, v, b, reach)) all.push_back(*touch);
+  for (int v = 0; v < a.x.cols(); ++v) {
+    if (!b.has_near(a.x.col(v), reach)) continue;
+    const double least = distance<d>(b, a.x.col(v), reach);
+    if (!std::isfinite(least)) continue;
+    if (const auto touch = touch_of_vertex(a, v, b, least, reach)) all.push_back(*touch);
+  }
   return all;
 }
 
@@ -212,6 +227,8 @@ std::vector<Touch<3>> touches_of_edges(const Placed<3>& a, const Placed<3>& b, d
     if (!((from.cwiseMax(to) - b.low).array() >= -reach).all() ||
         !((b.high - from.cwiseMin(to)).array() >= -reach).all())
       continue;
+    const double half = 0.5 * (to - from).norm();
+    if (!std::isfinite(distance<3>(b, 0.5 * (from + to), reach + half))) continue;
     for (int other : b.hull->edges_within(crossed_by(edge, a, b, reach))) {
       const auto touch = touch_of_edges(a, edge, b, b.hull->edges()[static_cast<std::size_t>(other)]);
       if (!touch || touch->gap > reach) continue;

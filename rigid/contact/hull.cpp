@@ -111,6 +111,7 @@ void Hull<3>::find_edges() {
   };
   constexpr double flat = 1e-6;  // sine of the turn, below which an edge only divides a face
   std::map<std::array<int, 2>, Side> waiting;
+  convex_ = true;
   const auto& x = surface_->vertices;
   for (Eigen::Index f = 0; f < surface_->facets.cols(); ++f) {
     const auto corners = facet_corners(*surface_, f);
@@ -122,6 +123,7 @@ void Hull<3>::find_edges() {
       const auto [other, first] = waiting.try_emplace({std::min(from, to), std::max(from, to)}, side);
       if (first) continue;
       // The facet falls away from the other one's plane.
+      convex_ = convex_ && other->second.normal.dot(side.into) < flat;
       if (other->second.normal.dot(side.into) < -flat)
         edges_.push_back({{from, to},
                           other->second.normal + side.normal,
@@ -129,11 +131,15 @@ void Hull<3>::find_edges() {
                           arc(other->second.normal, side.normal)});
     }
   }
+  // One closed surface without holes through it, by Euler's formula.
+  convex_ =
+      convex_ && surface_->vertices.cols() + surface_->facets.cols() == 2 + static_cast<Eigen::Index>(waiting.size());
 }
 
 template <int d>
-double Hull<d>::distance(const Vec<d>& x) const {
-  return std::sqrt(tree_.nearest(x, std::numeric_limits<double>::infinity()).squared_distance);
+double Hull<d>::distance(const Vec<d>& x, double reach) const {
+  const auto hit = tree_.nearest(x, reach);
+  return hit.facet < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(hit.squared_distance);
 }
 
 template <int d>

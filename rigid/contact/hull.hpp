@@ -30,7 +30,9 @@ class Hull {
   const std::vector<int>& neighbours(int vertex) const { return neighbours_[static_cast<std::size_t>(vertex)]; }
   const std::vector<Edge>& edges() const { return edges_; }  ///< in space; none in the plane
 
-  double distance(const Vec<d>& x) const;
+  /// From the surface; infinity beyond `reach`.
+  double distance(const Vec<d>& x, double reach) const;
+  bool is_convex() const { return convex_; }  ///< in space; false in the plane
   /// Facets nearer than `reach`, and some that are hardly farther; ascending.
   std::vector<int> facets_near(const Vec<d>& x, double reach) const;
   std::vector<int> all_facets() const;
@@ -44,6 +46,7 @@ class Hull {
   const Surface<d>* surface_;
   std::vector<std::vector<int>> neighbours_;  // of vertices
   std::vector<Edge> edges_;
+  bool convex_ = false;
   FacetTree<d> tree_;
   std::unique_ptr<Boxes> boxes_;
 };

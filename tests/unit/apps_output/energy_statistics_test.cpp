@@ -18,8 +18,8 @@ namespace {
 
 constexpr double roundoff = 1e-13;  // a few hundred operations on numbers of the sums' size
 
-fluid::Ledger ledger_of(double kinetic, double potential, double work) {
-  fluid::Ledger ledger;
+Ledger ledger_of(double kinetic, double potential, double work) {
+  Ledger ledger;
   ledger.volume = ledger.volume_initial = 2;
   ledger.kinetic_energy = kinetic;
   ledger.potential_energy = potential;
