@@ -7,14 +7,16 @@ find_package(PNG REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 
 set(output_sources
-  record/csv.cpp record/energy.cpp record/evidence.cpp record/files.cpp record/frames.cpp record/hull_map.cpp record/hulls.cpp
-  record/probes.cpp record/recorder.cpp record/rows.cpp record/view.cpp record/vtu_grid.cpp
+  record/hulls.cpp record/probes.cpp record/recorder.cpp record/view.cpp
+  record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu_grid.cpp
+  record/tables/csv.cpp record/tables/energy.cpp record/tables/evidence.cpp record/tables/files.cpp record/tables/rows.cpp
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
   statistics/grades.cpp statistics/landing_statistics.cpp
   statistics/pulse.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict.cpp
-  report/data.cpp report/field.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp report/hull.cpp
-  report/page.cpp report/picture.cpp report/plane_picture.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
-  report/png.cpp)
+  report/data.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp
+  report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
+  report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp
+  report/pictures/png.cpp)
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 add_library(splashdown_output STATIC ${output_sources})
 target_compile_features(splashdown_output PUBLIC cxx_std_20)

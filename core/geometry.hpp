@@ -82,9 +82,9 @@ Wrench<d> wrench_of(const Vec<d>& r, const Vec<d>& f) {
 
 // exp(angle of w): rotation by w [rad].
 inline Mat<2> rotation(const Eigen::Matrix<double, 1, 1>& w) { return Eigen::Rotation2Dd(w[0]).toRotationMatrix(); }
+// By way of the quaternion: a turn about a coordinate axis leaves that axis exactly where it is.
 inline Mat<3> rotation(const Vec<3>& w) {
-  const double angle = w.norm();
-  return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix() : Mat<3>::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(w.norm(), w.normalized())).toRotationMatrix();
 }
 
 /// Pose after dt at constant twist: x + dt V, exp(dt w) R.

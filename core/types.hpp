@@ -27,6 +27,10 @@ using Twist = Eigen::Matrix<double, freedoms<d>, 1>;
 template <int d>
 using Wrench = Eigen::Matrix<double, freedoms<d>, 1>;
 
+/// Moments of inertia, one in the plane.
+template <int d>
+using Inertia = Eigen::Matrix<double, rotations<d>, rotations<d>>;
+
 /// Closed, oriented simplicial surface: polyline (d = 2) or triangle mesh (d = 3). Normals point out of what the surface
 /// encloses: a 2D outline runs counter-clockwise, in 3D the right-hand rule gives the normal.
 template <int d>

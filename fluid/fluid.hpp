@@ -19,12 +19,17 @@
 #include <string>
 #include <vector>
 
+#include "core/fluid_view.hpp"
 #include "core/status.hpp"
 #include "fluid/effects/effect.hpp"
 #include "fluid/pressure/pressure.hpp"
-#include "fluid/view.hpp"
+#include "fluid/spec.hpp"
 
 namespace splashdown::fluid {
+
+using splashdown::FluidView;
+using splashdown::Ledger;
+using splashdown::WallLoad;
 
 /// How the motions of WallResponse are driven in a step.
 struct MotionDrive {
@@ -33,7 +38,7 @@ struct MotionDrive {
 };
 
 template <int d>
-class Fluid final : public View<d> {
+class Fluid final : public FluidView<d> {
  public:
   Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effects);
   ~Fluid() override;

@@ -6,21 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "core/fluid_view.hpp"
 #include "fluid/types.hpp"
 
 namespace splashdown::fluid {
 
-/// A rigid surface that bounds the fluid: a body's hull or the inside of a tank.
-template <int d>
-struct WallSpec {
-  std::string name;
-  /// Wall frame; encloses the solid. A tank is a surface turned inside out (clockwise outline in 2D).
-  Surface<d> surface;
-  Isometry<d> pose = Isometry<d>::Identity();  ///< wall frame to world at t = 0
-  Twist<d> velocity = Twist<d>::Zero();        ///< of the wall frame's origin, at t = 0
-  double size = 0;                             ///< element size at the wall [m]
-  bool sticks = false;                         ///< no slip: the wall drags viscous fluid along (viscosity.hpp)
-};
+using splashdown::WallSpec;
 
 /// A region filled with liquid at t = 0. It is clipped by the walls; regions may not overlap.
 template <int d>

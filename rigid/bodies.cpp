@@ -39,7 +39,7 @@ struct Bodies<d>::World {
   std::vector<BodySpec<d>> specs;
   std::vector<std::unique_ptr<Force<d>>> forces;
   std::vector<BodyState<d>> states, trials;
-  std::optional<ContactSpec<d>> touching;
+  std::optional<Contacts<d>> contacts;
   BulletWorld bullet;
   std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
   std::vector<Condition<d>> tied, near;           // by joints, and by contacts that may close, of the begun step
@@ -110,7 +110,7 @@ struct Bodies<d>::World {
   void find_motions() {
     for (Eigen::Index i = 0; i < size(); ++i) place(i, states[static_cast<std::size_t>(i)]);
     tied = joints();
-    if (touching) near = contacts_between<d>(*touching, specs, states, dt);
+    if (contacts) near = contacts->within_reach(states, dt);
     solve_conditions();
     if (tied.empty()) return;
     // Joints are met at x_{n+1}, but for what the fluid's load adds to the curvature of the way there (SHAKE, Ryckaert,
@@ -182,7 +182,6 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
   World& w = *world_;
   w.specs = std::move(specs);
   w.forces = std::move(forces);
-  w.touching = std::move(contacts);
   for (const BodySpec<d>& spec : w.specs) {
     check(spec);
     const bool held_still = spec.motion == Motion::fixed;
@@ -205,8 +204,9 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
   for (const JointSpec& joint : joints) {
     check(joint, size());
     w.bullet.add(joint);
-    if (w.touching && joint.other) w.touching->apart.insert(std::minmax(joint.body, *joint.other));
+    if (contacts && joint.other) contacts->apart.insert(std::minmax(joint.body, *joint.other));
   }
+  if (contacts) w.contacts.emplace(std::move(*contacts), w.specs);
   w.trials = w.states;
 }
 

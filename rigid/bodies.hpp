@@ -22,10 +22,10 @@
 #include <span>
 #include <vector>
 
+#include "core/bodies_view.hpp"
 #include "rigid/body.hpp"
-#include "rigid/contacts.hpp"
+#include "rigid/contact/contacts.hpp"
 #include "rigid/joint.hpp"
-#include "rigid/view.hpp"
 
 namespace splashdown::rigid {
 
@@ -67,7 +67,7 @@ struct Mobility {
 };
 
 template <int d>
-class Bodies final : public View<d> {
+class Bodies final : public BodiesView<d> {
  public:
   /// Contacts between the bodies and with the planes only if asked for.
   Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces,

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "core/geometry.hpp"
 #include "rigid/spin.hpp"
 
 static_assert(sizeof(btScalar) == sizeof(double), "Bullet must be its double precision build");
@@ -115,7 +116,7 @@ void BulletWorld::drift(double dt) {
     body.forceActivationState(DISABLE_DEACTIVATION);
     const Eigen::Vector3d turn = dt * from_bullet(body.getAngularVelocity());
     if (body.isStaticObject() || turn.norm() <= bullet_stops_turning_at) continue;
-    fast.emplace_back(i, matrix(rotation_exp(turn) * from_bullet(body.getWorldTransform().getBasis())));
+    fast.emplace_back(i, matrix(rotation(turn) * from_bullet(body.getWorldTransform().getBasis())));
   }
   const int one_step_of_dt = 0;
   objects_->world.stepSimulation(dt, one_step_of_dt);

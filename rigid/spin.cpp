@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "core/geometry.hpp"
+
 namespace splashdown::rigid {
 
 using Eigen::Matrix3d;
@@ -16,11 +18,6 @@ Matrix3d cross_matrix(const Vector3d& a) {
 }
 
 }  // namespace
-
-Matrix3d rotation_exp(const Vector3d& angle) {
-  // By way of the quaternion: a turn about a coordinate axis leaves that axis exactly where it is.
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle.norm(), angle.normalized())).toRotationMatrix();
-}
 
 Vector3d rotation_log(const Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
@@ -51,7 +48,7 @@ SpinStep spin_step(const Matrix3d& inertia, const std::array<bool, 3>& free, con
                    const Vector3d& impulse, double dt) {
   const Vector3d momentum = before.momentum + impulse;
   const auto midpoint_inertia = [&](const Vector3d& w) {
-    return world_inertia(rotation_exp(0.5 * dt * w) * before.rotation, inertia);
+    return world_inertia(rotation(Vector3d(0.5 * dt * w)) * before.rotation, inertia);
   };
 
   // Newton's method for J(w) w = L in the free rows. A change dw turns the midpoint by dt/2 dexp dw, and

@@ -18,7 +18,6 @@
 
 namespace splashdown::rigid {
 
-Eigen::Matrix3d rotation_exp(const Eigen::Vector3d& angle);
 /// The shortest rotation vector of a rotation matrix [rad].
 Eigen::Vector3d rotation_log(const Eigen::Matrix3d& rotation);
 

@@ -1,4 +1,4 @@
-// Types of the rigid-body room: those that all rooms share, and what turns. Twists and wrenches are those of the centre of
+// Types of the rigid-body room: those that all rooms share. Twists and wrenches are those of the centre of
 // mass; a surface encloses the solid.
 #pragma once
 
@@ -7,6 +7,7 @@
 namespace splashdown::rigid {
 
 using splashdown::freedoms;
+using splashdown::Inertia;
 using splashdown::Isometry;
 using splashdown::rotations;
 using splashdown::Surface;
@@ -16,7 +17,4 @@ using splashdown::Wrench;
 
 template <int d>
 using Rotation = Eigen::Matrix<double, rotations<d>, 1>;
-template <int d>
-using Inertia = Eigen::Matrix<double, rotations<d>, rotations<d>>;
-
 }  // namespace splashdown::rigid

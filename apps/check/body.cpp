@@ -8,7 +8,7 @@
 
 #include "apps/check/floating.hpp"
 #include "apps/check/words.hpp"
-#include "apps/run/build.hpp"
+#include "apps/run/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/motion_guess.hpp"
 #include "core/geometry.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "apps/price/write.hpp"
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 #include "apps/report/gnuplot.hpp"
 
 namespace splashdown::apps {

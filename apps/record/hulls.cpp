@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/record/probes.hpp"
 #include "apps/record/view.hpp"
 
@@ -42,7 +42,7 @@ HullReadings<d>::HullReadings(const RecorderSettings<d>& settings)
 }
 
 template <int d>
-void HullReadings<d>::read(const fluid::View<d>& fluid, const Kick& kick) {
+void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
   const double time = time_ = kick.time;
   pressures_.clear();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {

@@ -1,12 +1,12 @@
 // What is read off the hulls in every step: mean pressures of patches, the highest pressures all over.
 #pragma once
 
-#include "apps/record/hull_map.hpp"
+#include "apps/record/frames/hull_map.hpp"
 #include "apps/record/settings.hpp"
 #include "apps/statistics/statistics.hpp"
 #include "apps/statistics/statistics_archive.hpp"
 #include "apps/statistics/summary.hpp"
-#include "fluid/view.hpp"
+#include "core/fluid_view.hpp"
 
 namespace splashdown::apps {
 
@@ -16,7 +16,7 @@ class HullReadings {
   /// Keeps the reference.
   explicit HullReadings(const RecorderSettings<d>& settings);
 
-  void read(const fluid::View<d>& fluid, const Kick& kick);
+  void read(const FluidView<d>& fluid, const Kick& kick);
   /// Of the patches, in their order, at the step read last [Pa].
   const std::vector<double>& pressures() const { return pressures_; }
   /// Of a patch, in all steps.

@@ -25,7 +25,7 @@ Eigen::Matrix<double, d, 1> nearest_weights(const std::array<Vec<d>, d>& corners
 }
 
 template <int d>
-std::array<Vec<d>, d> corners_of(const fluid::Nodes<d>& nodes, const fluid::Facet<d>& facet) {
+std::array<Vec<d>, d> corners_of(const Nodes<d>& nodes, const Facet<d>& facet) {
   std::array<Vec<d>, d> corners;
   for (std::size_t k = 0; k < d; ++k) corners[k] = nodes.x[index(facet.nodes[k])];
   return corners;
@@ -51,7 +51,7 @@ std::vector<Eigen::Index> chain(const Eigen::Matrix<int, 2, Eigen::Dynamic>& fac
 }  // namespace
 
 template <int d>
-std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
+std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& mesh,
                                         const Eigen::Matrix<double, d - 1, 1>& at) {
   std::optional<double> highest;
   for (const auto& facet : mesh.boundary) {
@@ -73,7 +73,7 @@ std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const flui
 }
 
 template <int d>
-std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, const Vec<d>& point) {
+std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, const Vec<d>& point) {
   std::optional<double> pressure;
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& facet : mesh.boundary) {
@@ -97,7 +97,7 @@ std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::M
 }
 
 template <int d>
-double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const Isometry<d>& pose,
+double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const Isometry<d>& pose,
                    const PatchRegion<d>& region) {
   const Isometry<d> to_wall = pose.inverse();
   double force = 0;
@@ -163,8 +163,8 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 }
 
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose) {
+std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall,
+                                                      const SurfaceRuler<d>& ruler, const Isometry<d>& pose) {
   std::vector<int> wetted;
   for (const auto& facet : mesh.boundary)
     if (facet.wall == wall) wetted.insert(wetted.end(), facet.nodes.begin(), facet.nodes.end());
@@ -183,14 +183,13 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nod
 }
 
 #define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
-  template std::optional<double> surface_elevation<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&,               \
+  template std::optional<double> surface_elevation<d>(const Nodes<d>&, const Mesh<d>&,                             \
                                                       const Eigen::Matrix<double, d - 1, 1>&);                     \
-  template std::optional<double> wall_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, const Vec<d>&);   \
-  template double patch_force<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, int, const Isometry<d>&,           \
-                                 const PatchRegion<d>&);                                                           \
+  template std::optional<double> wall_pressure<d>(const Nodes<d>&, const Mesh<d>&, const Vec<d>&);                 \
+  template double patch_force<d>(const Nodes<d>&, const Mesh<d>&, int, const Isometry<d>&, const PatchRegion<d>&); \
   template class SurfaceRuler<d>;                                                                                  \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const fluid::Nodes<d>&, const fluid::Mesh<d>&, \
-                                                                    int, const SurfaceRuler<d>&, const Isometry<d>&);
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const Nodes<d>&, const Mesh<d>&, int,          \
+                                                                    const SurfaceRuler<d>&, const Isometry<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

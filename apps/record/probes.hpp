@@ -5,25 +5,25 @@
 #include <vector>
 
 #include "apps/record/patch_region.hpp"
-#include "fluid/mesh/mesh.hpp"
-#include "fluid/nodes.hpp"
+#include "core/mesh.hpp"
+#include "core/nodes.hpp"
 
 namespace splashdown::apps {
 
 /// Height of the highest free-surface facet over a horizontal position; nothing where there is none.
 template <int d>
-std::optional<double> surface_elevation(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
+std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& mesh,
                                         const Eigen::Matrix<double, d - 1, 1>& at);
 
 /// Pressure at the point of the walls' wetted facets that is nearest to `point`, if it is not farther away
 /// than half that facet: walls are faceted finer or coarser than the fluid, so that a sensor on a wall may
 /// lie outside every cell.
 template <int d>
-std::optional<double> wall_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, const Vec<d>& point);
+std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, const Vec<d>& point);
 
 /// Force of the pressure on the region's part of a wall [N/m, N]; `pose` of the wall. Dry parts have no pressure.
 template <int d>
-double patch_force(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh, int wall, const Isometry<d>& pose,
+double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const Isometry<d>& pose,
                    const PatchRegion<d>& region);
 
 template <int d>
@@ -54,7 +54,7 @@ class SurfaceRuler {
 
 /// Wetted nodes of a wall, ordered by s.
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const fluid::Nodes<d>& nodes, const fluid::Mesh<d>& mesh,
-                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose);
+std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall,
+                                                      const SurfaceRuler<d>& ruler, const Isometry<d>& pose);
 
 }  // namespace splashdown::apps

@@ -12,17 +12,17 @@
 #include <limits>
 #include <stdexcept>
 
-#include "apps/record/csv.hpp"
-#include "apps/record/energy.hpp"
-#include "apps/record/evidence.hpp"
-#include "apps/record/files.hpp"
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/record/hulls.hpp"
 #include "apps/record/probes.hpp"
-#include "apps/record/rows.hpp"
 #include "apps/record/schedule.hpp"
+#include "apps/record/tables/csv.hpp"
+#include "apps/record/tables/energy.hpp"
+#include "apps/record/tables/evidence.hpp"
+#include "apps/record/tables/files.hpp"
+#include "apps/record/tables/rows.hpp"
 #include "apps/record/view.hpp"
-#include "apps/run/bounded_archive.hpp"
+#include "apps/run/folder/bounded_archive.hpp"
 #include "apps/statistics/statistics.hpp"
 
 namespace splashdown::apps {
@@ -57,7 +57,7 @@ struct Recorder<d>::State {
   HullReadings<d> hulls;
   double peak_force = 0;
   std::vector<std::string> body_names;
-  fluid::Ledger ledger;
+  Ledger ledger;
   double speed = 0;
   bool has_fluid = false;
   // Not part of the checkpoint.
@@ -152,8 +152,8 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
     submergence.push_back(still_water_level - (pose * spec.surface.vertices).row(d - 1).minCoeff());
     body_names.push_back(spec.name);
     bodies[b].add(kick, {input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b], submergence[b],
-                         pose.linear(), extents[b], spec.motion == rigid::Motion::free, spec.mass,
-                         wetted_facets(input, b), symmetric_axes(settings, spec.name)});
+                         pose.linear(), extents[b], spec.motion == BodyMotion::free, spec.mass, wetted_facets(input, b),
+                         symmetric_axes(settings, spec.name)});
     new_peak = new_peak || bodies[b].peak_force() > peak_force;
     peak_force = std::max(peak_force, bodies[b].peak_force());
   }

@@ -15,19 +15,19 @@
 
 #include "apps/record/settings.hpp"
 #include "apps/statistics/summary.hpp"
-#include "fluid/view.hpp"
-#include "rigid/view.hpp"
+#include "core/bodies_view.hpp"
+#include "core/fluid_view.hpp"
 
 namespace splashdown::apps {
 
 /// A scene's state at t_n. Vectors have one entry a body, in the order of `bodies`.
 template <int d>
 struct RecordInput {
-  const fluid::View<d>* fluid = nullptr;      ///< null: a scene without liquid
-  const rigid::View<d>* bodies = nullptr;     ///< null: a scene without bodies
+  const FluidView<d>* fluid = nullptr;        ///< null: a scene without liquid
+  const BodiesView<d>* bodies = nullptr;      ///< null: a scene without bodies
   std::vector<Twist<d>> body_velocity_n;      ///< mean of the half-step velocities around t_n
   std::vector<Twist<d>> body_acceleration_n;  ///< their difference over the kick
-  std::vector<fluid::WallLoad<d>> body_load;  ///< about the centre of mass; zero where dry
+  std::vector<WallLoad<d>> body_load;         ///< about the centre of mass; zero where dry
   double time = 0;                            ///< t_n [s]
   double dt = 0;                              ///< of the step that starts at t_n [s]
   int passes = 0;                             ///< coupling passes of this step

@@ -14,7 +14,7 @@ namespace splashdown::apps {
 namespace {
 
 template <int d>
-NodeKind kind_of(const fluid::Nodes<d>& nodes, std::size_t i, bool has_cell) {
+NodeKind kind_of(const Nodes<d>& nodes, std::size_t i, bool has_cell) {
   if (!has_cell) return NodeKind::drop;
   const auto& tie = nodes.tie[i];
   if (tie.wall < 0) return nodes.surface[i] ? NodeKind::free_surface : NodeKind::interior;
@@ -32,7 +32,7 @@ double diameter(double volume) {
 template <int d>
 class WettedWall {
  public:
-  WettedWall(const fluid::View<d>& fluid, int wall) : nodes_(fluid.nodes()) {
+  WettedWall(const FluidView<d>& fluid, int wall) : nodes_(fluid.nodes()) {
     for (const auto& facet : fluid.mesh().boundary)
       if (facet.wall == wall) facets_.push_back(facet.nodes);
     surface_.facets.resize(d, static_cast<Eigen::Index>(facets_.size()));
@@ -65,7 +65,7 @@ class WettedWall {
   }
 
  private:
-  const fluid::Nodes<d>& nodes_;
+  const Nodes<d>& nodes_;
   std::vector<std::array<int, static_cast<std::size_t>(d)>> facets_;
   Surface<d> surface_;
   FacetTree<d> tree_;
@@ -81,7 +81,7 @@ Vec<d> velocity_at(const Vec<d>& r, const Twist<d>& velocity) {
 }
 
 template <int d>
-void take_fluid(const fluid::View<d>& fluid, Frame<d>& frame) {
+void take_fluid(const FluidView<d>& fluid, Frame<d>& frame) {
   const auto& nodes = fluid.nodes();
   frame.x = nodes.x;
   frame.p = nodes.p;
@@ -140,21 +140,21 @@ Frame<d> take_frame(const RecordInput<d>& input) {
 }
 
 template <int d>
-int wall_index(const fluid::View<d>& fluid, const std::string& name) {
+int wall_index(const FluidView<d>& fluid, const std::string& name) {
   const auto walls = fluid.walls();
-  const auto found = std::ranges::find(walls, name, &fluid::WallSpec<d>::name);
+  const auto found = std::ranges::find(walls, name, &WallSpec<d>::name);
   return found == walls.end() ? -1 : static_cast<int>(found - walls.begin());
 }
 
 template <int d>
-int wall_called(const fluid::View<d>& fluid, const std::string& name) {
+int wall_called(const FluidView<d>& fluid, const std::string& name) {
   const int wall = wall_index(fluid, name);
   if (wall < 0) throw std::invalid_argument("a record names the wall \"" + name + "\", which does not exist");
   return wall;
 }
 
 template <int d>
-std::size_t body_index(const rigid::View<d>& bodies, const std::string& name) {
+std::size_t body_index(const BodiesView<d>& bodies, const std::string& name) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies.spec(b).name == name) return b;
   throw std::invalid_argument("a record names the body \"" + name + "\", which does not exist");
@@ -172,14 +172,14 @@ Vec<d> acceleration_at(const Vec<d>& r, const Twist<d>& velocity, const Twist<d>
 }
 
 template <int d>
-double max_speed(const fluid::View<d>& fluid) {
+double max_speed(const FluidView<d>& fluid) {
   double squared = 0;
   for (std::size_t i = 0; i < fluid.nodes().size(); ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
   return std::sqrt(squared);
 }
 
 template <int d>
-double water_level(const fluid::View<d>& fluid) {
+double water_level(const FluidView<d>& fluid) {
   const auto& nodes = fluid.nodes();
   double level = std::numeric_limits<double>::quiet_NaN();
   for (const auto& facet : fluid.mesh().boundary) {
@@ -191,12 +191,12 @@ double water_level(const fluid::View<d>& fluid) {
 
 #define SPLASHDOWN_INSTANTIATE(d)                                                      \
   template Frame<d> take_frame<d>(const RecordInput<d>&);                              \
-  template int wall_index<d>(const fluid::View<d>&, const std::string&);               \
-  template int wall_called<d>(const fluid::View<d>&, const std::string&);              \
-  template std::size_t body_index<d>(const rigid::View<d>&, const std::string&);       \
+  template int wall_index<d>(const FluidView<d>&, const std::string&);                 \
+  template int wall_called<d>(const FluidView<d>&, const std::string&);                \
+  template std::size_t body_index<d>(const BodiesView<d>&, const std::string&);        \
   template Vec<d> acceleration_at<d>(const Vec<d>&, const Twist<d>&, const Twist<d>&); \
-  template double max_speed<d>(const fluid::View<d>&);                                 \
-  template double water_level<d>(const fluid::View<d>&);
+  template double max_speed<d>(const FluidView<d>&);                                   \
+  template double water_level<d>(const FluidView<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

@@ -1,7 +1,7 @@
 // What pictures and rows need from a running scene, taken as plain values.
 #pragma once
 
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/record/recorder.hpp"
 
 namespace splashdown::apps {
@@ -11,25 +11,25 @@ Frame<d> take_frame(const RecordInput<d>& input);
 
 /// Index of a wall by name, -1 if there is none.
 template <int d>
-int wall_index(const fluid::View<d>& fluid, const std::string& name);
+int wall_index(const FluidView<d>& fluid, const std::string& name);
 
 /// The same; throws std::invalid_argument if there is none.
 template <int d>
-int wall_called(const fluid::View<d>& fluid, const std::string& name);
+int wall_called(const FluidView<d>& fluid, const std::string& name);
 
 /// Index of a body by name; throws std::invalid_argument if there is none.
 template <int d>
-std::size_t body_index(const rigid::View<d>& bodies, const std::string& name);
+std::size_t body_index(const BodiesView<d>& bodies, const std::string& name);
 
 /// Acceleration of a point of a rigid body: a + alpha x r + w x (w x r), r from its centre of mass.
 template <int d>
 Vec<d> acceleration_at(const Vec<d>& r, const Twist<d>& velocity, const Twist<d>& acceleration);
 
 template <int d>
-double max_speed(const fluid::View<d>& fluid);
+double max_speed(const FluidView<d>& fluid);
 
 /// Highest point of the free surface, without drops; nan if there is none [m].
 template <int d>
-double water_level(const fluid::View<d>& fluid);
+double water_level(const FluidView<d>& fluid);
 
 }  // namespace splashdown::apps

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/report/words.hpp"
 #include "apps/statistics/attitude.hpp"
 #include "apps/statistics/summary.hpp"

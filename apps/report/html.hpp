@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/report/data.hpp"
-#include "apps/report/field.hpp"
 #include "apps/report/figures.hpp"
+#include "apps/report/pictures/field.hpp"
 #include "apps/report/words.hpp"
 
 namespace splashdown::apps {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/page.hpp"
 

@@ -7,15 +7,15 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 #include "apps/report/data.hpp"
-#include "apps/report/field.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/html.hpp"
-#include "apps/report/hull.hpp"
 #include "apps/report/page.hpp"
-#include "apps/report/picture.hpp"
+#include "apps/report/pictures/field.hpp"
+#include "apps/report/pictures/hull.hpp"
+#include "apps/report/pictures/picture.hpp"
 #include "apps/report/price.hpp"
 #include "apps/report/study.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <regex>
 
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/page.hpp"

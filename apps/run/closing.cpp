@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "apps/cli/plain_text.hpp"
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/statistics/grades.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "apps/record/recorder.hpp"
-#include "apps/run/build.hpp"
-#include "apps/run/checkpoint.hpp"
+#include "apps/run/build/build.hpp"
+#include "apps/run/folder/checkpoint.hpp"
 #include "apps/run/loop.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/scene/scene.hpp"

@@ -24,7 +24,7 @@ void EnergyStatistics::add_body(std::size_t b, const BodyEnergy& body) {
   dry_kinetic_[b] = body.kinetic;
 }
 
-void EnergyStatistics::add(double time, const fluid::Ledger& ledger, const std::vector<BodyEnergy>& bodies) {
+void EnergyStatistics::add(double time, const Ledger& ledger, const std::vector<BodyEnergy>& bodies) {
   const double kinetic = ledger.kinetic_energy;
   const double potential =
       ledger.potential_energy - water_.level_energy * (ledger.volume + ledger.spray - ledger.volume_initial);

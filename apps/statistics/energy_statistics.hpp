@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "apps/statistics/statistics_archive.hpp"
-#include "fluid/view.hpp"
+#include "core/fluid_view.hpp"
 
 namespace splashdown::apps {
 
@@ -45,7 +45,7 @@ struct BodyEnergy {
 class EnergyStatistics {
  public:
   void begin(const WaterAtStart& water) { water_ = water; }
-  void add(double time, const fluid::Ledger& ledger, const std::vector<BodyEnergy>& bodies);
+  void add(double time, const Ledger& ledger, const std::vector<BodyEnergy>& bodies);
   double gain() const { return now_; }  ///< at the last step that was added [J, J/m]
   /// Fills what is about energy and about volumes of hulls.
   void summarise(LedgerSummary& summary) const;

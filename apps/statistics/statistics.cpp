@@ -107,7 +107,7 @@ void RunStatistics::add_mesh(std::size_t node_count, std::size_t element_count) 
   mesh_seen_ = true;
 }
 
-LedgerSummary summary_of(const fluid::Ledger& ledger) {
+LedgerSummary summary_of(const Ledger& ledger) {
   LedgerSummary summary;
   summary.volume_initial = ledger.volume_initial;
   summary.volume_final = ledger.volume;

@@ -10,8 +10,8 @@
 #include "apps/statistics/filters.hpp"
 #include "apps/statistics/landing_statistics.hpp"
 #include "apps/statistics/statistics_archive.hpp"
-#include "fluid/view.hpp"
-#include "rigid/view.hpp"
+#include "core/bodies_view.hpp"
+#include "core/fluid_view.hpp"
 
 namespace splashdown::apps {
 
@@ -42,7 +42,7 @@ class PulseStatistics {
 template <int d>
 struct BodyReading {
   Twist<d> velocity, acceleration;
-  fluid::WallLoad<d> load;
+  WallLoad<d> load;
   double submergence;                    ///< of the lowest point; nan without a water level [m]
   Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
   HullExtent extent;
@@ -90,6 +90,6 @@ struct RunStatistics {
   bool mesh_seen_ = false;
 };
 
-LedgerSummary summary_of(const fluid::Ledger& ledger);
+LedgerSummary summary_of(const Ledger& ledger);
 
 }  // namespace splashdown::apps

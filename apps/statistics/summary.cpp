@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 #include "apps/statistics/grades.hpp"
 
 namespace splashdown::apps {

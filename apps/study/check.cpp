@@ -7,7 +7,7 @@
 
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
-#include "apps/record/rows.hpp"
+#include "apps/record/tables/rows.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/statistics/attitude.hpp"
 #include "apps/statistics/filters.hpp"

@@ -14,7 +14,7 @@
 
 #include "apps/cli/child_process.hpp"
 #include "apps/cli/commands.hpp"
-#include "apps/run/folder_lock.hpp"
+#include "apps/run/folder/folder_lock.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/study/folder.hpp"

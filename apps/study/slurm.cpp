@@ -11,7 +11,7 @@
 
 #include "apps/cli/child_process.hpp"
 #include "apps/cli/plain_text.hpp"
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 #include "apps/study/run.hpp"
 
 namespace splashdown::apps {

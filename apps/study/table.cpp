@@ -10,7 +10,7 @@
 
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 
 namespace splashdown::apps {
 namespace {

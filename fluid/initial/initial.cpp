@@ -1,5 +1,6 @@
 #include "fluid/initial/initial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -31,26 +32,31 @@ class Filler {
     if (out_.nodes.size() == 0)
       throw std::invalid_argument("no liquid: every region lies outside the tank or inside a body");
     refine();
-    for (std::size_t i = 0; i < out_.nodes.size(); ++i) out_.nodes.v[i] = velocity(out_.nodes.x[i]);
+    set_velocities();
     return std::move(out_);
   }
 
  private:
-  Vec<d> velocity(const Vec<d>& x) const {
-    for (std::size_t k = 0; k < spec_.liquids.size(); ++k)
-      if (spec_.liquids[k].velocity && spec_.liquids.size() == 1) return spec_.liquids[k].velocity(x);
-    // Several regions: the one whose outline contains the node, or is nearest to it.
-    double best = std::numeric_limits<double>::max();
-    Vec<d> v = Vec<d>::Zero();
-    for (const auto& liquid : spec_.liquids) {
-      const Wall<d> outline_wall({"", liquid.boundary, Isometry<d>::Identity(), Twist<d>::Zero(), 0});
-      const auto near =
-          outline_wall.nearest(Isometry<d>::Identity(), x, 2 * outline_wall.box().diagonal().norm() + 1e3);
-      if (near.distance >= best) continue;
-      best = near.distance;
-      v = liquid.velocity ? liquid.velocity(x) : Vec<d>::Zero();
+  // Of several regions that counts whose outline contains the node, or is nearest to it.
+  void set_velocities() {
+    const auto& liquids = spec_.liquids;
+    if (std::none_of(liquids.begin(), liquids.end(), [](const auto& liquid) { return bool(liquid.velocity); })) return;
+    std::vector<Wall<d>> outlines;
+    if (liquids.size() > 1)
+      for (const auto& liquid : liquids)
+        outlines.emplace_back(WallSpec<d>{"", liquid.boundary, Isometry<d>::Identity(), Twist<d>::Zero(), 0});
+    for (std::size_t i = 0; i < out_.nodes.size(); ++i) {
+      const Vec<d>& x = out_.nodes.x[i];
+      double best = std::numeric_limits<double>::max();
+      std::size_t in = 0;
+      for (std::size_t k = 0; k < outlines.size(); ++k) {
+        const Wall<d>& wall = outlines[k];
+        const double distance =
+            wall.nearest(Isometry<d>::Identity(), x, 2 * wall.box().diagonal().norm() + 1e3).distance;
+        if (distance < best) best = distance, in = k;
+      }
+      out_.nodes.v[i] = liquids[in].velocity ? liquids[in].velocity(x) : Vec<d>::Zero();
     }
-    return v;
   }
 
   void refine() {

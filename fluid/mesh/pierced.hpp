@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "fluid/mesh/delaunay.hpp"
+#include "fluid/mesh/delaunay/delaunay.hpp"
 
 namespace splashdown::fluid {
 

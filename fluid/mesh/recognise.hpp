@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "fluid/contact/wall.hpp"
-#include "fluid/mesh/delaunay.hpp"
+#include "fluid/mesh/delaunay/delaunay.hpp"
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/nodes.hpp"
 

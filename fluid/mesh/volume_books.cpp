@@ -119,7 +119,7 @@ void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls
   for (std::size_t i = 0; i < count; ++i)
     if (now[i] > volumes[i]) {
       const Vec<d> w = free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>::Zero();
-      nodes.v[i] = w + std::sqrt(volumes[i] / now[i]) * (nodes.v[i] - w);
+      nodes.v[i] = w + std::sqrt(std::max(0.0, volumes[i]) / now[i]) * (nodes.v[i] - w);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/geometry.hpp"
 #include "rigid/message.hpp"
 #include "rigid/shapes/simplex.hpp"
 
@@ -222,12 +223,10 @@ namespace {
 /// Turns by a slope: a point at the horizontal distance p rises by slope . p. In space about ez x slope.
 template <int d>
 Eigen::Matrix<double, d, d> tilt(const Slope<d>& slope) {
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   if constexpr (d == 2)
-    turn.z() = slope(0);
+    return rotation(slope);
   else
-    turn.template head<2>() << slope.y(), -slope.x();
-  return Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix().template topLeftCorner<d, d>();
+    return rotation(Eigen::Vector3d(slope.y(), -slope.x(), 0));
 }
 
 /// Energy over weight when the displaced volume is given: the height of the centre of mass over that of buoyancy. With

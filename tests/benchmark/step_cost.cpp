@@ -9,7 +9,7 @@
 #include <memory>
 #include <numbers>
 
-#include "fluid/mesh/delaunay.hpp"
+#include "fluid/mesh/delaunay/delaunay.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"
 #include "tests/unit/coupling/watched.hpp"

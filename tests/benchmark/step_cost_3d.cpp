@@ -10,7 +10,7 @@
 #include <memory>
 #include <numeric>
 
-#include "fluid/mesh/moving_delaunay.hpp"
+#include "fluid/mesh/delaunay/moving_delaunay.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"

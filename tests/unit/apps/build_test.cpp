@@ -1,5 +1,5 @@
 // What a World is built from: poses, walls, effects that are there and effects that are not.
-#include "apps/run/build.hpp"
+#include "apps/run/build/build.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "apps/run/approach.hpp"
 #include "apps/scene/read/read.hpp"
-#include "scenes.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

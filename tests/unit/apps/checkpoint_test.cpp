@@ -1,15 +1,15 @@
 // Checkpoints on disk: they read back, two generations are kept, damage is found, scenes are told apart.
-#include "apps/run/checkpoint.hpp"
+#include "apps/run/folder/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <optional>
 
-#include "apps/run/resume.hpp"
+#include "apps/run/folder/resume.hpp"
 #include "apps/scene/read/read.hpp"
-#include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

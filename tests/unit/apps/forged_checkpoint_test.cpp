@@ -11,8 +11,8 @@
 
 #include "apps/run/run.hpp"
 #include "apps/scene/read/read.hpp"
-#include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -8,8 +8,8 @@
 #include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
 #include "apps/scene/read/read.hpp"
-#include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

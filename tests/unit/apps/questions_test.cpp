@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "apps/scene/read/read.hpp"
-#include "scenes.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

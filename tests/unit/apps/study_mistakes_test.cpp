@@ -1,6 +1,6 @@
 // Mistakes in studies are told with place, key and rule.
 
-#include "study_scene.hpp"
+#include "tests/unit/apps/study_scene.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "apps/study/study.hpp"
-#include "scenes.hpp"
 #include "tests/scratch_folder.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps::testing {
 

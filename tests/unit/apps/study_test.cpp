@@ -15,7 +15,7 @@
 #include "apps/study/run.hpp"
 #include "apps/study/slurm.hpp"
 #include "apps/study/table.hpp"
-#include "study_scene.hpp"
+#include "tests/unit/apps/study_scene.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,9 +1,9 @@
 // Scenes that are their own mirror images, and what breaks the mirror.
-#include "apps/run/symmetry.hpp"
+#include "apps/run/build/symmetry.hpp"
 
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {

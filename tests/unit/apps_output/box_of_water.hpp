@@ -5,28 +5,28 @@
 #include <random>
 #include <vector>
 
-#include "fluid/mesh/mesh.hpp"
-#include "fluid/nodes.hpp"
+#include "core/mesh.hpp"
+#include "core/nodes.hpp"
 
 namespace splashdown::apps {
 
 template <int d>
 struct BoxOfWater {
-  fluid::Nodes<d> nodes;
-  fluid::Mesh<d> mesh;
-  fluid::Surface<d> hull;
+  Nodes<d> nodes;
+  Mesh<d> mesh;
+  Surface<d> hull;
 };
 
 inline constexpr double weight = 9810;  // of water [N/m^3]
 template <int d>
-double hydrostatic(const fluid::Vec<d>& x) {
+double hydrostatic(const Vec<d>& x) {
   return -weight * x(d - 1);
 }
 
 /// A box of half side 1/2 around the origin, normals outward: eight corners and twelve triangles, or a square.
 template <int d>
-fluid::Surface<d> unit_box() {
-  fluid::Surface<d> box;
+Surface<d> unit_box() {
+  Surface<d> box;
   if constexpr (d == 2) {
     box.vertices.resize(2, 4);
     box.vertices << -0.5, 0.5, 0.5, -0.5, -0.5, -0.5, 0.5, 0.5;
@@ -45,12 +45,12 @@ fluid::Surface<d> unit_box() {
 
 /// `pose` of the box. Each facet is cut in pieces at random points, so that none of its edges fits a patch.
 template <int d>
-BoxOfWater<d> box_of_water(const fluid::Isometry<d>& pose, int cuts = 200) {
+BoxOfWater<d> box_of_water(const Isometry<d>& pose, int cuts = 200) {
   BoxOfWater<d> box;
   box.hull = unit_box<d>();
   for (Eigen::Index v = 0; v < box.hull.vertices.cols(); ++v) {
-    const fluid::Vec<d> x = pose * fluid::Vec<d>(box.hull.vertices.col(v));
-    box.nodes.add(x, fluid::Vec<d>::Zero(), hydrostatic<d>(x), {0, 0, -1}, false);
+    const Vec<d> x = pose * Vec<d>(box.hull.vertices.col(v));
+    box.nodes.add(x, Vec<d>::Zero(), hydrostatic<d>(x), {0, 0, -1}, false);
   }
   std::vector<std::array<int, d>> facets;
   for (Eigen::Index f = 0; f < box.hull.facets.cols(); ++f) {
@@ -65,9 +65,9 @@ BoxOfWater<d> box_of_water(const fluid::Isometry<d>& pose, int cuts = 200) {
     std::array<double, d> weights;
     double sum = 0;
     for (auto& w : weights) sum += w = share(random);
-    fluid::Vec<d> x = fluid::Vec<d>::Zero();
+    Vec<d> x = Vec<d>::Zero();
     for (std::size_t k = 0; k < d; ++k) x += weights[k] / sum * box.nodes.x[static_cast<std::size_t>(facets[f][k])];
-    const int node = box.nodes.add(x, fluid::Vec<d>::Zero(), hydrostatic<d>(x), {0, 0, -1}, false);
+    const int node = box.nodes.add(x, Vec<d>::Zero(), hydrostatic<d>(x), {0, 0, -1}, false);
     const auto whole = facets[f];
     for (std::size_t k = 0; k < d; ++k) {
       auto piece = whole;

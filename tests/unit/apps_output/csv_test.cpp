@@ -1,4 +1,4 @@
-#include "apps/record/csv.hpp"
+#include "apps/record/tables/csv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "apps/record/rows.hpp"
+#include "apps/record/tables/rows.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {
@@ -156,10 +156,10 @@ TEST(Columns, a_plane_row_fills_the_columns_of_a_spatial_one) {
   ScratchFolder folder;
   CsvFile file(folder.path() / "a.csv", bodies_header);
   file.create();
-  rigid::Isometry<2> pose = rigid::Isometry<2>::Identity();
-  pose.translation() = rigid::Vec<2>(1, 2);
+  Isometry<2> pose = Isometry<2>::Identity();
+  pose.translation() = Vec<2>(1, 2);
   pose.linear() << 0, -1, 1, 0;  // a quarter turn
-  fluid::WallLoad<2> load;
+  WallLoad<2> load;
   load.physical << 10, 20, 30;
   load.repair << 1, 2, 3;
   load.wetted = 0.5;

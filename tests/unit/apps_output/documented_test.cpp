@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/record/frames.hpp"
-#include "apps/record/rows.hpp"
+#include "apps/record/frames/frames.hpp"
+#include "apps/record/tables/rows.hpp"
 
 namespace splashdown::apps {
 namespace {

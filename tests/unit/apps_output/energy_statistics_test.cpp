@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "apps/record/energy.hpp"
+#include "apps/record/tables/energy.hpp"
 #include "box_of_water.hpp"
 #include "stand_ins.hpp"
 
@@ -18,8 +18,8 @@ namespace {
 
 constexpr double roundoff = 1e-13;  // a few hundred operations on numbers of the sums' size
 
-fluid::Ledger ledger_of(double kinetic, double potential, double work) {
-  fluid::Ledger ledger;
+Ledger ledger_of(double kinetic, double potential, double work) {
+  Ledger ledger;
   ledger.volume = ledger.volume_initial = 2;
   ledger.kinetic_energy = kinetic;
   ledger.potential_energy = potential;

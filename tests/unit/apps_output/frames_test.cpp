@@ -1,8 +1,8 @@
-#include "apps/record/frames.hpp"
+#include "apps/record/frames/frames.hpp"
 
 #include <gtest/gtest.h>
 
-#include "apps/report/plane_picture.hpp"
+#include "apps/report/pictures/plane_picture.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {

@@ -1,4 +1,4 @@
-#include "apps/record/hull_map.hpp"
+#include "apps/record/frames/hull_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@ namespace splashdown::apps {
 namespace {
 
 template <int d>
-double area_of(const fluid::Surface<d>& surface) {
+double area_of(const Surface<d>& surface) {
   double area = 0;
   for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
-    std::array<fluid::Vec<d>, d> corner;
+    std::array<Vec<d>, d> corner;
     for (int k = 0; k < d; ++k) corner[static_cast<std::size_t>(k)] = surface.vertices.col(surface.facets(k, f));
     area += area_vector(corner).norm();
   }
@@ -43,7 +43,7 @@ TEST(Refined, a_closed_surface_stays_closed_and_has_no_long_edge) {
 // Every point of a box under water has the linear pressure of its place.
 template <int d>
 void map_of_a_hydrostatic_box() {
-  fluid::Isometry<d> pose = fluid::Isometry<d>::Identity();
+  Isometry<d> pose = Isometry<d>::Identity();
   pose.translation()(d - 1) = -3;
   if constexpr (d == 2)
     pose.rotate(0.4);
@@ -53,7 +53,7 @@ void map_of_a_hydrostatic_box() {
   HullMap<d> map(box.hull, 0.1);
   map.add(box.nodes, box.mesh, 0, pose, 0.5);
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
-    const fluid::Vec<d> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
+    const Vec<d> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
     EXPECT_EQ(map.time()[i], 0.5);
     // Random cuts leave slivers down to a hundredth of a side, through which pressure is found to eps over their height.
     EXPECT_NEAR(map.pressure()[i], hydrostatic<d>(pose * x), 1e-9 * 3 * weight);
@@ -66,12 +66,12 @@ TEST(HullMap, of_a_box_under_water_is_rho_g_z_everywhere) {
 }
 
 TEST(HullMap, keeps_the_maximum_pressure_and_its_first_time) {
-  auto box = box_of_water<3>(fluid::Isometry<3>::Identity());
+  auto box = box_of_water<3>(Isometry<3>::Identity());
   HullMap<3> map(box.hull, 0.25);
   double time = 0;
   for (const double pressure : {5., 8., 8., 3.}) {
     std::ranges::fill(box.nodes.p, pressure);
-    map.add(box.nodes, box.mesh, 0, fluid::Isometry<3>::Identity(), time++);
+    map.add(box.nodes, box.mesh, 0, Isometry<3>::Identity(), time++);
   }
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     EXPECT_NEAR(map.pressure()[i], 8, 1e-12);
@@ -81,13 +81,13 @@ TEST(HullMap, keeps_the_maximum_pressure_and_its_first_time) {
 }
 
 TEST(HullMap, what_stays_dry_has_no_time) {
-  auto box = box_of_water<3>(fluid::Isometry<3>::Identity());
+  auto box = box_of_water<3>(Isometry<3>::Identity());
   for (auto& facet : box.mesh.boundary) {  // wet at the bottom only
     for (const int node : facet.nodes)
       if (box.nodes.x[static_cast<std::size_t>(node)].z() > -0.49) facet.wall = -1;
   }
   HullMap<3> map(box.hull, 0.25);
-  map.add(box.nodes, box.mesh, 0, fluid::Isometry<3>::Identity(), 1);
+  map.add(box.nodes, box.mesh, 0, Isometry<3>::Identity(), 1);
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     const double z = map.surface().vertices(2, static_cast<Eigen::Index>(i));
     EXPECT_EQ(std::isfinite(map.time()[i]), z < -0.49) << z;
@@ -99,17 +99,17 @@ TEST(HullMap, what_stays_dry_has_no_time) {
 
 // A thin plate, wet below: its upper side is nearer than half an element, and dry.
 TEST(HullMap, the_other_side_of_a_thin_plate_is_not_wetted) {
-  fluid::Surface<2> plate = unit_box<2>();
+  Surface<2> plate = unit_box<2>();
   plate.vertices.row(1) *= 0.02;
-  fluid::Nodes<2> nodes;
+  Nodes<2> nodes;
   nodes.x = {{-0.5, -0.01}, {0.5, -0.01}};
   nodes.p = {7, 7};
-  fluid::Mesh<2> mesh;
+  Mesh<2> mesh;
   mesh.boundary = {{{1, 0}, 0}};
   HullMap<2> map(plate, 0.1);
-  map.add(nodes, mesh, 0, fluid::Isometry<2>::Identity(), 0);
+  map.add(nodes, mesh, 0, Isometry<2>::Identity(), 0);
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
-    const fluid::Vec<2> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
+    const Vec<2> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
     if (std::abs(x.x()) < 0.49) {
       EXPECT_EQ(map.pressure()[i] > 0, x.y() < 0) << x.transpose();
     }

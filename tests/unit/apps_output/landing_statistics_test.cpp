@@ -42,7 +42,7 @@ TEST(Attitude, tilt_is_the_angle_between_up_and_up_whatever_the_heading) {
 // A point that circles at constant rate is pulled to the axis by w^2 r; one that spins up is pushed along by alpha r.
 TEST(PointAcceleration, of_a_turning_body_is_towards_its_axis) {
   const double w = 3, alpha = 5;
-  rigid::Twist<3> velocity = rigid::Twist<3>::Zero(), acceleration = rigid::Twist<3>::Zero();
+  Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
   velocity(5) = w;
   acceleration(5) = alpha;
   acceleration(2) = -9.81;
@@ -58,7 +58,7 @@ TEST(PointAcceleration, is_the_second_derivative_of_the_points_path) {
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3, r(0.4, -0.3, 0.9);
   const double w = 4, alpha = 1.5, dt = 1e-4;
   const auto at = [&](double t) -> Eigen::Vector3d { return Eigen::AngleAxisd(w * t + 0.5 * alpha * t * t, axis) * r; };
-  rigid::Twist<3> velocity = rigid::Twist<3>::Zero(), acceleration = rigid::Twist<3>::Zero();
+  Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
   velocity.tail<3>() = w * axis;
   acceleration.tail<3>() = alpha * axis;
   const Eigen::Vector3d differences = (at(dt) - 2 * at(0) + at(-dt)) / (dt * dt);
@@ -68,7 +68,7 @@ TEST(PointAcceleration, is_the_second_derivative_of_the_points_path) {
 
 /// Heave that dies out, z' = v0 exp(-t / T) cos(2 pi t), from contact at t = 1 on.
 LandingReading<2> heave(double t) {
-  LandingReading<2> reading{Eigen::Matrix2d::Identity(), rigid::Twist<2>::Zero(), t < 1 ? 0 : 0.5};
+  LandingReading<2> reading{Eigen::Matrix2d::Identity(), Twist<2>::Zero(), t < 1 ? 0 : 0.5};
   const double s = t - 1;
   reading.velocity(1) = s < 0 ? -3 : -3 * std::exp(-s) * std::cos(2 * std::numbers::pi * s);
   reading.velocity(0) = 2;  // drifts on for ever
@@ -103,7 +103,7 @@ TEST(Settling, counts_roll_and_pitch_but_no_yaw) {
   const HullExtent extent{0.5, 1};
   const auto settled_with = [&](const Eigen::Vector3d& spin) {
     LandingStatistics<3> landing;
-    LandingReading<3> reading{Eigen::Matrix3d::Identity(), rigid::Twist<3>::Zero(), 1};
+    LandingReading<3> reading{Eigen::Matrix3d::Identity(), Twist<3>::Zero(), 1};
     reading.velocity.tail<3>() = spin;
     for (int n = 0; n <= 300; ++n) landing.add(n * 0.01, reading, extent);
     return landing.summary().settled;
@@ -118,7 +118,7 @@ LandingSummary roll(double until, double end) {
   LandingStatistics<3> landing;
   for (int n = 0; n * 0.1 <= end + 1e-9; ++n) {
     const double t = n * 0.1, angle = 10 * (t < until ? t : 2 * until - t);
-    landing.add(t, {turned(angle, 0, 37), rigid::Twist<3>::Zero(), 1}, {1, 1});
+    landing.add(t, {turned(angle, 0, 37), Twist<3>::Zero(), 1}, {1, 1});
   }
   return landing.summary();
 }
@@ -138,7 +138,7 @@ TEST(Skips, are_the_dry_intervals_after_first_contact) {
   LandingStatistics<2> landing;
   //                      0  1  2  3  4  5  6  7  8
   const double wetted[] = {0, 0, 1, 1, 0, 0, 1, 2, 0};
-  for (int n = 0; n < 9; ++n) landing.add(n, {Eigen::Matrix2d::Identity(), rigid::Twist<2>::Zero(), wetted[n]}, {1, 1});
+  for (int n = 0; n < 9; ++n) landing.add(n, {Eigen::Matrix2d::Identity(), Twist<2>::Zero(), wetted[n]}, {1, 1});
   const auto summary = landing.summary();
   EXPECT_EQ(summary.first_contact, 2);
   ASSERT_EQ(summary.dry_intervals.size(), 2u);
@@ -149,7 +149,7 @@ TEST(Skips, are_the_dry_intervals_after_first_contact) {
 
 TEST(Landing, a_body_that_stays_dry_has_landed_in_no_way) {
   LandingStatistics<2> landing;
-  for (int n = 0; n < 9; ++n) landing.add(n, {Eigen::Matrix2d::Identity(), rigid::Twist<2>::Zero(), 0.0}, {1, 1});
+  for (int n = 0; n < 9; ++n) landing.add(n, {Eigen::Matrix2d::Identity(), Twist<2>::Zero(), 0.0}, {1, 1});
   const auto summary = landing.summary();
   EXPECT_LT(summary.first_contact, 0);
   EXPECT_LT(summary.settled, 0);

@@ -7,8 +7,8 @@ namespace splashdown::apps {
 namespace {
 
 template <int d>
-fluid::Isometry<d> somewhere() {
-  fluid::Isometry<d> pose = fluid::Isometry<d>::Identity();
+Isometry<d> somewhere() {
+  Isometry<d> pose = Isometry<d>::Identity();
   pose.translation()(d - 1) = -3;
   pose.translation()(0) = 0.3;
   if constexpr (d == 2)
@@ -19,7 +19,7 @@ fluid::Isometry<d> somewhere() {
 }
 
 template <int d>
-double mean(const BoxOfWater<d>& box, const fluid::Isometry<d>& pose, const PatchRegion<d>& region) {
+double mean(const BoxOfWater<d>& box, const Isometry<d>& pose, const PatchRegion<d>& region) {
   return patch_force<d>(box.nodes, box.mesh, 0, pose, region) / patch_area<d>(region, box.hull);
 }
 
@@ -29,17 +29,17 @@ template <int d>
 void hydrostatic_patch_has_rho_g_z() {
   const auto pose = somewhere<d>();
   const auto box = box_of_water<d>(pose);
-  fluid::Vec<d> low = fluid::Vec<d>::Constant(-0.21), high = fluid::Vec<d>::Constant(0.33);
+  Vec<d> low = Vec<d>::Constant(-0.21), high = Vec<d>::Constant(0.33);
   low(0) = 0.4, high(0) = 0.7;  // a part of the face x = 1/2
-  fluid::Vec<d> centroid = 0.5 * (low + high);
+  Vec<d> centroid = 0.5 * (low + high);
   centroid(0) = 0.5;
   const auto region = box_region<d>(low, high);
   EXPECT_NEAR(patch_area<d>(region, box.hull), std::pow(0.54, d - 1), 1e-14);
   EXPECT_NEAR(mean<d>(box, pose, region), hydrostatic<d>(pose * centroid), 1e-12 * 3 * weight);
 
-  fluid::Vec<d> centre = fluid::Vec<d>::Constant(0.11);
+  Vec<d> centre = Vec<d>::Constant(0.11);
   centre(d - 1) = -0.5;
-  const auto disc = disc_region<d>(centre, 0.2, -fluid::Vec<d>::Unit(d - 1));
+  const auto disc = disc_region<d>(centre, 0.2, -Vec<d>::Unit(d - 1));
   EXPECT_NEAR(patch_area<d>(disc, box.hull), d == 2 ? 0.4 : std::numbers::pi * 0.04, 1e-14);
   EXPECT_NEAR(mean<d>(box, pose, disc), hydrostatic<d>(pose * centre), 1e-12 * 3 * weight);
 }
@@ -53,30 +53,30 @@ TEST(Patch, of_a_box_under_water_has_rho_g_z) {
 TEST(Patch, around_the_whole_box_has_the_mean_pressure_of_its_centre) {
   const auto pose = somewhere<3>();
   const auto box = box_of_water<3>(pose);
-  const auto all = box_region<3>(fluid::Vec<3>::Constant(-1), fluid::Vec<3>::Constant(1));
+  const auto all = box_region<3>(Vec<3>::Constant(-1), Vec<3>::Constant(1));
   EXPECT_NEAR(patch_area<3>(all, box.hull), 6, 1e-13);
   EXPECT_NEAR(mean<3>(box, pose, all), 3 * weight, 1e-12 * 3 * weight);
 }
 
 TEST(Patch, its_dry_part_counts_with_zero) {
-  fluid::Nodes<2> nodes;
+  Nodes<2> nodes;
   nodes.x = {{0, 0}, {1, 0}};
   nodes.p = {10, 10};
-  fluid::Mesh<2> mesh;
+  Mesh<2> mesh;
   mesh.boundary = {{{1, 0}, 0}, {{0, 1}, -1}};
-  fluid::Surface<2> hull;  // runs on, dry, to x = 3
+  Surface<2> hull;  // runs on, dry, to x = 3
   hull.vertices.resize(2, 2);
   hull.vertices << 0, 3, 0, 0;
   hull.facets.resize(2, 1);
   hull.facets << 0, 1;
   const auto region = box_region<2>({0.5, -1}, {1.5, 1});
-  const auto rest = fluid::Isometry<2>::Identity();
+  const auto rest = Isometry<2>::Identity();
   EXPECT_NEAR(patch_force<2>(nodes, mesh, 0, rest, region) / patch_area<2>(region, hull), 5, 1e-14);
 }
 
 // A plate thinner than the patch's radius: the other side is no part of it.
 TEST(Patch, on_a_thin_plate_takes_one_side) {
-  fluid::Surface<2> plate = unit_box<2>();
+  Surface<2> plate = unit_box<2>();
   plate.vertices.row(1) *= 0.01;
   const auto below = disc_region<2>({0, -0.005}, 0.1, {0, -1});
   EXPECT_NEAR(patch_area<2>(below, plate), 0.2, 1e-15);

@@ -7,8 +7,8 @@
 namespace splashdown::apps {
 namespace {
 
-fluid::Surface<2> polygon(const std::vector<fluid::Vec<2>>& points) {
-  fluid::Surface<2> surface;
+Surface<2> polygon(const std::vector<Vec<2>>& points) {
+  Surface<2> surface;
   const auto count = static_cast<Eigen::Index>(points.size());
   surface.vertices.resize(2, count);
   surface.facets.resize(2, count);
@@ -19,12 +19,12 @@ fluid::Surface<2> polygon(const std::vector<fluid::Vec<2>>& points) {
   return surface;
 }
 
-const fluid::Isometry<2> at_rest = fluid::Isometry<2>::Identity();
+const Isometry<2> at_rest = Isometry<2>::Identity();
 
 TEST(Elevation, is_the_highest_crossing_of_the_free_surface) {
-  fluid::Nodes<2> nodes;
+  Nodes<2> nodes;
   nodes.x = {{0, 1}, {1, 2}, {2, 2}, {0.5, 3}, {1.5, 3}};
-  fluid::Mesh<2> mesh;
+  Mesh<2> mesh;
   mesh.boundary = {{{1, 0}, -1}, {{2, 1}, -1}};
   using At = Eigen::Matrix<double, 1, 1>;
   EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(0.25)), 1.25);
@@ -37,19 +37,19 @@ TEST(Elevation, is_the_highest_crossing_of_the_free_surface) {
 }
 
 TEST(Elevation, of_a_tilted_plane_in_space_is_exact) {
-  fluid::Nodes<3> nodes;
+  Nodes<3> nodes;
   nodes.x = {{0, 0, 1}, {1, 0, 3}, {0, 1, 4}};
-  fluid::Mesh<3> mesh;
+  Mesh<3> mesh;
   mesh.boundary = {{{0, 1, 2}, -1}};
   EXPECT_NEAR(*surface_elevation<3>(nodes, mesh, Eigen::Vector2d(0.25, 0.5)), 1 + 2 * 0.25 + 3 * 0.5, 1e-14);
   EXPECT_FALSE(surface_elevation<3>(nodes, mesh, Eigen::Vector2d(0.75, 0.5)));
 }
 
 TEST(WallPressure, is_interpolated_at_the_nearest_wetted_facet_and_absent_far_away) {
-  fluid::Nodes<2> nodes;
+  Nodes<2> nodes;
   nodes.x = {{0, 0}, {1, 0}, {1, 1}};
   nodes.p = {10, 20, 40};
-  fluid::Mesh<2> mesh;
+  Mesh<2> mesh;
   mesh.boundary = {{{0, 1}, 0}, {{1, 2}, 1}, {{2, 0}, -1}};
   EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, {0.3, -0.01}), 13, 1e-12);
   EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, {1.01, 0.5}), 30, 1e-12);
@@ -71,17 +71,17 @@ TEST(Ruler, begins_in_the_middle_of_a_level_bottom) {
 }
 
 TEST(Ruler, the_keel_is_what_is_lowest_in_the_first_pose) {
-  fluid::Isometry<2> upside_down = at_rest;
+  Isometry<2> upside_down = at_rest;
   upside_down.rotate(Eigen::Rotation2Dd(std::numbers::pi));
   const SurfaceRuler<2> ruler(polygon({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}), upside_down);
   EXPECT_NEAR(ruler.distance({0, 1}), 0, 1e-14);
 }
 
 TEST(SurfacePressure, has_the_wetted_nodes_of_one_wall_in_order) {
-  fluid::Nodes<2> nodes;
+  Nodes<2> nodes;
   nodes.x = {{0, 0}, {0.6, 0.8}, {-0.6, 0.8}, {2, 0}};
   nodes.p = {5, 6, 7, 8};
-  fluid::Mesh<2> mesh;
+  Mesh<2> mesh;
   mesh.boundary = {{{0, 1}, 0}, {{2, 0}, 0}, {{1, 3}, -1}};
   const SurfaceRuler<2> ruler(polygon({{0, 0}, {3, 4}, {-3, 4}}), at_rest);
   const auto points = surface_pressure<2>(nodes, mesh, 0, ruler, at_rest);

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/record/rows.hpp"
+#include "apps/record/tables/rows.hpp"
 #include "apps/record/view.hpp"
 #include "apps/report/data.hpp"
 #include "recorded_runs.hpp"
@@ -26,7 +26,7 @@ RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
   const auto hull = StandInDrop::hull();
   const auto region = box_region<2>({-0.05, -1}, {0.05, 1});
   settings.patches = {{"bottom", "wedge", region, patch_area<2>(region, hull)}};
-  settings.hull_maps = {{"wedge", hull, fluid::Isometry<2>::Identity(), 0.01}};
+  settings.hull_maps = {{"wedge", hull, Isometry<2>::Identity(), 0.01}};
   settings.centre_of_mass = {{"wedge", {0, 2 * wedge_height / 3}}};
   return settings;
 }
@@ -190,7 +190,7 @@ TEST(Recorder, frames_have_sizes_of_drops_and_motion_and_pressure_of_hulls) {
     EXPECT_NEAR(frame.drop_diameter[i], frame.kind[i] == NodeKind::drop ? 0.01 : 0, 1e-15);
   const auto& hull = frame.outlines[0];
   ASSERT_EQ(static_cast<Eigen::Index>(hull.v.size()), hull.surface.vertices.cols());
-  for (const auto& v : hull.v) EXPECT_EQ(v, (fluid::Vec<2>(input.body_velocity_n[0].head<2>())));
+  for (const auto& v : hull.v) EXPECT_EQ(v, (Vec<2>(input.body_velocity_n[0].head<2>())));
   EXPECT_GT(*std::ranges::max_element(hull.p), 0) << "the keel is wet";
   EXPECT_EQ(*std::ranges::min_element(hull.p), 0) << "the top is dry";
 }
@@ -261,17 +261,17 @@ TEST(Recorder, added_mass_is_written_when_asked_for_and_only_then) {
 // A body's own matrix M, seen from the world by a body that has turned: G = T M T^T, T = diag(R, 1) or diag(R, R).
 template <int d>
 void turned_matrix_reads_as_its_own() {
-  constexpr int m = fluid::freedoms<d>;
+  constexpr int m = freedoms<d>;
   ScratchFolder folder;
   CsvFile file(folder.path() / "m.csv", added_mass_header(d));
   file.create();
   const Eigen::Matrix<double, m, m> half = Eigen::Matrix<double, m, m>::Random(), own = half * half.transpose();
-  fluid::Isometry<d> pose = fluid::Isometry<d>::Identity();
+  Isometry<d> pose = Isometry<d>::Identity();
   if constexpr (d == 2)
     pose.rotate(0.65);
   else
     pose.rotate(Eigen::AngleAxisd(0.65, Eigen::Vector3d(1, 2, 3).normalized()));
-  pose.translate(fluid::Vec<d>::Constant(7));  // about the centre of mass: no matter where that is
+  pose.translate(Vec<d>::Constant(7));  // about the centre of mass: no matter where that is
   Eigen::Matrix<double, m, m> turn = Eigen::Matrix<double, m, m>::Zero();
   turn.template topLeftCorner<d, d>() = pose.linear();
   if constexpr (d == 2)

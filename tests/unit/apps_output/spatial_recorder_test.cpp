@@ -6,7 +6,7 @@
 
 #include "apps/record/view.hpp"
 #include "apps/report/data.hpp"
-#include "apps/report/plane_picture.hpp"
+#include "apps/report/pictures/plane_picture.hpp"
 #include "apps/report/report.hpp"
 #include "recorded_runs.hpp"
 
@@ -22,7 +22,7 @@ RecorderSettings<3> settings_in(const std::filesystem::path& directory) {
   const auto hull = StandInPress::hull();
   const auto region = disc_region<3>({0.1, 0.05, -press_half_height}, 0.2, {0, 0, -1});
   settings.patches = {{"panel", "box", region, patch_area<3>(region, hull)}};
-  fluid::Isometry<3> pose = fluid::Isometry<3>::Identity();
+  Isometry<3> pose = Isometry<3>::Identity();
   settings.hull_maps = {{"box", hull, pose, 0.125}};
   settings.surface_pressure = {{"box", {}, {0.015}}};
   settings.added_mass = {{"box", 0.01, {}}};

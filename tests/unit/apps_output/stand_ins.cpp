@@ -9,8 +9,8 @@ namespace splashdown::apps {
 
 namespace {
 
-fluid::Surface<2> outline(std::initializer_list<fluid::Vec<2>> points) {
-  fluid::Surface<2> surface;
+Surface<2> outline(std::initializer_list<Vec<2>> points) {
+  Surface<2> surface;
   const auto count = static_cast<Eigen::Index>(points.size());
   surface.vertices.resize(2, count);
   surface.facets.resize(2, count);
@@ -24,12 +24,12 @@ fluid::Surface<2> outline(std::initializer_list<fluid::Vec<2>> points) {
 }
 
 // The wedge's frame has its origin two thirds up: the centre of mass.
-fluid::Surface<2> wedge() {
+Surface<2> wedge() {
   const double keel = -2 * wedge_height / 3, top = wedge_height / 3;
   return outline({{0, keel}, {wedge_half_breadth, top}, {-wedge_half_breadth, top}});
 }
 
-fluid::Surface<2> tank() {  // clockwise
+Surface<2> tank() {  // clockwise
   const double w = tank_half_width, low = -water_depth, high = 0.5;
   return outline({{-w, low}, {-w, high}, {w, high}, {w, low}});
 }
@@ -63,8 +63,8 @@ double top_of_water(double x, double depth) {
 StandInDrop::StandInDrop(int nodes_across) : nodes_across_(nodes_across) {
   fluid_.gravity = 9.81;
   fluid_.made = {{"wedge", wedge()}, {"tank", tank()}};
-  fluid_.poses.resize(2, fluid::Isometry<2>::Identity());
-  rigid::BodySpec<2> body;
+  fluid_.poses.resize(2, Isometry<2>::Identity());
+  BodySpec<2> body;
   body.name = "wedge";
   body.surface = {wedge().vertices, wedge().facets};
   body.mass = 241;
@@ -74,7 +74,7 @@ StandInDrop::StandInDrop(int nodes_across) : nodes_across_(nodes_across) {
   input_.bodies = &bodies_;
 }
 
-fluid::Surface<2> StandInDrop::hull() { return wedge(); }
+Surface<2> StandInDrop::hull() { return wedge(); }
 
 const RecordInput<2>& StandInDrop::at(double time, double dt) {
   const Motion motion = motion_at(time);
@@ -82,8 +82,8 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   auto& mesh = fluid_.cells;
   auto& ledger = fluid_.books;
   auto& pose = fluid_.poses[0];
-  pose = fluid::Isometry<2>::Identity();
-  pose.translation() = fluid::Vec<2>(0, 2 * wedge_height / 3 - motion.depth);
+  pose = Isometry<2>::Identity();
+  pose.translation() = Vec<2>(0, 2 * wedge_height / 3 - motion.depth);
   bodies_.states[0].pose = pose;
 
   const int across = nodes_across_, down = across / 2;
@@ -136,19 +136,19 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   ledger.remesh_created = 2e-4 * time / drop_end;
   ledger.remesh_deleted = -1e-4 * std::pow(time / drop_end, 2);
   ledger.returned = -0.9 * (ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted);
-  ledger.volume = ledger.volume_initial + ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted +
-                  ledger.returned;
+  ledger.volume =
+      ledger.volume_initial + ledger.time_integration + ledger.remesh_created + ledger.remesh_deleted + ledger.returned;
   const double lost = 0.5 * 241 * (6.15 * 6.15 - motion.velocity * motion.velocity);
   ledger.kinetic_energy = 0.85 * lost;
   ledger.potential_energy = -2800 + 0.1 * lost;
   ledger.work_on_walls = -lost;
   ledger.energy_repair = -0.01 * lost;
 
-  input_.body_velocity_n = {rigid::Twist<2>(0, motion.velocity, 0)};
-  input_.body_acceleration_n = {rigid::Twist<2>(0, motion.acceleration, 0)};
-  fluid::WallLoad<2> load;
-  load.physical = fluid::Wrench<2>(0, motion.load, 0);
-  load.repair = fluid::Wrench<2>(0, time > 0 ? motion.repair : 0, 0);
+  input_.body_velocity_n = {Twist<2>(0, motion.velocity, 0)};
+  input_.body_acceleration_n = {Twist<2>(0, motion.acceleration, 0)};
+  WallLoad<2> load;
+  load.physical = Wrench<2>(0, motion.load, 0);
+  load.repair = Wrench<2>(0, time > 0 ? motion.repair : 0, 0);
   load.wetted = 2 * std::max(0.0, wetted);
   input_.body_load = {load};
   input_.time = time;
@@ -162,7 +162,7 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
 
 double press_at(double time) { return 20e3 * std::exp(-std::pow((time - 0.5 * drop_end) / (0.2 * drop_end), 2)); }
 
-fluid::Surface<3> StandInPress::hull() {
+Surface<3> StandInPress::hull() {
   auto box = unit_box<3>();
   box.vertices.topRows<2>() *= 2 * press_half_length;
   box.vertices.row(2) *= 2 * press_half_height;
@@ -171,11 +171,11 @@ fluid::Surface<3> StandInPress::hull() {
 
 // A block of cubes, six tetrahedra each around the diagonal; the box lies on the middle of its upper side.
 StandInPress::StandInPress(int nodes_across) {
-  fluid::Isometry<3> pose = fluid::Isometry<3>::Identity();
+  Isometry<3> pose = Isometry<3>::Identity();
   pose.translation().z() = press_half_height;
   fluid_.made = {{"box", hull(), pose}};
   fluid_.poses = {pose};
-  rigid::BodySpec<3> body;
+  BodySpec<3> body;
   body.name = "box";
   body.surface = {hull().vertices, hull().facets};
   body.mass = 100;
@@ -212,12 +212,12 @@ const RecordInput<3>& StandInPress::at(double time, double dt) {
   auto& nodes = fluid_.at;
   const double press = press_at(time), area = 4 * press_half_length * press_half_length;
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes.p[i] = press - 9810 * nodes.x[i].z();
-  rigid::Twist<3> velocity = rigid::Twist<3>::Zero(), acceleration = rigid::Twist<3>::Zero();
+  Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
   acceleration(2) = press * area / 100;
   velocity(5) = 10;
   input_.body_velocity_n = {velocity};
   input_.body_acceleration_n = {acceleration};
-  fluid::WallLoad<3> load;
+  WallLoad<3> load;
   load.physical(2) = press * area;
   load.physical(3) = 0.1 * load.physical(2);
   load.wetted = area;

@@ -10,50 +10,50 @@ namespace splashdown::apps {
 
 /// A fluid that is what it is set to.
 template <int d>
-class DrawnFluid final : public fluid::View<d> {
+class DrawnFluid final : public FluidView<d> {
  public:
-  std::vector<fluid::WallSpec<d>> made;
-  std::vector<fluid::Isometry<d>> poses;
-  fluid::Nodes<d> at;
-  fluid::Mesh<d> cells;
-  fluid::Ledger books;
+  std::vector<WallSpec<d>> made;
+  std::vector<Isometry<d>> poses;
+  Nodes<d> at;
+  Mesh<d> cells;
+  Ledger books;
   double gravity = 0;  ///< 0: no such effect
 
   double density() const override { return 1000; }
-  std::span<const fluid::WallSpec<d>> walls() const override { return made; }
-  std::span<const fluid::Isometry<d>> wall_poses() const override { return poses; }
-  const fluid::Nodes<d>& nodes() const override { return at; }
-  const fluid::Mesh<d>& mesh() const override { return cells; }
-  const fluid::Ledger& ledger() const override { return books; }
-  fluid::Vec<d> velocity_n(std::size_t node) const override { return at.v[node]; }
-  std::optional<double> pressure_at(const fluid::Vec<d>& point) const override {
+  std::span<const WallSpec<d>> walls() const override { return made; }
+  std::span<const Isometry<d>> wall_poses() const override { return poses; }
+  const Nodes<d>& nodes() const override { return at; }
+  const Mesh<d>& mesh() const override { return cells; }
+  const Ledger& ledger() const override { return books; }
+  Vec<d> velocity_n(std::size_t node) const override { return at.v[node]; }
+  std::optional<double> pressure_at(const Vec<d>& point) const override {
     if (point(d - 1) > 0) return std::nullopt;
     return -density() * 9.81 * point(d - 1);
   }
-  double potential(const fluid::Vec<d>& point) const override { return gravity * point(d - 1); }
+  double potential(const Vec<d>& point) const override { return gravity * point(d - 1); }
   std::vector<std::pair<std::string, double>> diagnostics() const override {
     if (gravity == 0) return {};
     double energy = 0;
-    const auto volumes = fluid::nodal_volumes(cells, at.x);
+    const auto volumes = nodal_volumes(cells, at.x);
     for (std::size_t i = 0; i < at.size(); ++i) energy += density() * volumes[i] * potential(at.x[i]);
     return {{"gravity_energy", energy}};
   }
   Eigen::MatrixXd added_mass(std::span<const std::size_t> of) const override {
-    fluid::Twist<d> mass = fluid::Twist<d>::Zero();
-    for (int k = 0; k < fluid::freedoms<d>; ++k) mass(k) = 100 * (k + 1 + poses[of[0]].translation()(d - 1));
+    Twist<d> mass = Twist<d>::Zero();
+    for (int k = 0; k < freedoms<d>; ++k) mass(k) = 100 * (k + 1 + poses[of[0]].translation()(d - 1));
     return mass.asDiagonal();
   }
 };
 
 template <int d>
-class DrawnBodies final : public rigid::View<d> {
+class DrawnBodies final : public BodiesView<d> {
  public:
-  std::vector<rigid::BodySpec<d>> specs;
-  std::vector<rigid::BodyState<d>> states;
+  std::vector<BodySpec<d>> specs;
+  std::vector<BodyState<d>> states;
 
   std::size_t size() const override { return specs.size(); }
-  const rigid::BodySpec<d>& spec(std::size_t body) const override { return specs[body]; }
-  const rigid::BodyState<d>& state(std::size_t body) const override { return states[body]; }
+  const BodySpec<d>& spec(std::size_t body) const override { return specs[body]; }
+  const BodyState<d>& state(std::size_t body) const override { return states[body]; }
 };
 
 /// A wedge drop whose state is a function of time.
@@ -63,7 +63,7 @@ class StandInDrop {
   StandInDrop(const StandInDrop&) = delete;
   /// The state at t_n with the step that starts there.
   const RecordInput<2>& at(double time, double dt);
-  static fluid::Surface<2> hull();  ///< body frame
+  static Surface<2> hull();  ///< body frame
 
  private:
   DrawnFluid<2> fluid_;
@@ -78,7 +78,7 @@ class StandInPress {
   explicit StandInPress(int nodes_across = 8);
   StandInPress(const StandInPress&) = delete;
   const RecordInput<3>& at(double time, double dt);
-  static fluid::Surface<3> hull();  ///< body frame
+  static Surface<3> hull();  ///< body frame
 
  private:
   DrawnFluid<3> fluid_;

@@ -9,7 +9,7 @@
 
 #include "fluid/fluid.hpp"
 #include "fluid/initial/initial.hpp"
-#include "fluid/mesh/delaunay.hpp"
+#include "fluid/mesh/delaunay/delaunay.hpp"
 
 namespace splashdown::fluid::scenes {
 

@@ -30,7 +30,7 @@ rule("of coupling, a fluid and bodies know what they implement, in one file each
 rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
 rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
   BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/(accelerators/|stored\\.hpp$)")
-rule("schemes and types are chosen in apps/run/build*.cpp alone" FILES "^apps/" BUT_FILES "^apps/run/build[a-z_]*\\.cpp$"
+rule("schemes and types are chosen in apps/run/build alone" FILES "^apps/" BUT_FILES "^apps/run/build/[a-z_]*\\.cpp$"
   INCLUDES "^((fluid|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
 
 # Rooms within a room.
@@ -49,20 +49,19 @@ rule("shapes know what a body is, not how it moves" FILES "^rigid/shapes/" INCLU
 rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(apps|fluid|rigid|coupling)/" BUT_INCLUDES "^apps/quantity/")
 rule("a scene knows nothing of its run" FILES "^apps/scene/" INCLUDES "^apps/(run|report|check)/")
 rule("what is recorded does not depend on how it is coupled" FILES "^apps/(record|statistics|report)/" INCLUDES "^coupling/")
-rule("records look at views and at the plain data behind them, not at who solves" FILES "^apps/(record|statistics|report)/"
-  INCLUDES "^(fluid|rigid)/" BUT_INCLUDES "^(fluid/(view|nodes|mesh/mesh)|rigid/(view|body))\\.hpp$")
+rule("records look at views, in core, not at who solves" FILES "^apps/(record|statistics|report)/" INCLUDES "^(fluid|rigid)/")
 
 # Libraries, each with one home.
 rule("CGAL stays in fluid/mesh and fluid/initial" FILES "." BUT_FILES "^fluid/(mesh|initial)/" INCLUDES "^(CGAL|boost)/")
 rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/linear" FILES "." BUT_FILES "^fluid/linear/.*\\.cpp$"
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
-rule("threads are the fluid's" FILES "." BUT_FILES "^fluid/" INCLUDES "^tbb/")
+rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")
 rule("Bullet stays in rigid/bullet_world.cpp" FILES "." BUT_FILES "^rigid/bullet_world\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
 rule("VTK stays in apps/record" FILES "." BUT_FILES "^apps/record/" INCLUDES "^vtk")
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
-rule("public headers need Eigen and the standard library alone, fluid/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
-  BUT_FILES "^fluid/(parallel|initial/space_parts|mesh/triangulation_3)\\.hpp$" INCLUDES "[./]"
+rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
+  BUT_FILES "^(core/parallel|fluid/(initial/space_parts|mesh/delaunay/triangulation_3))\\.hpp$" INCLUDES "[./]"
   BUT_INCLUDES "^(core|fluid|rigid|coupling|Eigen)/")
 
 # The line of the first inclusion of a header in a file.

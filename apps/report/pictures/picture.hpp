@@ -1,0 +1,31 @@
+// A plane picture as a figure: colours by pressure, the mesh, the surface, the bodies.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "apps/report/pictures/field.hpp"
+#include "apps/report/pictures/plane_picture.hpp"
+
+namespace splashdown::apps {
+
+/// A piece of the plane [m].
+struct Box {
+  PlanePoint low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
+  void add(const PlanePoint& x) {
+    for (std::size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+  }
+  bool valid() const { return low[0] <= high[0]; }
+  double width() const { return high[0] - low[0]; }
+  double height() const { return high[1] - low[1]; }
+};
+
+/// The figure; its caption ends with the highest pressure.
+FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view,
+                      const std::string& colour_label = "pressure");
+
+/// The axes that gnuplot drew, with the picture between them.
+std::string with_content(const std::string& axes, const FieldFigure& figure);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,156 @@
+#include <algorithm>
+
+#include "apps/run/build/build.hpp"
+#include "apps/scene/geometry.hpp"
+#include "core/geometry.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using rigid::Isometry;
+using rigid::Rotation;
+using rigid::Twist;
+using rigid::Vec;
+
+/// Body frame (origin: centre of mass) to world, when the shape's reference point is at `position`.
+template <int d>
+Isometry<d> body_pose(const Point& position, const Attitude& attitude, const Vec<d>& centre) {
+  return shape_pose<d>(position, attitude) * Eigen::Translation<double, d>(centre);
+}
+
+/// Angles that are small or about one axis, as a vector; in two dimensions its last entry alone.
+template <int d>
+Eigen::Vector3d in_space(const Rotation<d>& rotation) {
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  vector.tail<rigid::rotations<d>>() = rotation;
+  return vector;
+}
+
+Attitude between(const Attitude& a, const Attitude& b, double share) {
+  return {.heading_deg = a.heading_deg + share * (b.heading_deg - a.heading_deg),
+          .pitch_deg = a.pitch_deg + share * (b.pitch_deg - a.pitch_deg),
+          .roll_deg = a.roll_deg + share * (b.roll_deg - a.roll_deg)};
+}
+
+Waypoint between(const Waypoint& a, const Waypoint& b, double time) {
+  const double share = (time - a.time) / (b.time - a.time);
+  return {time, a.position + share * (b.position - a.position), between(a.attitude, b.attitude, share)};
+}
+
+/// Piecewise linear between the waypoints, at rest after the last.
+Waypoint on_path(const std::vector<Waypoint>& path, double time) {
+  const auto next = std::find_if(path.begin(), path.end(), [&](const Waypoint& point) { return point.time > time; });
+  if (next == path.begin()) return path.front();
+  return next == path.end() ? path.back() : between(*(next - 1), *next, time);
+}
+
+template <int d>
+std::function<Isometry<d>(double)> pose_along(const std::vector<Waypoint>& path, const Vec<d>& centre) {
+  return [path, centre](double time) {
+    const auto point = on_path(path, time);
+    return body_pose<d>(point.position, point.attitude, centre);
+  };
+}
+
+template <int d>
+std::function<Isometry<d>(double)> steady_motion(const Isometry<d>& start, const Twist<d>& velocity) {
+  return [start, velocity](double time) {
+    const Rotation<d> angle = velocity.template tail<rigid::rotations<d>>() * time;
+    Isometry<d> pose = start;
+    pose.linear() = splashdown::rotation(angle) * start.linear();
+    pose.pretranslate(velocity.template head<d>() * time);
+    return pose;
+  };
+}
+
+/// Of the centre of mass on the path's first leg, at its beginning.
+template <int d>
+Twist<d> first_velocity(const std::vector<Waypoint>& path, const Vec<d>& centre) {
+  const auto& a = path[0];
+  const auto& b = path[1];
+  const double seconds = b.time - a.time;
+  const Attitude rate{.heading_deg = (b.attitude.heading_deg - a.attitude.heading_deg) / seconds,
+                      .pitch_deg = (b.attitude.pitch_deg - a.attitude.pitch_deg) / seconds,
+                      .roll_deg = (b.attitude.roll_deg - a.attitude.roll_deg) / seconds};
+  const Rotation<d> spin = angular_velocity<d>(a.attitude, rate);
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  arm.head<d>() = rotation<d>(a.attitude) * centre;
+  Twist<d> velocity;
+  velocity << vec<d>((b.position - a.position) / seconds) + in_space<d>(spin).cross(arm).template head<d>(), spin;
+  return velocity;
+}
+
+rigid::Motion motion_of(Motion motion) {
+  switch (motion) {
+    case Motion::fixed:
+      return rigid::Motion::fixed;
+    case Motion::prescribed:
+      return rigid::Motion::prescribed;
+    case Motion::free:
+      break;
+  }
+  return rigid::Motion::free;
+}
+
+}  // namespace
+
+template <int d>
+rigid::BodySpec<d> body_spec(const Body& body) {
+  const auto properties = mass_properties<d>(body);
+  rigid::BodySpec<d> spec;
+  spec.name = body.name;
+  spec.surface = rigid::centred<d>(shape_of<d>(body.shape).surface, properties.centre);
+  spec.mass = properties.mass;
+  spec.inertia = properties.inertia;
+  spec.motion = motion_of(body.motion);
+  const auto names = freedom_names(d);
+  for (std::size_t i = 0; i < spec.free.size(); ++i)
+    spec.free[i] = std::find(body.free.begin(), body.free.end(), names[i]) != body.free.end();
+  spec.pose = body_pose<d>(body.position, body.attitude, properties.centre);
+  spec.velocity << vec<d>(body.velocity), body.spin_deg.tail<rigid::rotations<d>>() * radians;
+  if (body.motion == Motion::prescribed) {
+    if (!body.path.empty()) spec.velocity = first_velocity<d>(body.path, properties.centre);
+    spec.path =
+        body.path.empty() ? steady_motion<d>(spec.pose, spec.velocity) : pose_along<d>(body.path, properties.centre);
+  }
+  return spec;
+}
+
+std::vector<rigid::JointSpec> joint_specs(const Scene& scene) {
+  std::vector<rigid::JointSpec> specs;
+  for (const auto& joint : scene.joints) {
+    const auto type = joint.type == "slider" ? rigid::JointType::slider
+                      : joint.type == "weld" ? rigid::JointType::weld
+                                             : rigid::JointType::hinge;
+    // A weld has no place of its own; the body's reference point is as good as any.
+    const Point point = joint.type == "hinge" ? joint.point : scene.bodies[joint.body].position;
+    specs.push_back({type, joint.body, joint.other, point, joint.axis.normalized()});
+  }
+  return specs;
+}
+
+template <int d>
+std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene) {
+  if (!scene.contact) return {};
+  rigid::ContactSpec<d> spec;
+  if (!scene.tank) return spec;
+  for (int k = 0; k < d; ++k) spec.planes.push_back({vec<d>(scene.tank->min), Vec<d>::Unit(k)});
+  for (int k = 0; k < d; ++k) spec.planes.push_back({vec<d>(scene.tank->max), -Vec<d>::Unit(k)});
+  return spec;
+}
+
+template <int d>
+std::vector<std::unique_ptr<rigid::Force<d>>> body_forces(const Scene& scene) {
+  std::vector<std::unique_ptr<rigid::Force<d>>> forces;
+  if (scene.gravity) forces.push_back(std::make_unique<rigid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
+  return forces;
+}
+
+template rigid::BodySpec<2> body_spec<2>(const Body&);
+template rigid::BodySpec<3> body_spec<3>(const Body&);
+template std::optional<rigid::ContactSpec<2>> contact_spec<2>(const Scene&);
+template std::optional<rigid::ContactSpec<3>> contact_spec<3>(const Scene&);
+template std::vector<std::unique_ptr<rigid::Force<2>>> body_forces<2>(const Scene&);
+template std::vector<std::unique_ptr<rigid::Force<3>>> body_forces<3>(const Scene&);
+
+}  // namespace splashdown::apps

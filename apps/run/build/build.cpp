@@ -1,0 +1,85 @@
+#include "apps/run/build/build.hpp"
+
+#include "coupling/accelerators/quasi_newton.hpp"
+#include "coupling/schemes/steppers.hpp"
+#include "fluid/participant.hpp"
+#include "rigid/participant.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using coupling::CouplingLimits;
+
+std::unique_ptr<coupling::InterfaceTerm> interface_term(const Coupling& coupling) {
+  if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm>();
+  if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm>();
+  return std::make_unique<coupling::NoTerm>();
+}
+
+std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
+  if (coupling.accelerator == "aitken") return std::make_unique<coupling::Aitken>(coupling.relaxation);
+  if (coupling.accelerator == "anderson")
+    return std::make_unique<coupling::Anderson>(coupling.relaxation, static_cast<std::size_t>(coupling.depth));
+  if (coupling.accelerator == "broyden") return std::make_unique<coupling::Broyden>(coupling.relaxation);
+  if (coupling.accelerator == "iqn_ils")
+    return std::make_unique<coupling::IqnIls>(coupling.relaxation, static_cast<std::size_t>(coupling.reuse));
+  if (coupling.accelerator == "probe") return std::make_unique<coupling::Probe>(coupling.relaxation);
+  return std::make_unique<coupling::ConstantRelaxation>(coupling.relaxation);
+}
+
+CouplingLimits limits(const Coupling& coupling) {
+  return {.tolerance = coupling.tolerance,
+          .max_passes = coupling.max_passes,
+          .fixed_passes = coupling.scheme == "staggered" ? (coupling.accelerator == "probe" ? 2 : 1) : 0};
+}
+
+/// Bodies that the fluid cannot move have nothing to agree about: one pass without a term.
+Coupling one_way() { return {.scheme = "staggered", .interface_term = "none"}; }
+
+/// A part for the stepper, and the fluid in it for who looks at it.
+template <int d>
+std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene, World<d>& world) {
+  auto part = std::make_unique<fluid::Participant<d>>(
+      std::make_unique<fluid::Fluid<d>>(fluid_spec<d>(scene), fluid_effects<d>(scene)));
+  world.fluid = &part->fluid();
+  return part;
+}
+
+template <int d>
+std::unique_ptr<coupling::StructurePart> build_bodies(const Scene& scene, World<d>& world) {
+  std::vector<rigid::BodySpec<d>> specs;
+  for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
+  auto part = std::make_unique<rigid::Participant<d>>(std::make_unique<rigid::Bodies<d>>(
+      std::move(specs), body_forces<d>(scene), joint_specs(scene), contact_spec<d>(scene)));
+  world.bodies = &part->bodies();
+  return part;
+}
+
+std::unique_ptr<coupling::Stepper> coupled_stepper(const Coupling& coupling, std::unique_ptr<coupling::FluidPart> fluid,
+                                                   std::unique_ptr<coupling::StructurePart> bodies) {
+  if (coupling.interface_term == "rigid")
+    return std::make_unique<coupling::Simultaneous>(std::move(fluid), std::move(bodies), coupling.max_passes);
+  return std::make_unique<coupling::Partitioned>(std::move(fluid), std::move(bodies), interface_term(coupling),
+                                                 accelerator(coupling), limits(coupling));
+}
+
+}  // namespace
+
+template <int d>
+World<d> build_world(const Scene& scene) {
+  World<d> world;
+  auto fluid = scene.fluid ? build_fluid<d>(scene, world) : nullptr;
+  auto bodies = scene.fluid && scene.bodies.empty() ? nullptr : build_bodies<d>(scene, world);
+  if (!fluid)
+    world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
+  else if (!bodies)
+    world.stepper = std::make_unique<coupling::FluidOnly>(std::move(fluid));
+  else
+    world.stepper = coupled_stepper(scene.coupling.value_or(one_way()), std::move(fluid), std::move(bodies));
+  return world;
+}
+
+template World<2> build_world<2>(const Scene&);
+template World<3> build_world<3>(const Scene&);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <limits>
+
+#include "apps/run/build/build.hpp"
+#include "apps/scene/geometry.hpp"
+#include "fluid/effects/absorber.hpp"
+#include "fluid/effects/viscosity.hpp"
+#include "fluid/mesh/size_field.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+template <int d>
+std::function<fluid::Vec<d>(const fluid::Vec<d>&)> velocity_field(const Region& region) {
+  if (region.velocity.isZero(0) && region.velocity_gradient.isZero(0)) return {};
+  const fluid::Vec<d> velocity = vec<d>(region.velocity), origin = vec<d>(region.velocity_origin);
+  const fluid::Mat<d> gradient = region.velocity_gradient.topLeftCorner<d, d>();
+  return [=](const fluid::Vec<d>& x) -> fluid::Vec<d> { return velocity + gradient * (x - origin); };
+}
+
+template <int d>
+fluid::WallSpec<d> hull(const Body& body) {
+  const auto spec = body_spec<d>(body);
+  return {.name = spec.name, .surface = spec.surface, .pose = spec.pose, .velocity = spec.velocity, .size = body.size};
+}
+
+fluid::SizeSpec size_spec(const Sizes& size) {
+  return {.surface = size.surface,
+          .far = size.far,
+          .growth = size.growth,
+          .wetted_fraction = size.wetted_fraction,
+          .hollow = size.hollow.value_or(std::numeric_limits<double>::infinity()),
+          .hollow_min = size.hollow_min,
+          .curvature = size.curvature};
+}
+
+}  // namespace
+
+template <int d>
+std::vector<HullBend<d>> hull_bends(const Scene& scene, const Body& body) {
+  const fluid::Wall<d> wall(hull<d>(body));
+  const auto sizes = size_spec(scene.fluid->size);
+  std::vector<HullBend<d>> bends;
+  for (const auto& bend : wall.bends())
+    bends.push_back({wall.spec().pose * bend.at, bend.radius,
+                     std::min(body.size, fluid::size_at_bend(sizes, body.size, bend.radius))});
+  return bends;
+}
+
+template <int d>
+fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
+  const auto& liquid = *scene.fluid;
+  fluid::FluidSpec<d> spec;
+  spec.density = liquid.density;
+  spec.size = size_spec(liquid.size);
+  spec.step = {.cfl = scene.time.cfl, .dt_max = scene.time.dt_max};
+  for (const auto& region : liquid.regions) spec.liquids.push_back({outline<d>(region), velocity_field<d>(region)});
+  for (const auto& body : scene.bodies) spec.walls.push_back(hull<d>(body));
+  if (scene.tank) {
+    fluid::WallSpec<d> tank;
+    tank.name = "tank";
+    tank.surface = tank_outline<d>(*scene.tank);
+    tank.size = scene.tank->size;
+    spec.walls.push_back(std::move(tank));
+  }
+  const bool no_slip = liquid.viscosity && liquid.viscosity->walls == "no_slip";
+  for (auto& wall : spec.walls) wall.sticks = no_slip;
+  return spec;
+}
+
+template <int d>
+std::vector<std::unique_ptr<fluid::Effect<d>>> fluid_effects(const Scene& scene) {
+  std::vector<std::unique_ptr<fluid::Effect<d>>> effects;
+  if (scene.gravity) effects.push_back(std::make_unique<fluid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
+  if (scene.fluid->viscosity) effects.push_back(std::make_unique<fluid::Viscosity<d>>(scene.fluid->viscosity->dynamic));
+  if (scene.fluid->absorber)
+    effects.push_back(std::make_unique<fluid::Absorber<d>>(fluid::AbsorberSpec{.from = scene.tank->min.x(),
+                                                                               .to = scene.tank->max.x(),
+                                                                               .width = scene.fluid->absorber->width,
+                                                                               .rate = scene.fluid->absorber->rate}));
+  return effects;
+}
+
+template std::vector<HullBend<2>> hull_bends<2>(const Scene&, const Body&);
+template std::vector<HullBend<3>> hull_bends<3>(const Scene&, const Body&);
+template fluid::FluidSpec<2> fluid_spec<2>(const Scene&);
+template fluid::FluidSpec<3> fluid_spec<3>(const Scene&);
+template std::vector<std::unique_ptr<fluid::Effect<2>>> fluid_effects<2>(const Scene&);
+template std::vector<std::unique_ptr<fluid::Effect<3>>> fluid_effects<3>(const Scene&);
+
+}  // namespace splashdown::apps

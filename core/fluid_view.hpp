@@ -1,0 +1,72 @@
+// What people look at in a fluid: its state at t_n, read only. Records know a fluid by this alone.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/mesh.hpp"
+#include "core/nodes.hpp"
+
+namespace splashdown {
+
+/// A rigid surface that bounds the fluid: a body's hull or the inside of a tank.
+template <int d>
+struct WallSpec {
+  std::string name;
+  /// Wall frame; encloses the solid. A tank is a surface turned inside out (clockwise outline in 2D).
+  Surface<d> surface;
+  Isometry<d> pose = Isometry<d>::Identity();  ///< wall frame to world at t = 0
+  Twist<d> velocity = Twist<d>::Zero();        ///< of the wall frame's origin, at t = 0
+  double size = 0;                             ///< element size at the wall [m]
+  bool sticks = false;                         ///< no slip: the wall drags viscous fluid along (viscosity.hpp)
+};
+
+template <int d>
+struct WallLoad {
+  Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick: acceleration pressure, stresses of effects
+  Wrench<d> repair = Wrench<d>::Zero();    ///< mean over the kick, from the repair impulse
+  double wetted = 0;                       ///< wetted length (2D) or area (3D) [m, m^2]
+  Wrench<d> total() const { return physical + repair; }
+};
+
+/// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D].
+struct Ledger {
+  double volume_initial = 0, volume = 0;
+  double time_integration = 0;  ///< volume change by moving nodes
+  double remesh_created = 0;    ///< volume gained when the boundary was recognised anew
+  double remesh_deleted = 0;    ///< volume lost there (negative)
+  double returned = 0;          ///< volume that came back at the free surface for what these three changed
+  double spray = 0;             ///< volume now carried by separated drops
+  double kinetic_energy = 0, potential_energy = 0;
+  double energy_remesh = 0;  ///< kinetic energy changed by node insertion and removal
+  double energy_repair = 0;  ///< kinetic energy taken by repair impulses
+  double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
+};
+
+template <int d>
+class FluidView {
+ public:
+  virtual ~FluidView() = default;
+  virtual double density() const = 0;                           ///< [kg/m^3]
+  virtual std::span<const WallSpec<d>> walls() const = 0;       ///< as they were made
+  virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n
+  virtual const Nodes<d>& nodes() const = 0;
+  virtual const Mesh<d>& mesh() const = 0;
+  virtual const Ledger& ledger() const = 0;
+  /// Velocity at t_n: mean of the half-step velocities around it.
+  virtual Vec<d> velocity_n(std::size_t node) const = 0;
+  /// Pressure at a point at t_n; nothing where there is no fluid.
+  virtual std::optional<double> pressure_at(const Vec<d>& point) const = 0;
+  /// Potential energy per unit mass at a point [J/kg].
+  virtual double potential(const Vec<d>& point) const = 0;
+  /// What effects say about themselves at t_n: EFFECT_NAME and value, always of the same names.
+  virtual std::vector<std::pair<std::string, double>> diagnostics() const = 0;
+  /// Instantaneous added mass G = B A^-1 B^T of some walls together at t_n [kg, kg m, kg m^2; 2D: per metre]: world
+  /// frame, about the walls' reference points, d(d+1)/2 rows a wall. Of a step that is under way.
+  virtual Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const = 0;
+};
+
+}  // namespace splashdown

@@ -1,0 +1,168 @@
+#include "rigid/contact/hull.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <unsupported/Eigen/BVH>
+
+#include "core/geometry.hpp"
+#include "rigid/shapes/simplex.hpp"
+
+namespace splashdown::rigid {
+
+namespace {
+
+template <int d>
+using Box = Eigen::AlignedBox<double, d>;
+
+/// Boxes of facets or edges.
+template <int d>
+class Tree {
+ public:
+  void build(const std::vector<Box<d>>& boxes) {
+    boxes_ = boxes;
+    std::vector<int> numbers(boxes.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    tree_.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
+  }
+  /// Those that `meets` holds for, in the tree's order. It holds for a box around others if it does for one of them.
+  template <class Meets>
+  std::vector<int> found(Meets meets) const {
+    struct Search {
+      const std::vector<Box<d>>& boxes;
+      Meets meets;
+      std::vector<int> found;
+      bool intersectVolume(const Box<d>& box) const { return meets(box); }
+      bool intersectObject(int number) {
+        if (meets(boxes[static_cast<std::size_t>(number)])) found.push_back(number);
+        return false;
+      }
+    } search{boxes_, meets, {}};
+    if (!boxes_.empty()) Eigen::BVIntersect(tree_, search);
+    return std::move(search.found);
+  }
+
+ private:
+  std::vector<Box<d>> boxes_;
+  Eigen::KdBVH<double, d, int> tree_;
+};
+
+// Directions from one unit vector to another one: their polygon leaves the arc by 0.04 at most.
+std::vector<Eigen::Vector3d> arc(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  constexpr double step = 0.5;
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(from, to);
+  const double angle = Eigen::AngleAxisd(turn).angle();
+  const int parts = std::max(1, static_cast<int>(std::ceil(angle / step)));
+  std::vector<Eigen::Vector3d> all;
+  for (int i = 0; i <= parts; ++i)
+    all.emplace_back(Eigen::Quaterniond::Identity().slerp(static_cast<double>(i) / parts, turn) * from);
+  return all;
+}
+
+}  // namespace
+
+template <int d>
+struct Hull<d>::Boxes {
+  Tree<d> facets, edges;
+};
+
+template <int d>
+Hull<d>::Hull(const Surface<d>& surface)
+    : surface_(&surface), tree_(surface.vertices, surface.facets), boxes_(std::make_unique<Boxes>()) {
+  find_neighbours();
+  if constexpr (d == 3) find_edges();
+  std::vector<Box<d>> boxes;
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    boxes.emplace_back();
+    for (const Vec<d>& corner : facet_corners(surface, f)) boxes.back().extend(corner);
+  }
+  boxes_->facets.build(boxes);
+  boxes.clear();
+  for (const Edge& edge : edges_) {
+    boxes.emplace_back();
+    for (int v : edge.vertices) boxes.back().extend(Vec<d>(surface.vertices.col(v)));
+  }
+  boxes_->edges.build(boxes);
+}
+
+template <int d>
+Hull<d>::~Hull() = default;
+template <int d>
+Hull<d>::Hull(Hull&&) noexcept = default;
+
+template <int d>
+void Hull<d>::find_neighbours() {
+  neighbours_.resize(static_cast<std::size_t>(surface_->vertices.cols()));
+  const auto& facets = surface_->facets;
+  for (Eigen::Index f = 0; f < facets.cols(); ++f)
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b < d; ++b)
+        if (a != b) neighbours_[static_cast<std::size_t>(facets(a, f))].push_back(facets(b, f));
+}
+
+template <>
+void Hull<2>::find_edges() {}
+template <>
+void Hull<3>::find_edges() {
+  struct Side {
+    Eigen::Vector3d normal, into, opposite;
+  };
+  constexpr double flat = 1e-6;  // sine of the turn, below which an edge only divides a face
+  std::map<std::array<int, 2>, Side> waiting;
+  convex_ = true;
+  const auto& x = surface_->vertices;
+  for (Eigen::Index f = 0; f < surface_->facets.cols(); ++f) {
+    const auto corners = facet_corners(*surface_, f);
+    const Eigen::Vector3d normal = area_vector(corners).normalized();
+    for (int k = 0; k < 3; ++k) {
+      const int from = surface_->facets(k, f), to = surface_->facets((k + 1) % 3, f);
+      const Eigen::Vector3d along = (x.col(to) - x.col(from)).normalized();
+      const Side side{normal, normal.cross(along), x.col(surface_->facets((k + 2) % 3, f))};
+      const auto [other, first] = waiting.try_emplace({std::min(from, to), std::max(from, to)}, side);
+      if (first) continue;
+      // The facet falls away from the other one's plane.
+      convex_ = convex_ && other->second.normal.dot(side.into) < flat;
+      if (other->second.normal.dot(side.into) < -flat)
+        edges_.push_back({{from, to},
+                          other->second.normal + side.normal,
+                          {other->second.into, side.into},
+                          arc(other->second.normal, side.normal)});
+    }
+  }
+  // One closed surface without holes through it, by Euler's formula.
+  convex_ =
+      convex_ && surface_->vertices.cols() + surface_->facets.cols() == 2 + static_cast<Eigen::Index>(waiting.size());
+}
+
+template <int d>
+double Hull<d>::distance(const Vec<d>& x, double reach) const {
+  const auto hit = tree_.nearest(x, reach);
+  return hit.facet < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(hit.squared_distance);
+}
+
+template <int d>
+std::vector<int> Hull<d>::facets_near(const Vec<d>& x, double reach) const {
+  auto found = boxes_->facets.found(
+      [&, squared = reach * reach](const Box<d>& box) { return box.squaredExteriorDistance(x) <= squared; });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+template <int d>
+std::vector<int> Hull<d>::all_facets() const {
+  std::vector<int> all(static_cast<std::size_t>(surface_->facets.cols()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+template <int d>
+std::vector<int> Hull<d>::edges_within(const Eigen::AlignedBox<double, d>& place) const {
+  return boxes_->edges.found([&](const Box<d>& box) { return box.intersects(place); });
+}
+
+template class Hull<2>;
+template class Hull<3>;
+
+}  // namespace splashdown::rigid

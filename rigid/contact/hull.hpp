@@ -1,0 +1,54 @@
+// A hull that may touch others: what of it is near a place, in its own frame. Made once a run; a search takes O(log n) and what it
+// finds. Internal to the rigid-body room.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/facet_tree.hpp"
+#include "rigid/types.hpp"
+
+namespace splashdown::rigid {
+
+/// A convex edge between two facets of a solid.
+struct Edge {
+  std::array<int, 2> vertices;
+  Eigen::Vector3d out;                   ///< sum of the facets' normals
+  std::array<Eigen::Vector3d, 2> into;   ///< unit, across the edge, along each facet
+  std::vector<Eigen::Vector3d> normals;  ///< unit, from one facet's to the other's
+};
+
+template <int d>
+class Hull {
+ public:
+  explicit Hull(const Surface<d>& surface);
+  ~Hull();
+  Hull(Hull&&) noexcept;
+
+  const Surface<d>& surface() const { return *surface_; }
+  const std::vector<int>& neighbours(int vertex) const { return neighbours_[static_cast<std::size_t>(vertex)]; }
+  const std::vector<Edge>& edges() const { return edges_; }  ///< in space; none in the plane
+
+  /// From the surface; infinity beyond `reach`.
+  double distance(const Vec<d>& x, double reach) const;
+  bool is_convex() const { return convex_; }  ///< in space; false in the plane
+  /// Facets nearer than `reach`, and some that are hardly farther; ascending.
+  std::vector<int> facets_near(const Vec<d>& x, double reach) const;
+  std::vector<int> all_facets() const;
+  /// Edges that may pass there.
+  std::vector<int> edges_within(const Eigen::AlignedBox<double, d>& place) const;
+
+ private:
+  struct Boxes;
+  void find_neighbours();
+  void find_edges();
+  const Surface<d>* surface_;
+  std::vector<std::vector<int>> neighbours_;  // of vertices
+  std::vector<Edge> edges_;
+  bool convex_ = false;
+  FacetTree<d> tree_;
+  std::unique_ptr<Boxes> boxes_;
+};
+
+}  // namespace splashdown::rigid
