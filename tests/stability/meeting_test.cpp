@@ -93,5 +93,33 @@ TEST(Drop, that_meets_a_plate_keeps_its_volume_and_makes_no_energy) {
   EXPECT_GT(std::abs(stepper.fluid().ledger().returned), 5e-3 * initial) << "nothing was lost: this tests nothing";
 }
 
+// Half a dozen elements at many times the speed of the water they fall into: what joins them becomes theirs with its own
+// velocity, not with the drop's.
+TEST(Drop, that_falls_into_a_pool_lends_it_no_energy) {
+  const double radius = 0.02, h = 0.02, V = 20;
+  fluid::FluidSpec<2> spec;
+  spec.density = water;
+  spec.size = {.surface = h, .far = 2 * h, .growth = 0.2};
+  spec.step.dt_max = h / V;
+  const auto tank = fluid::scenes::rectangle({-0.3, -0.2}, {0.3, 0.4});
+  spec.walls.push_back(fluid::scenes::wall("tank", fluid::scenes::turned_inside_out(tank), 2 * h));
+  spec.liquids.push_back({fluid::scenes::rectangle({-0.3, -0.2}, {0.3, 0}), {}});
+  spec.liquids.push_back({fluid::scenes::ellipse(radius, radius, 32, Vec(0, radius + 0.5 * h)),
+                          [=](const Vec&) { return Vec(0.5 * V, -V); }});
+  coupling::scenes::Watched<2> stepper(std::make_unique<fluid::Fluid<2>>(spec, fluid::scenes::no_effects()));
+  double dt = 0.01 * h / V;
+  std::optional<double> energy;
+  const double end = 8 * radius / V;
+  while (stepper.time() < end) {
+    dt = std::min(stepper.stable_dt(), 1.5 * dt);
+    ASSERT_TRUE(coupling::scenes::attempt_halving(stepper, dt, 20).ok()) << stepper.time();
+    stepper.commit();
+    const double now = stepper.fluid().ledger().kinetic_energy;
+    if (!energy) energy = now;
+    ASSERT_LE(now, *energy * (1 + 1e-3)) << "at " << stepper.time() / end;
+  }
+  EXPECT_LT(stepper.fluid().ledger().kinetic_energy, 0.9 * *energy) << "it did not get there";
+}
+
 }  // namespace
 }  // namespace splashdown
