@@ -63,8 +63,8 @@ Status Fluid<d>::State::no_inverted_elements() const {
 //
 //   T(v) - max(T(v_0), T(v*)) + sum_w I_w . (s_w* + s_w) / 2 - sum_i m_i (u_i - v_i) . u_i <= share of the energies in it
 //
-// I_w: impulse on wall w; v_0: before the repair, v*: before the pressure, v: after the pressure; u: after the motion along walls, which may take nodes along; the lesser of
-// T(v), T(u).
+// I_w: impulse on wall w; v_0: before the repair, v*: before the pressure, v: after the pressure; u: after the motion along
+// walls, which may take nodes along; the lesser of T(v), T(u).
 template <int d>
 Status Fluid<d>::State::no_energy_from_nowhere() const {
   double given = 0;

@@ -15,17 +15,24 @@
 namespace splashdown::fluid {
 namespace {
 
-// Where films turn over, cells count as less than nothing, nodes as nothing.
 template <int d>
-void share_volumes(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around) {
-  std::vector<double> share(mesh.cells.size());
+std::vector<double> volumes_around(const Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around) {
+  std::vector<double> volumes(nodes.size(), 0.0), share(mesh.cells.size());
   in_parallel(share.size(), [&](std::size_t c) { share[c] = volume<d>(corners(nodes.x, mesh.cells[c])) / (d + 1); });
   in_parallel(nodes.size(), [&](std::size_t i) {
+    for (const auto [c, k] : around.around(i)) volumes[i] += share[c];
+  });
+  return volumes;
+}
+
+// Where films turn over, cells count as less than nothing, nodes as nothing.
+template <int d>
+void carry(Nodes<d>& nodes, std::span<const double> volumes) {
+  in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.spray[i]) return;
-    double now = 0;
-    for (const auto [c, k] : around.around(i)) now += share[c];
-    nodes.owed[i] += nodes.volume[i] - std::max(0.0, now);
-    nodes.volume[i] = std::max(0.0, now);
+    const double now = std::max(0.0, volumes[i]);
+    nodes.owed[i] += nodes.volume[i] - now;
+    nodes.volume[i] = now;
   });
 }
 
@@ -157,11 +164,10 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   nodes.v = s.moved.u;
   nodes.tie = s.moved.tie;
   const WallsAt<d> arrived{s.walls, poses};
-  share_volumes(nodes, s.work.mesh, s.equation.around());
+  carry<d>(nodes, volumes_around(nodes, s.work.mesh, s.equation.around()));
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
   const double moved = enclosed_volume(s.work.mesh.boundary, nodes.x);
-  return_volume(nodes, s.work.mesh, arrived, s.free_water);
-  share_volumes(nodes, s.work.mesh, s.equation.around());
+  carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water));
   s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
   ventilate<d>(nodes, s.work.h, s.work.mesh, arrived, s.s_after, s.spec.density, s.gravity().norm());
   ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);

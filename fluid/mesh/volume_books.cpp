@@ -88,7 +88,8 @@ void keep_order(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::vector<V
 }  // namespace
 
 template <int d>
-void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, const FreeWater<d>& free) {
+std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
+                                  const FreeWater<d>& free) {
   const std::size_t count = nodes.size();
   const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
   const FreeSurface<d> surface(nodes, mesh);
@@ -114,16 +115,17 @@ void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls
   }
   keep_order(mesh, nodes.x, moved);
   nodes.x = std::move(moved);
-  const std::vector<double> now = nodal_volumes(mesh, nodes.x);
+  std::vector<double> now = nodal_volumes(mesh, nodes.x);
   const auto moments = free.moments(volumes, nodes.v);
   for (std::size_t i = 0; i < count; ++i)
     if (now[i] > volumes[i]) {
       const Vec<d> w = free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>::Zero();
       nodes.v[i] = w + std::sqrt(std::max(0.0, volumes[i]) / now[i]) * (nodes.v[i] - w);
     }
+  return now;
 }
 
-template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
-template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
+template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
+template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
 
 }  // namespace splashdown::fluid

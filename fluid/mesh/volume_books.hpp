@@ -13,6 +13,8 @@
 // spray included, is the volume that the water began with, to roundoff.
 #pragma once
 
+#include <vector>
+
 #include "fluid/mesh/free_water.hpp"
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/mesh/recognise.hpp"
@@ -20,13 +22,15 @@
 
 namespace splashdown::fluid {
 
-/// Moves free nodes of the surface of `mesh` by what is owed, Nodes::volume + Nodes::owed of before less the volume of the cells now,
-/// and sets Nodes::owed so that this sum is kept. Nodes turn no cells over and enter no walls; tied ones stay on theirs, and water that walls
-/// enclose on all sides has no room: it gets nothing back.
+/// Moves free nodes of the surface of `mesh` by what is owed, Nodes::volume + Nodes::owed of before less the volume of the
+/// cells now, and sets Nodes::owed so that this sum is kept; returns the volume around each node then [m^d]. Nodes turn no
+/// cells over and enter no walls; tied ones stay on theirs, and water that walls enclose on all sides has no room: it gets
+/// nothing back.
 template <int d>
-void return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, const FreeWater<d>& free);
+std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
+                                  const FreeWater<d>& free);
 
-extern template void return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
-extern template void return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
+extern template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
+extern template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
 
 }  // namespace splashdown::fluid
