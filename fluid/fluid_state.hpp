@@ -42,21 +42,13 @@ struct Correction {
   std::vector<Twist<d>> walls;
   Eigen::VectorXd answer;
 
-  /// r^T A^-1 r
-  double size() const { return of(residual).dot(of(impulse)); }
-  /// The share of this correction after which the residual, r at its start and `next` at its end, is least in that norm;
-  /// all of it if the residual did not feel it.
-  double best_share(const Correction& next) const {
-    const Eigen::VectorXd taken = of(residual) - of(next.residual);
-    const double most = taken.dot(of(impulse) - of(next.impulse)), felt = taken.dot(of(impulse));
-    return most > felt ? std::max(0.0, felt / most) : 1.0;
-  }
-  /// this + share (other - this)
-  void approach(const Correction& other, double share) {
-    of(residual) += share * (of(other.residual) - of(residual));
-    of(impulse) += share * (of(other.impulse) - of(impulse));
-    for (std::size_t w = 0; w < walls.size(); ++w) walls[w] += share * (other.walls[w] - walls[w]);
-    answer += share * (other.answer - answer);
+  /// r^T A^-1 r'
+  double dot(const Correction& other) const { return of(residual).dot(of(other.impulse)); }
+  void add(double share, const Correction& other) {
+    of(residual) += share * of(other.residual);
+    of(impulse) += share * of(other.impulse);
+    for (std::size_t w = 0; w < walls.size(); ++w) walls[w] += share * other.walls[w];
+    answer += share * other.answer;
   }
 
  private:
@@ -71,13 +63,12 @@ struct Correction {
 // What one solve works with.
 template <int d>
 struct Trial {
-  std::vector<Vec<d>> v;                      // of nodes, before the pressure
-  typename FreeWater<d>::Moments free_water;  // what it has before the pressure
-  std::vector<Twist<d>> s_before;             // of walls, repaired
-  std::vector<Twist<d>> s_unloaded;           // of walls, before the pressure
-  std::vector<Vec<d>> x_mid;                  // where a motion is judged
-  std::vector<double> r, repaired;            // residual, repair impulse
-  Correction<d> last, next;
+  std::vector<Vec<d>> v;                         // of nodes, before the pressure
+  typename FreeWater<d>::Moments free_water;     // what it has before the pressure
+  std::vector<Twist<d>> s_before;                // of walls, repaired
+  std::vector<Twist<d>> s_unloaded;              // of walls, before the pressure
+  std::vector<Vec<d>> x_mid;                     // where a motion is judged
+  std::vector<double> r, repaired;               // residual, repair impulse
   std::vector<Wrench<d>> on_walls;               // impulses of effects
   std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
   Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
@@ -158,6 +149,8 @@ struct Fluid<d>::State {
   Status predict(const MotionDrive& drive);
   Status solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous);
   Status correct(std::span<const double> previous);
+  void move_nodes();
+  Status what_is_left(std::span<const double> previous, Correction<d>& left);
   void evaluate_loads();
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
   void apply_body_impulse(const Eigen::VectorXd& impulse);

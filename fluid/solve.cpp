@@ -1,8 +1,10 @@
 // The motion over a step: repair, effects, pressure, corrections, and what they load walls with.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "fluid/fluid_state.hpp"
+#include "fluid/linear/conjugate_residual.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
@@ -12,6 +14,8 @@ constexpr int repairs = 2;
 // Tolerances of iterative solves. Each pass of the repair and of the corrections leaves a tenth of the residual anyhow;
 // the pressure solve takes out what the repair leaves of the flux, the corrections what the pressure solve leaves.
 constexpr double closely = 1e-4, roughly = 1e-2;
+// Of a velocity: what sums over its neighbours round off. Corrections below it have no direction.
+constexpr double roundoff = 1e-12;
 
 }  // namespace
 
@@ -150,37 +154,48 @@ Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::spa
   return {};
 }
 
-// The matrix stands for what `accelerate` and `move` make of an impulse, which a correction leaves a small part of the
-// residual of. Worn films and slivers may be beyond it: there a correction overshoots, and the next would the more. Such
-// a pair counts with the weights that leave least (Anderson 1965, depth one).
+// The motion that the impulses found so far give the nodes.
+template <int d>
+void Fluid<d>::State::move_nodes() {
+  v_after = trial.v;
+  equation.accelerate(phi, v_after);
+  wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
+}
+
+// The volume that this motion creates, and what it asks for.
+template <int d>
+Status Fluid<d>::State::what_is_left(std::span<const double> previous, Correction<d>& left) {
+  in_parallel(trial.v.size(), [&](std::size_t i) { trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]); });
+  equation.motion_residual(trial.x_mid, moved.u, left.residual);
+  equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides,
+                          left.residual);
+  lag(left.residual, previous, phi);
+  left.impulse = left.residual;
+  left.walls.assign(walls.size(), Twist<d>::Zero());
+  if (!equation.solve(left.impulse, roughly)) return {"the pressure solve failed"};
+  left.answer = equation.respond(left.impulse, left.walls, Eigen::VectorXd::Zero(equation.motions()));
+  return {};
+}
+
+// The matrix stands for what `accelerate` and `move` make of an impulse, and is the preconditioner of what they make of it.
 template <int d>
 Status Fluid<d>::State::correct(std::span<const double> previous) {
-  Correction<d>& last = trial.last;
-  Correction<d>& next = trial.next;
-  const std::size_t count = trial.v.size();
-  for (int k = 0;; ++k) {
-    v_after = trial.v;
-    equation.accelerate(phi, v_after);
-    wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
-    if (k == corrections<d>) break;
-    in_parallel(count, [&](std::size_t i) { trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]); });
-    equation.motion_residual(trial.x_mid, moved.u, next.residual);
-    equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides,
-                            next.residual);
-    lag(next.residual, previous, phi);
-    next.impulse = next.residual;
-    next.walls.assign(walls.size(), Twist<d>::Zero());
-    if (!equation.solve(next.impulse, roughly)) return {"the pressure solve failed"};
-    next.answer = equation.respond(next.impulse, next.walls, Eigen::VectorXd::Zero(equation.motions()));
-    if (k > 0 && next.size() > last.size()) {
-      const double kept = last.best_share(next);
-      apply(last, kept - 1);
-      last.approach(next, kept);
-    } else {
-      std::swap(last, next);
-    }
-    apply(last, 1);
+  Correction<d> left;
+  move_nodes();
+  if (auto status = what_is_left(previous, left); !status.ok()) return status;
+  const double least = roundoff * roundoff * equation.kinetic_energy(trial.v);
+  ConjugateResidual<Correction<d>> iteration(left);
+  for (int k = 1; k < corrections<d> && iteration.size() > least; ++k) {
+    const Correction<d> tried = iteration.left();
+    apply(tried, 1);
+    move_nodes();
+    if (auto status = what_is_left(previous, left); !status.ok()) return status;
+    iteration.step(left);
+    apply(tried, -1);
+    apply(iteration.last(), 1);
   }
+  apply(iteration.left(), std::clamp(iteration.share(), 0.0, 1.0));
+  move_nodes();
   return {};
 }
 

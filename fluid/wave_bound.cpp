@@ -30,10 +30,10 @@ double wave_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const Vec<d>& gravity
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (in_bulk[i] && level[i] > 0 && nodes.volume[i] >= lightest_on_surface * std::pow(measure[i], d / (d - 1.0)))
       most = std::max(most, level[i] / nodes.volume[i]);
-  // M^-1 = (2 - M_L^-1 M_C) M_L^-1, and the eigenvalues of M_L^-1 M_C are 1/(d+2) at least. The leapfrog is stable up to 2; at
-  // the bound itself a mode is neither damped nor bounded, hence a margin.
+  // M^-1 = (1 + z + 2 z^2) M_L^-1, z (d+1)/(d+2) at most. The leapfrog is stable up to 2; at the bound itself a mode is neither
+  // damped nor bounded, hence a margin.
   constexpr double margin = 0.9;
-  return margin * 2 / std::sqrt((2 - 1.0 / (d + 2)) * g * most);
+  return margin * 2 / std::sqrt(inverse_mass(shortest<d>) * g * most);
 }
 
 template double wave_dt(const Nodes<2>&, const Mesh<2>&, const Vec<2>&);

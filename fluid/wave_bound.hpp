@@ -8,7 +8,7 @@ namespace splashdown::fluid {
 
 /// 2 / omega, omega an upper bound of the highest frequency that the water's weight gives to its free surface:
 ///
-///   omega^2 = (2 - 1/(d+2)) max over surface nodes of g b_i / m_i
+///   omega^2 = (1 + z + 2 z^2) max over surface nodes of g b_i / m_i,  z = (d+1)/(d+2)
 ///
 /// m_i the node's volume, b_i a d-th of the area of the surface around it, seen along gravity. Infinite without gravity.
 /// Left out: surfaces that hang, sheets, and spikes, which carry no pressure and fly.

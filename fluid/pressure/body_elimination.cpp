@@ -1,11 +1,27 @@
 // Bodies that the pressure equation solves for: eliminated on the factor, and what they get of a solution.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/dense.hpp"
+#include "fluid/linear/conjugate_residual.hpp"
 #include "fluid/pressure/pressure.hpp"
 
 namespace splashdown::fluid {
+namespace {
+
+// What is left of a flux, and the impulse that it asks for.
+struct Left {
+  Eigen::VectorXd residual, impulse;
+
+  double dot(const Left& other) const { return residual.dot(other.impulse); }
+  void add(double share, const Left& other) {
+    residual += share * other.residual;
+    impulse += share * other.impulse;
+  }
+};
+
+}  // namespace
 
 template <int d>
 bool PressureEquation<d>::add_bodies() {
@@ -150,6 +166,29 @@ Eigen::MatrixXd PressureEquation<d>::interface_slope(std::span<const std::size_t
   return slope;
 }
 
+// The impulse that takes a flux out, with the corrections of a step.
+template <int d>
+std::optional<Eigen::VectorXd> PressureEquation<d>::corrected(LinearSolver& solver, const Eigen::VectorXd& flux) const {
+  const auto asks_for = [&](const Eigen::VectorXd& residual, Left& left) {
+    left = {residual, residual};
+    return residual.size() == 0 || solver.solve({left.impulse.data(), static_cast<std::size_t>(size())}, 1);
+  };
+  Left left;
+  if (!asks_for(flux, left)) return std::nullopt;
+  Eigen::VectorXd impulse = left.impulse;
+  if (!asks_for(flux - taken_by(impulse), left)) return std::nullopt;
+  ConjugateResidual<Left> iteration(left);
+  constexpr double roundoff = 1e-12;  // of sums over neighbours
+  const double least = roundoff * roundoff * flux.dot(impulse);
+  for (int k = 1; k < corrections<d> && iteration.size() > least; ++k) {
+    const Eigen::VectorXd tried = impulse + iteration.left().impulse;
+    if (!asks_for(flux - taken_by(tried), left)) return std::nullopt;
+    iteration.step(left);
+    impulse += iteration.last().impulse;
+  }
+  return impulse + std::clamp(iteration.share(), 0.0, 1.0) * iteration.left().impulse;
+}
+
 template <int d>
 Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
   constexpr int m = freedoms<d>;
@@ -166,13 +205,11 @@ Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> 
     assemble(water);
     without.factor(water);
   }
-  Eigen::MatrixXd impulses = Eigen::MatrixXd::Zero(size(), count);
-  for (int pass = 0; pass <= corrections<d> && flux.size() > 0; ++pass) {
-    Eigen::MatrixXd left = flux;
-    for (Eigen::Index k = 0; k < count && pass > 0; ++k) left.col(k) -= taken_by(impulses.col(k));
-    if (!solver.solve({left.data(), static_cast<std::size_t>(left.size())}, static_cast<int>(count)))
-      return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
-    impulses += left;
+  Eigen::MatrixXd impulses(size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    std::optional<Eigen::VectorXd> answer = corrected(solver, flux.col(k));
+    if (!answer) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
+    impulses.col(k) = *answer;
   }
   const Eigen::MatrixXd G = algebra::transposed_product(flux, impulses);
   return 0.5 * (G + G.transpose());

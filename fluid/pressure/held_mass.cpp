@@ -51,14 +51,14 @@ void HeldMass<d>::hold(std::span<Vec<d>> v, std::span<const Twist<d>> s) const {
   for (const HeldNode<d>& h : held_) v[h.node] += h.directions * (rigid_velocity<d>(s[h.wall], h.arm) - v[h.node]);
 }
 
-// The transpose of the acceleration a(phi) = (2 - M_L^-1 M_C) M_L^-1 f(phi), applied to sum_i N_i^T P_i m_i at the held
-// nodes: two rings of cells around them.
+// The transpose of the acceleration a(phi) = (1 + z + 2 z^2) M_L^-1 f(phi), z = 1 - M_L^-1 M_C, applied to sum_i N_i^T P_i m_i
+// at the held nodes: three rings of cells around them.
 template <int d>
 std::vector<typename HeldMass<d>::Column> HeldMass<d>::load(std::size_t wall, const AccelerationWeights<d>& w) const {
   const auto& cells = w.mesh.cells;
   std::vector<int> slot(w.x.size(), -1);  // of nodes that a held one's acceleration depends on
   std::vector<int> ring;
-  std::vector<int> near, all;  // cells around held nodes, around those cells' nodes
+  std::vector<int> near, all;  // cells around held nodes and their neighbours, around those cells' nodes
   auto take = [&](int n) {
     if (slot[n] < 0) slot[n] = static_cast<int>(ring.size()), ring.push_back(n);
   };
@@ -69,19 +69,28 @@ std::vector<typename HeldMass<d>::Column> HeldMass<d>::load(std::size_t wall, co
     found.erase(std::unique(found.begin(), found.end()), found.end());
   };
   for (int k = first_[wall]; k < first_[wall + 1]; ++k) take(held_[k].node);
-  gather(near);
-  for (int c : near)
-    for (int n : cells[c]) take(n);
+  for (int k = 0; k < 2; ++k) {
+    near.clear();
+    gather(near);
+    for (int c : near)
+      for (int n : cells[c]) take(n);
+  }
 
-  std::vector<Lever> of_held(ring.size(), Lever::Zero()), weight(ring.size());
+  std::vector<Lever> of_held(ring.size(), Lever::Zero());
   for (int k = first_[wall]; k < first_[wall + 1]; ++k)
     of_held[slot[held_[k].node]] += mass_[k] * lever(held_[k].arm) * held_[k].directions;
-  for (std::size_t i = 0; i < ring.size(); ++i) weight[i] = 2 * of_held[i];
-  for (int c : near) {
-    Lever sum = Lever::Zero();
-    for (int n : cells[c]) sum += w.per_nodal_mass[n] * of_held[slot[n]];
-    for (int n : cells[c]) weight[slot[n]] -= w.cell_mass_share[c] * (sum + w.per_nodal_mass[n] * of_held[slot[n]]);
-  }
+  auto swept = [&](std::vector<Lever> u) {  // (1 - M_C M_L^-1) u
+    const std::vector<Lever> before = u;
+    for (int c : near) {
+      Lever sum = Lever::Zero();
+      for (int n : cells[c]) sum += w.per_nodal_mass[n] * before[slot[n]];
+      for (int n : cells[c]) u[slot[n]] -= w.cell_mass_share[c] * (sum + w.per_nodal_mass[n] * before[slot[n]]);
+    }
+    return u;
+  };
+  const std::vector<Lever> once = swept(of_held), twice = swept(once);
+  std::vector<Lever> weight(ring.size());
+  for (std::size_t i = 0; i < ring.size(); ++i) weight[i] = of_held[i] + once[i] + 2 * twice[i];
   for (std::size_t i = 0; i < ring.size(); ++i) weight[i] *= w.per_nodal_mass[ring[i]];
 
   const std::size_t moved = ring.size();

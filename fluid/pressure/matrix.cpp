@@ -28,15 +28,18 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
 template <int d>
 void PressureEquation<d>::measure(double density) {
   const std::size_t count = nodes_->size();
+  density_ = density;
   lumped_.assign(count, 0.0);
   gradients_.resize(mesh_->cells.size());
   per_mass_.resize(mesh_->cells.size());
+  share_of_mass_.resize(mesh_->cells.size());
   rate_.resize(mesh_->cells.size());
   in_parallel(mesh_->cells.size(), [&](std::size_t c) {
     const auto at = corners(nodes_->x, mesh_->cells[c]);
     gradients_[c] = volume_gradients<d>(at);
     const double volume = (at(d) - at(0)).dot(gradients_[c].col(d));
     per_mass_[c] = 1 / (density * volume);
+    share_of_mass_[c] = density * volume / (d + 2);
     rate_[c] = volume / (d + 1);
   });
   in_parallel(count, [&](std::size_t i) {
@@ -49,10 +52,13 @@ void PressureEquation<d>::measure(double density) {
     for (int n : mesh_->cells[c]) rate_[c] = std::max(rate_[c], lumped_[n]);
   });
   per_nodal_mass_.resize(count);
+  swept_share_.resize(count);
   in_parallel(count, [&](std::size_t i) {
     double heaviest = 0;
     for (const auto [c, k] : around_.around(i)) heaviest = std::max(heaviest, rate_[c]);
-    per_nodal_mass_[i] = 1 / (density * (d + 1) * std::max(lumped_[i], lightest * heaviest));
+    const double resists = std::max(lumped_[i], lightest * heaviest);
+    per_nodal_mass_[i] = resists > 0 ? 1 / (density * (d + 1) * resists) : 0.0;
+    swept_share_[i] = resists > 0 ? 1 - lumped_[i] / ((d + 2) * resists) : 0.0;
   });
   free_area_.assign(count, Vec<d>::Zero());
   free_measure_.assign(count, 0.0);
@@ -133,9 +139,7 @@ void PressureEquation<d>::hold_mass(std::vector<HeldNode<d>> held, double densit
   held_.build(std::move(held), modes_.size(), density, lumped_);
   held_modes_.assign(modes_.size(), {});
   if (held_.empty()) return;
-  std::vector<double> share(per_mass_.size());
-  for (std::size_t c = 0; c < share.size(); ++c) share[c] = 1 / ((d + 2) * per_mass_[c]);
-  const AccelerationWeights<d> weights{*mesh_, nodes_->x, around_, gradients_, share, per_nodal_mass_};
+  const AccelerationWeights<d> weights{*mesh_, nodes_->x, around_, gradients_, share_of_mass_, per_nodal_mass_};
   for (std::size_t w = 0; w < modes_.size(); ++w) {
     if (!response_.moves(w)) continue;
     for (const auto& column : held_.load(w, weights))

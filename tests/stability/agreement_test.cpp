@@ -130,7 +130,7 @@ TEST(Accelerators, lead_to_one_motion) {
 
 TEST(InterfaceTerms, lead_to_one_motion_but_for_the_error_of_the_mesh) {
   // The corrections of the pressure are truncated, and what they leave depends on the term: a part of the error of the
-  // mesh, gone with it, whatever the step.
+  // mesh, gone with it, whatever the step. Below it lies what passes leave: 60 tolerances a step, as above.
   const auto rise = [](const Scheme& s, double h) -> Eigen::Vector2d {
     return velocities(*released(s, 0.1, h), 5).back().head<2>();
   };
@@ -138,9 +138,10 @@ TEST(InterfaceTerms, lead_to_one_motion_but_for_the_error_of_the_mesh) {
   const Eigen::Vector2d coarse = rise(exact, 0.12), middle = rise(exact, 0.06), fine = rise(exact, 0.03);
   for (const auto& s : {schemes[1], schemes[3], schemes[8]}) {
     const double at_coarse = (rise(s, 0.12) - coarse).norm(), at_middle = (rise(s, 0.06) - middle).norm();
+    const double of_passes = 5 * 60 * tolerance * middle.norm();
     EXPECT_LE(at_coarse, (coarse - middle).norm()) << s.name;
     EXPECT_LE(at_middle, (middle - fine).norm()) << s.name;
-    EXPECT_LE(at_middle, at_coarse / 4) << s.name << ": of second order";
+    EXPECT_LE(at_middle, at_coarse / 4 + of_passes) << s.name << ": of second order";
   }
 }
 

@@ -54,12 +54,20 @@ TEST(Baseline, with_relaxation_fails_for_the_next_lighter_body) {
   EXPECT_FALSE(first_step(0.1, 1e-3, 0.4).ok());
 }
 
-TEST(Baseline, of_a_light_body_dropped_on_water_is_refused_where_the_rigid_term_takes_one_pass) {
-  for (double ratio : {1.0 / 3, 0.1, 0.01}) {
+// An accelerated one converges where the water answers almost linearly: the later the lighter the body, and not at all.
+TEST(Baseline, of_a_light_body_dropped_on_water_takes_ever_more_passes_and_fails_where_the_rigid_term_takes_one) {
+  const auto passes = [](double ratio, auto... term) {
     const auto scene = scenes::wedge_drop(ratio * 36, 0.001, 0.02);  // 36 kg/m: the wedge full of water
-    EXPECT_EQ(scenes::run(*scenes::coupled(scene, std::make_unique<coupling::NoTerm>()), 25), -1) << ratio;
-    EXPECT_EQ(scenes::run(*scenes::coupled(scene), 25), 1) << ratio;
+    return scenes::run(*scenes::coupled(scene, std::move(term)...), 25);
+  };
+  int before = 1;
+  for (double ratio : {1.0 / 3, 0.1}) {
+    const int now = passes(ratio, std::make_unique<coupling::NoTerm>());
+    EXPECT_GT(now, before) << ratio;
+    before = now;
   }
+  for (double ratio : {0.01, 1e-3}) EXPECT_EQ(passes(ratio, std::make_unique<coupling::NoTerm>()), -1) << ratio;
+  for (double ratio : {1.0 / 3, 0.1, 0.01, 1e-3}) EXPECT_EQ(passes(ratio), 1) << ratio;
 }
 
 }  // namespace

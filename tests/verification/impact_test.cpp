@@ -40,14 +40,19 @@ Impact impact(double mass, double size, double dt, double growth = 0.1) {
 double added_mass_of(const Impact& i, double mass) { return mass * (-1 / i.velocity - 1); }
 
 TEST(FlatPlate, converges_to_the_impulse_of_open_water) {
-  // A tank thirty half widths to each side: blockage (pi^2 / 24) (c / L)^2 ~ 5e-4 of M_a. The size field is
-  // refined as a whole: with a constant growth, h over the distance from the edge would stay.
-  const std::array size{0.02, 0.01, 0.005};
-  std::array<double, 3> error;
+  // A tank thirty half widths to each side: blockage (pi^2 / 24) (c / L)^2 ~ 5e-4 of M_a. The size field is refined as a
+  // whole: with a constant growth, h over the distance from the edge would stay. Where the edge's elements lie moves the
+  // error of a mesh by a quarter, so that a line through those of several says what a size is worth.
+  const std::array size{0.01, 0.009, 0.008, 0.007, 0.006, 0.005, 0.0045, 0.004};
+  std::array<double, size.size()> error;
   for (std::size_t i = 0; i < size.size(); ++i)
     error[i] = added_mass_of(impact(open_water, size[i], 1e-5, 10 * size[i]), open_water) / open_water - 1;
-  EXPECT_GE(order_of(size, error), 1 - 0.2) << error[0] << ' ' << error[1] << ' ' << error[2];
-  EXPECT_LE(std::abs(error[2]), 0.01);
+  const double order = order_of(size, error);
+  EXPECT_GE(order, 1 - 0.2) << testing::PrintToString(error);
+  double at_hundred_elements = 0;  // in c
+  for (std::size_t i = 0; i < size.size(); ++i)
+    at_hundred_elements += std::abs(error[i]) * std::pow(c / 100 / size[i], order) / size.size();
+  EXPECT_LE(at_hundred_elements, 0.01) << testing::PrintToString(error);
 }
 
 TEST(FlatPlate, velocity_jumps_as_the_masses_say) {

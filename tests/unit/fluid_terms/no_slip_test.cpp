@@ -22,7 +22,7 @@ TEST(NoSlip, still_water_stays_still) {
 
 // Fastest node on the floor, over the fastest of all. Beside the surface the contact line, which slips, takes its neighbours along.
 double slip_over_speed(bool sticks, double viscosity) {
-  auto stepper = testing::water(Basin{.size = 0.1, .amplitude = 0.05, .sticks = sticks}, testing::gravity(),
+  auto stepper = testing::water(Basin{.size = 0.05, .amplitude = 0.05, .sticks = sticks}, testing::gravity(),
                                 std::make_unique<Viscosity<2>>(viscosity));
   double on_wall = 0, fastest = 0;
   EXPECT_TRUE(testing::run(stepper, 0.2, [&](const auto& fluid, double) {
@@ -37,10 +37,10 @@ double slip_over_speed(bool sticks, double viscosity) {
   return on_wall / fastest;
 }
 
-// The layer that a wall stops is (nu t)^(1/2) thick: 0.14 m with 100 Pa s, and 0.4 mm with 1e-3. Water slips on a layer of
-// h / 8, a tenth of it.
+// The layer that a wall stops is (nu t)^(1/2) thick: 0.14 m with 100 Pa s, three elements, and 0.4 mm with 1e-3. Water slips on
+// a layer of h / 8, a twentieth of it, and more in the first steps, when the layer is thin.
 TEST(NoSlip, water_sticks_where_elements_resolve_its_layer_and_slips_where_they_do_not) {
-  EXPECT_LT(slip_over_speed(true, 100), 0.3 * slip_over_speed(false, 100));
+  EXPECT_LT(slip_over_speed(true, 100), 0.15 * slip_over_speed(false, 100));
   const double free = slip_over_speed(false, 1e-3);
   EXPECT_NEAR(slip_over_speed(true, 1e-3), free, 0.01 * free);
 }
