@@ -54,6 +54,7 @@ struct Nodes {
   std::vector<int> vertex;      ///< number in the last triangulation, -1: was not there
   std::vector<double> volume;   ///< share of the cells around it after the last move; spray keeps its own [m^d]
   std::vector<double> owed;     ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
+  std::vector<int> part;        ///< which water of the last mesh it belonged to (parts_of), -1: was not there
   std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
 
   std::size_t size() const { return x.size(); }
@@ -69,6 +70,7 @@ struct Nodes {
     vertex.push_back(-1);
     volume.push_back(0);
     owed.push_back(0);
+    part.push_back(-1);
     inherited.emplace_back();
     return static_cast<int>(x.size()) - 1;
   }
@@ -93,7 +95,7 @@ struct Nodes {
       values.swap(picked);
     };
     pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex);
-    pick(volume), pick(owed), pick(inherited);
+    pick(volume), pick(owed), pick(part), pick(inherited);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "core/facet_tree.hpp"
 #include "fluid/mesh/parts.hpp"
@@ -9,7 +10,9 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr int few = 4;  // elements across a part whose impact is one
+// What a part hits hardly feels it, where it is fewer elements across and has less of the water's kinetic energy.
+constexpr int few = 4;
+constexpr double little = 0.01;
 
 /// The free surface of all water but one part.
 template <int d>
@@ -41,14 +44,17 @@ double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<
   if (fast.empty()) return dt;
   const std::vector<int> part = parts_of(mesh, nodes.size());
   std::vector<int> size(nodes.size(), 0);
-  for (int p : part) ++size[p];
+  std::vector<double> energy(nodes.size(), 0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    ++size[part[i]], energy[part[i]] += nodes.volume[i] * nodes.v[i].squaredNorm();
+  const double all = std::accumulate(energy.begin(), energy.end(), 0.0);
   std::map<int, OtherWater<d>> others;
   auto meet = [&](int i, double distance, const Vec<d>& towards, const Vec<d>& relative) {
     const double closing = relative.dot(towards) / (towards.norm() + 1e-300);
     if (closing * dt > distance) dt = std::min(dt, std::max(cfl * h[i], 0.5 * distance) / closing);
   };
   for (int i : fast) {
-    if (size[part[i]] < std::pow(few, d)) continue;
+    if (size[part[i]] < std::pow(few, d) && energy[part[i]] < little * all) continue;
     const Vec<d>&x = nodes.x[i], &v = nodes.v[i];
     for (std::size_t w = 0; w < walls.walls.size(); ++w) {
       const double reach = (v.norm() + velocity[w].norm()) * dt;

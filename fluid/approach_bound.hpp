@@ -11,7 +11,8 @@
 namespace splashdown::fluid {
 
 /// max(cfl h, D / 2) / w over nodes of the free surface that would move by more than h within `dt`: D is the distance to a wall
-/// or to other water, w the speed at which it closes. Drops of a few elements are left out: what they hit hardly feels them.
+/// or to other water, w the speed at which it closes. Drops of a few elements with little energy are left out: what they hit
+/// hardly feels them.
 template <int d>
 double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
                    std::span<const Twist<d>> velocity, double cfl, double dt);

@@ -8,6 +8,7 @@
 #include "fluid/contact/ventilation.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/initial/initial.hpp"
+#include "fluid/mesh/parts.hpp"
 #include "fluid/mesh/volume_books.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/wave_bound.hpp"
@@ -79,6 +80,7 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effec
   now.mesh = std::move(liquid.mesh);
   now.h = std::move(liquid.h);
   now.nodes.volume = nodal_volumes(now.mesh, now.nodes.x);
+  now.nodes.part = parts_of(now.mesh, now.nodes.size());
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }

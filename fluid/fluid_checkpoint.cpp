@@ -10,6 +10,7 @@
 
 #include "coupling/stored.hpp"
 #include "fluid/fluid_state.hpp"
+#include "fluid/mesh/parts.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -104,6 +105,7 @@ void Fluid<d>::load(std::istream& in) {
   s_->now = std::move(loaded);
   s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
   s_->now.nodes.inherited.assign(s_->now.nodes.size(), {});
+  s_->now.nodes.part = parts_of(s_->now.mesh, s_->now.nodes.size());
   s_->prepared = false;
 }
 

@@ -153,6 +153,7 @@ void Fluid<d>::State::prepare() {
   free_water = FreeWater<d>(work.mesh, work.nodes);
   free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
+  mix_joined<d>(work.mesh, free_water.part(), work.nodes);
   separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   absorb_droplets(work.nodes, work.mesh);
   carried_p = work.nodes.p;

@@ -1,6 +1,31 @@
 #include "fluid/mesh/landing.hpp"
 
+#include <algorithm>
+#include <map>
+
 namespace splashdown::fluid {
+
+template <int d>
+void mix_joined(const Mesh<d>& mesh, const std::vector<int>& part, Nodes<d>& nodes) {
+  std::map<int, double> joined;  // new water around nodes
+  for (const auto& cell : mesh.cells) {
+    int first = -1;
+    const bool between = std::ranges::any_of(cell, [&](int n) {
+      if (first < 0) first = nodes.part[n];
+      return nodes.part[n] >= 0 && nodes.part[n] != first;
+    });
+    if (!between) continue;
+    for (int n : cell) joined[n] += volume<d>(corners(nodes.x, cell)) / (d + 1);
+  }
+  nodes.part = part;
+  if (joined.empty()) return;
+  std::vector<VelocityMoments<d>> all(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) all[part[i]] += nodes.carried(i);
+  for (const auto& [i, share] : joined) {
+    const double carried = nodes.volume[i];
+    if (share > 0) nodes.v[i] = (carried * nodes.v[i] + share * all[part[i]].mean_velocity()) / (carried + share);
+  }
+}
 
 template <int d>
 void absorb_droplets(Nodes<d>& nodes, const Mesh<d>& mesh) {
@@ -29,6 +54,8 @@ void absorb_droplets(Nodes<d>& nodes, const Mesh<d>& mesh) {
   }
 }
 
+template void mix_joined(const Mesh<2>&, const std::vector<int>&, Nodes<2>&);
+template void mix_joined(const Mesh<3>&, const std::vector<int>&, Nodes<3>&);
 template void absorb_droplets(Nodes<2>&, const Mesh<2>&);
 template void absorb_droplets(Nodes<3>&, const Mesh<3>&);
 

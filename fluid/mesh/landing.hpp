@@ -1,7 +1,4 @@
-// Drops that land become part of much larger cells. They bring their own momentum and no more: the liquid that
-// now counts to their nodes too keeps its velocity.
-//
-//   v <- w + V_before / V (v - w),   w mean velocity of the new neighbours, by their volume
+// Water that lands: what becomes of velocities where nodes get water that they did not carry.
 #pragma once
 
 #include "fluid/mesh/mesh.hpp"
@@ -9,11 +6,26 @@
 
 namespace splashdown::fluid {
 
-/// For nodes around which the volume V on `mesh` is more than three times Nodes::volume: remeshing alone hardly
-/// doubles it. They also forget what the corrections found for them.
+/// Cells between parts of the last mesh, Nodes::part, are new water. It is owed by all the water that hangs together now, and
+/// comes with its mean velocity w: with S_i the share of node i in such cells and V_i what it carries,
+///
+///   v_i <- (V_i v_i + S_i w) / (V_i + S_i)
+///
+/// Momentum about w stays, energy about w does not grow. `part`: parts_of of this mesh; becomes Nodes::part. O(cells).
+template <int d>
+void mix_joined(const Mesh<d>& mesh, const std::vector<int>& part, Nodes<d>& nodes);
+
+/// Drops that land in the water they came from become part of much larger cells. They bring their own momentum and no more,
+///
+///   v <- w + V_before / V (v - w),   w mean velocity of the new neighbours, by their volume
+///
+/// where the volume V around a node on `mesh` is more than three times Nodes::volume: remeshing alone hardly doubles it. They
+/// also forget their pressure.
 template <int d>
 void absorb_droplets(Nodes<d>& nodes, const Mesh<d>& mesh);
 
+extern template void mix_joined(const Mesh<2>&, const std::vector<int>&, Nodes<2>&);
+extern template void mix_joined(const Mesh<3>&, const std::vector<int>&, Nodes<3>&);
 extern template void absorb_droplets(Nodes<2>&, const Mesh<2>&);
 extern template void absorb_droplets(Nodes<3>&, const Mesh<3>&);
 

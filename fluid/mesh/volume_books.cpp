@@ -7,7 +7,7 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double most = 0.25;  // of its reach that a surface moves by within a step
+constexpr double most = 0.5;  // of its reach that a surface moves by within a step
 
 /// Connected water.
 struct Part {

@@ -51,5 +51,46 @@ TYPED_TEST(Landing, changes_nothing_where_nothing_lands) {
   EXPECT_EQ(p.nodes.v, before);
 }
 
+TYPED_TEST(Landing, water_between_parts_keeps_momentum_about_the_mean_and_makes_no_energy) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  auto& nodes = p.nodes;
+  const std::size_t count = nodes.size();
+  std::mt19937 random(5);
+  const Vec<d> uniform = Vec<d>::Constant(7);
+  for (auto& v : nodes.v) v = uniform + scenes::random_vector<Vec<d>>(random, {});
+  const double middle = 0.5 * (nodes.x.front().x() + nodes.x.back().x());
+  for (std::size_t i = 0; i < count; ++i) nodes.part[i] = nodes.x[i].x() < middle;
+  std::vector<double> share(count, 0.0);
+  for (const auto& cell : p.mesh.cells) {
+    const bool between = std::ranges::any_of(cell, [&](int n) { return nodes.part[n] != nodes.part[cell[0]]; });
+    for (int n : cell) share[n] += between * volume<d>(corners(nodes.x, cell)) / (d + 1);
+  }
+  for (std::size_t i = 0; i < count; ++i) nodes.volume[i] -= share[i];
+  VelocityMoments<d> all;
+  for (std::size_t i = 0; i < count; ++i) all += nodes.carried(i);
+  const Vec<d> w = all.mean_velocity();
+  const auto before = nodes.v;
+  mix_joined<d>(p.mesh, std::vector<int>(count, 0), nodes);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double V = nodes.volume[i], now = V + share[i];
+    const Vec<d> momentum = now * (nodes.v[i] - w) - V * (before[i] - w);
+    EXPECT_LE(momentum.norm(), 100 * scenes::eps * now * w.norm()) << i;
+    EXPECT_LE(now * (nodes.v[i] - w).squaredNorm(), V * (before[i] - w).squaredNorm() + 100 * scenes::eps * now) << i;
+    EXPECT_EQ(nodes.part[i], 0);
+  }
+}
+
+TYPED_TEST(Landing, water_of_one_part_and_new_nodes_is_not_mixed) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  std::mt19937 random(5);
+  for (auto& v : p.nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
+  const auto before = p.nodes.v;
+  for (std::size_t i = 0; i < p.nodes.size(); ++i) p.nodes.part[i] = i % 3 == 0 ? -1 : 4;
+  mix_joined<d>(p.mesh, std::vector<int>(p.nodes.size(), 0), p.nodes);
+  EXPECT_EQ(p.nodes.v, before);
+}
+
 }  // namespace
 }  // namespace splashdown::fluid
