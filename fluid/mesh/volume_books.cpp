@@ -7,7 +7,8 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double most = 0.5;  // of its reach that a surface moves by within a step
+constexpr double most = 0.5;  // of its reach that a surface moves by at once
+constexpr int passes = 3;     // where that is not all of it
 
 /// Connected water.
 struct Part {
@@ -85,15 +86,12 @@ void keep_order(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::vector<V
   }
 }
 
-}  // namespace
-
+/// Moves the surface once. Whether there is more to come back.
 template <int d>
-std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
-                                  const FreeWater<d>& free) {
+bool grow(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, const std::vector<int>& part,
+          const std::vector<double>& volumes) {
   const std::size_t count = nodes.size();
-  const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
   const FreeSurface<d> surface(nodes, mesh);
-  const std::vector<int>& part = free.part();
   std::vector<Vec<d>> outwards(count, Vec<d>::Zero());
   std::vector<Part> parts(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -115,9 +113,24 @@ std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const Wa
   }
   keep_order(mesh, nodes.x, moved);
   nodes.x = std::move(moved);
-  std::vector<double> now = nodal_volumes(mesh, nodes.x);
+  return std::ranges::any_of(parts, [](const Part& p) { return p.room > 0 && p.owed != 0; });
+}
+
+}  // namespace
+
+template <int d>
+std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
+                                  const FreeWater<d>& free) {
+  const std::vector<int>& part = free.part();
+  const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
+  std::vector<double> now = volumes;
+  for (int pass = 0; pass < passes; ++pass) {
+    const bool more = grow(nodes, mesh, walls, part, now);
+    now = nodal_volumes(mesh, nodes.x);
+    if (!more) break;
+  }
   const auto moments = free.moments(volumes, nodes.v);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < nodes.size(); ++i)
     if (now[i] > volumes[i]) {
       const Vec<d> w = free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>::Zero();
       nodes.v[i] = w + std::sqrt(std::max(0.0, volumes[i]) / now[i]) * (nodes.v[i] - w);
