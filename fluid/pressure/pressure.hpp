@@ -69,8 +69,8 @@ struct WallResponse {
 /// no pressure; 0.43 on a flat surface in 2D.
 inline constexpr double lightest_on_surface = 0.1;
 
-/// Passes that bring a solution of A to one of K, the volume that an impulse really takes out: phi += A^-1 (r - K phi). With
-/// fewer in the plane roundoff on still water grows: by e in 3 s with three, in 40 s with six (docs/theory.md).
+/// Passes that bring a solution of A to one of K, the volume that an impulse really takes out (conjugate_residual.hpp). With
+/// fewer in the plane roundoff on still water grows (docs/theory.md).
 template <int d>
 inline constexpr int corrections = d == 2 ? 10 : 4;
 
