@@ -8,7 +8,8 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double most = 0.5;  // of its reach that a surface moves by at once
-constexpr int passes = 3;     // where that is not all of it
+constexpr int passes = 6;     // where that leaves more than this of a part's volume:
+constexpr double worth = 1e-3;
 
 /// Connected water.
 struct Part {
@@ -86,35 +87,44 @@ void keep_order(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::vector<V
   }
 }
 
-/// Moves the surface once. Whether there is more to come back.
 template <int d>
-bool grow(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, const std::vector<int>& part,
-          const std::vector<double>& volumes) {
-  const std::size_t count = nodes.size();
-  const FreeSurface<d> surface(nodes, mesh);
-  std::vector<Vec<d>> outwards(count, Vec<d>::Zero());
-  std::vector<Part> parts(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (nodes.spray[i]) continue;
-    if (nodes.tie[i].wall < 0) outwards[i] = surface.outwards(i, volumes[i]);
-    Part& p = parts[part[i]];
-    p.volume += volumes[i];
-    p.owed += nodes.volume[i] + nodes.owed[i] - volumes[i];
-    p.room += outwards[i].dot(surface.area[i]);
+struct Books {
+  Nodes<d>& nodes;
+  const Mesh<d>& mesh;
+  const WallsAt<d>& walls;
+  const std::vector<int>& part;
+
+  /// Moves the surface, and books what comes back with it, if a part is owed more than `least` of its volume.
+  bool grow(const std::vector<double>& volumes, double least) {
+    const std::size_t count = nodes.size();
+    std::vector<Part> parts(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (nodes.spray[i]) continue;
+      parts[part[i]].volume += volumes[i];
+      parts[part[i]].owed += nodes.volume[i] + nodes.owed[i] - volumes[i];
+    }
+    if (std::ranges::none_of(parts, [&](const Part& p) { return std::abs(p.owed) > least * p.volume; })) return false;
+    const FreeSurface<d> surface(nodes, mesh);
+    std::vector<Vec<d>> outwards(count, Vec<d>::Zero());
+    for (std::size_t i = 0; i < count; ++i) {
+      if (nodes.spray[i] || nodes.tie[i].wall >= 0) continue;
+      outwards[i] = surface.outwards(i, volumes[i]);
+      parts[part[i]].room += outwards[i].dot(surface.area[i]);
+    }
+    settle(parts);
+    std::vector<Vec<d>> moved = nodes.x;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Part& p = parts[part[i]];
+      if (nodes.spray[i] || p.volume <= 0) continue;
+      nodes.owed[i] = volumes[i] * (1 + (p.growth * p.room + p.owed) / p.volume) - nodes.volume[i];
+      const Vec<d> to = nodes.x[i] + p.growth * outwards[i];
+      if (!meets_wall(walls, nodes.x[i], to)) moved[i] = to;
+    }
+    keep_order(mesh, nodes.x, moved);
+    nodes.x = std::move(moved);
+    return true;
   }
-  settle(parts);
-  std::vector<Vec<d>> moved = nodes.x;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Part& p = parts[part[i]];
-    if (nodes.spray[i] || p.volume <= 0) continue;
-    nodes.owed[i] = volumes[i] * (1 + (p.growth * p.room + p.owed) / p.volume) - nodes.volume[i];
-    const Vec<d> to = nodes.x[i] + p.growth * outwards[i];
-    if (!meets_wall(walls, nodes.x[i], to)) moved[i] = to;
-  }
-  keep_order(mesh, nodes.x, moved);
-  nodes.x = std::move(moved);
-  return std::ranges::any_of(parts, [](const Part& p) { return p.room > 0 && p.owed != 0; });
-}
+};
 
 }  // namespace
 
@@ -124,11 +134,9 @@ std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const Wa
   const std::vector<int>& part = free.part();
   const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
   std::vector<double> now = volumes;
-  for (int pass = 0; pass < passes; ++pass) {
-    const bool more = grow(nodes, mesh, walls, part, now);
+  Books<d> books{nodes, mesh, walls, part};
+  for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth); ++pass)
     now = nodal_volumes(mesh, nodes.x);
-    if (!more) break;
-  }
   const auto moments = free.moments(volumes, nodes.v);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (now[i] > volumes[i]) {
