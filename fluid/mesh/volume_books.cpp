@@ -24,14 +24,15 @@ struct Part {
   }
 };
 
-/// What parts have no room for goes to the largest one: shreds that a flip has cut off carry shares of cells larger than they are.
-void settle(std::vector<Part>& parts) {
+/// What parts have no room for goes to the largest one: shreds that a flip has cut off carry shares of cells larger than they
+/// are. Water that a part has too much of is its own to lose, as far as it can: another's would stand still where this one flies.
+void settle(std::vector<Part>& parts, bool last) {
   if (parts.empty()) return;
   Part& largest = *std::ranges::max_element(parts, {}, &Part::volume);
   double left = 0;
   for (Part& part : parts) {
     part.grow();
-    if (&part != &largest) left += std::exchange(part.owed, 0.0);
+    if (&part != &largest && (last || part.owed > 0 || part.volume <= 0)) left += std::exchange(part.owed, 0.0);
   }
   largest.owed += left;
   largest.grow();
@@ -94,8 +95,9 @@ struct Books {
   const WallsAt<d>& walls;
   const std::vector<int>& part;
 
-  /// Moves the surface, and books what comes back with it, if a part is owed more than `least` of its volume.
-  bool grow(const std::vector<double>& volumes, double least) {
+  /// Moves the surface, and books what comes back with it, if a part is owed more than `least` of its volume. `last`:
+  /// what a part cannot lose the largest one does.
+  bool grow(const std::vector<double>& volumes, double least, bool last) {
     const std::size_t count = nodes.size();
     std::vector<Part> parts(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -111,12 +113,13 @@ struct Books {
       outwards[i] = surface.outwards(i, volumes[i]);
       parts[part[i]].room += outwards[i].dot(surface.area[i]);
     }
-    settle(parts);
+    settle(parts, last);
     std::vector<Vec<d>> moved = nodes.x;
     for (std::size_t i = 0; i < count; ++i) {
       const Part& p = parts[part[i]];
-      if (nodes.spray[i] || p.volume <= 0) continue;
-      nodes.owed[i] = volumes[i] * (1 + (p.growth * p.room + p.owed) / p.volume) - nodes.volume[i];
+      if (nodes.spray[i]) continue;
+      const double more = p.volume > 0 ? (p.growth * p.room + p.owed) / p.volume : 0.0;
+      nodes.owed[i] = volumes[i] * (1 + more) - nodes.volume[i];
       const Vec<d> to = nodes.x[i] + p.growth * outwards[i];
       if (!meets_wall(walls, nodes.x[i], to)) moved[i] = to;
     }
@@ -135,7 +138,7 @@ std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const Wa
   const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
   std::vector<double> now = volumes;
   Books<d> books{nodes, mesh, walls, part};
-  for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth); ++pass)
+  for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth, pass + 1 == passes); ++pass)
     now = nodal_volumes(mesh, nodes.x);
   const auto moments = free.moments(volumes, nodes.v);
   for (std::size_t i = 0; i < nodes.size(); ++i)
