@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <regex>
 
+#include "apps/cli/pattern.hpp"
 #include "apps/record/tables/csv.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/gnuplot.hpp"
@@ -87,9 +87,9 @@ Banner banner_of(const StudyData& study) {
 
 /// No wider than it was drawn: a chart of one panel would fill the page.
 std::string in_its_width(const std::string& svg) {
-  std::smatch width;
-  if (!std::regex_search(svg, width, std::regex("<svg[^>]* width=\"([0-9]+)\""))) return svg;
-  return fmt::format("<div style=\"max-width:{}px;margin:0 auto\">{}</div>", width[1].str(), svg);
+  const auto [width] = Pattern("<svg[^>]* width=\"([0-9]+)\"").in<1>(svg);
+  if (width.empty()) return svg;
+  return fmt::format("<div style=\"max-width:{}px;margin:0 auto\">{}</div>", width, svg);
 }
 
 /// The chart as an element of the page; nothing if the study asks for none.

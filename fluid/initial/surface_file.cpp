@@ -206,15 +206,23 @@ void refuse_disagreement(Soup& soup) {
                          flip);
 }
 
-/// CGAL's triangulation of a facet believes that its outline, seen along the normal, does not cross itself.
+/// CGAL's triangulation of a facet believes that its outline, seen along the normal, does not cross itself. Its test of that takes
+/// corners for apart that lie one behind the other.
+bool is_simple(std::vector<Kernel::Point_3> corners, const CGAL::Projection_traits_3<Kernel>& plane) {
+  if (!CGAL::is_simple_2(corners.begin(), corners.end(), plane)) return false;
+  const auto less = plane.less_xy_2_object();
+  std::sort(corners.begin(), corners.end(), less);
+  const auto behind = [&](const auto& a, const auto& b) { return !less(a, b); };
+  return std::adjacent_find(corners.begin(), corners.end(), behind) == corners.end();
+}
+
 void refuse_crossed_outlines(const Mesh& mesh) {
   for (const auto face : mesh.faces()) {
     std::vector<Kernel::Point_3> corners;
     for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
       corners.push_back(mesh.point(corner));
     if (corners.size() <= 4) continue;  // a diagonal cuts them
-    const CGAL::Projection_traits_3<Kernel> plane(pmp::compute_face_normal(face, mesh));
-    if (CGAL::is_simple_2(corners.begin(), corners.end(), plane)) continue;
+    if (is_simple(corners, CGAL::Projection_traits_3<Kernel>(pmp::compute_face_normal(face, mesh)))) continue;
     const auto& p = corners.front();
     throw SurfaceFileError(fmt::format("has a facet of {} corners whose outline crosses itself, at {}", corners.size(),
                                        text({p.x(), p.y(), p.z()})),

@@ -52,12 +52,13 @@ class Tree {
 // Directions from one unit vector to another one: their polygon leaves the arc by 0.04 at most.
 std::vector<Eigen::Vector3d> arc(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   constexpr double step = 0.5;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(from, to);
-  const double angle = Eigen::AngleAxisd(turn).angle();
+  const Eigen::Vector3d normal = from.cross(to);
+  const double angle = std::atan2(normal.norm(), from.dot(to));
+  const Eigen::Vector3d aside = normal.isZero() ? from.unitOrthogonal() : normal.cross(from).normalized();
   const int parts = std::max(1, static_cast<int>(std::ceil(angle / step)));
   std::vector<Eigen::Vector3d> all;
   for (int i = 0; i <= parts; ++i)
-    all.emplace_back(Eigen::Quaterniond::Identity().slerp(static_cast<double>(i) / parts, turn) * from);
+    all.emplace_back(std::cos(angle * i / parts) * from + std::sin(angle * i / parts) * aside);
   return all;
 }
 

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <regex>
 
+#include "apps/cli/pattern.hpp"
 #include "apps/report/pictures/picture.hpp"
 #include "apps/report/words.hpp"
 
@@ -31,10 +31,9 @@ std::string lower_first(std::string text) {
 std::vector<std::pair<double, std::string>> listed_frames(const std::filesystem::path& run) {
   std::vector<std::pair<double, std::string>> frames;
   std::ifstream in(run / "frames.pvd");
-  const std::regex fluid_entry("timestep=\"([^\"]+)\".*file=\"frames/([0-9]+)\\.vtu\"");
+  const Pattern fluid_entry("timestep=\"([^\"]+)\".*file=\"frames/([0-9]+)\\.vtu\"");
   for (std::string line; std::getline(in, line);)
-    if (std::smatch match; std::regex_search(line, match, fluid_entry))
-      frames.emplace_back(std::stod(match[1]), match[2]);
+    if (const auto [time, stem] = fluid_entry.in<2>(line); !stem.empty()) frames.emplace_back(std::stod(time), stem);
   return frames;
 }
 

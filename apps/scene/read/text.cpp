@@ -5,10 +5,10 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <string_view>
 
+#include "apps/cli/pattern.hpp"
 #include "apps/scene/read/read.hpp"
 
 namespace splashdown::apps {
@@ -73,10 +73,9 @@ std::string decimal_comma(const std::string& text, long line) {
   std::string wanted;
   for (long i = 0; i < line && std::getline(lines, wanted); ++i) {
   }
-  constexpr std::size_t longest = 1000;  // of a line that a person typed; regular expressions go deep
-  static const std::regex number(R"(=\s*([-+]?\d+,\d+)\s*(#.*)?\r?$)");
-  std::smatch found;
-  return wanted.size() < longest && std::regex_search(wanted, found, number) ? found[1].str() : std::string();
+  constexpr std::size_t longest = 1000;  // of a line that a person typed
+  static const Pattern number("=[[:space:]]*([-+]?[0-9]+,[0-9]+)[[:space:]]*(#.*)?$");
+  return wanted.size() < longest ? number.in<1>(wanted)[0] : std::string();
 }
 
 }  // namespace

@@ -75,20 +75,20 @@ class Water final : public FluidPart, private Linearised {
     if (!pieces_.empty()) lagged = pass.lagged;
     const Matrix A = G_.inverse() + Matrix(stand_in_.asDiagonal());
     phi_ = A.ldlt().solve(now_.motion - s_0 + stand_in_.cwiseProduct(lagged));
-    Vector y = Vector::Zero(Z_.cols());
+    solution_.motion = s_0;
     const auto answer = [&](const Vector& to) -> Vector {
       const Matrix W = pass.directions.size() > 0 ? pass.directions : Matrix(Matrix::Identity(Z_.cols(), Z_.cols()));
       return W * (W.transpose() * (M_ + Z_.transpose() * G_ * Z_) * W).ldlt().solve(W.transpose() * to);
     };
     const Vector known = pass.known.size() > 0 ? pass.known : Vector::Zero(Z_.cols());
-    if (Z_.cols() > 0) {
-      y = answer(Z_.transpose() * (phi_ + f) + known);
-      phi_ -= G_ * Z_ * y;
-    }
-    solution_.motion = s_0 + Z_ * y;
-    solution_.impulse = phi_ + f;
     solution_.imbalance = Vector::Zero(G_.rows());
-    if (Z_.cols() > 0) solution_.imbalance = Z_ * answer(Z_.transpose() * solution_.impulse + known - M_ * y);
+    if (Z_.cols() > 0) {  // without an exact term Z has no rows either
+      const Vector y = answer(Z_.transpose() * (phi_ + f) + known);
+      phi_ -= G_ * Z_ * y;
+      solution_.motion += Z_ * y;
+      solution_.imbalance = Z_ * answer(Z_.transpose() * (phi_ + f) + known - M_ * y);
+    }
+    solution_.impulse = phi_ + f;
     solution_.lagged = pieces_.empty() ? Vector() : phi_;
     solution_.wetted = Vector::Ones(static_cast<Eigen::Index>(wall_of_.back()) + 1);
     return solution_.impulse.allFinite() ? Status{} : Status{"the toy's solution is not finite"};

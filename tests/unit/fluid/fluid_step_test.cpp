@@ -149,5 +149,42 @@ TEST(FluidStep, water_that_turns_around_an_edge_has_the_velocity_of_where_it_com
   EXPECT_EQ(corners.size(), 4u);
 }
 
+// Momentum of water and tank, over that before, when a drop of one element, `breadth` wide and half an element high, has fallen
+// `deep` into a pool at rest.
+Vec<2> landed_momentum(double breadth, double deep) {
+  const double gap = 0.05 * size, high = 0.5 * size, speed = 1, falls = (gap + deep) / speed;
+  auto spec = scenes::still_water(width, depth, size);
+  spec.step.dt_max = falls;
+  spec.liquids.push_back({scenes::outline({{-0.5 * breadth, gap + high}, {0, gap}, {0.5 * breadth, gap + high}}),
+                          [=](const Vec<2>&) { return Vec<2>(speed, -speed); }});
+  Fluid<2> water(std::move(spec), scenes::no_effects());
+  auto momentum = [&] {
+    Vec<2> sum = Vec<2>::Zero();
+    for (std::size_t i = 0; i < water.nodes().size(); ++i)
+      sum += water.density() * water.nodes().volume[i] * water.nodes().v[i];
+    return sum;
+  };
+  const Vec<2> before = momentum();
+  Vec<2> given = Vec<2>::Zero();
+  for (const double dt : {falls, moment}) {
+    EXPECT_TRUE(water.begin(dt, dt, {}).ok());
+    EXPECT_TRUE(water.solve(std::vector<Twist<2>>{Twist<2>::Zero()}).ok());
+    given += dt * water.loads()[0].total().head<2>();
+    water.commit(water.wall_poses());
+  }
+  return (momentum() + given).cwiseQuotient(before);
+}
+
+TEST(FluidStep, a_drop_that_lands_brings_its_own_momentum_and_no_more) {
+  // Up to fourteen times its volume counts to its nodes then, water of the pool: at the drop's speed that would be up to four times
+  // its momentum. What lies over each other has gone from the mesh, with no more momentum than the drop has there.
+  for (const double breadth : {0.5 * size, size})
+    for (const double deep : {0.1 * size, 0.2 * size, 0.4 * size}) {
+      const Vec<2> share = landed_momentum(breadth, deep);
+      EXPECT_GT(share.minCoeff(), 0) << breadth << ' ' << deep;
+      EXPECT_LE(share.maxCoeff(), 1) << breadth << ' ' << deep;
+    }
+}
+
 }  // namespace
 }  // namespace splashdown::fluid

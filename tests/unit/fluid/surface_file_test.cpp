@@ -213,6 +213,10 @@ TEST_F(SurfaceFileTest, a_facet_whose_outline_crosses_itself_is_told_before_it_i
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n";
   EXPECT_TRUE(says(told(write("crossed.obj", points + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5 4\nf 1 5 7 3\nf 2 4 8 6\n")),
                    "has a facet of 5 corners whose outline crosses itself, at ("));
+  // Seen along its normal, (1, 1, 0), the first corner of this one stands before the last.
+  const std::string others = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 1\nv 0 1 1\nv 1 1 1\nv 1 1 0\n";
+  EXPECT_TRUE(says(told(write("behind.obj", others + "f 1 3 4 2 7\nf 1 2 6 5\n")),
+                   "has a facet of 5 corners whose outline crosses itself, at (0, 0, 0)"));
 }
 
 TEST_F(SurfaceFileTest, points_in_one_place_are_no_hull) {
