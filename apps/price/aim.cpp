@@ -10,6 +10,7 @@
 #include "apps/price/cost.hpp"
 #include "apps/price/probes.hpp"
 #include "apps/price/write.hpp"
+#include "apps/record/tables/files.hpp"
 #include "apps/report/report.hpp"
 #include "apps/run/folder/folder.hpp"
 #include "apps/run/folder/folder_lock.hpp"
@@ -39,6 +40,7 @@ struct Source {
 };
 
 struct Aim : Source {
+  double begun = 0;   ///< by wall()
   double spent = 0;   ///< wall seconds of probes
   double report = 0;  ///< wall seconds that drawing the report takes
   double refine = 1;
@@ -211,6 +213,7 @@ Aim aim_of(const RunOptions& options) {
   const double begin = wall();
   auto listed = listed_price(options);
   Aim aim{listed ? std::move(*listed) : probed_price(options, file.scene)};
+  aim.begun = begin;
   if (interrupt_received()) return aim;
   if (!options.no_report) aim.report = report_seconds(aim);
   aim.spent = wall() - begin;
@@ -228,7 +231,7 @@ std::string reached_text(const Aim& aim, const RunOptions& options, const fs::pa
     for (auto& rung : rungs) rung.values.push_back(quantity.at(rung.spec));
   std::vector<std::string> unused;
   auto reached = rung_in(folder, {aim.refine, Role::rung}, quantities, unused);
-  const double seconds = reached.seconds;
+  const double seconds = reached.seconds, all = wall() - aim.begun;
   std::erase_if(rungs,
                 [&](const Rung& rung) { return rung.spec.refine == aim.refine && rung.spec.role == Role::rung; });
   rungs.push_back(std::move(reached));
@@ -236,9 +239,25 @@ std::string reached_text(const Aim& aim, const RunOptions& options, const fs::pa
   auto text = fmt::format("reached     {} for the run, {:+.0f} % of what was predicted; {}\n", about_time(seconds),
                           100 * (seconds / aim.predicted - 1), accuracy_text(price.accuracy(aim.refine)));
   if (options.seconds)
-    text += fmt::format("            {} with the probes, {:+.0f} % of what was asked\n",
-                        about_time(seconds + aim.spent), 100 * ((seconds + aim.spent) / *options.seconds - 1));
+    text += fmt::format("            {} with the probes, {:+.0f} % of what was asked\n", about_time(all),
+                        100 * (all / *options.seconds - 1));
   return text;
+}
+
+/// A run on this mesh was made already: its files, but for a report, in the folder of the run.
+bool taken_over(const Aim& aim, const RunOptions& options, const fs::path& folder) {
+  const auto made = std::ranges::find_if(aim.price.rungs, [&](const Rung& rung) {
+    return rung.spec.role == Role::rung && rung.spec.refine == aim.refine;
+  });
+  if (made == aim.price.rungs.end() || !fs::exists(aim.folder / made->folder / "checkpoint")) return false;
+  const auto resolved = read_scene(options.scene, options.overrides).resolved;
+  if (!options.force && foreign_results(folder, options.scene, resolved)) return false;
+  fs::create_directories(folder);
+  const FolderLock lock(folder);
+  clear_earlier_run(folder);
+  fs::remove_all(folder / "checkpoint");
+  fs::copy(aim.folder / made->folder, folder, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  return true;
 }
 
 }  // namespace
@@ -254,6 +273,12 @@ int aimed_run_command(const RunOptions& options) {
   if (interrupt_received()) return exit_code::interrupted;
   auto chosen = options;
   chosen.overrides.push_back(fmt::format("fluid.size.refine={}", aim.refine));
+  const auto folder = options.out.value_or(default_directory(options.scene));
+  try {
+    chosen.resume = taken_over(aim, chosen, folder);
+  } catch (const std::exception& error) {
+    return bad_input(trouble(error));
+  }
   if (!options.quiet)
     fmt::print("chosen      refine {:g}, from {}\npredicted   {}, {}\n", aim.refine, aim.from,
                about_time(aim.predicted), accuracy_text(aim.price.accuracy(aim.refine)));
@@ -261,8 +286,7 @@ int aimed_run_command(const RunOptions& options) {
   if (options.quiet) return code;
   if (code == exit_code::interrupted)
     fmt::print("            continue with --refine {:g} --resume in place of --accuracy or --seconds\n", aim.refine);
-  if (code == exit_code::done)
-    fmt::print("{}", reached_text(aim, options, options.out.value_or(default_directory(options.scene))));
+  if (code == exit_code::done) fmt::print("{}", reached_text(aim, options, folder));
   return code;
 }
 
