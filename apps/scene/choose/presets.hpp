@@ -11,7 +11,7 @@ struct Preset {
   double refine;
 };
 
-/// In the plane a third and five times of what the scene's own sizes take, as measured.
+/// In the plane a fifth to a third and three to four and a half times of what the scene's own sizes take, as measured.
 inline constexpr std::array<Preset, 3> presets = {{{"draft", 0.35}, {"standard", 1}, {"reference", 2}}};
 
 }  // namespace splashdown::apps
