@@ -8,6 +8,7 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/version.hpp"
+#include "apps/scene/choose/presets.hpp"
 #include "apps/scene/rules/problems.hpp"
 #include "apps/scene/rules/schema.hpp"
 
@@ -83,14 +84,30 @@ CLI::Validator positive_number() {
           "POSITIVE"};
 }
 
+/// Of what may stand behind --refine.
+CLI::Validator number_or_preset() {
+  return {[](const std::string& text) {
+            if (std::ranges::find(presets, text, &Preset::name) != presets.end() || positive_number()(text).empty())
+              return std::string();
+            std::vector<std::string> names;
+            for (const auto& preset : presets) names.emplace_back(preset.name);
+            const auto near = nearest(text, names);
+            return fmt::format("must be a positive number, draft, standard or reference, not {}{}", text,
+                               near.empty() ? "" : fmt::format("; did you mean {}", near));
+          },
+          ""};
+}
+
 /// The last word on it: behind all of --set.
 void add_refine(CLI::App* command, std::vector<std::string>& set) {
   command
       ->add_option_function<std::string>(
           "--refine", [&set](const std::string& value) { set.push_back("fluid.size.refine=" + value); },
-          "divide all lengths of the mesh, and dt_max, by this; the same as --set fluid.size.refine=X")
+          "divide all lengths of the mesh, and dt_max, by this: a number, or draft (0.35), standard (1) or reference "
+          "(2); "
+          "the same as --set fluid.size.refine=X")
       ->type_name("X")
-      ->check(positive_number())
+      ->check(number_or_preset())
       ->trigger_on_parse(false);
 }
 

@@ -5,9 +5,13 @@
 #include <chrono>
 #include <cmath>
 
+#include "apps/check/cost.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/price/cost.hpp"
+#include "apps/price/probes.hpp"
 #include "apps/price/write.hpp"
+#include "apps/record/tables/files.hpp"
+#include "apps/report/report.hpp"
 #include "apps/run/folder/folder.hpp"
 #include "apps/run/folder/folder_lock.hpp"
 #include "apps/run/interrupt.hpp"
@@ -19,18 +23,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Probes begin with a quarter of the scene's refinement, each 1.41 times finer than the one before.
-constexpr double first_probe = 0.25;
-constexpr int most_probes = 12;
+// Probes are the scene's refinement times powers of sqrt(2), and begin at a quarter of it where the time allows.
+constexpr ProbeRange probe_range{-8, 8};
+constexpr int usual_first = -4;
+double probe_factor(int k) { return std::pow(2., 0.5 * k); }
 /// An order can be refused with three meshes, and found with four.
-constexpr std::size_t probes_for_accuracy = 4;
-/// Of the seconds asked for: what a further probe may take, and what it may where those made do not reach far enough.
-constexpr double probe_share = 0.1, last_probe_share = 0.25;
+constexpr int probes_for_accuracy = 4, last_for_accuracy = usual_first + probes_for_accuracy - 1;
+/// At most, of what `check` says before any run: steps of a long run are those of its impact.
+constexpr double guess_is_off_by = 20;
 
-struct Aim {
+/// A price, in words where it is from, and the folder with its runs.
+struct Source {
   Price price;
-  std::string from;  ///< where the price is from
-  double spent = 0;  ///< wall seconds of probes
+  std::string from;
+  fs::path folder;
+};
+
+struct Aim : Source {
+  double begun = 0;   ///< by wall()
+  double spent = 0;   ///< wall seconds of probes
+  double report = 0;  ///< wall seconds that drawing the report takes
   double refine = 1;
   double predicted = 0;  ///< wall seconds
 };
@@ -38,7 +50,7 @@ struct Aim {
 double wall() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// The price list of this very scene, if somebody has made one. Throws SceneError if the one that was named is another's.
-std::optional<Price> listed_price(const RunOptions& options, std::string& from) {
+std::optional<Source> listed_price(const RunOptions& options) {
   const auto folder = options.price.value_or(price_directory(options.scene));
   const auto file = folder / price_file;
   if (!fs::exists(file)) {
@@ -60,21 +72,47 @@ std::optional<Price> listed_price(const RunOptions& options, std::string& from) 
                      "splashdown price, or leave --price out.",
                      folder.string())});
   if (!same || price->rows.empty()) return {};
-  from = file.string();
-  return price;
+  return Source{std::move(*price), file.string(), folder};
 }
 
-/// Whether a further probe, at `next`, would say too little for what it costs.
-bool enough_probes(const Ladder& ladder, const RunOptions& options, double next) {
-  if (!options.seconds) return ladder.made().size() >= probes_for_accuracy;
-  if (ladder.made().size() < 2) return false;
-  const double share = *ladder.seconds_at(next) / *options.seconds;
-  const double farthest = farthest_extrapolation * ladder.made().back().spec.refine;
-  return share > last_probe_share || (share > probe_share && *ladder.seconds_at(farthest) >= *options.seconds);
+/// The scene on a mesh; nothing: it does not allow that mesh.
+std::optional<Scene> scene_at(const RunOptions& options, double refine) {
+  auto set = options.overrides;
+  set.push_back(fmt::format("fluid.size.refine={:.4g}", refine));
+  try {
+    return read_scene(options.scene, set).scene;
+  } catch (const SceneError&) {
+    return {};
+  }
 }
 
-/// Coarse runs beside the run's folder.
-Price probed_price(const RunOptions& options, const Scene& scene, std::string& from) {
+double guessed_seconds(const Scene& scene) {
+  const auto cost = scene.dimension == 2 ? predicted_cost<2>(scene) : predicted_cost<3>(scene);
+  return cost.seconds_to_start + cost.steps * cost.seconds_per_step;
+}
+
+/// Meshes that the scene allows, about its own.
+ProbeRange allowed_probes(const RunOptions& options, double own) {
+  auto range = probe_range;
+  while (range.coarsest < usual_first && !scene_at(options, own * probe_factor(range.coarsest))) ++range.coarsest;
+  while (range.finest > usual_first + 1 && !scene_at(options, own * probe_factor(range.finest))) --range.finest;
+  return range;
+}
+
+/// Throws SceneError: with no run of it there is nothing to choose by.
+[[noreturn]] void refuse_without_probes(const RunOptions& options, const Ladder& ladder, double refine) {
+  if (options.seconds && ladder.end().out_of_budget)
+    throw SceneError(
+        {fmt::format("--seconds {:g}: is too short for {}: at refine {:.3g} it did not reach its end in that "
+                     "time. Use more seconds, or a shorter run: --set time.end=X.",
+                     *options.seconds, options.scene.string(), refine)});
+  throw SceneError(
+      {fmt::format("{}: no coarse run of it reached its end, so nothing is known of its price. Use "
+                   "--refine, or mend its sizes.",
+                   options.scene.string())});
+}
+
+LadderOrder probe_order(const RunOptions& options, const Scene& scene) {
   LadderOrder order;
   order.scene = options.scene;
   order.folder =
@@ -86,22 +124,58 @@ Price probed_price(const RunOptions& options, const Scene& scene, std::string& f
   order.quiet = options.quiet;
   order.dimension = scene.dimension;
   order.quantities = default_quantities(scene);
-  const double first = scene.fluid->size.refine * first_probe;
-  order.expected_nodes = expected_nodes(options.scene, options.overrides, first, 16 * first);
-  std::vector<RungSpec> probes;
-  for (int k = 0; k < most_probes; ++k) probes.push_back({first * std::pow(2., 0.5 * k), Role::rung});
-  Ladder ladder(order, probes);
+  return order;
+}
+
+/// Coarse runs beside the run's folder.
+Source probed_price(const RunOptions& options, const Scene& scene) {
+  const double own = scene.fluid->size.refine;
+  const auto refine = [&](int k) { return own * probe_factor(k); };
+  const auto range = allowed_probes(options, own);
+  auto order = probe_order(options, scene);
+  order.expected_nodes =
+      expected_nodes(options.scene, options.overrides, refine(range.coarsest),
+                     farthest_extrapolation * refine(options.seconds ? range.finest : last_for_accuracy),
+                     guess_is_off_by * options.seconds.value_or(HUGE_VAL));
+  std::vector<RungSpec> possible;
+  for (int k = range.coarsest; k <= range.finest; ++k) possible.push_back({refine(k), Role::rung});
+  Ladder ladder(order, possible);
   make_study_folder(order.folder);
   const FolderLock lock(order.folder);
-  for (std::size_t k = 0; k < probes.size(); ++k) {
-    if (enough_probes(ladder, options, probes[k].refine)) break;
-    if (!ladder.climb(probes[k])) break;
+  const auto predicted = [&](int k) { return ladder.seconds_at(refine(k)).value_or(0); };
+  std::optional<int> next = usual_first;
+  if (options.seconds)
+    next = first_probe(*options.seconds, range, usual_first,
+                       [&](int k) { return guessed_seconds(*scene_at(options, refine(k))); });
+  while (next && ladder.climb({refine(*next), Role::rung})) {
+    const ProbesMade made{static_cast<int>(ladder.made().size()), *next, ladder.spent()};
+    if (options.seconds && made.count > 0)
+      next = next_probe(*options.seconds, range, made, predicted);
+    else
+      next = made.count < probes_for_accuracy && made.finest < range.finest ? std::optional(made.finest + 1)
+                                                                            : std::nullopt;
   }
-  from = fmt::format("{} coarse runs in {}", ladder.made().size(), order.folder.string());
+  if (ladder.made().empty() && !interrupt_received()) refuse_without_probes(options, ladder, refine(*next));
   std::vector<std::string> unused;
-  auto price = price_of(ladder.made(), order.quantities, scene.dimension, unused);
-  price.expected_nodes = std::move(order.expected_nodes);
-  return price;
+  Source source{price_of(ladder.made(), order.quantities, scene.dimension, unused),
+                fmt::format("{} coarse runs in {}", ladder.made().size(), order.folder.string()), order.folder};
+  source.price.expected_nodes = std::move(order.expected_nodes);
+  return source;
+}
+
+/// What drawing a report takes, by doing so for the finest run that there is; it depends little on the mesh.
+double report_seconds(const Source& source) {
+  const auto& [price, from, folder] = source;
+  const auto finest = std::ranges::find_if(price.rungs, [&](const Rung& rung) {
+    return rung.spec.role == Role::rung && rung.spec.refine == price.finest();
+  });
+  if (finest == price.rungs.end() || !fs::exists(folder / finest->folder / "summary.json")) return 0;
+  const double begin = wall();
+  try {
+    write_report(folder / finest->folder);
+  } catch (const std::exception&) {  // the run itself will say why
+  }
+  return wall() - begin;
 }
 
 std::string accuracy_text(const std::optional<std::pair<double, std::string>>& accuracy) {
@@ -112,13 +186,8 @@ std::string accuracy_text(const std::optional<std::pair<double, std::string>>& a
 /// Throws SceneError if there is no such mesh.
 void choose(Aim& aim, const RunOptions& options) {
   const auto& price = aim.price;
-  if (price.rungs.empty())
-    throw SceneError(
-        {fmt::format("{}: no coarse run of it reached its end, so nothing is known of its price. Use "
-                     "--refine, or mend its sizes.",
-                     options.scene.string())});
   if (options.seconds) {
-    const double left = std::max(*options.seconds - aim.spent, 0.);
+    const double left = std::max(*options.seconds - aim.spent - aim.report, 0.);
     aim.refine = *price.refine_in(left);
   } else if (const auto refine = price.refine_for(*options.accuracy / 100)) {
     aim.refine = *refine;
@@ -130,7 +199,7 @@ void choose(Aim& aim, const RunOptions& options) {
         *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)), options.scene.string())});
   }
   aim.refine = std::stod(fmt::format("{:.4g}", aim.refine));
-  aim.predicted = *price.seconds(aim.refine);
+  aim.predicted = *price.seconds(aim.refine) + aim.report;
 }
 
 /// Throws SceneError.
@@ -141,14 +210,14 @@ Aim aim_of(const RunOptions& options) {
         {fmt::format("{}: has no [fluid], so there is no mesh to choose. Leave --accuracy and --seconds "
                      "out.",
                      options.scene.string())});
-  Aim aim;
   const double begin = wall();
-  if (auto listed = listed_price(options, aim.from))
-    aim.price = std::move(*listed);
-  else
-    aim.price = probed_price(options, file.scene, aim.from);
+  auto listed = listed_price(options);
+  Aim aim{listed ? std::move(*listed) : probed_price(options, file.scene)};
+  aim.begun = begin;
+  if (interrupt_received()) return aim;
+  if (!options.no_report) aim.report = report_seconds(aim);
   aim.spent = wall() - begin;
-  if (!interrupt_received()) choose(aim, options);
+  choose(aim, options);
   return aim;
 }
 
@@ -162,7 +231,7 @@ std::string reached_text(const Aim& aim, const RunOptions& options, const fs::pa
     for (auto& rung : rungs) rung.values.push_back(quantity.at(rung.spec));
   std::vector<std::string> unused;
   auto reached = rung_in(folder, {aim.refine, Role::rung}, quantities, unused);
-  const double seconds = reached.seconds;
+  const double seconds = reached.seconds, all = wall() - aim.begun;
   std::erase_if(rungs,
                 [&](const Rung& rung) { return rung.spec.refine == aim.refine && rung.spec.role == Role::rung; });
   rungs.push_back(std::move(reached));
@@ -170,9 +239,25 @@ std::string reached_text(const Aim& aim, const RunOptions& options, const fs::pa
   auto text = fmt::format("reached     {} for the run, {:+.0f} % of what was predicted; {}\n", about_time(seconds),
                           100 * (seconds / aim.predicted - 1), accuracy_text(price.accuracy(aim.refine)));
   if (options.seconds)
-    text += fmt::format("            {} with the probes, {:+.0f} % of what was asked\n",
-                        about_time(seconds + aim.spent), 100 * ((seconds + aim.spent) / *options.seconds - 1));
+    text += fmt::format("            {} with the probes, {:+.0f} % of what was asked\n", about_time(all),
+                        100 * (all / *options.seconds - 1));
   return text;
+}
+
+/// A run on this mesh was made already: its files, but for a report, in the folder of the run.
+bool taken_over(const Aim& aim, const RunOptions& options, const fs::path& folder) {
+  const auto made = std::ranges::find_if(aim.price.rungs, [&](const Rung& rung) {
+    return rung.spec.role == Role::rung && rung.spec.refine == aim.refine;
+  });
+  if (made == aim.price.rungs.end() || !fs::exists(aim.folder / made->folder / "checkpoint")) return false;
+  const auto resolved = read_scene(options.scene, options.overrides).resolved;
+  if (!options.force && foreign_results(folder, options.scene, resolved)) return false;
+  fs::create_directories(folder);
+  const FolderLock lock(folder);
+  clear_earlier_run(folder);
+  fs::remove_all(folder / "checkpoint");
+  fs::copy(aim.folder / made->folder, folder, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  return true;
 }
 
 }  // namespace
@@ -188,6 +273,12 @@ int aimed_run_command(const RunOptions& options) {
   if (interrupt_received()) return exit_code::interrupted;
   auto chosen = options;
   chosen.overrides.push_back(fmt::format("fluid.size.refine={}", aim.refine));
+  const auto folder = options.out.value_or(default_directory(options.scene));
+  try {
+    chosen.resume = taken_over(aim, chosen, folder);
+  } catch (const std::exception& error) {
+    return bad_input(trouble(error));
+  }
   if (!options.quiet)
     fmt::print("chosen      refine {:g}, from {}\npredicted   {}, {}\n", aim.refine, aim.from,
                about_time(aim.predicted), accuracy_text(aim.price.accuracy(aim.refine)));
@@ -195,8 +286,7 @@ int aimed_run_command(const RunOptions& options) {
   if (options.quiet) return code;
   if (code == exit_code::interrupted)
     fmt::print("            continue with --refine {:g} --resume in place of --accuracy or --seconds\n", aim.refine);
-  if (code == exit_code::done)
-    fmt::print("{}", reached_text(aim, options, options.out.value_or(default_directory(options.scene))));
+  if (code == exit_code::done) fmt::print("{}", reached_text(aim, options, folder));
   return code;
 }
 

@@ -196,6 +196,7 @@ Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<Pri
   Rung rung{.spec = spec, .folder = folder.filename().string(), .values = {}};
   rung.seconds = summary.value("wall_seconds", 0.);
   if (const auto setup = quantity::find_entry(summary, "phases.setup")) rung.setup_seconds = setup->numbers.front();
+  if (const auto output = quantity::find_entry(summary, "phases.output")) rung.output_seconds = output->numbers.front();
   rung.steps = summary.value("steps", 0.);
   rung.memory_mb = summary.value("memory_mb", 0.);
   rung.node_steps = node_steps_in(folder);

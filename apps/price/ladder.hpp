@@ -31,8 +31,9 @@ struct RungSpec {
 struct Rung {
   RungSpec spec;
   std::string folder;  ///< name within that of the price
-  double seconds = 0, setup_seconds = 0, steps = 0, node_steps = 0, memory_mb = 0;
-  std::vector<double> values;  ///< of the quantities, in their order; nan: none
+  double seconds = 0, steps = 0, node_steps = 0, memory_mb = 0;
+  double setup_seconds = 0, output_seconds = 0;  ///< of these seconds
+  std::vector<double> values;                    ///< of the quantities, in their order; nan: none
 };
 
 /// A run that is done.

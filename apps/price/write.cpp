@@ -70,10 +70,11 @@ Rung rung_of(const Json& json) {
   return {.spec = {json.at("refine").get<double>(), role_of(json.at("role").get<std::string>())},
           .folder = json.value("folder", ""),
           .seconds = json.at("seconds").get<double>(),
-          .setup_seconds = json.value("setup_seconds", 0.),
           .steps = json.at("steps").get<double>(),
           .node_steps = json.at("node_steps").get<double>(),
           .memory_mb = json.at("memory_mb").get<double>(),
+          .setup_seconds = json.value("setup_seconds", 0.),
+          .output_seconds = json.value("output_seconds", 0.),
           .values = {}};
 }
 
@@ -176,6 +177,7 @@ std::string price_json(const Price& price) {
     root["runs"].push_back(json_of(rung));
     root["runs"].back()["steps"] = rung.steps;
     root["runs"].back()["setup_seconds"] = rung.setup_seconds;
+    root["runs"].back()["output_seconds"] = rung.output_seconds;
     root["runs"].back()["role"] = word_of(rung.spec.role);
     root["runs"].back()["folder"] = rung.folder;
   }

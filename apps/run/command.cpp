@@ -147,7 +147,8 @@ std::chrono::steady_clock::time_point process_start() {
 Start read_start(const RunOptions& options) {
   Start start;
   auto& plan = start.plan;
-  plan.started = process_start();
+  const bool chosen_before = options.accuracy || options.seconds;  // which took its own time
+  plan.started = chosen_before ? std::chrono::steady_clock::now() : process_start();
   plan.budget = options.budget;
   plan.directory = options.out.value_or(default_directory(options.scene));
   start.file = read_scene(options.scene, options.overrides);

@@ -76,7 +76,7 @@ class Filler {
       const auto report = adapt(out_.nodes, h, out_.mesh, walls_);
       const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
       if (quiet || sweep > 60) ++settled;
-      cut();
+      if (report.inserted + report.removed > 0) cut();
       smooth(h);
       sizes();
     }

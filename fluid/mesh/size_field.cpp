@@ -18,7 +18,7 @@ double size_at_bend(const SizeSpec& spec, double wall_size, double radius) {
 template <int d>
 SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted,
                         std::span<const Vec<d>> x, const Mesh<d>& mesh)
-    : spec_(spec), walls_(walls), wall_size_(walls.walls.size()) {
+    : spec_(spec), walls_(walls), wall_size_(walls.walls.size()), points_(spec.growth) {
   for (std::size_t w = 0; w < wall_size_.size(); ++w) {
     // Half the wetted measure as a length: the half width of a wetted bottom.
     const double length = 0.5 * std::pow(wetted[w], 1.0 / (d - 1));
@@ -26,6 +26,7 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
   }
   find_bends();
   if (std::isfinite(spec.hollow)) find_hollows(x, mesh);
+  points_.plant();
   if (spec.surface >= spec.far) return;  // the far size already resolves the surface
   std::vector<std::array<Vec<d>, d>> free;
   for (const auto& f : mesh.boundary)
@@ -49,7 +50,7 @@ template <int d>
 void SizeField<d>::add(std::vector<Source> found) {
   std::sort(found.begin(), found.end(), [](const Source& a, const Source& b) { return a.size < b.size; });
   for (const Source& s : found)
-    if (s.size < (*this)(s.at)) points_.push_back(s);
+    if (s.size < (*this)(s.at)) points_.add(s);
 }
 
 // Curvature along a facet's edge from the nodes' normals, (n_j - n_i).(x_j - x_i) / |x_j - x_i|^2, averaged
@@ -95,11 +96,7 @@ double SizeField<d>::operator()(const Vec<d>& point) const {
     if (reach <= 0) continue;
     h = wall_size_[w] + spec_.growth * walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach, slack<d>);
   }
-  for (const Source& s : points_) {
-    const double reach = (h - s.size) / spec_.growth;
-    const double squared = (s.at - point).squaredNorm();
-    if (reach > 0 && squared < reach * reach) h = s.size + spec_.growth * std::sqrt(squared);
-  }
+  h = points_.least(point, h);
   const double reach = (h - spec_.surface) / spec_.growth;
   if (!surface_.empty() && reach > 0)
     h = spec_.surface + spec_.growth * std::sqrt(surface_.nearest(point, reach, slack<d>).squared_distance);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/size_sources.hpp"
 #include "fluid/spec.hpp"
 
 namespace splashdown::fluid {
@@ -22,10 +23,7 @@ class SizeField {
   double at_wall(std::size_t wall) const { return wall_size_[wall]; }
 
  private:
-  struct Source {
-    Vec<d> at;
-    double size;
-  };
+  using Source = SizeSource<d>;
   void find_bends();
   void find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh);
   void add(std::vector<Source> found);
@@ -34,7 +32,7 @@ class SizeField {
   WallsAt<d> walls_;
   std::vector<double> wall_size_;
   FacetTree<d> surface_;
-  std::vector<Source> points_;  // bends of walls, hollows
+  SizeSources<d> points_;  // bends of walls, hollows
 };
 
 extern template class SizeField<2>;

@@ -2,6 +2,7 @@
 """What the digits of four scenes cost: docs/performance.md's tables of this program.
 
     tests/benchmark/work_precision.py build/release/splashdown [CASE...]     (default: all but the cone)
+    tests/benchmark/work_precision.py build/release/splashdown --presets [CASE...]
 
 Runs a scene on several meshes, one thread, from the start of the process to the files on disk, report and frames
 included, and prints processor seconds (user + system, with those of gnuplot: other work on the machine changes them
@@ -115,9 +116,14 @@ CASES_BY_SCENE = {scene: errors for scene, errors, _ in CASES.values()}
 
 
 def main():
-    program, names = sys.argv[1], sys.argv[2:] or [name for name in CASES if name != "cone_45"]
+    program, names = sys.argv[1], sys.argv[2:]
+    of_presets = "--presets" in names
+    names = [name for name in names if name != "--presets"] or [name for name in CASES if name != "cone_45"]
     for name in names:
         scene, _, ladder = CASES[name]
+        if of_presets:
+            others = [option for option in ladder[-1] if not option.startswith("--refine")]
+            ladder = [[f"--refine={preset}", *others] for preset in ("draft", "standard", "reference")]
         print(f"{name}: examples/{scene}")
         for options in ladder:
             used, wall, summary, errors = measure(program, scene, options)

@@ -74,7 +74,7 @@ class FrameSeries {
 
   template <int d>
   void add(const Frame<d>& frame);
-  void write_index() const;  ///< also after load: drops the frames that came after the checkpoint
+  void write_index();  ///< also after load: drops the frames that came after the checkpoint
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -82,9 +82,13 @@ class FrameSeries {
   }
 
  private:
+  std::string lines_from(std::size_t first) const;
+  void extend_index(std::size_t first);
+
   std::filesystem::path directory_;
   long count_ = 0;
   std::vector<Entry> entries_;
+  std::size_t index_end_ = 0;  // of the entries in frames.pvd [bytes]; 0: there is none yet
 };
 
 /// A name that is safe as part of a file name: letters, digits, - and _ stay, the rest becomes _.

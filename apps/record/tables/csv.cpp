@@ -141,4 +141,17 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   std::filesystem::rename(temporary, path);
 }
 
+void overwrite_end(const std::filesystem::path& path, std::size_t begin, std::string_view content) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail_on(path, "open");
+  try {
+    if (::lseek(descriptor, static_cast<off_t>(begin), SEEK_SET) < 0) fail_on(path, "seek");
+    write_all(descriptor, content, path);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  ::close(descriptor);
+}
+
 }  // namespace splashdown::apps

@@ -64,5 +64,7 @@ class CsvFile {
 
 /// Writes a whole file or leaves the old one: temporary file, fsync, rename.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+/// What stands from `begin` on, which `content` must not be shorter than, in one write: readers see the old or the new end.
+void overwrite_end(const std::filesystem::path& path, std::size_t begin, std::string_view content);
 
 }  // namespace splashdown::apps

@@ -249,16 +249,19 @@ Raster rasterise(const PlanePicture& picture, PlanePoint low, PlanePoint high, i
     const int x1 = std::min(width - 1, clamped(std::floor(column(std::max({a[0], b[0], c[0]}))), width));
     const int y0 = std::max(0, clamped(std::ceil(row(std::min({a[1], b[1], c[1]}))), height));
     const int y1 = std::min(height - 1, clamped(std::floor(row(std::max({a[1], b[1], c[1]}))), height));
+    const double p = picture.pressure[index(t[0])];
+    const double pb = picture.pressure[index(t[1])] - p, pc = picture.pressure[index(t[2])] - p;
+    const double across_b = dx * (c[1] - a[1]) / area, across_c = -dx * (b[1] - a[1]) / area;
+    const double left = low[0] + (x0 + 0.5) * dx - a[0];
     for (int j = y0; j <= y1; ++j) {
-      const double y = low[1] + (j + 0.5) * dy;
+      const double y = low[1] + (j + 0.5) * dy - a[1];
+      const double wb0 = (left * (c[1] - a[1]) - (c[0] - a[0]) * y) / area;
+      const double wc0 = ((b[0] - a[0]) * y - left * (b[1] - a[1])) / area;
+      float* const row_values = &raster.values[index(j) * index(width)];
       for (int i = x0; i <= x1; ++i) {
-        const double x = low[0] + (i + 0.5) * dx;
-        const double wb = ((x - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (y - a[1])) / area;
-        const double wc = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / area;
+        const double wb = wb0 + (i - x0) * across_b, wc = wc0 + (i - x0) * across_c;
         if (wb < -1e-9 || wc < -1e-9 || wb + wc > 1 + 1e-9) continue;
-        raster.values[index(j) * index(width) + index(i)] =
-            static_cast<float>((1 - wb - wc) * picture.pressure[index(t[0])] + wb * picture.pressure[index(t[1])] +
-                               wc * picture.pressure[index(t[2])]);
+        row_values[i] = static_cast<float>(p + wb * pb + wc * pc);
       }
     }
   }

@@ -73,7 +73,7 @@ void read_region(Reader& reader, Region& region) {
 
 void read_sizes(Reader& reader, Sizes& size) {
   // Two decades either way: beyond them it is another scene, or a slip.
-  size.refine = reader.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for elements of half the size."));
+  size.refine = reader.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for elements of half the size."), presets);
   const auto finer = [&](Rule rule) { return refined(std::move(rule), size.refine); };
   reader.number("surface", size.surface,
                 finer(positive("m", "Leave it out to have sizes chosen, or use e.g. a fifth of the body's breadth.")));

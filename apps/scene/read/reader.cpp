@@ -236,10 +236,25 @@ void Reader::number(std::string_view name, std::optional<double>& target, const 
   if (target) echo(name, *target);
 }
 
-double Reader::divisor(std::string_view name, const Rule& rule) {
+double Reader::divisor(std::string_view name, const Rule& rule, std::span<const Preset> named) {
+  Names words;
+  for (const auto& preset : named) words.emplace_back(preset.name);
   note(name, {.type = Wanted::Type::number, .rule = rule});
+  note(name, {.type = Wanted::Type::word, .words = words});
   double value = 1;
-  if (const auto* node = find(name, Need::optional, {}, {})) value = number_of(*node, key(name), rule).value_or(1.);
+  if (const auto* node = find(name, Need::optional, {}, {})) {
+    if (const auto word = node->value<std::string>()) {
+      const auto found = std::ranges::find(named, *word, &Preset::name);
+      if (found != named.end())
+        value = found->refine;
+      else
+        context_->problems.add(
+            key(name), "must be a number or " + listing(words),
+            nearest(*word, words).empty() ? rule.cure : fmt::format("Did you mean '{}'?", nearest(*word, words)));
+    } else {
+      value = number_of(*node, key(name), rule).value_or(1.);
+    }
+  }
   echo(name, 1.);
   return value;
 }

@@ -12,10 +12,12 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/scene/choose/presets.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/scene/rules/problems.hpp"
 #include "apps/scene/rules/rules.hpp"
@@ -74,8 +76,9 @@ class Reader {
 
   void number(std::string_view name, double& target, const Rule& rule, Need need = Need::optional);
   void number(std::string_view name, std::optional<double>& target, const Rule& rule);
-  /// What others are divided by, 1 if it is absent. Their echo is what came of it, hence its own is 1.
-  double divisor(std::string_view name, const Rule& rule);
+  /// What others are divided by, a number or the name of one, 1 if it is absent. Their echo is what came of it, hence its own
+  /// is 1.
+  double divisor(std::string_view name, const Rule& rule, std::span<const Preset> named);
   void integer(std::string_view name, int& target, const Rule& rule);
   void text(std::string_view name, std::string& target, const std::string& cure, Need need = Need::optional);
   /// The name of a file, made absolute: relative ones begin at the scene's folder.

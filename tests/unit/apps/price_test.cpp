@@ -6,6 +6,7 @@
 #include <random>
 
 #include "apps/price/cost.hpp"
+#include "apps/price/probes.hpp"
 #include "apps/price/write.hpp"
 #include "apps/scene/read/read.hpp"
 #include "tests/scratch_folder.hpp"
@@ -113,7 +114,6 @@ Rung rung(double refine, double seconds, std::vector<double> values, Role role =
   return {.spec = {refine, role},
           .folder = "refine",
           .seconds = seconds,
-          .setup_seconds = 0,
           .steps = 100 * refine,
           .node_steps = 1e4 * refine * refine * refine,
           .memory_mb = 50,
@@ -143,31 +143,126 @@ Price price() {
   return price;
 }
 
-TEST(RunCost, follows_the_work) {
+/// A scene whose time is known: nodes and steps are powers of refine, seconds = around + steps a nodes^p.
+struct KnownScene {
+  double nodes_power = 1, steps_power = 0.75, step_power = 1.1, around = 0, noise = 0;
+  double per_node = 5e-6;
+  mutable std::mt19937 random{1};
+
+  double nodes(double refine) const { return 3000 * std::pow(refine, nodes_power); }
+  double steps(double refine) const { return 300 * std::pow(refine, steps_power); }
+  double seconds(double refine) const {
+    return around + steps(refine) * per_node * 3000 * std::pow(nodes(refine) / 3000, step_power);
+  }
+  Rung made_at(double refine, Role role = Role::rung) const {
+    std::normal_distribution<double> normal(0, 1);
+    auto made = rung(refine, 0, {}, role);
+    const double factor = std::exp(noise * normal(random));
+    made.steps = steps(refine), made.node_steps = made.steps * nodes(refine);
+    made.seconds = factor * seconds(refine), made.setup_seconds = factor * around;
+    return made;
+  }
+  RunCost cost(const std::vector<double>& refines, ExpectedNodes expected = {}) const {
+    std::vector<Rung> rungs;
+    for (const double refine : refines) rungs.push_back(made_at(refine));
+    return RunCost(rungs, std::move(expected), 2);
+  }
+};
+
+TEST(RunCost, of_usual_exponents_is_exact_from_one_mesh_on) {
   EXPECT_FALSE(RunCost({}, {}, 2).known());
-  const RunCost cost(ladder(), {}, 2);
-  const double roundoff = 1e-9;
-  for (const double refine : {0.3, 1., 2.5}) EXPECT_NEAR(cost.seconds(refine) / (2 * std::pow(refine, 3)), 1, roundoff);
-  // A single run: a uniform mesh.
-  EXPECT_NEAR(RunCost({rung(1, 2, {})}, {}, 3).seconds(2), 2 * 16, roundoff);
+  // Nodes of a mesh of uniform size in the plane.
+  const KnownScene scene{.nodes_power = 2};
+  for (const auto& made : {std::vector{1.}, {0.5, 0.707}, {0.5, 0.707, 1., 1.41}})
+    for (const double refine : {0.3, 1., 2.5})
+      EXPECT_NEAR(scene.cost(made).seconds(refine) / scene.seconds(refine), 1, 1e-9);
 }
 
-TEST(RunCost, takes_what_setting_up_costs_from_the_runs) {
-  auto rungs = ladder();
-  for (auto& rung : rungs) rung.seconds += 3, rung.setup_seconds = 3;
-  EXPECT_NEAR(RunCost(rungs, {}, 2).seconds(3), 3 + 2 * 27, 1e-6);
+TEST(RunCost, learns_exponents_from_a_ladder_and_doubts_them_with_two_meshes) {
+  // As far from the usual ones as their deviations say.
+  const KnownScene scene{.nodes_power = 1.85, .steps_power = 0.9, .step_power = 1.25};
+  const auto error = [&](const std::vector<double>& made, double refine) {
+    return std::abs(std::log(scene.cost(made).seconds(refine) / scene.seconds(refine)));
+  };
+  EXPECT_LT(error({0.25, 0.354, 0.5, 0.707, 1}, 4), error({0.707, 1}, 4));
+  EXPECT_LT(error({0.25, 0.354, 0.5, 0.707, 1}, 4), std::log(1.3));
+  // 0.15 in each of three exponents, over four times the refinement and 4^1.85 times the nodes.
+  EXPECT_LT(error({0.707, 1}, 4), (0.15 + 0.15 * 2 * 1.1 + 0.15 * 1.85) * std::log(4.));
+}
+
+TEST(RunCost, what_is_around_the_steps_does_not_grow_with_them) {
+  const KnownScene scene{.nodes_power = 2, .around = 30};
+  const auto cost = scene.cost({0.5, 0.707, 1, 1.41});
+  const KnownScene bare{.nodes_power = 2};
+  // It grows as the root of the nodes where runs do not say more, and here they say that it does not grow.
+  EXPECT_GT(cost.seconds(4), 30 + bare.seconds(4));
+  EXPECT_LT(cost.seconds(4), 30 * 4 + bare.seconds(4));
 }
 
 TEST(RunCost, beyond_the_ladder_nodes_follow_what_the_sizes_ask_for) {
-  const RunCost cost(ladder(), {{0.5, 100}, {1.41, 200}, {5.64, 800}}, 2);
-  // Twice as fine, in proportion to nodes (power 1 between the last two) and steps (power 1).
-  EXPECT_NEAR(cost.node_steps(2.82) / cost.node_steps(1.41), 4, 1e-9);
+  const KnownScene scene;
+  const auto cost = scene.cost({1}, {{0.5, 100}, {1, 200}, {4, 1600}});
+  EXPECT_NEAR(cost.nodes(0.5), scene.nodes(1) / 2, 1e-9);
+  EXPECT_NEAR(cost.nodes(4), scene.nodes(1) * 8, 1e-9);
 }
 
 TEST(RunCost, one_slow_run_of_six_decides_little) {
-  auto rungs = ladder();
+  const KnownScene scene;
+  std::vector<Rung> rungs;
+  for (const double refine : {0.5, 0.707, 1., 1.41}) rungs.push_back(scene.made_at(refine));
+  for (const double refine : {0.98, 1.02}) rungs.push_back(scene.made_at(refine, Role::replicate));
+  const double quiet = RunCost(rungs, {}, 2).seconds(2);
   rungs[2].seconds *= 2;
-  EXPECT_LT(std::abs(std::log(RunCost(rungs, {}, 2).seconds(2) / 16)), std::log(2.) / 2);
+  EXPECT_LT(std::abs(std::log(RunCost(rungs, {}, 2).seconds(2) / quiet)), std::log(2.) / 4);
+}
+
+/// What probes and the run that is chosen by them take of the time asked for, as run --seconds does it.
+double share_taken(const KnownScene& scene, double asked, double guess_off) {
+  const auto refine = [](int k) { return std::pow(2., 0.5 * k); };
+  const ProbeRange range{-8, 8};
+  std::vector<Rung> rungs;
+  const auto cost = [&] { return RunCost(rungs, {{1. / 64, 1}, {64, std::pow(4096, scene.nodes_power)}}, 2); };
+  double spent = 0;
+  std::optional<int> next = first_probe(asked, range, -4, [&](int k) { return guess_off * scene.seconds(refine(k)); });
+  while (next) {
+    rungs.push_back(scene.made_at(refine(*next)));
+    spent += rungs.back().seconds;
+    next = next_probe(asked, range, {static_cast<int>(rungs.size()), *next, spent},
+                      [&](int k) { return cost().seconds(refine(k)); });
+  }
+  std::vector<std::string> unused;
+  auto price = price_of(rungs, {}, 2, unused);
+  price.expected_nodes = {{1. / 64, 1}, {64, std::pow(4096, scene.nodes_power)}};
+  return (spent + scene.made_at(*price.refine_in(asked - spent)).seconds) / asked;
+}
+
+TEST(Probes, a_run_that_is_told_its_seconds_takes_them) {
+  // Exponents one deviation off, clocks that differ by a twentieth from run to run, guesses that are off by six either way.
+  for (const double asked : {10., 60., 300.})
+    for (const double nodes_power : {0.6, 1., 2.})
+      for (const double off : {-1., 0., 1.})
+        for (const double guess : {1 / 6., 1., 6.}) {
+          const KnownScene scene{.nodes_power = nodes_power,
+                                 .steps_power = 0.75 + 0.15 * off,
+                                 .step_power = 1.1 + 0.15 * off,
+                                 .around = 0.3,
+                                 .noise = 0.05};
+          const double share = share_taken(scene, asked, guess);
+          EXPECT_NEAR(share, 1, 0.3) << asked << " s, nodes " << nodes_power << ", off " << off << ", guess " << guess;
+        }
+}
+
+TEST(Probes, that_are_too_dear_are_not_made) {
+  const auto seconds = [](int k) { return std::pow(2., k); };
+  EXPECT_EQ(first_probe(100, {-4, 8}, 0, seconds), 0);
+  EXPECT_EQ(first_probe(2, {-4, 8}, 0, seconds), -4);          // of a tenth of a second: a sixteenth
+  EXPECT_EQ(first_probe(0.1, {-4, 8}, 0, seconds), -4);        // there is none coarser
+  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 0, 1}, seconds), 2);  // 4 + 8 + 16 s
+  EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 5}, seconds), 3);
+  EXPECT_FALSE(next_probe(100, {-4, 8}, {3, 4, 29}, seconds));  // 32 s more
+  EXPECT_EQ(next_probe(60, {-4, 8}, {1, 4, 16}, seconds), std::nullopt);
+  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 3, 20}, seconds), 4);  // one alone says nothing of growth
+  EXPECT_FALSE(next_probe(100, {-4, 3}, {1, 3, 8}, seconds));   // the scene allows none finer
 }
 
 TEST(Price, a_row_s_mesh_has_its_accuracy_and_none_coarser_has) {

@@ -71,6 +71,22 @@ TEST(Frames, the_index_lists_every_piece_with_its_time) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "frames/000001_hull.vtu"));
 }
 
+TEST(Frames, an_index_that_grew_is_the_one_that_is_written_at_once) {
+  ScratchFolder folder;
+  FrameSeries series(folder.path());
+  Frame<2> frame = square();
+  for (int k = 0; k < 5; ++k) frame.time = 0.125 * k, series.add(frame);
+  const std::string grown = folder.text("frames.pvd");
+  series.write_index();
+  EXPECT_EQ(grown, folder.text("frames.pvd"));
+  // Whoever put another file there does not get it broken further.
+  folder.write("frames.pvd", "something else");
+  series.add(frame);
+  const std::string again = folder.text("frames.pvd");
+  series.write_index();
+  EXPECT_EQ(again, folder.text("frames.pvd"));
+}
+
 TEST(Raster, interpolates_linearly_and_knows_what_is_outside) {
   PlanePicture picture;
   picture.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

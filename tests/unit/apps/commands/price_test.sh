@@ -42,4 +42,12 @@ check "with its cure" grep -q 'splashdown price' stderr
 check "so is the list of another scene" exits 2 "$splashdown" run scene.toml --accuracy 50% --price list --set body.wedge.mass=50
 check "so is an accuracy without its sign" exits 2 "$splashdown" run scene.toml --accuracy 50
 check "--refine is the key" cmp <("$splashdown" check scene.toml --refine 0.5) <("$splashdown" check scene.toml --set fluid.size.refine=0.5)
+check "presets are refinements by name" cmp <("$splashdown" check scene.toml --refine draft) <("$splashdown" check scene.toml --refine 0.35)
+check "one that is misspelt is refused" exits 2 "$splashdown" check scene.toml --refine drafft
+check "with its cure" grep -q 'did you mean draft' stderr
+
+told() { "$splashdown" run scene.toml --seconds "$1" --price list --out told --no-report >stdout 2>stderr; }
+check "seconds for none but the coarsest mesh take the run that was made" exits 0 told 0.001
+check "and say so" grep -q 'chosen  *refine 0.5, ' stdout
+check "with its files" cmp told/bodies.csv list/refine-0.5/bodies.csv
 verdict

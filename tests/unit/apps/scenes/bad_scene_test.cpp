@@ -86,6 +86,8 @@ const std::vector<Mistake> scenes = {
      "a number (m)"},
     {"refine_out_of_range", "far = 0.2", "far = 0.2\nrefine = 1000", 14,
      "fluid.size.refine = 1000: must lie in [0.01, 100]", "Use e.g. 2"},
+    {"refine_misspelt", "far = 0.2", "far = 0.2\nrefine = \"drafft\"", 14,
+     "fluid.size.refine = \"drafft\": must be a number or", "Did you mean 'draft'?"},
     {"refine_leaves_no_share", "far = 0.2", "far = 0.2\nrefine = 0.5\nwetted_fraction = 0.3", 15,
      "fluid.size.wetted_fraction = 0.3: must lie in [0, 0.5]", "so must what fluid.size.refine = 0.5 makes of it, 0.6"},
     {"curvature_zero", "far = 0.2", "far = 0.2\ncurvature = 0", 14, "fluid.size.curvature = 0", "must be positive"},

@@ -1,8 +1,10 @@
 // What good scenes are read to: values, defaults, presence of effects, and the text of scene.resolved.toml.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "apps/scene/choose/presets.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/solid.hpp"
 #include "tests/unit/apps/scenes.hpp"
@@ -71,6 +73,14 @@ TEST(GoodScene, refined_twice_is_the_scene_with_all_sizes_halved_by_hand) {
                                                "time.dt_max=0.0005"};
   const auto refined = std::vector<std::string>{"fluid.size.refine=2"};
   EXPECT_EQ(read_scene_text(sized, "t.toml", refined).resolved, read_scene_text(sized, "t.toml", halved).resolved);
+}
+
+TEST(GoodScene, a_preset_is_a_refinement_by_name) {
+  const auto read = [](const std::string& value) {
+    return read_scene_text(sized, "t.toml", std::vector{"fluid.size.refine=" + value}).resolved;
+  };
+  for (const auto& preset : presets) EXPECT_EQ(read(std::string(preset.name)), read(fmt::format("{}", preset.refine)));
+  EXPECT_EQ(read("standard"), read_scene_text(sized, "t.toml").resolved);
 }
 
 TEST(GoodScene, sizes_that_follow_from_others_are_refined_once) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -153,6 +156,40 @@ TEST(SizeField, corners_of_a_hull_are_no_curves) {
   EXPECT_EQ(size_at_hull(scenes::rectangle({-0.01, -0.5}, {0.01, 0.5}), {0.01, 0.5}), 0.05);
   const double low = -std::tan(std::numbers::pi / 18);  // the keel of a wedge of 10 degrees turns by 20
   EXPECT_EQ(size_at_hull(scenes::outline({{0, low}, {1, 0}, {1, 1}, {-1, 1}, {-1, 0}}), {0, low}), 0.05);
+}
+
+/// What all sources together ask for, one by one.
+template <int d>
+void a_tree_of_sources_asks_for_what_they_all_ask(int count) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-1, 1), size(1e-3, 0.1);
+  const double growth = 0.1, far = 0.15;
+  const auto anywhere = [&] {
+    Vec<d> x;
+    for (int k = 0; k < d; ++k) x(k) = place(random);
+    return x;
+  };
+  std::vector<SizeSource<d>> all;
+  SizeSources<d> sources(growth);
+  for (int i = 0; i < count; ++i) {
+    // Some at one place: halves of a tree must not depend on points that differ.
+    all.push_back({i % 5 == 0 ? Vec<d>(Vec<d>::Constant(0.25)) : anywhere(), size(random)});
+    sources.add(all.back());
+  }
+  sources.plant();
+  for (int i = 0; i < 500; ++i) {
+    const Vec<d> x = anywhere();
+    double h = far;
+    for (const auto& s : all) h = std::min(h, s.size + growth * (s.at - x).norm());
+    EXPECT_NEAR(sources.least(x, far), h, 4 * eps * far);
+  }
+}
+
+TEST(SizeSources, a_tree_asks_for_what_all_ask_for) {
+  for (const int count : {0, 1, 8, 9, 300}) {
+    a_tree_of_sources_asks_for_what_they_all_ask<2>(count);
+    a_tree_of_sources_asks_for_what_they_all_ask<3>(count);
+  }
 }
 
 }  // namespace

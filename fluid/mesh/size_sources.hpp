@@ -1,0 +1,45 @@
+// Points that ask for small elements, h = size + growth * distance, and the least that any of them asks for at a place.
+#pragma once
+
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+struct SizeSource {
+  Vec<d> at;
+  double size;
+};
+
+template <int d>
+class SizeSources {
+ public:
+  explicit SizeSources(double growth) : growth_(growth) {}
+  void add(const SizeSource<d>& source) { points_.push_back(source); }
+  /// Puts them into a tree: jets of a fine mesh have hundreds, and every node asks. Without it all are looked at.
+  void plant();
+  /// h, or less if a source asks for less.
+  double least(const Vec<d>& x, double h) const;
+
+ private:
+  /// Points in [first, last), their box and their least size. The left half follows in the list; right = 0: a leaf.
+  struct Branch {
+    Vec<d> low, high;
+    double size;
+    std::size_t first, last, right;
+  };
+  std::size_t grow(std::size_t first, std::size_t last);
+  double squared_gap(const Branch& branch, const Vec<d>& x) const;
+  void look(std::size_t first, std::size_t last, const Vec<d>& x, double& h) const;
+
+  double growth_;
+  std::vector<SizeSource<d>> points_;
+  std::vector<Branch> branches_;
+};
+
+extern template class SizeSources<2>;
+extern template class SizeSources<3>;
+
+}  // namespace splashdown::fluid
