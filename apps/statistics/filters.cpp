@@ -116,6 +116,8 @@ std::optional<IntervalHistory> filtered(const IntervalHistory& history, int cfc)
   const double span = history.ends.back() - history.begin, period = 1.0 / cfc;
   if (span < period) return std::nullopt;
   const double dt = 1 / (samples_per_cfc * cfc);
+  constexpr double most = 2e7;  // samples: a gigabyte with its margins and copies
+  if (span / dt * history.channels > most) return std::nullopt;
   const auto channels = static_cast<std::size_t>(history.channels);
   const double begin = history.begin - static_cast<double>(margin_samples(dt, cfc)) * dt;
   IntervalHistory result{history.channels, begin, {}, {}};

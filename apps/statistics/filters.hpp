@@ -37,7 +37,8 @@ std::vector<double> cfc_filter(std::span<const double> samples, double dt, int c
 std::vector<double> resample(const IntervalHistory& history, int channel, double dt);
 
 /// All channels filtered, at equal intervals, with a margin of 1/CFC before and after the record in which the filters still
-/// answer to it. Nothing if the record is shorter than 1/CFC.
+/// answer to it. Nothing if the record is shorter than 1/CFC, or so long that it would be
+/// more than 2e7 samples of all channels.
 std::optional<IntervalHistory> filtered(const IntervalHistory& history, int cfc);
 
 /// Whether the record is sampled as J211 asks for, 10 CFC times a second, within 1/CFC of a time.

@@ -127,6 +127,13 @@ TEST(Peaks, classes_beyond_the_sampling_rate_are_absent) {
   EXPECT_FALSE(peaks.contains(1000));
 }
 
+TEST(Filters, a_record_too_long_to_be_resampled_has_no_class) {
+  const IntervalHistory day{1, 0, {86400}, {1}};
+  EXPECT_FALSE(filtered(day, 60).has_value());
+  const IntervalHistory minute{1, 0, {60}, {1}};
+  EXPECT_TRUE(filtered(minute, 60).has_value());
+}
+
 TEST(Peaks, an_empty_record_has_none) { EXPECT_TRUE(filtered_pulses({}).empty()); }
 
 }  // namespace
