@@ -1,5 +1,9 @@
 #include "fluid/contact/separation.hpp"
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "fluid/contact/wall.hpp"
 
 namespace splashdown::fluid {
@@ -58,7 +62,7 @@ std::vector<Separation<d>> separations(const Nodes<d>& nodes, const Mesh<d>& mes
         for (int other : f.nodes) {
           if (other == n || separates(other) == inner) continue;
           if (index[n] < 0) index[n] = static_cast<int>(all.size()), all.push_back({n, {}, Vec<d>::Zero()});
-          all[index[n]].upstream.push_back(other);
+          all[index[n]].upstream.push_back({other});
         }
       }
     }
@@ -69,14 +73,31 @@ std::vector<Separation<d>> separations(const Nodes<d>& nodes, const Mesh<d>& mes
 }
 
 template <int d>
-void take_from_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u) {
-  for (const Separation<d>& s : separations) {
-    Vec<d> sum = Vec<d>::Zero();
-    for (int n : s.upstream) sum += u[n];
-    Vec<d> past = sum / static_cast<double>(s.upstream.size()) - u[s.at];
-    if (d == 3 && !s.area.isZero(0)) past -= past.dot(s.area) / s.area.squaredNorm() * s.area;
-    u[s.at] += past;
-  }
+void share_momentum(std::span<const double> volume, std::span<Separation<d>> separations) {
+  std::map<int, int> meets;  // edge nodes that a neighbour has
+  for (const auto& s : separations)
+    for (const auto& up : s.upstream) ++meets[up.node];
+  for (auto& s : separations)
+    for (auto& up : s.upstream) {
+      const double of_edge = std::max(0.0, volume[s.at]), of_neighbour = std::max(0.0, volume[up.node]);
+      const double a = of_edge / static_cast<double>(s.upstream.size()), b = of_neighbour / meets[up.node];
+      if (a + b == 0) continue;
+      up.taken = of_edge > 0 ? a * b / (a + b) / of_edge : 0.0;
+      up.given = of_neighbour > 0 ? a * b / (a + b) / of_neighbour : 0.0;
+    }
+}
+
+template <int d>
+void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u) {
+  std::vector<std::pair<int, Vec<d>>> changes;
+  for (const auto& s : separations)
+    for (const auto& up : s.upstream) {
+      Vec<d> past = u[up.node] - u[s.at];
+      if (d == 3 && !s.area.isZero(0)) past -= past.dot(s.area) / s.area.squaredNorm() * s.area;
+      changes.emplace_back(s.at, up.taken * past);
+      changes.emplace_back(up.node, -up.given * past);
+    }
+  for (const auto& [node, change] : changes) u[node] += change;
 }
 
 template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
@@ -85,7 +106,9 @@ template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const
                        double);
 template std::vector<Separation<2>> separations(const Nodes<2>&, const Mesh<2>&);
 template std::vector<Separation<3>> separations(const Nodes<3>&, const Mesh<3>&);
-template void take_from_upstream<2>(std::span<const Separation<2>>, std::span<Vec<2>>);
-template void take_from_upstream<3>(std::span<const Separation<3>>, std::span<Vec<3>>);
+template void share_momentum<2>(std::span<const double>, std::span<Separation<2>>);
+template void share_momentum<3>(std::span<const double>, std::span<Separation<3>>);
+template void mix_with_upstream<2>(std::span<const Separation<2>>, std::span<Vec<2>>);
+template void mix_with_upstream<3>(std::span<const Separation<3>>, std::span<Vec<3>>);
 
 }  // namespace splashdown::fluid

@@ -1,5 +1,6 @@
 // Where the flow leaves a wall: at its edges. A node there goes with the edge, and the water that leaves it has the velocity
-// with which it came (Kutta): that of its wetted neighbours upstream.
+// with which it came (Kutta): what is at the edge and its wetted neighbours upstream become one. No momentum is lost in
+// that, and no energy made.
 #pragma once
 
 #include <span>
@@ -19,18 +20,33 @@ void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, c
 /// A node where the flow leaves an edge.
 template <int d>
 struct Separation {
+  /// A wetted neighbour, and shares of the difference of velocities that the node and the neighbour take.
+  struct Upstream {
+    int node;
+    double taken = 0, given = 0;
+  };
   int at;
-  std::vector<int> upstream;  ///< wetted neighbours that it takes its velocity from
-  Vec<d> area;                ///< of the boundary around it
+  std::vector<Upstream> upstream;
+  Vec<d> area;  ///< of the boundary around the node
 };
 
 /// Of the nodes that `separate` has found, those with wetted neighbours.
 template <int d>
 std::vector<Separation<d>> separations(const Nodes<d>& nodes, const Mesh<d>& mesh);
 
-/// What leaves has the mean velocity of what comes, in space along the surface alone. `u`: of nodes, in place.
+/// The shares, from the volume of water around nodes [m^d]: with a and b what edge node i and neighbour j have for each other,
+/// V_i and V_j shared among all that they meet, and m = a b / (a + b),
+///
+///   taken = m / V_i,  given = m / V_j
+///
+/// A pair that is alone ends with the velocity of its centre of mass.
 template <int d>
-void take_from_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u);
+void share_momentum(std::span<const double> volume, std::span<Separation<d>> separations);
+
+/// v_i += taken (v_j - v_i), v_j -= given (v_j - v_i), all at once; in space along the surface alone. Keeps momentum. The
+/// energy does not grow: sum_j m <= V_i at every node, so that no eigenvalue of the exchange is beyond 2. `u`: of nodes, in place.
+template <int d>
+void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u);
 
 extern template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
                               std::span<const Twist<2>>, double);
@@ -38,7 +54,9 @@ extern template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&
                               std::span<const Twist<3>>, double);
 extern template std::vector<Separation<2>> separations(const Nodes<2>&, const Mesh<2>&);
 extern template std::vector<Separation<3>> separations(const Nodes<3>&, const Mesh<3>&);
-extern template void take_from_upstream<2>(std::span<const Separation<2>>, std::span<Vec<2>>);
-extern template void take_from_upstream<3>(std::span<const Separation<3>>, std::span<Vec<3>>);
+extern template void share_momentum<2>(std::span<const double>, std::span<Separation<2>>);
+extern template void share_momentum<3>(std::span<const double>, std::span<Separation<3>>);
+extern template void mix_with_upstream<2>(std::span<const Separation<2>>, std::span<Vec<2>>);
+extern template void mix_with_upstream<3>(std::span<const Separation<3>>, std::span<Vec<3>>);
 
 }  // namespace splashdown::fluid

@@ -68,7 +68,8 @@ void WallMotion<d>::find_edges(const WallsAt<d>& walls, std::span<const char> an
 }
 
 template <int d>
-void WallMotion<d>::meet_pressure(std::span<const int> unknown) {
+void WallMotion<d>::meet_pressure(std::span<const int> unknown, std::span<const double> volume) {
+  share_momentum<d>(volume, separations_);
   for (int i : tied_)
     if (!nodes_.tie[i].sharp() && wetted_[i] && unknown[i] >= 0) slips_[i] = 1;
   for (int f = 0; f < static_cast<int>(mesh_.boundary.size()); ++f) {
@@ -182,7 +183,7 @@ void WallMotion<d>::move_tied(int i, const Isometry<d>& pose, double dt, Moved& 
              : tie.crease >= 0 ? wall.nearest_on_crease(pose, out.x[i], tie.crease)
                                : near.point;
   if (passes_edge) out.tie[i].patch = near.patch;
-  if (!slips_[i]) out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
+  if (!slips_[i] && !nodes_.separates[i]) out.u[i] = (out.x[i] - nodes_.x[i]) / dt;
 }
 
 template <int d>
@@ -200,7 +201,7 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
     else
       move_tied(i, pose, dt, out);
   });
-  take_from_upstream<d>(separations_, out.u);
+  mix_with_upstream<d>(separations_, out.u);
   out.slides = by_flux_;
   for (int f : chords_)
     if (is_chord(f, out.tie)) out.slides.push_back(f);

@@ -54,7 +54,7 @@ TYPED_TEST(WallMotions, water_that_moves_with_its_tank_stays_where_it_is_in_it) 
   const Vec<d> w = tank.velocity[0].template head<d>();
   const double dt = 0.1;
   WallMotion<d> motion(tank.nodes, tank.mesh, tank.at(), std::vector<char>{0});
-  motion.meet_pressure(std::vector<int>(tank.nodes.size(), 0));
+  motion.meet_pressure(std::vector<int>(tank.nodes.size(), 0), tank.nodes.volume);
   const auto out = moved_by<d>(motion, tank, std::vector<Vec<d>>(tank.nodes.size(), w), dt);
   for (std::size_t i = 0; i < tank.nodes.size(); ++i) {
     EXPECT_LE((out.x[i] - tank.nodes.x[i] - dt * w).norm(), 20 * eps);
@@ -72,7 +72,7 @@ TYPED_TEST(WallMotions, nodes_with_a_pressure_keep_the_waters_velocity_and_their
   WallMotion<d> motion(tank.nodes, tank.mesh, tank.at(), std::vector<char>{0});
   std::vector<int> unknown(tank.nodes.size());
   for (std::size_t i = 0; i < unknown.size(); ++i) unknown[i] = tank.nodes.surface[i] ? -1 : static_cast<int>(i);
-  motion.meet_pressure(unknown);
+  motion.meet_pressure(unknown, tank.nodes.volume);
   const double dt = 0.02;
   const auto out = moved_by<d>(motion, tank, v, dt);
   int slipping = 0;
@@ -205,7 +205,7 @@ TYPED_TEST(WallMotions, water_past_an_edge_has_the_velocity_of_where_it_comes_fr
   constexpr int d = TypeParam::value;
   const ConvexEdge<d> edge(true);
   auto motion = edge.motion();
-  motion.meet_pressure(std::vector<int>(edge.nodes.size(), 0));
+  motion.meet_pressure(std::vector<int>(edge.nodes.size(), 0), edge.nodes.volume);
   std::vector<Vec<d>> uniform(edge.nodes.size(), Vec<d>::Unit(0));
   const double dt = 0.02;
   auto u = uniform;
@@ -285,7 +285,7 @@ TYPED_TEST(WallMotions, the_flux_counts_at_chords_of_curved_walls) {
   std::vector<Vec<d>> v(chord.nodes.size(), Vec<d>::Zero());
   auto slides = [&] {
     WallMotion<d> motion(chord.nodes, chord.mesh, chord.at(), std::vector<char>{0});
-    motion.meet_pressure(std::vector<int>(chord.nodes.size(), -1));
+    motion.meet_pressure(std::vector<int>(chord.nodes.size(), -1), chord.nodes.volume);
     return moved_by<d>(motion, chord, v, 0.01).slides;
   };
   EXPECT_EQ(slides(), std::vector<int>{0});
@@ -297,7 +297,7 @@ TYPED_TEST(WallMotions, the_flux_of_flat_walls_is_that_of_their_nodes) {
   constexpr int d = TypeParam::value;
   const scenes::Tank<d> tank(across);
   WallMotion<d> motion(tank.nodes, tank.mesh, tank.at(), std::vector<char>{0});
-  motion.meet_pressure(std::vector<int>(tank.nodes.size(), -1));
+  motion.meet_pressure(std::vector<int>(tank.nodes.size(), -1), tank.nodes.volume);
   const std::vector<Vec<d>> v(tank.nodes.size(), Vec<d>::Zero());
   const auto out = moved_by<d>(motion, tank, v, 0.01);
   for (int f : out.slides) {
