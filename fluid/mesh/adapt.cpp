@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 #include "fluid/mesh/boundary_edges.hpp"
 #include "fluid/parallel.hpp"
@@ -40,8 +41,12 @@ class Adapter {
   AdaptReport<d> run() {
     collect();
     touched_.assign(nodes_.size(), 0);
+    // Nodes that coincide first: no other merger may keep them apart.
+    const auto apart = std::ranges::find_if(short_, [](const Edge& e) { return e.ratio >= coincide; });
+    merge({short_.begin(), apart});
     uncrowd();
-    merge();
+    merge({apart, short_.end()});
+    renumber_boundary();
     edges_ = BoundaryEdges<d>(mesh_.boundary, nodes_.size());
     split();
     compact();
@@ -115,7 +120,7 @@ class Adapter {
     std::sort(crowded.begin(), crowded.end());
     for (const auto& [c, inner] : crowded) {
       const auto& cell = mesh_.cells[c];
-      if (!touched_[cell[inner]]) remove(cell[inner], cell[inner == 0 ? 1 : 0]);
+      if (!touched_[cell[inner]]) remove(cell[inner], into_[cell[inner == 0 ? 1 : 0]]);
     }
   }
   // The corner of the cell that is too near to the facet opposite on the boundary, -1: none.
@@ -154,8 +159,8 @@ class Adapter {
     return wet && free;
   }
 
-  void merge() {
-    for (const Edge& e : short_) {
+  void merge(std::span<const Edge> edges) {
+    for (const Edge& e : edges) {
       if (touched_[e.a] || touched_[e.b]) continue;
       const Rank rank_a = rank(e.a), rank_b = rank(e.b);
       const bool both_boundary = rank_a != within && rank_b != within;
@@ -177,6 +182,9 @@ class Adapter {
         remove(e.a, e.b);
       }
     }
+  }
+
+  void renumber_boundary() {
     for (auto& f : mesh_.boundary)
       for (int& n : f.nodes) n = into_[n];
     std::erase_if(mesh_.boundary, [](const Facet<d>& f) {

@@ -18,7 +18,7 @@ constexpr double facet_meet = 0.001;  // nodes of another wall this close to a w
 constexpr double facet_sag = 0.1;     // gap between a wetted facet and its wall, at most, over its length
 
 // What a cell holds: cells without volume and all but without it are not asked whether it is water.
-enum Content : char { none, flat_cell, dust_cell, water, closed_crack };
+enum Content : char { none, flat_cell, thin_cell, water, closed_crack };
 bool is_filled(Content c) { return c >= water; }
 
 struct Shape {
@@ -103,9 +103,9 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
     patch = tie.patch;
     at_vertex = at_vertex || tie.sharp();
   }
-  if (d == 2 && !one_patch && !at_vertex) return false;  // cuts a corner
-  // The chord of a convex hull lies in the solid, however deep: no air is there to be a surface to.
-  return at.walls[wall].nearest(at.poses[wall], centre, length).distance < facet_sag * length;
+  // Chords of a convex hull lie in the solid, however deep: no air is there to be a surface to. Beyond it none cuts a corner.
+  const bool cuts_corner = d == 2 && !one_patch && !at_vertex;
+  return at.walls[wall].nearest(at.poses[wall], centre, length).distance < (cuts_corner ? 0 : facet_sag * length);
 }
 
 // In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
@@ -195,25 +195,6 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
   return piercing;
 }
 
-// Flat cells and dust with water all around are no gap in it: between them there would be a free surface within the water.
-template <int d>
-void fill_cracks(const Delaunay<d>& all, std::vector<Content>& content) {
-  std::vector<int> thin;
-  for (std::size_t c = 0; c < content.size(); ++c)
-    if (content[c] == flat_cell || content[c] == dust_cell) thin.push_back(static_cast<int>(c));
-  // Those that touch air or a wall are open, and those that touch these.
-  for (std::size_t left = 0; left != thin.size();) {
-    left = thin.size();
-    std::erase_if(thin, [&](int c) {
-      const auto& around = all.neighbours[c];
-      const bool opens = std::any_of(around.begin(), around.end(), [&](int n) { return n < 0 || content[n] == none; });
-      if (opens) content[c] = none;
-      return opens;
-    });
-  }
-  for (int c : thin) content[c] = content[c] == dust_cell ? water : closed_crack;
-}
-
 template <int d>
 int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
   for (int k = 0; k < d; ++k) {
@@ -223,6 +204,33 @@ int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
     if (lies_on(wall, f, nodes, at)) return wall;
   }
   return -1;
+}
+
+// Flat and thin cells with water all around are no gap in it: between them there would be a free surface within the water.
+// Nor are thin ones between the water and walls: where walls meet, what is left of the gap between them is closed.
+template <int d>
+void fill_cracks(const Delaunay<d>& all, const Nodes<d>& nodes, const WallsAt<d>& at, std::vector<Content>& content) {
+  std::vector<int> thin;
+  for (std::size_t c = 0; c < content.size(); ++c)
+    if (content[c] == flat_cell || content[c] == thin_cell) thin.push_back(static_cast<int>(c));
+  auto opens = [&](int c) {
+    for (int k = 0; k <= d; ++k) {
+      const int other = all.neighbours[c][k];
+      if (other >= 0 && content[other] != none) continue;
+      if (content[c] == flat_cell || wall_of(Facet<d>{facet_nodes(all.cells[c], k)}, nodes, at) < 0) return true;
+    }
+    return false;
+  };
+  // Those that touch air are open, and those that touch these.
+  for (std::size_t left = 0; left != thin.size();) {
+    left = thin.size();
+    std::erase_if(thin, [&](int c) {
+      if (!opens(c)) return false;
+      content[c] = none;
+      return true;
+    });
+  }
+  for (int c : thin) content[c] = content[c] == thin_cell ? water : closed_crack;
 }
 
 }  // namespace
@@ -252,10 +260,10 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double
       centroid += nodes.x[n] / (d + 1);
       has_inner = has_inner || inner[n];
     }
-    if (!has_inner && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d)) return dust_cell;
+    if (!has_inner && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d)) return thin_cell;
     const double alpha = s.radius / size;
+    if (alpha > limit.never) return inside(centroid) ? thin_cell : none;
     const bool is_water =
-        alpha <= limit.never &&
         ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&
         !in_solid<d>(cell, centroid, size, nodes, old_boundary, walls);
     return is_water ? water : none;
@@ -264,7 +272,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double
   in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });
   std::vector<int> piercing;
   if constexpr (d == 3) piercing = recover_walls(all, nodes, inner, walls, content, decide);
-  fill_cracks(all, content);
+  fill_cracks(all, nodes, walls, content);
 
   Recognised<d> mesh;
   mesh.cells.reserve(all.cells.size());

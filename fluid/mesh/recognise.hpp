@@ -1,7 +1,7 @@
 // Which Delaunay cells are fluid? The old boundary, advected with its nodes, decides.
 //
 // With R the circumradius of a cell and h the element size at it:
-//   R > 8 h                      not fluid
+//   R > 8 h                      not fluid, but for slivers that are closed in by fluid and walls
 //   R < 0.8 h, an inner node     fluid
 //   R < 0.3 h, boundary nodes    fluid unless inside a wall: lets two parts of fluid join
 //   else                         fluid if the centroid lies inside the advected old boundary

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
 
 #include "tests/unit/fluid/scenes.hpp"
@@ -132,6 +133,36 @@ TEST(Adapt, removes_inner_nodes_that_crowd_a_facet) {
   const Vec<2> at = nodes.x[crowd];
   tank.sweep();
   for (const auto& x : nodes.x) EXPECT_GT((x - at).norm(), 1e-3);
+}
+
+// A node that has slid into a corner is one with the corner's, whatever else happens beside it: here an inner node crowds its facet.
+TEST(Adapt, leaves_no_two_nodes_in_one_place_and_loses_no_volume) {
+  Tank tank(0.1);
+  tank.target = 0.1;
+  auto& nodes = tank.liquid.nodes;
+  int corner = -1, beside = -1;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes.tie[i].vertex >= 0 && (nodes.x[i] - Vec<2>(-0.5, -1)).norm() < eps) corner = static_cast<int>(i);
+  ASSERT_GE(corner, 0);
+  for (const auto& f : tank.liquid.mesh.boundary)
+    for (int k : {0, 1})
+      if (f.nodes[k] == corner && std::abs(nodes.x[f.nodes[1 - k]].y() + 1) < eps) beside = f.nodes[1 - k];
+  ASSERT_GE(beside, 0);
+  const int crowd = nodes.add(nodes.x[beside] + Vec<2>(0.002, 0.01), Vec<2>::Zero(), 0, {}, false);
+  tank.liquid.h.push_back(0.1);
+  tank.liquid.mesh = recognise<2>(nodes, tank.liquid.h, tank.liquid.mesh.boundary, tank.placed.at());
+  ASSERT_EQ(nodes.spray[crowd], 0);
+  nodes.x[beside] = nodes.x[corner];
+  nodes.volume.assign(nodes.size(), 1);
+  nodes.owed.assign(nodes.size(), 0);
+  const auto before = static_cast<double>(nodes.size());
+  const auto report = adapt<2>(nodes, tank.liquid.h, tank.liquid.mesh, tank.placed.at());
+  EXPECT_GE(report.removed, 2) << "the one beside and the one in the crowd";
+  EXPECT_NEAR(std::reduce(nodes.volume.begin(), nodes.volume.end()) + std::reduce(nodes.owed.begin(), nodes.owed.end()),
+              before, eps)
+      << "what has gone has handed on its volume";
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT((nodes.x[i] - nodes.x[j]).norm(), 0) << i << " " << j;
 }
 
 TEST(Adapt, does_not_merge_across_a_thin_jet) {

@@ -202,6 +202,61 @@ TEST(Recognise, the_first_mesh_has_no_lost_nodes) {
     EXPECT_EQ(liquid.nodes.spray[i], 0) << liquid.nodes.x[i].transpose();
 }
 
+/// Free surface of the water that lies below `depth` [m].
+double surface_below(double depth, const Mesh<2>& mesh, const Nodes<2>& nodes) {
+  double length = 0;
+  for (const auto& f : mesh.boundary)
+    if (f.wall < 0 && nodes.x[f.nodes[0]].y() < -depth && nodes.x[f.nodes[1]].y() < -depth)
+      length += area_vector_of<2>(f, nodes.x).norm();
+  return length;
+}
+
+// The facet from before the corner to behind it cuts it off: it lies in the solid, where no air is.
+TEST(Recognise, a_node_that_has_just_passed_a_corner_opens_no_cavity) {
+  for (const double passed : {1e-4, 1e-3, 5e-3, 2e-2}) {
+    auto spec = scenes::still_water(1, 0.6, 0.06);
+    spec.walls.insert(spec.walls.begin(), scenes::wall("box", scenes::rectangle({-0.1, -0.4}, {0.1, -0.2}), 0.06));
+    const scenes::Placed placed(spec);
+    auto liquid = fill<2>(spec, placed.at());
+    auto& nodes = liquid.nodes;
+    // The node nearest to the corner (0.1, -0.2) on the top goes around it, down the side.
+    int goes = -1;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (nodes.tie[i].wall == 0 && !nodes.tie[i].sharp() && std::abs(nodes.x[i].y() + 0.2) < eps &&
+          (goes < 0 || nodes.x[i].x() > nodes.x[goes].x()))
+        goes = static_cast<int>(i);
+    ASSERT_GE(goes, 0);
+    nodes.x[goes] = {0.1, -0.2 - passed};
+    nodes.tie[goes].patch = placed.at().walls[0].nearest(placed.at().poses[0], {0.1, -0.3}, 1).patch;
+    const auto mesh = recognise<2>(nodes, liquid.h, liquid.mesh.boundary, placed.at());
+    EXPECT_EQ(surface_below(0.01, mesh, nodes), 0) << passed;
+  }
+}
+
+// A corner of one box a hair above the side of another: what is left of the water between them is no air.
+TEST(Recognise, a_gap_that_closes_under_water_opens_no_cavity) {
+  for (const double gap : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    auto spec = scenes::still_water(1, 0.8, 0.06);
+    spec.walls.insert(spec.walls.begin(), scenes::wall("lower", scenes::rectangle({-0.15, -0.6}, {0.1, -0.4}), 0.06));
+    Surface<2> rhomb;
+    rhomb.vertices.resize(2, 4);
+    rhomb.vertices << 0, 0.12, 0, -0.12, -0.12, 0, 0.12, 0;
+    rhomb.facets.resize(2, 4);
+    rhomb.facets << 0, 1, 2, 3, 1, 2, 3, 0;
+    auto upper = scenes::wall("upper", rhomb, 0.06);
+    upper.pose.translate(Vec<2>(0, -0.4 + 0.12 + 0.05));
+    spec.walls.insert(spec.walls.begin() + 1, upper);
+    scenes::Placed placed(spec);
+    auto liquid = fill<2>(spec, placed.at());
+    const double down = 0.05 - gap;
+    placed.poses[1].translation().y() -= down;
+    for (std::size_t i = 0; i < liquid.nodes.size(); ++i)
+      if (liquid.nodes.tie[i].wall == 1) liquid.nodes.x[i].y() -= down;
+    const auto mesh = recognise<2>(liquid.nodes, liquid.h, liquid.mesh.boundary, placed.at());
+    EXPECT_EQ(surface_below(0.02, mesh, liquid.nodes), 0) << gap;
+  }
+}
+
 TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
   scenes::Lattice<3> cube(5, 0.0);
   for (auto& t : cube.nodes.tie) t = {};
