@@ -1,11 +1,14 @@
 #include "fluid/approach_bound.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
 #include "core/facet_tree.hpp"
 #include "fluid/mesh/parts.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -74,6 +77,31 @@ double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<
   return dt;
 }
 
+template <int d>
+double gap_time(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh) {
+  constexpr double thin = 0.01;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  return least_in_parallel(mesh.cells.size(), [&](std::size_t c) {
+    const auto& cell = mesh.cells[c];
+    int one = -1;
+    const bool between = std::ranges::any_of(cell, [&](int n) {
+      const int wall = nodes.tie[n].wall;
+      if (one < 0) one = wall;
+      return wall >= 0 && wall != one;
+    });
+    if (!between) return never;
+    const auto gradients = volume_gradients<d>(corners(nodes.x, cell));
+    double closing = 0, size = 0;
+    for (int k = 0; k <= d; ++k) {
+      closing -= gradients.col(k).dot(nodes.v[cell[k]]);
+      size += h[cell[k]] / (d + 1);
+    }
+    return closing > 0 ? std::max(volume<d>(corners(nodes.x, cell)), thin * std::pow(size, d)) / closing : never;
+  });
+}
+
+template double gap_time(const Nodes<2>&, std::span<const double>, const Mesh<2>&);
+template double gap_time(const Nodes<3>&, std::span<const double>, const Mesh<3>&);
 template double approach_dt(const Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
                             std::span<const Twist<2>>, double, double);
 template double approach_dt(const Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,

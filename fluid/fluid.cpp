@@ -111,7 +111,8 @@ double Fluid<d>::stable_dt() const {
     return least;
   });
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
-  dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity())});
+  dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity()),
+                 s_->spec.step.cfl * gap_time<d>(now.nodes, now.h, now.mesh)});
   for (const auto& effect : s_->effects) dt = std::min(dt, effect->stable_dt());
   return approach_dt<d>(now.nodes, now.h, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
 }
@@ -128,7 +129,7 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
     if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response,
                           s.wall_motion->held()))
       return {"the pressure matrix could not be factored"};
-    s.wall_motion->meet_pressure(s.equation.unknown());
+    s.wall_motion->meet_pressure(s.equation.unknown(), s.equation.lumped_volume());
     s.interface = s.equation.laplacian().means(s.carried_impulse());
   }
   for (std::size_t t = 0; t < s.effects.size(); ++t) {

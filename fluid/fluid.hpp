@@ -35,6 +35,7 @@ using splashdown::WallLoad;
 struct MotionDrive {
   Eigen::MatrixXd directions;  ///< only these combinations of them may occur; without them and an impulse: all
   Eigen::VectorXd impulse;     ///< on them, besides the fluid's and what the given velocities contain; empty: none
+  bool restricts() const { return directions.size() > 0 || impulse.size() > 0; }
 };
 
 template <int d>

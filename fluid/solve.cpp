@@ -30,7 +30,7 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   trial.on_walls.assign(walls.size(), Wrench<d>::Zero());
   trial.known.setZero(equation.motions());
   trial.answer = trial.known;
-  if (drive.directions.size() > 0 || drive.impulse.size() > 0) equation.allow(drive.directions);
+  if (drive.restricts()) equation.allow(drive.directions);
   if (auto status = repair(); !status.ok()) return status;
   // Pressure changes no momentum of free water; masses that are held up (PressureEquation) may.
   free_water.give_back(free_carried, equation.lumped_volume(), trial.v);
@@ -119,7 +119,7 @@ Status Fluid<d>::State::predict(const MotionDrive& drive) {
     const auto scope = timer.scope(momentum);
     carried = trial.v;
   }
-  const MotionView bodies{equation.modes(), equation.inertia(), drive.directions};
+  const MotionView bodies{equation.modes(), equation.inertia()};
   const std::vector<Twist<d>> carried_walls = trial.s_before;
   Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation.motions());
   for (std::size_t t = 0; t < effects.size(); ++t) {
@@ -131,6 +131,8 @@ Status Fluid<d>::State::predict(const MotionDrive& drive) {
       return status;
   }
   if (equation.motions() == 0) return {};
+  // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
+  if (drive.restricts()) answer = drive.directions * (drive.directions.transpose() * answer);
   const Eigen::VectorXd answered = equation.inertia() * answer;
   trial.known += answered;
   trial.answer += answer;

@@ -19,10 +19,9 @@
 
 namespace splashdown::fluid {
 
-/// Motions of walls that answer the fluid: twists of all walls = modes y, inertia of y, and the combinations of them that may
-/// occur (empty: all).
+/// Motions of walls that answer the fluid: twists of all walls = modes y, and the inertia of y.
 struct MotionView {
-  const Eigen::MatrixXd &modes, &inertia, &directions;
+  const Eigen::MatrixXd &modes, &inertia;
 };
 
 /// What an effect sees of the fluid during a step.

@@ -266,10 +266,7 @@ bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted
     react(step, fields[k].v, fields[k].v, fields[k].walls, reaction[k]);
     total.col(k) -= on_motions(reaction[k]);
   }
-  const Eigen::MatrixXd directions =
-      bodies.directions.size() > 0 ? bodies.directions : Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count));
-  const Eigen::MatrixXd allowed = algebra::congruence(total, directions);
-  const Eigen::VectorXd y = directions * algebra::least_squares(allowed, directions.transpose() * on_motions(on_walls));
+  const Eigen::VectorXd y = algebra::least_squares(total, on_motions(on_walls));
   for (Eigen::Index k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k].v[i];
     for (std::size_t w = 0; w < on_walls.size(); ++w) on_walls[w] += y[k] * reaction[k][w];

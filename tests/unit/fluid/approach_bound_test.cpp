@@ -78,5 +78,41 @@ TYPED_TEST(ApproachBound, other_water_counts_like_a_wall) {
   EXPECT_NEAR(flight.dt(never), 0.5 / speed, 1e-12);
 }
 
+/// Water between two walls, of which one comes nearer with the water behind it.
+template <int d>
+struct Gap {
+  scenes::Lattice<d> water{4};
+  std::vector<double> h = std::vector<double>(water.nodes.size(), 0.25);
+
+  explicit Gap(double thickness) {
+    for (std::size_t i = 0; i < water.nodes.size(); ++i) {
+      double& height = water.nodes.x[i][d - 1];
+      const bool below = height < 0.1, above = !below && height < 0.4;
+      water.nodes.tie[i].wall = below ? 0 : above ? 1 : -1;
+      if (above) height = thickness;
+      water.nodes.v[i] = below ? Vec<d>::Zero() : Vec<d>(-speed * Vec<d>::Unit(d - 1));
+    }
+  }
+  double time() const { return gap_time<d>(water.nodes, h, water.mesh); }
+};
+
+TYPED_TEST(ApproachBound, a_gap_between_walls_has_the_time_until_it_is_closed) {
+  constexpr int d = TypeParam::value;
+  EXPECT_NEAR(Gap<d>(0.1).time(), 0.1 / speed, 1e-12);
+  EXPECT_NEAR(Gap<d>(0.05).time(), 0.05 / speed, 1e-12);
+  EXPECT_GT(Gap<d>(1e-9).time(), 1e-3 * 0.25 / speed) << "gaps end";
+}
+
+TYPED_TEST(ApproachBound, gaps_that_open_and_water_at_one_wall_are_no_bound) {
+  constexpr int d = TypeParam::value;
+  Gap<d> opens(0.1);
+  for (auto& v : opens.water.nodes.v) v = -v;
+  EXPECT_GT(opens.time(), never);
+  Gap<d> of_one(0.1);
+  for (auto& tie : of_one.water.nodes.tie)
+    if (tie.wall == 1) tie.wall = -1;
+  EXPECT_GT(of_one.time(), never);
+}
+
 }  // namespace
 }  // namespace splashdown::fluid
