@@ -152,6 +152,8 @@ class StructurePart : public Participant {
   /// Opens and closes contacts as the last trial asks for if this is the impulse on it. False: they were right.
   virtual bool update_contacts(const Impulse& /*impulse*/) { return false; }
   virtual Placement placement() const = 0;  ///< of the last trial, at t_{n+1}
+  /// Whether the last trial may be committed.
+  virtual Status acceptable() const { return {}; }
   /// Accepts the last trial.
   virtual void commit() = 0;
 };

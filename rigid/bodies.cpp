@@ -44,6 +44,7 @@ struct Bodies<d>::World {
   std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
   std::vector<Condition<d>> tied, near;           // by joints, and by contacts that may close, of the begun step
   Motions motions;
+  Eigen::VectorXd apart;  // velocities that only drift: how hulls that overlap part
   double time = 0, kick = 0, dt = 0;
   Phase phase = Phase::committed;
 
@@ -147,7 +148,53 @@ struct Bodies<d>::World {
     fill(near, p.contacts, p.least);
     constexpr double flush = 1e-10;  // of the bodies' lengths: what positions do not resolve
     p.resolution = flush * p.unit.maxCoeff() / dt;
+    part_overlaps(p);
+    p.least = p.least.cwiseMin(0);
     motions = Motions(p);
+  }
+
+  /// Hulls that overlap move apart as they drift, the heavy ones least, without speed: it would be energy from nowhere.
+  void part_overlaps(typename Motions::Problem p) {
+    apart.setZero(m * size());
+    if ((p.least.array() <= p.resolution).all()) return;
+    p.before.setZero();
+    p.equal.setZero();
+    p.impulse.setZero();
+    Motions parting(p);
+    if (const auto found = settled(parting, p.impulse)) apart = *found;
+  }
+
+  /// Faster than at t_n, bodies reach more than was looked at.
+  Status passes_through() const {
+    if (!contacts) return {};
+    std::vector<BodyState<d>> reaching = states;
+    bool faster = false;
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      faster = faster || trials[i].velocity.norm() > states[i].velocity.norm();
+      reaching[i].velocity = trials[i].velocity;
+    }
+    if (!faster) return {};
+    for (const Condition<d>& c : contacts->within_reach(reaching, dt)) {
+      if (std::ranges::any_of(near, [&](const Condition<d>& n) { return n.body == c.body && n.first == c.first; }))
+        continue;
+      double rate = c.first.dot(trials[c.body].velocity), speed = trials[c.body].velocity.norm();
+      if (c.other) rate += c.second.dot(trials[*c.other].velocity), speed += trials[*c.other].velocity.norm();
+      constexpr double crossed = 1e-6;  // of the speed: roundoff
+      if (rate < std::min(c.rate, 0.0) - crossed * speed * (1 + reach(specs[c.body])))
+        return {message("a body passes through what it touches within the step: \"", specs[c.body].name, "\"")};
+    }
+    return {};
+  }
+
+  /// Velocities under these impulses, contacts opening and closing as they ask for; none if that does not end.
+  static std::optional<Eigen::VectorXd> settled(Motions& motions, const Eigen::VectorXd& impulses) {
+    constexpr int most = 100;  // more changes than contacts in a scene
+    Eigen::VectorXd velocity = motions.velocity(impulses);
+    for (int i = 0; motions.update_contacts(velocity, impulses); ++i) {
+      if (i == most) return {};
+      velocity = motions.velocity(impulses);
+    }
+    return velocity;
   }
 
   Eigen::VectorXd stacked(std::span<const Wrench<d>> each) const {
@@ -162,7 +209,8 @@ struct Bodies<d>::World {
     for (std::size_t i = 0; i < specs.size(); ++i) {
       if (!movers[i]) continue;
       const Twist<d> s = velocities.segment<m>(m * static_cast<Eigen::Index>(i));
-      bullet.place(i, lifted<d>(states[i].pose), embedding<d>() * (s.allFinite() ? s : Twist<d>::Zero().eval()));
+      const Twist<d> moves = s + apart.segment<m>(m * static_cast<Eigen::Index>(i));
+      bullet.place(i, lifted<d>(states[i].pose), embedding<d>() * (s.allFinite() ? moves : Twist<d>::Zero().eval()));
     }
     bullet.drift(dt);
     for (std::size_t i = 0; i < specs.size(); ++i) {
@@ -278,14 +326,8 @@ std::span<const BodyState<d>> Bodies<d>::solve(const Eigen::VectorXd& impulses) 
   World& w = *world_;
   w.expect(w.phase != Phase::committed, "solve needs begin first");
   w.expect_all(impulses);
-  Eigen::VectorXd velocity = w.motions.velocity(impulses);
-  constexpr int most = 100;  // more changes than contacts in a scene
-  for (int i = 0; w.motions.update_contacts(velocity, impulses); ++i) {
-    velocity = w.motions.velocity(impulses);
-    if (i == most) velocity.setConstant(std::numeric_limits<double>::quiet_NaN());
-    if (i == most) break;
-  }
-  w.drift(velocity);
+  const auto velocity = w.settled(w.motions, impulses);
+  w.drift(velocity ? *velocity : Eigen::VectorXd::Constant(impulses.size(), std::numeric_limits<double>::quiet_NaN()));
   return w.trials;
 }
 
@@ -307,6 +349,19 @@ bool Bodies<d>::update_contacts(const Eigen::VectorXd& impulses) {
   for (Eigen::Index i = 0; i < w.size(); ++i)
     velocities.segment<freedoms<d>>(freedoms<d> * i) = w.trials[static_cast<std::size_t>(i)].velocity;
   return w.motions.update_contacts(velocities, impulses);
+}
+
+template <int d>
+Status Bodies<d>::acceptable() const {
+  const World& w = *world_;
+  w.expect(w.phase == Phase::solved, "acceptable needs a trial first");
+  constexpr double most_turn = 1;  // [rad] beyond which the way there is not that of a step
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double turn = w.dt * w.trials[i].velocity.template tail<rotations<d>>().norm();
+    if (w.movers[i] && turn > most_turn)
+      return {message("a body turns too far within the step: \"", w.specs[i].name, "\" by ", turn, " rad")};
+  }
+  return w.passes_through();
 }
 
 template <int d>

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "core/bodies_view.hpp"
+#include "core/status.hpp"
 #include "rigid/body.hpp"
 #include "rigid/contact/contacts.hpp"
 #include "rigid/joint.hpp"
@@ -95,6 +96,8 @@ class Bodies final : public BodiesView<d> {
   std::span<const BodyState<d>> adopt(const Eigen::VectorXd& velocities);
   /// Opens and closes contacts as the last trial asks for if the impulses on all bodies are these. False: they were right.
   bool update_contacts(const Eigen::VectorXd& impulses);
+  /// Whether the last trial stays on its side of what it may touch: contacts are looked for as far as velocities of t_n reach.
+  Status acceptable() const;
   /// Accepts the last trial.
   void commit();
 

@@ -36,6 +36,7 @@ class Participant final : public coupling::StructurePart {
   const coupling::Motion& adopt(const coupling::Motion& motion) override;
   bool update_contacts(const coupling::Impulse& impulse) override { return bodies_->update_contacts(impulse); }
   coupling::Placement placement() const override;
+  Status acceptable() const override { return bodies_->acceptable(); }
   void commit() override { bodies_->commit(); }
 
  private:

@@ -43,7 +43,7 @@ StepReport StructureOnly::attempt(double dt) {
   structure_->begin({.kick = clock_.kick(dt), .dt = dt});
   const Motion& trial = structure_->solve(Impulse::Zero(structure_->scales().size()));
   if (!trial.allFinite()) return {.cause = "the bodies' velocities are not finite"};
-  return {.cause = {}, .passes = 1};
+  return {.cause = structure_->acceptable().cause, .passes = 1};
 }
 
 void StructureOnly::commit() {

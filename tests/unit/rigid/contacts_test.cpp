@@ -58,6 +58,31 @@ TEST(Contact, is_a_plastic_impact_that_keeps_momentum) {
       << "no gap, no overlap";
 }
 
+// Push them out at depth / dt, and a light body that overlaps a heavy one leaves with energy that nobody gave.
+TEST(Contact, hulls_that_overlap_part_without_speed) {
+  for (const double mass : {2.0, 2e-6}) {
+    BodySpec<2> a = of_shape(box(1, 1), {0, 0}, mass), b = of_shape(box(1, 0.8), {0.99, 0}, 3);
+    Bodies<2> bodies({a, b}, {}, {}, ContactSpec<2>{});
+    run(bodies, 20);
+    for (std::size_t i : {0u, 1u}) EXPECT_NEAR(bodies.state(i).velocity.norm(), 0, 1e-9) << mass;
+    const double apart = bodies.state(1).pose.translation().x() - bodies.state(0).pose.translation().x();
+    EXPECT_GT(apart, 1 - 1e-6) << mass;
+    EXPECT_LT(bodies.state(1).pose.translation().x() - 0.99, 0.01 * mass / (mass + 3) + 1e-6) << "the heavy one least";
+  }
+}
+
+TEST(Contact, looks_as_far_as_bodies_come) {
+  // At rest at t_n it looks at what is near; a blow within the step throws it through the floor.
+  Bodies<2> bodies({of_shape(box(1, 0.5), {0, 3})}, {}, {}, floor_at_zero);
+  bodies.begin(1e-3, 1e-3);
+  bodies.solve(std::vector<Wrench<2>>{Wrench<2>(0, -2 * 500 / 1e-3, 0)});
+  EXPECT_TRUE(bodies.acceptable().ok()) << "half a metre";
+  bodies.solve(std::vector<Wrench<2>>{Wrench<2>(0, -2 * 5000 / 1e-3, 0)});
+  EXPECT_NE(bodies.acceptable().cause.find("passes through"), std::string::npos);
+  bodies.solve(std::vector<Wrench<2>>{Wrench<2>(0, 0, 1e6)});
+  EXPECT_NE(bodies.acceptable().cause.find("turns too far"), std::string::npos);
+}
+
 TEST(Contact, only_pushes) {
   BodySpec<2> a = of_shape(box(1, 1), {0, 0}), b = of_shape(box(1, 1), {1, 0});
   b.velocity << 1, 0, 0;
