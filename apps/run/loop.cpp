@@ -70,8 +70,10 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
       return {failed, fmt::format("the time-step criterion gives dt = {} s", criterion)};
     if (state.dt_cap == 0) state.dt_cap = first_share * criterion;
     const double regular = std::min(criterion, state.dt_cap);
-    const double wanted = last ? regular : fitted_dt(regular, stop - time);
-    if (undisturbed && wanted != regular) {
+    // The step that gives the last row is not taken: it need not be longer than the one before.
+    const double closing = state.dt_previous > 0 ? std::min(regular, state.dt_previous) : regular;
+    const double wanted = last ? closing : fitted_dt(regular, stop - time);
+    if (undisturbed && !last && wanted != regular) {
       host.checkpoint();
       undisturbed = false;
     }

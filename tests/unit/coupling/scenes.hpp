@@ -138,6 +138,20 @@ inline int run(Stepper& stepper, int steps, double dt_first = 1e-4) {
   return passes;
 }
 
+/// Steps as long as they may be until `end`: the last one's report, or that of the one that was refused, with the most passes.
+inline StepReport go_on_to(Stepper& stepper, double end, double dt_first = 1e-4) {
+  StepReport report;
+  int passes = 0;
+  for (double dt = dt_first; stepper.time() < end; dt *= 1.5) {
+    dt = std::min({stepper.stable_dt(), dt, end - stepper.time()});
+    report = stepper.attempt(dt);
+    passes = report.passes = std::max(passes, report.passes);
+    if (!report.ok()) break;
+    stepper.commit();
+  }
+  return report;
+}
+
 /// `resumed` takes over from `whole`, and both make some steps of dt. True: none is refused, and they end with the same
 /// bits.
 inline bool go_on_alike(Stepper& whole, Stepper& resumed, int steps, double dt) {
