@@ -109,14 +109,19 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
 }
 
 // In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
-// their pressure would be anything. One across a crease would leave a hole in the water.
+// their pressure would be anything. One across a crease, between nodes of the patches beside it, would leave a hole in the
+// water.
 template <int d>
 bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>& nodes, const WallsAt<d>& at) {
   constexpr double thin = 0.02;  // a regular tetrahedron: 0.12
   if (d == 2 || fullness > thin) return false;
   const int wall = nodes.tie[cell[0]].wall;
-  if (wall < 0 || !std::all_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == wall; }))
-    return false;
+  int patch = -1;
+  for (int n : cell) {
+    const WallTie& tie = nodes.tie[n];
+    if (wall < 0 || tie.wall != wall || (!tie.sharp() && patch >= 0 && tie.patch != patch)) return false;
+    if (!tie.sharp()) patch = tie.patch;
+  }
   for (int k = 0; k <= d; ++k)
     if (!lies_on(wall, Facet<d>{facet_nodes(cell, k)}, nodes, at)) return false;
   return true;

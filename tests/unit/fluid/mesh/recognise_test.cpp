@@ -291,7 +291,8 @@ TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it
   const std::vector<Isometry<3>> poses{Isometry<3>::Identity()};
   auto cells = [&](const std::array<Vec<3>, 4>& corner) {
     Nodes<3> nodes;
-    for (const auto& x : corner) nodes.add(x, Vec<3>::Zero(), 0, WallTie{0}, false);
+    for (const auto& x : corner)
+      nodes.add(x, Vec<3>::Zero(), 0, WallTie{0, tank[0].nearest(poses[0], x, 0.5).patch}, false);
     const std::vector<Facet<3>> outside{{{1, 2, 3}, -1}, {{0, 3, 2}, -1}, {{0, 1, 3}, -1}, {{0, 2, 1}, -1}};
     EXPECT_GT(enclosed_volume(outside, nodes.x), 0);
     return recognise<3>(nodes, std::vector<double>(4, 0.5), outside, {tank, poses}).cells.size();
@@ -299,6 +300,8 @@ TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it
   EXPECT_EQ(cells({Vec<3>(0, -1, -1), {0.03, -1, -1}, {0, -0.6, -1}, {0, -1, -0.6}}), 1u);
   const double sag = 0.01;
   EXPECT_EQ(cells({Vec<3>(0, 0, -1), {0, 0.4, sag - 1}, {0.4, 0, sag - 1}, {0.4, 0.4, -1}}), 0u);
+  // Along a crease, all of it nearer to the wall than a tenth of its length.
+  EXPECT_EQ(cells({Vec<3>(-0.3, -1, -0.94), {0.3, -1, -0.98}, {-0.3, -0.98, -1}, {0.3, -0.94, -1}}), 1u);
 }
 
 }  // namespace
