@@ -109,22 +109,29 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
 }
 
 // In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
-// their pressure would be anything. One across a crease, between nodes of the patches beside it, would leave a hole in the
+// their pressure would be anything. One in a hollow crease, between nodes of the patches beside it, would leave a hole in the
 // water.
 template <int d>
 bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>& nodes, const WallsAt<d>& at) {
   constexpr double thin = 0.02;  // a regular tetrahedron: 0.12
   if (d == 2 || fullness > thin) return false;
   const int wall = nodes.tie[cell[0]].wall;
+  if (wall < 0) return false;
   int patch = -1;
+  bool one_patch = true;
+  Vec<d> centroid = Vec<d>::Zero();
   for (int n : cell) {
     const WallTie& tie = nodes.tie[n];
-    if (wall < 0 || tie.wall != wall || (!tie.sharp() && patch >= 0 && tie.patch != patch)) return false;
-    if (!tie.sharp()) patch = tie.patch;
+    if (tie.wall != wall) return false;
+    centroid += nodes.x[n] / (d + 1);
+    if (tie.sharp()) continue;
+    one_patch = one_patch && (patch < 0 || tie.patch == patch);
+    patch = tie.patch;
   }
   for (int k = 0; k <= d; ++k)
     if (!lies_on(wall, Facet<d>{facet_nodes(cell, k)}, nodes, at)) return false;
-  return true;
+  const Wall<d>& of = at.walls[wall];
+  return one_patch || of.nearest(at.poses[wall], centroid, of.diameter()).distance < 0;
 }
 
 // Volume that a cell between nodes of a wall and of the water has in the solid, from five points in it.
