@@ -161,6 +161,22 @@ TYPED_TEST(WallMotions, what_passes_an_edge_with_air_behind_flies_off_straight) 
   EXPECT_LE((out.u[edge.below] - Vec<d>::Unit(0)).norm(), 100 * eps);
 }
 
+TYPED_TEST(WallMotions, what_leaves_an_edge_and_what_comes_to_it_become_one) {
+  constexpr int d = TypeParam::value;
+  ConvexEdge<d> edge(false);
+  auto& volume = edge.nodes.volume;
+  std::vector<int> unknown(edge.nodes.size(), -1);
+  for (int n : edge.edge) edge.nodes.separates[n] = 1, volume[n] = 1;
+  volume[edge.below] = d - 1, unknown[edge.below] = 0;
+  auto motion = edge.motion();
+  motion.meet_pressure(unknown, volume);
+  std::vector<Vec<d>> v(edge.nodes.size(), Vec<d>::Zero());
+  v[edge.below][0] = 3;
+  const auto out = moved_by<d>(motion, edge, v, 0.01);
+  for (std::size_t i = 0; i < v.size(); ++i) EXPECT_LE((out.u[i] - 1.5 * Vec<d>::Unit(0)).norm(), 100 * eps);
+  for (int n : edge.edge) EXPECT_LE((out.x[n] - edge.nodes.x[n]).norm(), 10 * eps) << "the node stays";
+}
+
 TYPED_TEST(WallMotions, what_passes_an_edge_that_is_wet_behind_turns_the_corner) {
   constexpr int d = TypeParam::value;
   ConvexEdge<d> edge(true);
