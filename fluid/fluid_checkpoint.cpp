@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "coupling/stored.hpp"
+#include "core/stored.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/mesh/parts.hpp"
 
@@ -37,7 +37,7 @@ struct Loader {
   }
   template <class T>
   void list(std::vector<T>& values) {
-    values.resize(coupling::stored_count(in, sizeof(T)));
+    values.resize(stored_count(in, sizeof(T)));
     in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
   }
 };

@@ -2,8 +2,8 @@
 #include <istream>
 #include <ostream>
 
+#include "core/stored.hpp"
 #include "coupling/accelerators/quasi_newton.hpp"
-#include "coupling/stored.hpp"
 
 namespace splashdown::coupling {
 namespace {

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <utility>
 
-#include "coupling/stored.hpp"
+#include "core/stored.hpp"
 
 namespace splashdown::coupling {
 namespace {

@@ -14,6 +14,11 @@ Step Coupled::begin_structure(double dt) {
   return step;
 }
 
+Status Coupled::acceptable() const {
+  Status status = structure_->acceptable();
+  return status.ok() ? fluid_->acceptable() : status;
+}
+
 double Coupled::fluid_seconds() const {
   double sum = 0;
   for (const auto& phase : fluid_->phase_seconds()) sum += phase.second;

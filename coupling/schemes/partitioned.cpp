@@ -57,8 +57,7 @@ StepReport Partitioned::attempt(double dt) {
     report = iterate(step);
   }
   coupling_seconds_ -= fluid_seconds() - fluid_before;
-  if (report.ok()) report.cause = structure_->acceptable().cause;
-  if (report.ok()) report.cause = fluid_->acceptable().cause;
+  if (report.ok()) report.cause = acceptable().cause;
   return report;
 }
 

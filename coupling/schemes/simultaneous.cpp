@@ -77,8 +77,7 @@ StepReport Simultaneous::attempt(double dt) {
     report.cause = text.str();
   }
   if (report.ok()) report.cause = massless_and_dry();
-  if (report.ok()) report.cause = structure_->acceptable().cause;
-  if (report.ok()) report.cause = fluid_->acceptable().cause;
+  if (report.ok()) report.cause = acceptable().cause;
   return report;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 // Where the diagonal dominates no row depends on others, and levels end early: smoothing solves such systems.
 constexpr int most_dense = 1000;
-constexpr int most_iterations = 2000;  // validation cases need 20, viscous layers on slivers up to 400
+constexpr int most_iterations = 2000;  // validation cases need 20, viscous layers on slivers several hundred
 constexpr int most_blocks = 4;         // of Gauss-Seidel; between them it is Jacobi, which converges more slowly
 constexpr int rows_a_block = 1000;     // at least; also of partial sums
 

@@ -5,7 +5,7 @@
 #include <istream>
 #include <stdexcept>
 
-namespace splashdown::coupling {
+namespace splashdown {
 
 /// The number of elements that follow, each of at least so many bytes; 0 where nothing is stored. Throws
 /// std::runtime_error for more than the rest of the bytes can hold, so that a wrong length allocates nothing.
@@ -21,4 +21,4 @@ inline std::size_t stored_count(std::istream& in, std::size_t bytes) {
   return count;
 }
 
-}  // namespace splashdown::coupling
+}  // namespace splashdown
