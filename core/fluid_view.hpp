@@ -55,6 +55,8 @@ class FluidView {
   virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n
   virtual const Nodes<d>& nodes() const = 0;
   virtual const Mesh<d>& mesh() const = 0;
+  /// At the nodes at t_n [Pa]: of the step under way once it is solved, before that what the nodes carry.
+  virtual std::span<const double> pressure() const = 0;
   virtual const Ledger& ledger() const = 0;
   /// Velocity at t_n: mean of the half-step velocities around it.
   virtual Vec<d> velocity_n(std::size_t node) const = 0;

@@ -46,7 +46,8 @@ template <int d>
 struct Nodes {
   std::vector<Vec<d>> x;        ///< position at t_n [m]
   std::vector<Vec<d>> v;        ///< velocity at t_{n-1/2} [m/s]
-  std::vector<double> p;        ///< pressure at t_n [Pa]
+  std::vector<double> p;        ///< pressure they carry: at t_{n-1}, or where they were made [Pa]
+  std::vector<double> h;        ///< size that elements around it are to have [m]
   std::vector<WallTie> tie;     ///< wall contact
   std::vector<char> surface;    ///< 1: on the free surface (p = 0)
   std::vector<char> separates;  ///< 1: at an edge of a wall where the flow leaves it
@@ -59,10 +60,12 @@ struct Nodes {
 
   std::size_t size() const { return x.size(); }
 
-  int add(const Vec<d>& position, const Vec<d>& velocity, double pressure, WallTie t, bool on_surface) {
+  int add(const Vec<d>& position, const Vec<d>& velocity, double pressure, WallTie t, bool on_surface,
+          double size = 0) {
     x.push_back(position);
     v.push_back(velocity);
     p.push_back(pressure);
+    h.push_back(size);
     tie.push_back(t);
     surface.push_back(on_surface);
     separates.push_back(0);
@@ -94,7 +97,7 @@ struct Nodes {
       in_parallel(order.size(), [&](std::size_t i) { picked[i] = values[order[i]]; });
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex);
+    pick(x), pick(v), pick(p), pick(h), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex);
     pick(volume), pick(owed), pick(part), pick(inherited);
   }
 };

@@ -21,11 +21,11 @@ std::string place(const Vec<d>& x) {
 }  // namespace
 
 template <int d>
-bool Fluid<d>::State::finite() const {
+Status Fluid<d>::State::finite(const StepResult<d>& found) const {
   double sum = 0;
-  for (const auto& v : v_after) sum += v.sum();
-  for (const auto& l : loads) sum += l.total().sum();
-  return std::isfinite(sum);
+  for (const auto& v : trial.v_after) sum += v.sum();
+  for (const auto& l : found.loads) sum += l.total().sum();
+  return std::isfinite(sum) ? Status{} : Status{"the solution is not finite"};
 }
 
 template <int d>
@@ -46,7 +46,7 @@ Status Fluid<d>::State::no_inverted_elements() const {
     if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) return least;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
-        const double change = per_rate * per_rate * (moved.u[cell[i]] - moved.u[cell[j]]).squaredNorm();
+        const double change = per_rate * per_rate * (result.velocity[cell[i]] - result.velocity[cell[j]]).squaredNorm();
         least = std::min(least, squared_length(work, cell[i], cell[j]) - change);
       }
     return least;
@@ -69,21 +69,21 @@ template <int d>
 Status Fluid<d>::State::no_energy_from_nowhere() const {
   double given = 0;
   for (std::size_t w = 0; w < walls.size(); ++w)
-    given += (equation.impulse(w, phi) + trial.handed[w]).dot(0.5 * (trial.s_unloaded[w] + s_after[w]));
+    given += (equation.impulse(w, trial.phi) + trial.handed[w]).dot(0.5 * (trial.s_unloaded[w] + trial.s_after[w]));
   double taken_along = 0;
-  for (std::size_t i = 0; i < moved.u.size(); ++i)
+  for (std::size_t i = 0; i < result.velocity.size(); ++i)
     if (!work.nodes.spray[i])
-      taken_along +=
-          spec.density * equation.lumped_volume()[i] * std::max(0.0, (moved.u[i] - v_after[i]).dot(moved.u[i]));
-  const double before = std::max(energy_before, equation.kinetic_energy(trial.v));
-  const double after = std::min(equation.kinetic_energy(v_after), equation.kinetic_energy(moved.u));
+      taken_along += spec.density * equation.lumped_volume()[i] *
+                     std::max(0.0, (result.velocity[i] - trial.v_after[i]).dot(result.velocity[i]));
+  const double before = std::max(trial.energy_before, equation.kinetic_energy(trial.v));
+  const double after = std::min(equation.kinetic_energy(trial.v_after), equation.kinetic_energy(result.velocity));
   const double gain = after + given - before - taken_along;
   const double scale = before + std::abs(given) + taken_along;
   if (gain <= most_gain * scale) return {};
   std::size_t fastest = 0;
   double most = 0;
-  for (std::size_t i = 0; i < moved.u.size(); ++i) {
-    const double change = work.nodes.spray[i] ? 0.0 : (moved.u[i] - trial.v[i]).squaredNorm();
+  for (std::size_t i = 0; i < result.velocity.size(); ++i) {
+    const double change = work.nodes.spray[i] ? 0.0 : (result.velocity[i] - trial.v[i]).squaredNorm();
     if (change > most) most = change, fastest = i;
   }
   return {fmt::format("the pressure makes energy: {:.2g} times what there was, {}", gain / scale,

@@ -38,11 +38,11 @@ struct OtherWater {
 }  // namespace
 
 template <int d>
-double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
+double approach_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
                    std::span<const Twist<d>> velocity, double cfl, double dt) {
   std::vector<int> fast;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes.surface[i] && !nodes.spray[i] && nodes.tie[i].wall < 0 && nodes.v[i].norm() * dt > h[i])
+    if (nodes.surface[i] && !nodes.spray[i] && nodes.tie[i].wall < 0 && nodes.v[i].norm() * dt > nodes.h[i])
       fast.push_back(static_cast<int>(i));
   if (fast.empty()) return dt;
   const std::vector<int> part = parts_of(mesh, nodes.size());
@@ -54,7 +54,7 @@ double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<
   std::map<int, OtherWater<d>> others;
   auto meet = [&](int i, double distance, const Vec<d>& towards, const Vec<d>& relative) {
     const double closing = relative.dot(towards) / (towards.norm() + 1e-300);
-    if (closing * dt > distance) dt = std::min(dt, std::max(cfl * h[i], 0.5 * distance) / closing);
+    if (closing * dt > distance) dt = std::min(dt, std::max(cfl * nodes.h[i], 0.5 * distance) / closing);
   };
   for (int i : fast) {
     if (size[part[i]] < std::pow(few, d) && energy[part[i]] < little * all) continue;
@@ -78,7 +78,7 @@ double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<
 }
 
 template <int d>
-double gap_time(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh) {
+double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh) {
   constexpr double thin = 0.01;
   constexpr double never = std::numeric_limits<double>::infinity();
   return least_in_parallel(mesh.cells.size(), [&](std::size_t c) {
@@ -94,17 +94,17 @@ double gap_time(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>&
     double closing = 0, size = 0;
     for (int k = 0; k <= d; ++k) {
       closing -= gradients.col(k).dot(nodes.v[cell[k]]);
-      size += h[cell[k]] / (d + 1);
+      size += nodes.h[cell[k]] / (d + 1);
     }
     return closing > 0 ? std::max(volume<d>(corners(nodes.x, cell)), thin * std::pow(size, d)) / closing : never;
   });
 }
 
-template double gap_time(const Nodes<2>&, std::span<const double>, const Mesh<2>&);
-template double gap_time(const Nodes<3>&, std::span<const double>, const Mesh<3>&);
-template double approach_dt(const Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
-                            std::span<const Twist<2>>, double, double);
-template double approach_dt(const Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
-                            std::span<const Twist<3>>, double, double);
+template double gap_time(const Nodes<2>&, const Mesh<2>&);
+template double gap_time(const Nodes<3>&, const Mesh<3>&);
+template double approach_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double,
+                            double);
+template double approach_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double,
+                            double);
 
 }  // namespace splashdown::fluid

@@ -15,19 +15,19 @@ namespace splashdown::fluid {
 /// or to other water, w the speed at which it closes. Drops of a few elements with little energy are left out: what they hit
 /// hardly feels them.
 template <int d>
-double approach_dt(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
+double approach_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
                    std::span<const Twist<d>> velocity, double cfl, double dt);
 
 /// Until walls that approach each other meet: the least V / (-dV/dt) of cells between two walls, V their volume and dV/dt its rate
 /// with the velocities of their nodes [s]. What is thinner than a hundredth of the element size may go at once: gaps end.
 template <int d>
-double gap_time(const Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh);
+double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh);
 
-extern template double gap_time(const Nodes<2>&, std::span<const double>, const Mesh<2>&);
-extern template double gap_time(const Nodes<3>&, std::span<const double>, const Mesh<3>&);
-extern template double approach_dt(const Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
-                                   std::span<const Twist<2>>, double, double);
-extern template double approach_dt(const Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
-                                   std::span<const Twist<3>>, double, double);
+extern template double gap_time(const Nodes<2>&, const Mesh<2>&);
+extern template double gap_time(const Nodes<3>&, const Mesh<3>&);
+extern template double approach_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
+                                   double, double);
+extern template double approach_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
+                                   double, double);
 
 }  // namespace splashdown::fluid

@@ -78,7 +78,6 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effec
   auto liquid = fill<d>(s_->spec, s_->walls_at(now.poses));
   now.nodes = std::move(liquid.nodes);
   now.mesh = std::move(liquid.mesh);
-  now.h = std::move(liquid.h);
   now.nodes.volume = nodal_volumes(now.mesh, now.nodes.x);
   now.nodes.part = parts_of(now.mesh, now.nodes.size());
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
@@ -112,9 +111,9 @@ double Fluid<d>::stable_dt() const {
   });
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
   dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity()),
-                 s_->spec.step.cfl * gap_time<d>(now.nodes, now.h, now.mesh)});
+                 s_->spec.step.cfl * gap_time<d>(now.nodes, now.mesh)});
   for (const auto& effect : s_->effects) dt = std::min(dt, effect->stable_dt());
-  return approach_dt<d>(now.nodes, now.h, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
+  return approach_dt<d>(now.nodes, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
 }
 
 template <int d>
@@ -122,6 +121,7 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
   State& s = *s_;
   s.kick = kick;
   s.dt = dt;
+  s.solved = false;
   if (!s.prepared) s.prepare();
   {
     const auto scope = s.timer.scope(assemble);
@@ -130,7 +130,6 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
                           s.wall_motion->held()))
       return {"the pressure matrix could not be factored"};
     s.wall_motion->meet_pressure(s.equation.unknown(), s.equation.lumped_volume());
-    s.interface = s.equation.laplacian().means(s.carried_impulse());
   }
   for (std::size_t t = 0; t < s.effects.size(); ++t) {
     const auto scope = s.timer.scope(first_effect + t);
@@ -140,8 +139,16 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
 }
 
 template <int d>
-Status Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous, const MotionDrive& drive) {
-  return s_->solve(walls, previous, drive);
+const StepResult<d>& Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous,
+                                     const MotionDrive& drive) {
+  s_->result = s_->solve(walls, previous, drive);
+  s_->solved = s_->result.status.ok();
+  return s_->result;
+}
+
+template <int d>
+const StepResult<d>& Fluid<d>::result() const {
+  return s_->result;
 }
 
 template <int d>
@@ -153,49 +160,44 @@ template <int d>
 void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   State& s = *s_;
   const auto scope = s.timer.scope(motion);
+  s.work.ledger = s.result.ledger;
+  s.work.nodes.p = s.result.pressure;
   Ledger& ledger = s.work.ledger;
   const double before = ledger.volume;
-  s.wall_motion->move(s.v_after, poses, s.dt, s.moved);
+  auto& moved = s.trial.moved;
+  s.wall_motion->move(s.trial.v_after, poses, s.dt, moved);
   Nodes<d>& nodes = s.work.nodes;
   const double acceleration_dt = least_in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.spray[i]) return std::numeric_limits<double>::infinity();
-    const double a = (s.moved.u[i] - nodes.v[i]).norm() / s.kick;
-    return 0.5 * std::sqrt(s.work.h[i] / (a + 1e-300));
+    const double a = (moved.u[i] - nodes.v[i]).norm() / s.kick;
+    return 0.5 * std::sqrt(nodes.h[i] / (a + 1e-300));
   });
-  s.wall_motion->convect(s.moved.x, s.dt, s.moved.u);
-  nodes.x = s.moved.x;
-  nodes.v = s.moved.u;
-  nodes.tie = s.moved.tie;
+  s.wall_motion->convect(moved.x, s.dt, moved.u);
+  nodes.x = moved.x;
+  nodes.v = moved.u;
+  nodes.tie = moved.tie;
   const WallsAt<d> arrived{s.walls, poses};
   carry<d>(nodes, volumes_around(nodes, s.work.mesh, s.equation.around()));
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
-  const double moved = enclosed_volume(s.work.mesh.boundary, nodes.x);
+  const double swept = enclosed_volume(s.work.mesh.boundary, nodes.x);
   carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water));
   s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
-  ventilate<d>(nodes, s.work.h, s.work.mesh, arrived, s.s_after, s.spec.density, s.gravity().norm());
+  ventilate<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.spec.density, s.gravity().norm());
   ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);
-  ledger.time_integration += moved - before;
-  ledger.returned += ledger.volume - moved;
-  ledger.energy_repair += s.energy_repaired - s.energy_before;
-  ledger.energy_remesh += s.energy_before - s.energy_carried;
-  ledger.work_on_walls = s.now.ledger.work_on_walls + s.kick * s.power_on_walls;
+  ledger.time_integration += swept - before;
+  ledger.returned += ledger.volume - swept;
+  ledger.energy_repair += s.trial.energy_repaired - s.trial.energy_before;
+  ledger.energy_remesh += s.trial.energy_before - s.energy_carried;
+  ledger.work_on_walls = s.now.ledger.work_on_walls + s.kick * s.result.power_on_walls;
   s.work.acceleration_dt = acceleration_dt;
   s.work.time += s.dt;
   s.work.dt = s.dt;
   s.work.poses.assign(poses.begin(), poses.end());
-  s.work.velocity = s.s_after;
+  s.work.velocity = s.result.wall_velocities;
   s.now = std::move(s.work);
-  s.prepared = false;
+  s.prepared = s.solved = false;
 }
 
-template <int d>
-std::span<const WallLoad<d>> Fluid<d>::loads() const {
-  return s_->loads;
-}
-template <int d>
-std::span<const Twist<d>> Fluid<d>::wall_velocities() const {
-  return s_->s_after;
-}
 template <int d>
 Eigen::MatrixXd Fluid<d>::added_mass(std::span<const std::size_t> walls) const {
   if (!s_->prepared) throw std::logic_error("fluid: the added mass is known from begin to commit");
@@ -207,12 +209,8 @@ Eigen::MatrixXd Fluid<d>::interface_slope(std::span<const std::size_t> walls) co
   return s_->equation.interface_slope(walls);
 }
 template <int d>
-std::span<const Twist<d>> Fluid<d>::imbalance() const {
-  return s_->imbalance;
-}
-template <int d>
-std::span<const double> Fluid<d>::interface_impulse() const {
-  return s_->interface;
+std::vector<double> Fluid<d>::carried_interface_impulse() const {
+  return s_->equation.laplacian().means(s_->carried_impulse());
 }
 template <int d>
 std::span<const InterfacePiece> Fluid<d>::interface_pieces() const {
@@ -232,7 +230,11 @@ const Mesh<d>& Fluid<d>::mesh() const {
 }
 template <int d>
 const Ledger& Fluid<d>::ledger() const {
-  return s_->prepared ? s_->work.ledger : s_->now.ledger;
+  return s_->solved ? s_->result.ledger : s_->prepared ? s_->work.ledger : s_->now.ledger;
+}
+template <int d>
+std::span<const double> Fluid<d>::pressure() const {
+  return s_->solved ? s_->result.pressure : nodes().p;
 }
 template <int d>
 std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
@@ -241,7 +243,7 @@ std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
 template <int d>
 Vec<d> Fluid<d>::velocity_n(std::size_t node) const {
   const Vec<d>& before = nodes().v[node];
-  return s_->prepared && node < s_->v_after.size() ? s_->at_t_n(before, s_->moved.u[node]) : before;
+  return s_->solved ? s_->at_t_n(before, s_->result.velocity[node]) : before;
 }
 
 template <int d>
@@ -256,7 +258,7 @@ std::optional<double> Fluid<d>::pressure_at(const Vec<d>& point) const {
     for (int k = 0; k <= d && inside; ++k) {
       const double share = (point - at(k)).dot(g.col(k)) / e + 1.0;
       inside = share >= -outside;
-      p += share * nodes().p[cell[k]];
+      p += share * pressure()[cell[k]];
     }
     if (inside) return p;
   }

@@ -24,12 +24,11 @@
 #include "fluid/effects/effect.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "fluid/spec.hpp"
+#include "fluid/step_result.hpp"
 
 namespace splashdown::fluid {
 
 using splashdown::FluidView;
-using splashdown::Ledger;
-using splashdown::WallLoad;
 
 /// How the motions of WallResponse are driven in a step.
 struct MotionDrive {
@@ -49,23 +48,18 @@ class Fluid final : public FluidView<d> {
 
   Status begin(double kick, double dt, const WallResponse<d>& response);
   /// `walls`: half-step velocities of the walls, without the fluid's load in the motions that respond, with it in all
-  /// others. `previous`: the interface impulses on which the interface Laplacians lag; one that equals
-  /// interface_impulse() afterwards makes them vanish. Needed with such walls only.
-  Status solve(std::span<const Twist<d>> walls, std::span<const double> previous = {}, const MotionDrive& drive = {});
+  /// others. `previous`: the interface impulses on which the interface Laplacians lag; one that equals the result's
+  /// makes them vanish. Needed with such walls only. The state at t_n stays as it is.
+  const StepResult<d>& solve(std::span<const Twist<d>> walls, std::span<const double> previous = {},
+                             const MotionDrive& drive = {});
+  const StepResult<d>& result() const;  ///< of the last solve
   /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
   Status acceptable() const;
-  /// Mean physical pressure impulses on the pieces of walls with an interface Laplacian [Pa s]. After `begin` the
-  /// first guess, after `solve` its result.
-  std::span<const double> interface_impulse() const;
   std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
-  std::span<const WallLoad<d>> loads() const;                ///< of the last solve
-  std::span<const Twist<d>> wall_velocities() const;         ///< half-step velocities the last solve ended with
+  std::vector<double> carried_interface_impulse() const;     ///< first guess of theirs: the pressure of the last step
   /// Slope of `solve`, corrections apart: impulses on these walls and interface impulses, one below the other, by the
   /// walls' twists and the previous interface impulses. From `begin` to `commit`.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls) const;
-  /// Velocities that impulses left unbalanced in the motions would still give to bodies and water: what the last
-  /// solve fell short of Newton's law, Z (M + G)^-1 (Z^T impulses - M y).
-  std::span<const Twist<d>> imbalance() const;
   /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<d>> poses);
 
@@ -74,6 +68,7 @@ class Fluid final : public FluidView<d> {
   std::span<const Isometry<d>> wall_poses() const override;
   const Nodes<d>& nodes() const override;
   const Mesh<d>& mesh() const override;
+  std::span<const double> pressure() const override;
   const Ledger& ledger() const override;
   Vec<d> velocity_n(std::size_t node) const override;
   std::optional<double> pressure_at(const Vec<d>& point) const override;

@@ -26,7 +26,6 @@ template <int d>
 struct Present {
   double time = 0, dt = 0;  // dt: of the step that led here
   Nodes<d> nodes;
-  std::vector<double> h;  // element size at the nodes
   Mesh<d> mesh;
   std::vector<Isometry<d>> poses;
   std::vector<Twist<d>> velocity;  // of walls, at t_{n-1/2}
@@ -73,6 +72,11 @@ struct Trial {
   std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
   Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
   Eigen::VectorXd unanswered;                    // impulses of effects that did not let the motions answer
+  double energy_before = 0, energy_repaired = 0;
+  std::vector<double> phi;              // physical impulse
+  std::vector<Vec<d>> v_after;          // of nodes, with the pressure
+  std::vector<Twist<d>> s_after;        // of walls
+  typename WallMotion<d>::Moved moved;  // along the walls
 };
 
 // By an impulse, over the energies in it: what its truncation and their lumping may feign.
@@ -81,7 +85,7 @@ inline constexpr double most_gain = 0.05;
 // Edges that are short enough to be merged, or lie across a film, limit no time step.
 template <int d>
 double squared_length(const Present<d>& at, int i, int j) {
-  const double short_edge = merge_below * std::min(at.h[i], at.h[j]);
+  const double short_edge = merge_below * std::min(at.nodes.h[i], at.nodes.h[j]);
   return std::max((at.nodes.x[i] - at.nodes.x[j]).squaredNorm(), short_edge * short_edge);
 }
 
@@ -102,17 +106,10 @@ struct Fluid<d>::State {
   double kick = 0, dt = 0;
   PressureEquation<d> equation;
   std::optional<WallMotion<d>> wall_motion;
-  typename WallMotion<d>::Moved moved;
   Trial<d> trial;
-  std::vector<Vec<d>> v_after;
-  std::vector<Twist<d>> s_after;
-  std::vector<double> phi;        // physical impulse
-  std::vector<double> interface;  // physical impulse on the pieces of walls with a Laplacian
-  std::vector<double> carried_p;  // pressure at the nodes before the step
-  std::vector<WallLoad<d>> loads;
-  std::vector<Twist<d>> imbalance;
-  double power_on_walls = 0;
-  double energy_carried = 0, energy_before = 0, energy_repaired = 0;  // before remeshing, after, repaired
+  StepResult<d> result;       // of the last solve
+  bool solved = false;        // it is of the begun step
+  double energy_carried = 0;  // before remeshing
 
   WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
 
@@ -144,14 +141,17 @@ struct Fluid<d>::State {
   Vec<d> gravity() const;
 
   // The motion over it (solve.cpp).
-  Status solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
+  StepResult<d> solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
+  Status find_motion(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
   Status repair();
   Status predict(const MotionDrive& drive);
   Status solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous);
   Status correct(std::span<const double> previous);
   void move_nodes();
   Status what_is_left(std::span<const double> previous, Correction<d>& left);
-  void evaluate_loads();
+  void evaluate(StepResult<d>& found);
+  void evaluate_loads(StepResult<d>& found) const;
+  void evaluate_energies(StepResult<d>& found) const;
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
   void apply_body_impulse(const Eigen::VectorXd& impulse);
   void apply(const Correction<d>& correction, double share);
@@ -168,7 +168,7 @@ struct Fluid<d>::State {
   }
 
   // What a step may not do (acceptance.cpp).
-  bool finite() const;
+  Status finite(const StepResult<d>& found) const;
   Status acceptable() const;
   Status no_inverted_elements() const;
   Status no_energy_from_nowhere() const;

@@ -12,6 +12,10 @@ Eigen::Index index(std::size_t wall) {
   return freedoms<d> * static_cast<Eigen::Index>(wall);
 }
 
+Eigen::VectorXd stacked(std::span<const double> numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+}
+
 /// How many walls these numbers are of, each having so many.
 std::size_t walls_in(Eigen::Index numbers, int each, std::size_t most) {
   if (numbers % each != 0 || static_cast<std::size_t>(numbers / each) > most)
@@ -49,8 +53,8 @@ coupling::Status Participant<d>::solve(const coupling::Pass& pass) {
   std::vector<Twist<d>> walls(fluid_->spec().walls.size(), Twist<d>::Zero());
   for (std::size_t w = 0; w < moved; ++w) walls[w] = pass.motion.segment<freedoms<d>>(index<d>(w));
   const std::span<const double> lagged(pass.lagged.data(), static_cast<std::size_t>(pass.lagged.size()));
-  if (const auto status = fluid_->solve(walls, lagged, {pass.directions, pass.known}); !status.ok())
-    return {status.cause};
+  const StepResult<d>& found = fluid_->solve(walls, lagged, {pass.directions, pass.known});
+  if (!found.status.ok()) return found.status;
 
   solution_.motion.resize(index<d>(moved));
   solution_.impulse.resize(index<d>(moved));
@@ -58,19 +62,18 @@ coupling::Status Participant<d>::solve(const coupling::Pass& pass) {
   solution_.wetted.resize(static_cast<Eigen::Index>(moved));
   for (std::size_t w = 0; w < moved; ++w) {
     const auto of_wall = [w](Eigen::VectorXd& all) { return all.segment<freedoms<d>>(index<d>(w)); };
-    of_wall(solution_.motion) = fluid_->wall_velocities()[w];
-    of_wall(solution_.impulse) = kick_ * fluid_->loads()[w].total();
-    of_wall(solution_.imbalance) = fluid_->imbalance()[w];
-    solution_.wetted[static_cast<Eigen::Index>(w)] = fluid_->loads()[w].wetted;
+    of_wall(solution_.motion) = found.wall_velocities[w];
+    of_wall(solution_.impulse) = kick_ * found.loads[w].total();
+    of_wall(solution_.imbalance) = found.imbalance[w];
+    solution_.wetted[static_cast<Eigen::Index>(w)] = found.loads[w].wetted;
   }
-  solution_.lagged = first_guess();
+  solution_.lagged = stacked(found.interface_impulse);
   return {};
 }
 
 template <int d>
 Eigen::VectorXd Participant<d>::first_guess() const {
-  const auto impulses = fluid_->interface_impulse();
-  return Eigen::Map<const Eigen::VectorXd>(impulses.data(), static_cast<Eigen::Index>(impulses.size()));
+  return stacked(fluid_->carried_interface_impulse());
 }
 
 template <int d>

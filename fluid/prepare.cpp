@@ -16,8 +16,7 @@ namespace splashdown::fluid {
 template <int d>
 void Fluid<d>::State::size_nodes() {
   const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh);
-  work.h.resize(work.nodes.size());
-  in_parallel(work.h.size(), [&](std::size_t i) { work.h[i] = field(work.nodes.x[i]); });
+  in_parallel(work.nodes.size(), [&](std::size_t i) { work.nodes.h[i] = field(work.nodes.x[i]); });
 }
 
 // A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it; one that comes back brings
@@ -82,15 +81,15 @@ void Fluid<d>::State::collect_drops() {
     for (std::size_t i = 0; i < by.size(); ++i) volume += nodes.spray[i] * by[i] * nodes.volume[i];
     return volume;
   };
-  std::vector<char> left = join_drops(nodes, work.h);
+  std::vector<char> left = join_drops(nodes);
   const double flying = carried(left);
-  absorb_drops(nodes, work.h, work.mesh.boundary, left);
+  absorb_drops(nodes, work.mesh.boundary, left);
   std::vector<int> kept;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (left[i]) kept.push_back(static_cast<int>(i));
   if (kept.size() == nodes.size()) return;
   work.ledger.spray -= flying - carried(left);
-  keep(kept, nodes, work.h, work.mesh.boundary);
+  keep(kept, nodes, work.mesh.boundary);
 }
 
 // The nodes that are corners of cells come first, in space along a space-filling curve: neighbours are near in memory, and
@@ -107,7 +106,7 @@ std::size_t Fluid<d>::State::put_drops_last() {
   const auto is_liquid = [&](int i) { return !work.nodes.spray[i]; };
   const auto beyond = std::stable_partition(order.begin(), order.end(), is_liquid);
   const auto liquid = static_cast<std::size_t>(beyond - order.begin());
-  if (d == 3 || !std::is_sorted(order.begin(), order.end())) keep(order, work.nodes, work.h, work.mesh.boundary);
+  if (d == 3 || !std::is_sorted(order.begin(), order.end())) keep(order, work.nodes, work.mesh.boundary);
   return liquid;
 }
 
@@ -122,7 +121,7 @@ void Fluid<d>::State::cut(std::size_t liquid) {
                                              work.mesh.boundary);
     std::iota(nodes.vertex.begin(), nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), 0);
     std::fill(nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), nodes.vertex.end(), -1);
-    auto found = recognise<d>(std::move(cells), nodes, work.h, work.mesh.boundary, walls_at(work.poses));
+    auto found = recognise<d>(std::move(cells), nodes, work.mesh.boundary, walls_at(work.poses));
     if (found.piercing.empty() || attempt == attempts) {
       work.mesh = std::move(found);
       return book_spray(spray);
@@ -132,7 +131,7 @@ void Fluid<d>::State::cut(std::size_t liquid) {
     for (int n : found.piercing) goes[n] = 1;
     hand_over(goes, found.cells);
     liquid -= found.piercing.size();
-    discard(goes, nodes, work.h, work.mesh.boundary);
+    discard(goes, nodes, work.mesh.boundary);
   }
 }
 
@@ -144,8 +143,8 @@ void Fluid<d>::State::prepare() {
   for (std::size_t i = 0; i < now.nodes.size(); ++i)
     energy_carried += 0.5 * spec.density * now.nodes.volume[i] * now.nodes.v[i].squaredNorm();
   size_nodes();
-  attach_nodes<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity);
-  if (now.dt > 0) adapt(work.nodes, work.h, work.mesh, walls_at(work.poses));
+  attach_nodes<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity);
+  if (now.dt > 0) adapt(work.nodes, work.mesh, walls_at(work.poses));
   collect_drops();
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const std::size_t liquid = put_drops_last();
@@ -154,9 +153,8 @@ void Fluid<d>::State::prepare() {
   free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
   mix_joined<d>(work.mesh, free_water.part(), work.nodes);
-  separate<d>(work.nodes, work.h, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
+  separate<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   absorb_droplets(work.nodes, work.mesh);
-  carried_p = work.nodes.p;
   const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const double adapted = before - now.ledger.volume;
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;

@@ -20,8 +20,17 @@ constexpr double roundoff = 1e-12;
 }  // namespace
 
 template <int d>
-Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const double> previous,
-                              const MotionDrive& drive) {
+StepResult<d> Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const double> previous,
+                                     const MotionDrive& drive) {
+  StepResult<d> found;
+  found.status = find_motion(given, previous, drive);
+  if (found.status.ok()) evaluate(found);
+  return found;
+}
+
+template <int d>
+Status Fluid<d>::State::find_motion(std::span<const Twist<d>> given, std::span<const double> previous,
+                                    const MotionDrive& drive) {
   if (previous.size() != equation.laplacian().pieces().size())
     throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
   trial.v = work.nodes.v;
@@ -36,14 +45,12 @@ Status Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const d
   free_water.give_back(free_carried, equation.lumped_volume(), trial.v);
   if (auto status = predict(drive); !status.ok()) return status;
   trial.free_water = free_water.moments(equation.lumped_volume(), trial.v);
-  {
-    const auto scope = timer.scope(pressure);
-    if (auto status = solve_pressure(given, previous); !status.ok()) return status;
-    apply_body_impulse(drive.impulse);
-    if (auto status = correct(previous); !status.ok()) return status;
-    evaluate_loads();
-  }
-  return finite() ? Status{} : Status{"the solution is not finite"};
+  const auto scope = timer.scope(Phase::pressure);
+  if (auto status = solve_pressure(given, previous); !status.ok()) return status;
+  apply_body_impulse(drive.impulse);
+  if (auto status = correct(previous); !status.ok()) return status;
+  trial.handed = equation.held().excess(trial.v_after, trial.s_after);
+  return {};
 }
 
 // The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree. The repair
@@ -61,14 +68,14 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
 // then share their momentum with it.
 template <int d>
 Status Fluid<d>::State::repair() {
-  const auto scope = timer.scope(pressure);
+  const auto scope = timer.scope(Phase::pressure);
   auto& v = trial.v;
   auto& r = trial.r;
   auto& s_before = trial.s_before;
   const auto& held = equation.held();
   trial.repaired.assign(equation.size(), 0.0);
   trial.repair_handed.assign(walls.size(), Wrench<d>::Zero());
-  energy_before = kinetic_energy(v);
+  trial.energy_before = kinetic_energy(v);
   Eigen::VectorXd excess = equation.on_motions(held.excess(v, s_before));
   std::vector<Vec<d>> free = v;  // as if no wall held them
   for (int k = 0; k < repairs; ++k) {
@@ -108,7 +115,7 @@ Status Fluid<d>::State::repair() {
     for (std::size_t w = 0; w < handed.size(); ++w) trial.repair_handed[w] += taken * handed[w];
     for (int i = 0; i < equation.size(); ++i) trial.repaired[i] += r[i];
   }
-  energy_repaired = kinetic_energy(v);
+  trial.energy_repaired = kinetic_energy(v);
   return {};
 }
 
@@ -144,14 +151,14 @@ Status Fluid<d>::State::predict(const MotionDrive& drive) {
 // The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
 template <int d>
 Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
-  s_after.assign(given.begin(), given.end());
-  for (std::size_t w = 0; w < walls.size(); ++w) s_after[w] += trial.s_before[w] - work.velocity[w];
-  trial.s_unloaded = s_after;
+  trial.s_after.assign(given.begin(), given.end());
+  for (std::size_t w = 0; w < walls.size(); ++w) trial.s_after[w] += trial.s_before[w] - work.velocity[w];
+  trial.s_unloaded = trial.s_after;
   middle(trial.v, 0.5 * dt);
-  equation.flux_residual(trial.x_mid, trial.v, s_after, centres(moved_poses(s_after, 0.5 * dt)), phi);
-  if (!previous.empty()) equation.laplacian().add(previous, phi);
-  if (!equation.solve(phi, closely, carried_impulse())) return {"the pressure solve failed"};
-  answer_to(phi, s_after, equation.on_motions(equation.held().excess(trial.v, s_after)));
+  equation.flux_residual(trial.x_mid, trial.v, trial.s_after, centres(moved_poses(trial.s_after, 0.5 * dt)), trial.phi);
+  if (!previous.empty()) equation.laplacian().add(previous, trial.phi);
+  if (!equation.solve(trial.phi, closely, carried_impulse())) return {"the pressure solve failed"};
+  answer_to(trial.phi, trial.s_after, equation.on_motions(equation.held().excess(trial.v, trial.s_after)));
   if (equation.motions() > 0) apply_body_impulse(trial.unanswered);
   return {};
 }
@@ -159,19 +166,19 @@ Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::spa
 // The motion that the impulses found so far give the nodes.
 template <int d>
 void Fluid<d>::State::move_nodes() {
-  v_after = trial.v;
-  equation.accelerate(phi, v_after);
-  wall_motion->move(v_after, moved_poses(s_after, dt), dt, moved);
+  trial.v_after = trial.v;
+  equation.accelerate(trial.phi, trial.v_after);
+  wall_motion->move(trial.v_after, moved_poses(trial.s_after, dt), dt, trial.moved);
 }
 
 // The volume that this motion creates, and what it asks for.
 template <int d>
 Status Fluid<d>::State::what_is_left(std::span<const double> previous, Correction<d>& left) {
-  in_parallel(trial.v.size(), [&](std::size_t i) { trial.x_mid[i] = 0.5 * (work.nodes.x[i] + moved.x[i]); });
-  equation.motion_residual(trial.x_mid, moved.u, left.residual);
-  equation.slide_residual(trial.x_mid, moved.u, s_after, centres(moved_poses(s_after, 0.5 * dt)), moved.slides,
-                          left.residual);
-  lag(left.residual, previous, phi);
+  in_parallel(trial.v.size(), [&](std::size_t i) { trial.x_mid[i] = 0.5 * (work.nodes.x[i] + trial.moved.x[i]); });
+  equation.motion_residual(trial.x_mid, trial.moved.u, left.residual);
+  equation.slide_residual(trial.x_mid, trial.moved.u, trial.s_after, centres(moved_poses(trial.s_after, 0.5 * dt)),
+                          trial.moved.slides, left.residual);
+  lag(left.residual, previous, trial.phi);
   left.impulse = left.residual;
   left.walls.assign(walls.size(), Twist<d>::Zero());
   if (!equation.solve(left.impulse, roughly)) return {"the pressure solve failed"};
@@ -203,43 +210,59 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
 
 // Loads, pressures and energies of the solution.
 template <int d>
-void Fluid<d>::State::evaluate_loads() {
-  trial.handed = equation.held().excess(v_after, s_after);
-  interface = equation.laplacian().means(phi);
-  loads.assign(walls.size(), {});
+void Fluid<d>::State::evaluate(StepResult<d>& found) {
+  const auto scope = timer.scope(Phase::pressure);
+  found.wall_velocities = trial.s_after;
+  found.velocity = trial.moved.u;
+  found.interface_impulse = equation.laplacian().means(trial.phi);
+  evaluate_loads(found);
+  evaluate_energies(found);
+  found.status = finite(found);
+}
+
+template <int d>
+void Fluid<d>::State::evaluate_loads(StepResult<d>& found) const {
+  found.loads.assign(walls.size(), {});
   std::vector<Wrench<d>> answered;  // with the pressure
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const Wrench<d> repair = equation.impulse(w, trial.repaired), physical = equation.impulse(w, phi);
-    loads[w].physical = (physical + trial.on_walls[w] + trial.handed[w]) / kick;
-    loads[w].repair = (repair + trial.repair_handed[w]) / kick;
-    loads[w].wetted = work.wetted[w];
+    const Wrench<d> repair = equation.impulse(w, trial.repaired), physical = equation.impulse(w, trial.phi);
+    WallLoad<d>& load = found.loads[w];
+    load.physical = (physical + trial.on_walls[w] + trial.handed[w]) / kick;
+    load.repair = (repair + trial.repair_handed[w]) / kick;
+    load.wetted = work.wetted[w];
+    found.power_on_walls += load.total().dot(0.5 * (trial.s_after[w] + work.velocity[w]));
     answered.push_back(repair + physical + trial.handed[w] + trial.repair_handed[w]);
   }
-  imbalance.assign(walls.size(), Twist<d>::Zero());
+  found.imbalance.assign(walls.size(), Twist<d>::Zero());
   if (equation.motions() > 0)
     equation.move(equation.response(equation.on_motions(answered) + trial.known - equation.inertia() * trial.answer),
-                  imbalance);
-  Ledger& ledger = work.ledger;
-  power_on_walls = 0;
-  for (std::size_t w = 0; w < walls.size(); ++w)
-    power_on_walls += loads[w].total().dot(0.5 * (s_after[w] + work.velocity[w]));
-  ledger.work_on_walls = now.ledger.work_on_walls + 0.5 * work.dt * power_on_walls;
+                  found.imbalance);
+}
+
+template <int d>
+void Fluid<d>::State::evaluate_energies(StepResult<d>& found) const {
+  const Nodes<d>& nodes = work.nodes;
+  Ledger& ledger = found.ledger;
+  ledger = work.ledger;
+  ledger.work_on_walls += 0.5 * work.dt * found.power_on_walls;
   ledger.kinetic_energy = ledger.potential_energy = 0;
-  std::vector<Vec<d>> v_n(trial.v.size());
-  for (std::size_t i = 0; i < trial.v.size(); ++i) {
-    work.nodes.p[i] = equation.unknown()[i] < 0 ? 0.0 : phi[equation.unknown()[i]] / kick;
-    const double mass = spec.density * (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]);
-    v_n[i] = at_t_n(work.nodes.v[i], moved.u[i]);
-    if (work.nodes.spray[i]) ledger.kinetic_energy += 0.5 * mass * v_n[i].squaredNorm();
-    for (const auto& effect : effects) ledger.potential_energy += mass * effect->potential(work.nodes.x[i]);
+  found.pressure.resize(nodes.size());
+  std::vector<Vec<d>> v_n(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const int k = equation.unknown()[i];
+    found.pressure[i] = k < 0 ? 0.0 : trial.phi[k] / kick;
+    const double mass = spec.density * (nodes.spray[i] ? nodes.volume[i] : equation.lumped_volume()[i]);
+    v_n[i] = at_t_n(nodes.v[i], found.velocity[i]);
+    if (nodes.spray[i]) ledger.kinetic_energy += 0.5 * mass * v_n[i].squaredNorm();
+    for (const auto& effect : effects) ledger.potential_energy += mass * effect->potential(nodes.x[i]);
   }
   ledger.kinetic_energy += equation.kinetic_energy(v_n);
 }
 
 template <int d>
 void Fluid<d>::State::apply(const Correction<d>& correction, double share) {
-  for (std::size_t i = 0; i < phi.size(); ++i) phi[i] += share * correction.impulse[i];
-  for (std::size_t w = 0; w < walls.size(); ++w) s_after[w] += share * correction.walls[w];
+  for (std::size_t i = 0; i < trial.phi.size(); ++i) trial.phi[i] += share * correction.impulse[i];
+  for (std::size_t w = 0; w < walls.size(); ++w) trial.s_after[w] += share * correction.walls[w];
   if (equation.motions() > 0) trial.answer += share * correction.answer;
 }
 
@@ -254,18 +277,18 @@ void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist
 template <int d>
 void Fluid<d>::State::apply_body_impulse(const Eigen::VectorXd& impulse) {
   if (impulse.isZero(0)) return;
-  std::vector<double> none(phi.size(), 0.0);
+  std::vector<double> none(trial.phi.size(), 0.0);
   trial.known += impulse;
-  trial.answer += equation.respond(none, s_after, impulse);
-  for (std::size_t i = 0; i < phi.size(); ++i) phi[i] += none[i];
+  trial.answer += equation.respond(none, trial.s_after, impulse);
+  for (std::size_t i = 0; i < trial.phi.size(); ++i) trial.phi[i] += none[i];
 }
 
 // The first guess of impulses is the pressure of the last step.
 template <int d>
 std::vector<double> Fluid<d>::State::carried_impulse() const {
   std::vector<double> carried(equation.size());
-  for (std::size_t i = 0; i < carried_p.size(); ++i)
-    if (const int k = equation.unknown()[i]; k >= 0) carried[k] = kick * carried_p[i];
+  for (std::size_t i = 0; i < work.nodes.size(); ++i)
+    if (const int k = equation.unknown()[i]; k >= 0) carried[k] = kick * work.nodes.p[i];
   return carried;
 }
 

@@ -49,14 +49,16 @@ void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
     const auto& patch = settings_.patches[i];
     const int wall = wall_called(fluid, patch.body);
     const auto& pose = fluid.wall_poses()[static_cast<std::size_t>(wall)];
-    pressures_.push_back(patch_force(fluid.nodes(), fluid.mesh(), wall, pose, patch.region) / patch.area);
+    pressures_.push_back(patch_force(fluid.nodes(), fluid.mesh(), fluid.pressure(), wall, pose, patch.region) /
+                         patch.area);
     peaks_[i].offer(pressures_[i], time);
     if (histories_[i].ends.empty()) histories_[i] = {1, kick.begin, {}, {}};
     histories_[i].append(kick.end, {&pressures_[i], 1});
   }
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const int wall = wall_called(fluid, settings_.hull_maps[i].body);
-    maps_[i].add(fluid.nodes(), fluid.mesh(), wall, fluid.wall_poses()[static_cast<std::size_t>(wall)], time);
+    maps_[i].add(fluid.nodes(), fluid.mesh(), fluid.pressure(), wall,
+                 fluid.wall_poses()[static_cast<std::size_t>(wall)], time);
   }
 }
 

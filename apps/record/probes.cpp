@@ -73,8 +73,9 @@ std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& me
 }
 
 template <int d>
-std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, const Vec<d>& point) {
-  std::optional<double> pressure;
+std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure,
+                                    const Vec<d>& point) {
+  std::optional<double> found;
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& facet : mesh.boundary) {
     if (facet.wall < 0) continue;
@@ -85,32 +86,32 @@ std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, 
     for (std::size_t k = 0; k < d; ++k) {
       const double weight = weights(static_cast<Eigen::Index>(k));
       foot += weight * corners[k];
-      p += weight * nodes.p[index(facet.nodes[k])];
+      p += weight * pressure[index(facet.nodes[k])];
       size = std::max(size, (corners[k] - corners[0]).norm());
     }
     const double distance = (point - foot).norm();
     if (distance > 0.5 * size || distance >= nearest) continue;
     nearest = distance;
-    pressure = p;
+    found = p;
   }
-  return pressure;
+  return found;
 }
 
 template <int d>
-double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const Isometry<d>& pose,
-                   const PatchRegion<d>& region) {
+double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
+                   const Isometry<d>& pose, const PatchRegion<d>& region) {
   const Isometry<d> to_wall = pose.inverse();
   double force = 0;
   for (const auto& facet : mesh.boundary) {
     if (facet.wall != wall) continue;
     std::array<Vec<d>, d> corners;
-    std::array<double, d> pressure;
+    std::array<double, d> at_corners;
     for (std::size_t k = 0; k < d; ++k) {
       const std::size_t node = index(facet.nodes[d - 1 - k]);  // turned round: the hull's sense, not the fluid's
       corners[k] = to_wall * nodes.x[node];
-      pressure[k] = nodes.p[node];
+      at_corners[k] = pressure[node];
     }
-    force += integrate<d>(region, corners, pressure).force;
+    force += integrate<d>(region, corners, at_corners).force;
   }
   return force;
 }
@@ -163,7 +164,8 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 }
 
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall,
+std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh,
+                                                      std::span<const double> pressure, int wall,
                                                       const SurfaceRuler<d>& ruler, const Isometry<d>& pose) {
   std::vector<int> wetted;
   for (const auto& facet : mesh.boundary)
@@ -176,20 +178,22 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, con
   const Isometry<d> to_wall = pose.inverse();
   for (const int node : wetted) {
     const Vec<d>& x = nodes.x[index(node)];
-    points.push_back({x, ruler.distance(to_wall * x), nodes.p[index(node)]});
+    points.push_back({x, ruler.distance(to_wall * x), pressure[index(node)]});
   }
   std::ranges::stable_sort(points, {}, &SurfacePressurePoint<d>::s);
   return points;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
-  template std::optional<double> surface_elevation<d>(const Nodes<d>&, const Mesh<d>&,                             \
-                                                      const Eigen::Matrix<double, d - 1, 1>&);                     \
-  template std::optional<double> wall_pressure<d>(const Nodes<d>&, const Mesh<d>&, const Vec<d>&);                 \
-  template double patch_force<d>(const Nodes<d>&, const Mesh<d>&, int, const Isometry<d>&, const PatchRegion<d>&); \
-  template class SurfaceRuler<d>;                                                                                  \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const Nodes<d>&, const Mesh<d>&, int,          \
-                                                                    const SurfaceRuler<d>&, const Isometry<d>&);
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                   \
+  template std::optional<double> surface_elevation<d>(const Nodes<d>&, const Mesh<d>&,                              \
+                                                      const Eigen::Matrix<double, d - 1, 1>&);                      \
+  template std::optional<double> wall_pressure<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>,         \
+                                                  const Vec<d>&);                                                   \
+  template double patch_force<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>, int, const Isometry<d>&, \
+                                 const PatchRegion<d>&);                                                            \
+  template class SurfaceRuler<d>;                                                                                   \
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                                \
+      const Nodes<d>&, const Mesh<d>&, std::span<const double>, int, const SurfaceRuler<d>&, const Isometry<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

@@ -19,12 +19,13 @@ std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& me
 /// than half that facet: walls are faceted finer or coarser than the fluid, so that a sensor on a wall may
 /// lie outside every cell.
 template <int d>
-std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, const Vec<d>& point);
+std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure,
+                                    const Vec<d>& point);
 
 /// Force of the pressure on the region's part of a wall [N/m, N]; `pose` of the wall. Dry parts have no pressure.
 template <int d>
-double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const Isometry<d>& pose,
-                   const PatchRegion<d>& region);
+double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
+                   const Isometry<d>& pose, const PatchRegion<d>& region);
 
 template <int d>
 struct SurfacePressurePoint {
@@ -54,7 +55,8 @@ class SurfaceRuler {
 
 /// Wetted nodes of a wall, ordered by s.
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall,
+std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh,
+                                                      std::span<const double> pressure, int wall,
                                                       const SurfaceRuler<d>& ruler, const Isometry<d>& pose);
 
 }  // namespace splashdown::apps

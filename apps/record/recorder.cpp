@@ -190,7 +190,7 @@ double Recorder<d>::State::probe_pressure(const RecordInput<d>& input, const Pre
   if (!probe.body.empty()) point = input.bodies->state(body_index(*input.bodies, probe.body)).pose * point;
   const auto& fluid = *input.fluid;
   if (const auto p = fluid.pressure_at(point)) return *p;
-  return wall_pressure(fluid.nodes(), fluid.mesh(), point).value_or(0);
+  return wall_pressure(fluid.nodes(), fluid.mesh(), fluid.pressure(), point).value_or(0);
 }
 
 template <int d>
@@ -224,7 +224,8 @@ void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std
   const Vec<d> origin = centre_of_mass(settings, name);
   const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
   auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
-  for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), wall, ruler, pose)) {
+  for (const auto& point :
+       surface_pressure(input.fluid->nodes(), input.fluid->mesh(), input.fluid->pressure(), wall, ruler, pose)) {
     const Vec<d> on_hull = to_wall * point.x + origin;
     csv << input.time << name;
     for (int k = 0; k < d; ++k) csv << point.x(k);

@@ -32,7 +32,7 @@ double diameter(double volume) {
 template <int d>
 class WettedWall {
  public:
-  WettedWall(const FluidView<d>& fluid, int wall) : nodes_(fluid.nodes()) {
+  WettedWall(const FluidView<d>& fluid, int wall) : nodes_(fluid.nodes()), pressure_(fluid.pressure()) {
     for (const auto& facet : fluid.mesh().boundary)
       if (facet.wall == wall) facets_.push_back(facet.nodes);
     surface_.facets.resize(d, static_cast<Eigen::Index>(facets_.size()));
@@ -58,14 +58,15 @@ class WettedWall {
     if (nearest.squared_distance > 0.25 * longest * longest) return 0;
     const Vec<d - 1> weights = weights_in(corners, nearest.point);
     const auto& nodes = facets_[static_cast<std::size_t>(nearest.facet)];
-    double p = (1 - weights.sum()) * nodes_.p[static_cast<std::size_t>(nodes[0])];
+    double p = (1 - weights.sum()) * pressure_[static_cast<std::size_t>(nodes[0])];
     for (int k = 1; k < d; ++k)
-      p += weights(k - 1) * nodes_.p[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
+      p += weights(k - 1) * pressure_[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
     return p;
   }
 
  private:
   const Nodes<d>& nodes_;
+  std::span<const double> pressure_;
   std::vector<std::array<int, static_cast<std::size_t>(d)>> facets_;
   Surface<d> surface_;
   FacetTree<d> tree_;
@@ -84,7 +85,7 @@ template <int d>
 void take_fluid(const FluidView<d>& fluid, Frame<d>& frame) {
   const auto& nodes = fluid.nodes();
   frame.x = nodes.x;
-  frame.p = nodes.p;
+  frame.p.assign(fluid.pressure().begin(), fluid.pressure().end());
   frame.cells = fluid.mesh().cells;
   std::vector<char> has_cell(nodes.size(), 0);
   for (const auto& cell : frame.cells)

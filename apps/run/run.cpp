@@ -113,7 +113,7 @@ RecordInput<d> Run<d>::input(const StepMade& step) const {
     const rigid::Twist<d> acceleration = (world_.bodies->trials()[i].velocity - before) / kick;
     in.body_acceleration_n.push_back(acceleration);
     in.body_velocity_n.push_back(before + 0.5 * step.dt_previous * acceleration);
-    in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : fluid::WallLoad<d>{});
+    in.body_load.push_back(world_.fluid ? world_.fluid->result().loads[i] : fluid::WallLoad<d>{});
   }
   return in;
 }

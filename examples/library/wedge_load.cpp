@@ -52,7 +52,7 @@ int main() {
     auto report = stepper.attempt(dt);
     while (!report.ok() && dt > 1e-8) report = stepper.attempt(dt *= 0.5);  // a refused step leaves no trace
     if (!report.ok()) return std::fprintf(stderr, "%s\n", report.cause.c_str()), 1;
-    const double load = liquid.loads()[0].total()[1];  // at t_n, known between attempt and commit
+    const double load = liquid.result().loads[0].total()[1];  // at t_n, known between attempt and commit
     peak = std::max(peak, load);
     std::printf("%8.3f ms  %8.3f m/s  %8.2f kN/m\n", 1e3 * stepper.time(), bodies.trials()[0].velocity[1], 1e-3 * load);
     stepper.commit();

@@ -17,14 +17,13 @@ constexpr double on_facet = 0.02;  // a sharp vertex this close to a wetted face
 constexpr double snap = 0.3;       // a boundary node this close to a sharp vertex (over h) moves onto it
 
 template <int d>
-void tie_arrivals(Nodes<d>& nodes, std::span<const double> h, const WallsAt<d>& at,
-                  std::span<const Twist<d>> velocities) {
+void tie_arrivals(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d>> velocities) {
   in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.tie[i].wall >= 0) return;
     for (std::size_t w = 0; w < at.walls.size(); ++w) {
       if (!at.walls[w].may_touch(at.poses[w], nodes.x[i], 0)) continue;
       // Drops may cross more than an element in a step, nodes of the liquid may not.
-      const double reach = nodes.spray[i] ? at.walls[w].diameter() : h[i];
+      const double reach = nodes.spray[i] ? at.walls[w].diameter() : nodes.h[i];
       const auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
       const Vec<d> arm = nodes.x[i] - at.poses[w].translation();
       // A node that a neighbouring edge let go may touch the wall behind the edge while it flies away.
@@ -91,13 +90,12 @@ class LiquidBoundary {
 };
 
 template <int d>
-void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int facet, const Vec<d>& point, WallTie tie) {
+void split_facet(Nodes<d>& nodes, Mesh<d>& mesh, int facet, const Vec<d>& point, WallTie tie) {
   const Facet<d> old = mesh.boundary[facet];
   Vec<d> v = Vec<d>::Zero();
   double p = 0, size = 0;
-  for (int n : old.nodes) v += nodes.v[n] / d, p += nodes.p[n] / d, size += h[n] / d;
-  const int m = nodes.add(point, v, p, tie, old.wall < 0);
-  h.push_back(size);
+  for (int n : old.nodes) v += nodes.v[n] / d, p += nodes.p[n] / d, size += nodes.h[n] / d;
+  const int m = nodes.add(point, v, p, tie, old.wall < 0, size);
   for (int k = 0; k < d; ++k) {
     Facet<d> part = old;
     part.nodes[k] = m;
@@ -109,7 +107,7 @@ void split_facet(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, int fac
 }
 
 template <int d>
-void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+void occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
   constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
   struct Corner {
     int wall, vertex;
@@ -122,8 +120,8 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
     for (int v : at.walls[w].corners())
       if (!taken[v]) dry.push_back({w, v});
   }
-  if (dry.empty() || h.empty()) return;
-  const double reach = near * *std::max_element(h.begin(), h.end());
+  if (dry.empty() || nodes.size() == 0) return;
+  const double reach = near * std::ranges::max(nodes.h);
   LiquidBoundary<d> boundary(nodes, mesh, dry.size());
   for (const auto [w, v] : dry) {
     const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
@@ -136,7 +134,7 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
       touches = touches || nodes.tie[n].wall == w;
       if ((nodes.x[n] - point).norm() < (nodes.x[closest] - point).norm()) closest = n;
     }
-    const double size = h[closest];
+    const double size = nodes.h[closest];
     const bool arrived =
         hit.distance < (touches ? on_facet : 1e-9) * size || (hit.distance < near * size && boundary.encloses(point));
     if (!arrived) continue;
@@ -145,7 +143,7 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
       nodes.x[closest] = point;
       nodes.tie[closest] = tie;
     } else {
-      split_facet(nodes, h, mesh, hit.facet, point, tie);
+      split_facet(nodes, mesh, hit.facet, point, tie);
     }
     boundary.changed();
   }
@@ -153,18 +151,18 @@ void occupy_corners(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
 
 // The edge leaves a smooth patch of the wall over one of its creases.
 template <int d>
-bool passes_crease(const Nodes<d>& nodes, std::span<const double> h, const Wall<d>& wall, const Isometry<d>& pose,
-                   int w, int a, int b, typename Wall<d>::Crossing& at) {
+bool passes_crease(const Nodes<d>& nodes, const Wall<d>& wall, const Isometry<d>& pose, int w, int a, int b,
+                   typename Wall<d>::Crossing& at) {
   const WallTie &tie_a = nodes.tie[a], &tie_b = nodes.tie[b];
   if (tie_a.wall != w || tie_a.sharp()) return false;
   const bool turns = tie_b.wall == w;
   if (turns && (tie_b.sharp() || tie_a.patch == tie_b.patch)) return false;
   at = wall.nearest_crease(pose, nodes.x[a], nodes.x[b]);
-  return at.distance < (turns ? (nodes.x[a] - nodes.x[b]).norm() : on_facet * h[a]);
+  return at.distance < (turns ? (nodes.x[a] - nodes.x[b]).norm() : on_facet * nodes.h[a]);
 }
 
 template <int d>
-void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& at) {
+void occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
   struct Pass {
     int a, b, wall;
     typename Wall<d>::Crossing at;
@@ -175,7 +173,7 @@ void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
       const int a = f.nodes[k], b = f.nodes[(k + 1) % d], w = nodes.tie[a].wall;
       if (w < 0 || !at.walls[w].has_creases()) continue;
       Pass pass{a, b, w, {}};
-      if (passes_crease<d>(nodes, h, at.walls[w], at.poses[w], w, a, b, pass.at)) passes.push_back(pass);
+      if (passes_crease<d>(nodes, at.walls[w], at.poses[w], w, a, b, pass.at)) passes.push_back(pass);
     }
   if (passes.empty()) return;
   const BoundaryEdges<d> edges(mesh.boundary, nodes.size());
@@ -186,12 +184,12 @@ void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
     edges.around(mesh.boundary, pass.a, pass.b, [&](int f) {
       for (int n : mesh.boundary[f].nodes)
         taken = taken || (nodes.tie[n].wall == pass.wall && nodes.tie[n].crease == pass.at.crease &&
-                          (nodes.x[n] - pass.at.point).norm() < snap * h[n]);
+                          (nodes.x[n] - pass.at.point).norm() < snap * nodes.h[n]);
     });
     if (taken) continue;
     const WallTie tie{pass.wall, -1, -1, pass.at.crease};
     const int closest = pass.at.share < 0.5 ? pass.a : pass.b;
-    if ((nodes.x[closest] - pass.at.point).norm() < snap * h[closest] && !nodes.tie[closest].sharp()) {
+    if ((nodes.x[closest] - pass.at.point).norm() < snap * nodes.h[closest] && !nodes.tie[closest].sharp()) {
       nodes.x[closest] = pass.at.point;
       nodes.tie[closest] = tie;
       touched[closest] = 1;
@@ -200,8 +198,8 @@ void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
     touched[pass.a] = touched[pass.b] = 1;
     const double t = pass.at.share;
     const int m = nodes.add(pass.at.point, (1 - t) * nodes.v[pass.a] + t * nodes.v[pass.b],
-                            (1 - t) * nodes.p[pass.a] + t * nodes.p[pass.b], tie, false);
-    h.push_back((1 - t) * h[pass.a] + t * h[pass.b]);
+                            (1 - t) * nodes.p[pass.a] + t * nodes.p[pass.b], tie, false,
+                            (1 - t) * nodes.h[pass.a] + t * nodes.h[pass.b]);
     edges.split(mesh.boundary, pass.a, pass.b, m);
   }
 }
@@ -209,14 +207,13 @@ void occupy_creases(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, cons
 }  // namespace
 
 template <int d>
-void attach_nodes(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
-                  std::span<const Twist<d>> velocities) {
-  tie_arrivals<d>(nodes, h, walls, velocities);
-  occupy_corners(nodes, h, mesh, walls);
-  occupy_creases(nodes, h, mesh, walls);
+void attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities) {
+  tie_arrivals<d>(nodes, walls, velocities);
+  occupy_corners(nodes, mesh, walls);
+  occupy_creases(nodes, mesh, walls);
 }
 
-template void attach_nodes(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
-template void attach_nodes(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
+template void attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
+template void attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
 
 }  // namespace splashdown::fluid

@@ -12,12 +12,9 @@ namespace splashdown::fluid {
 
 /// Ties nodes that have reached a wall; puts nodes at wetted corners and creases. `velocities`: of the walls.
 template <int d>
-void attach_nodes(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls,
-                  std::span<const Twist<d>> velocities);
+void attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities);
 
-extern template void attach_nodes(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&,
-                                  std::span<const Twist<2>>);
-extern template void attach_nodes(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&,
-                                  std::span<const Twist<3>>);
+extern template void attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
+extern template void attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
 
 }  // namespace splashdown::fluid

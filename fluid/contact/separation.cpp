@@ -9,8 +9,8 @@
 namespace splashdown::fluid {
 
 template <int d>
-void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& at,
-              std::span<const Twist<d>> velocities, double gravity) {
+void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
+              double gravity) {
   struct Edge {
     Vec<d> normal = Vec<d>::Zero();
     bool both_sides = false;
@@ -45,7 +45,7 @@ void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, c
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (index[i] < 0) continue;
     const Edge& e = edges[index[i]];
-    const bool calm = e.upstream > 0 && 0.5 * e.squared_speed <= e.upstream * gravity * h[i];
+    const bool calm = e.upstream > 0 && 0.5 * e.squared_speed <= e.upstream * gravity * nodes.h[i];
     if (e.both_sides || calm) nodes.separates[i] = 0;
   }
 }
@@ -100,10 +100,8 @@ void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec
   for (const auto& [node, change] : changes) u[node] += change;
 }
 
-template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
-                       double);
-template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
-                       double);
+template void separate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
+template void separate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
 template std::vector<Separation<2>> separations(const Nodes<2>&, const Mesh<2>&);
 template std::vector<Separation<3>> separations(const Nodes<3>&, const Mesh<3>&);
 template void share_momentum<2>(std::span<const double>, std::span<Separation<2>>);

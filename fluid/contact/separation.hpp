@@ -14,8 +14,8 @@ namespace splashdown::fluid {
 /// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
 /// stands at a crease like at any other place of a wall. `h`: element sizes, `velocities`: of the walls, `gravity`: g.
 template <int d>
-void separate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& walls,
-              std::span<const Twist<d>> velocities, double gravity);
+void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities,
+              double gravity);
 
 /// A node where the flow leaves an edge.
 template <int d>
@@ -48,10 +48,8 @@ void share_momentum(std::span<const double> volume, std::span<Separation<d>> sep
 template <int d>
 void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u);
 
-extern template void separate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
-                              std::span<const Twist<2>>, double);
-extern template void separate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
-                              std::span<const Twist<3>>, double);
+extern template void separate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
+extern template void separate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
 extern template std::vector<Separation<2>> separations(const Nodes<2>&, const Mesh<2>&);
 extern template std::vector<Separation<3>> separations(const Nodes<3>&, const Mesh<3>&);
 extern template void share_momentum<2>(std::span<const double>, std::span<Separation<2>>);

@@ -75,8 +75,8 @@ std::vector<char> thin_places(const Nodes<d>& nodes, const Mesh<d>& mesh) {
 }  // namespace
 
 template <int d>
-void ventilate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& at,
-               std::span<const Twist<d>> velocities, double density, double gravity) {
+void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
+               double density, double gravity) {
   const std::vector<double> mean = mean_pressures(nodes, mesh);
   const std::vector<char> thin = thin_places(nodes, mesh);
   SuctionRegions regions(nodes, mesh, mean);
@@ -89,7 +89,7 @@ void ventilate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, 
     if (strong(nodes.p[n], n, wall)) return true;
     const int patch = nodes.tie[n].patch;
     if (patch < 0 || at.walls[wall].is_flat(patch)) return false;
-    if (mean[n] >= 0 || energy(n, wall) <= gravity * h[n]) return false;
+    if (mean[n] >= 0 || energy(n, wall) <= gravity * nodes.h[n]) return false;
     const int lowest = regions.lowest(n);
     // In space the root of a jet is no thicker than that itself.
     return (d == 2 && thin[n]) || strong(mean[lowest], lowest, wall);
@@ -105,7 +105,7 @@ void ventilate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, 
     const Vec<d> off = -area_vector_of<d>(f, nodes.x).normalized();
     for (int n : f.nodes)
       if (!nodes.surface[n] && nodes.tie[n].wall == f.wall && leaves(n, f.wall))
-        leaving.push_back({n, off_wall * h[n] * off});
+        leaving.push_back({n, off_wall * nodes.h[n] * off});
   }
   for (const Leaving& l : leaving) {
     nodes.tie[l.node] = {};
@@ -113,9 +113,7 @@ void ventilate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, 
   }
 }
 
-template void ventilate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
-                        std::span<const Twist<2>>, double, double);
-template void ventilate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
-                        std::span<const Twist<3>>, double, double);
+template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
+template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
 
 }  // namespace splashdown::fluid

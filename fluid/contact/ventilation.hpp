@@ -20,12 +20,10 @@ namespace splashdown::fluid {
 ///
 /// A row of nodes a step. `h`: element sizes, `velocities`: of the walls, `gravity`: g.
 template <int d>
-void ventilate(Nodes<d>& nodes, std::span<const double> h, const Mesh<d>& mesh, const WallsAt<d>& at,
-               std::span<const Twist<d>> velocities, double density, double gravity);
+void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
+               double density, double gravity);
 
-extern template void ventilate(Nodes<2>&, std::span<const double>, const Mesh<2>&, const WallsAt<2>&,
-                               std::span<const Twist<2>>, double, double);
-extern template void ventilate(Nodes<3>&, std::span<const double>, const Mesh<3>&, const WallsAt<3>&,
-                               std::span<const Twist<3>>, double, double);
+extern template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
+extern template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
 
 }  // namespace splashdown::fluid

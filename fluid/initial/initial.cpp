@@ -60,7 +60,7 @@ class Filler {
   }
 
   void refine() {
-    std::vector<double>& h = out_.h;
+    std::vector<double>& h = out_.nodes.h;
     auto sizes = [&] {
       const SizeField<d> field(spec_.size, walls_, dry_, out_.nodes.x, out_.mesh);
       h.resize(out_.nodes.size());
@@ -68,16 +68,16 @@ class Filler {
     };
     sizes();
     const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
-    attach_nodes<d>(out_.nodes, h, out_.mesh, walls_, at_rest);
+    attach_nodes<d>(out_.nodes, out_.mesh, walls_, at_rest);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
       cut();
       if (settled + 1 == smoothing_sweeps<d>) return;
-      const auto report = adapt(out_.nodes, h, out_.mesh, walls_);
+      const auto report = adapt(out_.nodes, out_.mesh, walls_);
       const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
       if (quiet || sweep > 60) ++settled;
       if (report.inserted + report.removed > 0) cut();
-      smooth(h);
+      smooth();
       sizes();
     }
   }
@@ -85,17 +85,18 @@ class Filler {
   // What is water, without nodes that smoothing pushed through a wall: they have no cell then, and are no drops either.
   void cut() {
     for (;;) {
-      auto found = recognise<d>(out_.nodes, out_.h, out_.mesh.boundary, walls_, outline_decides);
+      auto found = recognise<d>(out_.nodes, out_.mesh.boundary, walls_, outline_decides);
       std::vector<char> goes = out_.nodes.spray;
       for (int n : found.piercing) goes[n] = 1;
       if (found.piercing.empty()) out_.mesh = std::move(found);
-      if (!discard(goes, out_.nodes, out_.h, out_.mesh.boundary)) return;
+      if (!discard(goes, out_.nodes, out_.mesh.boundary)) return;
     }
   }
 
   // Inner nodes move towards the mean of their neighbours, weighted by how far apart they should be.
-  void smooth(const std::vector<double>& h) {
+  void smooth() {
     auto& x = out_.nodes.x;
+    const auto& h = out_.nodes.h;
     std::vector<Vec<d>> push(x.size(), Vec<d>::Zero());
     std::vector<double> weight(x.size(), 0.0);
     std::vector<char> fixed(x.size(), 0);

@@ -10,7 +10,6 @@ template <int d>
 struct InitialLiquid {
   Nodes<d> nodes;
   Mesh<d> mesh;
-  std::vector<double> h;  ///< element size at the nodes [m]
 };
 
 /// Throws std::invalid_argument if no liquid remains.

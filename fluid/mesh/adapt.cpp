@@ -33,8 +33,8 @@ std::uint64_t key(int a, int b) {
 template <int d>
 class Adapter {
  public:
-  Adapter(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls)
-      : nodes_(nodes), h_(h), mesh_(mesh), walls_(walls), edges_(mesh.boundary, nodes.size()), into_(nodes.size()) {
+  Adapter(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls)
+      : nodes_(nodes), mesh_(mesh), walls_(walls), edges_(mesh.boundary, nodes.size()), into_(nodes.size()) {
     std::iota(into_.begin(), into_.end(), 0);
   }
 
@@ -71,7 +71,8 @@ class Adapter {
         for (int i = 0; i < d; ++i)
           for (int j = i + 1; j <= d; ++j) {
             const int a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
-            const double size = 0.5 * (h_[a] + h_[b]), squared_length = (nodes_.x[a] - nodes_.x[b]).squaredNorm();
+            const double size = 0.5 * (nodes_.h[a] + nodes_.h[b]),
+                         squared_length = (nodes_.x[a] - nodes_.x[b]).squaredNorm();
             if (surely_fits * squared_length < squared(split_above * size) &&
                 squared_length > surely_fits * squared(merge_below * size))
               continue;
@@ -134,7 +135,7 @@ class Adapter {
         if (i != inner && j != inner && !is_boundary_edge(cell[i], cell[j])) return -1;
     const auto g = volume_gradients<d>(corners(nodes_.x, cell));
     const double height = volume<d>(corners(nodes_.x, cell)) / g.col(inner).norm();
-    return height < crowd_below * h_[cell[inner]] ? inner : -1;
+    return height < crowd_below * nodes_.h[cell[inner]] ? inner : -1;
   }
 
   // What a node stands for. In space, lines carry as many nodes as their length asks for.
@@ -216,9 +217,9 @@ class Adapter {
       WallTie tie;
       bool surface = false;
       if (at_boundary) tie = tie_between(e, surface);
-      const int m = nodes_.add(0.5 * (nodes_.x[e.a] + nodes_.x[e.b]), 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]),
-                               0.5 * (nodes_.p[e.a] + nodes_.p[e.b]), tie, surface);
-      h_.push_back(0.5 * (h_[e.a] + h_[e.b]));
+      const int m =
+          nodes_.add(0.5 * (nodes_.x[e.a] + nodes_.x[e.b]), 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]),
+                     0.5 * (nodes_.p[e.a] + nodes_.p[e.b]), tie, surface, 0.5 * (nodes_.h[e.a] + nodes_.h[e.b]));
       into_.push_back(m);
       attach(m);
       ++report_.inserted;
@@ -247,11 +248,10 @@ class Adapter {
     if (report_.removed == 0) return;
     std::vector<char> merged(nodes_.size());
     for (std::size_t i = 0; i < merged.size(); ++i) merged[i] = into_[i] != static_cast<int>(i);
-    discard(merged, nodes_, h_, mesh_.boundary);
+    discard(merged, nodes_, mesh_.boundary);
   }
 
   Nodes<d>& nodes_;
-  std::vector<double>& h_;
   Mesh<d>& mesh_;
   const WallsAt<d>& walls_;
   BoundaryEdges<d> edges_;  // of the boundary as it is now
@@ -264,40 +264,34 @@ class Adapter {
 }  // namespace
 
 template <int d>
-AdaptReport<d> adapt(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls) {
-  return Adapter<d>(nodes, h, mesh, walls).run();
+AdaptReport<d> adapt(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls) {
+  return Adapter<d>(nodes, mesh, walls).run();
 }
 
 template <int d>
-void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<double>& h, std::vector<Facet<d>>& boundary) {
+void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<Facet<d>>& boundary) {
   std::vector<int> renumber(nodes.size(), -1);
-  std::vector<double> sizes(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    renumber[kept[i]] = static_cast<int>(i);
-    sizes[i] = h[kept[i]];
-  }
+  for (std::size_t i = 0; i < kept.size(); ++i) renumber[kept[i]] = static_cast<int>(i);
   nodes.select(kept);
-  h = std::move(sizes);
   for (auto& f : boundary)
     for (int& n : f.nodes) n = renumber[n];
 }
 
 template <int d>
-bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<double>& h,
-             std::vector<Facet<d>>& boundary) {
+bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<Facet<d>>& boundary) {
   std::vector<int> kept;
   for (std::size_t i = 0; i < marked.size(); ++i)
     if (!marked[i]) kept.push_back(static_cast<int>(i));
   if (kept.size() == marked.size()) return false;
-  keep(kept, nodes, h, boundary);
+  keep(kept, nodes, boundary);
   return true;
 }
 
-template AdaptReport<2> adapt(Nodes<2>&, std::vector<double>&, Mesh<2>&, const WallsAt<2>&);
-template AdaptReport<3> adapt(Nodes<3>&, std::vector<double>&, Mesh<3>&, const WallsAt<3>&);
-template void keep(const std::vector<int>&, Nodes<2>&, std::vector<double>&, std::vector<Facet<2>>&);
-template void keep(const std::vector<int>&, Nodes<3>&, std::vector<double>&, std::vector<Facet<3>>&);
-template bool discard(const std::vector<char>&, Nodes<2>&, std::vector<double>&, std::vector<Facet<2>>&);
-template bool discard(const std::vector<char>&, Nodes<3>&, std::vector<double>&, std::vector<Facet<3>>&);
+template AdaptReport<2> adapt(Nodes<2>&, Mesh<2>&, const WallsAt<2>&);
+template AdaptReport<3> adapt(Nodes<3>&, Mesh<3>&, const WallsAt<3>&);
+template void keep(const std::vector<int>&, Nodes<2>&, std::vector<Facet<2>>&);
+template void keep(const std::vector<int>&, Nodes<3>&, std::vector<Facet<3>>&);
+template bool discard(const std::vector<char>&, Nodes<2>&, std::vector<Facet<2>>&);
+template bool discard(const std::vector<char>&, Nodes<3>&, std::vector<Facet<3>>&);
 
 }  // namespace splashdown::fluid

@@ -21,14 +21,14 @@ struct AdaptReport {
 
 /// Changes nodes and boundary (mesh.cells become stale) and renumbers; `h` is resized to the new nodes.
 template <int d>
-AdaptReport<d> adapt(Nodes<d>& nodes, std::vector<double>& h, Mesh<d>& mesh, const WallsAt<d>& walls);
+AdaptReport<d> adapt(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls);
 
 /// Keeps these nodes alone and renumbers; all nodes of the boundary must be among them.
 template <int d>
-void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<double>& h, std::vector<Facet<d>>& boundary);
+void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<Facet<d>>& boundary);
 
 /// Keeps all nodes but those that are marked; false if none is.
 template <int d>
-bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<double>& h, std::vector<Facet<d>>& boundary);
+bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<Facet<d>>& boundary);
 
 }  // namespace splashdown::fluid

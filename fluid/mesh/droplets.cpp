@@ -25,7 +25,7 @@ double drop_size(double volume) {
 }
 
 template <int d>
-std::vector<char> join_drops(Nodes<d>& nodes, std::span<const double> h) {
+std::vector<char> join_drops(Nodes<d>& nodes) {
   std::vector<char> left(nodes.size(), 1);
   auto drops = drops_among(nodes.spray, left);
   double largest = 0;
@@ -42,7 +42,7 @@ std::vector<char> join_drops(Nodes<d>& nodes, std::span<const double> h) {
       const double Va = nodes.volume[a], Vb = nodes.volume[b];
       const double reach = 0.5 * (drop_size<d>(Va) + drop_size<d>(Vb));
       if ((nodes.x[a] - nodes.x[b]).squaredNorm() >= reach * reach) continue;
-      if (drop_size<d>(Va + Vb) > std::min(h[a], h[b])) continue;
+      if (drop_size<d>(Va + Vb) > std::min(nodes.h[a], nodes.h[b])) continue;
       const double share = Va + Vb > 0 ? Va / (Va + Vb) : 0.5;
       nodes.x[a] = share * nodes.x[a] + (1 - share) * nodes.x[b];
       nodes.v[a] = share * nodes.v[a] + (1 - share) * nodes.v[b];
@@ -54,8 +54,7 @@ std::vector<char> join_drops(Nodes<d>& nodes, std::span<const double> h) {
 }
 
 template <int d>
-void absorb_drops(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& boundary,
-                  std::vector<char>& left) {
+void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, std::vector<char>& left) {
   // To give way by more than this, over h, would be no small change of the surface: such a drop hands over its momentum, and
   // its volume is owed.
   constexpr double most = 0.25;
@@ -84,7 +83,7 @@ void absorb_drops(Nodes<d>& nodes, std::span<const double> h, const std::vector<
     }
     const auto& corners = boundary[facet[hit.facet]].nodes;
     const bool fits =
-        std::all_of(corners.begin(), corners.end(), [&](int n) { return V / d < most * h[n] * area[n].norm(); });
+        std::all_of(corners.begin(), corners.end(), [&](int n) { return V / d < most * nodes.h[n] * area[n].norm(); });
     for (int n : corners) {
       const double before = nodes.volume[n], share = V / d;
       if (fits) nodes.x[n] += share / area[n].squaredNorm() * area[n];
@@ -97,9 +96,9 @@ void absorb_drops(Nodes<d>& nodes, std::span<const double> h, const std::vector<
 
 template double drop_size<2>(double);
 template double drop_size<3>(double);
-template std::vector<char> join_drops(Nodes<2>&, std::span<const double>);
-template std::vector<char> join_drops(Nodes<3>&, std::span<const double>);
-template void absorb_drops(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, std::vector<char>&);
-template void absorb_drops(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, std::vector<char>&);
+template std::vector<char> join_drops(Nodes<2>&);
+template std::vector<char> join_drops(Nodes<3>&);
+template void absorb_drops(Nodes<2>&, const std::vector<Facet<2>>&, std::vector<char>&);
+template void absorb_drops(Nodes<3>&, const std::vector<Facet<3>>&, std::vector<char>&);
 
 }  // namespace splashdown::fluid

@@ -25,18 +25,17 @@ double drop_size(double volume);
 
 /// Joins drops that touch. `h`: element size at the nodes; a drop grows no larger than that. The nodes that are left.
 template <int d>
-std::vector<char> join_drops(Nodes<d>& nodes, std::span<const double> h);
+std::vector<char> join_drops(Nodes<d>& nodes);
 
 /// Joins drops with the liquid that `boundary` encloses. `left`: nodes that are still there; those that join are taken out.
 template <int d>
-void absorb_drops(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& boundary,
-                  std::vector<char>& left);
+void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, std::vector<char>& left);
 
 extern template double drop_size<2>(double);
 extern template double drop_size<3>(double);
-extern template std::vector<char> join_drops(Nodes<2>&, std::span<const double>);
-extern template std::vector<char> join_drops(Nodes<3>&, std::span<const double>);
-extern template void absorb_drops(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, std::vector<char>&);
-extern template void absorb_drops(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, std::vector<char>&);
+extern template std::vector<char> join_drops(Nodes<2>&);
+extern template std::vector<char> join_drops(Nodes<3>&);
+extern template void absorb_drops(Nodes<2>&, const std::vector<Facet<2>>&, std::vector<char>&);
+extern template void absorb_drops(Nodes<3>&, const std::vector<Facet<3>>&, std::vector<char>&);
 
 }  // namespace splashdown::fluid

@@ -248,14 +248,14 @@ void fill_cracks(const Delaunay<d>& all, const Nodes<d>& nodes, const WallsAt<d>
 }  // namespace
 
 template <int d>
-Recognised<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
-                        const WallsAt<d>& walls, const Alpha& limit) {
-  return recognise<d>(delaunay<d>(nodes.x, old_boundary), nodes, h, old_boundary, walls, limit);
+Recognised<d> recognise(Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls,
+                        const Alpha& limit) {
+  return recognise<d>(delaunay<d>(nodes.x, old_boundary), nodes, old_boundary, walls, limit);
 }
 
 template <int d>
-Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double> h,
-                        const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit) {
+Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary,
+                        const WallsAt<d>& walls, const Alpha& limit) {
   const InsideTest<d> inside(nodes.x, old_boundary);
   std::vector<char> inner(nodes.size(), 1);
   for (const auto& f : old_boundary)
@@ -268,7 +268,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double
     bool has_inner = false;
     Vec<d> centroid = Vec<d>::Zero();
     for (int n : cell) {
-      size += h[n] / (d + 1);
+      size += nodes.h[n] / (d + 1);
       centroid += nodes.x[n] / (d + 1);
       has_inner = has_inner || inner[n];
     }
@@ -313,9 +313,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double
   return mesh;
 }
 
-template Recognised<2> recognise(Nodes<2>&, std::span<const double>, const std::vector<Facet<2>>&, const WallsAt<2>&,
-                                 const Alpha&);
-template Recognised<3> recognise(Nodes<3>&, std::span<const double>, const std::vector<Facet<3>>&, const WallsAt<3>&,
-                                 const Alpha&);
+template Recognised<2> recognise(Nodes<2>&, const std::vector<Facet<2>>&, const WallsAt<2>&, const Alpha&);
+template Recognised<3> recognise(Nodes<3>&, const std::vector<Facet<3>>&, const WallsAt<3>&, const Alpha&);
 
 }  // namespace splashdown::fluid

@@ -42,12 +42,12 @@ struct Recognised : Mesh<d> {
 /// Finds the fluid cells among `all` and labels boundary facets; sets nodes.surface and nodes.spray. `h`: element size at
 /// the nodes [m]; `old_boundary`: closed facets between the same nodes.
 template <int d>
-Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, std::span<const double> h,
-                        const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls, const Alpha& limit = {});
+Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary,
+                        const WallsAt<d>& walls, const Alpha& limit = {});
 
 /// Among the cells of the nodes' triangulation.
 template <int d>
-Recognised<d> recognise(Nodes<d>& nodes, std::span<const double> h, const std::vector<Facet<d>>& old_boundary,
-                        const WallsAt<d>& walls, const Alpha& limit = {});
+Recognised<d> recognise(Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& walls,
+                        const Alpha& limit = {});
 
 }  // namespace splashdown::fluid

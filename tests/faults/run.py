@@ -2,6 +2,7 @@
 """Puts deliberate faults into a copy of the sources, one at a time, and says which test notices each.
 
     tests/faults/run.py [--copy DIR] [--jobs N] [--only WORD] [--again] [--write]
+    tests/faults/run.py --check     only whether each fault still has its place in the sources
 
 The copy (default: build/faults) is made from the files that git knows, and built once without any fault. For each fault of
 faults.toml the libraries and one suite after the other are built and run until a test fails: unit, verification and stability
@@ -93,11 +94,17 @@ def suites_for(file):
 SOUND = {"name": "no fault", "file": "CMakeLists.txt", "find": "cmake_minimum_required", "replace": "cmake_minimum_required"}
 
 
+def misplaced(copy, fault):
+    """What is wrong with the fault's place; empty where `find` stands once."""
+    count = (copy / fault["file"]).read_text().count(fault["find"])
+    return "" if count == 1 else f"'find' stands {count} times in {fault['file']}"
+
+
 def attempt(copy, fault, jobs):
     path = copy / fault["file"]
     sound = path.read_text()
-    if sound.count(fault["find"]) != 1:
-        return {"invalid": f"'find' stands {sound.count(fault['find'])} times in {fault['file']}"}
+    if error := misplaced(copy, fault):
+        return {"invalid": error}
     if fault is not SOUND:
         path.write_text(sound.replace(fault["find"], fault["replace"]))
     try:
@@ -134,9 +141,13 @@ def main():
     parser.add_argument("--again", action="store_true", help="try also what has a result")
     parser.add_argument("--here", action="store_true", help="the tree of this script is such a copy: no other is made")
     parser.add_argument("--write", action="store_true", help="renew the table in tests/README.md; tries nothing")
+    parser.add_argument("--check", action="store_true", help="say which faults have lost their place; tries nothing")
     options = parser.parse_args()
     with open(HERE / "faults.toml", "rb") as file:
         faults = tomllib.load(file)["fault"]
+    if options.check:
+        lost = [f"{fault['name']}: {error}" for fault in faults if (error := misplaced(ROOT, fault))]
+        sys.exit("\n".join(lost) or 0)
     copy = ROOT if options.here else options.copy.resolve()
     kept = copy / "build/results_of_faults.json" if options.here else copy / "results.json"
     results = json.loads(kept.read_text()) if kept.exists() else {}

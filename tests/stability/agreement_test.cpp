@@ -72,14 +72,14 @@ TEST_P(Agreement, an_attempt_made_twice_gives_the_same_bits) {
   velocities(*stepper, 2);
   const auto first = stepper->attempt(dt);
   const auto velocity = stepper->trial()[0].velocity;
-  const auto load = stepper->fluid().loads()[0].total();
-  const auto p = stepper->fluid().nodes().p;
+  const auto load = stepper->fluid().result().loads[0].total();
+  const auto p = stepper->fluid().result().pressure;
   const auto again = stepper->attempt(dt);
   EXPECT_EQ(again.passes, first.passes);
   EXPECT_EQ(again.residual, first.residual);
   EXPECT_EQ(stepper->trial()[0].velocity, velocity);
-  EXPECT_EQ(stepper->fluid().loads()[0].total(), load);
-  EXPECT_EQ(stepper->fluid().nodes().p, p);
+  EXPECT_EQ(stepper->fluid().result().loads[0].total(), load);
+  EXPECT_EQ(stepper->fluid().result().pressure, p);
 }
 
 TEST_P(Agreement, work_of_the_fluid_is_the_energy_that_the_body_gains) {
@@ -96,8 +96,8 @@ TEST_P(Agreement, work_of_the_fluid_is_the_energy_that_the_body_gains) {
       const double kick = i == 0 ? dt / 2 : dt, booked = stepper->fluid().ledger().work_on_walls;
       const fluid::Twist<2> before = stepper->bodies().state(0).velocity;
       ASSERT_TRUE(stepper->attempt(dt).ok());
-      const fluid::Twist<2> after = stepper->trial()[0].velocity, uses = stepper->fluid().wall_velocities()[0];
-      const auto f = stepper->fluid().loads()[0].total();
+      const fluid::Twist<2> after = stepper->trial()[0].velocity, uses = stepper->fluid().result().wall_velocities[0];
+      const auto f = stepper->fluid().result().loads[0].total();
       stepper->commit();
       const auto energy = [&](const fluid::Twist<2>& s) { return 0.5 * s.dot(M.cwiseProduct(s)); };
       const fluid::Twist<2> mean = 0.5 * (before + after);

@@ -47,7 +47,7 @@ TEST_P(TurningEllipse, stays_wet_all_around) {
   while (stepper->time() < 2) {
     dt = std::min(stepper->stable_dt(), 1.5 * dt);
     ASSERT_TRUE(stepper->attempt(dt).ok());
-    const double wetted = stepper->fluid().loads()[0].wetted;
+    const double wetted = stepper->fluid().result().loads[0].wetted;
     ASSERT_LE(wetted, whole * (1 + 1e-9)) << stepper->time();
     ASSERT_GE(wetted, whole * (1 - chords)) << stepper->time();
     stepper->commit();
@@ -72,12 +72,12 @@ TEST(HingedPlate, gets_no_more_energy_than_its_buoyancy_gives) {
     dt = std::min(stepper->stable_dt(), 1.5 * dt);
     ASSERT_TRUE(stepper->attempt(dt).ok());
     const auto& state = stepper->bodies().state(0);
-    const rigid::Twist<2> s = 0.5 * (state.velocity + stepper->fluid().wall_velocities()[0]);
+    const rigid::Twist<2> s = 0.5 * (state.velocity + stepper->fluid().result().wall_velocities[0]);
     const double kinetic = 0.5 * body.mass * s.head<2>().squaredNorm() + 0.5 * body.inertia(0, 0) * s[2] * s[2] +
                            stepper->fluid().ledger().kinetic_energy;
     const double work = lift * (state.pose.translation().y() + depth);
     ASSERT_LE(kinetic, work * (1 + chords) + 1e-3 * lift * a) << stepper->time();
-    ASSERT_GE(stepper->fluid().loads()[0].wetted, whole * (1 - chords)) << stepper->time();
+    ASSERT_GE(stepper->fluid().result().loads[0].wetted, whole * (1 - chords)) << stepper->time();
     stepper->commit();
   }
   EXPECT_GE(stepper->bodies().state(0).velocity[2], 1) << "it swings: 1.4 rad/s in a fluid without vortices";

@@ -104,8 +104,8 @@ TEST(LinearSolver, that_fails_refuses_the_step_and_the_next_attempt_is_undisturb
   fluid::Fluid<2> f(spec, fluid::scenes::gravity({0, -scenes::g}));
   EXPECT_FALSE(f.begin(1e-3, 1e-3, {{}, {}, {{.laplacian = -1e6}}}).ok());
   ASSERT_TRUE(f.begin(1e-3, 1e-3, {}).ok());
-  ASSERT_TRUE(f.solve(std::vector<fluid::Twist<2>>(1, fluid::Twist<2>::Zero())).ok());
-  EXPECT_NEAR(f.loads()[0].total()[1], -500 * scenes::g, 1e-6);
+  ASSERT_TRUE(f.solve(std::vector<fluid::Twist<2>>(1, fluid::Twist<2>::Zero())).status.ok());
+  EXPECT_NEAR(f.result().loads[0].total()[1], -500 * scenes::g, 1e-6);
 }
 
 scenes::Scene without_load() {
@@ -134,7 +134,7 @@ TEST(Start, at_rest_without_any_load_converges_with_iterated_terms) {
 TEST(Start, of_a_body_in_the_air_far_from_water_is_free_fall) {
   const auto stepper = scenes::coupled(scenes::wedge_drop(20, 0.3, 0.02));
   ASSERT_GE(scenes::run(*stepper, 5, 1e-3), 0);
-  EXPECT_EQ(stepper->fluid().loads()[0].wetted, 0);
+  EXPECT_EQ(stepper->fluid().result().loads[0].wetted, 0);
   const double fallen = 6.15 * stepper->time() + 0.5 * scenes::g * std::pow(stepper->time(), 2);
   const double start = 0.3 + rigid::wedge(std::numbers::pi / 6, 0.5, 0.1).at_unit_density.centre.y();
   EXPECT_NEAR(stepper->bodies().state(0).pose.translation().y(), start - fallen, 1e-12);

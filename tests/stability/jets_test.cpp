@@ -43,10 +43,10 @@ Steady jet_on(const fluid::WallSpec<2>& wall, double speed, double tip) {
     const auto& f = stepper.fluid();
     double most = 0;
     for (std::size_t i = 0; i < f.nodes().size(); ++i)
-      if (f.nodes().tie[i].wall >= 0) most = std::max(most, f.nodes().p[i]);
+      if (f.nodes().tie[i].wall >= 0) most = std::max(most, f.pressure()[i]);
     time += dt;
     mean.pressure += dt * most / (0.5 * water * speed * speed);
-    mean.force += dt * f.loads()[0].total().head<2>() / (water * speed * speed * width);
+    mean.force += dt * f.result().loads[0].total().head<2>() / (water * speed * speed * width);
   }
   const auto& l = stepper.fluid().ledger();
   EXPECT_NEAR(l.volume, l.volume_initial + l.time_integration + l.remesh_created + l.remesh_deleted + l.returned,

@@ -123,8 +123,8 @@ TEST(NoTerm, amplifies_an_error_by_added_mass_over_mass_a_pass) {
   const auto load = [&](double s) {
     std::vector<fluid::Twist<2>> walls(2, fluid::Twist<2>::Zero());
     walls[0][1] = s;
-    EXPECT_TRUE(f.solve(walls).ok());
-    return f.loads()[0].total()[1];
+    EXPECT_TRUE(f.solve(walls).status.ok());
+    return f.result().loads[0].total()[1];
   };
   const double M_a = -kick * (load(1) - load(0));
   EXPECT_NEAR(M_a, added_mass(dt), 1e-3 * M_a);

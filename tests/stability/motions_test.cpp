@@ -39,7 +39,7 @@ void survives(const scenes::Scene& scene, double until) {
     ASSERT_LE(energy(*stepper, 0), 1.001 * brought) << stepper->time();
     stepper->commit();
   }
-  EXPECT_GT(stepper->fluid().loads()[0].wetted, 0);
+  EXPECT_GT(stepper->fluid().result().loads[0].wetted, 0);
   const auto& l = stepper->fluid().ledger();
   EXPECT_NEAR(l.volume, l.volume_initial + l.time_integration + l.remesh_created + l.remesh_deleted + l.returned,
               1e-12 * l.volume_initial);

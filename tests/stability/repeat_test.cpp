@@ -20,15 +20,15 @@ TEST(Solve, twice_gives_the_same_bits) {
   std::vector<fluid::Twist<2>> walls(2, fluid::Twist<2>::Zero()), other = walls;
   walls[0] << 0.1, 0.2, 0.3;
   other[0] << -5, 7, 1;
-  ASSERT_TRUE(f.solve(walls).ok());
-  const auto load = f.loads()[0];
-  const auto p = f.nodes().p;
-  ASSERT_TRUE(f.solve(other).ok());
-  EXPECT_NE(f.loads()[0].physical, load.physical);
-  ASSERT_TRUE(f.solve(walls).ok());
-  EXPECT_EQ(f.loads()[0].physical, load.physical);
-  EXPECT_EQ(f.loads()[0].repair, load.repair);
-  EXPECT_EQ(f.nodes().p, p);
+  ASSERT_TRUE(f.solve(walls).status.ok());
+  const auto load = f.result().loads[0];
+  const auto p = f.result().pressure;
+  ASSERT_TRUE(f.solve(other).status.ok());
+  EXPECT_NE(f.result().loads[0].physical, load.physical);
+  ASSERT_TRUE(f.solve(walls).status.ok());
+  EXPECT_EQ(f.result().loads[0].physical, load.physical);
+  EXPECT_EQ(f.result().loads[0].repair, load.repair);
+  EXPECT_EQ(f.result().pressure, p);
 }
 
 TEST(Attempt, again_with_a_smaller_step_is_as_if_never_tried) {
@@ -65,7 +65,7 @@ TEST(Resumed, a_run_continues_bit_for_bit) {
     dt = std::min(whole->stable_dt(), i == 0 ? 1e-4 : 1.5 * dt);
     dts.push_back(dt);
     ASSERT_TRUE(whole->attempt(dt).ok());
-    if (contact < 0 && whole->fluid().loads()[0].wetted > 0) contact = i;
+    if (contact < 0 && whole->fluid().result().loads[0].wetted > 0) contact = i;
     whole->commit();
     at.push_back(saved(*whole));
   }

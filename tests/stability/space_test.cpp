@@ -26,7 +26,7 @@ TEST(BallInSpace, lands_with_the_same_bits_on_any_number_of_threads) {
     fluid::use_threads(threads);
     const auto stepper = ball(1.0 / 3, radius, 3, 0.12);
     EXPECT_EQ(scenes::run(*stepper, 12, 2e-3), 1);
-    EXPECT_GT(stepper->fluid().loads()[0].wetted, 0);
+    EXPECT_GT(stepper->fluid().result().loads[0].wetted, 0);
     if (first.empty()) first = saved(*stepper);
     EXPECT_TRUE(saved(*stepper) == first) << threads;
   }

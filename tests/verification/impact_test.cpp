@@ -34,7 +34,7 @@ Impact impact(double mass, double size, double dt, double growth = 0.1) {
   EXPECT_TRUE(report.ok()) << report.cause;
   EXPECT_LE(report.passes, 2);
   const double kick = 0.5 * dt;
-  return {stepper->trial()[0].velocity[1], kick * stepper->fluid().loads()[0].total()[1]};
+  return {stepper->trial()[0].velocity[1], kick * stepper->fluid().result().loads[0].total()[1]};
 }
 
 double added_mass_of(const Impact& i, double mass) { return mass * (-1 / i.velocity - 1); }

@@ -152,7 +152,8 @@ template <int d>
 HullMap<d>::HullMap(HullMap&&) noexcept = default;
 
 template <int d>
-void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const Isometry<d>& pose, double time) {
+void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
+                     const Isometry<d>& pose, double time) {
   // Facets are chords: beside a convex edge there is a gap of sagitta times angle, h/8 (h/R)^2 < rim h for h < R/4.
   constexpr double rim = 0.01;
   // Cosine of the angle between normals: a point beside a right-angled edge does not face as the other side does, the edge
@@ -180,7 +181,7 @@ void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const
       const auto foot = footprint<d>(corner, surface_.vertices.col(static_cast<Eigen::Index>(point)));
       if (!(foot.distance <= 0.5 * size) || *std::ranges::min_element(foot.weight) < -rim) continue;
       double p = 0;
-      for (std::size_t k = 0; k < d; ++k) p += foot.weight[k] * nodes.p[static_cast<std::size_t>(facet.nodes[k])];
+      for (std::size_t k = 0; k < d; ++k) p += foot.weight[k] * pressure[static_cast<std::size_t>(facet.nodes[k])];
       if (!std::isfinite(p) || (std::isfinite(time_[point]) && p <= pressure_[point])) continue;
       pressure_[point] = p;
       time_[point] = time;

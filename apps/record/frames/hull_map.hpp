@@ -27,7 +27,8 @@ class HullMap {
   ~HullMap();
   HullMap(HullMap&&) noexcept;
 
-  void add(const Nodes<d>& nodes, const Mesh<d>& mesh, int wall, const Isometry<d>& pose, double time);
+  void add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
+           const Isometry<d>& pose, double time);
   const Surface<d>& surface() const { return surface_; }
   const std::vector<double>& pressure() const { return pressure_; }  ///< [Pa]; 0 where never wetted
   const std::vector<double>& time() const { return time_; }          ///< [s]; nan where never wetted

@@ -20,7 +20,7 @@ Isometry<d> somewhere() {
 
 template <int d>
 double mean(const BoxOfWater<d>& box, const Isometry<d>& pose, const PatchRegion<d>& region) {
-  return patch_force<d>(box.nodes, box.mesh, 0, pose, region) / patch_area<d>(region, box.hull);
+  return patch_force<d>(box.nodes, box.mesh, box.nodes.p, 0, pose, region) / patch_area<d>(region, box.hull);
 }
 
 // Linear pressure on flat facets that are cut exactly: the mean is the pressure at the centroid of the patch, to rounding
@@ -71,7 +71,7 @@ TEST(Patch, its_dry_part_counts_with_zero) {
   hull.facets << 0, 1;
   const auto region = box_region<2>({0.5, -1}, {1.5, 1});
   const auto rest = Isometry<2>::Identity();
-  EXPECT_NEAR(patch_force<2>(nodes, mesh, 0, rest, region) / patch_area<2>(region, hull), 5, 1e-14);
+  EXPECT_NEAR(patch_force<2>(nodes, mesh, nodes.p, 0, rest, region) / patch_area<2>(region, hull), 5, 1e-14);
 }
 
 // A plate thinner than the patch's radius: the other side is no part of it.

@@ -51,9 +51,9 @@ TEST(WallPressure, is_interpolated_at_the_nearest_wetted_facet_and_absent_far_aw
   nodes.p = {10, 20, 40};
   Mesh<2> mesh;
   mesh.boundary = {{{0, 1}, 0}, {{1, 2}, 1}, {{2, 0}, -1}};
-  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, {0.3, -0.01}), 13, 1e-12);
-  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, {1.01, 0.5}), 30, 1e-12);
-  EXPECT_FALSE(wall_pressure<2>(nodes, mesh, {0.3, -0.6}));
+  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, nodes.p, {0.3, -0.01}), 13, 1e-12);
+  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, nodes.p, {1.01, 0.5}), 30, 1e-12);
+  EXPECT_FALSE(wall_pressure<2>(nodes, mesh, nodes.p, {0.3, -0.6}));
 }
 
 TEST(Ruler, measures_a_wedge_from_its_keel_with_opposite_signs_on_its_faces) {
@@ -84,7 +84,7 @@ TEST(SurfacePressure, has_the_wetted_nodes_of_one_wall_in_order) {
   Mesh<2> mesh;
   mesh.boundary = {{{0, 1}, 0}, {{2, 0}, 0}, {{1, 3}, -1}};
   const SurfaceRuler<2> ruler(polygon({{0, 0}, {3, 4}, {-3, 4}}), at_rest);
-  const auto points = surface_pressure<2>(nodes, mesh, 0, ruler, at_rest);
+  const auto points = surface_pressure<2>(nodes, mesh, nodes.p, 0, ruler, at_rest);
   ASSERT_EQ(points.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(points[i].s, static_cast<double>(i) - 1, 1e-14);
   EXPECT_EQ(points[0].p, 7);

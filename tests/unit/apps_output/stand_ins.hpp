@@ -24,6 +24,7 @@ class DrawnFluid final : public FluidView<d> {
   std::span<const Isometry<d>> wall_poses() const override { return poses; }
   const Nodes<d>& nodes() const override { return at; }
   const Mesh<d>& mesh() const override { return cells; }
+  std::span<const double> pressure() const override { return at.p; }
   const Ledger& ledger() const override { return books; }
   Vec<d> velocity_n(std::size_t node) const override { return at.v[node]; }
   std::optional<double> pressure_at(const Vec<d>& point) const override {

@@ -54,7 +54,7 @@ TEST(Partitioned, fluid_and_body_agree_on_the_velocity) {
     for (int i = 0; i < 3; ++i) {
       ASSERT_TRUE(stepper->attempt(1e-3).ok());
       const auto& body = stepper->trial()[0].velocity;
-      EXPECT_LE((stepper->fluid().wall_velocities()[0] - body).norm(), 1e-8 * body.norm());
+      EXPECT_LE((stepper->fluid().result().wall_velocities[0] - body).norm(), 1e-8 * body.norm());
       stepper->commit();
       EXPECT_EQ(stepper->fluid().wall_poses()[0].matrix(), stepper->bodies().state(0).pose.matrix());
     }
@@ -67,14 +67,14 @@ TEST(Partitioned, a_body_moves_as_its_load_says) {
   const auto before = stepper->bodies().state(0).velocity;
   const double dt = 1e-3;
   ASSERT_TRUE(stepper->attempt(dt).ok());
-  const auto& load = stepper->fluid().loads()[0];
+  const auto& load = stepper->fluid().result().loads[0];
   const auto after = stepper->trial()[0].velocity;
   const double mass = stepper->bodies().spec(0).mass;
   // The kick's length follows from gravity, which both sides of the balance know.
   stepper->commit();
   ASSERT_TRUE(stepper->attempt(dt).ok());  // kick = dt now
   const auto next = stepper->trial()[0].velocity;
-  const auto force = stepper->fluid().loads()[0].total();
+  const auto force = stepper->fluid().result().loads[0].total();
   EXPECT_LE((mass * (next - after).head<2>() - dt * (force.head<2>() + mass * Eigen::Vector2d(0, -scenes::g))).norm(),
             1e-8 * dt * force.norm());
   EXPECT_GT(load.physical.norm(), 0);
@@ -95,7 +95,7 @@ TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
     for (const auto& f : stepper->fluid().mesh().boundary)
       if (f.wall == 0)
         hull -= stepper->fluid().nodes().x[f.nodes[0]].dot(fluid::area_vector_of<2>(f, stepper->fluid().nodes().x)) / 2;
-    const auto load = stepper->fluid().loads()[0].total();
+    const auto load = stepper->fluid().result().loads[0].total();
     EXPECT_NEAR(load[1], scenes::water * scenes::g * hull, 1e-8 * load[1]);
     EXPECT_NEAR(load[0], 0, 1e-8 * load[1]);
     EXPECT_NEAR(load[2], 0, 1e-8 * load[1]);

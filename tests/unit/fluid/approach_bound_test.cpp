@@ -18,12 +18,12 @@ constexpr double speed = 10, cfl = 0.5, never = 1e3;
 template <int d>
 struct Flight {
   scenes::Lattice<d> water{4};
-  std::vector<double> h = std::vector<double>(water.nodes.size(), 0.25);
   std::vector<Wall<d>> walls;
   std::vector<Isometry<d>> poses{Isometry<d>::Identity()};
   std::vector<Twist<d>> velocity{Twist<d>::Zero()};
 
   explicit Flight(double gap) {
+    water.nodes.h.assign(water.nodes.size(), 0.25);
     for (auto& v : water.nodes.v) v = speed * Vec<d>::Unit(d - 1);
     const Vec<d> size = Vec<d>::Constant(2);
     Surface<d> block;
@@ -36,7 +36,7 @@ struct Flight {
     poses[0].translation()[d - 1] = 1 + gap + size[d - 1];
   }
   double dt(double longest) const {
-    return approach_dt<d>(water.nodes, h, water.mesh, {walls, poses}, velocity, cfl, longest);
+    return approach_dt<d>(water.nodes, water.mesh, {walls, poses}, velocity, cfl, longest);
   }
 };
 
@@ -64,8 +64,7 @@ TYPED_TEST(ApproachBound, other_water_counts_like_a_wall) {
     // Upside down: its free surface faces what comes.
     Vec<d> x = pool.nodes.x[i];
     x[d - 1] = 3 - x[d - 1];
-    water.nodes.add(x, Vec<d>::Zero(), 0, pool.nodes.tie[i], pool.nodes.surface[i]);
-    flight.h.push_back(0.25);
+    water.nodes.add(x, Vec<d>::Zero(), 0, pool.nodes.tie[i], pool.nodes.surface[i], 0.25);
   }
   for (auto cell : pool.mesh.cells) {
     for (int& n : cell) n += first;
@@ -82,9 +81,9 @@ TYPED_TEST(ApproachBound, other_water_counts_like_a_wall) {
 template <int d>
 struct Gap {
   scenes::Lattice<d> water{4};
-  std::vector<double> h = std::vector<double>(water.nodes.size(), 0.25);
 
   explicit Gap(double thickness) {
+    water.nodes.h.assign(water.nodes.size(), 0.25);
     for (std::size_t i = 0; i < water.nodes.size(); ++i) {
       double& height = water.nodes.x[i][d - 1];
       const bool below = height < 0.1, above = !below && height < 0.4;
@@ -93,7 +92,7 @@ struct Gap {
       water.nodes.v[i] = below ? Vec<d>::Zero() : Vec<d>(-speed * Vec<d>::Unit(d - 1));
     }
   }
-  double time() const { return gap_time<d>(water.nodes, h, water.mesh); }
+  double time() const { return gap_time<d>(water.nodes, water.mesh); }
 };
 
 TYPED_TEST(ApproachBound, a_gap_between_walls_has_the_time_until_it_is_closed) {

@@ -29,7 +29,7 @@ TEST(FluidStep, air_gets_behind_a_wall_that_is_pulled_from_the_water) {
   const std::vector<Twist<2>> jerk{{1, 0, 0}};
   ASSERT_TRUE(water.begin(dt, dt, {}).ok());
   const int left = tied_to(water, -1), right = tied_to(water, 1);
-  ASSERT_TRUE(water.solve(jerk).ok());
+  ASSERT_TRUE(water.solve(jerk).status.ok());
   water.commit(std::vector<Isometry<2>>{moved<2>(Isometry<2>::Identity(), jerk[0], dt)});
   EXPECT_EQ(tied_to(water, 1), right - 1) << "a row a step, from the contact line";
   EXPECT_EQ(tied_to(water, -1), left);
@@ -43,8 +43,8 @@ TEST(FluidStep, what_a_velocity_lacks_of_keeping_the_volume_is_repaired_and_load
   Fluid<2> water(std::move(spec), scenes::no_effects());
   const std::vector<Twist<2>> still{Twist<2>::Zero()};
   ASSERT_TRUE(water.begin(moment, moment, {}).ok());
-  ASSERT_TRUE(water.solve(still).ok());
-  const auto& load = water.loads()[0];
+  ASSERT_TRUE(water.solve(still).status.ok());
+  const auto& load = water.result().loads[0];
   EXPECT_GT(load.repair[0], 0);
   EXPECT_LT(std::abs(load.physical[0]), 0.005 * load.repair[0]);
 }
@@ -59,7 +59,7 @@ Exchange last_step(FluidSpec<2> spec, std::unique_ptr<Viscosity<2>> viscosity, c
   Fluid<2> water(std::move(spec), std::move(effects));
   for (std::size_t k = 0;; ++k) {
     EXPECT_TRUE(water.begin(moment, moment, {}).ok());
-    EXPECT_TRUE(water.solve(std::vector<Twist<2>>{{speeds[k], 0, 0}}).ok());
+    EXPECT_TRUE(water.solve(std::vector<Twist<2>>{{speeds[k], 0, 0}}).status.ok());
     if (k + 1 == speeds.size()) break;
     water.commit(water.wall_poses());
   }
@@ -67,7 +67,7 @@ Exchange last_step(FluidSpec<2> spec, std::unique_ptr<Viscosity<2>> viscosity, c
   double momentum = 0;  // after equal steps the velocity at t_n is the mean of those before and after
   for (std::size_t i = 0; i < volumes.size(); ++i)
     momentum += 2 * water.density() * volumes[i] * (water.velocity_n(i).x() - water.nodes().v[i].x());
-  return {momentum, moment * water.loads()[0].total()[0]};
+  return {momentum, moment * water.result().loads[0].total()[0]};
 }
 
 TEST(FluidStep, what_a_tank_gets_the_water_loses_corners_included) {
@@ -101,8 +101,8 @@ TEST(FluidStep, a_tank_that_turns_while_it_travels_turns_its_water_as_one_that_s
     Fluid<2> water(std::move(spec), scenes::no_effects());
     const std::vector<Twist<2>> motion{{along.x(), along.y(), turn}};
     ASSERT_TRUE(water.begin(dt, dt, {}).ok());
-    ASSERT_TRUE(water.solve(motion).ok());
-    load[travels] = dt * water.loads()[0].total();
+    ASSERT_TRUE(water.solve(motion).status.ok());
+    load[travels] = dt * water.result().loads[0].total();
     water.commit(std::vector<Isometry<2>>{moved<2>(Isometry<2>::Identity(), motion[0], dt)});
     for (const auto& velocity : water.nodes().v) v[travels].push_back(velocity - along);
   }
@@ -123,10 +123,10 @@ TEST(FluidStep, water_that_turns_around_an_edge_has_the_velocity_of_where_it_com
   const std::vector<Twist<2>> still(2, Twist<2>::Zero());
   const std::vector<Isometry<2>> poses(2, Isometry<2>::Identity());
   ASSERT_TRUE(water.begin(dt, dt, {}).ok());
-  ASSERT_TRUE(water.solve(still).ok());
+  ASSERT_TRUE(water.solve(still).status.ok());
   water.commit(poses);
   ASSERT_TRUE(water.begin(dt, dt, {}).ok());
-  ASSERT_TRUE(water.solve(still).ok());
+  ASSERT_TRUE(water.solve(still).status.ok());
   const Nodes<2> before = water.nodes();
   const auto boundary = water.mesh().boundary;
   std::vector<Vec<2>> u;  // after equal steps the velocity at t_n is the mean of those before and after
@@ -168,8 +168,8 @@ Vec<2> landed_momentum(double breadth, double deep, double high = 0.5 * size) {
   Vec<2> given = Vec<2>::Zero();
   for (const double dt : {falls, moment}) {
     EXPECT_TRUE(water.begin(dt, dt, {}).ok());
-    EXPECT_TRUE(water.solve(std::vector<Twist<2>>{Twist<2>::Zero()}).ok());
-    given += dt * water.loads()[0].total().head<2>();
+    EXPECT_TRUE(water.solve(std::vector<Twist<2>>{Twist<2>::Zero()}).status.ok());
+    given += dt * water.result().loads[0].total().head<2>();
     water.commit(water.wall_poses());
   }
   return (momentum() + given).cwiseQuotient(before);

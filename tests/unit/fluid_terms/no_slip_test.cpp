@@ -63,7 +63,7 @@ TEST(NoSlip, the_tank_feels_what_stops_the_water) {
                                 std::make_unique<Viscosity<2>>(5.0));
   ASSERT_TRUE(testing::run(stepper, 0.4, [&](const auto& fluid, double) {
     const double weight = 9.81 * 1000 * fluid.ledger().volume;
-    EXPECT_NEAR(fluid.loads()[0].total()[1], -weight, 0.1 * weight);
+    EXPECT_NEAR(fluid.result().loads[0].total()[1], -weight, 0.1 * weight);
   }));
 }
 

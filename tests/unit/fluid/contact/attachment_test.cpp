@@ -28,8 +28,8 @@ struct Arrival : scenes::Walls<d> {
     return nodes.add(x, own + rising * Vec<d>::Unit(d - 1), 0, {}, true);
   }
   void attach() {
-    std::vector<double> h(nodes.size(), size);
-    attach_nodes<d>(nodes, h, mesh, this->at(), this->velocity);
+    nodes.h.assign(nodes.size(), size);
+    attach_nodes<d>(nodes, mesh, this->at(), this->velocity);
   }
   static constexpr double size = 0.1;
   Nodes<d> nodes;
@@ -82,18 +82,17 @@ template <int d>
 struct Dip : scenes::Tank<d> {
   explicit Dip(double depth, double across) : scenes::Tank<d>(4), corner(point<d>(across, 1 - depth)) {
     this->add_wall(scenes::box<d>(corner, corner + Vec<d>::Constant(3)));
-    h.assign(this->nodes.size(), size);
+    this->nodes.h.assign(this->nodes.size(), size);
     sink(this->nodes);
     nodes_before = this->nodes.size();
     facets_before = this->mesh.boundary.size();
     volume_before = enclosed_volume(this->mesh.boundary, this->nodes.x);
-    attach_nodes<d>(this->nodes, h, this->mesh, this->at(), this->velocity);
+    attach_nodes<d>(this->nodes, this->mesh, this->at(), this->velocity);
     for (std::size_t i = 0; i < this->nodes.size(); ++i)
       if (this->nodes.tie[i].wall == 1) found.push_back(static_cast<int>(i));
   }
   static constexpr double size = 0.25;
   Vec<d> corner;
-  std::vector<double> h;
   std::vector<int> found;
   std::size_t nodes_before, facets_before;
   double volume_before;
@@ -110,8 +109,7 @@ TYPED_TEST(Attachment, a_corner_in_the_water_gets_a_node) {
   EXPECT_EQ(dip.walls[1].vertex(dip.pose[1], dip.nodes.tie[n].vertex), dip.corner);
   EXPECT_TRUE(dip.nodes.surface[n]);
   EXPECT_EQ(dip.nodes.size(), dip.nodes_before + 1);
-  EXPECT_EQ(dip.h.size(), dip.nodes.size());
-  EXPECT_EQ(dip.h.back(), dip.size);
+  EXPECT_EQ(dip.nodes.h.back(), dip.size);
   EXPECT_EQ(dip.mesh.boundary.size(), dip.facets_before + d - 1);
   EXPECT_TRUE(scenes::is_closed(dip.mesh.boundary));
   // One facet of the surface, half a square of the lattice in space, becomes a dent of this depth.
@@ -142,9 +140,9 @@ TYPED_TEST(Attachment, many_corners_are_found_like_few) {
   scenes::Tank<d> many(4);
   many.add_wall(scenes::box<d>(few.corner, few.corner + Vec<d>::Constant(3)));
   for (int k = 0; k < 9; ++k) many.add_wall(scenes::box<d>(point<d>(20 + k, 20), point<d>(20.5 + k, 20.5)));
-  std::vector<double> h(many.nodes.size(), few.size);
+  many.nodes.h.assign(many.nodes.size(), few.size);
   sink(many.nodes);
-  attach_nodes<d>(many.nodes, h, many.mesh, many.at(), many.velocity);
+  attach_nodes<d>(many.nodes, many.mesh, many.at(), many.velocity);
   EXPECT_EQ(many.nodes.x, few.nodes.x);
   EXPECT_EQ(many.nodes.tie, few.nodes.tie);
 }
@@ -159,13 +157,12 @@ struct OverTheEdge : scenes::Walls<3> {
     nodes.add({1.1, 0.1, 0.1}, Vec<3>::Zero(), 0, {}, true);
     nodes.add({1.1, -0.1, 0.1}, Vec<3>::Zero(), 0, {}, true);
     scenes::add_cell<3>(nodes, {0, 1, 2, 3}, mesh);
-    h.assign(4, size);
-    attach_nodes<3>(nodes, h, mesh, at(), velocity);
+    nodes.h.assign(4, size);
+    attach_nodes<3>(nodes, mesh, at(), velocity);
   }
   static constexpr double size = 0.1;
   Nodes<3> nodes;
   Mesh<3> mesh;
-  std::vector<double> h;
 };
 
 TEST(AttachmentInSpace, a_crease_that_an_edge_of_the_boundary_crosses_gets_a_node) {
@@ -177,7 +174,7 @@ TEST(AttachmentInSpace, a_crease_that_an_edge_of_the_boundary_crosses_gets_a_nod
   // As far from either side: the mean of both.
   EXPECT_LE((over.nodes.v[4] - 0.5 * (over.nodes.v[0] + over.nodes.v[1])).norm(), 10 * eps);
   EXPECT_NEAR(over.nodes.p[4], 0.5 * (over.nodes.p[0] + over.nodes.p[1]), 1000 * eps);
-  EXPECT_EQ(over.h.size(), 5u);
+  EXPECT_NEAR(over.nodes.h[4], over.size, 10 * eps);
   EXPECT_EQ(over.mesh.boundary.size(), 6u);
   EXPECT_TRUE(scenes::is_closed(over.mesh.boundary));
 }

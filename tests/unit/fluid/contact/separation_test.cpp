@@ -38,8 +38,8 @@ struct AtTheEdge : scenes::Walls<d> {
     mesh.boundary.push_back(f);
   }
   bool separates() {
-    std::vector<double> h(nodes.size(), size);
-    separate<d>(nodes, h, mesh, this->at(), this->velocity, gravity);
+    nodes.h.assign(nodes.size(), size);
+    separate<d>(nodes, mesh, this->at(), this->velocity, gravity);
     for (int n : edge) EXPECT_EQ(nodes.separates[n], nodes.separates[edge[0]]);
     EXPECT_FALSE(nodes.separates[inside]);
     return nodes.separates[edge[0]] != 0;

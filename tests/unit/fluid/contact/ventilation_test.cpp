@@ -54,8 +54,8 @@ struct Film {
     for (int j = first; j <= last; ++j) nodes.p[at(j, 0)] = p * dynamic;
   }
   void ventilate() {
-    const std::vector<double> h(nodes.size(), size);
-    fluid::ventilate<2>(nodes, h, mesh, {walls, pose}, still, density, gravity);
+    nodes.h.assign(nodes.size(), size);
+    fluid::ventilate<2>(nodes, mesh, {walls, pose}, still, density, gravity);
   }
   bool left(int column) const { return nodes.tie[at(column, 0)].wall < 0; }
   int left_in_all() const {
@@ -154,8 +154,7 @@ TEST(Ventilation, what_has_left_is_not_on_the_wall) {
     film.ventilate();
     ASSERT_TRUE(film.left(1));
     EXPECT_GT(film.walls[0].nearest(film.pose[0], film.nodes.x[film.at(1, 0)], 1).distance, 0);
-    std::vector<double> h(film.nodes.size(), size);
-    attach_nodes<2>(film.nodes, h, film.mesh, {film.walls, film.pose}, film.still);
+    attach_nodes<2>(film.nodes, film.mesh, {film.walls, film.pose}, film.still);
     EXPECT_TRUE(film.left(1));
   }
 }
@@ -177,9 +176,9 @@ void expect_first_row(double suction, bool leaves) {
     tank.nodes.p[i] = tank.nodes.surface[i] ? 0 : -suction * dynamic;
   }
   const auto before = tank.nodes;
-  const std::vector<double> h(tank.nodes.size(), size);
-  ventilate<d>(tank.nodes, h, tank.mesh, tank.at(), tank.velocity, density, gravity);
-  for (std::size_t i = 0; i < h.size(); ++i) {
+  tank.nodes.h.assign(tank.nodes.size(), size);
+  ventilate<d>(tank.nodes, tank.mesh, tank.at(), tank.velocity, density, gravity);
+  for (std::size_t i = 0; i < tank.nodes.size(); ++i) {
     if (before.tie[i].wall < 0) continue;
     const bool left = tank.nodes.tie[i].wall < 0, first_row = before.x[i][d - 1] == 1 - 1.0 / across;
     EXPECT_EQ(left, leaves && first_row) << before.x[i].transpose();
@@ -210,8 +209,8 @@ bool leaves_a_cone(double suction_behind) {
   add(0.3, 0.50, -suction_behind, false);
   Mesh<3> mesh;
   mesh.boundary = {{{0, 1, 2}, 0}, {{1, 3, 2}, 0}};
-  const std::vector<double> h(nodes.size(), size);
-  ventilate<3>(nodes, h, mesh, cone.at(), cone.velocity, density, gravity);
+  nodes.h.assign(nodes.size(), size);
+  ventilate<3>(nodes, mesh, cone.at(), cone.velocity, density, gravity);
   EXPECT_EQ(nodes.tie[1].wall, nodes.tie[2].wall);
   EXPECT_EQ(nodes.tie[3].wall, 0) << "not beside the contact line";
   return nodes.tie[1].wall < 0;

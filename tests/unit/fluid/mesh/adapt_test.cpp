@@ -16,16 +16,15 @@ struct Tank {
   explicit Tank(double h0) : spec(scenes::still_water(1, 1, h0)), placed(spec), liquid(fill<2>(spec, placed.at())) {}
 
   AdaptReport<2> sweep() {
-    const auto report = adapt<2>(liquid.nodes, liquid.h, liquid.mesh, placed.at());
+    const auto report = adapt<2>(liquid.nodes, liquid.mesh, placed.at());
     after_adapt = liquid.mesh.boundary;
-    const double h = liquid.h.empty() ? 0 : target;
-    liquid.h.assign(liquid.nodes.size(), h);
-    liquid.mesh = recognise<2>(liquid.nodes, liquid.h, liquid.mesh.boundary, placed.at());
+    liquid.nodes.h.assign(liquid.nodes.size(), target);
+    liquid.mesh = recognise<2>(liquid.nodes, liquid.mesh.boundary, placed.at());
     return report;
   }
   AdaptReport<2> retarget(double h) {
     target = h;
-    liquid.h.assign(liquid.nodes.size(), h);
+    liquid.nodes.h.assign(liquid.nodes.size(), h);
     return sweep();
   }
   // Length over h of the edges: shortest and longest.
@@ -127,9 +126,8 @@ TEST(Adapt, removes_inner_nodes_that_crowd_a_facet) {
   Tank tank(0.1);
   tank.target = 0.1;
   auto& nodes = tank.liquid.nodes;
-  const int crowd = nodes.add({0.013, -1 + 0.01}, Vec<2>::Zero(), 0, {}, false);
-  tank.liquid.h.push_back(0.1);
-  tank.liquid.mesh = recognise<2>(nodes, tank.liquid.h, tank.liquid.mesh.boundary, tank.placed.at());
+  const int crowd = nodes.add({0.013, -1 + 0.01}, Vec<2>::Zero(), 0, {}, false, 0.1);
+  tank.liquid.mesh = recognise<2>(nodes, tank.liquid.mesh.boundary, tank.placed.at());
   const Vec<2> at = nodes.x[crowd];
   tank.sweep();
   for (const auto& x : nodes.x) EXPECT_GT((x - at).norm(), 1e-3);
@@ -148,15 +146,14 @@ TEST(Adapt, leaves_no_two_nodes_in_one_place_and_loses_no_volume) {
     for (int k : {0, 1})
       if (f.nodes[k] == corner && std::abs(nodes.x[f.nodes[1 - k]].y() + 1) < eps) beside = f.nodes[1 - k];
   ASSERT_GE(beside, 0);
-  const int crowd = nodes.add(nodes.x[beside] + Vec<2>(0.002, 0.01), Vec<2>::Zero(), 0, {}, false);
-  tank.liquid.h.push_back(0.1);
-  tank.liquid.mesh = recognise<2>(nodes, tank.liquid.h, tank.liquid.mesh.boundary, tank.placed.at());
+  const int crowd = nodes.add(nodes.x[beside] + Vec<2>(0.002, 0.01), Vec<2>::Zero(), 0, {}, false, 0.1);
+  tank.liquid.mesh = recognise<2>(nodes, tank.liquid.mesh.boundary, tank.placed.at());
   ASSERT_EQ(nodes.spray[crowd], 0);
   nodes.x[beside] = nodes.x[corner];
   nodes.volume.assign(nodes.size(), 1);
   nodes.owed.assign(nodes.size(), 0);
   const auto before = static_cast<double>(nodes.size());
-  const auto report = adapt<2>(nodes, tank.liquid.h, tank.liquid.mesh, tank.placed.at());
+  const auto report = adapt<2>(nodes, tank.liquid.mesh, tank.placed.at());
   EXPECT_GE(report.removed, 2) << "the one beside and the one in the crowd";
   EXPECT_NEAR(std::reduce(nodes.volume.begin(), nodes.volume.end()) + std::reduce(nodes.owed.begin(), nodes.owed.end()),
               before, eps)
@@ -174,16 +171,15 @@ TEST(Adapt, does_not_merge_across_a_thin_jet) {
   Mesh<2> mesh;
   const int n = static_cast<int>(p.size());
   for (int i = 0; i < n; ++i) {
-    nodes.add(p[i], Vec<2>::Zero(), 0, {}, true);
+    nodes.add(p[i], Vec<2>::Zero(), 0, {}, true, 0.05);
     mesh.boundary.push_back({{i, (i + 1) % n}, -1});
   }
-  std::vector<double> h(nodes.size(), 0.05);
-  mesh = recognise<2>(nodes, h, mesh.boundary, WallsAt<2>{});
+  mesh = recognise<2>(nodes, mesh.boundary, WallsAt<2>{});
   const double before = enclosed_volume(mesh.boundary, nodes.x);
   ASSERT_NEAR(before, 0.005, 1e-4);
   for (int sweep = 0; sweep < 4; ++sweep) {
-    adapt<2>(nodes, h, mesh, WallsAt<2>{});
-    mesh = recognise<2>(nodes, h, mesh.boundary, WallsAt<2>{});
+    adapt<2>(nodes, mesh, WallsAt<2>{});
+    mesh = recognise<2>(nodes, mesh.boundary, WallsAt<2>{});
   }
   EXPECT_TRUE(scenes::closed(mesh.boundary, nodes.size()));
   // The two end faces may be merged away, nothing in between: half an element of sheet each.

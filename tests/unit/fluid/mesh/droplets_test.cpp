@@ -35,8 +35,8 @@ Carried<d> carried(const Nodes<d>& nodes, const std::vector<char>& left) {
 }
 
 template <int d>
-int add_drop(Nodes<d>& nodes, const Vec<d>& x, const Vec<d>& v, double volume) {
-  const int n = nodes.add(x, v, 0, {}, false);
+int add_drop(Nodes<d>& nodes, const Vec<d>& x, const Vec<d>& v, double volume, double size = 1) {
+  const int n = nodes.add(x, v, 0, {}, false, size);
   nodes.spray[n] = 1;
   nodes.volume[n] = volume;
   return n;
@@ -57,7 +57,7 @@ TYPED_TEST(Droplets, that_join_keep_volume_momentum_and_centre_and_lose_energy) 
   auto nodes = cloud<d>(0.02, 200);
   const std::vector<char> all(nodes.size(), 1);
   const auto before = carried<d>(nodes, all);
-  const auto left = join_drops<d>(nodes, std::vector<double>(nodes.size(), 1.0));
+  const auto left = join_drops<d>(nodes);
   const auto after = carried<d>(nodes, left);
   EXPECT_LT(std::accumulate(left.begin(), left.end(), 0), 200);
   EXPECT_NEAR(after.volume, before.volume, 200 * scenes::eps * before.volume);
@@ -73,7 +73,7 @@ TYPED_TEST(Droplets, join_where_they_touch_by_their_own_size) {
     Nodes<d> nodes;
     add_drop<d>(nodes, Vec<d>::Zero(), Vec<d>::Zero(), V);
     add_drop<d>(nodes, gap * s * Vec<d>::Unit(0), Vec<d>::Zero(), V);
-    const auto left = join_drops<d>(nodes, std::vector<double>(2, 1.0));
+    const auto left = join_drops<d>(nodes);
     EXPECT_EQ(left[0] + left[1], gap < 1 ? 1 : 2) << "however coarse the mesh is that they fly over";
   }
 }
@@ -81,8 +81,8 @@ TYPED_TEST(Droplets, join_where_they_touch_by_their_own_size) {
 TYPED_TEST(Droplets, grow_no_larger_than_the_elements_there) {
   constexpr int d = TypeParam::value;
   Nodes<d> nodes;
-  for (int k = 0; k < 2; ++k) add_drop<d>(nodes, Vec<d>::Zero(), Vec<d>::Zero(), 1e-6);
-  const auto left = join_drops<d>(nodes, std::vector<double>(2, drop_size<d>(1.9e-6)));
+  for (int k = 0; k < 2; ++k) add_drop<d>(nodes, Vec<d>::Zero(), Vec<d>::Zero(), 1e-6, drop_size<d>(1.9e-6));
+  const auto left = join_drops<d>(nodes);
   EXPECT_EQ(left[0] + left[1], 2);
 }
 
@@ -92,14 +92,15 @@ TYPED_TEST(Droplets, that_land_raise_the_surface_by_their_volume_and_bring_their
   auto& nodes = pool.nodes;
   nodes.volume = nodal_volumes(pool.mesh, nodes.x);
   for (auto& f : pool.mesh.boundary) f.wall = -1;
-  const double V = 1e-5, h = 0.25;
+  const double V = 1e-5;
   // Well inside: the surface gives way to it all the same.
   const int drop = add_drop<d>(nodes, Vec<d>::Constant(0.4), Vec<d>::Constant(-3), V);
   const int far = add_drop<d>(nodes, Vec<d>::Constant(2), Vec<d>::Constant(-3), V);
+  nodes.h.assign(nodes.size(), 0.25);
   std::vector<char> left(nodes.size(), 1);
   const double enclosed = enclosed_volume(pool.mesh.boundary, nodes.x);
   const auto before = carried<d>(nodes, left);
-  absorb_drops<d>(nodes, std::vector<double>(nodes.size(), h), pool.mesh.boundary, left);
+  absorb_drops<d>(nodes, pool.mesh.boundary, left);
   EXPECT_FALSE(left[drop]);
   EXPECT_TRUE(left[far]);
   const auto after = carried<d>(nodes, left);
@@ -115,12 +116,12 @@ TYPED_TEST(Droplets, without_volume_leave_a_surface_without_area_where_it_is) {
   Nodes<d> nodes;
   Facet<d> front;
   front.wall = -1;
-  for (int k = 0; k < d; ++k) front.nodes[k] = nodes.add(Vec<d>::Unit(k), Vec<d>::Zero(), 0, {}, true);
+  for (int k = 0; k < d; ++k) front.nodes[k] = nodes.add(Vec<d>::Unit(k), Vec<d>::Zero(), 0, {}, true, 1);
   Facet<d> back = front;
   std::swap(back.nodes[0], back.nodes[1]);
   add_drop<d>(nodes, Vec<d>::Constant(1.0 / d), Vec<d>::Ones(), 0);
   std::vector<char> left(nodes.size(), 1);
-  absorb_drops<d>(nodes, std::vector<double>(nodes.size(), 1.0), {front, back}, left);
+  absorb_drops<d>(nodes, {front, back}, left);
   for (int k = 0; k < d; ++k) EXPECT_EQ(nodes.x[k], Vec<d>(Vec<d>::Unit(k)));
 }
 

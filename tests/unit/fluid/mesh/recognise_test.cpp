@@ -25,8 +25,8 @@ struct Liquid {
     }
   }
   Mesh<2> recognised() {
-    const std::vector<double> sizes(nodes.size(), h);
-    return recognise<2>(nodes, sizes, boundary, WallsAt<2>{});
+    nodes.h.assign(nodes.size(), h);
+    return recognise<2>(nodes, boundary, WallsAt<2>{});
   }
 };
 
@@ -163,7 +163,7 @@ TEST(Recognise, facets_are_wetted_where_both_ends_lie_on_the_wall_and_the_wall_b
   auto spec = scenes::still_water(1, 0.5, 0.1);
   const scenes::Placed placed(spec);
   auto liquid = fill<2>(spec, placed.at());
-  const auto mesh = recognise<2>(liquid.nodes, liquid.h, liquid.mesh.boundary, placed.at());
+  const auto mesh = recognise<2>(liquid.nodes, liquid.mesh.boundary, placed.at());
   double wetted = 0, free = 0;
   for (const auto& f : mesh.boundary) (f.wall == 0 ? wetted : free) += area_vector_of<2>(f, liquid.nodes.x).norm();
   EXPECT_NEAR(wetted, 2, 100 * eps);
@@ -228,7 +228,7 @@ TEST(Recognise, a_node_that_has_just_passed_a_corner_opens_no_cavity) {
     ASSERT_GE(goes, 0);
     nodes.x[goes] = {0.1, -0.2 - passed};
     nodes.tie[goes].patch = placed.at().walls[0].nearest(placed.at().poses[0], {0.1, -0.3}, 1).patch;
-    const auto mesh = recognise<2>(nodes, liquid.h, liquid.mesh.boundary, placed.at());
+    const auto mesh = recognise<2>(nodes, liquid.mesh.boundary, placed.at());
     EXPECT_EQ(surface_below(0.01, mesh, nodes), 0) << passed;
   }
 }
@@ -252,7 +252,7 @@ TEST(Recognise, a_gap_that_closes_under_water_opens_no_cavity) {
     placed.poses[1].translation().y() -= down;
     for (std::size_t i = 0; i < liquid.nodes.size(); ++i)
       if (liquid.nodes.tie[i].wall == 1) liquid.nodes.x[i].y() -= down;
-    const auto mesh = recognise<2>(liquid.nodes, liquid.h, liquid.mesh.boundary, placed.at());
+    const auto mesh = recognise<2>(liquid.nodes, liquid.mesh.boundary, placed.at());
     EXPECT_EQ(surface_below(0.02, mesh, liquid.nodes), 0) << gap;
   }
 }
@@ -260,8 +260,8 @@ TEST(Recognise, a_gap_that_closes_under_water_opens_no_cavity) {
 TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
   scenes::Lattice<3> cube(5, 0.0);
   for (auto& t : cube.nodes.tie) t = {};
-  const std::vector<double> h(cube.nodes.size(), 0.2);
-  const auto mesh = recognise<3>(cube.nodes, h, cube.mesh.boundary, WallsAt<3>{});
+  cube.nodes.h.assign(cube.nodes.size(), 0.2);
+  const auto mesh = recognise<3>(cube.nodes, cube.mesh.boundary, WallsAt<3>{});
   double sum = 0;
   for (const auto& c : mesh.cells) sum += volume<3>(corners(cube.nodes.x, c));
   EXPECT_NEAR(sum, 1, 1e-3) << "slivers aside";
@@ -273,8 +273,8 @@ TEST(Recognise3, flat_cells_with_water_around_them_are_no_gap) {
   for (const double shake : {0.0, 1e-12, 1e-9, 1e-6}) {
     scenes::Lattice<3> cube(5, shake);
     for (auto& t : cube.nodes.tie) t = {};
-    const std::vector<double> h(cube.nodes.size(), 0.2);
-    const auto mesh = recognise<3>(cube.nodes, h, cube.mesh.boundary, WallsAt<3>{});
+    cube.nodes.h.assign(cube.nodes.size(), 0.2);
+    const auto mesh = recognise<3>(cube.nodes, cube.mesh.boundary, WallsAt<3>{});
     auto is_outside = [&](int n) {
       return (cube.nodes.x[n].array() == 0).any() || (cube.nodes.x[n].array() == 1).any();
     };
@@ -292,10 +292,10 @@ TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it
   auto cells = [&](const std::array<Vec<3>, 4>& corner) {
     Nodes<3> nodes;
     for (const auto& x : corner)
-      nodes.add(x, Vec<3>::Zero(), 0, WallTie{0, tank[0].nearest(poses[0], x, 0.5).patch}, false);
+      nodes.add(x, Vec<3>::Zero(), 0, WallTie{0, tank[0].nearest(poses[0], x, 0.5).patch}, false, 0.5);
     const std::vector<Facet<3>> outside{{{1, 2, 3}, -1}, {{0, 3, 2}, -1}, {{0, 1, 3}, -1}, {{0, 2, 1}, -1}};
     EXPECT_GT(enclosed_volume(outside, nodes.x), 0);
-    return recognise<3>(nodes, std::vector<double>(4, 0.5), outside, {tank, poses}).cells.size();
+    return recognise<3>(nodes, outside, {tank, poses}).cells.size();
   };
   EXPECT_EQ(cells({Vec<3>(0, -1, -1), {0.03, -1, -1}, {0, -0.6, -1}, {0, -1, -0.6}}), 1u);
   const double sag = 0.01;

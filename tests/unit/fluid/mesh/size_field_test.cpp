@@ -90,11 +90,10 @@ struct Notched {
     }
     const int count = static_cast<int>(p.size());
     for (const auto& x : p) nodes.add(x, Vec<2>::Zero(), 0, {}, true);
-    std::vector<double> h;
     for (int i = 0; i < count; ++i) mesh.boundary.push_back({{i, (i + 1) % count}, -1});
     nodes.add({0, -0.3}, Vec<2>::Zero(), 0, {}, false);  // an inner node: this is bulk, not a sheet
-    h.assign(nodes.size(), 0.3);                         // narrow cells across the notch do not join its sides
-    mesh = recognise<2>(nodes, h, mesh.boundary, WallsAt<2>{});
+    nodes.h.assign(nodes.size(), 0.3);                   // narrow cells across the notch do not join its sides
+    mesh = recognise<2>(nodes, mesh.boundary, WallsAt<2>{});
   }
   SizeField<2> field() const { return {size, WallsAt<2>{}, {}, nodes.x, mesh}; }
   SizeSpec size;

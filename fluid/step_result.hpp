@@ -1,0 +1,31 @@
+// What a solve has found out about a step.
+#pragma once
+
+#include <vector>
+
+#include "core/fluid_view.hpp"
+#include "core/status.hpp"
+
+namespace splashdown::fluid {
+
+using splashdown::Ledger;
+using splashdown::WallLoad;
+
+/// All of it world frame, half-step velocities at t_{n+1/2}. Empty but for the status where no solution was found.
+template <int d>
+struct StepResult {
+  Status status;
+  std::vector<WallLoad<d>> loads;         ///< on the walls, means over the kick
+  std::vector<Twist<d>> wall_velocities;  ///< half-step velocities that the walls end with
+  /// Velocities that impulses left unbalanced in the motions would still give to bodies and water: what the solve fell
+  /// short of Newton's law, Z (M + G)^-1 (Z^T impulses - M y).
+  std::vector<Twist<d>> imbalance;
+  std::vector<double>
+      interface_impulse;         ///< mean physical one on each piece of walls with an interface Laplacian [Pa s]
+  std::vector<double> pressure;  ///< at the nodes at t_n [Pa]
+  std::vector<Vec<d>> velocity;  ///< of the nodes, along their walls: half-step
+  Ledger ledger;                 ///< at t_n, as far as it is known before the motion
+  double power_on_walls = 0;     ///< over the kick [W, W/m]
+};
+
+}  // namespace splashdown::fluid
