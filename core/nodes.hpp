@@ -44,18 +44,19 @@ struct VelocityMoments {
 
 template <int d>
 struct Nodes {
-  std::vector<Vec<d>> x;        ///< position at t_n [m]
-  std::vector<Vec<d>> v;        ///< velocity at t_{n-1/2} [m/s]
-  std::vector<double> p;        ///< pressure they carry: at t_{n-1}, or where they were made [Pa]
-  std::vector<double> h;        ///< size that elements around it are to have [m]
-  std::vector<WallTie> tie;     ///< wall contact
-  std::vector<char> surface;    ///< 1: on the free surface (p = 0)
-  std::vector<char> separates;  ///< 1: at an edge of a wall where the flow leaves it
-  std::vector<char> spray;      ///< 1: belongs to no cell, flies ballistically
-  std::vector<int> vertex;      ///< number in the last triangulation, -1: was not there
-  std::vector<double> volume;   ///< share of the cells around it after the last move; spray keeps its own [m^d]
-  std::vector<double> owed;     ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
-  std::vector<int> part;        ///< which water of the last mesh it belonged to (parts_of), -1: was not there
+  std::vector<Vec<d>> x;              ///< position at t_n [m]
+  std::vector<Vec<d>> v;              ///< velocity at t_{n-1/2} [m/s]
+  std::vector<double> p;              ///< pressure they carry: at t_{n-1}, or where they were made [Pa]
+  std::vector<double> h;              ///< size that elements around it are to have [m]
+  std::vector<WallTie> tie;           ///< wall contact
+  std::vector<double> wall_pressure;  ///< mean of late at a wall (fluid/contact/ventilation.hpp), elsewhere 0 [Pa]
+  std::vector<char> surface;          ///< 1: on the free surface (p = 0)
+  std::vector<char> separates;        ///< 1: at an edge of a wall where the flow leaves it
+  std::vector<char> spray;            ///< 1: belongs to no cell, flies ballistically
+  std::vector<int> vertex;            ///< number in the last triangulation, -1: was not there
+  std::vector<double> volume;         ///< share of the cells around it after the last move; spray keeps its own [m^d]
+  std::vector<double> owed;           ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
+  std::vector<int> part;              ///< which water of the last mesh it belonged to (parts_of), -1: was not there
   std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
 
   std::size_t size() const { return x.size(); }
@@ -67,6 +68,7 @@ struct Nodes {
     p.push_back(pressure);
     h.push_back(size);
     tie.push_back(t);
+    wall_pressure.push_back(0);
     surface.push_back(on_surface);
     separates.push_back(0);
     spray.push_back(0);
@@ -97,7 +99,8 @@ struct Nodes {
       in_parallel(order.size(), [&](std::size_t i) { picked[i] = values[order[i]]; });
       values.swap(picked);
     };
-    pick(x), pick(v), pick(p), pick(h), pick(tie), pick(surface), pick(separates), pick(spray), pick(vertex);
+    pick(x), pick(v), pick(p), pick(h), pick(tie), pick(wall_pressure), pick(surface), pick(separates), pick(spray),
+        pick(vertex);
     pick(volume), pick(owed), pick(part), pick(inherited);
   }
 };

@@ -47,7 +47,8 @@ void archive_present(Stream stream, Present<d>& s) {
   stream.value(s.time), stream.value(s.dt), stream.value(s.acceleration_dt), stream.value(s.ledger);
   stream.list(s.nodes.x), stream.list(s.nodes.v), stream.list(s.nodes.p);
   stream.list(s.nodes.tie), stream.list(s.nodes.surface), stream.list(s.nodes.separates);
-  stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.nodes.owed), stream.list(s.nodes.h);
+  stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.nodes.owed), stream.list(s.nodes.h),
+      stream.list(s.nodes.wall_pressure);
   stream.list(s.mesh.cells), stream.list(s.mesh.boundary);
   stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted);
 }
@@ -70,11 +71,11 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
   bool good = count > 0 && std::isfinite(s.time) && std::isfinite(s.dt) && s.acceleration_dt > 0;
   for (const std::size_t size :
        {nodes.v.size(), nodes.p.size(), nodes.tie.size(), nodes.surface.size(), nodes.separates.size(),
-        nodes.spray.size(), nodes.volume.size(), nodes.owed.size(), nodes.h.size()})
+        nodes.spray.size(), nodes.volume.size(), nodes.owed.size(), nodes.h.size(), nodes.wall_pressure.size()})
     good = good && size == count;
   good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count;
   good = good && all_finite(nodes.x) && all_finite(nodes.v) && all_finite(nodes.p) && all_finite(nodes.volume) &&
-         all_finite(nodes.owed) && all_finite(s.velocity) && all_finite(s.wetted) &&
+         all_finite(nodes.wall_pressure) && all_finite(nodes.owed) && all_finite(s.velocity) && all_finite(s.wetted) &&
          std::ranges::all_of(nodes.h, [](double h) { return h > 0 && std::isfinite(h); });
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
   for (const auto& pose : s.poses) good = good && pose.matrix().allFinite() && pose.linear().isUnitary(roundoff);

@@ -1,11 +1,13 @@
 #include "fluid/contact/ventilation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
 #include "fluid/contact/wall.hpp"
 #include "fluid/geometry.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -15,6 +17,14 @@ namespace {
 constexpr double suction = 0.1;
 constexpr double off_wall = 1e-6;  // over h: roundoff does not find a node on the wall again that has left it
 
+// |v - w|^2 / 2 at a node.
+template <int d>
+double slip_energy(const Nodes<d>& nodes, std::size_t n, int wall, const WallsAt<d>& at,
+                   std::span<const Twist<d>> velocities) {
+  const Vec<d> arm = nodes.x[n] - at.poses[wall].translation();
+  return 0.5 * (nodes.v[n] - rigid_velocity<d>(velocities[wall], arm)).squaredNorm();
+}
+
 // Means over the wetted facets around nodes; 0 elsewhere. Single nodes of films have pressures of either sign.
 template <int d>
 std::vector<double> mean_pressures(const Nodes<d>& nodes, const Mesh<d>& mesh) {
@@ -23,7 +33,7 @@ std::vector<double> mean_pressures(const Nodes<d>& nodes, const Mesh<d>& mesh) {
     if (f.wall < 0) continue;
     const double of_facet = area_vector_of<d>(f, nodes.x).norm();
     double p = 0;
-    for (int n : f.nodes) p += nodes.p[n] / d;
+    for (int n : f.nodes) p += nodes.wall_pressure[n] / d;
     for (int n : f.nodes) mean[n] += of_facet * p, area[n] += of_facet;
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) mean[i] = nodes.surface[i] || area[i] == 0 ? 0.0 : mean[i] / area[i];
@@ -72,7 +82,43 @@ std::vector<char> thin_places(const Nodes<d>& nodes, const Mesh<d>& mesh) {
   return thin;
 }
 
+// Nodes with a cell that reaches from one wall to another.
+template <int d>
+std::vector<char> between_walls(const Nodes<d>& nodes, const Mesh<d>& mesh) {
+  std::vector<char> between(nodes.size(), 0);
+  for (const auto& cell : mesh.cells) {
+    int wall = -1;
+    for (int n : cell) {
+      const int own = nodes.tie[n].wall;
+      if (own >= 0 && wall >= 0 && own != wall)
+        for (int k : cell) between[k] = 1;
+      if (own >= 0) wall = own;
+    }
+  }
+  return between;
+}
+
 }  // namespace
+
+template <int d>
+void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
+                           std::span<const Twist<d>> velocities, std::span<const int> unknown,
+                           std::span<const double> pressure_impulse, std::span<const double> repair_impulse,
+                           double kick) {
+  const std::vector<char> gap = between_walls(nodes, mesh);
+  in_parallel(nodes.size(), [&](std::size_t n) {
+    double& mean = nodes.wall_pressure[n];
+    const int wall = nodes.tie[n].wall;
+    if (wall < 0) {
+      mean = 0;
+      return;
+    }
+    const int k = unknown[n];
+    const double physical = k < 0 ? 0.0 : pressure_impulse[k] / kick, repair = k < 0 ? 0.0 : repair_impulse[k] / kick;
+    const double way = kick * std::sqrt(2 * slip_energy(nodes, n, wall, at, velocities));
+    mean = gap[n] ? physical : mean + (physical + repair - mean) * way / (way + nodes.h[n]);
+  });
+}
 
 template <int d>
 void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
@@ -80,13 +126,10 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::
   const std::vector<double> mean = mean_pressures(nodes, mesh);
   const std::vector<char> thin = thin_places(nodes, mesh);
   SuctionRegions regions(nodes, mesh, mean);
-  auto energy = [&](int n, int wall) {
-    const Vec<d> arm = nodes.x[n] - at.poses[wall].translation();
-    return 0.5 * (nodes.v[n] - rigid_velocity<d>(velocities[wall], arm)).squaredNorm();
-  };
+  auto energy = [&](int n, int wall) { return slip_energy(nodes, n, wall, at, velocities); };
   auto strong = [&](double p, int n, int wall) { return p < -suction * density * energy(n, wall); };
   auto leaves = [&](int n, int wall) {
-    if (strong(nodes.p[n], n, wall)) return true;
+    if (strong(nodes.wall_pressure[n], n, wall)) return true;
     const int patch = nodes.tie[n].patch;
     if (patch < 0 || at.walls[wall].is_flat(patch)) return false;
     if (mean[n] >= 0 || energy(n, wall) <= gravity * nodes.h[n]) return false;
@@ -113,6 +156,10 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::
   }
 }
 
+template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
+                                    std::span<const int>, std::span<const double>, std::span<const double>, double);
+template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
+                                    std::span<const int>, std::span<const double>, std::span<const double>, double);
 template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
 template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
 

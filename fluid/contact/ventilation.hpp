@@ -11,6 +11,19 @@
 
 namespace splashdown::fluid {
 
+/// Pressure of late at nodes tied to walls, nodes.wall_pressure: a mean over the time in which water passes an element there,
+///
+///   q <- q + (p - q) / (1 + h / (|v - w| kick)),   p = (phi + psi) / kick
+///
+/// phi, psi: impulses of pressure and repair [Pa s], `unknown`: their numbers at nodes, -1: none. Where water meets a wall a
+/// step's repair brings what its pressure takes back; air needs that time to get to a node. In cells that reach from one wall
+/// to another q = phi / kick: gaps close faster. Nodes that are not tied forget.
+template <int d>
+void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
+                           std::span<const Twist<d>> velocities, std::span<const int> unknown,
+                           std::span<const double> pressure_impulse, std::span<const double> repair_impulse,
+                           double kick);
+
 /// Unties wetted nodes beside the contact line, or beside an edge where the flow separates, that air gets to:
 ///
 ///   any wall     p < -0.1 rho |v - w|^2 / 2 at the node
@@ -18,11 +31,17 @@ namespace splashdown::fluid {
 ///                in films below resolution (plane); and where p < -0.1 rho |v - w|^2 / 2 at the lowest pressure of the wetted
 ///                region of negative pressure that the node belongs to
 ///
-/// A row of nodes a step. `h`: element sizes, `velocities`: of the walls, `gravity`: g.
+/// A row of nodes a step; p: nodes.wall_pressure. `velocities`: of the walls, `gravity`: g.
 template <int d>
 void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
                double density, double gravity);
 
+extern template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
+                                           std::span<const int>, std::span<const double>, std::span<const double>,
+                                           double);
+extern template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
+                                           std::span<const int>, std::span<const double>, std::span<const double>,
+                                           double);
 extern template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
 extern template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
 

@@ -123,8 +123,11 @@ TEST(Touching, boxes_that_start_flush_and_still_stay_so) {
   }
 }
 
-TEST(Touching, boxes_do_not_enter_each_other) {
-  auto s = pressed(0.1);
+class Gap : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Touching, Gap, ::testing::Range(0.0505, 0.15, 0.0125));
+
+TEST_P(Gap, boxes_that_close_it_do_not_enter_each_other) {
+  auto s = pressed(GetParam());
   s.extra_force = [] { return std::make_unique<Press>(); };
   const auto stepper = scenes::coupled(s);
   double dt = 1e-3, nearest = 1;

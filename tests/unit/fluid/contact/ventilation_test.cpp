@@ -51,7 +51,7 @@ struct Film {
   // Pressures of the wetted nodes but the two of the contact line, in dynamic pressures.
   void press(double p) { press_some(1, columns - 1, p); }
   void press_some(int first, int last, double p) {
-    for (int j = first; j <= last; ++j) nodes.p[at(j, 0)] = p * dynamic;
+    for (int j = first; j <= last; ++j) nodes.wall_pressure[at(j, 0)] = p * dynamic;
   }
   void ventilate() {
     nodes.h.assign(nodes.size(), size);
@@ -173,7 +173,7 @@ void expect_first_row(double suction, bool leaves) {
   for (std::size_t i = 0; i < tank.nodes.size(); ++i) {
     const Vec<d> arm = tank.nodes.x[i] - tank.pose[0].translation();
     tank.nodes.v[i] = rigid_velocity<d>(tank.velocity[0], arm) + speed * Vec<d>::Unit(0);
-    tank.nodes.p[i] = tank.nodes.surface[i] ? 0 : -suction * dynamic;
+    tank.nodes.wall_pressure[i] = tank.nodes.surface[i] ? 0 : -suction * dynamic;
   }
   const auto before = tank.nodes;
   tank.nodes.h.assign(tank.nodes.size(), size);
@@ -192,6 +192,58 @@ TYPED_TEST(VentilationOfFlatWalls, air_gets_to_one_row_of_nodes_a_step_under_str
   expect_first_row<TypeParam::value>(0.05, false);
 }
 
+// Water that passes a node of a plate, and a node that has left it.
+struct Passing : scenes::Walls<2> {
+  Passing() {
+    add_wall(scenes::rectangle({-1, -1}, {1, 0}));
+    velocity[0] << 5, 0, 0;
+    tied = nodes.add({0, 0}, {5 + speed, 0}, 0, scenes::tie_at<2>(walls[0], pose[0], {0, 0}, 0), false, size);
+    left = nodes.add({0.1, 0.1}, {5 + speed, 0}, 0, {}, false, size);
+    nodes.wall_pressure[left] = dynamic;
+  }
+  double after(double kick, double pressure, double repair = 0) {
+    const std::vector<int> unknown{0, 1, 2};
+    average_wall_pressure<2>(nodes, mesh, at(), velocity, unknown, std::vector<double>(3, kick * pressure),
+                             std::vector<double>(3, kick * repair), kick);
+    return nodes.wall_pressure[tied];
+  }
+  Nodes<2> nodes;
+  Mesh<2> mesh;
+  int tied, left;
+};
+
+// q' = (p - q) |v - w| / h: implicit Euler's error is the first term that it leaves out, half the step over h/|v - w|, e^-1 times.
+TEST(WallPressure, takes_the_time_in_which_water_passes_an_element_whatever_the_step) {
+  const double passes = size / speed;
+  for (const int steps : {20, 200}) {
+    Passing water;
+    for (int i = 0; i < steps; ++i) water.after(passes / steps, dynamic);
+    EXPECT_NEAR(water.nodes.wall_pressure[water.tied] / dynamic, 1 - std::exp(-1), 0.5 * std::exp(-1) / steps);
+    EXPECT_EQ(water.nodes.wall_pressure[water.left], 0);
+  }
+}
+
+TEST(WallPressure, what_a_repair_brings_and_the_pressure_takes_back_is_no_suction) {
+  Passing water;
+  EXPECT_NEAR(water.after(1e-3, -dynamic, dynamic), 0, scenes::eps * dynamic);
+  EXPECT_GT(water.after(1e-3, -dynamic, 2 * dynamic), 0);
+}
+
+TEST(WallPressure, of_a_gap_is_that_of_the_step) {
+  Passing water;
+  water.add_wall(scenes::rectangle({-1, 0.1}, {1, 1}));
+  const int other =
+      water.nodes.add({0, 0.1}, {0, 0}, 0, scenes::tie_at<2>(water.walls[1], water.pose[1], {0, 0.1}, 1), false, size);
+  water.mesh.cells.push_back({water.tied, water.left, other});
+  EXPECT_EQ(water.after(1e-3, -dynamic, 2 * dynamic), -dynamic);
+}
+
+TEST(WallPressure, long_steps_remember_nothing) {
+  Passing water;
+  water.after(1e-3, dynamic);
+  EXPECT_NEAR(water.after(1e6 * size / speed, -dynamic), -dynamic, 3e-6 * dynamic);
+}
+
 // A triangle at the contact line of a cone and one behind it, whose far corner has this suction, in dynamic pressures.
 bool leaves_a_cone(double suction_behind) {
   scenes::Walls<3> cone;
@@ -200,8 +252,9 @@ bool leaves_a_cone(double suction_behind) {
   auto add = [&](double angle, double radius, double p, bool surface) {
     const auto near =
         cone.walls[0].nearest(cone.pose[0], {radius * std::cos(angle), radius * std::sin(angle), radius}, 1);
-    nodes.add(near.point, speed * Vec<3>(std::cos(angle), std::sin(angle), 1).normalized(), p * dynamic,
-              {0, near.patch, -1}, surface);
+    const int n = nodes.add(near.point, speed * Vec<3>(std::cos(angle), std::sin(angle), 1).normalized(), 0,
+                            {0, near.patch, -1}, surface, size);
+    nodes.wall_pressure[n] = p * dynamic;
   };
   add(0.3, 0.60, 0, true);
   add(0.2, 0.55, -0.02, false);
@@ -209,7 +262,6 @@ bool leaves_a_cone(double suction_behind) {
   add(0.3, 0.50, -suction_behind, false);
   Mesh<3> mesh;
   mesh.boundary = {{{0, 1, 2}, 0}, {{1, 3, 2}, 0}};
-  nodes.h.assign(nodes.size(), size);
   ventilate<3>(nodes, mesh, cone.at(), cone.velocity, density, gravity);
   EXPECT_EQ(nodes.tie[1].wall, nodes.tie[2].wall);
   EXPECT_EQ(nodes.tie[3].wall, 0) << "not beside the contact line";
