@@ -115,8 +115,12 @@ void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d
     }
     const int k = unknown[n];
     const double physical = k < 0 ? 0.0 : pressure_impulse[k] / kick, repair = k < 0 ? 0.0 : repair_impulse[k] / kick;
+    if (d == 2 || gap[n]) {
+      mean = physical;
+      return;
+    }
     const double way = kick * std::sqrt(2 * slip_energy(nodes, n, wall, at, velocities));
-    mean = gap[n] ? physical : mean + (physical + repair - mean) * way / (way + nodes.h[n]);
+    mean += (physical + repair - mean) * way / (way + nodes.h[n]);
   });
 }
 

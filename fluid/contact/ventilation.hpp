@@ -11,13 +11,14 @@
 
 namespace splashdown::fluid {
 
-/// Pressure of late at nodes tied to walls, nodes.wall_pressure: a mean over the time in which water passes an element there,
+/// Pressure of late at nodes tied to walls, nodes.wall_pressure: in space a mean over the time in which water passes an element,
 ///
 ///   q <- q + (p - q) / (1 + h / (|v - w| kick)),   p = (phi + psi) / kick
 ///
 /// phi, psi: impulses of pressure and repair [Pa s], `unknown`: their numbers at nodes, -1: none. Where water meets a wall a
-/// step's repair brings what its pressure takes back; air needs that time to get to a node. In cells that reach from one wall
-/// to another q = phi / kick: gaps close faster. Nodes that are not tied forget.
+/// step's repair brings what its pressure takes back; air needs that time to get to a node. In the plane, whose films are
+/// resolved less, and in cells that reach from one wall to another, which close faster: q = phi / kick. Nodes that are not tied
+/// forget.
 template <int d>
 void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
                            std::span<const Twist<d>> velocities, std::span<const int> unknown,

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
+
 #include "fluid/contact/attachment.hpp"
 #include "tests/unit/fluid/contact/contact.hpp"
 
@@ -193,30 +196,39 @@ TYPED_TEST(VentilationOfFlatWalls, air_gets_to_one_row_of_nodes_a_step_under_str
 }
 
 // Water that passes a node of a plate, and a node that has left it.
-struct Passing : scenes::Walls<2> {
+template <int d>
+struct Passing : scenes::Walls<d> {
   Passing() {
-    add_wall(scenes::rectangle({-1, -1}, {1, 0}));
-    velocity[0] << 5, 0, 0;
-    tied = nodes.add({0, 0}, {5 + speed, 0}, 0, scenes::tie_at<2>(walls[0], pose[0], {0, 0}, 0), false, size);
-    left = nodes.add({0.1, 0.1}, {5 + speed, 0}, 0, {}, false, size);
+    this->add_wall(scenes::box<d>(Vec<d>::Constant(-1), top(0)));
+    this->velocity[0][0] = 5;
+    tied = add(Vec<d>::Zero(), scenes::tie_at<d>(this->walls[0], this->pose[0], Vec<d>::Zero(), 0));
+    left = add(top(0.1), {});
     nodes.wall_pressure[left] = dynamic;
   }
+  static Vec<d> top(double height) {
+    Vec<d> x = Vec<d>::Constant(1);
+    x[d - 1] = height;
+    return x;
+  }
+  int add(const Vec<d>& x, WallTie tie) { return nodes.add(x, (5 + speed) * Vec<d>::Unit(0), 0, tie, false, size); }
   double after(double kick, double pressure, double repair = 0) {
-    const std::vector<int> unknown{0, 1, 2};
-    average_wall_pressure<2>(nodes, mesh, at(), velocity, unknown, std::vector<double>(3, kick * pressure),
-                             std::vector<double>(3, kick * repair), kick);
+    std::vector<int> unknown(nodes.size());
+    std::iota(unknown.begin(), unknown.end(), 0);
+    average_wall_pressure<d>(nodes, mesh, this->at(), this->velocity, unknown,
+                             std::vector<double>(nodes.size(), kick * pressure),
+                             std::vector<double>(nodes.size(), kick * repair), kick);
     return nodes.wall_pressure[tied];
   }
-  Nodes<2> nodes;
-  Mesh<2> mesh;
+  Nodes<d> nodes;
+  Mesh<d> mesh;
   int tied, left;
 };
 
 // q' = (p - q) |v - w| / h: implicit Euler's error is the first term that it leaves out, half the step over h/|v - w|, e^-1 times.
-TEST(WallPressure, takes_the_time_in_which_water_passes_an_element_whatever_the_step) {
+TEST(WallPressure, in_space_takes_the_time_in_which_water_passes_an_element_whatever_the_step) {
   const double passes = size / speed;
   for (const int steps : {20, 200}) {
-    Passing water;
+    Passing<3> water;
     for (int i = 0; i < steps; ++i) water.after(passes / steps, dynamic);
     EXPECT_NEAR(water.nodes.wall_pressure[water.tied] / dynamic, 1 - std::exp(-1), 0.5 * std::exp(-1) / steps);
     EXPECT_EQ(water.nodes.wall_pressure[water.left], 0);
@@ -224,22 +236,22 @@ TEST(WallPressure, takes_the_time_in_which_water_passes_an_element_whatever_the_
 }
 
 TEST(WallPressure, what_a_repair_brings_and_the_pressure_takes_back_is_no_suction) {
-  Passing water;
+  Passing<3> water;
   EXPECT_NEAR(water.after(1e-3, -dynamic, dynamic), 0, scenes::eps * dynamic);
   EXPECT_GT(water.after(1e-3, -dynamic, 2 * dynamic), 0);
 }
 
-TEST(WallPressure, of_a_gap_is_that_of_the_step) {
-  Passing water;
-  water.add_wall(scenes::rectangle({-1, 0.1}, {1, 1}));
-  const int other =
-      water.nodes.add({0, 0.1}, {0, 0}, 0, scenes::tie_at<2>(water.walls[1], water.pose[1], {0, 0.1}, 1), false, size);
-  water.mesh.cells.push_back({water.tied, water.left, other});
+TEST(WallPressure, of_a_gap_and_in_the_plane_is_that_of_the_step) {
+  Passing<3> water;
+  water.add_wall(scenes::block({-1, -1, 0.1}, {1, 1, 1}));
+  const int other = water.add({0, 0, 0.1}, scenes::tie_at<3>(water.walls[1], water.pose[1], {0, 0, 0.1}, 1));
+  water.mesh.cells.push_back({water.tied, water.left, other, water.left});
   EXPECT_EQ(water.after(1e-3, -dynamic, 2 * dynamic), -dynamic);
+  EXPECT_EQ(Passing<2>().after(1e-3, -dynamic, 2 * dynamic), -dynamic);
 }
 
 TEST(WallPressure, long_steps_remember_nothing) {
-  Passing water;
+  Passing<3> water;
   water.after(1e-3, dynamic);
   EXPECT_NEAR(water.after(1e6 * size / speed, -dynamic), -dynamic, 3e-6 * dynamic);
 }
