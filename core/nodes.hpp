@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -78,6 +79,16 @@ struct Nodes {
     part.push_back(-1);
     inherited.emplace_back();
     return static_cast<int>(x.size()) - 1;
+  }
+
+  /// Whether nodes of a cell are tied to different walls.
+  bool are_between_walls(const std::array<int, static_cast<std::size_t>(d) + 1>& cell) const {
+    int one = -1;
+    return std::ranges::any_of(cell, [&](int n) {
+      const int wall = tie[static_cast<std::size_t>(n)].wall;
+      if (one < 0) one = wall;
+      return wall >= 0 && wall != one;
+    });
   }
 
   /// What node i carries.

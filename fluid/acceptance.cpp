@@ -30,6 +30,7 @@ Status Fluid<d>::State::finite(const StepResult<d>& found) const {
 
 template <int d>
 Status Fluid<d>::State::acceptable() const {
+  if (!result.status.ok()) return result.status;
   if (auto status = no_inverted_elements(); !status.ok()) return status;
   return no_energy_from_nowhere();
 }

@@ -83,13 +83,7 @@ double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh) {
   constexpr double never = std::numeric_limits<double>::infinity();
   return least_in_parallel(mesh.cells.size(), [&](std::size_t c) {
     const auto& cell = mesh.cells[c];
-    int one = -1;
-    const bool between = std::ranges::any_of(cell, [&](int n) {
-      const int wall = nodes.tie[n].wall;
-      if (one < 0) one = wall;
-      return wall >= 0 && wall != one;
-    });
-    if (!between) return never;
+    if (!nodes.are_between_walls(cell)) return never;
     const auto gradients = volume_gradients<d>(corners(nodes.x, cell));
     double closing = 0, size = 0;
     for (int k = 0; k <= d; ++k) {

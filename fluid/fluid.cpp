@@ -182,7 +182,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   const double swept = enclosed_volume(s.work.mesh.boundary, nodes.x);
   carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water));
   s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
-  average_wall_pressure<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.equation.unknown(), s.trial.phi,
+  average_wall_pressure<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.equation.unknown(),
                            s.trial.repaired, s.kick);
   ventilate<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.spec.density, s.gravity().norm());
   ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);

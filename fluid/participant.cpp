@@ -41,7 +41,7 @@ coupling::Status Participant<d>::begin(const coupling::Step& step, const couplin
   for (std::size_t w = 0; w < structure.interface_operators.size(); ++w)
     response.interface_operators.at(w) = {structure.interface_operators[w].laplacian,
                                           structure.interface_operators[w].robin};
-  if (const auto status = fluid_->begin(step.kick, step.dt, response); !status.ok()) return {status.cause};
+  if (const auto status = fluid_->begin(step.kick, step.dt, response); !status.ok()) return status;
   pieces_.clear();
   for (const auto& piece : fluid_->interface_pieces()) pieces_.push_back({piece.wall, piece.measure});
   return {};

@@ -20,8 +20,8 @@ struct StepResult {
   /// Velocities that impulses left unbalanced in the motions would still give to bodies and water: what the solve fell
   /// short of Newton's law, Z (M + G)^-1 (Z^T impulses - M y).
   std::vector<Twist<d>> imbalance;
-  std::vector<double>
-      interface_impulse;         ///< mean physical one on each piece of walls with an interface Laplacian [Pa s]
+  /// Mean physical pressure impulses on the pieces of walls with an interface Laplacian [Pa s].
+  std::vector<double> interface_impulse;
   std::vector<double> pressure;  ///< at the nodes at t_n [Pa]
   std::vector<Vec<d>> velocity;  ///< of the nodes, along their walls: half-step
   Ledger ledger;                 ///< at t_n, as far as it is known before the motion

@@ -82,20 +82,16 @@ std::vector<char> thin_places(const Nodes<d>& nodes, const Mesh<d>& mesh) {
   return thin;
 }
 
-// Nodes with a cell that reaches from one wall to another.
+// Nodes at which air needs no time: all of the plane's, whose films are resolved less, and those of gaps between walls, which
+// close faster than water passes an element.
 template <int d>
-std::vector<char> between_walls(const Nodes<d>& nodes, const Mesh<d>& mesh) {
-  std::vector<char> between(nodes.size(), 0);
-  for (const auto& cell : mesh.cells) {
-    int wall = -1;
-    for (int n : cell) {
-      const int own = nodes.tie[n].wall;
-      if (own >= 0 && wall >= 0 && own != wall)
-        for (int k : cell) between[k] = 1;
-      if (own >= 0) wall = own;
-    }
-  }
-  return between;
+std::vector<char> without_memory(const Nodes<d>& nodes, const Mesh<d>& mesh) {
+  if constexpr (d == 2) return std::vector<char>(nodes.size(), 1);
+  std::vector<char> forget(nodes.size(), 0);
+  for (const auto& cell : mesh.cells)
+    if (nodes.are_between_walls(cell))
+      for (int n : cell) forget[n] = 1;
+  return forget;
 }
 
 }  // namespace
@@ -103,9 +99,8 @@ std::vector<char> between_walls(const Nodes<d>& nodes, const Mesh<d>& mesh) {
 template <int d>
 void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
                            std::span<const Twist<d>> velocities, std::span<const int> unknown,
-                           std::span<const double> pressure_impulse, std::span<const double> repair_impulse,
-                           double kick) {
-  const std::vector<char> gap = between_walls(nodes, mesh);
+                           std::span<const double> repair_impulse, double kick) {
+  const std::vector<char> forget = without_memory(nodes, mesh);
   in_parallel(nodes.size(), [&](std::size_t n) {
     double& mean = nodes.wall_pressure[n];
     const int wall = nodes.tie[n].wall;
@@ -113,14 +108,13 @@ void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d
       mean = 0;
       return;
     }
-    const int k = unknown[n];
-    const double physical = k < 0 ? 0.0 : pressure_impulse[k] / kick, repair = k < 0 ? 0.0 : repair_impulse[k] / kick;
-    if (d == 2 || gap[n]) {
-      mean = physical;
+    if (forget[n]) {
+      mean = nodes.p[n];
       return;
     }
+    const double repair = unknown[n] < 0 ? 0.0 : repair_impulse[unknown[n]] / kick;
     const double way = kick * std::sqrt(2 * slip_energy(nodes, n, wall, at, velocities));
-    mean += (physical + repair - mean) * way / (way + nodes.h[n]);
+    mean += (nodes.p[n] + repair - mean) * way / (way + nodes.h[n]);
   });
 }
 
@@ -161,9 +155,9 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::
 }
 
 template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
-                                    std::span<const int>, std::span<const double>, std::span<const double>, double);
+                                    std::span<const int>, std::span<const double>, double);
 template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
-                                    std::span<const int>, std::span<const double>, std::span<const double>, double);
+                                    std::span<const int>, std::span<const double>, double);
 template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
 template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
 

@@ -13,17 +13,16 @@ namespace splashdown::fluid {
 
 /// Pressure of late at nodes tied to walls, nodes.wall_pressure: in space a mean over the time in which water passes an element,
 ///
-///   q <- q + (p - q) / (1 + h / (|v - w| kick)),   p = (phi + psi) / kick
+///   q <- q + (p - q) / (1 + h / (|v - w| kick)),   p = nodes.p + psi / kick
 ///
-/// phi, psi: impulses of pressure and repair [Pa s], `unknown`: their numbers at nodes, -1: none. Where water meets a wall a
+/// psi: `repair_impulse` [Pa s], `unknown`: its numbers at nodes, -1: none; nodes.p: of the step. Where water meets a wall a
 /// step's repair brings what its pressure takes back; air needs that time to get to a node. In the plane, whose films are
-/// resolved less, and in cells that reach from one wall to another, which close faster: q = phi / kick. Nodes that are not tied
+/// resolved less, and in cells that reach from one wall to another, which close faster: q = nodes.p. Nodes that are not tied
 /// forget.
 template <int d>
 void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
                            std::span<const Twist<d>> velocities, std::span<const int> unknown,
-                           std::span<const double> pressure_impulse, std::span<const double> repair_impulse,
-                           double kick);
+                           std::span<const double> repair_impulse, double kick);
 
 /// Unties wetted nodes beside the contact line, or beside an edge where the flow separates, that air gets to:
 ///
@@ -38,11 +37,9 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::
                double density, double gravity);
 
 extern template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
-                                           std::span<const int>, std::span<const double>, std::span<const double>,
-                                           double);
+                                           std::span<const int>, std::span<const double>, double);
 extern template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
-                                           std::span<const int>, std::span<const double>, std::span<const double>,
-                                           double);
+                                           std::span<const int>, std::span<const double>, double);
 extern template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
 extern template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
 

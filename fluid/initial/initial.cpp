@@ -63,7 +63,6 @@ class Filler {
     std::vector<double>& h = out_.nodes.h;
     auto sizes = [&] {
       const SizeField<d> field(spec_.size, walls_, dry_, out_.nodes.x, out_.mesh);
-      h.resize(out_.nodes.size());
       in_parallel(h.size(), [&](std::size_t i) { h[i] = field(out_.nodes.x[i]); });
     };
     sizes();

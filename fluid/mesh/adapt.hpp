@@ -19,7 +19,7 @@ struct AdaptReport {
   int inserted = 0, removed = 0;
 };
 
-/// Changes nodes and boundary (mesh.cells become stale) and renumbers; `h` is resized to the new nodes.
+/// Changes nodes and boundary (mesh.cells become stale) and renumbers.
 template <int d>
 AdaptReport<d> adapt(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls);
 

@@ -23,7 +23,7 @@ namespace splashdown::fluid {
 template <int d>
 double drop_size(double volume);
 
-/// Joins drops that touch. `h`: element size at the nodes; a drop grows no larger than that. The nodes that are left.
+/// Joins drops that touch; a drop grows no larger than the elements there. The nodes that are left.
 template <int d>
 std::vector<char> join_drops(Nodes<d>& nodes);
 

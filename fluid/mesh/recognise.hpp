@@ -39,8 +39,8 @@ struct Recognised : Mesh<d> {
   std::vector<int> piercing;
 };
 
-/// Finds the fluid cells among `all` and labels boundary facets; sets nodes.surface and nodes.spray. `h`: element size at
-/// the nodes [m]; `old_boundary`: closed facets between the same nodes.
+/// Finds the fluid cells among `all` and labels boundary facets; sets nodes.surface and nodes.spray.
+/// `old_boundary`: closed facets between the same nodes.
 template <int d>
 Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary,
                         const WallsAt<d>& walls, const Alpha& limit = {});

@@ -214,8 +214,8 @@ struct Passing : scenes::Walls<d> {
   double after(double kick, double pressure, double repair = 0) {
     std::vector<int> unknown(nodes.size());
     std::iota(unknown.begin(), unknown.end(), 0);
+    nodes.p.assign(nodes.size(), pressure);
     average_wall_pressure<d>(nodes, mesh, this->at(), this->velocity, unknown,
-                             std::vector<double>(nodes.size(), kick * pressure),
                              std::vector<double>(nodes.size(), kick * repair), kick);
     return nodes.wall_pressure[tied];
   }
