@@ -54,6 +54,8 @@ struct Response {
   Eigen::MatrixXd inertia;     ///< M of these motions; symmetric, not negative, may be singular
   Eigen::MatrixXd directions;  ///< W: combinations of them that closed contacts leave
   Eigen::VectorXd known;       ///< impulses on the motions that `free` does not contain
+  /// W': combinations in which impulses of these contacts do no work, as many; empty, or W, unless some slide and rub.
+  Eigen::MatrixXd workless = {};
 };
 
 /// Inverse masses of a local operator on a wall that stands in for the answer of the body behind it [1/kg]; 0: none.
@@ -79,6 +81,7 @@ struct Pass {
   Eigen::VectorXd lagged;      ///< interface impulses that stand-ins lag on, one a piece [Pa s]
   Eigen::MatrixXd directions;  ///< W of the exact term; empty: all of its motions
   Eigen::VectorXd known;       ///< impulses on its motions besides the fluid's and what `motion` contains; empty: none
+  Eigen::MatrixXd workless = {};  ///< W' of the exact term: Newton's law is asked for in these; empty: W
 };
 
 /// What it answers.

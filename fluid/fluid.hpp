@@ -32,8 +32,9 @@ using splashdown::FluidView;
 
 /// How the motions of WallResponse are driven in a step.
 struct MotionDrive {
-  Eigen::MatrixXd directions;  ///< only these combinations of them may occur; without them and an impulse: all
-  Eigen::VectorXd impulse;     ///< on them, besides the fluid's and what the given velocities contain; empty: none
+  Eigen::MatrixXd directions;     ///< only these combinations of them may occur; without them and an impulse: all
+  Eigen::VectorXd impulse;        ///< on them, besides the fluid's and what the given velocities contain; empty: none
+  Eigen::MatrixXd workless = {};  ///< combinations in which Newton's law is asked for, as many; empty: the same
   bool restricts() const { return directions.size() > 0 || impulse.size() > 0; }
 };
 

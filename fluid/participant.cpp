@@ -53,7 +53,7 @@ coupling::Status Participant<d>::solve(const coupling::Pass& pass) {
   std::vector<Twist<d>> walls(fluid_->spec().walls.size(), Twist<d>::Zero());
   for (std::size_t w = 0; w < moved; ++w) walls[w] = pass.motion.segment<freedoms<d>>(index<d>(w));
   const std::span<const double> lagged(pass.lagged.data(), static_cast<std::size_t>(pass.lagged.size()));
-  const StepResult<d>& found = fluid_->solve(walls, lagged, {pass.directions, pass.known});
+  const StepResult<d>& found = fluid_->solve(walls, lagged, {pass.directions, pass.known, pass.workless});
   if (!found.status.ok()) return found.status;
 
   solution_.motion.resize(index<d>(moved));

@@ -39,7 +39,7 @@ Status Fluid<d>::State::find_motion(std::span<const Twist<d>> given, std::span<c
   trial.on_walls.assign(walls.size(), Wrench<d>::Zero());
   trial.known.setZero(equation.motions());
   trial.answer = trial.known;
-  if (drive.restricts()) equation.allow(drive.directions);
+  if (drive.restricts()) equation.allow(drive.directions, drive.workless);
   if (auto status = repair(); !status.ok()) return status;
   // Pressure changes no momentum of free water; masses that are held up (PressureEquation) may.
   free_water.give_back(free_carried, equation.lumped_volume(), trial.v);

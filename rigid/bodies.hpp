@@ -10,7 +10,8 @@
 // which is Bullet's semi-implicit Euler step when dt is constant. Second order, symplectic.
 //
 // Joints and contacts are conditions on the half-step velocities, taken at x_n, that remove what x_n violates of
-// them: positions stay on them to second order in dt. Contacts do not rebound and do not rub.
+// them: positions stay on them to second order in dt. Stops of joints are contacts; springs and dampers of joints are part of
+// the equation above, taken so that no step is too long for them.
 // The three verbs: begin fixes kick and dt, solve may be repeated (always from t_n, same bits for the
 // same input), commit makes t_{n+1} the present.
 // A body whose load is not finite gets a trial state that is not finite either, and nothing else happens.
@@ -55,7 +56,7 @@ class Gravity final : public Force<d> {
 /// How all bodies of a begun step answer to impulses on them, joints, contacts and held freedoms included.
 /// Twists and wrenches of all bodies stand one below the other.
 ///
-///   s = velocities + modes W w,   W^T inertia W w = W^T (modes^T impulses + impulse),   W = directions
+///   s = velocities + modes W w,   W'^T inertia W w = W'^T (modes^T impulses + impulse),   W = directions, W' = workless
 ///
 /// The least that the pressure equation has to know of bodies (docs/theory.md).
 template <int d>
@@ -65,6 +66,7 @@ struct Mobility {
   Eigen::MatrixXd inertia;           ///< Z^T M Z [kg]; singular for bodies without mass
   Eigen::MatrixXd directions;        ///< W: of these motions, what closed contacts leave; orthonormal
   Eigen::VectorXd impulse;           ///< known ones on motions without inertia, which `velocities` lacks [N s]
+  Eigen::MatrixXd workless;          ///< W': in which these contacts do no work; W where none slides and rubs
 };
 
 template <int d>
@@ -105,7 +107,7 @@ class Bodies final : public BodiesView<d> {
   void load(std::istream& in);
 
  private:
-  struct World;  // Bullet's objects
+  struct World;  // rigid/world.hpp
   std::unique_ptr<World> world_;
 };
 

@@ -3,6 +3,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "core/geometry.hpp"
@@ -154,6 +155,39 @@ std::vector<Condition<3>> BulletWorld::conditions(double dt) {
       }
       all.push_back({joint.body, joint.other, first, second, first.data()[12]});
     }
+    const auto* slider = dynamic_cast<const btSliderConstraint*>(joint.bullet.get());
+    constexpr int with_turn = 5;
+    if (!slider || count.m_numConstraintRows == with_turn) continue;
+    // Its last row holds the turn about the axis; Bullet leaves it out where that is exactly nought.
+    Wrench<3> turn = Wrench<3>::Zero();
+    turn.tail<3>() = from_bullet(slider->getCalculatedTransformA().getBasis().getColumn(0));
+    all.push_back({joint.body, joint.other, turn, -turn, 0});
+  }
+  return all;
+}
+
+JointCoordinate<3> BulletWorld::coordinate(std::size_t joint) const {
+  const Joint& of = objects_->joints[joint];
+  const btTransform& at_a = of.bullet->getRigidBodyA().getCenterOfMassTransform();
+  const btTransform& at_b = of.bullet->getRigidBodyB().getCenterOfMassTransform();
+  JointCoordinate<3> all{0, {of.body, of.other}};
+  const auto from_centre = [](const btTransform& place, const btTransform& body) {
+    return from_bullet(place.getOrigin() - body.getOrigin());
+  };
+  // The force acts along one line on both, so that it changes no momentum of the two.
+  if (const auto* hinge = dynamic_cast<const btHingeConstraint*>(of.bullet.get())) {
+    const btMatrix3x3 a = (at_a * hinge->getAFrame()).getBasis(), b = (at_b * hinge->getBFrame()).getBasis();
+    const Eigen::Vector3d axis = from_bullet(a.getColumn(2)), zero = from_bullet(b.getColumn(0)),
+                          now = from_bullet(a.getColumn(0));
+    all.q = std::atan2(axis.dot(zero.cross(now)), zero.dot(now));
+    all.rate.first.tail<3>() = axis;
+    all.rate.second.tail<3>() = -axis;
+  } else if (const auto* slider = dynamic_cast<const btSliderConstraint*>(of.bullet.get())) {
+    const btTransform a = at_a * slider->getFrameOffsetA(), b = at_b * slider->getFrameOffsetB();
+    const Eigen::Vector3d axis = from_bullet(a.getBasis().getColumn(0));
+    all.q = axis.dot(from_bullet(a.getOrigin() - b.getOrigin()));
+    all.rate.first = wrench_of<3>(from_centre(a, at_a), axis);
+    all.rate.second = -wrench_of<3>(from_centre(a, at_b), axis);
   }
   return all;
 }

@@ -23,7 +23,7 @@ class BulletWorld {
 
   /// `moves`: whether drift moves it. Returns the body's number, counting from 0.
   std::size_t add(bool moves);
-  /// Between bodies where they are now. Refers to them by their numbers.
+  /// Between bodies where they are now. Refers to them by their numbers; counts from 0 itself.
   void add(const JointSpec& joint);
 
   /// Finite values only.
@@ -32,6 +32,8 @@ class BulletWorld {
   void drift(double dt);
   /// What the joints ask of the velocities with which bodies leave their places for a time dt.
   std::vector<Condition<3>> conditions(double dt);
+  /// Where a hinge or slider is now.
+  JointCoordinate<3> coordinate(std::size_t joint) const;
 
   Isometry<3> pose(std::size_t body) const;
 

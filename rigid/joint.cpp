@@ -15,6 +15,12 @@ void check(const JointSpec& joint, std::size_t bodies) {
   require(joint.other != joint.body, "it ties a body to itself");
   require(joint.point.allFinite(), "its point is not finite");
   require(joint.axis.allFinite() && joint.axis.norm() > 0, "its axis has no direction");
+  require(joint.type != JointType::weld || !joint.measured(), "a weld has neither stops nor a spring");
+  require(joint.stops[0] <= 0 && joint.stops[1] >= 0, "its place at t = 0 is beyond its stops");
+  if (!joint.spring) return;
+  const auto& [stiffness, damping, rest] = *joint.spring;
+  require(std::isfinite(stiffness) && std::isfinite(damping) && std::isfinite(rest), "its spring is not finite");
+  require(stiffness >= 0 && damping >= 0, "its spring gives energy");
 }
 
 }  // namespace splashdown::rigid

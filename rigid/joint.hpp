@@ -1,7 +1,10 @@
 // What ties a body to another one or to the world, and what it makes of velocities.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "rigid/types.hpp"
@@ -14,13 +17,27 @@ enum class JointType {
   weld     ///< moves as one
 };
 
+/// Along a joint's coordinate q acts -stiffness (q - rest) - damping dq/dt [N, N m; per metre in the plane].
+struct Spring {
+  double stiffness = 0, damping = 0;  ///< [N/m, N m/rad], [N s/m, N m s/rad]
+  double rest = 0;                    ///< where it is relaxed [m, rad]
+};
+
 /// Between body `body` and `other`, or the world. In two dimensions a hinge's axis is z.
+/// Its coordinate q is how far `body` has moved from where `other` carries its place at t = 0: of a hinge the angle about the
+/// axis, whole turns counted, of a slider the way along it.
 struct JointSpec {
   JointType type = JointType::hinge;
   std::size_t body = 0;
   std::optional<std::size_t> other = {};
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< world frame, at t = 0 [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< world frame, at t = 0; unit length
+  std::array<double, 2> stops = {-std::numeric_limits<double>::infinity(),
+                                 std::numeric_limits<double>::infinity()};  ///< of q [rad, m]
+  std::optional<Spring> spring = {};
+
+  /// Whether anything depends on q.
+  bool measured() const { return spring || std::isfinite(stops[0]) || std::isfinite(stops[1]); }
 };
 
 /// Throws std::invalid_argument unless the joint ties two of so many bodies, or one to the world, about an axis.
@@ -38,6 +55,13 @@ struct Condition {
   std::optional<std::size_t> other = {};
   Wrench<d> first = Wrench<d>::Zero(), second = Wrench<d>::Zero();
   double rate = 0;
+};
+
+/// How far a joint has moved, q [rad, m; of a hinge in (-pi, pi]], and dq/dt = first . s_body + second . s_other: a condition without its rate.
+template <int d>
+struct JointCoordinate {
+  double q = 0;
+  Condition<d> rate;
 };
 
 }  // namespace splashdown::rigid

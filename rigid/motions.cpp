@@ -1,6 +1,7 @@
 #include "rigid/motions.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/dense.hpp"
 
@@ -11,8 +12,18 @@ namespace {
 // Conditions and velocities this much smaller than others are roundoff.
 constexpr double negligible = 1e-10;
 
+Eigen::Index count(const std::vector<char>& chosen) { return std::count(chosen.begin(), chosen.end(), 1); }
+
+/// Of each contact the same for all its rows.
+std::vector<char> each(const std::vector<char>& contacts, Eigen::Index rows) {
+  std::vector<char> all;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    all.insert(all.end(), static_cast<std::size_t>(rows) / contacts.size(), contacts[i]);
+  return all;
+}
+
 Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<char>& chosen) {
-  Eigen::MatrixXd rows(std::count(chosen.begin(), chosen.end(), 1), all.cols());
+  Eigen::MatrixXd rows(count(chosen), all.cols());
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (chosen[i]) rows.row(next++) = all.row(static_cast<Eigen::Index>(i));
@@ -21,7 +32,13 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<char>& cho
 
 }  // namespace
 
-Motions::Motions(const Problem& p) : unit_(p.unit), resolution_(p.resolution) {
+struct Motions::Found {
+  std::vector<char> closed, sticks;  // what was held,
+  Eigen::VectorXd pushes;            // by which impulses, in that order
+  double weak, slow;
+};
+
+Motions::Motions(const Problem& p) : unit_(p.unit), resolution_(p.resolution), friction_(p.friction) {
   const auto scaled = p.unit.cwiseInverse().asDiagonal();
   const algebra::Solutions free =
       algebra::solutions_of(p.equalities * scaled, p.equal - p.equalities * p.before, negligible);
@@ -33,14 +50,49 @@ Motions::Motions(const Problem& p) : unit_(p.unit), resolution_(p.resolution) {
   contacts_ = p.contacts * modes_;
   least_ = p.least - p.contacts * origin_;
   closed_.assign(static_cast<std::size_t>(contacts_.rows()), 0);
+  sticks_.assign(static_cast<std::size_t>(p.rubbing), 0);
+  tangents_ = p.tangents * modes_;
+  along_ = -(p.tangents * origin_);
+  ways_.setZero(p.rubbing > 0 ? tangents_.rows() / p.rubbing : 0, p.rubbing);
   restrict();
 }
 
+Eigen::MatrixXd Motions::held() const {
+  const std::vector<char> stuck = each(sticks_, tangents_.rows());
+  Eigen::MatrixXd rows(count(closed_) + count(stuck), modes_.cols());
+  rows << rows_of(contacts_, closed_), rows_of(tangents_, stuck);
+  return rows;
+}
+
+Eigen::MatrixXd Motions::pushing() const {
+  Eigen::MatrixXd rows = held();
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < closed_.size(); ++i) {
+    if (!closed_[i]) continue;
+    const auto c = static_cast<Eigen::Index>(i);
+    if (i < sticks_.size() && !sticks_[i])
+      rows.row(next) -= friction_ * ways_.col(c).transpose() * tangents_.middleRows(ways_.rows() * c, ways_.rows());
+    ++next;
+  }
+  // Of contacts that repeat each other, impulses are those of least norm.
+  const Eigen::MatrixXd idle =
+      algebra::solutions_of(held().transpose(), Eigen::VectorXd::Zero(rows.cols()), negligible).directions;
+  return rows - idle * (idle.transpose() * rows);
+}
+
 void Motions::restrict() {
-  const algebra::Solutions left =
-      algebra::solutions_of(rows_of(contacts_, closed_), rows_of(least_, closed_), negligible);
+  const std::vector<char> stuck = each(sticks_, tangents_.rows());
+  Eigen::VectorXd rates(count(closed_) + count(stuck));
+  rates << rows_of(least_, closed_), rows_of(along_, stuck);
+  const algebra::Solutions left = algebra::solutions_of(held(), rates, negligible);
   pushed_ = left.point;
-  directions_ = left.directions;
+  workless_ = directions_ = left.directions;
+  rubs_ = !ways_.isZero(0);
+  if (!rubs_) return;
+  workless_ = algebra::solutions_of(pushing(), Eigen::VectorXd::Zero(rates.size()), negligible).directions;
+  if (workless_.cols() == directions_.cols()) return;
+  workless_ = directions_;  // some push and rub along one line: as if they did not rub
+  rubs_ = false;
 }
 
 Eigen::VectorXd Motions::amplitudes(const Eigen::VectorXd& velocity) const {
@@ -49,8 +101,9 @@ Eigen::VectorXd Motions::amplitudes(const Eigen::VectorXd& velocity) const {
 
 Eigen::VectorXd Motions::velocity(const Eigen::VectorXd& impulse) const {
   if (directions_.cols() == 0) return origin_ + modes_ * pushed_;
-  const Eigen::VectorXd left = directions_.transpose() * (known_ + modes_.transpose() * impulse - inertia_ * pushed_);
-  const Eigen::MatrixXd inertia = algebra::congruence(inertia_, directions_);
+  const Eigen::VectorXd left = workless_.transpose() * (known_ + modes_.transpose() * impulse - inertia_ * pushed_);
+  const Eigen::MatrixXd inertia = rubs_ ? Eigen::MatrixXd(workless_.transpose() * inertia_ * directions_)
+                                        : algebra::congruence(inertia_, directions_);
   const Eigen::VectorXd w = algebra::least_squares(inertia, left);
   return origin_ + modes_ * (pushed_ + directions_ * w);
 }
@@ -61,32 +114,84 @@ Eigen::VectorXd Motions::unspent(const Eigen::VectorXd& velocity, const Eigen::V
 
 bool Motions::update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) {
   if (closed_.empty()) return false;
-  const Eigen::VectorXd y = amplitudes(velocity), rate = contacts_ * y - least_;
-  // Impulses r of the closed contacts: D^T r balances what is left.
+  const Eigen::VectorXd y = amplitudes(velocity);
+  // Impulses r, t of what is held: its rows, transposed, balance with them what is left.
   const Eigen::VectorXd left = -unspent(velocity, impulse);
-  const Eigen::MatrixXd closed = rows_of(contacts_, closed_);
-  Eigen::VectorXd pushes(closed.rows());
-  if (closed.rows() > 0) pushes = algebra::least_squares(closed.transpose(), left);
-  const double weak = negligible * pushes.cwiseAbs().sum();
-  const double slow = resolution_ + negligible * contacts_.rowwise().norm().maxCoeff() * y.norm();
+  const Eigen::MatrixXd rows = rubs_ ? pushing() : held();
+  Eigen::VectorXd pushes(rows.rows());
+  if (rows.rows() > 0) pushes = algebra::least_squares(rows.transpose(), left);
+  const Found found{.closed = closed_,
+                    .sticks = sticks_,
+                    .pushes = pushes,
+                    .weak = negligible * pushes.cwiseAbs().sum(),
+                    .slow = resolution_ + negligible * contacts_.rowwise().norm().maxCoeff() * y.norm()};
+  const Eigen::MatrixXd slide = (tangents_ * y - along_).reshaped(ways_.rows(), ways_.cols());
+  bool changes = open_and_close(contacts_ * y - least_, slide, found);
+  if (!changes) changes = stick_and_slide(slide, found);  // else the impulses are those of other contacts
+  if (!changes) return false;
+  ++changes_;
+  constexpr int enough = 25;
+  if (changes_ == enough) {
+    std::ranges::fill(sticks_, 0);
+    ways_.setZero();
+    smooth_ = true;
+  }
+  restrict();
+  return true;
+}
+
+bool Motions::open_and_close(const Eigen::VectorXd& rate, const Eigen::MatrixXd& slide, const Found& found) {
   constexpr int together = 5;
-  bool changed = false;
+  bool any = false;
   Eigen::Index push = 0;
-  for (std::size_t i = 0; i < closed_.size() && !(changed && contact_changes_ >= together); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+  for (std::size_t i = 0; i < closed_.size() && !(any && changes_ >= together); ++i) {
+    const auto c = static_cast<Eigen::Index>(i);
+    const double pushes = closed_[i] ? found.pushes[push++] : 0;
     // Of contacts that cannot all be closed at once, those that the compromise leaves apart open.
-    const bool opens = closed_[i] && (pushes[push] < -weak || rate[row] > slow);
-    const bool closes = !closed_[i] && rate[row] < -slow;
-    if (closed_[i]) ++push;
-    if (!opens && !closes) continue;
-    closed_[i] = !closed_[i];
-    changed = true;
+    const bool opens = closed_[i] && (pushes < -found.weak || rate[c] > found.slow);
+    const bool closes = !closed_[i] && rate[c] < -found.slow;
+    const bool rubs = i < sticks_.size() && !smooth_;
+    const bool slides = rubs && closed_[i] && !ways_.col(c).isZero(0);
+    // What is driven the other way by its friction sticks; so may what pulls only because it slides.
+    if (slides && (opens || slide.col(c).dot(ways_.col(c)) < -found.slow)) {
+      sticks_[i] = 1;
+      ways_.col(c).setZero();
+      any = true;
+    } else if (opens || closes) {
+      closed_[i] = !closed_[i];
+      any = true;
+      if (!rubs) continue;
+      const bool moves = slide.col(c).norm() > found.slow;
+      sticks_[i] = closed_[i] && !moves;
+      ways_.col(c) =
+          closed_[i] && moves ? slide.col(c).normalized().eval() : Eigen::VectorXd::Zero(ways_.rows()).eval();
+    }
   }
-  if (changed) {
-    restrict();
-    ++contact_changes_;
+  return any;
+}
+
+bool Motions::stick_and_slide(const Eigen::MatrixXd& slide, const Found& found) {
+  if (sticks_.empty() || smooth_) return false;
+  constexpr double settled = 1e-3;  // mu is known to two digits
+  bool any = false;
+  Eigen::Index push = 0, pull = count(found.closed);
+  for (std::size_t i = 0; i < sticks_.size(); ++i) {
+    if (!closed_[i]) continue;
+    const auto c = static_cast<Eigen::Index>(i);
+    const double most = friction_ * std::max(found.pushes[push++], 0.0);
+    if (sticks_[i]) {
+      const Eigen::VectorXd pulls = found.pushes.segment(pull, ways_.rows());
+      pull += pulls.size();
+      if (pulls.norm() <= most + found.weak) continue;
+      sticks_[i] = 0;
+      ways_.col(c) = -pulls.normalized();
+      any = true;
+    } else if (slide.col(c).norm() > found.slow && (slide.col(c).normalized() - ways_.col(c)).norm() > settled) {
+      ways_.col(c) = slide.col(c).normalized();
+      any = true;
+    }
   }
-  return changed;
+  return any;
 }
 
 }  // namespace splashdown::rigid

@@ -2,13 +2,18 @@
 //
 //   E s = a                       held freedoms, fixed and prescribed bodies, joints
 //   D s >= b                      contacts
-//   M (s - s_before) = impulse + E^T l + D^T r,   r >= 0,   r (D s - b) = 0
+//   M (s - s_before) = impulse + E^T l + D^T r + T^T t,   r >= 0,   r (D s - b) = 0
+//   |t| <= mu r,   T s = 0 or t = -mu r T s / |T s|   at each contact that rubs (Coulomb)
 //
 // Solved in coordinates: s = s_0 + Z y with Z a basis of the motions that E leaves, and y in the directions W that
 // the closed contacts leave. Which contacts are closed is found by the primal-dual active set method (Hintermueller,
 // Ito, Kunisch 2002): a closed contact that pulls opens, an open one that would be crossed closes. It may run in
 // circles; after a few changes only the first contact that is wrong changes (Murty 1974), which ends where contacts
 // are independent of each other.
+//
+// A closed contact that rubs sticks, T s = 0, while that takes no more than mu r. One that slides along n, |n| = 1, pushes along
+// D - mu n T: Newton's law is asked for in the directions W' along which that does no work, W'^T (M y - ...) = 0. It sticks if its
+// friction would drive it the other way, or if it pulls, which friction can do (Painleve 1895).
 // Nothing divides by M: bodies may lack mass where something else, the water, has inertia for them.
 #pragma once
 
@@ -27,8 +32,11 @@ class Motions {
     Eigen::MatrixXd contacts;    ///< D
     Eigen::VectorXd least;       ///< b
     double resolution = 0;       ///< of D s - b: smaller violations are roundoff [m/s]
-    Eigen::MatrixXd inertia;     ///< M
-    Eigen::VectorXd impulse;     ///< known already [N s]
+    Eigen::MatrixXd tangents;    ///< T: as many rows for each of the first `rubbing` contacts
+    int rubbing = 0;
+    double friction = 0;      ///< mu
+    Eigen::MatrixXd inertia;  ///< M
+    Eigen::VectorXd impulse;  ///< known already [N s]
   };
   Motions() = default;
   explicit Motions(const Problem& problem);
@@ -36,6 +44,7 @@ class Motions {
   const Eigen::MatrixXd& modes() const { return modes_; }            ///< Z
   const Eigen::MatrixXd& inertia() const { return inertia_; }        ///< Z^T M Z
   const Eigen::MatrixXd& directions() const { return directions_; }  ///< W
+  const Eigen::MatrixXd& workless() const { return workless_; }      ///< W', W unless something slides and rubs
   /// Velocity under a further impulse; motions without inertia get none.
   Eigen::VectorXd velocity(const Eigen::VectorXd& impulse) const;
   /// Impulse on the motions that such a velocity does not account for: Z^T impulse - (Z^T M Z) y.
@@ -45,6 +54,12 @@ class Motions {
 
  private:
   void restrict();
+  Eigen::MatrixXd held() const;     // rows of closed contacts, then of those that stick
+  Eigen::MatrixXd pushing() const;  // the same, along which they push
+  /// Impulses on what was held, and below which impulses and velocities are roundoff.
+  struct Found;
+  bool open_and_close(const Eigen::VectorXd& rate, const Eigen::MatrixXd& slide, const Found& found);
+  bool stick_and_slide(const Eigen::MatrixXd& slide, const Found& found);
   Eigen::VectorXd amplitudes(const Eigen::VectorXd& velocity) const;
 
   Eigen::VectorXd unit_, origin_, known_;    // s_0; Z^T (impulse - M (s_0 - s_before))
@@ -53,9 +68,16 @@ class Motions {
   Eigen::VectorXd least_;                    // b - D s_0
   double resolution_ = 0;
   std::vector<char> closed_;
-  int contact_changes_ = 0;  // how often contacts changed
-  Eigen::VectorXd pushed_;   // amplitudes that closed contacts ask for
-  Eigen::MatrixXd directions_;
+  int changes_ = 0;
+  Eigen::MatrixXd tangents_;  // T Z
+  Eigen::VectorXd along_;     // -T s_0
+  double friction_ = 0;
+  std::vector<char> sticks_;  // of the contacts that rub, while closed
+  Eigen::MatrixXd ways_;      // n of those that slide, a column each; 0 of others
+  bool rubs_ = false;         // some do
+  bool smooth_ = false;       // no end was found with friction
+  Eigen::VectorXd pushed_;    // amplitudes that closed contacts ask for
+  Eigen::MatrixXd directions_, workless_;
 };
 
 }  // namespace splashdown::rigid

@@ -72,8 +72,8 @@ coupling::Response Participant<d>::response() const {
   coupling::Motion free(freedoms<d> * static_cast<Eigen::Index>(all.velocities.size()));
   Eigen::Index at = 0;
   for (const auto& s : all.velocities) free.segment<freedoms<d>>(freedoms<d> * at++) = s;
-  return {std::move(free), std::move(all.modes), std::move(all.inertia), std::move(all.directions),
-          std::move(all.impulse)};
+  return {std::move(free),           std::move(all.modes),   std::move(all.inertia),
+          std::move(all.directions), std::move(all.impulse), std::move(all.workless)};
 }
 
 template <int d>

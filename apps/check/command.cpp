@@ -5,7 +5,6 @@
 #include "apps/check/body.hpp"
 #include "apps/check/cost.hpp"
 #include "apps/check/questions.hpp"
-#include "apps/scene/scales.hpp"
 #include "apps/check/words.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/plain_text.hpp"
@@ -14,6 +13,7 @@
 #include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
+#include "apps/scene/scales.hpp"
 
 namespace splashdown::apps {
 
@@ -27,6 +27,24 @@ std::string rough(double value) {
 
 namespace {
 
+/// What limits a joint and draws it back.
+std::string play_text(const Joint& joint, int dimension) {
+  const bool hinge = joint.type == "hinge";
+  const std::string way = hinge ? "deg" : "m", force = hinge ? "N m" : "N",
+                    depth = dimension == 2 ? " per m of depth" : "";
+  std::string text;
+  if (!joint.limits.empty()) text += fmt::format(", from {:g} to {:g} {}", joint.limits[0], joint.limits[1], way);
+  if (joint.stiffness > 0)
+    text += fmt::format(", spring {:g} {}/{}{}, relaxed at {:g} {}", joint.stiffness, force, hinge ? "rad" : "m", depth,
+                        joint.rest, way);
+  if (joint.damping > 0) text += fmt::format(", damper {:g} {} s{}{}", joint.damping, force, hinge ? "/rad" : "/m", depth);
+  return text;
+}
+
+std::string share_text(const std::string& what, double share) {
+  return share > 0 ? fmt::format("{} {:g}", what, share) : "no " + what;
+}
+
 template <int d>
 void print_ties(const Scene& scene) {
   for (const auto& joint : scene.joints) {
@@ -34,11 +52,12 @@ void print_ties(const Scene& scene) {
     const std::string where = joint.type == "hinge"    ? fmt::format(" at {} m", text<d>(vec<d>(joint.point)))
                               : joint.type == "slider" ? fmt::format(" along {}", text<d>(vec<d>(joint.axis)))
                                                        : "";
-    row(joint.type, fmt::format("{} to {}{}", scene.bodies[joint.body].name, other, where));
+    row(joint.type, fmt::format("{} to {}{}{}", scene.bodies[joint.body].name, other, where, play_text(joint, d)));
   }
   if (scene.contact)
-    row("contact",
-        fmt::format("bodies touch each other{}; no rebound, no friction", scene.tank ? " and the tank" : ""));
+    row("contact", fmt::format("bodies touch each other{}; {}, {}", scene.tank ? " and the tank" : "",
+                               share_text("rebound", scene.contact->restitution),
+                               share_text("friction", scene.contact->friction)));
 }
 
 template <int d>

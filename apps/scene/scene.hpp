@@ -179,10 +179,18 @@ struct Joint {
   std::optional<std::size_t> other;  ///< absent: the world
   Point point = Point::Zero();       ///< world frame, at t = 0 [m]
   Point axis = Point::UnitZ();       ///< of a slider or a hinge, world frame, at t = 0
+  // Of how far it has moved since t = 0 [slider: m, hinge: deg]
+  std::vector<double> limits;  ///< lowest and highest; empty: none
+  double rest = 0;             ///< where its spring is relaxed
+  double stiffness = 0;        ///< [slider: N/m, hinge: N m/rad; 2D: for each metre of depth]
+  double damping = 0;          ///< [slider: N s/m, hinge: N m s/rad; 2D: the same]
 };
 
-/// Present: bodies touch each other and the tank. They do not rebound and do not rub.
-struct Contact {};
+/// Present: bodies touch each other and the tank.
+struct Contact {
+  double friction = 0;     ///< tangential over normal impulse, at most
+  double restitution = 0;  ///< speed of leaving over speed of approach
+};
 
 struct Coupling {
   std::string scheme = "iterated";       ///< "iterated" | "staggered"

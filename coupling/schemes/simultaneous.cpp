@@ -38,8 +38,11 @@ std::string Simultaneous::massless_and_dry() const {
 StepReport Simultaneous::pass_by_pass(Response response, double dt) {
   StepReport report;
   for (report.passes = 1;; ++report.passes) {
-    const auto status = fluid_->solve(
-        {.motion = response.free, .lagged = {}, .directions = response.directions, .known = response.known});
+    const auto status = fluid_->solve({.motion = response.free,
+                                       .lagged = {},
+                                       .directions = response.directions,
+                                       .known = response.known,
+                                       .workless = response.workless});
     if (!status.ok()) {
       report.cause = status.cause;
       return report;

@@ -59,10 +59,21 @@ bool PressureEquation<d>::add_bodies() {
 
 // Directions in which neither body nor water has inertia stay as they are.
 template <int d>
-void PressureEquation<d>::allow(const Eigen::MatrixXd& directions) {
+void PressureEquation<d>::allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless) {
   elimination_.setZero(motions(), motions());
   if (directions.cols() == 0) return;
-  const Eigen::MatrixXd total = algebra::congruence(response_.inertia + added_mass_ + held_inertia_, directions);
+  const Eigen::MatrixXd inertia = response_.inertia + added_mass_ + held_inertia_;
+  if (workless.size() > 0 && workless != directions) {
+    const auto unit = [&](const Eigen::MatrixXd& W) {
+      const Eigen::VectorXd diagonal = algebra::congruence(inertia, W).diagonal();
+      return Eigen::MatrixXd(W *
+                             diagonal.unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 0; }).asDiagonal());
+    };
+    const Eigen::MatrixXd W = unit(directions), tested = unit(workless);
+    elimination_ = W * algebra::pseudo_inverse(tested.transpose() * inertia * W) * tested.transpose();
+    return;
+  }
+  const Eigen::MatrixXd total = algebra::congruence(inertia, directions);
   const Eigen::VectorXd diagonal = total.diagonal();
   Eigen::VectorXd unit(diagonal.size());
   for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = diagonal[i] > 0 ? 1 / std::sqrt(diagonal[i]) : 0.0;

@@ -87,8 +87,9 @@ class PressureEquation {
   /// the factor fails.
   bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Vec<d>> centres,
              const WallResponse<d>& response, std::vector<HeldNode<d>> held = {});
-  /// Restricts the motions to y = directions w, w of any size. All are allowed after build.
-  void allow(const Eigen::MatrixXd& directions);
+  /// Restricts the motions to y = directions w, w of any size, with Newton's law asked for in as many `workless` ones:
+  /// workless^T (M + G) directions w = workless^T impulse. Empty ones: the same. All are allowed after build.
+  void allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless = {});
 
   /// r in flux form at positions `x`, for nodal velocities v and wall twists s about `centres`.
   void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const Twist<d>> s,

@@ -183,10 +183,12 @@ std::optional<Touch<3>> touch_of_edges(const Placed<3>& a, const Edge& on_a, con
 }
 
 template <int d>
-Condition<d> condition(std::size_t a, std::size_t b, const Vec<d>& centre_a, const Vec<d>& centre_b,
-                       const Touch<d>& touch, double dt) {
-  return {a, b, wrench_of<d>(touch.point - centre_a, touch.normal), -wrench_of<d>(touch.foot - centre_b, touch.normal),
-          -touch.gap / dt};
+Contact<d> contact(std::size_t a, std::size_t b, const Vec<d>& centre_a, const Vec<d>& centre_b, const Touch<d>& touch,
+                   double dt) {
+  return {{a, b, wrench_of<d>(touch.point - centre_a, touch.normal), -wrench_of<d>(touch.foot - centre_b, touch.normal),
+           -touch.gap / dt},
+          0.5 * (touch.point + touch.foot),
+          touch.normal};
 }
 
 /// What of a hull may touch another one.
@@ -253,11 +255,11 @@ template <int d>
 Contacts<d>::Contacts(Contacts&&) noexcept = default;
 
 template <int d>
-std::vector<Condition<d>> Contacts<d>::within_reach(std::span<const BodyState<d>> states, double dt) const {
+std::vector<Contact<d>> Contacts<d>::within_reach(std::span<const BodyState<d>> states, double dt) const {
   std::vector<Placed<d>> hulls;
   for (std::size_t i = 0; i < hulls_.size(); ++i) hulls.emplace_back(hulls_[i], states[i], dt);
   const auto centre = [&](std::size_t i) -> Vec<d> { return states[i].pose.translation(); };
-  std::vector<Condition<d>> all;
+  std::vector<Contact<d>> all;
   for (std::size_t a = 0; a < hulls.size(); ++a) {
     for (std::size_t b = 0; b < hulls.size(); ++b) {
       if (a == b || (bodies_[a].motion != Motion::free && bodies_[b].motion != Motion::free)) continue;
@@ -265,11 +267,11 @@ std::vector<Condition<d>> Contacts<d>::within_reach(std::span<const BodyState<d>
       const double reach = near * std::min(hulls[a].size, hulls[b].size) + 2 * (hulls[a].moves + hulls[b].moves);
       if (!hulls[a].is_near(hulls[b], reach)) continue;
       for (const auto& touch : touches_of_vertices<d>(hulls[a], hulls[b], reach))
-        all.push_back(condition<d>(a, b, centre(a), centre(b), touch, dt));
+        all.push_back(contact<d>(a, b, centre(a), centre(b), touch, dt));
       if constexpr (d == 3)
         if (a < b)
           for (const auto& touch : touches_of_edges(hulls[a], hulls[b], reach))
-            all.push_back(condition<3>(a, b, centre(a), centre(b), touch, dt));
+            all.push_back(contact<3>(a, b, centre(a), centre(b), touch, dt));
     }
     if (bodies_[a].motion != Motion::free) continue;
     for (const auto& plane : spec_.planes)
@@ -277,12 +279,40 @@ std::vector<Condition<d>> Contacts<d>::within_reach(std::span<const BodyState<d>
         const Vec<d> x = hulls[a].x.col(v);
         const double gap = plane.normal.dot(x - plane.point);
         if (gap > near * hulls[a].size + 2 * hulls[a].moves) continue;
-        all.push_back({a, {}, wrench_of<d>(x - centre(a), plane.normal), Wrench<d>::Zero(), -gap / dt});
+        all.push_back(
+            {{a, {}, wrench_of<d>(x - centre(a), plane.normal), Wrench<d>::Zero(), -gap / dt}, x, plane.normal});
       }
   }
   return all;
 }
 
+template <int d>
+std::array<Condition<d>, d - 1> rubbing(const Contact<d>& contact, std::span<const BodyState<d>> states) {
+  Eigen::Matrix<double, d, d - 1> along;
+  along.col(0) = contact.normal.unitOrthogonal();
+  if constexpr (d == 3) along.col(1) = contact.normal.cross(along.col(0));
+  std::array<Condition<d>, d - 1> all;
+  for (int k = 0; k < d - 1; ++k) {
+    Condition<d>& rate = all[static_cast<std::size_t>(k)];
+    rate = {contact.body, contact.other,
+            wrench_of<d>(contact.point - states[contact.body].pose.translation(), along.col(k))};
+    if (contact.other)
+      rate.second = -wrench_of<d>(contact.point - states[*contact.other].pose.translation(), along.col(k));
+  }
+  return all;
+}
+
+template <int d>
+double rebound(const Condition<d>& contact, std::span<const BodyState<d>> states, double restitution) {
+  double rate = contact.first.dot(states[contact.body].velocity);
+  if (contact.other) rate += contact.second.dot(states[*contact.other].velocity);
+  return rate < std::min(contact.rate, 0.0) ? -restitution * rate : -std::numeric_limits<double>::infinity();
+}
+
+template std::array<Condition<2>, 1> rubbing(const Contact<2>&, std::span<const BodyState<2>>);
+template std::array<Condition<3>, 2> rubbing(const Contact<3>&, std::span<const BodyState<3>>);
+template double rebound(const Condition<2>&, std::span<const BodyState<2>>, double);
+template double rebound(const Condition<3>&, std::span<const BodyState<3>>, double);
 template class Contacts<2>;
 template class Contacts<3>;
 

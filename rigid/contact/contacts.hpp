@@ -5,10 +5,14 @@
 // for vertices of a near facets and edges of b, in space for convex edges of a that cross convex edges of b, and for all vertices
 // near a plane. A gap closes within the step at most; one that is negative opens.
 //
+// Friction and restitution are laws of closed ones: `rubbing` are the rates along which they slide, `rebound` the least rate with
+// which they open again.
+//
 // Bullet's contact points are not used: its closest points of plane outlines drawn as prisms give one point for two
 // faces that touch, and normals that leave the plane as soon as they do.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <set>
 #include <span>
@@ -31,6 +35,15 @@ struct ContactSpec {
   std::vector<Plane<d>> planes;
   /// Pairs of bodies that do not touch: those that a joint ties, which knows better where they are.
   std::set<std::pair<std::size_t, std::size_t>> apart = {};
+  double friction = 0;     ///< mu: |tangential impulse| <= mu normal impulse (Coulomb)
+  double restitution = 0;  ///< e: speed of leaving over speed of approach (Newton), 0 to 1
+};
+
+/// A place that may be touched, and the condition that hulls do not cross there.
+template <int d>
+struct Contact : Condition<d> {
+  Vec<d> point;   ///< halfway between both, world frame
+  Vec<d> normal;  ///< out of `other`
 };
 
 template <int d>
@@ -44,14 +57,24 @@ class Contacts {
   ~Contacts();
   Contacts(Contacts&&) noexcept;
 
+  const ContactSpec<d>& spec() const { return spec_; }
   /// Those that may close within a step dt from these states.
-  std::vector<Condition<d>> within_reach(std::span<const BodyState<d>> states, double dt) const;
+  std::vector<Contact<d>> within_reach(std::span<const BodyState<d>> states, double dt) const;
 
  private:
   ContactSpec<d> spec_;
   std::span<const BodySpec<d>> bodies_;
   std::vector<Hull<d>> hulls_;
 };
+
+/// Rates of sliding at a contact, along one direction of its plane or two.
+template <int d>
+std::array<Condition<d>, d - 1> rubbing(const Contact<d>& contact, std::span<const BodyState<d>> states);
+
+/// Newton's law of impact: the rate of a contact that the speed of approach closes within the step is at least e times that; else
+/// -infinity.
+template <int d>
+double rebound(const Condition<d>& contact, std::span<const BodyState<d>> states, double restitution);
 
 extern template class Contacts<2>;
 extern template class Contacts<3>;

@@ -1,6 +1,8 @@
 // Light bodies that joints and contacts hold, in water.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
@@ -89,6 +91,79 @@ TEST(Hinged, to_a_fixed_body_is_hinged_to_the_world) {
   EXPECT_NEAR(a->bodies().state(0).velocity[2], b->bodies().state(0).velocity[2], 1e-9);
 }
 
+TEST(Sprung, bodies_of_any_density_on_any_spring_take_one_pass) {
+  for (double ratio : {10.0, 1.0 / 3, 1e-3, 0.0})
+    for (double stiffness : {1.0, 1e4, 1e10}) {
+      auto scene = hinged(ratio);
+      scene.joints[0].spring = rigid::Spring{stiffness, 0.01 * stiffness, 0.2};
+      const auto stepper = scenes::coupled(scene);
+      for (int i = 0; i < 20; ++i) {
+        const auto report = stepper->attempt(1e-3);
+        ASSERT_TRUE(report.ok()) << report.cause;
+        EXPECT_EQ(report.passes, 1) << ratio << ' ' << stiffness;
+        EXPECT_LE(report.residual, 1e-10) << ratio << ' ' << stiffness;
+        stepper->commit();
+      }
+      // Far stronger than anything else, spring and damper draw it to its rest like exp(-k t/c), k/c = 100/s.
+      const double turned = Eigen::Rotation2Dd(stepper->bodies().state(0).pose.linear()).angle() - 0.5;
+      if (stiffness == 1e10) {
+        EXPECT_NEAR(turned, 0.2 * (1 - std::exp(-100 * stepper->time())), 0.05 * 0.2) << ratio << ": k dt/c = 0.1";
+      }
+    }
+}
+
+/// A sphere's plane sister under water that moves up and down only, without gravity: nothing but what acts along y.
+scenes::Scene guided() {
+  scenes::Scene s;
+  s.fluid = fluid::scenes::still_water(4, 3, 0.3);
+  s.fluid.size = {.surface = 0.2, .far = 0.3, .growth = 0.2};
+  s.gravity.setZero();
+  const auto shape = rigid::circle(0.3, 48);
+  s.add_body(shape, 0.2 * water * shape.at_unit_density.mass, {0, -1.5}, 0.08);
+  s.joints.push_back({.type = rigid::JointType::slider, .axis = Eigen::Vector3d::UnitY()});
+  return s;
+}
+
+void run_evenly(coupling::scenes::Watched<2>& stepper, int steps, double dt) {
+  for (int i = 0; i < steps; ++i) {
+    const auto report = stepper.attempt(dt);
+    ASSERT_TRUE(report.ok()) << report.cause;
+    stepper.commit();
+  }
+}
+
+class Push final : public rigid::Force<2> {
+ public:
+  static constexpr double force = 100;  // [N/m]
+  std::string name() const override { return "push"; }
+  rigid::Wrench<2> wrench(const rigid::BodySpec<2>&, const rigid::Isometry<2>&, const rigid::Twist<2>&,
+                          double) const override {
+    return {0, force, 0};
+  }
+};
+
+// w^2 = k/(m + M_a): the mass is that which a force finds, F/a.
+TEST(Sprung, body_swings_with_the_mass_of_water_that_a_force_finds) {
+  auto pushed = guided();
+  pushed.extra_force = [] { return std::make_unique<Push>(); };
+  const auto by_force = scenes::coupled(pushed);
+  constexpr double dt = 2e-3;
+  run_evenly(*by_force, 10, dt);
+  const double mass = Push::force * (by_force->time() - dt / 2) / by_force->bodies().state(0).velocity[1];
+  for (double stiffness : {mass * 100, mass * 1600}) {
+    auto sprung = guided();
+    constexpr double way = 0.01;  // small: the water's mass does not change on it
+    sprung.joints[0].spring = rigid::Spring{stiffness, 0, way};
+    const auto stepper = scenes::coupled(sprung);
+    const double period = 2 * std::numbers::pi * std::sqrt(mass / stiffness);
+    const int steps = static_cast<int>(std::lround(0.5 * period / dt));
+    run_evenly(*stepper, steps, dt);
+    const double t = stepper->time(), w = std::sqrt(stiffness / mass);
+    EXPECT_NEAR(stepper->bodies().state(0).pose.translation().y() + 1.5, way * (1 - std::cos(w * t)), 0.02 * 2 * way)
+        << stiffness << ": half a period later it is on the other side";
+  }
+}
+
 /// Pushes bodies towards x = 0 with 2 m/s^2.
 class Press final : public rigid::Force<2> {
  public:
@@ -166,6 +241,53 @@ TEST(Touching, a_sunken_box_comes_to_rest_on_the_bottom) {
   EXPECT_NEAR(pose.translation().y(), -0.9, 1e-4);
   EXPECT_LE(std::abs(velocity[1]), 1e-6) << "it may glide, the floor is smooth, and neither lift nor turn";
   EXPECT_LE(std::abs(velocity[2]), 1e-6);
+}
+
+/// A box heavier than water that glides over the floor, under water.
+scenes::Scene gliding(double friction) {
+  scenes::Scene s;
+  s.fluid = fluid::scenes::still_water(3, 0.8, 0.1);
+  s.fluid.size = {.surface = 0.1, .far = 0.1, .growth = 0.2};
+  const auto shape = rigid::box(0.4, 0.2);
+  s.add_body(shape, 3 * water * 0.08, {-0.4, -0.7}, 0.05);
+  s.set_velocity(0, {1, 0, 0});
+  s.contacts = rigid::ContactSpec<2>{{{Vec(0, -0.8), Vec(0, 1)}}, {}, friction};
+  return s;
+}
+
+TEST(Rubbing, stops_what_glides_under_water) {
+  const auto stepper = scenes::coupled(gliding(0.5));
+  double dt = 1e-5, start = 0;
+  while (stepper->time() < 1) {
+    dt = std::min({stepper->stable_dt(), 1.5 * dt, 5e-3});
+    const auto report = scenes::attempt_halving(*stepper, dt, 9);
+    ASSERT_TRUE(report.ok()) << stepper->time() << ": " << report.cause;
+    stepper->commit();
+    if (start == 0) start = stepper->bodies().state(0).velocity[0];
+  }
+  const auto& [pose, velocity] = stepper->bodies().state(0);
+  EXPECT_NEAR(pose.translation().y(), -0.7, 1e-6);
+  EXPECT_LE(velocity.norm(), 1e-9) << "what sticks does not move";
+  // No water gets under it: the floor bears its weight and that of the water above it, as much again, 2 m g. The mass of
+  // water that the start takes along, m/(m + M_a) = v_0 / 1 m/s, is slowed too: v_0^2 (m + M_a)/(2 mu 2 m g).
+  EXPECT_NEAR(pose.translation().x() + 0.4, start / (2 * 0.5 * 2 * g), 0.1 * start / (2 * 0.5 * 2 * g))
+      << "waves, drag";
+}
+
+TEST(Rubbing, is_the_same_to_accelerators_without_the_term) {
+  const auto after = [](const std::unique_ptr<coupling::scenes::Watched<2>>& stepper) {
+    for (int i = 0; i < 20; ++i) {
+      const auto report = stepper->attempt(2e-3);
+      EXPECT_TRUE(report.ok()) << report.cause;
+      stepper->commit();
+    }
+    return stepper->bodies().state(0).velocity[0];
+  };
+  const double smooth = after(scenes::coupled(gliding(0))), rough = after(scenes::coupled(gliding(0.5))),
+               found = after(scenes::coupled(gliding(0.5), std::make_unique<coupling::NoTerm>(),
+                                             std::make_unique<coupling::IqnIls>(1.0)));
+  EXPECT_LT(rough, smooth);
+  EXPECT_NEAR(found, rough, 0.02 * (smooth - rough)) << "to the corrections of the pressure";
 }
 
 }  // namespace

@@ -124,7 +124,12 @@ std::vector<rigid::JointSpec> joint_specs(const Scene& scene) {
                                              : rigid::JointType::hinge;
     // A weld has no place of its own; the body's reference point is as good as any.
     const Point point = joint.type == "hinge" ? joint.point : scene.bodies[joint.body].position;
-    specs.push_back({type, joint.body, joint.other, point, joint.axis.normalized()});
+    rigid::JointSpec spec{type, joint.body, joint.other, point, joint.axis.normalized()};
+    const double unit = joint.type == "hinge" ? radians : 1;
+    if (!joint.limits.empty()) spec.stops = {unit * joint.limits[0], unit * joint.limits[1]};
+    if (joint.stiffness > 0 || joint.damping > 0)
+      spec.spring = rigid::Spring{joint.stiffness, joint.damping, unit * joint.rest};
+    specs.push_back(spec);
   }
   return specs;
 }
@@ -133,6 +138,8 @@ template <int d>
 std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene) {
   if (!scene.contact) return {};
   rigid::ContactSpec<d> spec;
+  spec.friction = scene.contact->friction;
+  spec.restitution = scene.contact->restitution;
   if (!scene.tank) return spec;
   for (int k = 0; k < d; ++k) spec.planes.push_back({vec<d>(scene.tank->min), Vec<d>::Unit(k)});
   for (int k = 0; k < d; ++k) spec.planes.push_back({vec<d>(scene.tank->max), -Vec<d>::Unit(k)});

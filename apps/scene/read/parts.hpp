@@ -15,6 +15,7 @@ std::vector<std::string> body_names(const Scene& scene);
 std::optional<std::size_t> read_body_name(Reader& reader, std::string_view key, const Scene& scene, Need need,
                                           const std::string& what);
 std::optional<Joint> read_joint(Reader& reader, const Scene& scene);
+void read_contact(Reader& reader, Contact& contact);
 void read_record(Reader& reader, Scene& scene);
 void read_coupling(Reader& reader, Coupling& coupling);
 

@@ -85,7 +85,7 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     labels.joints.push_back(reader.path());
     scene.joints.push_back(*joint);
   });
-  if (root.table("contact")) scene.contact.emplace();
+  if (auto contact = root.table("contact")) read_contact(*contact, scene.contact.emplace());
   scene.time.dt_max = default_dt_max(scene);
   time.number("dt_max", scene.time.dt_max,
               refined(positive("s", "Leave it out for a sensible value."), refine_of(scene)));

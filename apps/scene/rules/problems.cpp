@@ -97,9 +97,9 @@ void Problems::throw_if_any() const {
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& valid) {
-  // Who forgets a unit or stops early means the longer word: pitch is pitch_deg, not path.
+  // A unit too few or too many: pitch is pitch_deg, not path; limits_deg of a slider are limits.
   for (const auto& candidate : valid)
-    if (word.size() >= 3 && candidate.starts_with(word + "_")) return candidate;
+    if ((word.size() >= 3 && candidate.starts_with(word + "_")) || word == candidate + "_deg") return candidate;
   std::string best;
   // Beyond a third of the letters the words have nothing to do with each other.
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;

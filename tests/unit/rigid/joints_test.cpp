@@ -214,5 +214,18 @@ TEST(Joint, that_ties_nothing_is_refused) {
   refused({.body = 0, .axis = {0, 0, 0}});
 }
 
+TEST(Slider, does_not_turn_about_its_axis_from_the_first_step_on) {
+  BodySpec<3> spec = free_body<3>(2, Inertia<3>::Identity());
+  Bodies<3> bodies({spec}, {}, {{.type = JointType::slider, .axis = Eigen::Vector3d::UnitX()}});
+  for (int i = 0; i < 3; ++i) {
+    bodies.begin(1e-3, 1e-3);
+    Wrench<3> load = Wrench<3>::Zero();
+    if (i > 0) load << 1, 2, 3, 40, 50, 60;
+    bodies.solve(std::vector{load});
+    bodies.commit();
+    EXPECT_LE(bodies.state(0).velocity.tail<5>().norm(), 1e-12) << i;
+  }
+}
+
 }  // namespace
 }  // namespace splashdown::rigid

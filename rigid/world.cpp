@@ -1,0 +1,291 @@
+#include "rigid/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "rigid/embedding.hpp"
+#include "rigid/message.hpp"
+
+namespace splashdown::rigid {
+
+namespace {
+
+/// Weight of the later one of two velocities for which the step's damping of a mass, exp(-z) after z = c dt/m, is exact
+/// (exponential fitting, Liniger and Willoughby 1970): 1/2 + z/12 + ... to 1.
+double weight_of_later(double z) {
+  if (z < 1e-3) return 0.5 + z / 12;
+  return std::isfinite(z) ? -1 / std::expm1(-z) - 1 / z : 1;
+}
+
+}  // namespace
+
+template <int d>
+void Bodies<d>::World::expect(bool fine, const char* rule) const {
+  if (!fine) throw std::logic_error(message("bodies at t = ", time, " s: ", rule));
+}
+
+template <int d>
+void Bodies<d>::World::expect_all(const Eigen::VectorXd& values) const {
+  if (values.size() != freedoms<d> * size())
+    throw std::invalid_argument(message("bodies: ", values.size(), " values for the ", freedoms<d> * size(),
+                                        " coordinates of ", size(), " bodies"));
+}
+
+template <int d>
+Eigen::VectorXd Bodies<d>::World::stacked(std::span<const Wrench<d>> each) const {
+  if (each.size() != specs.size())
+    throw std::invalid_argument(message("bodies: values for ", each.size(), " of ", specs.size(), " bodies"));
+  Eigen::VectorXd all(freedoms<d> * size());
+  for (Eigen::Index i = 0; i < size(); ++i)
+    all.segment<freedoms<d>>(freedoms<d> * i) = each[static_cast<std::size_t>(i)];
+  return all;
+}
+
+template <int d>
+Wrench<d> Bodies<d>::World::known_force(std::size_t i) const {
+  Wrench<d> sum = Wrench<d>::Zero();
+  for (const auto& force : forces) sum += force->wrench(specs[i], states[i].pose, states[i].velocity, time);
+  return sum;
+}
+
+template <int d>
+BodyState<d> Bodies<d>::World::prescribed(std::size_t i) const {
+  const Isometry<d> to = specs[i].path(time + dt);
+  const Isometry<3> from_space = lifted<d>(states[i].pose), to_space = lifted<d>(to);
+  Twist<3> displacement;
+  displacement << to_space.translation() - from_space.translation(),
+      rotation_log(to_space.linear() * from_space.linear().transpose());
+  return {to, embedding<d>().transpose() * displacement / dt};
+}
+
+template <int d>
+void Bodies<d>::World::place(Eigen::Index i, const BodyState<d>& state) {
+  bullet.place(static_cast<std::size_t>(i), lifted<d>(state.pose), embedding<d>() * state.velocity);
+}
+
+template <int d>
+std::vector<Condition<d>> Bodies<d>::World::asked_by_joints() {
+  std::vector<Condition<d>> all;
+  const auto lift = embedding<d>();
+  for (const auto& c : bullet.conditions(dt))
+    all.push_back({c.body, c.other, lift.transpose() * c.first, lift.transpose() * c.second, c.rate});
+  return all;
+}
+
+template <int d>
+std::vector<Condition<d>> Bodies<d>::World::equalities() {
+  std::vector<Condition<d>> all = tied;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const Twist<d>& velocity = movers[i] ? states[i].velocity : trials[i].velocity;
+    for (int k = 0; k < freedoms<d>; ++k)
+      if (!movers[i] || !specs[i].free[static_cast<std::size_t>(k)])
+        all.push_back({i, {}, Wrench<d>::Unit(k), Wrench<d>::Zero(), velocity[k]});
+  }
+  return all;
+}
+
+template <int d>
+void Bodies<d>::World::fill(const std::vector<Condition<d>>& conditions, Eigen::MatrixXd& rows,
+                            Eigen::VectorXd& rates) const {
+  rows.setZero(static_cast<Eigen::Index>(conditions.size()), freedoms<d> * size());
+  rates.resize(rows.rows());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    const auto& c = conditions[static_cast<std::size_t>(r)];
+    rows.template block<1, freedoms<d>>(r, freedoms<d> * static_cast<Eigen::Index>(c.body)) += c.first.transpose();
+    if (c.other)
+      rows.template block<1, freedoms<d>>(r, freedoms<d> * static_cast<Eigen::Index>(*c.other)) += c.second.transpose();
+    rates[r] = c.rate;
+  }
+}
+
+template <int d>
+void Bodies<d>::World::find_contacts() {
+  near.clear();
+  rubbing.clear();
+  rebound.resize(0);
+  if (!contacts) return;
+  const auto touching = contacts->within_reach(states, dt);
+  near.assign(touching.begin(), touching.end());
+  if (contacts->spec().friction > 0)
+    for (const auto& contact : touching)
+      std::ranges::copy(rigid::rubbing<d>(contact, states), std::back_inserter(rubbing));
+  if (contacts->spec().restitution == 0) return;
+  rebound.resize(static_cast<Eigen::Index>(near.size()));
+  for (std::size_t c = 0; c < near.size(); ++c)
+    rebound[static_cast<Eigen::Index>(c)] = rigid::rebound<d>(near[c], states, contacts->spec().restitution);
+}
+
+template <int d>
+void Bodies<d>::World::find_stops_and_springs() {
+  sprung.clear();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const JointSpec& joint = joints[j];
+    if (!joint.measured()) continue;
+    const auto in_space = bullet.coordinate(j);
+    const auto lift = embedding<d>();
+    const Condition<3>& rate = in_space.rate;
+    if (joint.type == JointType::hinge)  // no step turns it by half a turn
+      moved[j] += std::remainder(in_space.q - moved[j], 2 * std::numbers::pi);
+    else
+      moved[j] = in_space.q;
+    const JointCoordinate<d> at{moved[j],
+                                {rate.body, rate.other, lift.transpose() * rate.first, lift.transpose() * rate.second}};
+    if (joint.spring) sprung.push_back({*joint.spring, at});
+    for (const double way : {1.0, -1.0}) {
+      const double stop = joint.stops[way > 0 ? 0 : 1];
+      if (!std::isfinite(stop)) continue;
+      near.push_back(
+          {at.rate.body, at.rate.other, way * at.rate.first, way * at.rate.second, way * (stop - at.q) / dt});
+    }
+  }
+}
+
+template <int d>
+double Bodies<d>::World::compliance(const Condition<d>& rate) const {
+  const auto of = [&](std::size_t body, const Wrench<d>& wrench) {
+    if (!movers[body]) return 0.;
+    if (specs[body].mass == 0) return std::numeric_limits<double>::infinity();
+    const auto lift = embedding<d>();
+    return wrench.dot((lift.transpose() * movers[body]->inertia() * lift).ldlt().solve(wrench));
+  };
+  return of(rate.body, rate.first) + (rate.other ? of(*rate.other, rate.second) : 0.);
+}
+
+template <int d>
+void Bodies<d>::World::find_motions() {
+  for (Eigen::Index i = 0; i < size(); ++i) place(i, states[static_cast<std::size_t>(i)]);
+  tied = asked_by_joints();
+  find_contacts();
+  find_stops_and_springs();
+  solve_conditions();
+  if (tied.empty()) return;
+  // Joints are met at x_{n+1}, but for what the fluid's load adds to the curvature of the way there (SHAKE, Ryckaert,
+  // Ciccotti, Berendsen 1977): what a trial step without the load still violates goes into the rates.
+  constexpr int trials_enough = 3;  // quadratic: (w dt)^2, ^4, ^8
+  for (int k = 0; k < trials_enough; ++k) {
+    drift(motions.velocity(Eigen::VectorXd::Zero(freedoms<d> * size())));
+    for (Eigen::Index i = 0; i < size(); ++i) place(i, trials[static_cast<std::size_t>(i)]);
+    const auto at_end = asked_by_joints();
+    for (std::size_t c = 0; c < tied.size(); ++c) tied[c].rate += at_end[c].rate;
+    solve_conditions();
+  }
+}
+
+template <int d>
+void Bodies<d>::World::solve_conditions() {
+  Motions::Problem p;
+  p.before.setZero(freedoms<d> * size());
+  p.unit.setOnes(freedoms<d> * size());
+  p.inertia.setZero(freedoms<d> * size(), freedoms<d> * size());
+  p.impulse.setZero(freedoms<d> * size());
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const auto b = static_cast<std::size_t>(i);
+    p.unit.segment(freedoms<d> * i + d, rotations<d>).setConstant(reach(specs[b]));
+    p.before.segment<freedoms<d>>(freedoms<d> * i) = states[b].velocity;
+    if (!movers[b]) continue;
+    p.inertia.block<freedoms<d>, freedoms<d>>(freedoms<d> * i, freedoms<d> * i) =
+        embedding<d>().transpose() * movers[b]->inertia() * embedding<d>();
+    p.impulse.segment<freedoms<d>>(freedoms<d> * i) = embedding<d>().transpose() * movers[b]->impulse();
+  }
+  fill(equalities(), p.equalities, p.equal);
+  fill(near, p.contacts, p.least);
+  Eigen::VectorXd unused;
+  fill(rubbing, p.tangents, unused);
+  p.rubbing = static_cast<int>(rubbing.size()) / (d - 1);
+  constexpr double flush = 1e-10;  // of the bodies' lengths: what positions do not resolve
+  p.resolution = flush * p.unit.maxCoeff() / dt;
+  part_overlaps(p);
+  p.least = p.least.cwiseMin(0);
+  p.least.head(rebound.size()) = p.least.head(rebound.size()).cwiseMax(rebound);
+  if (contacts) p.friction = contacts->spec().friction;
+  add_springs(p);
+  motions = Motions(p);
+}
+
+template <int d>
+void Bodies<d>::World::part_overlaps(Motions::Problem p) {
+  apart.setZero(freedoms<d> * size());
+  if ((p.least.array() <= p.resolution).all()) return;
+  p.before.setZero();
+  p.equal.setZero();
+  p.impulse.setZero();
+  p.rubbing = 0;
+  p.tangents.resize(0, p.tangents.cols());
+  Motions parting(p);
+  if (const auto found = settled(parting, p.impulse)) apart = *found;
+}
+
+template <int d>
+void Bodies<d>::World::add_springs(Motions::Problem& p) const {
+  const double dt_before = 2 * kick - dt;
+  for (const auto& [spring, at] : sprung) {
+    Eigen::MatrixXd row;
+    Eigen::VectorXd unused;
+    fill({at.rate}, row, unused);
+    const double q_rate = (row * p.before)[0];
+    const double lag = at.q - spring.rest + (dt - dt_before) / 4 * q_rate;
+    const double later = weight_of_later(kick * spring.damping * compliance(at.rate));
+    p.impulse -= kick * (spring.stiffness * lag + spring.damping * q_rate) * row.transpose();
+    p.inertia += kick * (spring.stiffness * dt / 4 + later * spring.damping) * row.transpose() * row;
+  }
+}
+
+template <int d>
+std::optional<Eigen::VectorXd> Bodies<d>::World::settled(Motions& motions, const Eigen::VectorXd& impulses) {
+  constexpr int most = 100;  // more changes than contacts in a scene
+  Eigen::VectorXd velocity = motions.velocity(impulses);
+  for (int i = 0; motions.update_contacts(velocity, impulses); ++i) {
+    if (i == most) return {};
+    velocity = motions.velocity(impulses);
+  }
+  return velocity;
+}
+
+template <int d>
+void Bodies<d>::World::drift(const Eigen::VectorXd& velocities) {
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (!movers[i]) continue;
+    const Twist<d> s = velocities.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
+    const Twist<d> moves = s + apart.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
+    bullet.place(i, lifted<d>(states[i].pose), embedding<d>() * (s.allFinite() ? moves : Twist<d>::Zero().eval()));
+  }
+  bullet.drift(dt);
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (!movers[i]) continue;
+    trials[i] = {lowered<d>(bullet.pose(i)),
+                 velocities.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i))};
+    if (!trials[i].velocity.allFinite())
+      trials[i].pose.matrix().template topRows<d>().setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  phase = Phase::solved;
+}
+
+template <int d>
+Status Bodies<d>::World::passes_through() const {
+  if (!contacts) return {};
+  std::vector<BodyState<d>> reaching = states;
+  bool faster = false;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    faster = faster || trials[i].velocity.norm() > states[i].velocity.norm();
+    reaching[i].velocity = trials[i].velocity;
+  }
+  if (!faster) return {};
+  for (const Condition<d>& c : contacts->within_reach(reaching, dt)) {
+    if (std::ranges::any_of(near, [&](const Condition<d>& n) { return n.body == c.body && n.first == c.first; }))
+      continue;
+    double rate = c.first.dot(trials[c.body].velocity), speed = trials[c.body].velocity.norm();
+    if (c.other) rate += c.second.dot(trials[*c.other].velocity), speed += trials[*c.other].velocity.norm();
+    constexpr double crossed = 1e-6;  // of the speed: roundoff
+    if (rate < std::min(c.rate, 0.0) - crossed * speed * (1 + reach(specs[c.body])))
+      return {message("a body passes through what it touches within the step: \"", specs[c.body].name, "\"")};
+  }
+  return {};
+}
+
+template struct Bodies<2>::World;
+template struct Bodies<3>::World;
+
+}  // namespace splashdown::rigid

@@ -1,0 +1,191 @@
+// Laws of bodies that rub and rebound.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "rigid/shapes/shapes.hpp"
+#include "rigid/shapes/solids.hpp"
+#include "tests/unit/rigid/scenes.hpp"
+
+namespace splashdown::rigid {
+namespace {
+
+constexpr double g = 9.81;
+
+template <int d>
+BodySpec<d> of_shape(const Shape<d>& shape, const Vec<d>& centre, double mass = 2) {
+  const auto properties = with_mass<d>(shape.at_unit_density, mass);
+  BodySpec<d> spec = free_body<d>(mass, properties.inertia);
+  spec.surface = centred<d>(shape.surface, properties.centre);
+  spec.pose.translation() = centre;
+  return spec;
+}
+
+template <int d>
+std::vector<std::unique_ptr<Force<d>>> pull(const Vec<d>& acceleration) {
+  std::vector<std::unique_ptr<Force<d>>> forces;
+  forces.push_back(std::make_unique<Gravity<d>>(acceleration));
+  return forces;
+}
+
+template <int d>
+void run(Bodies<d>& bodies, int steps, double dt = 1e-3, bool first = true) {
+  for (int i = 0; i < steps; ++i) {
+    bodies.begin(first && i == 0 ? dt / 2 : dt, dt);
+    bodies.solve(std::vector<Wrench<d>>(bodies.size(), Wrench<d>::Zero()));
+    bodies.commit();
+  }
+}
+
+template <int d>
+ContactSpec<d> floor_with(double friction, double restitution = 0) {
+  return {{{Vec<d>::Zero(), Vec<d>::Unit(d - 1)}}, {}, friction, restitution};
+}
+
+template <int d>
+ContactSpec<d> hulls_with(double friction, double restitution = 0) {
+  return {{}, {}, friction, restitution};
+}
+
+template <int d>
+double kinetic(const Bodies<d>& bodies) {
+  double sum = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto& spec = bodies.spec(b);
+    const auto& [pose, s] = bodies.state(b);
+    sum += 0.5 * spec.mass * s.template head<d>().squaredNorm();
+    const Rotation<d> w = s.template tail<rotations<d>>();
+    if constexpr (d == 2)
+      sum += 0.5 * spec.inertia(0, 0) * w[0] * w[0];
+    else
+      sum += 0.5 * w.dot(pose.linear() * spec.inertia * pose.linear().transpose() * w);
+  }
+  return sum;
+}
+
+// tan(0.3) = 0.309: less friction lets it slide with g (sin - mu cos), more holds it.
+TEST(Friction, holds_a_box_on_a_slope_or_slows_it_as_coulomb_says) {
+  const double slope = 0.3;
+  const Vec<2> down(std::sin(slope), -std::cos(slope));
+  for (const double mu : {0.1, 0.25, 0.3, 0.32, 0.8}) {
+    Bodies<2> bodies({of_shape<2>(box(0.4, 0.2), {0, 0.1})}, pull<2>(g * down), {}, floor_with<2>(mu));
+    run(bodies, 1000);
+    const double a = std::max(0.0, g * (std::sin(slope) - mu * std::cos(slope)));
+    // Of the normal force, friction is found to a thousandth.
+    EXPECT_NEAR(bodies.state(0).pose.translation().x(), 0.5 * a, 0.5e-3 * mu * g + 1e-6) << mu;
+    EXPECT_NEAR(bodies.state(0).pose.translation().y(), 0.1, 1e-9) << mu;
+    EXPECT_NEAR(bodies.state(0).velocity[2], 0, 1e-6) << mu;
+  }
+}
+
+TEST(Friction, acts_against_the_motion_whatever_its_direction) {
+  for (const double heading : {0.0, 0.4, 1.1, 2.9, 4.5}) {
+    BodySpec<3> spec = of_shape<3>(box(Vec<3>(0.4, 0.4, 0.1)), {0, 0, 0.05});
+    const Vec<3> along(std::cos(heading), std::sin(heading), 0);
+    spec.velocity.head<3>() = 2 * along;
+    const double mu = 0.3;
+    Bodies<3> bodies({spec}, pull<3>({0, 0, -g}), {}, floor_with<3>(mu));
+    run(bodies, 400);
+    const double t = 0.4;
+    EXPECT_NEAR((bodies.state(0).velocity.head<3>() - (2 - mu * g * t) * along).norm(), 0,
+                2e-3 * mu * g * t + 0.5e-3 * mu * g)
+        << heading;
+    run(bodies, 600, 1e-3, false);
+    EXPECT_NEAR(bodies.state(0).velocity.norm(), 0, 1e-9) << "it has come to rest";
+    EXPECT_NEAR(bodies.state(0).pose.translation().head<2>().norm(), 2 * 2 / (2 * mu * g),
+                0.003 * 2 * 2 / (2 * mu * g) + 2e-3);
+  }
+}
+
+// A ball that slides begins to roll: with I = m r^2 / 2 a disc keeps two thirds of its speed. A polygon of n sides loses
+// 2 sin^2(pi / n) of its energy at each corner that it rolls over, here 128 sides over one turn: 0.15 of the last.
+TEST(Friction, makes_a_sliding_disc_roll) {
+  Shape<2> disc = circle(0.25);
+  BodySpec<2> spec = of_shape<2>(disc, {0, 0.25});
+  const double lowest = spec.surface.vertices.row(1).minCoeff();
+  spec.pose.translation().y() = -lowest;
+  spec.velocity << 1, 0, 0;
+  const double mu = 0.5, slides = 1 / (3 * mu * g);  // [s] until it rolls
+  Bodies<2> bodies({spec}, pull<2>({0, -g}), {}, floor_with<2>(mu));
+  run(bodies, static_cast<int>(1.5 * slides / 1e-4), 1e-4);
+  const auto& s = bodies.state(0).velocity;
+  EXPECT_NEAR(s[0], 2. / 3, 0.02);
+  EXPECT_NEAR(s[2] * 0.25, -s[0], 0.03) << "no slip";
+}
+
+TEST(Friction, between_bodies_keeps_both_momenta_and_gives_no_energy) {
+  for (int k = 0; k < 30; ++k) {
+    std::mt19937 random(static_cast<unsigned>(k));
+    std::uniform_real_distribution<double> u(-1, 1);
+    BodySpec<2> a = of_shape<2>(box(0.3, 0.2), {0, 0}), b = of_shape<2>(box(0.25, 0.3), {0.45, 0.1 * u(random)}, 0.5);
+    a.pose.rotate(u(random)), b.pose.rotate(u(random));
+    a.velocity << 1, u(random), 3 * u(random);
+    b.velocity << -1, u(random), 3 * u(random);
+    Bodies<2> bodies({a, b}, {}, {}, hulls_with<2>(0.5));
+    double energy = kinetic<2>(bodies);
+    for (int i = 0; i < 400; ++i) {
+      const auto before = std::vector(bodies.states().begin(), bodies.states().end());
+      run(bodies, 1);
+      Eigen::Vector3d given = Eigen::Vector3d::Zero();  // impulses and their moments, at x_n
+      for (std::size_t b : {0u, 1u}) {
+        const Twist<2> change = bodies.state(b).velocity - before[b].velocity;
+        const Vec<2> x = before[b].pose.translation(), p = bodies.spec(b).mass * change.head<2>();
+        given +=
+            Eigen::Vector3d(p.x(), p.y(), x.x() * p.y() - x.y() * p.x() + bodies.spec(b).inertia(0, 0) * change[2]);
+      }
+      ASSERT_NEAR(given.norm(), 0, 1e-12) << "pair " << k << ", step " << i;
+      ASSERT_LE(kinetic<2>(bodies), energy * (1 + 1e-9)) << "pair " << k << ", step " << i;
+      energy = kinetic<2>(bodies);
+    }
+  }
+}
+
+TEST(Friction, holds_a_stack_on_a_slope) {
+  const double slope = 0.15;
+  std::vector<BodySpec<2>> stack;
+  for (int i = 0; i < 4; ++i) stack.push_back(of_shape<2>(box(1, 0.2), {0, 0.1 + 0.2 * i}, i % 2 == 0 ? 1 : 100));
+  Bodies<2> bodies(stack, pull<2>({g * std::sin(slope), -g * std::cos(slope)}), {}, floor_with<2>(0.3));
+  run(bodies, 500);
+  for (std::size_t i = 0; i < stack.size(); ++i)
+    EXPECT_NEAR((bodies.state(i).pose.matrix() - stack[i].pose.matrix()).norm(), 0, 1e-6) << i;
+}
+
+// v_n = e^n v_0; the impact is taken at the step's beginning, up to v dt above the floor.
+TEST(Restitution, returns_a_share_of_the_speed) {
+  for (const double e : {0.0, 0.3, 0.8, 1.0}) {
+    Bodies<2> bodies({of_shape<2>(box(0.4, 0.2), {0, 0.6})}, pull<2>({0, -g}), {}, floor_with<2>(0, e));
+    const double height = 0.5, fall = std::sqrt(2 * height / g), dt = 1e-4;
+    double highest = 0;
+    run(bodies, static_cast<int>(1.001 * fall / dt), dt);
+    for (int i = 0; i < static_cast<int>(2 * e * fall / dt); ++i) {
+      run(bodies, 1, dt, false);
+      highest = std::max(highest, bodies.state(0).pose.translation().y() - 0.1);
+    }
+    const double way = std::sqrt(2 * g * height) * dt;  // of a step at the impact
+    EXPECT_NEAR(highest, e * e * height, 2 * way + 1e-9) << e;
+  }
+}
+
+TEST(Restitution, of_two_bodies_keeps_their_momentum) {
+  for (const double e : {0.2, 0.7, 1.0}) {
+    BodySpec<2> a = of_shape<2>(box(1, 1), {0, 0}), b = of_shape<2>(box(1, 1), {1.5, 0}, 3);
+    a.velocity << 4, 0, 0;
+    b.velocity << -1, 0, 0;
+    Bodies<2> bodies({a, b}, {}, {}, hulls_with<2>(0, e));
+    run(bodies, 200);
+    const double va = bodies.state(0).velocity[0], vb = bodies.state(1).velocity[0];
+    EXPECT_NEAR(vb - va, e * 5, 1e-9);
+    EXPECT_NEAR(2 * va + 3 * vb, 5, 1e-9);
+  }
+}
+
+TEST(Restitution, comes_to_rest_in_the_end) {
+  Bodies<2> bodies({of_shape<2>(box(0.4, 0.2), {0, 0.2})}, pull<2>({0, -g}), {}, floor_with<2>(0.4, 0.6));
+  run(bodies, 3000);
+  EXPECT_NEAR(bodies.state(0).pose.translation().y(), 0.1, 1e-4);
+  EXPECT_LE(bodies.state(0).velocity.norm(), g * 1e-3) << "what gravity gives in a step";
+}
+
+}  // namespace
+}  // namespace splashdown::rigid
