@@ -22,10 +22,11 @@ Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::Matrix
 
 Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible) {
   const Eigen::Index n = A.cols();
-  if (A.rows() == 0 || n == 0) return {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n)};
+  if (A.rows() == 0 || n == 0)
+    return {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Identity(A.rows(), A.rows())};
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
   svd.setThreshold(negligible);
-  return {svd.solve(b), svd.matrixV().rightCols(n - svd.rank())};
+  return {svd.solve(b), svd.matrixV().rightCols(n - svd.rank()), svd.matrixU().rightCols(A.rows() - svd.rank())};
 }
 
 }  // namespace splashdown::algebra

@@ -26,6 +26,7 @@ Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::Matrix
 struct Solutions {
   Eigen::VectorXd point;
   Eigen::MatrixXd directions;
+  Eigen::MatrixXd idle;  ///< combinations of conditions that repeat each other, idle^T A = 0; orthonormal
 };
 Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible);
 

@@ -111,6 +111,8 @@ void Bodies<d>::begin(double kick, double dt) {
     if (w.specs[i].motion == Motion::prescribed) w.trials[i] = w.prescribed(i);
   }
   w.find_motions();
+  w.guess_contacts();
+  w.impulses.resize(0);
   w.phase = World::Phase::begun;
 }
 
@@ -140,7 +142,9 @@ std::span<const BodyState<d>> Bodies<d>::solve(const Eigen::VectorXd& impulses) 
   World& w = *world_;
   w.expect(w.phase != World::Phase::committed, "solve needs begin first");
   w.expect_all(impulses);
+  w.motions.forget_changes();
   const auto velocity = w.settled(w.motions, impulses);
+  w.impulses = impulses;
   w.drift(velocity ? *velocity : Eigen::VectorXd::Constant(impulses.size(), std::numeric_limits<double>::quiet_NaN()));
   return w.trials;
 }
@@ -162,6 +166,7 @@ bool Bodies<d>::update_contacts(const Eigen::VectorXd& impulses) {
   Eigen::VectorXd velocities(freedoms<d> * w.size());
   for (Eigen::Index i = 0; i < w.size(); ++i)
     velocities.segment<freedoms<d>>(freedoms<d> * i) = w.trials[static_cast<std::size_t>(i)].velocity;
+  w.impulses = impulses;
   return w.motions.update_contacts(velocities, impulses);
 }
 
@@ -187,6 +192,8 @@ void Bodies<d>::commit() {
   }
   w.states = w.trials;
   w.time += w.dt;
+  const bool may_touch = w.contacts || std::ranges::any_of(w.joints, &JointSpec::measured);
+  if (may_touch && w.impulses.size() > 0) w.loads = w.impulses / w.kick;
   w.phase = World::Phase::committed;
 }
 
@@ -203,6 +210,9 @@ void Bodies<d>::save(std::ostream& out) const {
   }
   for (std::size_t j = 0; j < w.joints.size(); ++j)
     if (w.joints[j].measured()) write(out, &w.moved[j], 1);
+  const double loads = static_cast<double>(w.loads.size());
+  write(out, &loads, 1);
+  write(out, w.loads.data(), w.loads.size());
 }
 
 template <int d>
@@ -220,9 +230,15 @@ void Bodies<d>::load(std::istream& in) {
   }
   for (std::size_t j = 0; j < w.joints.size(); ++j)
     if (w.joints[j].measured()) read(in, &w.moved[j], 1);
+  double loads = 0;
+  read(in, &loads, 1);
+  if (loads != 0 && loads != static_cast<double>(freedoms<d> * w.size()))
+    throw std::runtime_error("the bodies' loads are damaged");
+  w.loads.resize(static_cast<Eigen::Index>(loads));
+  read(in, w.loads.data(), w.loads.size());
   if (!in) throw std::runtime_error("ends in the middle of the bodies");
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
-  bool good = std::isfinite(w.time);
+  bool good = std::isfinite(w.time) && w.loads.allFinite();
   for (const auto& state : w.states)
     good = good && state.pose.matrix().allFinite() && state.pose.linear().isUnitary(roundoff) &&
            state.velocity.allFinite();

@@ -74,10 +74,7 @@ Eigen::MatrixXd Motions::pushing() const {
       rows.row(next) -= friction_ * ways_.col(c).transpose() * tangents_.middleRows(ways_.rows() * c, ways_.rows());
     ++next;
   }
-  // Of contacts that repeat each other, impulses are those of least norm.
-  const Eigen::MatrixXd idle =
-      algebra::solutions_of(held().transpose(), Eigen::VectorXd::Zero(rows.cols()), negligible).directions;
-  return rows - idle * (idle.transpose() * rows);
+  return rows;
 }
 
 void Motions::restrict() {
@@ -87,9 +84,13 @@ void Motions::restrict() {
   const algebra::Solutions left = algebra::solutions_of(held(), rates, negligible);
   pushed_ = left.point;
   workless_ = directions_ = left.directions;
+  pushing_.resize(0, 0);
   rubs_ = !ways_.isZero(0);
   if (!rubs_) return;
-  workless_ = algebra::solutions_of(pushing(), Eigen::VectorXd::Zero(rates.size()), negligible).directions;
+  pushing_ = pushing();
+  // Of contacts that repeat each other, impulses are those of least norm.
+  pushing_ -= left.idle * (left.idle.transpose() * pushing_);
+  workless_ = algebra::solutions_of(pushing_, Eigen::VectorXd::Zero(rates.size()), negligible).directions;
   if (workless_.cols() == directions_.cols()) return;
   workless_ = directions_;  // some push and rub along one line: as if they did not rub
   rubs_ = false;
@@ -117,7 +118,7 @@ bool Motions::update_contacts(const Eigen::VectorXd& velocity, const Eigen::Vect
   const Eigen::VectorXd y = amplitudes(velocity);
   // Impulses r, t of what is held: its rows, transposed, balance with them what is left.
   const Eigen::VectorXd left = -unspent(velocity, impulse);
-  const Eigen::MatrixXd rows = rubs_ ? pushing() : held();
+  const Eigen::MatrixXd rows = rubs_ ? pushing_ : held();
   Eigen::VectorXd pushes(rows.rows());
   if (rows.rows() > 0) pushes = algebra::least_squares(rows.transpose(), left);
   const Found found{.closed = closed_,
@@ -171,8 +172,10 @@ bool Motions::open_and_close(const Eigen::VectorXd& rate, const Eigen::MatrixXd&
 }
 
 bool Motions::stick_and_slide(const Eigen::MatrixXd& slide, const Found& found) {
-  if (sticks_.empty() || smooth_) return false;
-  constexpr double settled = 1e-3;  // mu is known to two digits
+  // Rounds after which directions, and what sticks, stay: friction takes energy all the same.
+  constexpr int turning = 5, sliding = 15;
+  if (sticks_.empty() || smooth_ || changes_ >= sliding) return false;
+  constexpr double settled = 0.02;  // [rad]: mu is known to two digits
   bool any = false;
   Eigen::Index push = 0, pull = count(found.closed);
   for (std::size_t i = 0; i < sticks_.size(); ++i) {
@@ -186,8 +189,10 @@ bool Motions::stick_and_slide(const Eigen::MatrixXd& slide, const Found& found) 
       sticks_[i] = 0;
       ways_.col(c) = -pulls.normalized();
       any = true;
-    } else if (slide.col(c).norm() > found.slow && (slide.col(c).normalized() - ways_.col(c)).norm() > settled) {
-      ways_.col(c) = slide.col(c).normalized();
+    } else if (changes_ < turning && slide.col(c).norm() > found.slow) {
+      const Eigen::VectorXd way = slide.col(c).normalized();
+      if ((way - ways_.col(c)).norm() <= settled) continue;
+      ways_.col(c) = (way + ways_.col(c)).normalized();  // where a body turns about a point near it, it overshoots
       any = true;
     }
   }

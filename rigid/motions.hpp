@@ -51,6 +51,8 @@ class Motions {
   Eigen::VectorXd unspent(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) const;
   /// Opens and closes contacts as velocity and impulse ask for. False: they were right.
   bool update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);
+  /// Contacts as they are now are a guess: how often they changed until here does not count.
+  void forget_changes() { changes_ = 0, smooth_ = false; }
 
  private:
   void restrict();
@@ -78,6 +80,7 @@ class Motions {
   bool smooth_ = false;       // no end was found with friction
   Eigen::VectorXd pushed_;    // amplitudes that closed contacts ask for
   Eigen::MatrixXd directions_, workless_;
+  Eigen::MatrixXd pushing_;  // if some rub
 };
 
 }  // namespace splashdown::rigid

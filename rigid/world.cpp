@@ -175,6 +175,15 @@ void Bodies<d>::World::find_motions() {
 }
 
 template <int d>
+void Bodies<d>::World::guess_contacts() {
+  if (near.empty() || loads.size() == 0) return;
+  Motions guess = motions;
+  if (!settled(guess, kick * loads)) return;
+  motions = std::move(guess);
+  motions.forget_changes();
+}
+
+template <int d>
 void Bodies<d>::World::solve_conditions() {
   Motions::Problem p;
   p.before.setZero(freedoms<d> * size());

@@ -26,6 +26,7 @@ struct Bodies<d>::World {
   std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
   std::vector<JointSpec> joints;
   std::vector<double> moved;  // their coordinates at t_n, of those that are measured
+  Eigen::VectorXd loads;      // of the last step, where contacts or stops may need a guess; else empty
   double time = 0, kick = 0, dt = 0;
   Phase phase = Phase::committed;
 
@@ -40,7 +41,8 @@ struct Bodies<d>::World {
   };
   std::vector<Sprung> sprung;
   Motions motions;
-  Eigen::VectorXd apart;  // velocities that only drift: how hulls that overlap part
+  Eigen::VectorXd impulses;  // the last that were tried
+  Eigen::VectorXd apart;     // velocities that only drift: how hulls that overlap part
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(specs.size()); }
   void expect(bool fine, const char* rule) const;
@@ -54,6 +56,8 @@ struct Bodies<d>::World {
 
   /// All that a begun step needs to answer impulses: conditions, springs, motions.
   void find_motions();
+  /// Contacts that would be closed under the loads of the step before: most often they are.
+  void guess_contacts();
   /// Trial states that these velocities of all bodies lead to.
   void drift(const Eigen::VectorXd& velocities);
   /// Velocities under these impulses, contacts opening and closing as they ask for; none if that does not end.

@@ -67,7 +67,7 @@ TEST(Partitioned, a_body_moves_as_its_load_says) {
   const auto before = stepper->bodies().state(0).velocity;
   const double dt = 1e-3;
   ASSERT_TRUE(stepper->attempt(dt).ok());
-  const auto& load = stepper->fluid().result().loads[0];
+  const auto load = stepper->fluid().result().loads[0];
   const auto after = stepper->trial()[0].velocity;
   const double mass = stepper->bodies().spec(0).mass;
   // The kick's length follows from gravity, which both sides of the balance know.
