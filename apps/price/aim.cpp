@@ -198,7 +198,10 @@ void choose(Aim& aim, const RunOptions& options) {
         "larger value, or splashdown price {} --rungs 5: more meshes, narrower bands.",
         *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)), options.scene.string())});
   }
-  aim.refine = std::stod(fmt::format("{:.4g}", aim.refine));
+  const auto rounded = [](double refine) { return std::stod(fmt::format("{:.4g}", refine)); };
+  aim.refine = rounded(aim.refine);
+  for (const auto& rung : price.rungs)  // a run that was made is not made again for a fifth digit
+    if (rounded(rung.spec.refine) == aim.refine) aim.refine = rung.spec.refine;
   aim.predicted = *price.seconds(aim.refine) + aim.report;
 }
 
