@@ -27,6 +27,8 @@ namespace fs = std::filesystem;
 constexpr ProbeRange probe_range{-8, 8};
 constexpr int usual_first = -4;
 double probe_factor(int k) { return std::pow(2., 0.5 * k); }
+/// With the digits that runs are given: one that was made on a mesh that is chosen is not made again.
+double as_written(double refine) { return std::stod(fmt::format("{:.4g}", refine)); }
 /// An order can be refused with three meshes, and found with four.
 constexpr int probes_for_accuracy = 4, last_for_accuracy = usual_first + probes_for_accuracy - 1;
 /// At most, of what `check` says before any run: steps of a long run are those of its impact.
@@ -130,7 +132,7 @@ LadderOrder probe_order(const RunOptions& options, const Scene& scene) {
 /// Coarse runs beside the run's folder.
 Source probed_price(const RunOptions& options, const Scene& scene) {
   const double own = scene.fluid->size.refine;
-  const auto refine = [&](int k) { return own * probe_factor(k); };
+  const auto refine = [&](int k) { return as_written(own * probe_factor(k)); };
   const auto range = allowed_probes(options, own);
   auto order = probe_order(options, scene);
   order.expected_nodes =
@@ -198,10 +200,7 @@ void choose(Aim& aim, const RunOptions& options) {
         "larger value, or splashdown price {} --rungs 5: more meshes, narrower bands.",
         *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)), options.scene.string())});
   }
-  const auto rounded = [](double refine) { return std::stod(fmt::format("{:.4g}", refine)); };
-  aim.refine = rounded(aim.refine);
-  for (const auto& rung : price.rungs)  // a run that was made is not made again for a fifth digit
-    if (rounded(rung.spec.refine) == aim.refine) aim.refine = rung.spec.refine;
+  aim.refine = as_written(aim.refine);
   aim.predicted = *price.seconds(aim.refine) + aim.report;
 }
 
