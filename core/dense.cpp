@@ -6,7 +6,11 @@
 
 namespace splashdown::algebra {
 
-Eigen::MatrixXd congruence(const Eigen::MatrixXd& M, const Eigen::MatrixXd& W) { return W.transpose() * M * W; }
+Eigen::MatrixXd congruence(const Eigen::MatrixXd& M, const Eigen::MatrixXd& W) { return between(W, M, W); }
+
+Eigen::MatrixXd between(const Eigen::MatrixXd& A, const Eigen::MatrixXd& M, const Eigen::MatrixXd& B) {
+  return A.transpose() * M * B;
+}
 
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.transpose() * B; }
 

@@ -9,6 +9,8 @@ namespace splashdown::algebra {
 
 /// W^T M W
 Eigen::MatrixXd congruence(const Eigen::MatrixXd& M, const Eigen::MatrixXd& W);
+/// A^T M B
+Eigen::MatrixXd between(const Eigen::MatrixXd& A, const Eigen::MatrixXd& M, const Eigen::MatrixXd& B);
 /// A^T B
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 /// L M L^T

@@ -192,8 +192,7 @@ void Bodies<d>::commit() {
   }
   w.states = w.trials;
   w.time += w.dt;
-  const bool may_touch = w.contacts || std::ranges::any_of(w.joints, &JointSpec::measured);
-  if (may_touch && w.impulses.size() > 0) w.loads = w.impulses / w.kick;
+  if (w.impulses.size() > 0) w.loads = w.impulses / w.kick;
   w.phase = World::Phase::committed;
 }
 

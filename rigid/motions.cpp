@@ -1,7 +1,7 @@
 #include "rigid/motions.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "core/dense.hpp"
 
@@ -33,8 +33,7 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<char>& cho
 }  // namespace
 
 struct Motions::Found {
-  std::vector<char> closed, sticks;  // what was held,
-  Eigen::VectorXd pushes;            // by which impulses, in that order
+  Eigen::VectorXd pushes;  // of closed contacts, then of those that stick
   double weak, slow;
 };
 
@@ -64,8 +63,7 @@ Eigen::MatrixXd Motions::held() const {
   return rows;
 }
 
-Eigen::MatrixXd Motions::pushing() const {
-  Eigen::MatrixXd rows = held();
+Eigen::MatrixXd Motions::rubbed(Eigen::MatrixXd rows) const {
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < closed_.size(); ++i) {
     if (!closed_[i]) continue;
@@ -81,19 +79,18 @@ void Motions::restrict() {
   const std::vector<char> stuck = each(sticks_, tangents_.rows());
   Eigen::VectorXd rates(count(closed_) + count(stuck));
   rates << rows_of(least_, closed_), rows_of(along_, stuck);
-  const algebra::Solutions left = algebra::solutions_of(held(), rates, negligible);
+  pushing_ = held();
+  const algebra::Solutions left = algebra::solutions_of(pushing_, rates, negligible);
   pushed_ = left.point;
   workless_ = directions_ = left.directions;
-  pushing_.resize(0, 0);
-  rubs_ = !ways_.isZero(0);
-  if (!rubs_) return;
-  pushing_ = pushing();
+  if (ways_.isZero(0)) return;
+  Eigen::MatrixXd rows = rubbed(pushing_);
   // Of contacts that repeat each other, impulses are those of least norm.
-  pushing_ -= left.idle * (left.idle.transpose() * pushing_);
-  workless_ = algebra::solutions_of(pushing_, Eigen::VectorXd::Zero(rates.size()), negligible).directions;
-  if (workless_.cols() == directions_.cols()) return;
-  workless_ = directions_;  // some push and rub along one line: as if they did not rub
-  rubs_ = false;
+  rows -= left.idle * (left.idle.transpose() * rows);
+  Eigen::MatrixXd workless = algebra::solutions_of(rows, Eigen::VectorXd::Zero(rates.size()), negligible).directions;
+  if (workless.cols() != directions_.cols()) return;  // some push and rub along one line: as if they did not rub
+  pushing_ = std::move(rows);
+  workless_ = std::move(workless);
 }
 
 Eigen::VectorXd Motions::amplitudes(const Eigen::VectorXd& velocity) const {
@@ -103,9 +100,7 @@ Eigen::VectorXd Motions::amplitudes(const Eigen::VectorXd& velocity) const {
 Eigen::VectorXd Motions::velocity(const Eigen::VectorXd& impulse) const {
   if (directions_.cols() == 0) return origin_ + modes_ * pushed_;
   const Eigen::VectorXd left = workless_.transpose() * (known_ + modes_.transpose() * impulse - inertia_ * pushed_);
-  const Eigen::MatrixXd inertia = rubs_ ? Eigen::MatrixXd(workless_.transpose() * inertia_ * directions_)
-                                        : algebra::congruence(inertia_, directions_);
-  const Eigen::VectorXd w = algebra::least_squares(inertia, left);
+  const Eigen::VectorXd w = algebra::least_squares(algebra::between(workless_, inertia_, directions_), left);
   return origin_ + modes_ * (pushed_ + directions_ * w);
 }
 
@@ -118,12 +113,9 @@ bool Motions::update_contacts(const Eigen::VectorXd& velocity, const Eigen::Vect
   const Eigen::VectorXd y = amplitudes(velocity);
   // Impulses r, t of what is held: its rows, transposed, balance with them what is left.
   const Eigen::VectorXd left = -unspent(velocity, impulse);
-  const Eigen::MatrixXd rows = rubs_ ? pushing_ : held();
-  Eigen::VectorXd pushes(rows.rows());
-  if (rows.rows() > 0) pushes = algebra::least_squares(rows.transpose(), left);
-  const Found found{.closed = closed_,
-                    .sticks = sticks_,
-                    .pushes = pushes,
+  Eigen::VectorXd pushes(pushing_.rows());
+  if (pushing_.rows() > 0) pushes = algebra::least_squares(pushing_.transpose(), left);
+  const Found found{.pushes = pushes,
                     .weak = negligible * pushes.cwiseAbs().sum(),
                     .slow = resolution_ + negligible * contacts_.rowwise().norm().maxCoeff() * y.norm()};
   const Eigen::MatrixXd slide = (tangents_ * y - along_).reshaped(ways_.rows(), ways_.cols());
@@ -177,7 +169,7 @@ bool Motions::stick_and_slide(const Eigen::MatrixXd& slide, const Found& found) 
   if (sticks_.empty() || smooth_ || changes_ >= sliding) return false;
   constexpr double settled = 0.02;  // [rad]: mu is known to two digits
   bool any = false;
-  Eigen::Index push = 0, pull = count(found.closed);
+  Eigen::Index push = 0, pull = count(closed_);
   for (std::size_t i = 0; i < sticks_.size(); ++i) {
     if (!closed_[i]) continue;
     const auto c = static_cast<Eigen::Index>(i);

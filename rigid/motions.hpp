@@ -56,8 +56,8 @@ class Motions {
 
  private:
   void restrict();
-  Eigen::MatrixXd held() const;     // rows of closed contacts, then of those that stick
-  Eigen::MatrixXd pushing() const;  // the same, along which they push
+  Eigen::MatrixXd held() const;                        // rows of closed contacts, then of those that stick
+  Eigen::MatrixXd rubbed(Eigen::MatrixXd held) const;  // with the friction of those that slide
   /// Impulses on what was held, and below which impulses and velocities are roundoff.
   struct Found;
   bool open_and_close(const Eigen::VectorXd& rate, const Eigen::MatrixXd& slide, const Found& found);
@@ -76,11 +76,10 @@ class Motions {
   double friction_ = 0;
   std::vector<char> sticks_;  // of the contacts that rub, while closed
   Eigen::MatrixXd ways_;      // n of those that slide, a column each; 0 of others
-  bool rubs_ = false;         // some do
   bool smooth_ = false;       // no end was found with friction
   Eigen::VectorXd pushed_;    // amplitudes that closed contacts ask for
   Eigen::MatrixXd directions_, workless_;
-  Eigen::MatrixXd pushing_;  // if some rub
+  Eigen::MatrixXd pushing_;  // rows along which closed contacts push, then those that stick
 };
 
 }  // namespace splashdown::rigid

@@ -20,6 +20,20 @@ double weight_of_later(double z) {
   return std::isfinite(z) ? -1 / std::expm1(-z) - 1 / z : 1;
 }
 
+template <int d>
+Eigen::VectorXd rates_of(const std::vector<Condition<d>>& conditions) {
+  Eigen::VectorXd rates(static_cast<Eigen::Index>(conditions.size()));
+  std::ranges::transform(conditions, rates.begin(), &Condition<d>::rate);
+  return rates;
+}
+
+/// What Bullet says in space, of the bodies' own freedoms.
+template <int d>
+Condition<d> lowered_condition(const Condition<3>& c) {
+  const auto lift = embedding<d>();
+  return {c.body, c.other, lift.transpose() * c.first, lift.transpose() * c.second, c.rate};
+}
+
 }  // namespace
 
 template <int d>
@@ -62,6 +76,11 @@ BodyState<d> Bodies<d>::World::prescribed(std::size_t i) const {
 }
 
 template <int d>
+typename Bodies<d>::World::MassMatrix Bodies<d>::World::inertia(std::size_t i) const {
+  return embedding<d>().transpose() * movers[i]->inertia() * embedding<d>();
+}
+
+template <int d>
 void Bodies<d>::World::place(Eigen::Index i, const BodyState<d>& state) {
   bullet.place(static_cast<std::size_t>(i), lifted<d>(state.pose), embedding<d>() * state.velocity);
 }
@@ -69,9 +88,7 @@ void Bodies<d>::World::place(Eigen::Index i, const BodyState<d>& state) {
 template <int d>
 std::vector<Condition<d>> Bodies<d>::World::asked_by_joints() {
   std::vector<Condition<d>> all;
-  const auto lift = embedding<d>();
-  for (const auto& c : bullet.conditions(dt))
-    all.push_back({c.body, c.other, lift.transpose() * c.first, lift.transpose() * c.second, c.rate});
+  for (const auto& c : bullet.conditions(dt)) all.push_back(lowered_condition<d>(c));
   return all;
 }
 
@@ -88,17 +105,15 @@ std::vector<Condition<d>> Bodies<d>::World::equalities() {
 }
 
 template <int d>
-void Bodies<d>::World::fill(const std::vector<Condition<d>>& conditions, Eigen::MatrixXd& rows,
-                            Eigen::VectorXd& rates) const {
-  rows.setZero(static_cast<Eigen::Index>(conditions.size()), freedoms<d> * size());
-  rates.resize(rows.rows());
+Eigen::MatrixXd Bodies<d>::World::rows_of(const std::vector<Condition<d>>& conditions) const {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(conditions.size()), freedoms<d> * size());
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const auto& c = conditions[static_cast<std::size_t>(r)];
     rows.template block<1, freedoms<d>>(r, freedoms<d> * static_cast<Eigen::Index>(c.body)) += c.first.transpose();
     if (c.other)
       rows.template block<1, freedoms<d>>(r, freedoms<d> * static_cast<Eigen::Index>(*c.other)) += c.second.transpose();
-    rates[r] = c.rate;
   }
+  return rows;
 }
 
 template <int d>
@@ -125,14 +140,11 @@ void Bodies<d>::World::find_stops_and_springs() {
     const JointSpec& joint = joints[j];
     if (!joint.measured()) continue;
     const auto in_space = bullet.coordinate(j);
-    const auto lift = embedding<d>();
-    const Condition<3>& rate = in_space.rate;
     if (joint.type == JointType::hinge)  // no step turns it by half a turn
       moved[j] += std::remainder(in_space.q - moved[j], 2 * std::numbers::pi);
     else
       moved[j] = in_space.q;
-    const JointCoordinate<d> at{moved[j],
-                                {rate.body, rate.other, lift.transpose() * rate.first, lift.transpose() * rate.second}};
+    const JointCoordinate<d> at{moved[j], lowered_condition<d>(in_space.rate)};
     if (joint.spring) sprung.push_back({*joint.spring, at});
     for (const double way : {1.0, -1.0}) {
       const double stop = joint.stops[way > 0 ? 0 : 1];
@@ -148,8 +160,7 @@ double Bodies<d>::World::compliance(const Condition<d>& rate) const {
   const auto of = [&](std::size_t body, const Wrench<d>& wrench) {
     if (!movers[body]) return 0.;
     if (specs[body].mass == 0) return std::numeric_limits<double>::infinity();
-    const auto lift = embedding<d>();
-    return wrench.dot((lift.transpose() * movers[body]->inertia() * lift).ldlt().solve(wrench));
+    return wrench.dot(inertia(body).ldlt().solve(wrench));
   };
   return of(rate.body, rate.first) + (rate.other ? of(*rate.other, rate.second) : 0.);
 }
@@ -195,14 +206,15 @@ void Bodies<d>::World::solve_conditions() {
     p.unit.segment(freedoms<d> * i + d, rotations<d>).setConstant(reach(specs[b]));
     p.before.segment<freedoms<d>>(freedoms<d> * i) = states[b].velocity;
     if (!movers[b]) continue;
-    p.inertia.block<freedoms<d>, freedoms<d>>(freedoms<d> * i, freedoms<d> * i) =
-        embedding<d>().transpose() * movers[b]->inertia() * embedding<d>();
+    p.inertia.block<freedoms<d>, freedoms<d>>(freedoms<d> * i, freedoms<d> * i) = inertia(b);
     p.impulse.segment<freedoms<d>>(freedoms<d> * i) = embedding<d>().transpose() * movers[b]->impulse();
   }
-  fill(equalities(), p.equalities, p.equal);
-  fill(near, p.contacts, p.least);
-  Eigen::VectorXd unused;
-  fill(rubbing, p.tangents, unused);
+  const auto equal = equalities();
+  p.equalities = rows_of(equal);
+  p.equal = rates_of(equal);
+  p.contacts = rows_of(near);
+  p.least = rates_of(near);
+  p.tangents = rows_of(rubbing);
   p.rubbing = static_cast<int>(rubbing.size()) / (d - 1);
   constexpr double flush = 1e-10;  // of the bodies' lengths: what positions do not resolve
   p.resolution = flush * p.unit.maxCoeff() / dt;
@@ -231,9 +243,7 @@ template <int d>
 void Bodies<d>::World::add_springs(Motions::Problem& p) const {
   const double dt_before = 2 * kick - dt;
   for (const auto& [spring, at] : sprung) {
-    Eigen::MatrixXd row;
-    Eigen::VectorXd unused;
-    fill({at.rate}, row, unused);
+    const Eigen::MatrixXd row = rows_of({at.rate});
     const double q_rate = (row * p.before)[0];
     const double lag = at.q - spring.rest + (dt - dt_before) / 4 * q_rate;
     const double later = weight_of_later(kick * spring.damping * compliance(at.rate));
@@ -285,8 +295,9 @@ Status Bodies<d>::World::passes_through() const {
   for (const Condition<d>& c : contacts->within_reach(reaching, dt)) {
     if (std::ranges::any_of(near, [&](const Condition<d>& n) { return n.body == c.body && n.first == c.first; }))
       continue;
-    double rate = c.first.dot(trials[c.body].velocity), speed = trials[c.body].velocity.norm();
-    if (c.other) rate += c.second.dot(trials[*c.other].velocity), speed += trials[*c.other].velocity.norm();
+    const double rate = rate_of<d>(c, trials);
+    double speed = trials[c.body].velocity.norm();
+    if (c.other) speed += trials[*c.other].velocity.norm();
     constexpr double crossed = 1e-6;  // of the speed: roundoff
     if (rate < std::min(c.rate, 0.0) - crossed * speed * (1 + reach(specs[c.body])))
       return {message("a body passes through what it touches within the step: \"", specs[c.body].name, "\"")};

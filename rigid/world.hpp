@@ -26,7 +26,7 @@ struct Bodies<d>::World {
   std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
   std::vector<JointSpec> joints;
   std::vector<double> moved;  // their coordinates at t_n, of those that are measured
-  Eigen::VectorXd loads;      // of the last step, where contacts or stops may need a guess; else empty
+  Eigen::VectorXd loads;      // of the last step; empty before
   double time = 0, kick = 0, dt = 0;
   Phase phase = Phase::committed;
 
@@ -71,9 +71,12 @@ struct Bodies<d>::World {
   std::vector<Condition<d>> equalities();
   void find_contacts();
   void find_stops_and_springs();
+  using MassMatrix = Eigen::Matrix<double, freedoms<d>, freedoms<d>>;
+  MassMatrix inertia(std::size_t body) const;  ///< of one that forces move, in the step
   /// dq/dt that a unit impulse along it gives bodies in the void; infinite without mass.
   double compliance(const Condition<d>& rate) const;
-  void fill(const std::vector<Condition<d>>& conditions, Eigen::MatrixXd& rows, Eigen::VectorXd& rates) const;
+  /// Left sides, a row each, of the velocities of all bodies.
+  Eigen::MatrixXd rows_of(const std::vector<Condition<d>>& conditions) const;
   void solve_conditions();
   /// Hulls that overlap move apart as they drift, the heavy ones least, without speed: it would be energy from nowhere.
   void part_overlaps(Motions::Problem problem);

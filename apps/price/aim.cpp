@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 constexpr ProbeRange probe_range{-8, 8};
 constexpr int usual_first = -4;
 double probe_factor(int k) { return std::pow(2., 0.5 * k); }
-/// With the digits that runs are given: one that was made on a mesh that is chosen is not made again.
-double as_written(double refine) { return std::stod(fmt::format("{:.4g}", refine)); }
+/// What a run of it has: one that was made on a mesh that is chosen is not made again.
+double as_written(double refine) { return std::stod(digits_of(refine)); }
 /// An order can be refused with three meshes, and found with four.
 constexpr int probes_for_accuracy = 4, last_for_accuracy = usual_first + probes_for_accuracy - 1;
 /// At most, of what `check` says before any run: steps of a long run are those of its impact.
@@ -80,7 +80,7 @@ std::optional<Source> listed_price(const RunOptions& options) {
 /// The scene on a mesh; nothing: it does not allow that mesh.
 std::optional<Scene> scene_at(const RunOptions& options, double refine) {
   auto set = options.overrides;
-  set.push_back(fmt::format("fluid.size.refine={:.4g}", refine));
+  set.push_back("fluid.size.refine=" + digits_of(refine));
   try {
     return read_scene(options.scene, set).scene;
   } catch (const SceneError&) {

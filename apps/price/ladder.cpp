@@ -29,8 +29,6 @@ namespace fs = std::filesystem;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-std::string digits_of(double refine) { return fmt::format("{:.4g}", refine); }
-
 std::string last_line(const fs::path& log) {
   std::ifstream in(log);
   std::string last;
@@ -62,6 +60,8 @@ std::string failure_text(const RungSpec& spec, const std::string& cause) {
 }
 
 }  // namespace
+
+std::string digits_of(double refine) { return fmt::format("{:.4g}", refine); }
 
 std::vector<double> rung_refines(int rungs, double scene) {
   std::vector<double> refines;

@@ -40,6 +40,9 @@ struct Rung {
 Rung rung_in(const std::filesystem::path& folder, const RungSpec& spec, const std::vector<PriceQuantity>& quantities,
              std::vector<std::string>& notes);
 
+/// A refinement with the digits that a run of it is given.
+std::string digits_of(double refine);
+
 /// 0.5, 0.71, 1, 1.41 ... times `scene`, three digits.
 std::vector<double> rung_refines(int rungs, double scene);
 

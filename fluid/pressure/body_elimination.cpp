@@ -57,26 +57,32 @@ bool PressureEquation<d>::add_bodies() {
   return true;
 }
 
-// Directions in which neither body nor water has inertia stay as they are.
+namespace {
+
+// Factors that make inertias one; 0 for directions in which neither body nor water has any: they stay as they are.
+Eigen::VectorXd units_of(const Eigen::VectorXd& inertias) {
+  Eigen::VectorXd units(inertias.size());
+  for (Eigen::Index i = 0; i < units.size(); ++i) units[i] = inertias[i] > 0 ? 1 / std::sqrt(inertias[i]) : 0.0;
+  return units;
+}
+
+}  // namespace
+
 template <int d>
 void PressureEquation<d>::allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless) {
   elimination_.setZero(motions(), motions());
   if (directions.cols() == 0) return;
   const Eigen::MatrixXd inertia = response_.inertia + added_mass_ + held_inertia_;
   if (workless.size() > 0 && workless != directions) {
-    const auto unit = [&](const Eigen::MatrixXd& W) {
-      const Eigen::VectorXd diagonal = algebra::congruence(inertia, W).diagonal();
-      return Eigen::MatrixXd(W *
-                             diagonal.unaryExpr([](double m) { return m > 0 ? 1 / std::sqrt(m) : 0; }).asDiagonal());
+    const auto scaled = [&](const Eigen::MatrixXd& W) -> Eigen::MatrixXd {
+      return W * units_of(algebra::congruence(inertia, W).diagonal()).asDiagonal();
     };
-    const Eigen::MatrixXd W = unit(directions), tested = unit(workless);
-    elimination_ = W * algebra::pseudo_inverse(tested.transpose() * inertia * W) * tested.transpose();
+    const Eigen::MatrixXd W = scaled(directions), tested = scaled(workless);
+    elimination_ = W * algebra::pseudo_inverse(algebra::between(tested, inertia, W)) * tested.transpose();
     return;
   }
   const Eigen::MatrixXd total = algebra::congruence(inertia, directions);
-  const Eigen::VectorXd diagonal = total.diagonal();
-  Eigen::VectorXd unit(diagonal.size());
-  for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = diagonal[i] > 0 ? 1 / std::sqrt(diagonal[i]) : 0.0;
+  const Eigen::VectorXd unit = units_of(total.diagonal());
   const Eigen::MatrixXd scaled = unit.asDiagonal() * total * unit.asDiagonal();
   const Eigen::MatrixXd inverse = algebra::pseudo_inverse(scaled);
   const Eigen::MatrixXd lifted = directions * unit.asDiagonal();

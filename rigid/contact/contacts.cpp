@@ -303,14 +303,22 @@ std::array<Condition<d>, d - 1> rubbing(const Contact<d>& contact, std::span<con
 }
 
 template <int d>
+double rate_of(const Condition<d>& condition, std::span<const BodyState<d>> states) {
+  double rate = condition.first.dot(states[condition.body].velocity);
+  if (condition.other) rate += condition.second.dot(states[*condition.other].velocity);
+  return rate;
+}
+
+template <int d>
 double rebound(const Condition<d>& contact, std::span<const BodyState<d>> states, double restitution) {
-  double rate = contact.first.dot(states[contact.body].velocity);
-  if (contact.other) rate += contact.second.dot(states[*contact.other].velocity);
+  const double rate = rate_of(contact, states);
   return rate < std::min(contact.rate, 0.0) ? -restitution * rate : -std::numeric_limits<double>::infinity();
 }
 
 template std::array<Condition<2>, 1> rubbing(const Contact<2>&, std::span<const BodyState<2>>);
 template std::array<Condition<3>, 2> rubbing(const Contact<3>&, std::span<const BodyState<3>>);
+template double rate_of(const Condition<2>&, std::span<const BodyState<2>>);
+template double rate_of(const Condition<3>&, std::span<const BodyState<3>>);
 template double rebound(const Condition<2>&, std::span<const BodyState<2>>, double);
 template double rebound(const Condition<3>&, std::span<const BodyState<3>>, double);
 template class Contacts<2>;

@@ -71,6 +71,10 @@ class Contacts {
 template <int d>
 std::array<Condition<d>, d - 1> rubbing(const Contact<d>& contact, std::span<const BodyState<d>> states);
 
+/// first . s_body + second . s_other
+template <int d>
+double rate_of(const Condition<d>& condition, std::span<const BodyState<d>> states);
+
 /// Newton's law of impact: the rate of a contact that the speed of approach closes within the step is at least e times that; else
 /// -infinity.
 template <int d>

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string>
 
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
@@ -13,6 +14,24 @@ namespace scenes = coupling::scenes;
 using scenes::g;
 using scenes::water;
 using Vec = Eigen::Vector2d;
+
+void run_evenly(coupling::scenes::Watched<2>& stepper, int steps, double dt) {
+  for (int i = 0; i < steps; ++i) {
+    const auto report = stepper.attempt(dt);
+    ASSERT_TRUE(report.ok()) << report.cause;
+    stepper.commit();
+  }
+}
+
+void run_in_one_pass_a_step(coupling::scenes::Watched<2>& stepper, int steps, double dt) {
+  for (int i = 0; i < steps; ++i) {
+    const auto report = stepper.attempt(dt);
+    ASSERT_TRUE(report.ok()) << report.cause;
+    EXPECT_EQ(report.passes, 1);
+    EXPECT_LE(report.residual, 1e-10);
+    stepper.commit();
+  }
+}
 
 /// An ellipse under water, held at its end.
 scenes::Scene hinged(double ratio, double angle = 0.5) {
@@ -31,26 +50,17 @@ Vec held_end(const coupling::scenes::Watched<2>& stepper) { return stepper.bodie
 TEST(Hinged, bodies_of_any_density_take_one_pass_and_leave_roundoff) {
   for (double ratio : {10.0, 1.0, 1.0 / 3, 0.1, 1e-2, 1e-3, 1e-6, 1e-9, 0.0})
     for (double dt : {1e-3, 1e-3 / 4, 1e-3 / 16}) {
+      SCOPED_TRACE(std::to_string(ratio) + " of water's density, " + std::to_string(dt) + " s");
       const auto stepper = scenes::coupled(hinged(ratio));
-      for (int i = 0; i < 5; ++i) {
-        const auto report = stepper->attempt(dt);
-        ASSERT_TRUE(report.ok()) << report.cause;
-        EXPECT_EQ(report.passes, 1) << ratio << ' ' << dt;
-        EXPECT_LE(report.residual, 1e-10) << ratio << ' ' << dt;
-        stepper->commit();
-      }
-      EXPECT_LE((held_end(*stepper) - Vec(0, -1.8)).norm(), 1e-6) << ratio << ' ' << dt;
+      run_in_one_pass_a_step(*stepper, 5, dt);
+      EXPECT_LE((held_end(*stepper) - Vec(0, -1.8)).norm(), 1e-6);
     }
 }
 
 TEST(Hinged, accelerators_without_the_term_find_the_same_motion) {
   // To the corrections of the pressure, a part of the mesh's own error.
   const auto after = [](const std::unique_ptr<coupling::scenes::Watched<2>>& stepper) {
-    for (int i = 0; i < 4; ++i) {
-      const auto report = stepper->attempt(1e-3);
-      EXPECT_TRUE(report.ok()) << report.cause;
-      stepper->commit();
-    }
+    run_evenly(*stepper, 4, 1e-3);
     return stepper->bodies().state(0).velocity[2];
   };
   for (double ratio : {1.0 / 3, 0.1}) {
@@ -96,23 +106,18 @@ TEST(Sprung, bodies_of_any_density_on_any_spring_take_one_pass) {
     for (double stiffness : {1.0, 1e4, 1e10}) {
       auto scene = hinged(ratio);
       scene.joints[0].spring = rigid::Spring{stiffness, 0.01 * stiffness, 0.2};
+      SCOPED_TRACE(std::to_string(ratio) + " of water's density, " + std::to_string(stiffness) + " N m/rad");
       const auto stepper = scenes::coupled(scene);
-      for (int i = 0; i < 20; ++i) {
-        const auto report = stepper->attempt(1e-3);
-        ASSERT_TRUE(report.ok()) << report.cause;
-        EXPECT_EQ(report.passes, 1) << ratio << ' ' << stiffness;
-        EXPECT_LE(report.residual, 1e-10) << ratio << ' ' << stiffness;
-        stepper->commit();
-      }
+      run_in_one_pass_a_step(*stepper, 20, 1e-3);
       // Far stronger than anything else, spring and damper draw it to its rest like exp(-k t/c), k/c = 100/s.
       const double turned = Eigen::Rotation2Dd(stepper->bodies().state(0).pose.linear()).angle() - 0.5;
       if (stiffness == 1e10) {
-        EXPECT_NEAR(turned, 0.2 * (1 - std::exp(-100 * stepper->time())), 0.05 * 0.2) << ratio << ": k dt/c = 0.1";
+        EXPECT_NEAR(turned, 0.2 * (1 - std::exp(-100 * stepper->time())), 0.05 * 0.2) << "k dt/c = 0.1";
       }
     }
 }
 
-/// A sphere's plane sister under water that moves up and down only, without gravity: nothing but what acts along y.
+/// A circle under water that moves up and down only, without gravity: nothing but what acts along y.
 scenes::Scene guided() {
   scenes::Scene s;
   s.fluid = fluid::scenes::still_water(4, 3, 0.3);
@@ -122,14 +127,6 @@ scenes::Scene guided() {
   s.add_body(shape, 0.2 * water * shape.at_unit_density.mass, {0, -1.5}, 0.08);
   s.joints.push_back({.type = rigid::JointType::slider, .axis = Eigen::Vector3d::UnitY()});
   return s;
-}
-
-void run_evenly(coupling::scenes::Watched<2>& stepper, int steps, double dt) {
-  for (int i = 0; i < steps; ++i) {
-    const auto report = stepper.attempt(dt);
-    ASSERT_TRUE(report.ok()) << report.cause;
-    stepper.commit();
-  }
 }
 
 class Push final : public rigid::Force<2> {
@@ -279,11 +276,7 @@ TEST(Rubbing, stops_what_glides_under_water) {
 
 TEST(Rubbing, is_the_same_to_accelerators_without_the_term) {
   const auto after = [](const std::unique_ptr<coupling::scenes::Watched<2>>& stepper) {
-    for (int i = 0; i < 20; ++i) {
-      const auto report = stepper->attempt(2e-3);
-      EXPECT_TRUE(report.ok()) << report.cause;
-      stepper->commit();
-    }
+    run_evenly(*stepper, 20, 2e-3);
     return stepper->bodies().state(0).velocity[0];
   };
   const double smooth = after(scenes::coupled(gliding(0))), rough = after(scenes::coupled(gliding(0.5))),

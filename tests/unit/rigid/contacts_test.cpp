@@ -9,33 +9,11 @@ namespace {
 
 constexpr double g = 9.81;
 
-BodySpec<2> of_shape(const Shape<2>& shape, const Vec<2>& centre, double mass = 2) {
-  const auto properties = with_mass<2>(shape.at_unit_density, mass);
-  BodySpec<2> spec = free_body<2>(mass, properties.inertia);
-  spec.surface = centred<2>(shape.surface, properties.centre);
-  spec.pose.translation() = centre;
-  return spec;
-}
-
-std::vector<std::unique_ptr<Force<2>>> pull(const Vec<2>& acceleration) {
-  std::vector<std::unique_ptr<Force<2>>> forces;
-  forces.push_back(std::make_unique<Gravity<2>>(acceleration));
-  return forces;
-}
-
-void run(Bodies<2>& bodies, int steps, double dt = 1e-3) {
-  for (int i = 0; i < steps; ++i) {
-    bodies.begin(i == 0 ? dt / 2 : dt, dt);
-    bodies.solve(std::vector<Wrench<2>>(bodies.size(), Wrench<2>::Zero()));
-    bodies.commit();
-  }
-}
-
 const ContactSpec<2> floor_at_zero{{{Vec<2>(0, 0), Vec<2>(0, 1)}}};
 
 TEST(Contact, stops_a_body_at_a_plane_and_lets_it_rest_there) {
   for (const auto& shape : {box(1, 0.5), circle(0.25)}) {
-    Bodies<2> bodies({of_shape(shape, {0, 0.5})}, pull({0, -g}), {}, floor_at_zero);
+    Bodies<2> bodies({of_shape(shape, {0, 0.5})}, pull<2>({0, -g}), {}, floor_at_zero);
     run(bodies, 1000);
     const auto& [pose, s] = bodies.state(0);
     EXPECT_NEAR((pose.linear() * bodies.spec(0).surface.vertices).row(1).minCoeff() + pose.translation().y(), 0, 1e-9);
@@ -108,7 +86,7 @@ TEST(Contact, is_smooth_a_box_slides_down_a_slope) {
   spec.pose.rotate(-slope);
   const Vec<2> up(std::sin(slope), std::cos(slope)), down(std::cos(slope), -std::sin(slope));
   spec.pose.translation() = 0.1 * up;
-  Bodies<2> bodies({spec}, pull({0, -g}), {}, ContactSpec<2>{{{Vec<2>(0, 0), up}}});
+  Bodies<2> bodies({spec}, pull<2>({0, -g}), {}, ContactSpec<2>{{{Vec<2>(0, 0), up}}});
   run(bodies, 1000);
   const Vec<2> way = bodies.state(0).pose.translation() - 0.1 * up;
   EXPECT_NEAR(way.dot(down), 0.5 * g * std::sin(slope), 1e-6);
@@ -118,7 +96,7 @@ TEST(Contact, is_smooth_a_box_slides_down_a_slope) {
 TEST(Contact, holds_a_stack) {
   std::vector<BodySpec<2>> stack;
   for (int i = 0; i < 5; ++i) stack.push_back(of_shape(box(1, 0.2), {0.03 * i, 0.1 + 0.2 * i}, i % 2 == 0 ? 1 : 1000));
-  Bodies<2> bodies(stack, pull({0, -g}), {}, floor_at_zero);
+  Bodies<2> bodies(stack, pull<2>({0, -g}), {}, floor_at_zero);
   run(bodies, 1000);
   for (std::size_t i = 0; i < stack.size(); ++i) {
     EXPECT_NEAR((bodies.state(i).pose.matrix() - stack[i].pose.matrix()).norm(), 0, 1e-7) << i;
@@ -130,7 +108,7 @@ TEST(Contact, rolls_a_leaning_box_over_its_corner) {
   // It falls on the face that its centre of mass hangs over, and lies there.
   BodySpec<2> spec = of_shape(box(0.4, 0.2), {0, 0.5});
   spec.pose.rotate(0.6);
-  Bodies<2> bodies({spec}, pull({0, -g}), {}, floor_at_zero);
+  Bodies<2> bodies({spec}, pull<2>({0, -g}), {}, floor_at_zero);
   run(bodies, 3000);
   EXPECT_NEAR(angle(bodies.state(0).pose), 0, 1e-6);
   EXPECT_NEAR(bodies.state(0).pose.translation().y(), 0.1, 1e-6);
@@ -161,7 +139,7 @@ TEST(Contact, of_bodies_apart_changes_no_bit) {
   BodySpec<2> a = of_shape(box(1, 1), {0, 0}), b = of_shape(circle(0.3), {3, 0});
   a.velocity << 0, 1, 2;
   const auto after = [&](std::optional<ContactSpec<2>> contacts) {
-    Bodies<2> bodies({a, b}, pull({0, -g}), {}, contacts);
+    Bodies<2> bodies({a, b}, pull<2>({0, -g}), {}, contacts);
     run(bodies, 50);
     return std::pair(bodies.state(0), bodies.state(1));
   };
@@ -176,7 +154,7 @@ TEST(Contact, a_concave_hull_takes_a_body_in) {
   holder.motion = Motion::fixed;
   holder.pose.translation().setZero();
   const double floor = (holder.surface.vertices.row(1).minCoeff() + 0.2);
-  Bodies<2> bodies({holder, of_shape(circle(0.2), {0.55, 1})}, pull({0, -g}), {}, ContactSpec<2>{});
+  Bodies<2> bodies({holder, of_shape(circle(0.2), {0.55, 1})}, pull<2>({0, -g}), {}, ContactSpec<2>{});
   run(bodies, 1500);
   EXPECT_NEAR(bodies.state(1).pose.translation().y(), floor + 0.2, 1e-4);
   EXPECT_NEAR(bodies.state(1).velocity.head<2>().norm(), 0, 1e-6);

@@ -15,31 +15,6 @@ namespace {
 constexpr double g = 9.81;
 
 template <int d>
-BodySpec<d> of_shape(const Shape<d>& shape, const Vec<d>& centre, double mass = 2) {
-  const auto properties = with_mass<d>(shape.at_unit_density, mass);
-  BodySpec<d> spec = free_body<d>(mass, properties.inertia);
-  spec.surface = centred<d>(shape.surface, properties.centre);
-  spec.pose.translation() = centre;
-  return spec;
-}
-
-template <int d>
-std::vector<std::unique_ptr<Force<d>>> pull(const Vec<d>& acceleration) {
-  std::vector<std::unique_ptr<Force<d>>> forces;
-  forces.push_back(std::make_unique<Gravity<d>>(acceleration));
-  return forces;
-}
-
-template <int d>
-void run(Bodies<d>& bodies, int steps, double dt = 1e-3, bool first = true) {
-  for (int i = 0; i < steps; ++i) {
-    bodies.begin(first && i == 0 ? dt / 2 : dt, dt);
-    bodies.solve(std::vector<Wrench<d>>(bodies.size(), Wrench<d>::Zero()));
-    bodies.commit();
-  }
-}
-
-template <int d>
 ContactSpec<d> floor_with(double friction, double restitution = 0) {
   return {{{Vec<d>::Zero(), Vec<d>::Unit(d - 1)}}, {}, friction, restitution};
 }

@@ -12,12 +12,6 @@ namespace {
 using std::numbers::pi;
 constexpr double g = 9.81;
 
-std::vector<std::unique_ptr<Force<2>>> gravity() {
-  std::vector<std::unique_ptr<Force<2>>> forces;
-  forces.push_back(std::make_unique<Gravity<2>>(Vec<2>(0, -g)));
-  return forces;
-}
-
 /// A rod of 1 m that hangs from the origin, turned by an angle.
 BodySpec<2> rod(double angle, double mass = 2) {
   BodySpec<2> spec = free_body<2>(mass, Inertia<2>(mass / 12));
@@ -41,7 +35,7 @@ TEST(Hinge, holds_a_pendulum_with_its_period_to_second_order) {
                exact = 2 * pi * std::sqrt((1. / 12 + l * l) / (g * l)) * (1 + swing * swing / 16);
   std::vector<double> error;
   for (double dt : {0.02, 0.01, 0.005}) {
-    Bodies<2> bodies({rod(swing)}, gravity(), {{.point = {0, 0, 0}}});
+    Bodies<2> bodies({rod(swing)}, pull<2>({0, -g}), {{.point = {0, 0, 0}}});
     int crossings = 0;
     double first = 0, last = 0, farthest = 0, before = swing;
     for (int i = 0; bodies.time() < 10 * exact + dt; ++i) {
@@ -65,7 +59,7 @@ TEST(Hinge, holds_a_pendulum_with_its_period_to_second_order) {
 
 TEST(Hinge, neither_gains_nor_loses_energy_over_a_hundred_swings) {
   const BodySpec<2> spec = rod(1.5);
-  Bodies<2> bodies({spec}, gravity(), {{.point = {0, 0, 0}}});
+  Bodies<2> bodies({spec}, pull<2>({0, -g}), {{.point = {0, 0, 0}}});
   const double dt = 2e-3, brought = spec.mass * g * spec.pose.translation().y();
   double least = 0, most = 0;
   Twist<2> before = spec.velocity;
@@ -154,7 +148,7 @@ TEST(Hinge, to_a_body_that_moves_on_a_path_follows_it) {
     pose.translation() = Vec<2>(0.3 * std::sin(t), 0);
     return pose;
   };
-  Bodies<2> bodies({driver, hung}, gravity(), {{.body = 1, .other = 0, .point = {0, 0, 0}}});
+  Bodies<2> bodies({driver, hung}, pull<2>({0, -g}), {{.body = 1, .other = 0, .point = {0, 0, 0}}});
   for (int i = 0; i < 1000; ++i) {
     bodies.begin(5e-3, 5e-3);
     bodies.solve(std::vector<Wrench<2>>(2, Wrench<2>::Zero()));
@@ -165,7 +159,7 @@ TEST(Hinge, to_a_body_that_moves_on_a_path_follows_it) {
 
 TEST(Slider, lets_a_body_move_along_its_axis_only) {
   const Vec<2> along = Vec<2>(1, 1).normalized();
-  Bodies<2> bodies({rod(0)}, gravity(), {{.type = JointType::slider, .axis = {along.x(), along.y(), 0}}});
+  Bodies<2> bodies({rod(0)}, pull<2>({0, -g}), {{.type = JointType::slider, .axis = {along.x(), along.y(), 0}}});
   const Vec<2> start = bodies.state(0).pose.translation();
   const double dt = 1e-2;
   for (int i = 0; i < 100; ++i) step(bodies, i == 0 ? dt / 2 : dt, dt);

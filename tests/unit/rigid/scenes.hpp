@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "rigid/bodies.hpp"
+#include "rigid/shapes/mass_properties.hpp"
+#include "rigid/shapes/shapes.hpp"
 
 namespace splashdown::rigid {
 
@@ -34,6 +36,32 @@ inline BodySpec<3> skew_body() {
 template <int d>
 Bodies<d> alone(const BodySpec<d>& spec, std::vector<std::unique_ptr<Force<d>>> forces = {}) {
   return Bodies<d>({spec}, std::move(forces));
+}
+
+template <int d>
+BodySpec<d> of_shape(const Shape<d>& shape, const Vec<d>& centre, double mass = 2) {
+  const auto properties = with_mass<d>(shape.at_unit_density, mass);
+  BodySpec<d> spec = free_body<d>(mass, properties.inertia);
+  spec.surface = centred<d>(shape.surface, properties.centre);
+  spec.pose.translation() = centre;
+  return spec;
+}
+
+template <int d>
+std::vector<std::unique_ptr<Force<d>>> pull(const Vec<d>& acceleration) {
+  std::vector<std::unique_ptr<Force<d>>> forces;
+  forces.push_back(std::make_unique<Gravity<d>>(acceleration));
+  return forces;
+}
+
+/// Steps without a load; `first`: of a run, with half a kick.
+template <int d>
+void run(Bodies<d>& bodies, int steps, double dt = 1e-3, bool first = true) {
+  for (int i = 0; i < steps; ++i) {
+    bodies.begin(first && i == 0 ? dt / 2 : dt, dt);
+    bodies.solve(std::vector<Wrench<d>>(bodies.size(), Wrench<d>::Zero()));
+    bodies.commit();
+  }
 }
 
 /// One step under a load on the only body.

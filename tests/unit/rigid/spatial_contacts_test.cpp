@@ -12,28 +12,6 @@ namespace {
 
 constexpr double g = 9.81;
 
-BodySpec<3> of_shape(const Shape<3>& shape, const Vec<3>& centre, double mass = 2) {
-  const auto properties = with_mass<3>(shape.at_unit_density, mass);
-  BodySpec<3> spec = free_body<3>(mass, properties.inertia);
-  spec.surface = centred<3>(shape.surface, properties.centre);
-  spec.pose.translation() = centre;
-  return spec;
-}
-
-void run(Bodies<3>& bodies, int steps, double dt = 1e-3) {
-  for (int i = 0; i < steps; ++i) {
-    bodies.begin(i == 0 ? dt / 2 : dt, dt);
-    bodies.solve(std::vector<Wrench<3>>(bodies.size(), Wrench<3>::Zero()));
-    bodies.commit();
-  }
-}
-
-std::vector<std::unique_ptr<Force<3>>> weight() {
-  std::vector<std::unique_ptr<Force<3>>> forces;
-  forces.push_back(std::make_unique<Gravity<3>>(Vec<3>(0, 0, -g)));
-  return forces;
-}
-
 // A beam along x or y that stands on an edge.
 BodySpec<3> beam(int along, double height) {
   const double thick = 0.1;
@@ -48,7 +26,7 @@ TEST(SpatialContact, lays_an_edge_across_an_edge) {
   BodySpec<3> below = beam(0, 0), above = beam(1, 0.25);
   below.motion = Motion::fixed;
   above.free = {false, false, true, false, false, false};
-  Bodies<3> bodies({below, above}, weight(), {}, ContactSpec<3>{});
+  Bodies<3> bodies({below, above}, pull<3>({0, 0, -g}), {}, ContactSpec<3>{});
   run(bodies, 600);
   EXPECT_NEAR(bodies.state(1).pose.translation().z(), 0.1 * std::numbers::sqrt2, 1e-9);
   EXPECT_NEAR(bodies.state(1).velocity.norm(), 0, 1e-9);

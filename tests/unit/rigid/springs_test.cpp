@@ -21,15 +21,6 @@ BodySpec<d> lump(double mass, const Vec<d>& centre) {
   return spec;
 }
 
-template <int d>
-void run(Bodies<d>& bodies, int steps, double dt, bool first = true) {
-  for (int i = 0; i < steps; ++i) {
-    bodies.begin(first && i == 0 ? dt / 2 : dt, dt);
-    bodies.solve(std::vector<Wrench<d>>(bodies.size(), Wrench<d>::Zero()));
-    bodies.commit();
-  }
-}
-
 const Eigen::Vector3d along_x = Eigen::Vector3d::UnitX();
 
 TEST(Spring, swings_with_its_period_to_second_order) {
