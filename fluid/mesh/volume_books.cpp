@@ -142,9 +142,9 @@ std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const Wa
     now = nodal_volumes(mesh, nodes.x);
   const auto moments = free.moments(volumes, nodes.v);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (now[i] > volumes[i]) {
+    if (const double before = std::max(0.0, volumes[i]); now[i] > before) {
       const Vec<d> w = free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>::Zero();
-      nodes.v[i] = w + std::sqrt(std::max(0.0, volumes[i]) / now[i]) * (nodes.v[i] - w);
+      nodes.v[i] = w + std::sqrt(before / now[i]) * (nodes.v[i] - w);
     }
   return now;
 }

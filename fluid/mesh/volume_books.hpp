@@ -9,8 +9,8 @@
 // V_i: volume around node i, A_i: area vector of its free surface, S_i: its measure, so that sheets and tips
 // grow by the same share of their thickness as the rest. Velocities of nodes that gain volume fall so that their kinetic
 // energy stays, v <- w + (v - w) (V before / V after)^1/2, w: mean velocity of free water, zero where walls are: volume comes
-// back without energy. The sum of volume and what is owed,
-// spray included, is the volume that the water began with, to roundoff.
+// back without energy. Nodes whose cells have turned over have no volume, before and after: they keep their velocity. The sum
+// of volume and what is owed, spray included, is the volume that the water began with, to roundoff.
 #pragma once
 
 #include <vector>

@@ -100,6 +100,29 @@ TYPED_TEST(VolumeBooks, no_kinetic_energy_comes_with_it) {
   EXPECT_LE(kinetic_energy(p), before * (1 + 100 * scenes::eps));
 }
 
+// No volume, no energy to keep: at rest they would stand still in water that passes.
+TYPED_TEST(VolumeBooks, nodes_whose_cells_have_turned_over_go_with_the_water_around_them) {
+  constexpr int d = TypeParam::value;
+  int gained = 0;
+  for (std::size_t node = 0; node < pool<d>().nodes.size(); ++node)
+    for (const double deep : {0.3, 0.6, 0.9}) {
+      auto p = pool<d>();
+      if (!p.nodes.surface[node]) continue;
+      p.nodes.x[node][d - 1] -= deep;
+      p.nodes.owed[node] = lost;
+      const auto v = p.nodes.v;
+      const auto before = nodal_volumes(p.mesh, p.nodes.x);
+      give_volume_back(p);
+      const auto after = nodal_volumes(p.mesh, p.nodes.x);
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        if (after[i] > 0) continue;
+        gained += after[i] > before[i];
+        EXPECT_EQ(p.nodes.v[i], v[i]);
+      }
+    }
+  EXPECT_GT(gained, 0);
+}
+
 TYPED_TEST(VolumeBooks, nothing_moves_where_nothing_is_owed) {
   constexpr int d = TypeParam::value;
   auto p = pool<d>();
