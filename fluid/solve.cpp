@@ -78,6 +78,7 @@ Status Fluid<d>::State::repair() {
   trial.energy_before = kinetic_energy(v);
   Eigen::VectorXd excess = equation.on_motions(held.excess(v, s_before));
   std::vector<Vec<d>> free = v;  // as if no wall held them
+  double energy = equation.kinetic_energy(v);
   for (int k = 0; k < repairs; ++k) {
     middle(v, -0.5 * work.dt);
     equation.flux_residual(trial.x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
@@ -85,7 +86,7 @@ Status Fluid<d>::State::repair() {
     const auto s_0 = s_before;
     const auto free_0 = free;
     const Eigen::VectorXd answer_0 = trial.answer;
-    const double energy_0 = equation.kinetic_energy(v);
+    const double energy_0 = energy;
     auto handed = held.excess(free, s_before);
     answer_to(r, s_before, excess);
     excess.setZero();  // what follows is linear, and answered with the pressure
@@ -100,7 +101,8 @@ Status Fluid<d>::State::repair() {
     auto gains = [&] {
       double given = work_of(r, s_0, s_before);
       for (std::size_t w = 0; w < handed.size(); ++w) given += taken * handed[w].dot(0.5 * (s_0[w] + s_before[w]));
-      return equation.kinetic_energy(v) + given > energy_0 + most_gain * (energy_0 + std::abs(given));
+      energy = equation.kinetic_energy(v);
+      return energy + given > energy_0 + most_gain * (energy_0 + std::abs(given));
     };
     while (taken > 0 && gains()) {
       const double less = taken > 0.25 ? 0.5 : 0.0;
@@ -112,6 +114,7 @@ Status Fluid<d>::State::repair() {
       v = free;
       held.hold(v, s_before);
     }
+    if (taken == 0) energy = equation.kinetic_energy(v);
     for (std::size_t w = 0; w < handed.size(); ++w) trial.repair_handed[w] += taken * handed[w];
     for (int i = 0; i < equation.size(); ++i) trial.repaired[i] += r[i];
   }
@@ -192,7 +195,8 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
   Correction<d> left;
   move_nodes();
   if (auto status = what_is_left(previous, left); !status.ok()) return status;
-  const double least = roundoff * roundoff * equation.kinetic_energy(trial.v);
+  trial.energy_loaded = equation.kinetic_energy(trial.v);
+  const double least = roundoff * roundoff * trial.energy_loaded;
   ConjugateResidual<Correction<d>> iteration(left);
   for (int k = 1; k < corrections<d> && iteration.size() > least; ++k) {
     const Correction<d> tried = iteration.left();
