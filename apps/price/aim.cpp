@@ -185,12 +185,24 @@ std::string accuracy_text(const std::optional<std::pair<double, std::string>>& a
                   : "a band that is not known: too few meshes";
 }
 
+/// A run whose files can be taken over.
+bool is_made(const Source& source, const Rung& rung) {
+  return rung.spec.role == Role::rung && fs::exists(source.folder / rung.folder / "checkpoint");
+}
+
+/// The finest mesh whose run takes no longer than what is left, or one whose run is there and took no longer than was asked.
+double refine_in(const Aim& aim, double asked) {
+  double refine = *aim.price.refine_in(std::max(asked - aim.spent - aim.report, 0.));
+  for (const Rung& rung : aim.price.rungs)
+    if (is_made(aim, rung) && rung.seconds <= asked) refine = std::max(refine, rung.spec.refine);
+  return refine;
+}
+
 /// Throws SceneError if there is no such mesh.
 void choose(Aim& aim, const RunOptions& options) {
   const auto& price = aim.price;
   if (options.seconds) {
-    const double left = std::max(*options.seconds - aim.spent - aim.report, 0.);
-    aim.refine = *price.refine_in(left);
+    aim.refine = refine_in(aim, *options.seconds);
   } else if (const auto refine = price.refine_for(*options.accuracy / 100)) {
     aim.refine = *refine;
   } else {
@@ -248,10 +260,9 @@ std::string reached_text(const Aim& aim, const RunOptions& options, const fs::pa
 
 /// A run on this mesh was made already: its files, but for a report, in the folder of the run.
 bool taken_over(const Aim& aim, const RunOptions& options, const fs::path& folder) {
-  const auto made = std::ranges::find_if(aim.price.rungs, [&](const Rung& rung) {
-    return rung.spec.role == Role::rung && rung.spec.refine == aim.refine;
-  });
-  if (made == aim.price.rungs.end() || !fs::exists(aim.folder / made->folder / "checkpoint")) return false;
+  const auto made = std::ranges::find_if(
+      aim.price.rungs, [&](const Rung& rung) { return is_made(aim, rung) && rung.spec.refine == aim.refine; });
+  if (made == aim.price.rungs.end()) return false;
   const auto resolved = read_scene(options.scene, options.overrides).resolved;
   if (!options.force && foreign_results(folder, options.scene, resolved)) return false;
   fs::create_directories(folder);

@@ -156,7 +156,7 @@ std::optional<double> Price::refine_for(double wanted) const {
 
 std::optional<double> Price::refine_in(double wanted) const {
   if (rungs.empty()) return {};
-  const double far = farthest_extrapolation * finest();
+  const double far = farthest_run * finest();
   if (*seconds(far) <= wanted) return far;
   return least(coarsest(), far, [&](double refine) { return *seconds(refine) >= wanted; });
 }

@@ -57,12 +57,14 @@ struct Price {
   std::optional<std::pair<double, std::string>> accuracy(double refine) const;
   /// The coarsest mesh with that accuracy, up to `farthest` times finer than any made.
   std::optional<double> refine_for(double accuracy) const;
-  /// The finest mesh whose run takes no longer, not below the coarsest made.
+  /// The finest mesh whose run takes no longer, not below the coarsest made, nor more than `farthest_run` times finer than any.
   std::optional<double> refine_in(double seconds) const;
 };
 
 /// Beyond it the fit says nothing that could be held against a run.
 inline constexpr double farthest_extrapolation = 4;
+/// Beyond it what a run takes may be ruled by what no coarse one had: on fine meshes jets tear, and steps are a third as long.
+inline constexpr double farthest_run = 2;
 
 /// Quantities without a value on three rungs are left out, and named in `notes`.
 Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>& quantities, int dimension,

@@ -9,9 +9,10 @@ namespace {
 // 1.9 times coarser than the mesh that takes the rest. A quarter for a single one is the price of knowing how time grows at
 // all, or of a mesh that uses the time up.
 constexpr double first_share = 0.05, all_share = 0.3, single_share = 0.25;
+constexpr double least_used = 0.9;  // less is worth another probe
 constexpr int made_for_band = 3;
-/// 2^(4/2) = 4: from one probe to the next, and from the last to the mesh that is chosen (`farthest_extrapolation`).
-constexpr int farthest_step = 4;
+/// From one probe to the next, and from the last to the mesh that is chosen: 2^(2/2) = `farthest_run`.
+constexpr int farthest_step = 2;
 
 }  // namespace
 
@@ -32,8 +33,10 @@ std::optional<int> next_probe(double asked, ProbeRange range, const ProbesMade& 
   };
   for (int last = farthest; last >= next; --last)
     if (paid(last)) return first_of(last);
-  const bool out_of_reach = made.spent + predicted(made.finest + farthest_step) < asked;
-  if ((made.count == 1 || out_of_reach) && predicted(next) <= single_share * asked) return next;
+  if (made.count == 1 && predicted(next) <= single_share * asked) return next;
+  // No mesh in reach takes the time: one that may be chosen in reach of the next has to be paid for, too.
+  const bool out_of_reach = made.spent + predicted(made.finest + farthest_step) < least_used * asked;
+  if (out_of_reach && made.spent + 2 * predicted(next) <= asked) return next;
   return {};
 }
 
