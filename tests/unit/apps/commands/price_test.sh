@@ -50,6 +50,9 @@ told() { "$splashdown" run scene.toml --seconds "$1" --price list --out told --n
 check "seconds for none but the coarsest mesh take the run that was made" exits 0 told 0.001
 check "and say so" grep -q 'chosen  *refine 0.5, ' stdout
 check "with its files" cmp told/bodies.csv list/refine-0.5/bodies.csv
+finest=$(sed -n 's/.*"wall_seconds": *\([0-9.e+-]*\).*/\1/p' list/refine-1/summary.json | head -1)
+check "seconds that a run took which was made take no coarser mesh" exits 0 told "$(awk "BEGIN {print 1.01 * $finest}")"
+check "but it, or a finer one" awk '/^chosen/ {found = $3 + 0 >= 1} END {exit !found}' stdout
 check "without a list coarse runs are made, of any refinement" exits 0 \
   "$splashdown" run scene.toml --set fluid.size.refine=0.77777 --accuracy 1000% --out odd --no-report
 check "and one of them is taken, its seconds too" cmp <(head -3 odd/fluid.csv) <(head -3 odd_probe/refine-0.1944/fluid.csv)
