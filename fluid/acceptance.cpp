@@ -76,7 +76,7 @@ Status Fluid<d>::State::no_energy_from_nowhere() const {
     if (!work.nodes.spray[i])
       taken_along += spec.density * equation.lumped_volume()[i] *
                      std::max(0.0, (result.velocity[i] - trial.v_after[i]).dot(result.velocity[i]));
-  const double before = std::max(trial.energy_before, trial.energy_loaded);
+  const double before = std::max(trial.energy_before, trial.energy_unloaded);
   const double after = std::min(equation.kinetic_energy(trial.v_after), equation.kinetic_energy(result.velocity));
   const double gain = after + given - before - taken_along;
   const double scale = before + std::abs(given) + taken_along;

@@ -72,11 +72,12 @@ struct Trial {
   std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
   Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
   Eigen::VectorXd unanswered;                    // impulses of effects that did not let the motions answer
-  double energy_before = 0, energy_repaired = 0, energy_loaded = 0;  // of v: as carried, repaired, before the pressure
-  std::vector<double> phi;                                           // physical impulse
-  std::vector<Vec<d>> v_after;                                       // of nodes, with the pressure
-  std::vector<Twist<d>> s_after;                                     // of walls
-  typename WallMotion<d>::Moved moved;                               // along the walls
+  double energy_before = 0, energy_repaired = 0,
+         energy_unloaded = 0;           // of v: as carried, repaired, before the pressure
+  std::vector<double> phi;              // physical impulse
+  std::vector<Vec<d>> v_after;          // of nodes, with the pressure
+  std::vector<Twist<d>> s_after;        // of walls
+  typename WallMotion<d>::Moved moved;  // along the walls
 };
 
 // By an impulse, over the energies in it: what its truncation and their lumping may feign.

@@ -101,9 +101,9 @@ Status Fluid<d>::State::repair() {
     auto gains = [&] {
       double given = work_of(r, s_0, s_before);
       for (std::size_t w = 0; w < handed.size(); ++w) given += taken * handed[w].dot(0.5 * (s_0[w] + s_before[w]));
-      energy = equation.kinetic_energy(v);
       return energy + given > energy_0 + most_gain * (energy_0 + std::abs(given));
     };
+    energy = equation.kinetic_energy(v);
     while (taken > 0 && gains()) {
       const double less = taken > 0.25 ? 0.5 : 0.0;
       taken *= less;
@@ -113,8 +113,8 @@ Status Fluid<d>::State::repair() {
       trial.answer = answer_0 + less * (trial.answer - answer_0);
       v = free;
       held.hold(v, s_before);
+      energy = equation.kinetic_energy(v);
     }
-    if (taken == 0) energy = equation.kinetic_energy(v);
     for (std::size_t w = 0; w < handed.size(); ++w) trial.repair_handed[w] += taken * handed[w];
     for (int i = 0; i < equation.size(); ++i) trial.repaired[i] += r[i];
   }
@@ -195,8 +195,8 @@ Status Fluid<d>::State::correct(std::span<const double> previous) {
   Correction<d> left;
   move_nodes();
   if (auto status = what_is_left(previous, left); !status.ok()) return status;
-  trial.energy_loaded = equation.kinetic_energy(trial.v);
-  const double least = roundoff * roundoff * trial.energy_loaded;
+  trial.energy_unloaded = equation.kinetic_energy(trial.v);
+  const double least = roundoff * roundoff * trial.energy_unloaded;
   ConjugateResidual<Correction<d>> iteration(left);
   for (int k = 1; k < corrections<d> && iteration.size() > least; ++k) {
     const Correction<d> tried = iteration.left();

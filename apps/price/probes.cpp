@@ -10,8 +10,7 @@ namespace {
 // all, or of a mesh that uses the time up.
 constexpr double first_share = 0.05, all_share = 0.3, single_share = 0.25;
 constexpr double least_used = 0.9;  // less is worth another probe
-constexpr int made_for_band = 3;
-/// From one probe to the next, and from the last to the mesh that is chosen: 2^(2/2) = `farthest_run`.
+/// From the last probe to the mesh that is chosen: 2^(2/2) = `farthest_run`.
 constexpr int farthest_step = 2;
 
 }  // namespace
@@ -23,16 +22,9 @@ int first_probe(double asked, ProbeRange range, int usual, const SecondsOf& gues
 }
 
 std::optional<int> next_probe(double asked, ProbeRange range, const ProbesMade& made, const SecondsOf& predicted) {
-  const int next = made.finest + 1, farthest = std::min(range.finest, made.finest + farthest_step);
+  const int next = made.finest + 1;
   if (next > range.finest) return {};
-  const auto first_of = [&](int last) { return std::max(next, last - (made_for_band - 1)); };
-  const auto paid = [&](int last) {
-    double all = made.spent;
-    for (int k = first_of(last); k <= last; ++k) all += predicted(k);
-    return all <= all_share * asked;
-  };
-  for (int last = farthest; last >= next; --last)
-    if (paid(last)) return first_of(last);
+  if (made.spent + predicted(next) <= all_share * asked) return next;
   if (made.count == 1 && predicted(next) <= single_share * asked) return next;
   // No mesh in reach takes the time: one that may be chosen in reach of the next has to be paid for, too.
   const bool out_of_reach = made.spent + predicted(made.finest + farthest_step) < least_used * asked;

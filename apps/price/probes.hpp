@@ -1,9 +1,9 @@
 // Which coarse runs tell what mesh takes a given time: as fine ones as three tenths of it pay for.
 //
 // Meshes that may be probed are the scene's own times powers of sqrt(2), so that a later call with another time finds runs that it
-// can use. The first is guessed to take a twentieth of the time; what it took says how fine the last of the others can be, and
-// that one and the two before it are made, for three have a band. None is more than twice as fine as the one before, nor the
-// mesh that is chosen than the last: where that leaves time unused, more are made, as long as one and the run that it allows fit.
+// can use. The first is guessed to take a twentieth of the time; the others follow one after the other. The mesh that is chosen is
+// no more than twice as fine as the last: where that leaves time unused, more are made, as long as one and the run that it allows
+// fit.
 #pragma once
 
 #include <functional>

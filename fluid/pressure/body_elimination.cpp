@@ -21,6 +21,13 @@ struct Left {
   }
 };
 
+// Factors that make inertias one; 0 for directions in which neither body nor water has any: they stay as they are.
+Eigen::VectorXd units_of(const Eigen::VectorXd& inertias) {
+  Eigen::VectorXd units(inertias.size());
+  for (Eigen::Index i = 0; i < units.size(); ++i) units[i] = inertias[i] > 0 ? 1 / std::sqrt(inertias[i]) : 0.0;
+  return units;
+}
+
 }  // namespace
 
 template <int d>
@@ -56,17 +63,6 @@ bool PressureEquation<d>::add_bodies() {
   allow(Eigen::MatrixXd::Identity(motions(), motions()));
   return true;
 }
-
-namespace {
-
-// Factors that make inertias one; 0 for directions in which neither body nor water has any: they stay as they are.
-Eigen::VectorXd units_of(const Eigen::VectorXd& inertias) {
-  Eigen::VectorXd units(inertias.size());
-  for (Eigen::Index i = 0; i < units.size(); ++i) units[i] = inertias[i] > 0 ? 1 / std::sqrt(inertias[i]) : 0.0;
-  return units;
-}
-
-}  // namespace
 
 template <int d>
 void PressureEquation<d>::allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless) {

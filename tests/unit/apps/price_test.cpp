@@ -257,7 +257,7 @@ TEST(Probes, that_are_too_dear_are_not_made) {
   EXPECT_EQ(first_probe(100, {-4, 8}, 0, seconds), 0);
   EXPECT_EQ(first_probe(2, {-4, 8}, 0, seconds), -4);          // of a tenth of a second: a sixteenth
   EXPECT_EQ(first_probe(0.1, {-4, 8}, 0, seconds), -4);        // there is none coarser
-  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 0, 1}, seconds), 1);  // 2 + 4 s: no farther at once
+  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 0, 1}, seconds), 1);  // one after the other
   EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 5}, seconds), 3);
   EXPECT_FALSE(next_probe(100, {-4, 8}, {3, 4, 29}, seconds));  // 64 s are in reach
   EXPECT_EQ(next_probe(200, {-4, 8}, {3, 4, 29}, seconds), 5);  // and not enough here
