@@ -38,7 +38,8 @@ void carry(Nodes<d>& nodes, std::span<const double> volumes) {
 }
 
 // Where p = 0 is held, no pressure keeps a node's volume. What it gains while it runs ahead of its neighbours is their
-// water, and comes with their momentum. `before`: nodal volumes, before the motion.
+// water, and comes with their momentum. A node that has lost all of its volume has no momentum of its own left: it goes with its
+// neighbours. `before`: nodal volumes, before the motion.
 template <int d>
 void entrain(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around, std::span<const int> unknown,
              std::span<const double> before) {
@@ -49,15 +50,17 @@ void entrain(Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around, s
   std::vector<Change> changes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double gained = nodes.volume[i] - before[i];
-    if (unknown[i] >= 0 || nodes.spray[i] || nodes.tie[i].sharp() || !(gained > 0)) continue;
-    Vec<d> sum = Vec<d>::Zero();
-    double weight = 0;
+    const bool is_empty = nodes.volume[i] == 0;
+    if (nodes.spray[i] || nodes.tie[i].sharp() || !(is_empty || (unknown[i] < 0 && gained > 0))) continue;
+    VelocityMoments<d> water;  // around it
     for (const auto [c, k] : around.around(i)) {
       const double share = std::max(0.0, volume<d>(corners(nodes.x, mesh.cells[c])));
       for (int n : mesh.cells[c])
-        if (n != static_cast<int>(i)) sum += share * nodes.v[n], weight += share;
+        if (n != static_cast<int>(i)) water += VelocityMoments<d>::of(is_empty ? nodes.volume[n] : share, nodes.v[n]);
     }
-    if (weight > 0) changes.push_back({i, (before[i] * nodes.v[i] + gained * (sum / weight)) / nodes.volume[i]});
+    if (!(water.volume > 0)) continue;
+    const Vec<d> v = water.mean_velocity();
+    changes.push_back({i, is_empty ? v : Vec<d>((before[i] * nodes.v[i] + gained * v) / nodes.volume[i])});
   }
   for (const Change& change : changes) nodes.v[change.node] = change.v;
 }

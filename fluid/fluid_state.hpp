@@ -137,6 +137,7 @@ struct Fluid<d>::State {
   void collect_drops();
   std::size_t put_drops_last();
   void cut(std::size_t liquid);
+  bool is_inviscid(int node) const;
   void book_spray(const std::vector<char>& was_spray);
   void hand_over(const std::vector<char>& goes, const std::vector<std::array<int, d + 1>>& cells);
   Vec<d> gravity() const;

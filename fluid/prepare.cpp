@@ -7,6 +7,7 @@
 #include "fluid/fluid_state.hpp"
 #include "fluid/mesh/droplets.hpp"
 #include "fluid/mesh/landing.hpp"
+#include "fluid/mesh/sheets.hpp"
 #include "fluid/mesh/size_field.hpp"
 #include "fluid/mesh/volume_books.hpp"
 #include "fluid/parallel.hpp"
@@ -73,6 +74,16 @@ Vec<d> Fluid<d>::State::gravity() const {
   return g;
 }
 
+// Whether effects that spread momentum leave that of an element's size alone, within a step.
+template <int d>
+bool Fluid<d>::State::is_inviscid(int node) const {
+  constexpr double spread = 1e-3;  // of the momentum
+  double diffusivity = 0;
+  for (const auto& effect : effects) diffusivity += effect->diffusivity(spec.density);
+  const double h = work.nodes.h[node];
+  return diffusivity * now.dt <= spread * h * h;
+}
+
 template <int d>
 void Fluid<d>::State::collect_drops() {
   Nodes<d>& nodes = work.nodes;
@@ -124,6 +135,7 @@ void Fluid<d>::State::cut(std::size_t liquid) {
     auto found = recognise<d>(std::move(cells), nodes, work.mesh.boundary, walls_at(work.poses));
     if (found.piercing.empty() || attempt == attempts) {
       work.mesh = std::move(found);
+      if (now.dt > 0) let_sheets_fly<d>(nodes, work.mesh, [&](int i) { return is_inviscid(i); });
       return book_spray(spray);
     }
     nodes.spray = spray;

@@ -69,6 +69,8 @@ class Effect {
   virtual Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) = 0;
   /// Potential energy per unit mass at a point [J/kg]; 0 for effects that have none.
   virtual double potential(const Vec<d>& /*x*/) const { return 0; }
+  /// Kinematic viscosity [m^2/s] with which it spreads momentum through the fluid; 0 for effects that do not.
+  virtual double diffusivity(double /*density*/) const { return 0; }
   /// Numbers at t_n, after `predict`; always of the same names. `lumped_mass`: of nodes [kg].
   virtual std::vector<Diagnostic> diagnostics(const Nodes<d>& /*nodes*/,
                                               std::span<const double> /*lumped_mass*/) const {

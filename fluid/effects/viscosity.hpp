@@ -38,6 +38,7 @@ class Viscosity final : public Effect<d> {
   std::string name() const override { return "viscosity"; }
   Status begin(const StepView<d>& step) override;
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
+  double diffusivity(double density) const override { return mu_ / density; }
   /// power: rate of change of the kinetic energy [W]
   std::vector<Diagnostic> diagnostics(const Nodes<d>&, std::span<const double>) const override {
     return {{"power", power_}};

@@ -1,0 +1,107 @@
+#include "fluid/mesh/sheets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/unit/fluid/scenes.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+template <class D>
+class Sheets : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Sheets, Dimensions);
+
+// Water whose nodes are all on free surfaces as far as x = 0.6, in random motion.
+template <int d>
+scenes::Lattice<d> pool_with_sheet() {
+  scenes::Lattice<d> pool(5);
+  Nodes<d>& nodes = pool.nodes;
+  nodes.volume = nodal_volumes(pool.mesh, nodes.x);
+  std::mt19937 random(7);
+  for (auto& v : nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes.x[i].x() < 0.6 + 1e-9) nodes.surface[i] = 1, nodes.tie[i] = {};
+  for (auto& f : pool.mesh.boundary)
+    if (std::ranges::all_of(f.nodes, [&](int n) { return nodes.surface[n]; })) f.wall = -1;
+  return pool;
+}
+
+template <int d>
+VelocityMoments<d> carried(const Nodes<d>& nodes) {
+  VelocityMoments<d> all;
+  for (std::size_t i = 0; i < nodes.size(); ++i) all += nodes.carried(i);
+  return all;
+}
+
+template <int d>
+double volume_of_cells(const scenes::Lattice<d>& p) {
+  return std::accumulate(p.mesh.cells.begin(), p.mesh.cells.end(), 0.0,
+                         [&](double sum, const auto& cell) { return sum + volume<d>(corners(p.nodes.x, cell)); });
+}
+
+const auto any_node = [](int) { return true; };
+
+TYPED_TEST(Sheets, nodes_whose_cells_all_lie_between_free_surfaces_fly) {
+  constexpr int d = TypeParam::value;
+  auto p = pool_with_sheet<d>();
+  Nodes<d>& nodes = p.nodes;
+  std::vector<char> stays(nodes.size(), 0);
+  for (const auto& cell : p.mesh.cells)
+    if (std::ranges::any_of(cell, [&](int n) { return !nodes.surface[n] || nodes.tie[n].wall >= 0; }))
+      for (int n : cell) stays[n] = 1;
+  let_sheets_fly<d>(nodes, p.mesh, any_node);
+  EXPECT_GT(std::ranges::count(nodes.spray, 1), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(nodes.spray[i], !stays[i]) << i;
+  for (const auto& cell : p.mesh.cells)
+    for (int n : cell) EXPECT_FALSE(nodes.spray[n]);
+}
+
+TYPED_TEST(Sheets, they_take_their_volume_and_momentum_along_and_no_energy) {
+  constexpr int d = TypeParam::value;
+  auto p = pool_with_sheet<d>();
+  const auto before = carried(p.nodes);
+  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  const auto after = carried(p.nodes);
+  EXPECT_NEAR(after.volume, before.volume, 1000 * scenes::eps);
+  EXPECT_LE((after.momentum - before.momentum).norm(), 1000 * scenes::eps);
+  EXPECT_LT(after.energy, before.energy);
+  const auto left = nodal_volumes(p.mesh, p.nodes.x);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (p.nodes.spray[i]) continue;
+    EXPECT_NEAR(p.nodes.volume[i], left[i], 1000 * scenes::eps) << i;
+  }
+}
+
+TYPED_TEST(Sheets, what_stays_is_enclosed_by_its_boundary) {
+  constexpr int d = TypeParam::value;
+  auto p = pool_with_sheet<d>();
+  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  Vec<d> closure = Vec<d>::Zero();
+  for (const auto& f : p.mesh.boundary) {
+    closure += area_vector_of<d>(f, p.nodes.x);
+    for (int n : f.nodes) EXPECT_FALSE(p.nodes.spray[n]);
+  }
+  EXPECT_LE(closure.norm(), 1000 * scenes::eps);
+  EXPECT_NEAR(enclosed_volume(p.mesh.boundary, p.nodes.x), volume_of_cells<d>(p), 1000 * scenes::eps);
+}
+
+TYPED_TEST(Sheets, nodes_that_may_not_fly_do_so_only_without_cells) {
+  constexpr int d = TypeParam::value;
+  auto p = pool_with_sheet<d>();
+  const auto cells = p.mesh.cells;
+  let_sheets_fly<d>(p.nodes, p.mesh, [](int) { return false; });
+  EXPECT_EQ(p.mesh.cells, cells);
+  EXPECT_EQ(std::ranges::count(p.nodes.spray, 1), 0);
+  // Every other one: the rest has cells, or flies too.
+  let_sheets_fly<d>(p.nodes, p.mesh, [](int n) { return n % 2 == 0; });
+  std::vector<char> has_cells(p.nodes.size(), 0);
+  for (const auto& cell : p.mesh.cells)
+    for (int n : cell) has_cells[n] = 1;
+  for (std::size_t i = 0; i < p.nodes.size(); ++i) EXPECT_EQ(p.nodes.spray[i], !has_cells[i]) << i;
+}
+
+}  // namespace
+}  // namespace splashdown::fluid
