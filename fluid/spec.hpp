@@ -24,7 +24,7 @@ struct LiquidSpec {
 struct SizeSpec {
   double surface = 0;          ///< at the free surface [m]
   double far = 0;              ///< largest element [m]
-  double growth = 0.15;        ///< dh/dx; the wedges of docs/validation.md use 0.1
+  double growth = 0.15;        ///< dh/dx; the wedges of docs/validation.md use 0.2
   double wetted_fraction = 0;  ///< at a wall h is at least this fraction of its wetted half length
   /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
   double hollow = std::numeric_limits<double>::infinity();

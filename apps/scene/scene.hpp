@@ -97,7 +97,7 @@ struct Sizes {
   double refine = 1;           ///< the lengths and shares that a mesh and dt_max were given have been divided by this
   double surface = 0;          ///< at the free surface [m]
   double far = 0;              ///< largest element [m]; default: `surface`
-  double growth = 0.15;        ///< dh/dx; the wedges of docs/validation.md use 0.1
+  double growth = 0.15;        ///< dh/dx; the wedges of docs/validation.md use 0.2
   double wetted_fraction = 0;  ///< h at a wall is at least this fraction of its wetted half length
   /// At hollows of the free surface (the root of a jet) h is this fraction of their radius of curvature ...
   std::optional<double> hollow;

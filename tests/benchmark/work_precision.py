@@ -3,6 +3,7 @@
 
     tests/benchmark/work_precision.py build/release/splashdown [CASE...]     (default: all but the cone)
     tests/benchmark/work_precision.py build/release/splashdown --presets [CASE...]
+    tests/benchmark/work_precision.py build/release/splashdown --growth [CASE...]     how fast elements may grow
 
 Runs a scene on several meshes, one thread, from the start of the process to the files on disk, report and frames
 included, and prints processor seconds (user + system, with those of gnuplot: other work on the machine changes them
@@ -87,17 +88,24 @@ def wide(factor, half=13.5):
 
 CASES = {
     "wedge_30": ("wedge_entry/scene.toml", lambda f: similarity(f, 0.4, 14.02, 6.8948),
-                 [["--refine=0.1"], ["--refine=0.14"], ["--refine=0.2"], ["--refine=0.2", *wide(2)],
-                  ["--refine=0.4", *wide(2)], ["--refine=0.57", *wide(2)], ["--refine=0.8", *wide(2)]]),
+                 [["--refine=0.14"], ["--refine=0.2"], ["--refine=0.28", *wide(2)], ["--refine=0.4", *wide(2)],
+                  ["--refine=0.57", *wide(2)], ["--refine=0.8", *wide(2)], ["--refine=1.13", *wide(2)]]),
     "wedge_15": ("wedge_entry/scene_15.toml", lambda f: similarity(f, 0.19, 84.94, 1),
                  [["--refine=0.12"], ["--refine=0.18"], ["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"]]),
     "wedge_10": ("wedge_entry/scene_10.toml", lambda f: similarity(f, 0.125, 212.97, 1),
                  [["--refine=0.12"], ["--refine=0.18"], ["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"]]),
     "wedge_drop": ("wedge_drop/scene.toml", wedge_drop,
-                   [["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"]]),
+                   [["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"],
+                    ["--refine=1.41"], ["--refine=2"]]),
     "light_capsule": ("capsule_drop_2d/scene.toml", capsule, [["--refine=0.7", "--until=0.3"], ["--refine=1", "--until=0.3"]]),
     "cone_45": ("cone_entry/scene_45.toml", cone, [["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"]]),
 }
+
+
+def told_options(options):
+    """As they were given; of a wider tank that it is."""
+    given = [option.removeprefix("--set=fluid.size.") for option in options if "tank" not in option and "region" not in option]
+    return " ".join([*given, "wide"] if len(given) < len(options) else given)
 
 
 def measure(program, scene, options):
@@ -117,13 +125,16 @@ CASES_BY_SCENE = {scene: errors for scene, errors, _ in CASES.values()}
 
 def main():
     program, names = sys.argv[1], sys.argv[2:]
-    of_presets = "--presets" in names
-    names = [name for name in names if name != "--presets"] or [name for name in CASES if name != "cone_45"]
+    of_presets, of_growth = "--presets" in names, "--growth" in names
+    names = [name for name in names if not name.startswith("--")] or [name for name in CASES if name != "cone_45"]
     for name in names:
         scene, _, ladder = CASES[name]
         if of_presets:
             others = [option for option in ladder[-1] if not option.startswith("--refine")]
             ladder = [[f"--refine={preset}", *others] for preset in ("draft", "standard", "reference")]
+        if of_growth:
+            ladder = [[*options, f"--set=fluid.size.growth={growth}"]
+                      for options in (ladder[2], ladder[-1]) for growth in (0.1, 0.15, 0.2, 0.3)]
         print(f"{name}: examples/{scene}")
         for options in ladder:
             used, wall, summary, errors = measure(program, scene, options)
@@ -131,7 +142,7 @@ def main():
             around = sum(phases.get(phase, 0) for phase in ("setup", "output", "report"))
             told = ", ".join(f"{what} {value:.3g}" if "pass" in what or "[" in what else f"{what} {100 * value:+.2f} %"
                              for what, value in errors.items())
-            print(f"  {' '.join(options)[:60]:60} {used:6.2f} s of processor, {wall:6.2f} s wall, "
+            print(f"  {told_options(options):44} {used:6.2f} s of processor, {wall:6.2f} s wall, "
                   f"{summary['nodes']['max']:6d} nodes, {summary['steps']:5d} steps, not steps "
                   f"{100 * around / summary['wall_seconds']:.0f} %: {told}", flush=True)
 

@@ -19,7 +19,7 @@ template <int d>
 struct Rules;
 template <>
 struct Rules<2> {
-  static constexpr double entering = 50, wetted_fraction = 0.02, wet = 30, growth = 0.1;
+  static constexpr double entering = 50, wetted_fraction = 0.02, wet = 30, growth = 0.2;
 };
 template <>
 struct Rules<3> {

@@ -79,7 +79,7 @@ void read_sizes(Reader& reader, Sizes& size) {
                 finer(positive("m", "Leave it out to have sizes chosen, or use e.g. a fifth of the body's breadth.")));
   size.far = size.surface;
   reader.number("far", size.far, finer(positive("m", "Use fluid.size.surface or more.")));
-  reader.number("growth", size.growth, share("Use 0.1 to 0.2: the element size's growth per unit distance."));
+  reader.number("growth", size.growth, share("Use 0.2: the element size's growth per unit distance."));
   reader.number("wetted_fraction", size.wetted_fraction,
                 finer(within(0, 0.5, "",
                              "Use 0 (off), 0.004 to 0.01 in the plane or 0.03 in space: h over the wetted half length, "
