@@ -37,7 +37,8 @@ std::string play_text(const Joint& joint, int dimension) {
   if (joint.stiffness > 0)
     text += fmt::format(", spring {:g} {}/{}{}, relaxed at {:g} {}", joint.stiffness, force, hinge ? "rad" : "m", depth,
                         joint.rest, way);
-  if (joint.damping > 0) text += fmt::format(", damper {:g} {} s{}{}", joint.damping, force, hinge ? "/rad" : "/m", depth);
+  if (joint.damping > 0)
+    text += fmt::format(", damper {:g} {} s{}{}", joint.damping, force, hinge ? "/rad" : "/m", depth);
   return text;
 }
 

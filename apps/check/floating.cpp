@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/scene/scales.hpp"
 #include "apps/check/words.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/scales.hpp"
 #include "apps/statistics/attitude.hpp"
 #include "rigid/shapes/hydrostatics.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/scene/geometry.hpp"
 #include "apps/scene/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
-#include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
