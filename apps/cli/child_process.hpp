@@ -29,6 +29,9 @@ class ChildProcess {
   pid_t id_ = 0;
 };
 
+/// The last line that a process wrote to its log.
+std::string last_line(const std::filesystem::path& log);
+
 /// A program of this name on the PATH.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 

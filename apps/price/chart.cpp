@@ -12,7 +12,7 @@ namespace splashdown::apps {
 namespace {
 
 // Okabe and Ito (2008): told apart by everybody, also in print.
-constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
+constexpr std::array curve_colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 constexpr const char* ink = "#24313d";
 
 struct Work {
@@ -69,7 +69,7 @@ std::string script_of(const Price& price) {
         points.push_back({rung.seconds, 100 * *accuracy});
     if (quantity.what.counts)
       add(points, fmt::format("with linespoints lw 1.2 pt 7 ps 0.4 lc rgb '{}' title {} noenhanced",
-                              colours[colour++ % colours.size()], gnuplot_text(quantity.what.name)));
+                              curve_colours[colour++ % curve_colours.size()], gnuplot_text(quantity.what.name)));
   }
   const auto all = made(price);
   add(all, fmt::format("with lines lw 3 lc rgb '{}' title 'all of them'", ink));

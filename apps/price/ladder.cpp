@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <thread>
 
 #include "apps/cli/child_process.hpp"
@@ -28,14 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-std::string last_line(const fs::path& log) {
-  std::ifstream in(log);
-  std::string last;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) last = line;
-  return last;
-}
 
 Axis refine_axis(const std::vector<RungSpec>& specs, const std::vector<std::string>& larger_tank) {
   Axis axis{.name = "refine", .label = "refine", .values = {}};

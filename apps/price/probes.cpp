@@ -8,7 +8,7 @@ namespace {
 // Shares of the time asked for. Where a run's time grows with the square of refine, three probes for three tenths of the time end
 // 1.9 times coarser than the mesh that takes the rest. A quarter for a single one is the price of knowing how time grows at
 // all, or of a mesh that uses the time up.
-constexpr double first_share = 0.05, all_share = 0.3, single_share = 0.25;
+constexpr double first_probe_share = 0.05, all_share = 0.3, single_share = 0.25;
 constexpr double least_used = 0.9;  // less is worth another probe
 /// From the last probe to the mesh that is chosen: 2^(2/2) = `farthest_run`.
 constexpr int farthest_step = 2;
@@ -17,7 +17,7 @@ constexpr int farthest_step = 2;
 
 int first_probe(double asked, ProbeRange range, int usual, const SecondsOf& guessed) {
   int k = std::clamp(usual, range.coarsest, range.finest);
-  while (k > range.coarsest && guessed(k) > first_share * asked) --k;
+  while (k > range.coarsest && guessed(k) > first_probe_share * asked) --k;
   return k;
 }
 

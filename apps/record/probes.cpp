@@ -11,7 +11,7 @@ namespace splashdown::apps {
 
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t slot(int i) { return static_cast<std::size_t>(i); }
 
 /// Barycentric coordinates of the point of a simplex facet nearest to `point`. For triangles the coordinates
 /// of the projection are clipped and normalised: exact inside, close enough outside for a distance test.
@@ -27,7 +27,7 @@ Eigen::Matrix<double, d, 1> nearest_weights(const std::array<Vec<d>, d>& corners
 template <int d>
 std::array<Vec<d>, d> corners_of(const Nodes<d>& nodes, const Facet<d>& facet) {
   std::array<Vec<d>, d> corners;
-  for (std::size_t k = 0; k < d; ++k) corners[k] = nodes.x[index(facet.nodes[k])];
+  for (std::size_t k = 0; k < d; ++k) corners[k] = nodes.x[slot(facet.nodes[k])];
   return corners;
 }
 
@@ -35,14 +35,14 @@ std::array<Vec<d>, d> corners_of(const Nodes<d>& nodes, const Facet<d>& facet) {
 std::vector<Eigen::Index> chain(const Eigen::Matrix<int, 2, Eigen::Dynamic>& facets) {
   std::vector<Eigen::Index> after(static_cast<std::size_t>(facets.size()), -1);
   for (Eigen::Index f = 0; f < facets.cols(); ++f) {
-    const auto from = index(facets(0, f));
+    const auto from = slot(facets(0, f));
     if (from >= after.size()) after.resize(from + 1, -1);
     after[from] = f;
   }
   std::vector<Eigen::Index> order;
   for (Eigen::Index f = 0; f >= 0 && static_cast<Eigen::Index>(order.size()) < facets.cols();) {
     order.push_back(f);
-    const auto to = index(facets(1, f));
+    const auto to = slot(facets(1, f));
     f = to < after.size() ? after[to] : -1;
   }
   return order;
@@ -59,14 +59,14 @@ std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& me
     const auto corners = corners_of(nodes, facet);
     Eigen::Matrix<double, d - 1, d - 1> edges;
     for (int k = 1; k < d; ++k)
-      edges.col(k - 1) = corners[index(k)].template head<d - 1>() - corners[0].template head<d - 1>();
+      edges.col(k - 1) = corners[slot(k)].template head<d - 1>() - corners[0].template head<d - 1>();
     const double area = edges.determinant();
     if (area == 0) continue;  // vertical facet: its neighbours hold the same heights
     const Eigen::Matrix<double, d - 1, 1> local = edges.inverse() * (at - corners[0].template head<d - 1>());
     const double tolerance = 1e-12;  // a line through a node must not slip between two facets
     if (local.minCoeff() < -tolerance || local.sum() > 1 + tolerance) continue;
     double height = corners[0](d - 1);
-    for (int k = 1; k < d; ++k) height += local(k - 1) * (corners[index(k)](d - 1) - corners[0](d - 1));
+    for (int k = 1; k < d; ++k) height += local(k - 1) * (corners[slot(k)](d - 1) - corners[0](d - 1));
     if (!highest || height > *highest) highest = height;
   }
   return highest;
@@ -86,7 +86,7 @@ std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, 
     for (std::size_t k = 0; k < d; ++k) {
       const double weight = weights(static_cast<Eigen::Index>(k));
       foot += weight * corners[k];
-      p += weight * pressure[index(facet.nodes[k])];
+      p += weight * pressure[slot(facet.nodes[k])];
       size = std::max(size, (corners[k] - corners[0]).norm());
     }
     const double distance = (point - foot).norm();
@@ -107,7 +107,7 @@ double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const d
     std::array<Vec<d>, d> corners;
     std::array<double, d> at_corners;
     for (std::size_t k = 0; k < d; ++k) {
-      const std::size_t node = index(facet.nodes[d - 1 - k]);  // turned round: the hull's sense, not the fluid's
+      const std::size_t node = slot(facet.nodes[d - 1 - k]);  // turned round: the hull's sense, not the fluid's
       corners[k] = to_wall * nodes.x[node];
       at_corners[k] = pressure[node];
     }
@@ -177,8 +177,8 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, con
   points.reserve(wetted.size());
   const Isometry<d> to_wall = pose.inverse();
   for (const int node : wetted) {
-    const Vec<d>& x = nodes.x[index(node)];
-    points.push_back({x, ruler.distance(to_wall * x), pressure[index(node)]});
+    const Vec<d>& x = nodes.x[slot(node)];
+    points.push_back({x, ruler.distance(to_wall * x), pressure[slot(node)]});
   }
   std::ranges::stable_sort(points, {}, &SurfacePressurePoint<d>::s);
   return points;

@@ -14,7 +14,9 @@
 namespace splashdown::apps {
 namespace {
 
-std::string row(const std::string& head, const std::string& text) { return fmt::format("  {:<12}{}\n", head, text); }
+std::string closing_row(const std::string& head, const std::string& text) {
+  return fmt::format("  {:<12}{}\n", head, text);
+}
 
 /// Two digits, without an exponent.
 std::string percent(double share) {
@@ -101,15 +103,16 @@ std::string landing_text(const BodySummary& body) {
 }
 
 std::string body_rows(const std::string& name, const BodySummary& body, int dimension) {
-  auto text = row(name, impact_text(body, dimension));
+  auto text = closing_row(name, impact_text(body, dimension));
   if (const auto pulse = pulse_text(body.acceleration, body.acceleration_grades); !pulse.empty())
-    text += row("", pulse);
-  if (body.landing.first_contact >= 0) text += row("", landing_text(body));
+    text += closing_row("", pulse);
+  if (body.landing.first_contact >= 0) text += closing_row("", landing_text(body));
   if (const auto& highest = body.maximum_pressure; highest && dimension == 2)
-    text += row("", fmt::format("maximum pressure {}{}{}, at ({:.3g}) m of its shape",
-                                with_unit(highest->peak.value, "Pa"), at(highest->peak),
-                                band_text(body.maximum_pressure_grade ? &*body.maximum_pressure_grade : nullptr),
-                                fmt::join(highest->point, ", ")));
+    text +=
+        closing_row("", fmt::format("maximum pressure {}{}{}, at ({:.3g}) m of its shape",
+                                    with_unit(highest->peak.value, "Pa"), at(highest->peak),
+                                    band_text(body.maximum_pressure_grade ? &*body.maximum_pressure_grade : nullptr),
+                                    fmt::join(highest->point, ", ")));
   return text;
 }
 
@@ -178,8 +181,8 @@ const char* colour_of(Grade grade) {
 std::string verdict_rows(const Verdict& verdict, Ink ink) {
   std::string name = name_of(verdict.grade);
   if (ink == Ink::colour) name = fmt::format("\x1b[{}m{}\x1b[0m", colour_of(verdict.grade), name);
-  auto text = row("verdict", name);
-  for (const auto& reason : verdict.reasons) text += row("", reason);
+  auto text = closing_row("verdict", name);
+  for (const auto& reason : verdict.reasons) text += closing_row("", reason);
   return text;
 }
 
@@ -205,18 +208,19 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
       with_unit(summary.simulated_time, "s"), summary.steps,
       summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds) : clock_text(summary.wall_seconds));
   for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
-  for (const auto& [name, point] : summary.equipment) text += row(name, equipment_text(point));
+  for (const auto& [name, point] : summary.equipment) text += closing_row(name, equipment_text(point));
   for (const auto& [name, patch] : summary.patches)
-    text += row(name, fmt::format("peak pressure {}{}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
-                                  at(patch.pressure), band_text(patch.grade ? &*patch.grade : nullptr), patch.area,
-                                  summary.dimension == 2 ? "m" : "m^2"));
-  if (summary.nodes && summary.ledger) text += row("liquid", liquid_text(summary));
-  if (summary.coupling) text += row("coupling", coupling_text(*summary.coupling));
-  if (summary.rejected_steps > 0) text += row("refused", refused_text(summary));
-  if (summary.wall_seconds > 0) text += row("spent on", time_text(summary));
-  text += row("files", files_text(directory, summary.bodies));
+    text += closing_row(name,
+                        fmt::format("peak pressure {}{}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
+                                    at(patch.pressure), band_text(patch.grade ? &*patch.grade : nullptr), patch.area,
+                                    summary.dimension == 2 ? "m" : "m^2"));
+  if (summary.nodes && summary.ledger) text += closing_row("liquid", liquid_text(summary));
+  if (summary.coupling) text += closing_row("coupling", coupling_text(*summary.coupling));
+  if (summary.rejected_steps > 0) text += closing_row("refused", refused_text(summary));
+  if (summary.wall_seconds > 0) text += closing_row("spent on", time_text(summary));
+  text += closing_row("files", files_text(directory, summary.bodies));
   text += verdict_rows(summary.verdict, ink);
-  if (summary.next) text += row("next", text_of(*summary.next));
+  if (summary.next) text += closing_row("next", text_of(*summary.next));
   return text;
 }
 

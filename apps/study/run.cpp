@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstring>
 #include <deque>
-#include <fstream>
 #include <list>
 #include <thread>
 
@@ -36,15 +35,6 @@ bool is_busy(const fs::path& folder) {
   } catch (const std::runtime_error&) {
     return true;
   }
-}
-
-/// The last line that a run printed.
-std::string last_line(const fs::path& log) {
-  std::ifstream in(log);
-  std::string last;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) last = line;
-  return last;
 }
 
 class Runner {

@@ -10,9 +10,9 @@
 namespace splashdown::fluid {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Polygon = CGAL::Polygon_2<Kernel>;
-using PolygonSet = CGAL::Polygon_set_2<Kernel>;
+using CGAL::Epeck;
+using Polygon = CGAL::Polygon_2<Epeck>;
+using PolygonSet = CGAL::Polygon_set_2<Epeck>;
 
 // Chains of a surface's facets as polygons; a tank's outline runs clockwise and is turned.
 std::vector<Polygon> polygons(const Surface<2>& s, const Isometry<2>& pose) {
@@ -143,7 +143,7 @@ void outline(const LiquidSpec<2>& liquid, const FluidSpec<2>& spec, const WallsA
   const std::vector<double> dry(walls.walls.size(), 0.0);
   const SizeField<2> size(spec.size, walls, dry, {}, {});
   Outliner outliner(size, walls, out);
-  std::vector<CGAL::Polygon_with_holes_2<Kernel>> parts;
+  std::vector<CGAL::Polygon_with_holes_2<Epeck>> parts;
   clipped(liquid, walls).polygons_with_holes(std::back_inserter(parts));
   for (const auto& part : parts) {
     outliner.chain(part.outer_boundary());

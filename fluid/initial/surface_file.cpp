@@ -30,7 +30,7 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Polyhedron = CGAL::Surface_mesh<Kernel::Point_3>;
 
 const std::string flip =
     "Flip it in the tool that made it, e.g. Blender: Mesh > Normals > Recalculate Outside, and export "
@@ -216,7 +216,7 @@ bool is_simple(std::vector<Kernel::Point_3> corners, const CGAL::Projection_trai
   return std::adjacent_find(corners.begin(), corners.end(), behind) == corners.end();
 }
 
-void refuse_crossed_outlines(const Mesh& mesh) {
+void refuse_crossed_outlines(const Polyhedron& mesh) {
   for (const auto face : mesh.faces()) {
     std::vector<Kernel::Point_3> corners;
     for (const auto corner : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
@@ -230,9 +230,9 @@ void refuse_crossed_outlines(const Mesh& mesh) {
   }
 }
 
-void refuse_holes(const Mesh& mesh) {
+void refuse_holes(const Polyhedron& mesh) {
   if (CGAL::is_closed(mesh)) return;
-  std::vector<Mesh::Halfedge_index> holes;
+  std::vector<Polyhedron::Halfedge_index> holes;
   pmp::extract_boundary_cycles(mesh, std::back_inserter(holes));
   struct Hole {
     int edges = 0;
@@ -258,8 +258,8 @@ void refuse_holes(const Mesh& mesh) {
   throw SurfaceFileError(fmt::format("is not closed: {} {}{}", found.size(), holes_are, where), close);
 }
 
-void refuse_crossings(const Mesh& mesh) {
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> crossings;
+void refuse_crossings(const Polyhedron& mesh) {
+  std::vector<std::pair<Polyhedron::Face_index, Polyhedron::Face_index>> crossings;
   pmp::self_intersections<CGAL::Sequential_tag>(mesh, std::back_inserter(crossings));
   if (crossings.empty()) return;
   Vec<3> where = Vec<3>::Zero();
@@ -270,10 +270,10 @@ void refuse_crossings(const Mesh& mesh) {
 }
 
 /// Every closed part is turned outward, and none is inside another one.
-int checked_parts(const Mesh& mesh) {
-  std::vector<Mesh> parts;
+int checked_parts(const Polyhedron& mesh) {
+  std::vector<Polyhedron> parts;
   pmp::split_connected_components(mesh, parts);
-  const auto place = [](const Mesh& part) {
+  const auto place = [](const Polyhedron& part) {
     const auto& p = part.point(*part.vertices().begin());
     return Vec<3>(p.x(), p.y(), p.z());
   };
@@ -284,7 +284,7 @@ int checked_parts(const Mesh& mesh) {
                              flip);
   for (const auto& outer : parts) {
     if (parts.size() == 1) break;
-    const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(outer);
+    const CGAL::Side_of_triangle_mesh<Polyhedron, Kernel> side(outer);
     for (const auto& inner : parts)
       if (&inner != &outer && side(inner.point(*inner.vertices().begin())) == CGAL::ON_BOUNDED_SIDE)
         throw SurfaceFileError(
@@ -302,7 +302,7 @@ SurfaceFile read_surface_file(const std::filesystem::path& path) {
   refuse_repeated_corners(soup);
   refuse_without_area(soup);
   refuse_disagreement(soup);
-  Mesh mesh;
+  Polyhedron mesh;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
   refuse_crossed_outlines(mesh);
   if (!CGAL::is_triangle_mesh(mesh)) pmp::triangulate_faces(mesh);

@@ -14,7 +14,7 @@ double energy_at(const FluidView<d>& fluid, const Vec<d>& x) {
 }
 
 /// Lowest and highest energy per volume at points.
-class Range {
+class Extremes {
  public:
   void offer(double value) {
     low_ = std::min(low_, value);
@@ -76,7 +76,7 @@ double kinetic_energy(const BodySpec<d>& body, const Isometry<d>& pose, const Tw
 template <int d>
 WaterAtStart water_at_start(const RecordInput<d>& input) {
   const auto& fluid = *input.fluid;
-  Range energy;
+  Extremes energy;
   for (const auto& x : fluid.nodes().x) energy.offer(energy_at<d>(fluid, x));
   return {.level_energy = level_energy(input),
           .depth_energy = fluid.ledger().volume_initial * energy.length(),
@@ -94,7 +94,7 @@ std::vector<BodyEnergy> body_energies(const RecordInput<d>& input) {
     energy.wet = input.body_load[b].wetted > 0;
     energy.kinetic = kinetic_energy<d>(body, pose, input.body_velocity_n[b]);
     if (!energy.wet || !energy.free) continue;
-    Range height;
+    Extremes height;
     for (Eigen::Index v = 0; v < body.surface.vertices.cols(); ++v)
       height.offer(energy_at<d>(*input.fluid, pose * Vec<d>(body.surface.vertices.col(v))));
     energy.immersion = 0.5 * hull_volume<d>(body.surface) * height.length();
