@@ -27,9 +27,11 @@ class FacetTree {
   /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,
   /// relative: far from a curved surface all facets are about as near, and telling which one is takes long.
   Hit nearest(const Vec<d>& x, double reach, double slack = 0) const;
+  using Box = Eigen::AlignedBox<double, d>;
+  /// Facets whose own upright boxes may meet this one, in ascending order.
+  std::vector<int> meeting(const Box& box) const;
 
  private:
-  using Box = Eigen::AlignedBox<double, d>;
   /// A box that is turned: rows of `axes` are its directions.
   struct TightBox {
     Eigen::Matrix<double, d, d> axes;

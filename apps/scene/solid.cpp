@@ -38,14 +38,10 @@ Vec<3> normal_of(const Corners<3>& c) { return (c[1] - c[0]).cross(c[2] - c[0]).
 
 /// Where a line from a to b (0 to 1) meets the surface, with 0 and 1 themselves, in order.
 template <int d>
-std::vector<double> crossings(const Vec<d>& a, const Vec<d>& b, const Surface<d>& surface, double tolerance) {
+std::vector<double> crossings(const Vec<d>& a, const Vec<d>& b, const Solid<d>& solid, double tolerance) {
   std::vector<double> at{0, 1};
-  const Extents<d> line(a.cwiseMin(b), a.cwiseMax(b));
-  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
-    const auto corners = corners_of(surface, f);
-    Extents<d> facet;
-    for (const auto& corner : corners) facet.extend(corner);
-    if (!facet.intersects(line)) continue;
+  for (const int f : solid.facets_near({a.cwiseMin(b), a.cwiseMax(b)})) {
+    const auto corners = corners_of(solid.surface(), f);
     const Vec<d> n = normal_of(corners);
     const double from = n.dot(a - corners[0]), to = n.dot(b - corners[0]);
     if ((from > 0) == (to > 0)) continue;
@@ -66,7 +62,7 @@ bool reaches_into(const Solid<d>& a, const Solid<d>& b, double tolerance) {
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Vec<d>&from = corners[k], &to = corners[(k + 1) % corners.size()];
       if (!b.extents().intersects(Extents<d>(from.cwiseMin(to), from.cwiseMax(to)))) continue;
-      const auto at = crossings<d>(from, to, b.surface(), tolerance);
+      const auto at = crossings<d>(from, to, b, tolerance);
       for (std::size_t i = 1; i < at.size(); ++i)
         for (const double share : {at[i - 1], 0.5 * (at[i - 1] + at[i])})
           if (b.signed_distance(from + share * (to - from)) < -tolerance) return true;
@@ -97,13 +93,19 @@ double Solid<d>::signed_distance(const Vec<d>& point) const {
 }
 
 template <int d>
+std::vector<int> Solid<d>::facets_near(const Extents<d>& box) const {
+  return search().facets.meeting(box);
+}
+
+template <int d>
 bool overlap(const Solid<d>& a, const Solid<d>& b) {
   const double tolerance = 1e-9 * (a.extents().diagonal().norm() + b.extents().diagonal().norm());
   if (!a.extents().intersects(b.extents())) return false;
-  if (reaches_into(a, b, tolerance) || reaches_into(b, a, tolerance)) return true;
   // Two surfaces that coincide: no edge enters the other.
-  return (a.extents().center() - b.extents().center()).norm() < tolerance &&
-         (a.extents().sizes() - b.extents().sizes()).norm() < tolerance;
+  if ((a.extents().center() - b.extents().center()).norm() < tolerance &&
+      (a.extents().sizes() - b.extents().sizes()).norm() < tolerance)
+    return true;
+  return reaches_into(a, b, tolerance) || reaches_into(b, a, tolerance);
 }
 
 template class Solid<2>;

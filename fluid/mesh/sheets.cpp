@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <map>
 
+#include "fluid/mesh/landing.hpp"
+
 namespace splashdown::fluid {
 namespace {
 
-// Nodes all of whose cells lie between free surfaces.
+// Nodes all of whose cells lie between free surfaces. What closes a gap between two waters is none: nodes do not carry it yet.
 template <int d>
 std::vector<char> of_sheets(const Nodes<d>& nodes, const Mesh<d>& mesh) {
   std::vector<char> flies(nodes.size(), 0), stays(nodes.size(), 0);
   for (const auto& cell : mesh.cells) {
-    const bool sheet = std::ranges::all_of(cell, [&](int n) { return nodes.surface[n] && nodes.tie[n].wall < 0; });
+    const bool sheet = std::ranges::all_of(cell, [&](int n) { return nodes.surface[n] && nodes.tie[n].wall < 0; }) &&
+                       !joins_parts<d>(cell, nodes);
     for (int n : cell) (sheet ? flies : stays)[n] = 1;
   }
   for (std::size_t i = 0; i < flies.size(); ++i) flies[i] = flies[i] && !stays[i];

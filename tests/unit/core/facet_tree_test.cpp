@@ -118,6 +118,33 @@ TYPED_TEST(FacetTreeIn, finds_nothing_beyond_its_reach) {
   }
 }
 
+TYPED_TEST(FacetTreeIn, finds_the_facets_that_meet_a_box) {
+  constexpr int d = TypeParam::value;
+  std::mt19937 random(6);
+  const auto s = soup<d>(80, random);
+  const FacetTree<d> tree(s.vertices, s.facets);
+  for (int sample = 0; sample < 50; ++sample) {
+    typename FacetTree<d>::Box box(scenes::random_vector<Vec<d>>(random, {}));
+    box.extend(scenes::random_vector<Vec<d>>(random, {}));
+    const auto found = tree.meeting(box);
+    EXPECT_TRUE(std::ranges::is_sorted(found));
+    EXPECT_EQ(std::ranges::adjacent_find(found), found.end());
+    for (int f = 0; f < 80; ++f) {
+      typename FacetTree<d>::Box facet;
+      for (const auto& corner : s.corners(f)) {
+        facet.extend(corner);
+        if (box.contains(corner)) {
+          EXPECT_TRUE(std::ranges::binary_search(found, f));
+        }
+      }
+      if (!facet.intersects(box)) {
+        EXPECT_FALSE(std::ranges::binary_search(found, f));
+      }
+    }
+  }
+  EXPECT_TRUE(FacetTree<d>().meeting({Vec<d>::Zero(), Vec<d>::Ones()}).empty());
+}
+
 TYPED_TEST(FacetTreeIn, an_empty_tree_has_nothing_near) {
   constexpr int d = TypeParam::value;
   const FacetTree<d> tree;
