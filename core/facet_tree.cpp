@@ -195,15 +195,18 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
 
 template <int d>
 std::vector<int> FacetTree<d>::meeting(const Box& box) const {
+  // Corners of the pieces that needles are cut into are rounded.
+  const Vec<d> margin = Vec<d>::Constant(roundoff_);
+  const Box wide(box.min() - margin, box.max() + margin);
   std::vector<int> found, stack;
   if (!branches_.empty()) stack.push_back(0);
   while (!stack.empty()) {
     const Branch& b = branches_[stack.back()];
     stack.pop_back();
-    if (!b.box.intersects(box)) continue;
+    if (!b.box.intersects(wide)) continue;
     if (b.count == 0) stack.insert(stack.end(), {b.first, b.first + 1});
     for (int i = b.first; i < b.first + b.count; ++i)
-      if (pieces_[i].box().intersects(box)) found.push_back(pieces_[i].facet);
+      if (pieces_[i].box().intersects(wide)) found.push_back(pieces_[i].facet);
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

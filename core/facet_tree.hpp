@@ -28,7 +28,7 @@ class FacetTree {
   /// relative: far from a curved surface all facets are about as near, and telling which one is takes long.
   Hit nearest(const Vec<d>& x, double reach, double slack = 0) const;
   using Box = Eigen::AlignedBox<double, d>;
-  /// Facets whose own upright boxes may meet this one, in ascending order.
+  /// All facets that meet an upright box, and some that pass near it, in ascending order.
   std::vector<int> meeting(const Box& box) const;
 
  private:

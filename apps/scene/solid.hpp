@@ -20,7 +20,7 @@ class Solid {
   bool contains(const rigid::Vec<d>& point) const { return box_.contains(point) && search().inside(point); }
   const rigid::Surface<d>& surface() const { return surface_; }
   const Extents<d>& extents() const { return box_; }
-  /// Facets that may meet a box, in ascending order. O(log n) and what there is.
+  /// FacetTree::meeting of its surface.
   std::vector<int> facets_near(const Extents<d>& box) const;
 
  private:
