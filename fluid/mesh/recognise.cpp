@@ -17,8 +17,9 @@ constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, 
 constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
 constexpr double facet_sag = 0.1;     // gap between a wetted facet and its wall, at most, over its length
 
-// What a cell holds: cells without volume and all but without it are not asked whether it is water.
-enum Content : char { none, flat_cell, thin_cell, water, closed_crack };
+// What a cell holds: cells without volume and all but without it are not asked whether it is water. Pinched ones are, but they
+// are so thin between two walls that any facet of theirs may pass for one on a wall.
+enum Content : char { none, flat_cell, thin_cell, pinched_water, water, closed_crack };
 bool is_filled(Content c) { return c >= water; }
 
 struct Shape {
@@ -218,13 +219,24 @@ int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
   return -1;
 }
 
+// Between nodes of two walls, and thinner than what is let pass for a facet on one of them.
+template <int d>
+bool is_pinched(const std::array<int, d + 1>& cell, const Nodes<d>& nodes) {
+  const int wall = nodes.tie[cell[0]].wall;
+  auto tied = [&](int n) { return nodes.tie[n].wall >= 0; };
+  auto on_another = [&](int n) { return nodes.tie[n].wall != wall; };
+  return std::all_of(cell.begin(), cell.end(), tied) && std::any_of(cell.begin(), cell.end(), on_another) &&
+         shape<d>(edge_matrix<d>(corners(nodes.x, cell))).fullness < facet_meet;
+}
+
 // Flat and thin cells with water all around are no gap in it: between them there would be a free surface within the water.
-// Nor are thin ones between the water and walls: where walls meet, what is left of the gap between them is closed.
+// Nor are thin ones between the water and walls: where walls meet, what is left of the gap between them is closed. On their
+// own, closed in by walls, thin and pinched cells are no water: without a way out it would bear any pressure.
 template <int d>
 void fill_cracks(const Delaunay<d>& all, const Nodes<d>& nodes, const WallsAt<d>& at, std::vector<Content>& content) {
   std::vector<int> thin;
   for (std::size_t c = 0; c < content.size(); ++c)
-    if (content[c] == flat_cell || content[c] == thin_cell) thin.push_back(static_cast<int>(c));
+    if (content[c] != none && !is_filled(content[c])) thin.push_back(static_cast<int>(c));
   auto opens = [&](int c) {
     for (int k = 0; k <= d; ++k) {
       const int other = all.neighbours[c][k];
@@ -233,16 +245,25 @@ void fill_cracks(const Delaunay<d>& all, const Nodes<d>& nodes, const WallsAt<d>
     }
     return false;
   };
-  // Those that touch air are open, and those that touch these.
-  for (std::size_t left = 0; left != thin.size();) {
-    left = thin.size();
-    std::erase_if(thin, [&](int c) {
-      if (!opens(c)) return false;
-      content[c] = none;
-      return true;
-    });
-  }
-  for (int c : thin) content[c] = content[c] == thin_cell ? water : closed_crack;
+  auto is_part_of_water = [&](int c) {
+    const auto& beside = all.neighbours[c];
+    return (content[c] == pinched_water && opens(c)) ||
+           std::any_of(beside.begin(), beside.end(), [&](int k) { return k >= 0 && is_filled(content[k]); });
+  };
+  // Takes what is `found` out of `thin`, and what is found with that.
+  auto sort_out = [&](const auto& found, const auto& becomes) {
+    for (std::size_t left = 0; left != thin.size();) {
+      left = thin.size();
+      std::erase_if(thin, [&](int c) {
+        if (!found(c)) return false;
+        content[c] = becomes(content[c]);
+        return true;
+      });
+    }
+  };
+  sort_out([&](int c) { return content[c] != pinched_water && opens(c); }, [](Content) { return none; });
+  sort_out(is_part_of_water, [](Content was) { return was == flat_cell ? closed_crack : water; });
+  for (int c : thin) content[c] = none;
 }
 
 }  // namespace
@@ -278,7 +299,8 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
     const bool is_water =
         ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&
         !in_solid<d>(cell, centroid, size, nodes, old_boundary, walls);
-    return is_water ? water : none;
+    if (!is_water) return none;
+    return is_pinched<d>(cell, nodes) ? pinched_water : water;
   };
   std::vector<Content> content(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });

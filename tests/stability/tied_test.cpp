@@ -196,7 +196,7 @@ TEST(Touching, boxes_that_start_flush_and_still_stay_so) {
 }
 
 class Gap : public ::testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(Touching, Gap, ::testing::Range(0.0505, 0.15, 0.0125));
+INSTANTIATE_TEST_SUITE_P(Touching, Gap, ::testing::Range(0.0505, 0.15, 0.005));
 
 TEST_P(Gap, boxes_that_close_it_do_not_enter_each_other) {
   auto s = pressed(GetParam());

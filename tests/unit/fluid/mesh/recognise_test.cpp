@@ -257,6 +257,33 @@ TEST(Recognise, a_gap_that_closes_under_water_opens_no_cavity) {
   }
 }
 
+// Four nodes down a slit between two hulls, two of them opposite each other. Where it is as wide as a facet may stand off, all facets would be walls'.
+TEST(Recognise, a_film_that_walls_close_in_is_no_water) {
+  for (const double width : {1e-6, 1e-5, 3e-5, 1e-3, 1e-2}) {
+    auto spec = scenes::still_water(1, 0.8, 0.06);
+    const double side = width / 2;
+    spec.walls.insert(spec.walls.begin(), scenes::wall("left", scenes::rectangle({-0.4, -0.6}, {-side, -0.1}), 0.06));
+    spec.walls.insert(spec.walls.begin() + 1,
+                      scenes::wall("right", scenes::rectangle({side, -0.6}, {0.4, -0.1}), 0.06));
+    const scenes::Placed placed(spec);
+    Liquid film;
+    film.h = 0.06;
+    film.add_ring({{-side, -0.2}, {-side, -0.25}, {side, -0.3}, {side, -0.2504}});
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int wall = film.nodes.x[i].x() < 0 ? 0 : 1;
+      film.nodes.tie[i].wall = wall;
+      film.nodes.tie[i].patch = placed.at().walls[wall].nearest(placed.at().poses[wall], film.nodes.x[i], 1).patch;
+    }
+    film.nodes.h.assign(4, film.h);
+    const auto mesh = recognise<2>(film.nodes, film.boundary, placed.at());
+    const bool open =
+        std::any_of(mesh.boundary.begin(), mesh.boundary.end(), [](const Facet<2>& f) { return f.wall < 0; });
+    EXPECT_EQ(open, !mesh.cells.empty()) << width << ": what is water has a way out";
+    EXPECT_NEAR(area(mesh, film.nodes), width < 1e-4 ? 0 : 0.0498 * width, 100 * eps) << width;
+    for (char flies : film.nodes.spray) EXPECT_EQ(flies != 0, width < 1e-4) << width;
+  }
+}
+
 TEST(Recognise3, a_cocircular_lattice_keeps_its_volume) {
   scenes::Lattice<3> cube(5, 0.0);
   for (auto& t : cube.nodes.tie) t = {};
