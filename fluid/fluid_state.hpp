@@ -71,7 +71,7 @@ struct Trial {
   std::vector<Wrench<d>> on_walls;               // impulses of effects
   std::vector<Wrench<d>> handed, repair_handed;  // impulses of held nodes: physical, of the repair
   Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
-  Eigen::VectorXd unanswered;                    // impulses of effects that did not let the motions answer
+  Eigen::VectorXd unanswered;                    // impulses that the motions have yet to answer
   double energy_before = 0, energy_repaired = 0,
          energy_unloaded = 0;           // of v: as carried, repaired, before the pressure
   std::vector<double> phi;              // physical impulse
@@ -146,6 +146,7 @@ struct Fluid<d>::State {
   StepResult<d> solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
   Status find_motion(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
   Status repair();
+  void restrict_repair(const MotionDrive& drive);
   Status predict(const MotionDrive& drive);
   Status solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous);
   Status correct(std::span<const double> previous);
@@ -156,6 +157,7 @@ struct Fluid<d>::State {
   void evaluate_energies(StepResult<d>& found) const;
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
   void apply_body_impulse(const Eigen::VectorXd& impulse);
+  void let_bodies_answer(const Eigen::VectorXd& impulse);
   void apply(const Correction<d>& correction, double share);
   void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further);
   /// At t_n, from velocities at t_{n-1/2} and t_{n+1/2}.

@@ -38,9 +38,11 @@ Status Fluid<d>::State::find_motion(std::span<const Twist<d>> given, std::span<c
   trial.x_mid.resize(trial.v.size());
   trial.on_walls.assign(walls.size(), Wrench<d>::Zero());
   trial.known.setZero(equation.motions());
-  trial.answer = trial.known;
-  if (drive.restricts()) equation.allow(drive.directions, drive.workless);
+  trial.unanswered = trial.answer = trial.known;
+  // Neither the repair nor effects depend on what is closed, or what closes might have to open for it.
+  if (drive.restricts()) equation.allow(Eigen::MatrixXd::Identity(equation.motions(), equation.motions()));
   if (auto status = repair(); !status.ok()) return status;
+  if (drive.restricts()) restrict_repair(drive);
   // Pressure changes no momentum of free water; masses that are held up (PressureEquation) may.
   free_water.give_back(free_carried, equation.lumped_volume(), trial.v);
   if (auto status = predict(drive); !status.ok()) return status;
@@ -62,6 +64,16 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
   std::vector<double> change = equation.laplacian().means(present);
   for (std::size_t k = 0; k < change.size(); ++k) change[k] = previous[k] - change[k];
   equation.laplacian().add(change, residual);
+}
+
+// Closed contacts take what would open or close them of the bodies' answer to the repair: it is not a motion but an impulse.
+template <int d>
+void Fluid<d>::State::restrict_repair(const MotionDrive& drive) {
+  equation.allow(drive.directions, drive.workless);
+  const Eigen::VectorXd kept = drive.directions * (drive.directions.transpose() * trial.answer);
+  trial.unanswered = equation.inertia() * (trial.answer - kept);
+  equation.move(kept - trial.answer, trial.s_before);
+  trial.answer = kept;
 }
 
 // The carried velocity, seen at t_{n-1/2} on the new mesh, creates no volume. Nodes that have come to a wall's edge since
@@ -143,11 +155,11 @@ Status Fluid<d>::State::predict(const MotionDrive& drive) {
   if (equation.motions() == 0) return {};
   // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
   if (drive.restricts()) answer = drive.directions * (drive.directions.transpose() * answer);
-  const Eigen::VectorXd answered = equation.inertia() * answer;
-  trial.known += answered;
+  const Eigen::VectorXd impulse = equation.on_motions(trial.on_walls);
+  trial.known += impulse;
   trial.answer += answer;
   equation.move(answer, trial.s_before);
-  trial.unanswered = equation.on_motions(trial.on_walls) - answered;
+  trial.unanswered += impulse - equation.inertia() * answer;
   return {};
 }
 
@@ -162,7 +174,7 @@ Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::spa
   if (!previous.empty()) equation.laplacian().add(previous, trial.phi);
   if (!equation.solve(trial.phi, closely, carried_impulse())) return {"the pressure solve failed"};
   answer_to(trial.phi, trial.s_after, equation.on_motions(equation.held().excess(trial.v, trial.s_after)));
-  if (equation.motions() > 0) apply_body_impulse(trial.unanswered);
+  if (equation.motions() > 0) let_bodies_answer(trial.unanswered);
   return {};
 }
 
@@ -277,12 +289,19 @@ void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist
   if (equation.motions() > 0) trial.answer += equation.respond(impulses, s, further);
 }
 
-// A further impulse on the motions: water and bodies answer.
+// A further impulse on the motions.
 template <int d>
 void Fluid<d>::State::apply_body_impulse(const Eigen::VectorXd& impulse) {
   if (impulse.isZero(0)) return;
-  std::vector<double> none(trial.phi.size(), 0.0);
   trial.known += impulse;
+  let_bodies_answer(impulse);
+}
+
+// Water and bodies answer to an impulse on the motions.
+template <int d>
+void Fluid<d>::State::let_bodies_answer(const Eigen::VectorXd& impulse) {
+  if (impulse.isZero(0)) return;
+  std::vector<double> none(trial.phi.size(), 0.0);
   trial.answer += equation.respond(none, trial.s_after, impulse);
   for (std::size_t i = 0; i < trial.phi.size(); ++i) trial.phi[i] += none[i];
 }

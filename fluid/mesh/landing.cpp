@@ -1,20 +1,39 @@
 #include "fluid/mesh/landing.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace splashdown::fluid {
 
 template <int d>
+bool joins_parts(const std::array<int, d + 1>& cell, const Nodes<d>& nodes) {
+  int first = -1;
+  return std::ranges::any_of(cell, [&](int n) {
+    if (first < 0) first = nodes.part[n];
+    return nodes.part[n] >= 0 && nodes.part[n] != first;
+  });
+}
+
+template <int d>
+std::vector<Facet<d>> smaller_parts_first(const std::vector<Facet<d>>& boundary, const Nodes<d>& nodes) {
+  std::map<int, double> volumes;  // of parts
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes.part[i] >= 0) volumes[nodes.part[i]] += nodes.volume[i];
+  auto volume_of = [&](const Facet<d>& f) {
+    const int n = *std::ranges::max_element(f.nodes, {}, [&](int i) { return nodes.part[i]; });
+    return nodes.part[n] < 0 ? std::numeric_limits<double>::infinity() : volumes.at(nodes.part[n]);
+  };
+  std::vector<Facet<d>> sorted = boundary;
+  std::ranges::stable_sort(sorted, {}, volume_of);
+  return sorted;
+}
+
+template <int d>
 void mix_joined(const Mesh<d>& mesh, const std::vector<int>& part, Nodes<d>& nodes) {
   std::map<int, double> joined;  // new water around nodes
   for (const auto& cell : mesh.cells) {
-    int first = -1;
-    const bool between = std::ranges::any_of(cell, [&](int n) {
-      if (first < 0) first = nodes.part[n];
-      return nodes.part[n] >= 0 && nodes.part[n] != first;
-    });
-    if (!between) continue;
+    if (!joins_parts<d>(cell, nodes)) continue;
     for (int n : cell) joined[n] += volume<d>(corners(nodes.x, cell)) / (d + 1);
   }
   nodes.part = part;
@@ -54,6 +73,10 @@ void absorb_droplets(Nodes<d>& nodes, const Mesh<d>& mesh) {
   }
 }
 
+template bool joins_parts(const std::array<int, 3>&, const Nodes<2>&);
+template bool joins_parts(const std::array<int, 4>&, const Nodes<3>&);
+template std::vector<Facet<2>> smaller_parts_first(const std::vector<Facet<2>>&, const Nodes<2>&);
+template std::vector<Facet<3>> smaller_parts_first(const std::vector<Facet<3>>&, const Nodes<3>&);
 template void mix_joined(const Mesh<2>&, const std::vector<int>&, Nodes<2>&);
 template void mix_joined(const Mesh<3>&, const std::vector<int>&, Nodes<3>&);
 template void absorb_droplets(Nodes<2>&, const Mesh<2>&);

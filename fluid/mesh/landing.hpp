@@ -1,12 +1,23 @@
 // Water that lands: what becomes of velocities where nodes get water that they did not carry.
 #pragma once
 
+#include <vector>
+
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {
 
-/// Cells between parts of the last mesh, Nodes::part, are new water. It is owed by all the water that hangs together now, and
+/// Whether corners of a cell were of different parts of the last mesh, Nodes::part: it is new water then, that no node carries yet.
+template <int d>
+bool joins_parts(const std::array<int, d + 1>& cell, const Nodes<d>& nodes);
+
+/// Facets of the boundary, those of smaller parts of the last mesh first: where surfaces have met and facets cross, a triangulation
+/// keeps the first. So what lands keeps its shape, and the water that it lands in makes room, which has nodes enough.
+template <int d>
+std::vector<Facet<d>> smaller_parts_first(const std::vector<Facet<d>>& boundary, const Nodes<d>& nodes);
+
+/// What joins parts is owed by all the water that hangs together now, and
 /// comes with its mean velocity w: with S_i the share of node i in such cells and V_i what it carries,
 ///
 ///   v_i <- (V_i v_i + S_i w) / (V_i + S_i)
@@ -24,6 +35,10 @@ void mix_joined(const Mesh<d>& mesh, const std::vector<int>& part, Nodes<d>& nod
 template <int d>
 void absorb_droplets(Nodes<d>& nodes, const Mesh<d>& mesh);
 
+extern template bool joins_parts(const std::array<int, 3>&, const Nodes<2>&);
+extern template bool joins_parts(const std::array<int, 4>&, const Nodes<3>&);
+extern template std::vector<Facet<2>> smaller_parts_first(const std::vector<Facet<2>>&, const Nodes<2>&);
+extern template std::vector<Facet<3>> smaller_parts_first(const std::vector<Facet<3>>&, const Nodes<3>&);
 extern template void mix_joined(const Mesh<2>&, const std::vector<int>&, Nodes<2>&);
 extern template void mix_joined(const Mesh<3>&, const std::vector<int>&, Nodes<3>&);
 extern template void absorb_droplets(Nodes<2>&, const Mesh<2>&);

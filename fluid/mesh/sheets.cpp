@@ -3,19 +3,38 @@
 #include <algorithm>
 #include <map>
 
+#include "fluid/mesh/landing.hpp"
+#include "fluid/mesh/parts.hpp"
+
 namespace splashdown::fluid {
 namespace {
 
-// Nodes all of whose cells lie between free surfaces.
+// Nodes all of whose cells lie between free surfaces. What closes a gap between two waters is none: nodes do not carry it yet.
 template <int d>
 std::vector<char> of_sheets(const Nodes<d>& nodes, const Mesh<d>& mesh) {
   std::vector<char> flies(nodes.size(), 0), stays(nodes.size(), 0);
   for (const auto& cell : mesh.cells) {
-    const bool sheet = std::ranges::all_of(cell, [&](int n) { return nodes.surface[n] && nodes.tie[n].wall < 0; });
+    const bool sheet = std::ranges::all_of(cell, [&](int n) { return nodes.surface[n] && nodes.tie[n].wall < 0; }) &&
+                       !joins_parts<d>(cell, nodes);
     for (int n : cell) (sheet ? flies : stays)[n] = 1;
   }
   for (std::size_t i = 0; i < flies.size(); ++i) flies[i] = flies[i] && !stays[i];
   return flies;
+}
+
+// Water of which less than half would stay, but some, is no pool that a sheet leaves: its mesh is coarse, and what would fly off comes
+// back to more than it left.
+template <int d>
+void keep_coarse_water(const Nodes<d>& nodes, const Mesh<d>& mesh, std::vector<char>& flies) {
+  const std::vector<int> part = parts_of(mesh, nodes.size());
+  std::vector<double> all(nodes.size(), 0.0), flying(nodes.size(), 0.0);
+  for (const auto& cell : mesh.cells) {
+    const double volume_of_cell = volume<d>(corners(nodes.x, cell));
+    all[part[cell[0]]] += volume_of_cell;
+    if (std::ranges::any_of(cell, [&](int n) { return flies[n]; })) flying[part[cell[0]]] += volume_of_cell;
+  }
+  for (std::size_t i = 0; i < flies.size(); ++i)
+    flies[i] = flies[i] && (flying[part[i]] <= 0.5 * all[part[i]] || flying[part[i]] == all[part[i]]);
 }
 
 template <int d>
@@ -42,6 +61,8 @@ template <int d>
 void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int)>& may_fly) {
   std::vector<char> flies = of_sheets(nodes, mesh);
   for (std::size_t i = 0; i < flies.size(); ++i) flies[i] = flies[i] && may_fly(static_cast<int>(i));
+  if (std::ranges::find(flies, 1) == flies.end()) return;
+  keep_coarse_water<d>(nodes, mesh, flies);
   const auto goes = [&](const auto& simplex) { return std::ranges::any_of(simplex, [&](int n) { return flies[n]; }); };
   const auto sheet = std::ranges::stable_partition(mesh.cells, [&](const auto& cell) { return !goes(cell); });
   if (sheet.empty()) return;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double most = 0.5;  // of its reach that a surface moves by at once
 constexpr int passes = 6;     // where that leaves more than this of a part's volume:
-constexpr double worth = 1e-3;
+constexpr double worth = 1e-5;
 
 /// Connected water.
 struct Part {

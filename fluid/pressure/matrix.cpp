@@ -52,14 +52,15 @@ void PressureEquation<d>::measure(double density) {
     for (int n : mesh_->cells[c]) rate_[c] = std::max(rate_[c], lumped_[n]);
   });
   per_nodal_mass_.resize(count);
-  swept_share_.resize(count);
+  std::vector<double> keeps(count);
   in_parallel(count, [&](std::size_t i) {
     double heaviest = 0;
     for (const auto [c, k] : around_.around(i)) heaviest = std::max(heaviest, rate_[c]);
     const double resists = std::max(lumped_[i], lightest * heaviest);
     per_nodal_mass_[i] = resists > 0 ? 1 / (density * (d + 1) * resists) : 0.0;
-    swept_share_[i] = resists > 0 ? 1 - lumped_[i] / ((d + 2) * resists) : 0.0;
+    keeps[i] = resists > 0 ? 1 - lumped_[i] / ((d + 2) * resists) : 0.0;
   });
+  sweep_.build(mesh_->cells, around_, share_of_mass_, per_nodal_mass_, keeps);
   free_area_.assign(count, Vec<d>::Zero());
   free_measure_.assign(count, 0.0);
   free_spread_.assign(count, 0.0);

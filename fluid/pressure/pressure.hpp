@@ -42,6 +42,7 @@
 #include "fluid/nodes.hpp"
 #include "fluid/pressure/held_mass.hpp"
 #include "fluid/pressure/interface_laplacian.hpp"
+#include "fluid/pressure/mass_sweep.hpp"
 
 namespace splashdown::fluid {
 
@@ -145,10 +146,6 @@ class PressureEquation {
   const SymmetricMatrix& matrix() const { return matrix_; }
 
  private:
-  /// (1 - M_L^-1 M_C) u: of all nodes, or of one by one once cells have summed up theirs.
-  void sweep(std::span<const Vec<d>> u, std::vector<Vec<d>>& out) const;
-  void sum_up(std::span<const Vec<d>> u) const;
-  Vec<d> swept(std::size_t node, const Vec<d>& u) const;
   template <class Velocity>
   void add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const;
   void measure(double density);
@@ -168,8 +165,8 @@ class PressureEquation {
   std::vector<VolumeGradients<d>> gradients_;  // at t_n
   std::vector<double> lumped_;
   double density_ = 0;
-  std::vector<double> share_of_mass_;                     // of cells: mass / (d + 2)
-  std::vector<double> swept_share_;                       // of nodes: what a sweep keeps of their own velocity
+  std::vector<double> share_of_mass_;  // of cells: mass / (d + 2)
+  MassSweep<d> sweep_;
   std::vector<double> per_mass_;                          // of cells: 1 / mass
   std::vector<double> per_nodal_mass_;                    // of nodes: 1 / ((d + 1) lumped mass)
   std::vector<Vec<d>> free_area_;                         // of nodes: area vector of the free surface around them

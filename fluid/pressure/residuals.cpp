@@ -110,33 +110,8 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     for (int n : f.nodes) sum += impulse_at(n);
     for (int n : f.nodes) change_[n] += per_nodal_mass_[n] * (sum + impulse_at(n)) * share;
   }
-  sweep(change_, swept_);
-  sum_up(swept_);
-  in_parallel(v.size(), [&](std::size_t i) { v[i] += change_[i] + swept_[i] + 2 * swept(i, swept_[i]); });
-}
-
-template <int d>
-void PressureEquation<d>::sum_up(std::span<const Vec<d>> u) const {
-  of_cell_.resize(mesh_->cells.size());
-  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
-    Vec<d> sum = Vec<d>::Zero();
-    for (int n : mesh_->cells[c]) sum += u[n];
-    of_cell_[c] = share_of_mass_[c] * sum;
-  });
-}
-
-template <int d>
-Vec<d> PressureEquation<d>::swept(std::size_t i, const Vec<d>& u) const {
-  Vec<d> sum = Vec<d>::Zero();
-  for (const auto [c, k] : around_.around(i)) sum += of_cell_[c];
-  return swept_share_[i] * u - per_nodal_mass_[i] * sum;
-}
-
-template <int d>
-void PressureEquation<d>::sweep(std::span<const Vec<d>> u, std::vector<Vec<d>>& out) const {
-  sum_up(u);
-  out.resize(u.size());
-  in_parallel(u.size(), [&](std::size_t i) { out[i] = swept(i, u[i]); });
+  sweep_(change_, swept_);
+  in_parallel(v.size(), [&](std::size_t i) { v[i] += change_[i] + swept_[i] + 2 * sweep_(i, swept_); });
 }
 
 // 1 / (1 + z + 2 z^2) as 1 - z + curvature z^2 (z - 1/2): exact in value and slope at z = 0, in value at 1/2 and at the end of
@@ -144,12 +119,11 @@ void PressureEquation<d>::sweep(std::span<const Vec<d>> u, std::vector<Vec<d>>& 
 template <int d>
 double PressureEquation<d>::kinetic_energy(std::span<const Vec<d>> v) const {
   constexpr double z = shortest<d>, curvature = (1 / inverse_mass(z) - 1 + z) / (z * z * (z - 0.5));
-  sweep(v, swept_);
-  sum_up(swept_);
+  sweep_(v, swept_);
   double twice = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
     twice += lumped_[i] * (v[i].squaredNorm() - v[i].dot(swept_[i]) +
-                           curvature * swept_[i].dot(swept(i, swept_[i]) - 0.5 * swept_[i]));
+                           curvature * swept_[i].dot(sweep_(i, swept_) - 0.5 * swept_[i]));
   return 0.5 * density_ * twice;
 }
 

@@ -1,5 +1,5 @@
 // Delaunay triangulation of the nodes (CGAL, plain, never Alpha_shape_*: that sorts all alpha values).
-// O(n log n); 0.5 us a node in 2D, 4 us in 3D on a 2.6 GHz core.
+// O(n log n); 1 us a node in 2D, 4 us in 3D on a 2.6 GHz core.
 //
 // In 2D the facets of the fluid's boundary are kept as edges (constrained Delaunay): without that, thin
 // jets and thin bodies lose facets to nodes on their other side and their volume with them. Few facets
@@ -26,23 +26,32 @@ struct Delaunay {
 template <int d>
 Delaunay<d> delaunay(std::span<const Vec<d>> points, const std::vector<Facet<d>>& facets);
 
-/// In space, with four points far away, so that all others lie within, and every facet between them has two cells. Cells
-/// whose circumspheres are many times larger than what they span together miss: none of them is fluid.
+/// With d + 1 points far away, so that all others lie within, and every facet between them has two cells. Cells whose
+/// circumspheres are many times larger than what they span together miss: none of them is fluid.
+template <int d>
 struct ClosedDelaunay {
-  static constexpr int far = 4;    ///< points far away, numbered after all others; then comes the vertex at infinity
-  static constexpr int gone = -1;  ///< first corner of a cell that sorting drops
-  std::vector<std::array<int, 4>> cells, neighbours;  ///< sorted by their corners, those that reach far away come last
-  std::size_t near = 0;                               ///< cells between the points themselves
-  double extent = 0;                                  ///< a power of two: largest coordinate of points is below it [m]
-  bool complete = false;                              ///< every point is a corner
+  using Cell = std::array<int, d + 1>;
+  static constexpr int far = d + 1;  ///< points far away, numbered after all others; then comes the vertex at infinity
+  static constexpr int gone = -1;    ///< first corner of a cell that sorting drops
+  std::vector<Cell> cells, neighbours;  ///< sorted by their corners, those that reach far away come last
+  std::size_t near = 0;                 ///< cells between the points themselves
+  double extent = 0;                    ///< a power of two: largest coordinate of points is below it [m]
+  bool complete = false;                ///< every point is a corner
 };
-ClosedDelaunay closed_delaunay(std::span<const Vec<3>> points);
-double extent_of(std::span<const Vec<3>> points);
-std::array<Vec<3>, ClosedDelaunay::far> far_points(double extent);
+template <int d>
+ClosedDelaunay<d> closed_delaunay(std::span<const Vec<d>> points);
+template <int d>
+double extent_of(std::span<const Vec<d>> points);
+template <int d>
+std::array<Vec<d>, d + 1> far_points(double extent);
 /// Sorts the corners of cells and the cells: where points follow a space-filling curve, cells near each other are near
 /// in memory.
-void sort_cells(ClosedDelaunay& mesh, std::size_t points);
-Delaunay<3> near_part(const ClosedDelaunay& mesh);
+template <int d>
+void sort_cells(ClosedDelaunay<d>& mesh, std::size_t points);
+/// The cells between the points themselves; in the plane with the facets as edges.
+template <int d>
+Delaunay<d> near_part(const ClosedDelaunay<d>& mesh, std::span<const Vec<d>> points,
+                      const std::vector<Facet<d>>& facets);
 
 /// Order of the points along a space-filling curve.
 template <int d>

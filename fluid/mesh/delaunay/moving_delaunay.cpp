@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fluid/mesh/delaunay/flips.hpp"
 #include "fluid/mesh/delaunay/patch.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {
 
-using Cell = MovedCells::Cell;
-
+template <int d>
 class Update {
  public:
-  Update(ClosedDelaunay& mesh, std::span<const Vec<3>> points)
+  Update(ClosedDelaunay<d>& mesh, std::span<const Vec<d>> points)
       : mesh_(mesh), moved_(mesh, points), budget_(2 * static_cast<std::ptrdiff_t>(points.size())) {}
 
   /// False: too much has changed.
@@ -23,6 +23,7 @@ class Update {
     constexpr std::size_t few = 4;  // cells to a facet that is wrong: with fewer, patches would join
     const auto starts = near_new_points(before);
     if (!renumber(before, points_before)) return false;
+    if constexpr (d == 2) Flips(moved_).make_delaunay();
     const auto wrong = scan();
     if (few * wrong.size() > mesh_.cells.size() || !mend(wrong)) return false;
     std::vector<FacetAt> to_split;
@@ -36,7 +37,10 @@ class Update {
   }
 
  private:
-  bool gone(int cell) const { return mesh_.cells[cell][0] == ClosedDelaunay::gone; }
+  using Cell = typename MovedCells<d>::Cell;
+  static constexpr int far = ClosedDelaunay<d>::far;
+
+  bool gone(int cell) const { return mesh_.cells[cell][0] == ClosedDelaunay<d>::gone; }
 
   // New points, and cells near them: cells are sorted by their corners, and points near each other have numbers that are.
   std::vector<std::pair<int, int>> near_new_points(std::span<const int> before) const {
@@ -48,7 +52,7 @@ class Update {
         known = before[i];
         continue;
       }
-      const auto cell = std::lower_bound(mesh_.cells.begin(), end, Cell{known, 0, 0, 0});
+      const auto cell = std::lower_bound(mesh_.cells.begin(), end, Cell{known});
       out.emplace_back(static_cast<int>(i), static_cast<int>((cell == end ? end - 1 : cell) - mesh_.cells.begin()));
     }
     return out;
@@ -56,7 +60,7 @@ class Update {
 
   bool renumber(std::span<const int> before, std::size_t points_before) {
     constexpr int gone_point = -2;
-    std::vector<int> now(points_before + ClosedDelaunay::far + 1, gone_point);
+    std::vector<int> now(points_before + far + 1, gone_point);
     for (std::size_t i = 0; i < before.size(); ++i) {
       if (before[i] < 0) continue;
       if (before[i] >= static_cast<int>(points_before) || now[before[i]] != gone_point) return false;
@@ -76,9 +80,9 @@ class Update {
       const int c = static_cast<int>(i);
       const Cell& cell = mesh_.cells[c];
       if (!moved_.finite(cell)) return;
-      const bool lost = MovedCells::lost_a_corner(cell), turned = !lost && !moved_.positive(cell);
+      const bool lost = MovedCells<d>::lost_a_corner(cell), turned = !lost && !moved_.positive(cell);
       if (lost || turned) found.local().push_back({c, FacetAt::whole_cell});
-      for (int k = 0; k < 4 && !turned; ++k)
+      for (int k = 0; k <= d && !turned; ++k)
         // Cells around a point that is lost belong together.
         if (lost ? cell[k] >= 0 : c < mesh_.neighbours[c][k] && !moved_.locally_delaunay({c, k}))
           found.local().push_back({c, k});
@@ -96,21 +100,21 @@ class Update {
     constexpr int most_rounds = 30;
     for (int round = 0; !wrong.empty(); ++round) {
       if (round == most_rounds) return false;
-      Patches patches(wrong, mesh_);
+      Patches<d> patches(wrong, mesh_);
       in_pieces(patches.list.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p) growers_.local().grow(patches, static_cast<int>(p), moved_, budget_);
       });
       wrong.clear();
       replaced_.assign(mesh_.cells.size(), 0);
       std::vector<FacetAt> rims;
-      for (const Patch& patch : patches.list) {
-        if (*patch.state == Patch::failed) return false;
-        if (*patch.state == Patch::found &&
+      for (const Patch<d>& patch : patches.list) {
+        if (*patch.state == Patch<d>::failed) return false;
+        if (*patch.state == Patch<d>::found &&
             std::none_of(patch.old.begin(), patch.old.end(), [&](int c) { return replaced_[c]; }))
           replace(patch, rims);
       }
       // What nobody mended, and what lies beyond a rim and has been replaced since.
-      for (const Patch& patch : patches.list)
+      for (const Patch<d>& patch : patches.list)
         for (const FacetAt& f : patch.seeds)
           if (!replaced_[f.cell] && (f.corner == FacetAt::whole_cell || !replaced_[moved_.beyond(f).cell]))
             wrong.push_back(f);
@@ -120,14 +124,14 @@ class Update {
     return true;
   }
 
-  void replace(const Patch& patch, std::vector<FacetAt>& rims) {
+  void replace(const Patch<d>& patch, std::vector<FacetAt>& rims) {
     std::vector<FacetAt> beyond;
     for (const FacetAt& f : patch.rim) beyond.push_back(moved_.beyond(f));
     std::vector<int> slot = patch.old;
     for (int c : patch.old) {
       replaced_[c] = 1;
       moved_.to_insert.erase(c);
-      mesh_.cells[c][0] = ClosedDelaunay::gone;
+      mesh_.cells[c][0] = ClosedDelaunay<d>::gone;
     }
     while (slot.size() < patch.cells.size()) {
       slot.push_back(static_cast<int>(mesh_.cells.size()));
@@ -137,7 +141,7 @@ class Update {
     }
     for (std::size_t i = 0; i < patch.cells.size(); ++i) {
       mesh_.cells[slot[i]] = patch.cells[i];
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k <= d; ++k) {
         const int n = patch.neighbours[i][k];
         if (n >= 0) {
           mesh_.neighbours[slot[i]][k] = slot[n];
@@ -151,32 +155,29 @@ class Update {
     }
   }
 
-  ClosedDelaunay& mesh_;
-  MovedCells moved_;
+  ClosedDelaunay<d>& mesh_;
+  MovedCells<d> moved_;
   std::vector<char> replaced_;  // cells, in this round
-  tbb::enumerable_thread_specific<PatchGrower> growers_;
+  tbb::enumerable_thread_specific<PatchGrower<d>> growers_;
   std::atomic<std::ptrdiff_t> budget_;  // of points in patches: after that much in vain it costs half as much again
 };
 
 }  // namespace
 
-template <>
-Delaunay<2> MovingDelaunay<2>::follow(std::span<const Vec<2>> points, std::span<const int>,
-                                      const std::vector<Facet<2>>& facets) {
-  return delaunay<2>(points, facets);
-}
-
-template <>
-Delaunay<3> MovingDelaunay<3>::follow(std::span<const Vec<3>> points, std::span<const int> before,
-                                      const std::vector<Facet<3>>&) {
-  if (last_.complete && last_.extent == extent_of(points) && Update(last_, points).run(before, points_)) {
-    sort_cells(last_, points.size());
+template <int d>
+Delaunay<d> MovingDelaunay<d>::follow(std::span<const Vec<d>> points, std::span<const int> before,
+                                      const std::vector<Facet<d>>& facets) {
+  if (last_.complete && last_.extent == extent_of<d>(points) && Update<d>(last_, points).run(before, points_)) {
+    sort_cells<d>(last_, points.size());
     ++followed_;
   } else {
-    last_ = closed_delaunay(points);
+    last_ = closed_delaunay<d>(points);
   }
   points_ = points.size();
-  return near_part(last_);
+  return near_part<d>(last_, points, facets);
 }
+
+template class MovingDelaunay<2>;
+template class MovingDelaunay<3>;
 
 }  // namespace splashdown::fluid

@@ -2,76 +2,9 @@
 
 #include <algorithm>
 
-#include "fluid/parallel.hpp"
-
 namespace splashdown::fluid {
-namespace {
-
-int place_of(int value, const MovedCells::Cell& in) {
-  return static_cast<int>(std::find(in.begin(), in.end(), value) - in.begin());
-}
-
-}  // namespace
-
-// ---- cells whose points have moved
-
-MovedCells::MovedCells(ClosedDelaunay& m, std::span<const Vec<3>> points)
-    : mesh(m), infinity(static_cast<int>(points.size()) + ClosedDelaunay::far), at(points.size()) {
-  in_parallel(points.size(), [&](std::size_t i) { at[i] = cgal_point(points[i]); });
-  for (const auto& x : far_points(mesh.extent)) at.push_back(cgal_point(x));
-}
-
-bool MovedCells::finite(const Cell& cell) const { return place_of(infinity, cell) == 4; }
-
-bool MovedCells::lost_a_corner(const Cell& cell) {
-  return std::any_of(cell.begin(), cell.end(), [](int n) { return n < 0; });
-}
-
-bool MovedCells::positive(const Cell& cell) const {
-  return is_.orientation(at[cell[0]], at[cell[1]], at[cell[2]], at[cell[3]]) == CGAL::POSITIVE;
-}
-
-bool MovedCells::in_conflict(const Cell& cell, int point) const {
-  return is_.side_of_oriented_sphere(at[cell[0]], at[cell[1]], at[cell[2]], at[cell[3]], at[point], true) ==
-         CGAL::ON_POSITIVE_SIDE;
-}
-
-bool MovedCells::locally_delaunay(const FacetAt& f) const {
-  const FacetAt other = beyond(f);
-  const int opposite = mesh.cells[other.cell][other.corner];
-  return opposite < 0 || opposite == infinity || !in_conflict(mesh.cells[f.cell], opposite);
-}
-
-FacetAt MovedCells::beyond(const FacetAt& f) const {
-  const int cell = mesh.neighbours[f.cell][f.corner];
-  return {cell, place_of(f.cell, mesh.neighbours[cell])};
-}
-
-std::array<int, 3> MovedCells::facet_of(const Cell& cell, int corner) {
-  auto facet = facet_nodes(cell, corner);
-  std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
-  return facet;
-}
-
-int MovedCells::locate(int point, int start) const {
-  int c = start;
-  for (std::size_t step = 0; step < mesh.cells.size() && finite(mesh.cells[c]); ++step) {
-    int through = -1;
-    for (int k = 0; k < 4 && through < 0; ++k) {
-      Cell towards = mesh.cells[c];
-      towards[k] = point;
-      if (is_.orientation(at[towards[0]], at[towards[1]], at[towards[2]], at[towards[3]]) == CGAL::NEGATIVE)
-        through = k;
-    }
-    if (through < 0) return c;
-    c = mesh.neighbours[c][through];
-  }
-  return c;
-}
-
-// ---- patches
-
-Patches::Patches(const std::vector<FacetAt>& wrong, const ClosedDelaunay& mesh) {
+template <int d>
+Patches<d>::Patches(const std::vector<FacetAt>& wrong, const ClosedDelaunay<d>& mesh) {
   std::vector<int> cells, parent;  // of[cells[i]]: i, in the end its patch
   auto number_of = [&](int c) {
     const auto [found, is_new] = of.try_emplace(c, static_cast<int>(cells.size()));
@@ -100,9 +33,11 @@ Patches::Patches(const std::vector<FacetAt>& wrong, const ClosedDelaunay& mesh) 
 
 // ---- growth
 
-void PatchGrower::grow(Patches& patches, int number, const MovedCells& mesh, std::atomic<std::ptrdiff_t>& budget) {
-  Patch::State state = Patch::waiting;
-  if (!patches.list[number].state->compare_exchange_strong(state, Patch::growing)) return;
+template <int d>
+void PatchGrower<d>::grow(Patches<d>& patches, int number, const MovedCells<d>& mesh,
+                          std::atomic<std::ptrdiff_t>& budget) {
+  typename Patch<d>::State state = Patch<d>::waiting;
+  if (!patches.list[number].state->compare_exchange_strong(state, Patch<d>::growing)) return;
   patches_ = &patches;
   mesh_ = &mesh;
   budget_ = &budget;
@@ -111,18 +46,19 @@ void PatchGrower::grow(Patches& patches, int number, const MovedCells& mesh, std
     extend();
     if (!goes_on()) return;
     if (cut_out()) {
-      *patch().state = Patch::found;
+      *patch().state = Patch<d>::found;
       return;
     }
     // It is too small.
     const std::size_t cells = patch().old.size();
     for (const FacetAt& f : patch().rim)
       if (const int n = mesh_->beyond(f).cell; mesh_->finite(mesh_->mesh.cells[n])) meet(n);
-    if (patch().old.size() == cells) *patch().state = Patch::failed;
+    if (patch().old.size() == cells) *patch().state = Patch<d>::failed;
   }
 }
 
-void PatchGrower::begin(int number) {
+template <int d>
+void PatchGrower<d>::begin(int number) {
   number_ = number;
   ++stamp_;
   t_.clear();
@@ -136,12 +72,13 @@ void PatchGrower::begin(int number) {
 }
 
 // Points that come with a cell may take away facets that held before.
-void PatchGrower::extend() {
-  Patch& p = patch();
+template <int d>
+void PatchGrower<d>::extend() {
+  Patch<d>& p = patch();
   for (bool grew = true; grew;) {
     grew = false;
     for (std::size_t i = 0; i < p.old.size(); ++i)
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k <= d; ++k) {
         const FacetAt f{p.old[i], k};
         const int n = mesh_->mesh.neighbours[f.cell][k];
         if (has(n) || holds(f)) continue;
@@ -152,11 +89,12 @@ void PatchGrower::extend() {
   }
   p.rim.clear();
   for (int c : p.old)
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k <= d; ++k)
       if (!has(mesh_->mesh.neighbours[c][k])) p.rim.push_back({c, k});
 }
 
-void PatchGrower::take_in(int cell) {
+template <int d>
+void PatchGrower<d>::take_in(int cell) {
   if (has(cell)) return;
   cells_[cell] = stamp_;
   patch().old.push_back(cell);
@@ -165,71 +103,91 @@ void PatchGrower::take_in(int cell) {
     for (int n : more->second) insert(n);
 }
 
-void PatchGrower::meet(int cell) {
+template <int d>
+void PatchGrower<d>::meet(int cell) {
   const auto found = patches_->of.find(cell);
   if (found != patches_->of.end() && found->second != number_) {
-    Patch& other = patches_->list[found->second];
-    Patch::State state = Patch::waiting;
-    if (other.state->compare_exchange_strong(state, Patch::yielded))
+    Patch<d>& other = patches_->list[found->second];
+    typename Patch<d>::State state = Patch<d>::waiting;
+    if (other.state->compare_exchange_strong(state, Patch<d>::yielded))
       for (int c : other.seed_cells) take_in(c);
-    else if (state == Patch::found || (state == Patch::growing && found->second < number_))
-      *patch().state = Patch::yielded;
+    else if (state == Patch<d>::found || (state == Patch<d>::growing && found->second < number_))
+      *patch().state = Patch<d>::yielded;
   }
   take_in(cell);
 }
 
-void PatchGrower::insert(int point) {
+template <int d>
+void PatchGrower<d>::insert(int point) {
   if (point < 0 || points_[point] == stamp_) return;
   points_[point] = stamp_;
   taken_.push_back(point);
   const auto v = vertex_of_[point] = t_.insert(mesh_->at[point], hint_);
   v->info() = point;
-  hint_ = v->cell();
-  if (--*budget_ < 0 || t_.number_of_vertices() != taken_.size()) *patch().state = Patch::failed;
+  hint_ = Cgal<d>::cell_of(v);
+  if (--*budget_ < 0 || t_.number_of_vertices() != taken_.size()) *patch().state = Patch<d>::failed;
 }
 
-MovedCells::Cell PatchGrower::corners_of(Handle cell) const {
-  return {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()};
+template <int d>
+auto PatchGrower<d>::corners_of(Handle cell) const -> Cell {
+  Cell corners;
+  for (int k = 0; k <= d; ++k) corners[k] = cell->vertex(k)->info();
+  return corners;
+}
+
+// One of the two cells of a facet of the patch's triangulation.
+template <int d>
+auto PatchGrower<d>::cell_at(const std::array<Vertex, d>& facet) const -> std::optional<Inner> {
+  Inner found;
+  if (t_.dimension() < d) return {};
+  if constexpr (d == 2) {
+    if (!t_.is_edge(facet[0], facet[1], found.cell, found.corner)) return {};
+  } else {
+    int a, b, c;
+    if (!t_.is_facet(facet[0], facet[1], facet[2], found.cell, a, b, c)) return {};
+    found.corner = 6 - a - b - c;
+  }
+  return found;
 }
 
 // The cell of the patch's triangulation on the side of the facet where the old cell is.
-std::optional<PatchGrower::Inner> PatchGrower::within(const FacetAt& f) const {
-  if (t_.dimension() < 3) return {};
-  const auto facet = MovedCells::facet_of(mesh_->mesh.cells[f.cell], f.corner);
-  std::array<Triangulation::Vertex_handle, 3> v;
-  for (int i = 0; i < 3; ++i) {
+template <int d>
+auto PatchGrower<d>::within(const FacetAt& f) const -> std::optional<Inner> {
+  const auto facet = MovedCells<d>::facet_of(mesh_->mesh.cells[f.cell], f.corner);
+  std::array<Vertex, d> v;
+  for (int i = 0; i < d; ++i) {
     if (facet[i] < 0) return {};
     v[i] = vertex_of_[facet[i]];
   }
-  Handle cell;
-  int a, b, c;
-  if (!t_.is_facet(v[0], v[1], v[2], cell, a, b, c)) return {};
-  const int opposite = 6 - a - b - c;
-  if (MovedCells::facet_of(corners_of(cell), opposite) == facet) return Inner{cell, opposite};
-  const Handle other = cell->neighbor(opposite);
-  return Inner{other, other->index(cell)};
+  const auto found = cell_at(v);
+  if (!found || MovedCells<d>::facet_of(corners_of(found->cell), found->corner) == facet) return found;
+  const Handle other = found->cell->neighbor(found->corner);
+  return Inner{other, other->index(found->cell)};
 }
 
 // The facet may be part of the rim: the cell beyond leaves the new one within alone. One that has lost a corner others mend.
-bool PatchGrower::holds(const FacetAt& f) const {
+template <int d>
+bool PatchGrower<d>::holds(const FacetAt& f) const {
   const auto inner = within(f);
   if (!inner) return false;
   const FacetAt other = mesh_->beyond(f);
   const Cell& beyond = mesh_->mesh.cells[other.cell];
-  if (MovedCells::lost_a_corner(beyond) || !mesh_->finite(beyond)) return true;
+  if (MovedCells<d>::lost_a_corner(beyond) || !mesh_->finite(beyond)) return true;
   return mesh_->positive(beyond) && !mesh_->in_conflict(beyond, inner->cell->vertex(inner->corner)->info());
 }
 
 // The cells within the rim. False if the patch is too small for its points.
-bool PatchGrower::cut_out() {
-  Patch& p = patch();
+template <int d>
+bool PatchGrower<d>::cut_out() {
+  Patch<d>& p = patch();
   std::vector<Cell> cells, neighbours;
   int count = 0;
-  for (auto c : t_.all_cell_handles()) c->info() = count++;
-  for (auto c : t_.all_cell_handles()) {
+  for (auto c : Cgal<d>::cells(t_)) c->info() = count++;
+  for (auto c : Cgal<d>::cells(t_)) {
+    Cell beyond;
     cells.push_back(corners_of(c));
-    neighbours.push_back(
-        {c->neighbor(0)->info(), c->neighbor(1)->info(), c->neighbor(2)->info(), c->neighbor(3)->info()});
+    for (int k = 0; k <= d; ++k) beyond[k] = c->neighbor(k)->info();
+    neighbours.push_back(beyond);
   }
   constexpr int outside = -1;
   std::vector<int> number(count, outside), reached, beyond_rim;
@@ -266,5 +224,10 @@ bool PatchGrower::cut_out() {
   }
   return true;
 }
+
+template struct Patches<2>;
+template struct Patches<3>;
+template class PatchGrower<2>;
+template class PatchGrower<3>;
 
 }  // namespace splashdown::fluid

@@ -61,7 +61,7 @@ rule("VTK stays in apps/record" FILES "." BUT_FILES "^apps/record/" INCLUDES "^v
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
 rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
-  BUT_FILES "^(core/parallel|fluid/(initial/space_parts|mesh/delaunay/triangulation_3))\\.hpp$" INCLUDES "[./]"
+  BUT_FILES "^(core/parallel|fluid/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
   BUT_INCLUDES "^(core|fluid|rigid|coupling|Eigen)/")
 
 # The line of the first inclusion of a header in a file.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -176,35 +177,56 @@ TEST(DelaunayInSpace, is_the_same_on_any_number_of_threads) {
 
 // ---- nodes that move
 
+template <int d>
 struct Moving {
-  std::vector<Vec<3>> x;
+  std::vector<Vec<d>> x;
+  std::vector<Facet<d>> facets{};
   std::vector<int> before = std::vector<int>(x.size(), -1);
-  MovingDelaunay<3> triangulation{};
+  MovingDelaunay<d> triangulation{};
 
   // Has the bits of a triangulation from nothing.
   void expect_followed(const char* what) {
-    const auto followed = triangulation.follow(x, before, {});
-    const auto anew = delaunay<3>(std::span<const Vec<3>>(x), {});
+    const auto followed = triangulation.follow(x, before, facets);
+    const auto anew = delaunay<d>(std::span<const Vec<d>>(x), facets);
     EXPECT_TRUE(followed.cells == anew.cells) << what;
     EXPECT_TRUE(followed.neighbours == anew.neighbours) << what;
     before.resize(x.size());
     std::iota(before.begin(), before.end(), 0);
   }
   void jiggle(std::mt19937& random, double by) {
-    for (auto& p : x) p += by * scenes::random_vector<Vec<3>>(random, {});
+    for (auto& p : x) p += by * scenes::random_vector<Vec<d>>(random, {});
+  }
+  void come_and_go(std::mt19937& random) {
+    for (int k = 0; k < 8; ++k) {
+      const auto gone = static_cast<std::ptrdiff_t>(random() % x.size());
+      x.erase(x.begin() + gone), before.erase(before.begin() + gone);
+      const std::size_t at = random() % x.size();
+      // In the cloud, beyond its hull, or half way between two of its points.
+      const Vec<d> p = k < 4    ? scenes::random_vector<Vec<d>>(random, {})
+                       : k == 4 ? Vec<d>(0.99 * Vec<d>::Unit(static_cast<int>(random() % d)))
+                                : Vec<d>(0.5 * (x[at] + x[(at + 1) % x.size()]));
+      x.insert(x.begin() + static_cast<std::ptrdiff_t>(at), p);
+      before.insert(before.begin() + static_cast<std::ptrdiff_t>(at), -1);
+    }
   }
 };
 
 // A triangulation starts anew where the power of two changes that coordinates stay below.
-std::vector<Vec<3>> within(double extent, std::vector<Vec<3>> x) {
+template <class Points>
+Points within(double extent, Points x) {
   for (auto& p : x) p *= extent;
   return x;
 }
 
-TEST(MovingDelaunayInSpace, follows_points_that_move) {
+template <class Dimension>
+struct MovingDelaunayIn : testing::Test {};
+TYPED_TEST_SUITE(MovingDelaunayIn, Dimensions);
+
+TYPED_TEST(MovingDelaunayIn, follows_points_that_move) {
+  constexpr int d = TypeParam::value;
   std::mt19937 random(3);
-  for (const double by : {0.0, 1e-9, 1e-5, 3e-4, 1e-3}) {  // a cell: 0.1
-    Moving m{within(0.9, cloud<3>(3000))};
+  for (const double by : {0.0, 1e-9, 1e-5, 3e-4, 1e-3}) {  // a cell: 0.03, in space 0.1
+    Moving<d> m{within(0.9, cloud<d>(3000))};
     m.expect_followed("at first");
     for (int step = 0; step < 5; ++step) {
       m.jiggle(random, by);
@@ -214,39 +236,49 @@ TEST(MovingDelaunayInSpace, follows_points_that_move) {
   }
 }
 
-TEST(MovingDelaunayInSpace, starts_anew_where_much_has_changed) {
+TYPED_TEST(MovingDelaunayIn, starts_anew_where_much_has_changed) {
+  constexpr int d = TypeParam::value;
   std::mt19937 random(3);
-  Moving m{cloud<3>(1000)};
+  Moving<d> m{cloud<d>(1000)};
   m.expect_followed("at first");
   m.jiggle(random, 0.1);
   m.expect_followed("moved far");
-  m.x = cloud<3>(500, 9);
+  m.x = cloud<d>(500, 9);
   m.before.assign(500, -1);
   m.expect_followed("others");
   m.before.assign(500, 7);
   m.expect_followed("numbers that make no sense");
-  m.x.resize(3), m.before.resize(3);
+  m.x.resize(d), m.before.resize(d);
   m.expect_followed("no cells");
   EXPECT_EQ(m.triangulation.followed(), 0);
 }
 
+template <int d>
+Vec<d> on_lattice(int i) {
+  constexpr int side = d == 2 ? 55 : 15;
+  Vec<d> p;
+  for (int k = 0; k < d; ++k, i /= side) p[k] = i % side / static_cast<double>(side);
+  return p;
+}
+
 // Walls: the hull is made of planes, and nodes slide on them.
-TEST(MovingDelaunayInSpace, follows_points_on_planes_and_lattices) {
+TYPED_TEST(MovingDelaunayIn, follows_points_on_planes_and_lattices) {
+  constexpr int d = TypeParam::value;
   std::mt19937 random(4);
   for (const bool lattice : {false, true}) {
-    Moving m;
+    Moving<d> m;
     for (int i = 0; i < 3000; ++i) {
-      Vec<3> p = lattice ? Vec<3>(i % 15, i / 15 % 15, i / 225) / 15 : scenes::random_vector<Vec<3>>(random, {});
-      if (!lattice && i < 1000) p[i % 3] = i % 2 == 0 ? -1 : 1;
+      Vec<d> p = lattice ? on_lattice<d>(i) : scenes::random_vector<Vec<d>>(random, {});
+      if (!lattice && i < 1000) p[i % d] = i / d % 2 == 0 ? -1 : 1;
       m.x.push_back(p);
     }
     m.before.assign(m.x.size(), -1);
     m.expect_followed("at first");
-    std::vector<Vec<3>> fixed = m.x;
+    std::vector<Vec<d>> fixed = m.x;
     for (int step = 0; step < 8; ++step) {
       m.jiggle(random, lattice ? 1e-3 : 3e-4);
       for (std::size_t i = 0; i < m.x.size(); ++i)
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < d; ++k)
           if (lattice ? step % 2 == 0 && fixed[i][k] < 0.5 : std::abs(fixed[i][k]) == 1) m.x[i][k] = fixed[i][k];
       m.expect_followed("slid");
     }
@@ -257,52 +289,99 @@ TEST(MovingDelaunayInSpace, follows_points_on_planes_and_lattices) {
   }
 }
 
-TEST(MovingDelaunayInSpace, follows_points_that_come_and_go) {
+TYPED_TEST(MovingDelaunayIn, follows_points_that_come_and_go) {
+  constexpr int d = TypeParam::value;
   std::mt19937 random(5);
-  Moving m{within(0.9, cloud<3>(3000))};
+  Moving<d> m{within(0.9, cloud<d>(3000))};
   m.expect_followed("at first");
   for (int step = 0; step < 10; ++step) {
     m.jiggle(random, 1e-4);
-    for (int k = 0; k < 8; ++k) {
-      const auto gone = static_cast<std::ptrdiff_t>(random() % m.x.size());
-      m.x.erase(m.x.begin() + gone), m.before.erase(m.before.begin() + gone);
-      const std::size_t at = random() % m.x.size();
-      // In the cloud, beyond its hull, or half way between two of its points.
-      const Vec<3> p = k < 4    ? scenes::random_vector<Vec<3>>(random, {})
-                       : k == 4 ? Vec<3>(0.99 * Vec<3>::Unit(static_cast<int>(random() % 3)))
-                                : Vec<3>(0.5 * (m.x[at] + m.x[(at + 1) % m.x.size()]));
-      m.x.insert(m.x.begin() + static_cast<std::ptrdiff_t>(at), p);
-      m.before.insert(m.before.begin() + static_cast<std::ptrdiff_t>(at), -1);
-    }
+    m.come_and_go(random);
     if (step == 5) std::swap(m.x[7], m.x[2900]), std::swap(m.before[7], m.before[2900]);  // other numbers
     m.expect_followed("came and went");
   }
   EXPECT_EQ(m.triangulation.followed(), 10);
 }
 
-TEST(MovingDelaunayInSpace, knows_points_that_meet) {
-  Moving m{cloud<3>(500)};
+TYPED_TEST(MovingDelaunayIn, knows_points_that_meet) {
+  constexpr int d = TypeParam::value;
+  Moving<d> m{cloud<d>(500)};
   m.expect_followed("at first");
   m.x[3] = m.x[400];
   m.expect_followed("one upon another");
-  m.x[3] = Vec<3>::Zero();
+  m.x[3] = Vec<d>::Zero();
   m.expect_followed("apart again");
   m.x.push_back(m.x[9]), m.before.push_back(-1);
   m.expect_followed("a new one upon another");
 }
 
 // A sheet that waves through a plane: beyond it all cells of the hull change.
-TEST(MovingDelaunayInSpace, follows_a_surface_that_waves) {
+TYPED_TEST(MovingDelaunayIn, follows_a_surface_that_waves) {
+  constexpr int d = TypeParam::value;
   std::mt19937 random(6);
-  const auto rest = cloud<3>(2000);
+  const auto rest = cloud<d>(2000);
   for (const double height : {1e-6, 1e-3, 0.03}) {
-    Moving m{rest};
+    Moving<d> m{rest};
     for (int step = 0; step < 10; ++step) {
       for (std::size_t i = 0; i < 1000; ++i)
-        m.x[i].z() = 1 + height * std::sin(3 * m.x[i].x() + 2 * m.x[i].y() + 0.05 * step);
+        m.x[i][d - 1] = 1 + height * std::sin(3 * m.x[i].x() + (d == 3 ? 2 * m.x[i][1] : 0.0) + 0.05 * step);
       m.expect_followed("waved");
     }
   }
+}
+
+// A thin body in waves: its facets are kept however nodes stand around them.
+TEST(MovingDelaunay2, keeps_facets_of_a_moving_plate) {
+  std::mt19937 random(8);
+  constexpr int along = 40;
+  Moving<2> m{within(0.9, cloud<2>(2000))};
+  for (int i = 0; i < along; ++i) m.facets.push_back({{i, (i + 1) % along}, -1});
+  for (int step = 0; step < 12; ++step) {
+    for (int i = 0; i < along; ++i) {
+      const double angle = 2 * std::numbers::pi * i / along;
+      m.x[i] = {0.5 * std::cos(angle) + 0.002 * step, 1e-3 * std::sin(angle) + 1e-4 * step};
+    }
+    m.expect_followed("kept");
+    const auto edges = edges_of(m.triangulation.follow(m.x, m.before, m.facets));
+    for (const auto& f : m.facets) EXPECT_TRUE(edges.contains(std::minmax(f.nodes[0], f.nodes[1])));
+    for (std::size_t i = along; i < m.x.size(); ++i) m.x[i] += 1e-3 * scenes::random_vector<Vec<2>>(random, {});
+  }
+  EXPECT_EQ(m.triangulation.followed(), 23);
+}
+
+// Constrained Delaunay (Lee and Lin 1986): beyond an edge that is not kept no node lies in the circle around a cell.
+TEST(Delaunay2, cells_beside_kept_facets_are_delaunay_as_far_as_those_allow) {
+  const auto x = cloud<2>(400, 11);
+  std::vector<Facet<2>> kept;
+  std::mt19937 random(11);
+  for (int i = 0; i < 40; ++i)
+    kept.push_back({{static_cast<int>(random() % 400), static_cast<int>(random() % 400)}, -1});
+  const auto t = delaunay<2>(std::span<const Vec<2>>(x), kept);
+  std::set<std::pair<int, int>> facets;
+  for (const auto& f : kept) facets.insert(std::minmax(f.nodes[0], f.nodes[1]));
+  double area = 0, plain = 0;
+  for (const auto& c : t.cells) area += volume<2>(corners(x, c));
+  for (const auto& c : delaunay<2>(std::span<const Vec<2>>(x), {}).cells) plain += volume<2>(corners(x, c));
+  EXPECT_NEAR(area, plain, 1000 * eps);
+  int found = 0;
+  for (std::size_t i = 0; i < t.cells.size(); ++i) {
+    const auto& c = t.cells[i];
+    EXPECT_GT(volume<2>(corners(x, c)), 0);
+    for (int k = 0; k < 3; ++k) {
+      const int n = t.neighbours[i][k], a = c[(k + 1) % 3], b = c[(k + 2) % 3];
+      if (facets.contains(std::minmax(a, b))) ++found;
+      if (n < 0 || facets.contains(std::minmax(a, b))) continue;
+      const auto& back = t.neighbours[n];
+      const int p = t.cells[n][std::find(back.begin(), back.end(), static_cast<int>(i)) - back.begin()];
+      Eigen::Matrix3d in_circle;
+      for (int j = 0; j < 3; ++j) {
+        const Vec<2> r = x[c[j]] - x[p];
+        in_circle.row(j) << r.x(), r.y(), r.squaredNorm();
+      }
+      EXPECT_LE(in_circle.determinant(), eps);
+    }
+  }
+  EXPECT_GT(found, 20) << "sides of facets: most cross an earlier one, ten at least do not";
 }
 
 }  // namespace

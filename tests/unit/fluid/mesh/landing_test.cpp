@@ -41,6 +41,24 @@ TYPED_TEST(Landing, a_drop_brings_its_own_momentum_and_no_more) {
   }
 }
 
+TYPED_TEST(Landing, facets_of_what_lands_come_before_those_of_its_pool) {
+  constexpr int d = TypeParam::value;
+  auto p = pool<d>();
+  Nodes<d>& nodes = p.nodes;
+  // The last nodes are a drop that had another number than they have now, and some are new.
+  const std::size_t drop = nodes.size() - nodes.size() / 4;
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes.part[i] = i % 7 == 0 ? -1 : i < drop ? 0 : 1000;
+  const auto sorted = smaller_parts_first<d>(p.mesh.boundary, nodes);
+  ASSERT_EQ(sorted.size(), p.mesh.boundary.size());
+  const auto rank = [&](const Facet<d>& f) {
+    int part = -1;
+    for (int n : f.nodes) part = std::max(part, nodes.part[n]);
+    return part < 0 ? 2 : part == 0 ? 1 : 0;
+  };
+  EXPECT_TRUE(std::ranges::is_sorted(sorted, {}, rank));
+  EXPECT_EQ(rank(sorted.front()), 0);
+}
+
 TYPED_TEST(Landing, changes_nothing_where_nothing_lands) {
   constexpr int d = TypeParam::value;
   auto p = pool<d>();

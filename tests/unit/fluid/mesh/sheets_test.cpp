@@ -14,16 +14,16 @@ class Sheets : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Sheets, Dimensions);
 
-// Water whose nodes are all on free surfaces as far as x = 0.6, in random motion.
+// Water whose nodes are all on free surfaces as far as x = `length`, in random motion.
 template <int d>
-scenes::Lattice<d> pool_with_sheet() {
+scenes::Lattice<d> pool_with_sheet(double length = 0.4) {
   scenes::Lattice<d> pool(5);
   Nodes<d>& nodes = pool.nodes;
   nodes.volume = nodal_volumes(pool.mesh, nodes.x);
   std::mt19937 random(7);
   for (auto& v : nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes.x[i].x() < 0.6 + 1e-9) nodes.surface[i] = 1, nodes.tie[i] = {};
+    if (nodes.x[i].x() < length + 1e-9) nodes.surface[i] = 1, nodes.tie[i] = {};
   for (auto& f : pool.mesh.boundary)
     if (std::ranges::all_of(f.nodes, [&](int n) { return nodes.surface[n]; })) f.wall = -1;
   return pool;
@@ -43,6 +43,28 @@ double volume_of_cells(const scenes::Lattice<d>& p) {
 }
 
 const auto any_node = [](int) { return true; };
+
+// It counts to no node yet: those that stay would have to give the volume of other water away.
+TYPED_TEST(Sheets, water_that_has_just_closed_a_gap_stays) {
+  constexpr int d = TypeParam::value;
+  auto p = pool_with_sheet<d>();
+  for (std::size_t i = 0; i < p.nodes.size(); ++i) p.nodes.part[i] = static_cast<int>(i);
+  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  EXPECT_EQ(std::ranges::count(p.nodes.spray, 1), 0);
+}
+
+// Most of the water would fly, and come back to what hardly could take it up.
+TYPED_TEST(Sheets, water_of_which_most_would_fly_stays_whole) {
+  constexpr int d = TypeParam::value;
+  auto p = pool_with_sheet<d>(0.8);
+  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  EXPECT_EQ(std::ranges::count(p.nodes.spray, 1), 0);
+  // All of it: a shred in the air.
+  auto shred = pool_with_sheet<d>(1);
+  for (auto& tie : shred.nodes.tie) tie = {};
+  let_sheets_fly<d>(shred.nodes, shred.mesh, any_node);
+  EXPECT_TRUE(shred.mesh.cells.empty());
+}
 
 TYPED_TEST(Sheets, nodes_whose_cells_all_lie_between_free_surfaces_fly) {
   constexpr int d = TypeParam::value;
