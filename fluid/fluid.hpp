@@ -36,6 +36,10 @@ struct MotionDrive {
   Eigen::VectorXd impulse;        ///< on them, besides the fluid's and what the given velocities contain; empty: none
   Eigen::MatrixXd workless = {};  ///< combinations in which Newton's law is asked for, as many; empty: the same
   bool restricts() const { return directions.size() > 0 || impulse.size() > 0; }
+  /// What is left of an answer where only `directions` may occur.
+  Eigen::VectorXd allowed(const Eigen::VectorXd& answer) const {
+    return restricts() ? Eigen::VectorXd(directions * (directions.transpose() * answer)) : answer;
+  }
 };
 
 template <int d>

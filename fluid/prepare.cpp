@@ -128,7 +128,8 @@ void Fluid<d>::State::cut(std::size_t liquid) {
   constexpr int attempts = 3;  // to do without nodes that keep the triangulation from the wall's facets
   for (int attempt = 1;; ++attempt) {
     const auto spray = nodes.spray;
-    const auto kept = d == 2 ? smaller_parts_first<d>(work.mesh.boundary, nodes) : work.mesh.boundary;
+    std::vector<Facet<d>> kept;
+    if (keeps_facets<d>) kept = smaller_parts_first<d>(work.mesh.boundary, nodes);
     Delaunay<d> cells =
         triangulation.follow(std::span(nodes.x).first(liquid), std::span(nodes.vertex).first(liquid), kept);
     std::iota(nodes.vertex.begin(), nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), 0);

@@ -70,7 +70,7 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
 template <int d>
 void Fluid<d>::State::restrict_repair(const MotionDrive& drive) {
   equation.allow(drive.directions, drive.workless);
-  const Eigen::VectorXd kept = drive.directions * (drive.directions.transpose() * trial.answer);
+  const Eigen::VectorXd kept = drive.allowed(trial.answer);
   trial.unanswered = equation.inertia() * (trial.answer - kept);
   equation.move(kept - trial.answer, trial.s_before);
   trial.answer = kept;
@@ -154,7 +154,7 @@ Status Fluid<d>::State::predict(const MotionDrive& drive) {
   }
   if (equation.motions() == 0) return {};
   // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
-  if (drive.restricts()) answer = drive.directions * (drive.directions.transpose() * answer);
+  answer = drive.allowed(answer);
   const Eigen::VectorXd impulse = equation.on_motions(trial.on_walls);
   trial.known += impulse;
   trial.answer += answer;
@@ -174,7 +174,7 @@ Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::spa
   if (!previous.empty()) equation.laplacian().add(previous, trial.phi);
   if (!equation.solve(trial.phi, closely, carried_impulse())) return {"the pressure solve failed"};
   answer_to(trial.phi, trial.s_after, equation.on_motions(equation.held().excess(trial.v, trial.s_after)));
-  if (equation.motions() > 0) let_bodies_answer(trial.unanswered);
+  let_bodies_answer(trial.unanswered);
   return {};
 }
 
@@ -292,8 +292,7 @@ void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist
 // A further impulse on the motions.
 template <int d>
 void Fluid<d>::State::apply_body_impulse(const Eigen::VectorXd& impulse) {
-  if (impulse.isZero(0)) return;
-  trial.known += impulse;
+  if (impulse.size() > 0) trial.known += impulse;
   let_bodies_answer(impulse);
 }
 

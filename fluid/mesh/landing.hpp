@@ -17,8 +17,8 @@ bool joins_parts(const std::array<int, d + 1>& cell, const Nodes<d>& nodes);
 template <int d>
 std::vector<Facet<d>> smaller_parts_first(const std::vector<Facet<d>>& boundary, const Nodes<d>& nodes);
 
-/// What joins parts is owed by all the water that hangs together now, and
-/// comes with its mean velocity w: with S_i the share of node i in such cells and V_i what it carries,
+/// Cells that join parts are owed by all the water that hangs together now, and come with its mean velocity w: with S_i the share
+/// of node i in such cells and V_i what it carries,
 ///
 ///   v_i <- (V_i v_i + S_i w) / (V_i + S_i)
 ///

@@ -221,12 +221,12 @@ int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
 
 // Between nodes of two walls, and thinner than what is let pass for a facet on one of them.
 template <int d>
-bool is_pinched(const std::array<int, d + 1>& cell, const Nodes<d>& nodes) {
+bool is_pinched(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>& nodes) {
   const int wall = nodes.tie[cell[0]].wall;
   auto tied = [&](int n) { return nodes.tie[n].wall >= 0; };
   auto on_another = [&](int n) { return nodes.tie[n].wall != wall; };
-  return std::all_of(cell.begin(), cell.end(), tied) && std::any_of(cell.begin(), cell.end(), on_another) &&
-         shape<d>(edge_matrix<d>(corners(nodes.x, cell))).fullness < facet_meet;
+  return fullness < facet_meet && std::all_of(cell.begin(), cell.end(), tied) &&
+         std::any_of(cell.begin(), cell.end(), on_another);
 }
 
 // Flat and thin cells with water all around are no gap in it: between them there would be a free surface within the water.
@@ -300,7 +300,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
         ((has_inner && alpha < limit.inner) || inside(centroid) || (!has_inner && alpha < limit.join)) &&
         !in_solid<d>(cell, centroid, size, nodes, old_boundary, walls);
     if (!is_water) return none;
-    return is_pinched<d>(cell, nodes) ? pinched_water : water;
+    return is_pinched<d>(cell, s.fullness, nodes) ? pinched_water : water;
   };
   std::vector<Content> content(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });

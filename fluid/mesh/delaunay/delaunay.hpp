@@ -4,7 +4,7 @@
 // In 2D the facets of the fluid's boundary are kept as edges (constrained Delaunay): without that, thin
 // jets and thin bodies lose facets to nodes on their other side and their volume with them. Few facets
 // are not Delaunay anyhow, so the constraint costs next to nothing. Facets that cross are left out.
-// CGAL has no constrained triangulation in 3D.
+// In space the facets are ignored: there a triangulation that holds them may not exist (Schoenhardt 1928).
 #pragma once
 
 #include <array>
@@ -14,6 +14,10 @@
 #include "fluid/mesh/mesh.hpp"
 
 namespace splashdown::fluid {
+
+/// Whether triangulations hold the facets that they are given as far as these do not cross; the first of two that do.
+template <int d>
+inline constexpr bool keeps_facets = d == 2;
 
 template <int d>
 struct Delaunay {

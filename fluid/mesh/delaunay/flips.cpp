@@ -1,9 +1,5 @@
 #include "fluid/mesh/delaunay/flips.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-
-#include "fluid/parallel.hpp"
-
 namespace splashdown::fluid {
 namespace {
 
@@ -49,34 +45,17 @@ bool has_edges(const ClosedDelaunay<2>& mesh, std::size_t points, const std::vec
 
 // ---- Delaunay
 
-void Flips::make_delaunay() {
-  const auto& mesh = cells_.mesh;
-  std::vector<char> positive(mesh.cells.size());
-  in_parallel(mesh.cells.size(), [&](std::size_t c) {
-    const Cell& cell = mesh.cells[c];
-    positive[c] = !MovedCells<2>::lost_a_corner(cell) && cells_.finite(cell) && cells_.positive(cell);
-  });
-  tbb::enumerable_thread_specific<std::vector<FacetAt>> found;
-  in_parallel(mesh.cells.size(), [&](std::size_t i) {
-    const int c = static_cast<int>(i);
-    for (int k = 0; k < 3; ++k)
-      if (const int n = mesh.neighbours[c][k]; c < n && positive[c] && positive[n] && !cells_.locally_delaunay({c, k}))
-        found.local().push_back({c, k});
-  });
-  std::vector<FacetAt> edges;
-  for (const auto& part : found) edges.insert(edges.end(), part.begin(), part.end());
-  std::sort(edges.begin(), edges.end(), [](const FacetAt& a, const FacetAt& b) { return a.cell < b.cell; });
-  make_delaunay(std::move(edges));
-}
-
-void Flips::make_delaunay(std::vector<FacetAt> edges) {
+std::vector<int> Flips::make_delaunay(std::vector<FacetAt> edges) {
+  std::vector<int> changed;
   while (!edges.empty()) {
     const FacetAt edge = edges.back();
     edges.pop_back();
     if (!flips(edge)) continue;
     flip(edge);
     edges.insert(edges.end(), flipped_.begin(), flipped_.end());
+    for (const FacetAt& f : flipped_) changed.push_back(f.cell);
   }
+  return changed;
 }
 
 bool Flips::flips(const FacetAt& edge) const {

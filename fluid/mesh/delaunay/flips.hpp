@@ -13,9 +13,10 @@ class Flips {
  public:
   explicit Flips(MovedCells<2>& cells) : cells_(cells) {}
 
-  /// Flips edges between positive cells until all of them are locally Delaunay (Lawson 1977): each flip lowers the surface that
-  /// the cells make on the paraboloid z = |x|^2, which ends. Where all cells are positive they are the Delaunay triangulation.
-  void make_delaunay();
+  /// Flips those of the edges that lie between positive cells and are not locally Delaunay, and what that makes so, until none is
+  /// left (Lawson 1977): each flip lowers the surface that the cells make on the paraboloid z = |x|^2, which ends. Cells that
+  /// it has changed.
+  std::vector<int> make_delaunay(std::vector<FacetAt> edges);
   /// Makes facets edges of a Delaunay triangulation, and the rest Delaunay again as far as they allow (constrained Delaunay).
   /// One that crosses an earlier one is left out: two surfaces have met, and the winding number decides what lies between
   /// them. A node on a facet parts it.
@@ -24,7 +25,6 @@ class Flips {
  private:
   using Cell = MovedCells<2>::Cell;
 
-  void make_delaunay(std::vector<FacetAt> edges);
   bool flips(const FacetAt& edge) const;
   void flip(const FacetAt& edge);
   bool convex(const FacetAt& edge) const;

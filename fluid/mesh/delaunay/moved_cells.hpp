@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <unordered_map>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace splashdown::fluid {
 struct FacetAt {
   static constexpr int whole_cell = -1;
   int cell, corner;  ///< the corner opposite, or `whole_cell`
+  auto operator<=>(const FacetAt&) const = default;
 };
 
 /// A triangulation whose points have moved: cells may have turned over, and points be gone (negative). Its hull, the points far

@@ -23,8 +23,10 @@ class Update {
     constexpr std::size_t few = 4;  // cells to a facet that is wrong: with fewer, patches would join
     const auto starts = near_new_points(before);
     if (!renumber(before, points_before)) return false;
-    if constexpr (d == 2) Flips(moved_).make_delaunay();
-    const auto wrong = scan();
+    std::vector<int> all(mesh_.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    auto wrong = scan(all);
+    if constexpr (d == 2) wrong = left_by_flips(wrong);
     if (few * wrong.size() > mesh_.cells.size() || !mend(wrong)) return false;
     std::vector<FacetAt> to_split;
     for (auto [point, start] : starts) {
@@ -73,11 +75,11 @@ class Update {
     return true;
   }
 
-  // All that is wrong, in the order of the cells.
-  std::vector<FacetAt> scan() const {
+  // All that is wrong with cells, in their order.
+  std::vector<FacetAt> scan(const std::vector<int>& cells) const {
     tbb::enumerable_thread_specific<std::vector<FacetAt>> found;
-    in_parallel(mesh_.cells.size(), [&](std::size_t i) {
-      const int c = static_cast<int>(i);
+    in_parallel(cells.size(), [&](std::size_t i) {
+      const int c = cells[i];
       const Cell& cell = mesh_.cells[c];
       if (!moved_.finite(cell)) return;
       const bool lost = MovedCells<d>::lost_a_corner(cell), turned = !lost && !moved_.positive(cell);
@@ -89,10 +91,21 @@ class Update {
     });
     std::vector<FacetAt> out;
     for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
-    std::sort(out.begin(), out.end(), [](const FacetAt& a, const FacetAt& b) {
-      return std::pair(a.cell, a.corner) < std::pair(b.cell, b.corner);
-    });
+    std::ranges::sort(out);
     return out;
+  }
+
+  // What flips cannot mend. It is with cells that were wrong or have been flipped, or beside them.
+  std::vector<FacetAt> left_by_flips(const std::vector<FacetAt>& wrong) requires(d == 2) {
+    std::vector<FacetAt> edges;
+    std::ranges::copy_if(wrong, std::back_inserter(edges), [](auto& f) { return f.corner != FacetAt::whole_cell; });
+    std::vector<int> cells = Flips(moved_).make_delaunay(std::move(edges));
+    for (const FacetAt& f : wrong) cells.push_back(f.cell);
+    for (std::size_t i = cells.size(); i-- > 0;)
+      cells.insert(cells.end(), mesh_.neighbours[cells[i]].begin(), mesh_.neighbours[cells[i]].end());
+    std::ranges::sort(cells);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return scan(cells);
   }
 
   // Rounds of patches that do not overlap.

@@ -3,9 +3,8 @@
 // Of the triangulation that was, nearly all cells are Delaunay after a step too. Exact predicates find those that are
 // not: a cell turned over, a node in the circumsphere of the cell beyond a facet, a node gone. In the plane edges between
 // positive cells are flipped (Lawson 1977), which mends most. Patches of cells around what is left are given up, and grow until
-// the Delaunay triangulation of their nodes alone holds all facets of their rim; its
-// cells within the rim take their place. Then new nodes are located and added likewise. Points far away, one more than
-// dimensions, are the hull, which never changes: cells that all are positive then cover it once, and with all facets locally
+// the Delaunay triangulation of their nodes alone holds all facets of their rim; its cells within the rim take their place.
+// Then new nodes are located and added likewise. Points far away, one more than dimensions, are the hull, which never changes: cells that all are positive then cover it once, and with all facets locally
 // Delaunay they are the Delaunay triangulation (Delaunay 1934). Where nodes are in special position CGAL's symbolic
 // perturbation leaves no choice. So the result has the bits of a triangulation from nothing, whatever came before. It is made
 // from nothing where too much has changed. What is kept for the next call knows nothing of facets.
