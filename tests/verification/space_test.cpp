@@ -124,6 +124,66 @@ TEST(InSpace, added_mass_of_a_sphere_is_met_better_than_with_second_order) {
   EXPECT_GE(order_of(h, bound), 2 - 0.2) << bound[0] << ' ' << bound[1];
 }
 
+// Liquid below z = 0 inside a half ball, p = 0 all around.
+fluid::Surface<3> half_ball(double radius) {
+  constexpr int rings = 24, around = 4 * rings, pole = rings * around, centre = pole + 1;
+  fluid::Surface<3> s{Eigen::Matrix3Xd(3, centre + 1), Eigen::Matrix3Xi(3, 2 * pole)};
+  int facet = 0;
+  for (int j = 0; j < around; ++j) {
+    const int next = (j + 1) % around;
+    s.facets.col(facet++) << centre, j, next;
+    for (int i = 0; i < rings; ++i) {
+      const double below = pi / 2 * i / rings, phi = 2 * pi * j / around;
+      s.vertices.col(i * around + j) << std::cos(below) * std::cos(phi), std::cos(below) * std::sin(phi),
+          -std::sin(below);
+      const int upper = i * around, lower = upper + around;
+      if (i + 1 < rings) {
+        s.facets.col(facet++) << upper + j, lower + j, lower + next;
+        s.facets.col(facet++) << upper + j, lower + next, upper + next;
+      } else {
+        s.facets.col(facet++) << upper + j, pole, upper + next;
+      }
+    }
+  }
+  s.vertices.col(pole) = -Vec::UnitZ();
+  s.vertices.col(centre).setZero();
+  s.vertices *= radius;
+  return s;
+}
+
+// A half submerged sphere of radius a, p = 0 at z = 0 and at r = b. Heave is one mode, z; sway has P_n^1(cos theta) cos(phi) with even n:
+//   heave  2/3 pi rho a^3 (b^3 - a^3) / (a^3 + 2 b^3)
+//   sway   pi rho a^3 sum P_n(0)^2 n (n + 1) (2 n + 1) / ((n - 1) (n + 2))^2 (1 - q) / (n + 1 + n q), q = (a/b)^(2 n + 1);
+// without a bound 1/2 and 0.2732 of 2/3 pi rho a^3 (Hulme, J. Fluid Mech. 121, 1982, at infinite frequency).
+TEST(InSpace, added_mass_of_a_floating_hemisphere_is_of_second_order) {
+  const double a = 0.5, b = 1.5, a3 = a * a * a, b3 = b * b * b;
+  const double heave = water * 2 * pi / 3 * a3 * (b3 - a3) / (a3 + 2 * b3);
+  double sway = 0, p = 1;              // p = P_n(0)
+  for (int n = 2; n < 4000; n += 2) {  // what is left out falls like 1 / n^2
+    p *= -(n - 1.) / n;
+    const double q = std::pow(a / b, 2 * n + 1), ends = (n - 1.) * (n + 2.);
+    sway += water * pi * a3 * p * p * n * (n + 1.) * (2 * n + 1) / (ends * ends) * (1 - q) / (n + 1 + n * q);
+  }
+  const std::array h{a / 8, a / 12, a / 16};
+  std::array<double, 3> off_heave, off_sway;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    fluid::FluidSpec<3> spec;
+    spec.size = {.surface = 4 * h[i], .far = 4 * h[i], .growth = 0.2};
+    spec.liquids.push_back({half_ball(b), {}});
+    spec.walls.push_back(sphere(Vec::Zero(), a, h[i], 96));
+    Fluid<3> f(spec, effects(0));
+    const std::array<std::size_t, 1> one{0};
+    ASSERT_TRUE(f.begin(instant, instant, {}).ok());
+    const Eigen::MatrixXd G = f.added_mass(one);
+    off_heave[i] = G(2, 2) / heave - 1;
+    off_sway[i] = (G(0, 0) + G(1, 1)) / (2 * sway) - 1;  // no mesh is round
+  }
+  EXPECT_LE(std::abs(off_heave[1]), 0.01);
+  EXPECT_LE(std::abs(off_sway[1]), 0.01);
+  EXPECT_GE(order_of(h, off_heave), 2 - 0.2) << off_heave[0] << ' ' << off_heave[1] << ' ' << off_heave[2];
+  EXPECT_GE(order_of(h, off_sway), 2 - 0.2) << off_sway[0] << ' ' << off_sway[1] << ' ' << off_sway[2];
+}
+
 // Two equal spheres, c between their centres, far from p = 0: what one of them is pushed with along the line of centres when the
 // other one moves, over its own added mass alone, is - 3 (a / c)^3, across it half of that with the other sign (Lamb, Hydrodynamics, art.
 // 138); its own added mass grows by 3 (a / c)^6.
