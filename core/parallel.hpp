@@ -3,17 +3,19 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #ifdef __SANITIZE_THREAD__
 #include <atomic>
 #include <thread>
-#include <vector>
 #endif
 
 namespace splashdown {
@@ -21,6 +23,10 @@ namespace splashdown {
 /// Threads that loops run on from here on; 0: all cores.
 void use_threads(int count);
 int threads();
+
+/// A value for each thread that asks for its own with local(), made by what it is given.
+template <class Value>
+using PerThread = tbb::enumerable_thread_specific<Value>;
 
 #ifdef __SANITIZE_THREAD__
 // The thread sanitizer does not see how TBB, compiled without it, hands work over and takes it back: it would call every loop
@@ -64,6 +70,17 @@ void in_parallel(std::size_t count, Visit visit) {
   in_pieces(count, worthwhile, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) visit(i);
   });
+}
+
+/// The sum of value(i) for 0 <= i < count, in pieces that do not depend on the number of threads.
+template <class Value>
+double sum_in_parallel(std::size_t count, Value value) {
+  std::vector<double> pieces((count + worthwhile - 1) / worthwhile, 0.0);
+  in_pieces(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p)
+      for (std::size_t i = p * worthwhile; i < std::min(count, (p + 1) * worthwhile); ++i) pieces[p] += value(i);
+  });
+  return std::accumulate(pieces.begin(), pieces.end(), 0.0);
 }
 
 /// The least value(i) for 0 <= i < count, infinity for none.

@@ -77,10 +77,12 @@ Status Fluid<d>::State::no_energy_from_nowhere() const {
       taken_along += spec.density * equation.lumped_volume()[i] *
                      std::max(0.0, (result.velocity[i] - trial.v_after[i]).dot(result.velocity[i]));
   const double before = std::max(trial.energy_before, trial.energy_unloaded);
-  const double after = std::min(equation.kinetic_energy(trial.v_after), equation.kinetic_energy(result.velocity));
-  const double gain = after + given - before - taken_along;
   const double scale = before + std::abs(given) + taken_along;
-  if (gain <= most_gain * scale) return {};
+  double gain = std::numeric_limits<double>::infinity();
+  for (const auto& v : {std::span<const Vec<d>>(result.velocity), std::span<const Vec<d>>(trial.v_after)}) {
+    gain = std::min(gain, equation.kinetic_energy(v) + given - before - taken_along);
+    if (gain <= most_gain * scale) return {};
+  }
   std::size_t fastest = 0;
   double most = 0;
   for (std::size_t i = 0; i < result.velocity.size(); ++i) {

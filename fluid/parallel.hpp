@@ -8,6 +8,8 @@ namespace splashdown::fluid {
 using splashdown::in_parallel;
 using splashdown::in_pieces;
 using splashdown::least_in_parallel;
+using splashdown::PerThread;
+using splashdown::sum_in_parallel;
 using splashdown::threads;
 using splashdown::use_threads;
 using splashdown::worthwhile;

@@ -173,7 +173,8 @@ void Fluid<d>::State::prepare() {
   const double adapted = before - now.ledger.volume;
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
   (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
-  const auto volumes = return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water);
+  const auto volumes =
+      return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water, nodal_volumes(work.mesh, work.nodes.x));
   free_water.give_back(free_carried, volumes, work.nodes.v);
   work.ledger.volume = enclosed_volume(work.mesh.boundary, work.nodes.x);
   work.ledger.returned += work.ledger.volume - after;

@@ -35,6 +35,7 @@ Wall<d>::Wall(const WallSpec<d>& spec)
   find_patches();
   find_bends();
   find_convexity();
+  find_basin();
 }
 
 template <int d>
@@ -199,6 +200,22 @@ void Wall<d>::find_convexity() {
     for (int k = 0; k < d; ++k)
       for (int j = 0; j < d && crease_of_(k, f) >= 0; ++j)
         if (stands_out(facets(j, across_(k, f)), f, facets(k, f))) convex_crease_[crease_of_(k, f)] = 0;
+}
+
+template <int d>
+void Wall<d>::find_basin() {
+  constexpr std::size_t few = 4 * d;  // more are not cheap to look at
+  const auto& vertices = spec_.surface.vertices;
+  const auto& facets = spec_.surface.facets;
+  for (int f = 0; f < facets.cols() && turned_inside_out_; ++f) {
+    const Plane plane{normal_.col(f), normal_.col(f).dot(vertices.col(facets(0, f)))};
+    const Eigen::VectorXd above = (plane.normal.transpose() * vertices).transpose().array() - plane.offset;
+    const bool known = std::any_of(basin_.begin(), basin_.end(), [&](const Plane& p) {
+      return (p.normal - plane.normal).norm() * diameter() + std::abs(p.offset - plane.offset) < tiny_;
+    });
+    if (above.minCoeff() < -tiny_ || (!known && basin_.size() == few)) return basin_.clear();
+    if (!known) basin_.push_back(plane);
+  }
 }
 
 template <int d>

@@ -1,6 +1,7 @@
 // A wall in motion: closest points and sides of its rigid surface, its sharp vertices.
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 #include <vector>
 
@@ -58,7 +59,11 @@ class Wall {
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
   bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
-    return turned_inside_out_ || box_.squaredExteriorDistance(pose.inverse() * x) <= margin * margin;
+    const Vec<d> local = pose.linear().transpose() * (x - pose.translation());
+    if (!turned_inside_out_) return box_.squaredExteriorDistance(local) <= margin * margin;
+    return basin_.empty() || std::any_of(basin_.begin(), basin_.end(), [&](const Plane& p) {
+             return p.normal.dot(local) - p.offset <= margin + tiny_;
+           });
   }
   /// `slack`: relative error allowed.
   double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
@@ -83,9 +88,14 @@ class Wall {
   void find_patches();
   void find_bends();
   void find_convexity();
+  void find_basin();
   bool is_crease(int f, int g) const;
   struct OnCrease {
     Vec<d> point, along;  // in the wall's frame
+  };
+  struct Plane {
+    Vec<d> normal;
+    double offset;
   };
   OnCrease on_crease(const Vec<d>& local, int crease) const;
   Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
@@ -107,8 +117,9 @@ class Wall {
   std::vector<char> is_corner_, is_sharp_;           // of vertices; sharp: a corner or on a crease
   std::vector<char> convex_corner_, convex_crease_;  // of vertices, of creases
   Eigen::AlignedBox<double, d> box_;
-  bool turned_inside_out_;  // the solid is outside
-  double tiny_;             // length below which points coincide
+  bool turned_inside_out_;    // the solid is outside
+  std::vector<Plane> basin_;  // that bound a convex tank of few sides; otherwise none
+  double tiny_;               // length below which points coincide
 };
 
 extern template class Wall<2>;

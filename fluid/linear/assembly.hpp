@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fluid/linear/sparse_row.hpp"
 #include "fluid/mesh/node_cells.hpp"
 #include "fluid/parallel.hpp"
 
@@ -29,20 +30,22 @@ class Assembly {
     column_start.resize(size + 1);
     column_start[0] = 0;
     blocks_.resize(count);
+    PerThread<SparseRow<Value>> columns([&] { return SparseRow<Value>(size); });
     in_pieces(count, 1, [&](std::size_t from, std::size_t to) {
+      auto& column = columns.local();
       for (std::size_t b = from; b < to; ++b) {
         Block& block = blocks_[b];
         block.row.clear();
         block.value.clear();
         for (std::size_t j = b * columns_a_block; j < std::min(size, (b + 1) * columns_a_block); ++j) {
-          block.column.clear();
-          block.column.push_back({static_cast<int>(j), zero()});
+          column.clear();
+          column.add(static_cast<int>(j), zero());
           for (const auto [c, corner] : around.around(node[j]))
             for (int a = 0; a <= d; ++a) {
               const int i = unknown[cells[c][a]];
-              if (i >= static_cast<int>(j)) block.add(i, element(c, a, corner));
+              if (i >= static_cast<int>(j)) column.add(i, element(c, a, corner));
             }
-          block.append_column();
+          block.append(column.entries());
           column_start[j + 1] = static_cast<int>(block.row.size());
         }
       }
@@ -52,33 +55,19 @@ class Assembly {
 
  private:
   static constexpr std::size_t columns_a_block = 4096;
-  struct Entry {
-    int row;
-    Value value;
-  };
   struct Block {
     std::vector<int> row;
     std::vector<Value> value;
-    std::vector<Entry> column;
 
-    // A column holds half a node's neighbours: few enough to look through.
-    void add(int i, const Value& v) {
-      for (Entry& e : column)
-        if (e.row == i) {
-          e.value += v;
-          return;
-        }
-      column.push_back({i, v});
-    }
-    void append_column() {
+    void append(std::span<typename SparseRow<Value>::Entry> column) {
       for (std::size_t k = 2; k < column.size(); ++k) {  // insertion sort; the diagonal is first already
-        const Entry e = column[k];
+        const auto e = column[k];
         std::size_t to = k;
-        for (; column[to - 1].row > e.row; --to) column[to] = column[to - 1];
+        for (; column[to - 1].column > e.column; --to) column[to] = column[to - 1];
         column[to] = e;
       }
-      for (const Entry& e : column) {
-        row.push_back(e.row);
+      for (const auto& e : column) {
+        row.push_back(e.column);
         value.push_back(e.value);
       }
     }

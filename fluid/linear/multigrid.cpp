@@ -70,28 +70,45 @@ std::array<double, K> dot(int rows, const std::vector<double>& a, const std::vec
 
 struct Multigrid::Level {
   Rows<float> matrix, interpolation, restriction;  // to this level and from it
-  std::vector<int> rest;                           // of a row: its entries before are those of [block's first, i)
-  std::vector<float> diagonal, per_diagonal;       // a_ii + sum of |a_ij| beyond the block, and one over it
+  // Entries of a row i, in a block of rows: those in the block before i, ascending; from `rest` those in it from i on, descending;
+  // from `beyond` those outside. The last ones of the first two are the last that sweeps find: their sums wait for no others.
+  std::vector<int> rest, beyond;
+  std::vector<float> diagonal, per_diagonal;  // a_ii + sum of |a_ij| beyond the block, and one over it
   std::vector<float> b, x, before;
 
   void prepare_smoothing() {
     rest.resize(matrix.size());
+    beyond.resize(matrix.size());
     diagonal.resize(matrix.size());
     per_diagonal.resize(matrix.size());
     in_blocks(matrix.size(), smoothing_block(matrix.size()), [&](int first, int last, int) {
+      std::vector<std::pair<int, float>> later, outside;
       for (int i = first; i < last; ++i) {
-        rest[i] = matrix.start[i];
-        for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
-          if (matrix.column[k] < first || matrix.column[k] >= i) continue;
-          std::swap(matrix.column[k], matrix.column[rest[i]]);
-          std::swap(matrix.value[k], matrix.value[rest[i]++]);
-        }
+        later.clear();
+        outside.clear();
+        int to = matrix.start[i];
+        auto put = [&](int j, float a) {
+          matrix.column[to] = j;
+          matrix.value[to++] = a;
+        };
         float sum = 0;
         for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
           const int j = matrix.column[k];
-          if (j == i) sum += matrix.value[k];
-          if (j < first || j >= last) sum += std::abs(matrix.value[k]);
+          const float a = matrix.value[k];
+          if (j < first || j >= last) {
+            sum += std::abs(a);
+            outside.emplace_back(j, a);
+          } else if (j < i) {
+            put(j, a);
+          } else {
+            if (j == i) sum += a;
+            later.emplace_back(j, a);
+          }
         }
+        rest[i] = to;
+        for (auto entry = later.rbegin(); entry != later.rend(); ++entry) put(entry->first, entry->second);
+        beyond[i] = to;
+        for (const auto& [j, a] : outside) put(j, a);
         diagonal[i] = sum;
         per_diagonal[i] = sum > 0 ? 1 / sum : 0;
       }
@@ -129,11 +146,10 @@ struct Multigrid::Level {
       for (int i = last - 1; i >= first; --i) {
         std::array<float, K> r;
         for (int c = 0; c < K; ++c) r[c] = b[i * K + c];
-        for (int k = matrix.start[i]; k < matrix.start[i + 1]; ++k) {
-          const int j = matrix.column[k];
-          const float* at = (j < first || j >= last ? before.data() : x.data()) + j * K;
-          for (int c = 0; c < K; ++c) r[c] -= matrix.value[k] * at[c];
-        }
+        for (int k = beyond[i]; k < matrix.start[i + 1]; ++k)
+          for (int c = 0; c < K; ++c) r[c] -= matrix.value[k] * before[matrix.column[k] * K + c];
+        for (int k = matrix.start[i]; k < beyond[i]; ++k)
+          for (int c = 0; c < K; ++c) r[c] -= matrix.value[k] * x[matrix.column[k] * K + c];
         for (int c = 0; c < K; ++c) x[i * K + c] += per_diagonal[i] * r[c];
       }
     });

@@ -1,7 +1,5 @@
 #include "fluid/mesh/adapt.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -63,7 +61,7 @@ class Adapter {
   // Each inner edge is met in several cells; only candidates are kept, duplicates fall to `touched_`. The order in
   // which threads find them is lost in sorting.
   void collect() {
-    tbb::enumerable_thread_specific<std::pair<std::vector<Edge>, std::vector<Edge>>> found;
+    PerThread<std::pair<std::vector<Edge>, std::vector<Edge>>> found;
     in_pieces(mesh_.cells.size(), worthwhile, [&](std::size_t first, std::size_t last) {
       auto& [long_ones, short_ones] = found.local();
       for (std::size_t c = first; c < last; ++c) {
@@ -112,7 +110,7 @@ class Adapter {
   // An inner node close to a boundary facet makes a flat cell there, the harmful sliver of PFEM.
   void uncrowd() {
     using Corner = std::pair<std::size_t, int>;
-    tbb::enumerable_thread_specific<std::vector<Corner>> found;
+    PerThread<std::vector<Corner>> found;
     in_parallel(mesh_.cells.size(), [&](std::size_t c) {
       if (const int inner = crowded_corner(mesh_.cells[c]); inner >= 0) found.local().emplace_back(c, inner);
     });

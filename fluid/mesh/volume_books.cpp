@@ -73,20 +73,60 @@ bool meets_wall(const WallsAt<d>& walls, const Vec<d>& from, const Vec<d>& to) {
   return false;
 }
 
-/// Nodes that would squash a cell stay where they are.
+/// Where nodes may move, and the cells that change with them.
 template <int d>
-void keep_order(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::vector<Vec<d>>& moved) {
-  constexpr double least = 0.5;  // of a cell's volume
-  for (bool again = true; again;) {
-    again = false;
-    for (const auto& cell : mesh.cells) {
-      if (std::all_of(cell.begin(), cell.end(), [&](int n) { return moved[n] == x[n]; })) continue;
-      if (volume<d>(corners(moved, cell)) >= least * volume<d>(corners(x, cell))) continue;
-      for (int n : cell) moved[n] = x[n];
-      again = true;
+class NearSurface {
+ public:
+  NearSurface(const Nodes<d>& nodes, const Mesh<d>& mesh)
+      : moves_(nodes.size(), 0), changes_(nodes.size(), 0), mesh_(mesh) {
+    for (const auto& facet : mesh.boundary)
+      for (int n : facet.nodes)
+        if (facet.wall < 0 && !nodes.spray[n] && nodes.tie[n].wall < 0) moves_[n] = 1;
+    const auto has = [](const std::array<int, d + 1>& cell, const std::vector<char>& flag) {
+      return std::any_of(cell.begin(), cell.end(), [&](int n) { return flag[n] != 0; });
+    };
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      if (!has(mesh.cells[c], moves_)) continue;
+      moving_.push_back(static_cast<int>(c));
+      for (int n : mesh.cells[c]) changes_[n] = 1;
+    }
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      if (has(mesh.cells[c], changes_)) beside_.push_back(static_cast<int>(c));
+  }
+
+  bool may_move(std::size_t i) const { return moves_[i] != 0; }
+
+  /// Nodes that would squash a cell stay where they are.
+  void keep_order(const std::vector<Vec<d>>& x, std::vector<Vec<d>>& moved) const {
+    constexpr double least = 0.5;  // of a cell's volume
+    for (bool again = true; again;) {
+      again = false;
+      for (int c : moving_) {
+        const auto& cell = mesh_.cells[c];
+        if (std::all_of(cell.begin(), cell.end(), [&](int n) { return moved[n] == x[n]; })) continue;
+        if (volume<d>(corners(moved, cell)) >= least * volume<d>(corners(x, cell))) continue;
+        for (int n : cell) moved[n] = x[n];
+        again = true;
+      }
     }
   }
-}
+
+  /// What nodal_volumes(mesh, x) is, given what it was before these nodes moved.
+  void renew(const std::vector<Vec<d>>& x, std::vector<double>& volumes) const {
+    for (std::size_t i = 0; i < volumes.size(); ++i)
+      if (changes_[i]) volumes[i] = 0;
+    for (int c : beside_) {
+      const double share = volume<d>(corners(x, mesh_.cells[c])) / (d + 1);
+      for (int n : mesh_.cells[c])
+        if (changes_[n]) volumes[n] += share;
+    }
+  }
+
+ private:
+  std::vector<char> moves_, changes_;  // of nodes
+  std::vector<int> moving_, beside_;   // cells with a node that may move; with one whose volume changes
+  const Mesh<d>& mesh_;
+};
 
 template <int d>
 struct Books {
@@ -94,6 +134,7 @@ struct Books {
   const Mesh<d>& mesh;
   const WallsAt<d>& walls;
   const std::vector<int>& part;
+  const NearSurface<d> near{nodes, mesh};
 
   /// Moves the surface, and books what comes back with it, if a part is owed more than `least` of its volume. `last`:
   /// what a part cannot lose the largest one does.
@@ -109,7 +150,7 @@ struct Books {
     const FreeSurface<d> surface(nodes, mesh);
     std::vector<Vec<d>> outwards(count, Vec<d>::Zero());
     for (std::size_t i = 0; i < count; ++i) {
-      if (nodes.spray[i] || nodes.tie[i].wall >= 0) continue;
+      if (!near.may_move(i)) continue;
       outwards[i] = surface.outwards(i, volumes[i]);
       parts[part[i]].room += outwards[i].dot(surface.area[i]);
     }
@@ -120,10 +161,11 @@ struct Books {
       if (nodes.spray[i]) continue;
       const double more = p.volume > 0 ? (p.growth * p.room + p.owed) / p.volume : 0.0;
       nodes.owed[i] = volumes[i] * (1 + more) - nodes.volume[i];
+      if (!near.may_move(i)) continue;
       const Vec<d> to = nodes.x[i] + p.growth * outwards[i];
       if (!meets_wall(walls, nodes.x[i], to)) moved[i] = to;
     }
-    keep_order(mesh, nodes.x, moved);
+    near.keep_order(nodes.x, moved);
     nodes.x = std::move(moved);
     return true;
   }
@@ -133,13 +175,12 @@ struct Books {
 
 template <int d>
 std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
-                                  const FreeWater<d>& free) {
+                                  const FreeWater<d>& free, const std::vector<double>& volumes) {
   const std::vector<int>& part = free.part();
-  const std::vector<double> volumes = nodal_volumes(mesh, nodes.x);
   std::vector<double> now = volumes;
   Books<d> books{nodes, mesh, walls, part};
   for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth, pass + 1 == passes); ++pass)
-    now = nodal_volumes(mesh, nodes.x);
+    books.near.renew(nodes.x, now);
   const auto moments = free.moments(volumes, nodes.v);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (const double before = std::max(0.0, volumes[i]); now[i] > before) {
@@ -149,7 +190,9 @@ std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const Wa
   return now;
 }
 
-template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
-template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
+template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&,
+                                           const std::vector<double>&);
+template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&,
+                                           const std::vector<double>&);
 
 }  // namespace splashdown::fluid

@@ -23,14 +23,16 @@
 namespace splashdown::fluid {
 
 /// Moves free nodes of the surface of `mesh` by what is owed, Nodes::volume + Nodes::owed of before less the volume of the
-/// cells now, and sets Nodes::owed so that this sum is kept; returns the volume around each node then [m^d]. Nodes turn no
+/// cells now, `volumes` around each node [m^d] (nodal_volumes of the mesh), and sets Nodes::owed so that this sum is kept; returns the volume around each node then [m^d]. Nodes turn no
 /// cells over and enter no walls; tied ones stay on theirs, and water that walls enclose on all sides has no room: it gets
 /// nothing back.
 template <int d>
 std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
-                                  const FreeWater<d>& free);
+                                  const FreeWater<d>& free, const std::vector<double>& volumes);
 
-extern template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&);
-extern template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&);
+extern template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&,
+                                                  const std::vector<double>&);
+extern template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&,
+                                                  const std::vector<double>&);
 
 }  // namespace splashdown::fluid

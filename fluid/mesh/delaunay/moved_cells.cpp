@@ -44,7 +44,9 @@ template <int d>
 FacetAt MovedCells<d>::beyond(const FacetAt& f) const {
   const int cell = mesh.neighbours[f.cell][f.corner];
   const Cell& back = mesh.neighbours[cell];
-  return {cell, static_cast<int>(std::find(back.begin(), back.end(), f.cell) - back.begin())};
+  int corner = d;  // (without a jump: each step asks this of every facet)
+  for (int k = d - 1; k >= 0; --k) corner = back[k] == f.cell ? k : corner;
+  return {cell, corner};
 }
 
 template <int d>

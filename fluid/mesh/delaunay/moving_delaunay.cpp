@@ -1,7 +1,5 @@
 #include "fluid/mesh/delaunay/moving_delaunay.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -77,7 +75,7 @@ class Update {
 
   // All that is wrong with cells, in their order.
   std::vector<FacetAt> scan(const std::vector<int>& cells) const {
-    tbb::enumerable_thread_specific<std::vector<FacetAt>> found;
+    PerThread<std::vector<FacetAt>> found;
     in_parallel(cells.size(), [&](std::size_t i) {
       const int c = cells[i];
       const Cell& cell = mesh_.cells[c];
@@ -171,7 +169,7 @@ class Update {
   ClosedDelaunay<d>& mesh_;
   MovedCells<d> moved_;
   std::vector<char> replaced_;  // cells, in this round
-  tbb::enumerable_thread_specific<PatchGrower<d>> growers_;
+  PerThread<PatchGrower<d>> growers_;
   std::atomic<std::ptrdiff_t> budget_;  // of points in patches: after that much in vain it costs half as much again
 };
 

@@ -130,16 +130,26 @@ TEST(WallVertex, is_named_where_a_sharp_corner_is_closest) {
 }
 
 TEST(WallMayTouch, is_never_false_within_the_margin) {
-  for (const bool tank : {false, true}) {
-    auto surface = arrow();
-    if (tank) surface = scenes::turned_inside_out(surface);
-    const Wall<2> wall(scenes::wall("", surface, 1));
-    std::mt19937 random(9);
-    for (int sample = 0; sample < 1000; ++sample) {
-      const Vec<2> x = somewhere() * Vec<2>(4 * scenes::random_vector<Vec<2>>(random, {}));
-      const bool near = wall.nearest(somewhere(), x, 100).distance < 0.3;
-      EXPECT_TRUE(!near || wall.may_touch(somewhere(), x, 0.3));
+  for (const bool tank : {false, true})
+    for (auto surface : {arrow(), scenes::rectangle({-2, -1}, {3, 2}), scenes::ellipse(1, 2, 64)}) {
+      if (tank) surface = scenes::turned_inside_out(surface);
+      const Wall<2> wall(scenes::wall("", surface, 1));
+      std::mt19937 random(9);
+      for (int sample = 0; sample < 1000; ++sample) {
+        const Vec<2> x = somewhere() * Vec<2>(4 * scenes::random_vector<Vec<2>>(random, {}));
+        const bool near = wall.nearest(somewhere(), x, 100).distance < 0.3;
+        EXPECT_TRUE(!near || wall.may_touch(somewhere(), x, 0.3));
+      }
     }
+}
+
+TEST(WallMayTouch, is_false_away_from_the_walls_of_a_convex_tank) {
+  const Wall<3> tank(scenes::wall("", scenes::turned_inside_out(scenes::block({-1, -1, -1}, {1, 1, 1})), 1));
+  const Isometry<3> pose = Isometry<3>::Identity();
+  std::mt19937 random(10);
+  for (int sample = 0; sample < 1000; ++sample) {
+    const Vec<3> x = 2 * scenes::random_vector<Vec<3>>(random, {});
+    EXPECT_EQ(tank.may_touch(pose, x, 0.25), x.lpNorm<Eigen::Infinity>() >= 0.75) << x.transpose();
   }
 }
 

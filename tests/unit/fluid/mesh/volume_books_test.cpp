@@ -46,7 +46,8 @@ scenes::Lattice<d> pool() {
 
 template <int d>
 void give_volume_back(scenes::Lattice<d>& pool, const WallsAt<d>& walls = {}) {
-  return_volume<d>(pool.nodes, pool.mesh, walls, FreeWater<d>(pool.mesh, pool.nodes));
+  return_volume<d>(pool.nodes, pool.mesh, walls, FreeWater<d>(pool.mesh, pool.nodes),
+                   nodal_volumes(pool.mesh, pool.nodes.x));
 }
 
 /// Adds water that does not touch it. The first of its nodes.
