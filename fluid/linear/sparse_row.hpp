@@ -37,9 +37,9 @@ class SparseRow {
 
  private:
   struct Seen {
-    int row = 0, entry = 0;  // the last row with this column, and its place there
+    int row = 0, entry = 0;  // the last row with this column, 0: none yet, and its place there
   };
-  int row_ = 0;
+  int row_ = 1;
   std::vector<Seen> seen_;
   std::vector<Entry> entries_;
 };

@@ -64,7 +64,7 @@ TYPED_TEST(MassSweeps, take_the_consistent_mass_over_the_lumped_one_from_what_th
       for (int j : water.cell[c])
         expected[i] -= (i == j ? 2 : 1) * water.mass[c] / ((d + 1) * (d + 2) * water.lumped[i]) * water.u[j];
   const auto found = water.swept(water.u);
-  // A row has no more terms than this, each of at most 1 and rounded once or twice.
+  // A node has some 16 cells, hardly ever more than 40, of d + 1 terms each; sizes of a row's terms sum up to that of u.
   constexpr double roundoff = 4 * Masses<d>::reach * scenes::eps;
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_LE((found[i] - expected[i]).norm(), roundoff) << i;
 }
