@@ -53,21 +53,28 @@ std::vector<double> crossings(const Vec<d>& a, const Vec<d>& b, const Solid<d>& 
   return at;
 }
 
+/// Some piece of the edge lies inside the solid.
+template <int d>
+bool enters(const Vec<d>& from, const Vec<d>& to, const Solid<d>& solid, double tolerance) {
+  if (!solid.extents().intersects(Extents<d>(from.cwiseMin(to), from.cwiseMax(to)))) return false;
+  const auto at = crossings<d>(from, to, solid, tolerance);
+  for (std::size_t i = 1; i < at.size(); ++i)
+    for (const double share : {at[i - 1], 0.5 * (at[i - 1] + at[i])})
+      if (solid.contains(from + share * (to - from), tolerance)) return true;
+  return false;
+}
+
 /// Some piece of an edge of `a` lies inside `b`.
 template <int d>
 bool reaches_into(const Solid<d>& a, const Solid<d>& b, double tolerance) {
   const auto& surface = a.surface();
-  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
-    const auto corners = corners_of(surface, f);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Vec<d>&from = corners[k], &to = corners[(k + 1) % corners.size()];
-      if (!b.extents().intersects(Extents<d>(from.cwiseMin(to), from.cwiseMax(to)))) continue;
-      const auto at = crossings<d>(from, to, b, tolerance);
-      for (std::size_t i = 1; i < at.size(); ++i)
-        for (const double share : {at[i - 1], 0.5 * (at[i - 1] + at[i])})
-          if (b.signed_distance(from + share * (to - from)) < -tolerance) return true;
+  const int edges = d == 2 ? 1 : 3;  // of a facet
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f)
+    for (int k = 0; k < edges; ++k) {
+      const int from = surface.facets(k, f), to = surface.facets((k + 1) % d, f);
+      if (d == 3 && from > to) continue;  // of the facet on its other side, where it runs the other way
+      if (enters<d>(surface.vertices.col(from), surface.vertices.col(to), b, tolerance)) return true;
     }
-  }
   return false;
 }
 
@@ -90,6 +97,11 @@ double Solid<d>::distance(const Vec<d>& point) const {
 template <int d>
 double Solid<d>::signed_distance(const Vec<d>& point) const {
   return search().inside(point) ? -distance(point) : distance(point);
+}
+
+template <int d>
+bool Solid<d>::contains(const Vec<d>& point, double depth) const {
+  return contains(point) && search().facets.nearest(point, depth).facet < 0;
 }
 
 template <int d>

@@ -18,6 +18,8 @@ class Solid {
   double signed_distance(const rigid::Vec<d>& point) const;
   double distance(const rigid::Vec<d>& point) const;
   bool contains(const rigid::Vec<d>& point) const { return box_.contains(point) && search().inside(point); }
+  /// Inside, and no facet is nearer than `depth` [m]: cheaper than to ask how far the nearest one is.
+  bool contains(const rigid::Vec<d>& point, double depth) const;
   const rigid::Surface<d>& surface() const { return surface_; }
   const Extents<d>& extents() const { return box_; }
   /// FacetTree::meeting of its surface.

@@ -298,6 +298,29 @@ TEST(SpatialSolids, touching_is_not_overlapping) {
   EXPECT_TRUE(share_space()) << "one within the other";
 }
 
+TEST(SpatialSolids, a_point_is_contained_as_deep_as_the_nearest_facet_is_far) {
+  const Solid<3> solid(outline<3>(brick()));
+  const Point centre(0, 0, 0), towards_a_face = Point(0.17, 0, 0.01);
+  for (const Point& x : {centre, towards_a_face}) {
+    const double depth = -solid.signed_distance(x);
+    ASSERT_GT(depth, 0);
+    EXPECT_TRUE(solid.contains(x, (1 - 1e-9) * depth));
+    EXPECT_FALSE(solid.contains(x, (1 + 1e-9) * depth));
+  }
+  EXPECT_FALSE(solid.contains({0.21, 0, 0}, 1e-3)) << "outside";
+}
+
+TEST(SpatialSolids, fine_hulls_that_nearly_coincide_share_space_by_what_is_more_than_roundoff) {
+  Body a = brick(), b = brick();
+  const auto revolved = [](double radius) { return RevolvedShape{.profile = {{0, 0}, {radius, 0.001}, {0.04, 0.75}}}; };
+  a.shape = revolved(0.053);
+  b.shape = revolved(0.053 + 1e-6);
+  const auto share_space = [&] { return overlap(Solid<3>(outline<3>(a)), Solid<3>(outline<3>(b))); };
+  EXPECT_TRUE(share_space()) << "one in the other";
+  b.position.z() -= outline<3>(a).vertices.row(2).maxCoeff() - outline<3>(b).vertices.row(2).minCoeff();
+  EXPECT_FALSE(share_space()) << "one upon the other";
+}
+
 /// A folder with a hull: a tetrahedron with edges of 0.3 m along the axes, in millimetres.
 class SurfaceSceneTest : public ::testing::Test, protected ScratchFolder {
  protected:
