@@ -105,15 +105,34 @@ struct Place {
   }
 };
 
-/// Seeds as far from each other as possible (Gonzalez 1985), at most `count`; the place of each facet.
+/// How far each facet's part of the hull reaches from the first facet of it: parts hang together by borders.
+template <int d>
+std::vector<double> reaches(const Hull<d>& hull) {
+  std::vector<double> reach(hull.facets.size(), -1);
+  for (std::size_t first = 0; first < reach.size(); ++first) {
+    if (reach[first] >= 0) continue;
+    const auto distance = hull.distances(static_cast<int>(first));
+    double far = 0;
+    for (double r : distance) far = r < infinite ? std::max(far, r) : far;
+    for (std::size_t f = 0; f < reach.size(); ++f)
+      if (distance[f] < infinite) reach[f] = far;
+  }
+  return reach;
+}
+
+/// Seeds as far from each other as possible (Gonzalez 1985), at most `count`; the place of each facet. A part without a
+/// seed is as far from them as it reaches: what a jet wets beside the hull's face is not worth one.
 template <int d>
 std::vector<Place> sow(const Hull<d>& hull, int count) {
   std::vector<Place> places(hull.facets.size());
+  const auto reach = reaches(hull);
+  const auto from_seeds = [&](std::size_t f) { return places[f].piece < 0 ? reach[f] : places[f].nearest; };
   for (int k = 0; k < count && !places.empty(); ++k) {
-    const auto far = std::max_element(places.begin(), places.end(),
-                                      [](const Place& a, const Place& b) { return a.nearest < b.nearest; });
-    if (far->nearest == 0) break;
-    const auto distance = hull.distances(static_cast<int>(far - places.begin()));
+    std::size_t far = 0;
+    for (std::size_t f = 1; f < places.size(); ++f)
+      if (from_seeds(f) > from_seeds(far)) far = f;
+    if (k > 0 && from_seeds(far) == 0) break;
+    const auto distance = hull.distances(static_cast<int>(far));
     for (std::size_t f = 0; f < places.size(); ++f)
       if (distance[f] < infinite) places[f].meet(k, distance[f]);
   }
@@ -126,10 +145,13 @@ template <int d>
 void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown,
                                      int wall, const InterfaceOperator& interface_operator) {
   const Hull<d> hull(mesh, nodes.x, wall);
-  const auto places = sow(hull, 2 * freedoms<d>);
+  auto places = sow(hull, 2 * freedoms<d>);
   const std::size_t first = pieces_.size();
   int count = 0;
   for (const auto& place : places) count = std::max(count, place.piece + 1);
+  const int rest = count;  // parts without a seed are one piece together
+  for (std::size_t f = 0; f < places.size(); ++f)
+    if (places[f].piece < 0 && hull.measure[f] > 0) places[f].piece = rest, count = rest + 1;
   pieces_.resize(first + count, {static_cast<std::size_t>(wall), 0.0});
   rows_.resize(first + count);
   std::vector<Vec<d>> centre(count, Vec<d>::Zero()), normal = centre;  // means
@@ -170,12 +192,17 @@ void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh,
     links.clear(), energy = 0;
   };
   if (interface_operator.laplacian != 0) {
+    double stiffness = 0, measure = 0;
     for (const auto& border : hull.borders) {
       const int a = places[border.a].piece, b = border.b < 0 ? -1 : places[border.b].piece;
-      if (a < 0 || a == b) continue;
+      if (a < 0 || a == b || a == rest) continue;
       const double distance = (centre[a] - border.centre).norm() + (b < 0 ? 0.0 : (centre[b] - border.centre).norm());
-      if (distance > 0) link(a, b, border.measure / distance);
+      if (!(distance > 0)) continue;
+      link(a, b, border.measure / distance);
+      stiffness += border.measure / distance;
     }
+    for (int k = 0; k < rest; ++k) measure += pieces_[first + k].measure;
+    if (count > rest) link(rest, -1, stiffness / measure * pieces_[first + rest].measure);
     scale(interface_operator.laplacian);
   }
   if (interface_operator.robin != 0) {

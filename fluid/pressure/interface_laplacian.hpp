@@ -15,7 +15,7 @@
 // alpha = pi a / m.
 //
 // Two pieces a freedom of a body, whatever the mesh: the rank of K bounds the passes (docs/theory.md, where
-// other numbers are compared).
+// other numbers are compared). Short parts of the hull that are wetted for themselves are one more.
 #pragma once
 
 #include <span>
