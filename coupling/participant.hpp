@@ -122,6 +122,9 @@ class FluidPart : public Participant {
   virtual const Solution& solution() const = 0;
   /// Whether the last solve may be committed. Passes may be wild on their way; the last may not.
   virtual Status acceptable() const = 0;
+  /// Where the last solve may not be committed for a fragment of the fluid: lets that go its own way in the next `begin` from t_n.
+  /// False: there is none.
+  virtual bool release_fragment() { return false; }
   /// Accepts the last solve. `walls`: where the structure has its walls at t_{n+1}; empty: all stay.
   virtual void commit(const Placement& walls) = 0;
 

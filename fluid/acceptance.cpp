@@ -29,16 +29,16 @@ Status Fluid<d>::State::finite(const StepResult<d>& found) const {
 }
 
 template <int d>
-Status Fluid<d>::State::acceptable() const {
-  if (!result.status.ok()) return result.status;
-  if (auto status = no_inverted_elements(); !status.ok()) return status;
-  return no_energy_from_nowhere();
+Refusal Fluid<d>::State::refusal() const {
+  if (!result.status.ok()) return {result.status};
+  if (auto found = inverted_element(); !found.status.ok()) return found;
+  return energy_from_nowhere();
 }
 
 // Elements that carry pressure deform by a fraction of themselves; `stable_dt` sees to it but for what remeshing
 // and contact bring.
 template <int d>
-Status Fluid<d>::State::no_inverted_elements() const {
+Refusal Fluid<d>::State::inverted_element() const {
   constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
   const double per_rate = dt / most;
   const auto margin = [&](std::size_t c) {
@@ -54,9 +54,18 @@ Status Fluid<d>::State::no_inverted_elements() const {
   };
   const std::size_t count = work.mesh.cells.size();
   if (least_in_parallel(count, margin) >= 0) return {};
-  std::size_t c = 0;
-  while (margin(c) >= 0) ++c;
-  return {"an element turns over within the step: " + place<d>(work.nodes.x[work.mesh.cells[c][0]])};
+  std::size_t worst = 0;
+  for (std::size_t c = 1; c < count; ++c)
+    if (margin(c) < margin(worst)) worst = c;
+  const auto& cell = work.mesh.cells[worst];
+  Vec<d> mean = Vec<d>::Zero();
+  for (int n : cell) mean += result.velocity[n] / (d + 1);
+  int runs_away = -1;
+  double most_apart = 0;
+  for (int n : cell)
+    if (const double apart = (result.velocity[n] - mean).squaredNorm(); may_fly_alone(n) && apart > most_apart)
+      most_apart = apart, runs_away = n;
+  return {{"an element turns over within the step: " + place<d>(work.nodes.x[cell[0]])}, runs_away};
 }
 
 // Repair and pressure are projections: what water and walls have after them they had before. Where worn films let them be
@@ -67,7 +76,7 @@ Status Fluid<d>::State::no_inverted_elements() const {
 // I_w: impulse on wall w; v_0: before the repair, v*: before the pressure, v: after the pressure; u: after the motion along
 // walls, which may take nodes along; the lesser of T(v), T(u).
 template <int d>
-Status Fluid<d>::State::no_energy_from_nowhere() const {
+Refusal Fluid<d>::State::energy_from_nowhere() const {
   double given = 0;
   for (std::size_t w = 0; w < walls.size(); ++w)
     given += (equation.impulse(w, trial.phi) + trial.handed[w]).dot(0.5 * (trial.s_unloaded[w] + trial.s_after[w]));
@@ -89,8 +98,9 @@ Status Fluid<d>::State::no_energy_from_nowhere() const {
     const double change = work.nodes.spray[i] ? 0.0 : (result.velocity[i] - trial.v[i]).squaredNorm();
     if (change > most) most = change, fastest = i;
   }
-  return {fmt::format("the pressure makes energy: {:.2g} times what there was, {}", gain / scale,
-                      place<d>(work.nodes.x[fastest]))};
+  return {{fmt::format("the pressure makes energy: {:.2g} times what there was, {}", gain / scale,
+                       place<d>(work.nodes.x[fastest]))},
+          may_fly_alone(static_cast<int>(fastest)) ? static_cast<int>(fastest) : -1};
 }
 
 template struct Fluid<2>::State;

@@ -156,7 +156,17 @@ const StepResult<d>& Fluid<d>::result() const {
 
 template <int d>
 Status Fluid<d>::acceptable() const {
-  return s_->acceptable();
+  return s_->refusal().status;
+}
+
+template <int d>
+bool Fluid<d>::release_fragment() {
+  if (!s_->solved) return false;
+  const int node = s_->refusal().node;
+  if (node < 0) return false;
+  s_->let_fragment_fly(node);
+  s_->solved = false;
+  return true;
 }
 
 template <int d>

@@ -60,6 +60,9 @@ class Fluid final : public FluidView<d> {
   const StepResult<d>& result() const;  ///< of the last solve
   /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
   Status acceptable() const;
+  /// Where the last solve may not be committed for a node at the free surface: lets it fly as a drop, with its volume and momentum,
+  /// in the step that is to begin anew. False: it is for nothing of the kind.
+  bool release_fragment();
   std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
   std::vector<double> carried_interface_impulse() const;     ///< first guess of theirs: the pressure of the last step
   /// Slope of `solve`, corrections apart: impulses on these walls and interface impulses, one below the other, by the

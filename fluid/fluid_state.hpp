@@ -80,6 +80,12 @@ struct Trial {
   typename WallMotion<d>::Moved moved;  // along the walls
 };
 
+// Why a step is refused, and the node that it is for: a fragment of the water that could fly on by itself; -1: none.
+struct Refusal {
+  Status status;
+  int node = -1;
+};
+
 // By an impulse, over the energies in it: what its truncation and their lumping may feign.
 inline constexpr double most_gain = 0.05;
 
@@ -137,6 +143,8 @@ struct Fluid<d>::State {
   void collect_drops();
   std::size_t put_drops_last();
   void cut(std::size_t liquid);
+  void settle(double before);
+  void let_fragment_fly(int node);
   bool is_inviscid(int node) const;
   void book_spray(const std::vector<char>& was_spray);
   void hand_over(const std::vector<char>& goes, const std::vector<std::array<int, d + 1>>& cells);
@@ -173,9 +181,10 @@ struct Fluid<d>::State {
 
   // What a step may not do (acceptance.cpp).
   Status finite(const StepResult<d>& found) const;
-  Status acceptable() const;
-  Status no_inverted_elements() const;
-  Status no_energy_from_nowhere() const;
+  Refusal refusal() const;
+  Refusal inverted_element() const;
+  Refusal energy_from_nowhere() const;
+  bool may_fly_alone(int node) const { return work.nodes.surface[node] && work.nodes.tie[node].wall < 0; }
 };
 
 }  // namespace splashdown::fluid

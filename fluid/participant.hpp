@@ -25,6 +25,7 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
   coupling::Status solve(const coupling::Pass& pass) override;
   const coupling::Solution& solution() const override { return solution_; }
   coupling::Status acceptable() const override { return fluid_->acceptable(); }
+  bool release_fragment() override { return fluid_->release_fragment(); }
   void commit(const coupling::Placement& walls) override;
 
   std::span<const coupling::InterfacePiece> pieces() const override { return pieces_; }

@@ -163,6 +163,15 @@ void Fluid<d>::State::prepare() {
   const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
   const std::size_t liquid = put_drops_last();
   cut(liquid);
+  const double adapted = before - now.ledger.volume;
+  settle(before);
+  (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
+  prepared = true;
+}
+
+// What nodes of a new mesh carry, and what its volume has changed by.
+template <int d>
+void Fluid<d>::State::settle(double before) {
   free_water = FreeWater<d>(work.mesh, work.nodes);
   free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
@@ -170,16 +179,26 @@ void Fluid<d>::State::prepare() {
   separate<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   absorb_droplets(work.nodes, work.mesh);
   const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
-  const double adapted = before - now.ledger.volume;
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
-  (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
   const auto volumes =
       return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water, nodal_volumes(work.mesh, work.nodes.x));
   free_water.give_back(free_carried, volumes, work.nodes.v);
   work.ledger.volume = enclosed_volume(work.mesh.boundary, work.nodes.x);
   work.ledger.returned += work.ledger.volume - after;
   work.wetted = wetted_measures(work.mesh, work.nodes.x, walls.size());
-  prepared = true;
+}
+
+// A node for which no step is short enough leaves the begun step's mesh as a drop.
+template <int d>
+void Fluid<d>::State::let_fragment_fly(int node) {
+  const auto scope = timer.scope(remesh);
+  const double before = work.ledger.volume;
+  const auto spray = work.nodes.spray;
+  std::vector<char> flies(work.nodes.size(), 0);
+  flies[node] = 1;
+  let_fly<d>(work.nodes, work.mesh, flies);
+  book_spray(spray);
+  settle(before);
 }
 
 template struct Fluid<2>::State;

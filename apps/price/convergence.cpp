@@ -190,9 +190,9 @@ double Convergence::error(double h) const {
 
 double Convergence::band(const MeshValue& measured) const {
   const double h = measured.h, beside = deviation_ + std::abs(measured.value - fitted(h));
-  if (!scattered()) return std::max(safety_ * error(h), good_safety * cautious_.at(h)) + beside;
   if (range_ == 0) return 0;
-  return poor_safety * deviation_ / range_ * (std::max(error(h), cautious_.at(h)) + beside);
+  if (scattered()) return poor_safety * (std::max(error(h), cautious_.at(h)) + beside);
+  return std::max(safety_ * error(h), good_safety * cautious_.at(h)) + beside;
 }
 
 }  // namespace splashdown::apps

@@ -6,8 +6,10 @@
 // with eps = |fit - phi_0| and sigma the standard deviation of the fit. Each form is fitted with equal weights and with
 // weights 1/h; the fit with the least sigma counts: with an order in [0.5, 2.1) the one of unknown order, above first or
 // second order, below all three. Where sigma is below Delta = (max phi - min phi)/(rungs - 1), F multiplies eps alone, 1.25
-// with such an order and 3 without; elsewhere the data scatter and F = 3 sigma/Delta.
-// Eca and Hoekstra (2014), J. Comput. Phys. 262, 104-130, whose bands are meant for 95 % of cases. With one addition: F eps is
+// with such an order and 3 without; elsewhere the data scatter and F = 3.
+// Eca and Hoekstra (2014), J. Comput. Phys. 262, 104-130, whose bands are meant for 95 % of cases. With two changes: where data
+// scatter theirs is F = 3 sigma/Delta, with a Delta that falls as one over the number of meshes, so that each further mesh
+// widens the band of mere noise, from 9 to 15 standard deviations with four and twelve; F = 3 holds the limit as surely. And F eps is
 // at least 1.25 times the error of every order p in [0.5, 2.1) that the scatter leaves possible, (n - 3)(S_p/S - 1) <= t^2 with S
 // the least sum of squares of any order and t Student's. Without it, noise of a twentieth of the finest mesh's error leaves one
 // true value in four outside.

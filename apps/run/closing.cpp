@@ -142,6 +142,8 @@ std::string coupling_text(const CouplingSummary& coupling) {
 std::string refused_text(const Summary& summary) {
   std::string text = fmt::format("{} steps", summary.rejected_steps);
   for (const auto& [cause, count] : summary.rejected_causes) text += fmt::format("; {}: {}", cause, count);
+  if (summary.released_fragments > 0)
+    text += fmt::format("; fragments that flew on as drops: {}", summary.released_fragments);
   return text;
 }
 

@@ -13,7 +13,10 @@ namespace {
 constexpr double first_share = 0.2;
 // The leapfrog kick is the mean of two steps; neighbours of similar length keep its second order.
 constexpr double growth = 1.5;
-// Twenty halvings: what no dt of that size cures is no matter of dt.
+// Ten halvings: what they do not cure, a fragment of the water may be the cause of, which goes its own way from there.
+constexpr int refusals_for_release = 10;
+// Twenty: what no dt of that size cures is no matter of dt.
+constexpr int most_refusals = 20;
 constexpr double smallest_share = 1e-6;
 
 struct Attempt {
@@ -34,12 +37,18 @@ coupling::StepReport attempt(coupling::Stepper& stepper, double dt) {
 
 /// Halves dt until the step is accepted, or not worth trying.
 Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterion, LoopState& state, LoopHost& host) {
-  for (;; dt *= 0.5) {
+  const double wanted = dt;
+  for (int refusals = 1;; ++refusals, dt *= 0.5) {
     auto report = attempt(stepper, dt);
     if (report.ok()) return {std::move(report), dt};
     ++state.rejected[kind_of(report.cause)];
     host.refused(stepper.time(), dt, report.cause);
-    if (dt < smallest_share * criterion) return {std::move(report), dt};
+    if (dt < smallest_share * criterion || refusals == most_refusals) return {std::move(report), dt};
+    if (refusals == refusals_for_release && stepper.release_fragment()) {
+      ++state.released;
+      host.released(stepper.time(), report.cause);
+      dt = 2 * wanted;
+    }
   }
 }
 
@@ -78,14 +87,14 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
       undisturbed = false;
     }
 
-    const auto rejected_before = state.rejected;
+    const LoopState before = state;
     const auto step = attempt_with_cuts(stepper, wanted, criterion, state, host);
     if (!step.report.ok()) {
       if (undisturbed) {
         // A run that is continued from here makes these attempts again, and counts them then.
-        auto rejected = std::exchange(state.rejected, rejected_before);
+        auto counted = std::exchange(state, before);
         host.checkpoint();
-        state.rejected = std::move(rejected);
+        state = std::move(counted);
       }
       return {failed, step.report.cause};
     }

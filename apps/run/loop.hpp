@@ -2,6 +2,9 @@
 //
 //   dt = min(criterion, growth dt_{n-1});  a refused step is tried again with half of it.
 //
+// After ten refusals of a step the fluid may let go the fragment for which it was refused, and dt is what it was; after twenty the
+// run ends.
+//
 // Nothing here depends on the wall clock except when checkpoints are taken and when a budget ends, neither
 // of which changes a step. The steps that the stop time shortens are taken after a last checkpoint, so a run
 // that is continued beyond it makes the same steps as one that was never stopped.
@@ -21,6 +24,7 @@ struct LoopState {
   double dt_cap = 0;                     ///< largest dt that the steps before allow; 0 before the first [s]
   long steps = 0;                        ///< committed
   std::map<std::string, long> rejected;  ///< refused attempts by cause
+  long released = 0;                     ///< fragments of the fluid that no smaller dt kept with the rest
 };
 
 /// A step that was tried with success and is not committed yet: everything at `time` is known.
@@ -38,6 +42,7 @@ class LoopHost {
   virtual double dt_bound() const = 0;
   virtual void record(const StepMade& step) = 0;
   virtual void refused(double time, double dt, const std::string& cause) = 0;
+  virtual void released(double time, const std::string& cause) = 0;
   virtual bool checkpoint_due() = 0;
   virtual void checkpoint() = 0;
   /// Why the run shall be interrupted before its next step.

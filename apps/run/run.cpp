@@ -212,6 +212,12 @@ std::map<std::string, double> Run<d>::phases() const {
 }
 
 template <int d>
+void Run<d>::released(double time, const std::string& cause) {
+  progress_.say(
+      fmt::format("at t = {:.6g} s no smaller step helped; the node in question flies on as a drop: {}", time, cause));
+}
+
+template <int d>
 Summary Run<d>::summary(const LoopEnd& end) const {
   Summary s;
   s.status = status_word(end);
@@ -222,6 +228,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   s.memory_mb = memory_mb();
   s.rejected_causes = loop_.rejected;
   for (const auto& [cause, count] : loop_.rejected) s.rejected_steps += count;
+  s.released_fragments = loop_.released;
   const auto spent = phases();
   s.phases.assign(spent.begin(), spent.end());
   for (const auto& note : effect_notes<d>(scene_)) {

@@ -50,6 +50,7 @@ class Run final : private LoopHost {
   double dt_bound() const override;
   void record(const StepMade& step) override;
   void refused(double time, double dt, const std::string& cause) override;
+  void released(double time, const std::string& cause) override;
   bool checkpoint_due() override;
   void checkpoint() override;
   Checkpoint present();

@@ -217,6 +217,7 @@ std::string to_json(const Summary& summary) {
   json["wall_seconds"] = number(summary.wall_seconds);
   json["memory_mb"] = number(summary.memory_mb);
   json["rejected_steps"] = summary.rejected_steps;
+  json["released_fragments"] = summary.released_fragments;
   json["rejected_causes"] = json_of(summary.rejected_causes);
   json["phases"] = Json::object();
   for (const auto& [name, seconds] : summary.phases) json["phases"][name] = number(seconds);

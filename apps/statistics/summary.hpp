@@ -169,8 +169,9 @@ struct Summary {
   double simulated_time = 0;  ///< [s]
   long steps = 0;
   double wall_seconds = 0;
-  double memory_mb = 0;     ///< largest resident set of the process
-  long rejected_steps = 0;  ///< attempts that were refused and repeated with half of dt
+  double memory_mb = 0;         ///< largest resident set of the process
+  long rejected_steps = 0;      ///< attempts that were refused and repeated with half of dt
+  long released_fragments = 0;  ///< nodes that flew on as drops since no smaller dt helped
   std::map<std::string, long> rejected_causes;
   std::vector<std::pair<std::string, double>> phases;  ///< seconds each
   std::vector<ActiveEffect> effects;

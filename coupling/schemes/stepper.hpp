@@ -21,7 +21,9 @@ class Stepper {
   virtual double time() const = 0;
   virtual double stable_dt() const = 0;
   virtual StepReport attempt(double dt) = 0;  ///< begin + solve, always from t_n
-  virtual void commit() = 0;                  ///< accepts the last attempt
+  /// After an attempt that no smaller dt cured: FluidPart::release_fragment.
+  virtual bool release_fragment() { return false; }
+  virtual void commit() = 0;  ///< accepts the last attempt
   virtual std::vector<std::pair<std::string, double>> phase_seconds() const = 0;
   virtual void save(std::ostream& out) const = 0;
   virtual void load(std::istream& in) = 0;

@@ -32,6 +32,7 @@ class FluidOnly final : public Stepper {
   double time() const override { return fluid_->time(); }
   double stable_dt() const override { return fluid_->stable_dt(); }
   StepReport attempt(double dt) override;
+  bool release_fragment() override { return fluid_->release_fragment(); }
   void commit() override;
   std::vector<std::pair<std::string, double>> phase_seconds() const override { return fluid_->phase_seconds(); }
   void save(std::ostream& out) const override;
@@ -74,6 +75,7 @@ class Coupled : public Stepper {
       : fluid_(std::move(fluid)), structure_(std::move(structure)) {}
   double time() const override { return fluid_->time(); }
   double stable_dt() const override;
+  bool release_fragment() override { return fluid_->release_fragment(); }
   void commit() override;
   std::vector<std::pair<std::string, double>> phase_seconds() const override;
   void save(std::ostream& out) const override;

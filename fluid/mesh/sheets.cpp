@@ -58,11 +58,7 @@ void hand_over_volume(const std::array<int, d + 1>& cell, const std::vector<char
 }  // namespace
 
 template <int d>
-void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int)>& may_fly) {
-  std::vector<char> flies = of_sheets(nodes, mesh);
-  for (std::size_t i = 0; i < flies.size(); ++i) flies[i] = flies[i] && may_fly(static_cast<int>(i));
-  if (std::ranges::find(flies, 1) == flies.end()) return;
-  keep_coarse_water<d>(nodes, mesh, flies);
+void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies) {
   const auto goes = [&](const auto& simplex) { return std::ranges::any_of(simplex, [&](int n) { return flies[n]; }); };
   const auto sheet = std::ranges::stable_partition(mesh.cells, [&](const auto& cell) { return !goes(cell); });
   if (sheet.empty()) return;
@@ -95,6 +91,17 @@ void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int
     if (!has_cells[i]) nodes.spray[i] = 1, nodes.surface[i] = 0;
 }
 
+template <int d>
+void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int)>& may_fly) {
+  std::vector<char> flies = of_sheets(nodes, mesh);
+  for (std::size_t i = 0; i < flies.size(); ++i) flies[i] = flies[i] && may_fly(static_cast<int>(i));
+  if (std::ranges::find(flies, 1) == flies.end()) return;
+  keep_coarse_water<d>(nodes, mesh, flies);
+  let_fly<d>(nodes, mesh, flies);
+}
+
+template void let_fly(Nodes<2>&, Mesh<2>&, const std::vector<char>&);
+template void let_fly(Nodes<3>&, Mesh<3>&, const std::vector<char>&);
 template void let_sheets_fly(Nodes<2>&, Mesh<2>&, const std::function<bool(int)>&);
 template void let_sheets_fly(Nodes<3>&, Mesh<3>&, const std::function<bool(int)>&);
 

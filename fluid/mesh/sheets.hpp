@@ -26,6 +26,12 @@ namespace splashdown::fluid {
 template <int d>
 void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int)>& may_fly);
 
+/// Lets these nodes, and those that are left without cells, fly in the same way, whatever they are of.
+template <int d>
+void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies);
+
+extern template void let_fly(Nodes<2>&, Mesh<2>&, const std::vector<char>&);
+extern template void let_fly(Nodes<3>&, Mesh<3>&, const std::vector<char>&);
 extern template void let_sheets_fly(Nodes<2>&, Mesh<2>&, const std::function<bool(int)>&);
 extern template void let_sheets_fly(Nodes<3>&, Mesh<3>&, const std::function<bool(int)>&);
 

@@ -1,6 +1,7 @@
 // Steps that fail are refused, leave the present alone, and the next attempt is as if they had never been.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/unit/coupling/scenes.hpp"
@@ -91,6 +92,55 @@ TEST_P(Value, in_a_body_refuses_the_step_and_leaves_no_trace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(NotFinite, Value, testing::Values(nan, std::numeric_limits<double>::infinity(), 1e300));
+
+// Where a node of the surface has lost its way no step is short enough: it leaves as a drop, and the step is the one that was
+// wanted. One within the water cannot.
+TEST(Fragment, for_which_a_step_is_refused_flies_on_and_the_rest_goes_on) {
+  class Runaway final : public fluid::Effect<2> {
+   public:
+    Runaway(const fluid::Vec<2>& at, const double& speed) : at_(at), speed_(speed) {}
+    std::string name() const override { return "runaway"; }
+    Status predict(const fluid::StepView<2>& step, const fluid::Carried<2>&,
+                   const fluid::Predicted<2>& predicted) override {
+      const auto& x = step.nodes.x;
+      const auto nearest =
+          std::ranges::min_element(x, {}, [&](const fluid::Vec<2>& place) { return (place - at_).squaredNorm(); });
+      if (speed_ > 0) predicted.v[static_cast<std::size_t>(nearest - x.begin())] = {0, speed_};
+      return {};
+    }
+
+   private:
+    fluid::Vec<2> at_;
+    const double& speed_;
+  };
+  const double dt = 1e-3;
+  for (const double depth : {0., 0.25}) {
+    double speed = 0;
+    auto effects = fluid::scenes::gravity({0, -scenes::g});
+    effects.push_back(std::make_unique<Runaway>(fluid::Vec<2>(0.3, -depth), speed));
+    coupling::scenes::Watched<2> stepper(
+        std::make_unique<fluid::Fluid<2>>(fluid::scenes::still_water(1, 0.5, 0.1), std::move(effects)));
+    ASSERT_GE(scenes::run(stepper, 2, dt), 0);
+    EXPECT_FALSE(stepper.release_fragment()) << "nothing was refused";
+    const auto before = saved(stepper);
+    const double volume = stepper.fluid().ledger().volume;
+    speed = 1e6;  // four elements in 0.4 us
+    for (double shorter = dt; shorter > dt / 500; shorter /= 2) ASSERT_FALSE(stepper.attempt(shorter).ok());
+    ASSERT_EQ(stepper.release_fragment(), depth == 0);
+    EXPECT_EQ(saved(stepper), before) << "the present is what it was";
+    if (depth > 0) continue;
+    const auto report = stepper.attempt(dt);
+    ASSERT_TRUE(report.ok()) << report.cause;
+    const auto& nodes = stepper.fluid().nodes();
+    EXPECT_EQ(std::ranges::count(nodes.spray, 1), 1);
+    const auto& ledger = stepper.fluid().ledger();
+    EXPECT_GT(ledger.spray, 0);
+    EXPECT_NEAR(ledger.volume + ledger.spray, volume, 1e-12);
+    stepper.commit();
+    speed = 0;
+    EXPECT_GE(scenes::run(stepper, 5, dt), 0);
+  }
+}
 
 TEST(Wall, asked_about_a_point_that_is_not_finite_gives_an_answer) {
   const fluid::Wall<2> wall(fluid::scenes::wall("", fluid::scenes::rectangle({0, 0}, {1, 1}), 1));

@@ -92,22 +92,52 @@ TEST(Convergence, promises_no_less_on_coarser_meshes) {
   }
 }
 
-/// Series of an order with noise of a share of the finest mesh's error, two replicates among them.
-double share_within(double p, double noise, int tries) {
-  std::mt19937 random(1);
+/// Bands of series with noise, of meshes sqrt(2) apart with two replicates beside the last but one; the truth is 1.
+struct NoisyBands {
   int within = 0;
-  for (int i = 0; i < tries; ++i) {
-    std::normal_distribution<double> normal(0, noise * std::pow(usual.back(), p));
-    auto values = series([&](double h) { return 1 + std::pow(h, p) + normal(random); },
-                         {usual[0], usual[1], usual[2], usual[2] / 0.98, usual[2] / 1.02, usual[3]});
-    within += std::abs(values.back().value - 1) <= fit(values).band(values.back()) ? 1 : 0;
+  std::vector<double> bands;
+
+  template <class Error>
+  NoisyBands(const Error& error, double noise, int meshes, int tries) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal(0, noise);
+    std::vector<double> sizes;
+    for (int k = 0; k < meshes; ++k) sizes.push_back(std::pow(0.5, 0.5 * k));
+    const double replicated = sizes[sizes.size() - 2];
+    sizes.insert(sizes.end() - 1, {replicated / 0.98, replicated / 1.02});
+    for (int i = 0; i < tries; ++i) {
+      const auto values = series([&](double h) { return 1 + error(h) + normal(random); }, sizes);
+      bands.push_back(fit(values).band(values.back()));
+      within += std::abs(values.back().value - 1) <= bands.back() ? 1 : 0;
+    }
   }
-  return static_cast<double>(within) / tries;
-}
+  double share() const { return within / static_cast<double>(bands.size()); }
+  double median() {
+    const auto middle = bands.begin() + static_cast<std::ptrdiff_t>(bands.size() / 2);
+    std::ranges::nth_element(bands, middle);
+    return *middle;
+  }
+};
 
 TEST(Convergence, of_noisy_series_holds_the_true_value_in_nineteen_of_twenty) {
   for (const double p : {1., 2.})
-    for (const double noise : {0.05, 0.3, 1.}) EXPECT_GE(share_within(p, noise, 200), 0.95) << p << ' ' << noise;
+    for (const int meshes : {4, 8})
+      for (const double noise : {0.05, 0.3, 1., 3.}) {  // of the finest mesh's error
+        const auto power = [p](double h) { return std::pow(h, p); };
+        const double finest = power(std::pow(0.5, 0.5 * (meshes - 1)));
+        EXPECT_GE(NoisyBands(power, noise * finest, meshes, 100).share(), 0.95) << p << ' ' << noise << ' ' << meshes;
+      }
+}
+
+TEST(Convergence, of_mere_noise_holds_it_too_and_more_meshes_do_not_widen_the_band) {
+  double before = std::numeric_limits<double>::infinity();
+  for (const int meshes : {4, 6, 9}) {
+    NoisyBands noise([](double) { return 0.; }, 1, meshes, 100);
+    EXPECT_GE(noise.share(), 0.95) << meshes;
+    const double median = noise.median();
+    EXPECT_LT(median, before) << meshes;
+    before = median;
+  }
 }
 
 Rung rung(double refine, double seconds, std::vector<double> values, Role role = Role::rung) {

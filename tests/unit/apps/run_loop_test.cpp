@@ -1,6 +1,7 @@
 // The step loop with a stepper that needs no fluid: exact end times, refused steps, checkpoints, resumption.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -33,7 +34,10 @@ class FakeStepper final : public coupling::Stepper {
     in.read(reinterpret_cast<char*>(&state_), sizeof state_);
   }
 
+  bool release_fragment() override { return release && release(); }
+
   std::function<std::string(double, double)> refuse;
+  std::function<bool()> release;
 
  private:
   double time_ = 0, state_ = 0, dt_ = 0;
@@ -51,6 +55,7 @@ class FakeHost final : public LoopHost {
   double dt_bound() const override { return bound; }
   void record(const StepMade& step) override { rows.push_back(step); }
   void refused(double, double, const std::string&) override {}
+  void released(double, const std::string&) override { ++fragments; }
   bool checkpoint_due() override { return checkpoint_every > 0 && rows.size() % checkpoint_every == 0; }
   void checkpoint() override {
     std::ostringstream out;
@@ -65,7 +70,7 @@ class FakeHost final : public LoopHost {
 
   std::vector<StepMade> rows;
   Saved saved;
-  int checkpoints = 0;
+  int checkpoints = 0, fragments = 0;
   double bound = 1;
   std::size_t checkpoint_every = 0, interrupt_after = 1000000;
 
@@ -158,8 +163,34 @@ TEST(RunLoop, gives_up_with_the_cause_and_a_checkpoint_of_the_last_good_state) {
   std::istringstream in(story.host.saved.stepper);
   saved.load(in);
   EXPECT_EQ(saved.time(), story.stepper.time());
-  // log2(1e6) halvings and no more
-  EXPECT_EQ(story.loop.rejected.at("no fluid"), 21);
+  EXPECT_EQ(story.loop.rejected.at("no fluid"), 20);
+}
+
+TEST(RunLoop, lets_a_fragment_go_after_ten_refusals_and_tries_the_same_step_again) {
+  for (const bool cures : {true, false}) {
+    Story story;
+    double refused_dt = 0;
+    bool gone = false;
+    story.stepper.refuse = [&](double time, double dt) -> std::string {
+      if (time < 0.1 || (gone && cures) || time > 0.2) return "";
+      refused_dt = std::max(refused_dt, dt);
+      return "an element turns over: at 0";
+    };
+    story.stepper.release = [&] { return !std::exchange(gone, true); };
+    story.run(0.5);
+    EXPECT_TRUE(gone);
+    EXPECT_EQ(story.end.status, cures ? LoopEnd::Status::done : LoopEnd::Status::failed);
+    EXPECT_EQ(story.loop.rejected.at("an element turns over"), cures ? 10 : 20);
+    EXPECT_EQ(story.loop.released, 1);
+    EXPECT_EQ(story.host.fragments, 1);
+    const auto made = std::ranges::find_if(story.host.rows, [](const StepMade& row) { return row.time >= 0.1; });
+    if (cures) {
+      EXPECT_EQ(made->dt, refused_dt);
+    } else {
+      EXPECT_EQ(made, story.host.rows.end());
+      EXPECT_EQ(story.host.saved.loop.released, 0) << "a run that is continued from there lets it go again";
+    }
+  }
 }
 
 TEST(RunLoop, takes_an_exception_of_an_attempt_for_a_refusal) {

@@ -29,6 +29,7 @@ class Watched final : public Stepper {
   double time() const override { return stepper_->time(); }
   double stable_dt() const override { return stepper_->stable_dt(); }
   StepReport attempt(double dt) override { return stepper_->attempt(dt); }
+  bool release_fragment() override { return stepper_->release_fragment(); }
   void commit() override { stepper_->commit(); }
   std::vector<std::pair<std::string, double>> phase_seconds() const override { return stepper_->phase_seconds(); }
   void save(std::ostream& out) const override { stepper_->save(out); }

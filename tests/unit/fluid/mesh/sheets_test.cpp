@@ -97,6 +97,26 @@ TYPED_TEST(Sheets, they_take_their_volume_and_momentum_along_and_no_energy) {
   }
 }
 
+TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_and_momentum_stay) {
+  constexpr int d = TypeParam::value;
+  for (const std::size_t node : {0, 7, 12}) {  // at a corner, at a side, within
+    scenes::Lattice<d> p(5);
+    p.nodes.volume = nodal_volumes(p.mesh, p.nodes.x);
+    std::mt19937 random(7);
+    for (auto& v : p.nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
+    const auto before = carried(p.nodes);
+    std::vector<char> flies(p.nodes.size(), 0);
+    flies[node] = 1;
+    let_fly<d>(p.nodes, p.mesh, flies);
+    EXPECT_TRUE(p.nodes.spray[node]);
+    const auto after = carried(p.nodes);
+    EXPECT_NEAR(after.volume, before.volume, 1000 * scenes::eps);
+    EXPECT_LE((after.momentum - before.momentum).norm(), 1000 * scenes::eps);
+    EXPECT_LE(after.energy, before.energy);
+    EXPECT_NEAR(enclosed_volume(p.mesh.boundary, p.nodes.x), volume_of_cells<d>(p), 1000 * scenes::eps);
+  }
+}
+
 TYPED_TEST(Sheets, what_stays_is_enclosed_by_its_boundary) {
   constexpr int d = TypeParam::value;
   auto p = pool_with_sheet<d>();

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""What the examples' prices promise, and how often they are right: docs/price.md's table.
+
+    tests/benchmark/prices.py build/release/splashdown [CASE...]     (default: all; those in space take most of an hour)
+
+One `splashdown price` a case, one thread, with a budget of ten minutes in the plane and 45 in space, in out/prices/CASE; what is finished there
+is reused. Prints the price list and each quantity with its band, and beside it what is known to be true (the examples' references).
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import time
+
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
+
+LOAD_2D = "force=mean(fy/(1000*time), time) from bodies.csv:wedge where time >= {}"
+CP_MAX = "cp_max=mean(group_max(2*p/1000, time)) from surface_pressure.csv:wedge where time >= {}"
+CP_PLACE = "cp_place=mean(group_argmax(p, time, y/time)) from surface_pressure.csv:wedge where time >= {}"
+PEAK_3D = "max(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225))"
+PEAK_TIME_3D = ("argmax(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225), "
+                "select(time, abs(time - 0.00325) < 0.00225))")
+
+# scene, options, quantities (none: those that price chooses), what is known of them
+CASES = {
+    "wedge_entry_30": ("wedge_entry/scene.toml", ["--open-water"],
+                       [LOAD_2D.format(0.16), CP_MAX.format(0.36), CP_PLACE.format(0.36)],
+                       {"force": 14.02, "cp_max": 6.895, "cp_place": 0.4254}),
+    "wedge_entry_45": ("wedge_entry/scene_45.toml", ["--open-water"],
+                       [LOAD_2D.format(0.28), CP_MAX.format(0.63), CP_PLACE.format(0.63)],
+                       {"force": 3.448, "cp_max": 2.705, "cp_place": -1}),
+    "wedge_drop": ("wedge_drop/scene.toml", ["--open-water"],
+                   ["peak_force=max(smooth(fy, time, 5e-4)) from bodies.csv:wedge",
+                    *(f"speed_{ms}ms=-interp(time, vy, {ms / 1000}) from bodies.csv:wedge" for ms in (8, 16, 24)),
+                    "force_20ms=interp(time, smooth(fy, time, 5e-4), 0.020) from bodies.csv:wedge"],
+                   {"peak_force": 26746, "speed_8ms": 5.8321, "speed_16ms": 5.068, "speed_24ms": 4.619, "force_20ms": 14270}),
+    "light_wedge": ("light_wedge/scene.toml", ["--open-water"],
+                    ["peak_force=max(smooth(fy, time, 2e-4)) from bodies.csv:wedge"], {"peak_force": 7360}),
+    "capsule_drop_2d": ("capsule_drop_2d/scene.toml", [], [], {"capsule.draft": 0.0688812}),
+    "cone_entry_45": ("cone_entry/scene_45.toml", [],
+                      ["force=mean(fz/(1000*time^2), time) from bodies.csv:cone where time >= 0.2"], {"force": 3.331}),
+    "capsule_water_landing": ("capsule_water_landing/scene.toml", [],
+                              [f"peak={PEAK_3D} from bodies.csv:capsule",
+                               f"speed_at_peak=-interp(time, vz, {PEAK_TIME_3D})/4.5 from bodies.csv:capsule"],
+                              {"peak": 143.1, "speed_at_peak": 0.911}),
+    "uav_landing": ("uav_landing/scene.toml", [], [], {}),
+}
+
+
+def price(program, case):
+    """The price list and the seconds it took."""
+    scene, options, quantities, _ = CASES[case]
+    folder = pathlib.Path("out/prices") / case
+    in_space = "dimension = 3" in (EXAMPLES / scene).read_text()
+    command = [program, "price", str(EXAMPLES / scene), "--out", str(folder), "--budget", "2700" if in_space else "600",
+               "--threads", "1", "--quiet", *options]
+    if "\nframes" in (EXAMPLES / scene).read_text():
+        command += ["--set", "output.frames="]
+    for quantity in quantities:
+        command += ["--quantity", quantity]
+    start = time.monotonic()
+    subprocess.run(command, check=True)
+    return json.loads((folder / "price.json").read_text()), time.monotonic() - start
+
+
+def told_seconds(seconds):
+    return f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:.2g} min"
+
+
+def told_rows(rows):
+    return "; ".join(f"{row['accuracy_percent']:g} %: {told_seconds(row['seconds'])}" + ("*" if row["extrapolated"] else "")
+                     for row in rows if row["seconds"] is not None)
+
+
+def main():
+    program, *wanted = sys.argv[1:]
+    inside = known = 0
+    print("| case | took | list | quantity | true | value ± band | deviation |\n|---|---|---|---|---|---|---|")
+    for case in wanted or CASES:
+        found, took = price(program, case)
+        first = f"{case} | {told_seconds(took)} | {told_rows(found['rows'])}"
+        for name, quantity in found["quantities"].items():
+            if not quantity["counts"] or quantity["value"] is None:
+                continue
+            value, band, true = quantity["value"], quantity["band"], CASES[case][3].get(name)
+            row = f"{value:.5g}" + ("" if band is None else f" ± {band:.2g}")
+            deviation = ""
+            if true is not None and band is not None:
+                known += 1
+                inside += abs(value - true) <= band
+                deviation = f"{100 * (value / true - 1):+.2g} %" + ("" if abs(value - true) <= band else ", outside")
+            print(f"| {first} | {name} | {'' if true is None else f'{true:g}'} | {row} | {deviation} |", flush=True)
+            first = " | |"
+    print(f"\n{inside} of {known} within the band")
+
+
+if __name__ == "__main__":
+    main()
