@@ -61,7 +61,7 @@ class Defaults {
     entry(body.name + ".greatest_submergence", "m", of + "maximum_submergence.value");
     // The mean of what follows the instant from which it rests: there is none where it does not.
     if (scene_.gravity) {
-      expression(body.name + ".draft", "m", "bodies.csv:" + body.name, "mean(submergence, time)");
+      expression(body.name + ".rest_submergence", "m", "bodies.csv:" + body.name, "mean(submergence, time)");
       quantities_.back().measured.where = "time >= summary." + of + "settled_time";
     }
   }

@@ -21,6 +21,7 @@ PEAK_3D = "max(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225))"
 PEAK_TIME_3D = ("argmax(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225), "
                 "select(time, abs(time - 0.00325) < 0.00225))")
 
+# The capsule: its draft by Archimedes less what the water it displaces raises the level by in a tank 8 m wide.
 # scene, options, quantities (none: those that price chooses), what is known of them
 CASES = {
     "wedge_entry_30": ("wedge_entry/scene.toml", ["--open-water"],
@@ -36,7 +37,7 @@ CASES = {
                    {"peak_force": 26746, "speed_8ms": 5.8321, "speed_16ms": 5.068, "speed_24ms": 4.619, "force_20ms": 14270}),
     "light_wedge": ("light_wedge/scene.toml", ["--open-water"],
                     ["peak_force=max(smooth(fy, time, 2e-4)) from bodies.csv:wedge"], {"peak_force": 7360}),
-    "capsule_drop_2d": ("capsule_drop_2d/scene.toml", [], [], {"capsule.draft": 0.0688812}),
+    "capsule_drop_2d": ("capsule_drop_2d/scene.toml", [], [], {"capsule.rest_submergence": 0.0688812 - 0.0371386 / 8}),
     "cone_entry_45": ("cone_entry/scene_45.toml", [],
                       ["force=mean(fz/(1000*time^2), time) from bodies.csv:cone where time >= 0.2"], {"force": 3.331}),
     "capsule_water_landing": ("capsule_water_landing/scene.toml", [],
