@@ -58,8 +58,17 @@ void InsideTest<d>::Bins::fill(std::span<const int> items, const std::vector<std
   lower.reserve(items.size());
   for (int i : items) lower.push_back(range[i][0]);
   std::sort(lower.begin(), lower.end());
-  edges.clear();
-  for (std::size_t i = per_bin; i < lower.size(); i += per_bin) edges.push_back(lower[i]);
+  // Items that pile up behind each other, as those of a wall along the rays, reach into bins in proportion to their number:
+  // fewer bins then.
+  constexpr std::size_t bins_an_item = 8;
+  std::size_t entries = 0;
+  do {
+    edges.clear();
+    for (std::size_t i = per_bin; i < lower.size(); i += per_bin) edges.push_back(lower[i]);
+    entries = 0;
+    for (int i : items) entries += of(range[i][1]) - of(range[i][0]) + 1;
+    per_bin *= 4;
+  } while (entries > bins_an_item * items.size());
   start.assign(edges.size() + 2, 0);
   for (int i : items)
     for (std::size_t b = of(range[i][0]), last = of(range[i][1]); b <= last; ++b) ++start[b + 1];

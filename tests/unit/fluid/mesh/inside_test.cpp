@@ -135,5 +135,37 @@ TEST(InsideTest3, counts_a_ray_through_edges_and_corners_once) {
   expect_cube(points);
 }
 
+// A mast: facets that pile up behind each other along the rays. A million of them took gigabytes of bins.
+TEST(InsideTest3, knows_the_inside_of_a_long_mast_of_many_rings) {
+  constexpr int around = 12, rings = 6000;
+  constexpr double length = 10;
+  Boundary<3> mast;
+  const auto at = [](int ring, int k) { return ring * around + (k + around) % around; };
+  const auto radius = [](int ring) { return 0.05 + 0.01 * ring / rings; };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int k = 0; k < around; ++k) {
+      const double angle = 2 * std::numbers::pi * k / around, r = radius(ring);
+      mast.x.emplace_back(r * std::cos(angle), r * std::sin(angle), length * ring / (rings - 1));
+    }
+  for (int ring = 0; ring + 1 < rings; ++ring)
+    for (int k = 0; k < around; ++k) {
+      mast.facets.push_back({{at(ring, k), at(ring, k + 1), at(ring + 1, k)}, -1});
+      mast.facets.push_back({{at(ring, k + 1), at(ring + 1, k + 1), at(ring + 1, k)}, -1});
+    }
+  for (int k = 1; k + 1 < around; ++k) {
+    mast.facets.push_back({{at(0, 0), at(0, k + 1), at(0, k)}, -1});
+    mast.facets.push_back({{at(rings - 1, 0), at(rings - 1, k), at(rings - 1, k + 1)}, -1});
+  }
+  const InsideTest<3> inside(mast.x, mast.facets);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> across(-0.07, 0.07), along(-1, length + 1);
+  for (int i = 0; i < 200; ++i) {
+    const Vec<3> p(across(random), across(random), along(random));
+    EXPECT_EQ(inside(p), is_inside<3>(mast.x, mast.facets, p)) << p.transpose();
+  }
+  EXPECT_TRUE(inside({0, 0, 0.5 * length}));
+  EXPECT_FALSE(inside({0, 0, 1.01 * length}));
+}
+
 }  // namespace
 }  // namespace splashdown::fluid
