@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "apps/scene/choose/presets.hpp"
+#include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
-#include "apps/scene/solid.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
@@ -331,23 +331,6 @@ TEST(SceneGeometry, mass_follows_from_density_and_overrides_win) {
   body.centre_of_mass = Point(0.1, 0, 0);
   EXPECT_EQ(mass_properties<2>(body).inertia(0, 0), 7);
   EXPECT_EQ(mass_properties<2>(body).centre.x(), 0.1);
-}
-
-TEST(SceneGeometry, touching_is_not_overlapping) {
-  Body a, b;
-  const auto share_space = [](const Body& p, const Body& q) {
-    return overlap(Solid<2>(outline<2>(p)), Solid<2>(outline<2>(q)));
-  };
-  a.shape = b.shape = RectangleShape{.width = 1, .height = 1};
-  b.position = {1, 0, 0};
-  EXPECT_FALSE(share_space(a, b));
-  b.position = {0.999, 0, 0};
-  EXPECT_TRUE(share_space(a, b));
-  b.position = a.position;
-  EXPECT_TRUE(share_space(a, b));
-  b.shape = CircleShape{.radius = 0.1};  // one within the other
-  EXPECT_TRUE(share_space(a, b));
-  EXPECT_TRUE(share_space(b, a));
 }
 
 TEST(SceneGeometry, a_wavy_region_has_the_stated_elevation) {

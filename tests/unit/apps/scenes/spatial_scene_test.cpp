@@ -8,9 +8,9 @@
 
 #include "apps/check/cost.hpp"
 #include "apps/run/build/build.hpp"
+#include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"
-#include "apps/scene/solid.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
@@ -278,47 +278,6 @@ TEST(SpatialWalls, enclose_the_solid) {
   auto tank = spec.walls[2].surface;
   tank.facets.row(1).swap(tank.facets.row(2));
   EXPECT_NEAR(rigid::mass_properties<3>({tank.vertices, tank.facets}).mass, 32, 1e-12) << "inside out";
-}
-
-TEST(SpatialSolids, touching_is_not_overlapping) {
-  Body a = brick(), b = brick();
-  const auto share_space = [&] { return overlap(Solid<3>(outline<3>(a)), Solid<3>(outline<3>(b))); };
-  EXPECT_TRUE(share_space()) << "the same place";
-  b.position = {0.4, 0, 0};
-  EXPECT_FALSE(share_space()) << "face to face";
-  b.shape = BoxShape{.size = {0.4, 0.1, 0.5}};
-  EXPECT_FALSE(share_space()) << "a taller one at the face";
-  b.position = {0.399, 0, 0};
-  EXPECT_TRUE(share_space());
-  b.shape = BoxShape{.size = {0.05, 0.05, 3}};
-  b.position = {0, 0, 0.3};
-  EXPECT_TRUE(share_space()) << "pierced through the diagonals of its faces";
-  b.shape = SphereShape{.radius = 0.04};
-  b.position.setZero();
-  EXPECT_TRUE(share_space()) << "one within the other";
-}
-
-TEST(SpatialSolids, a_point_is_contained_as_deep_as_the_nearest_facet_is_far) {
-  const Solid<3> solid(outline<3>(brick()));
-  const Point centre(0, 0, 0), towards_a_face = Point(0.17, 0, 0.01);
-  for (const Point& x : {centre, towards_a_face}) {
-    const double depth = -solid.signed_distance(x);
-    ASSERT_GT(depth, 0);
-    EXPECT_TRUE(solid.contains(x, (1 - 1e-9) * depth));
-    EXPECT_FALSE(solid.contains(x, (1 + 1e-9) * depth));
-  }
-  EXPECT_FALSE(solid.contains({0.21, 0, 0}, 1e-3)) << "outside";
-}
-
-TEST(SpatialSolids, fine_hulls_that_nearly_coincide_share_space_by_what_is_more_than_roundoff) {
-  Body a = brick(), b = brick();
-  const auto revolved = [](double radius) { return RevolvedShape{.profile = {{0, 0}, {radius, 0.001}, {0.04, 0.75}}}; };
-  a.shape = revolved(0.053);
-  b.shape = revolved(0.053 + 1e-6);
-  const auto share_space = [&] { return overlap(Solid<3>(outline<3>(a)), Solid<3>(outline<3>(b))); };
-  EXPECT_TRUE(share_space()) << "one in the other";
-  b.position.z() -= outline<3>(a).vertices.row(2).maxCoeff() - outline<3>(b).vertices.row(2).minCoeff();
-  EXPECT_FALSE(share_space()) << "one upon the other";
 }
 
 /// A folder with a hull: a tetrahedron with edges of 0.3 m along the axes, in millimetres.
