@@ -55,8 +55,9 @@ Refusal Fluid<d>::State::inverted_element() const {
   const std::size_t count = work.mesh.cells.size();
   if (least_in_parallel(count, margin) >= 0) return {};
   std::size_t worst = 0;
+  double least = margin(0);
   for (std::size_t c = 1; c < count; ++c)
-    if (margin(c) < margin(worst)) worst = c;
+    if (const double m = margin(c); m < least) least = m, worst = c;
   const auto& cell = work.mesh.cells[worst];
   Vec<d> mean = Vec<d>::Zero();
   for (int n : cell) mean += result.velocity[n] / (d + 1);

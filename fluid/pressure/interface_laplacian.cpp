@@ -192,17 +192,18 @@ void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh,
     links.clear(), energy = 0;
   };
   if (interface_operator.laplacian != 0) {
-    double stiffness = 0, measure = 0;
     for (const auto& border : hull.borders) {
       const int a = places[border.a].piece, b = border.b < 0 ? -1 : places[border.b].piece;
       if (a < 0 || a == b || a == rest) continue;
       const double distance = (centre[a] - border.centre).norm() + (b < 0 ? 0.0 : (centre[b] - border.centre).norm());
-      if (!(distance > 0)) continue;
-      link(a, b, border.measure / distance);
-      stiffness += border.measure / distance;
+      if (distance > 0) link(a, b, border.measure / distance);
     }
-    for (int k = 0; k < rest; ++k) measure += pieces_[first + k].measure;
-    if (count > rest) link(rest, -1, stiffness / measure * pieces_[first + rest].measure);
+    if (count > rest) {
+      double stiffness = 0, measure = 0;
+      for (const auto& l : links) stiffness += l.weight;
+      for (int k = 0; k < rest; ++k) measure += pieces_[first + k].measure;
+      link(rest, -1, stiffness / measure * pieces_[first + rest].measure);
+    }
     scale(interface_operator.laplacian);
   }
   if (interface_operator.robin != 0) {

@@ -20,15 +20,16 @@ struct Strips {
   std::vector<std::size_t> first_unknown;  // of each strip
   double measure = 0;
 
+  int unknowns = 0;
+
   int node(const Vec<d>& x, bool rim) {
     nodes.x.push_back(x);
-    unknown.push_back(
-        rim ? -1 : static_cast<int>(std::count_if(unknown.begin(), unknown.end(), [](int u) { return u >= 0; })));
+    unknown.push_back(rim ? -1 : unknowns++);
     return static_cast<int>(nodes.x.size()) - 1;
   }
 
   void add(double from, int count, double h) {
-    first_unknown.push_back(std::count_if(unknown.begin(), unknown.end(), [](int u) { return u >= 0; }));
+    first_unknown.push_back(static_cast<std::size_t>(unknowns));
     const auto facet = [&](const std::array<int, d>& corners) {
       mesh.boundary.push_back({corners, 0});
       measure += area_vector_of<d>(mesh.boundary.back(), nodes.x).norm();
