@@ -44,7 +44,7 @@ Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterio
     ++state.rejected[kind_of(report.cause)];
     host.refused(stepper.time(), dt, report.cause);
     if (dt < smallest_share * criterion || refusals == most_refusals) return {std::move(report), dt};
-    if (refusals == refusals_for_release && stepper.release_fragment()) {
+    if (refusals == refusals_for_release && report.of_fluid && stepper.release_fragment()) {
       ++state.released;
       host.released(stepper.time(), report.cause);
       dt = 2 * wanted;

@@ -14,9 +14,11 @@ Step Coupled::begin_structure(double dt) {
   return step;
 }
 
-Status Coupled::acceptable() const {
-  Status status = structure_->acceptable();
-  return status.ok() ? fluid_->acceptable() : status;
+void Coupled::judge(StepReport& report) const {
+  if (report.ok()) report.cause = structure_->acceptable().cause;
+  if (!report.ok()) return;
+  report.cause = fluid_->acceptable().cause;
+  report.of_fluid = !report.ok();
 }
 
 double Coupled::fluid_seconds() const {

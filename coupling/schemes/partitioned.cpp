@@ -57,7 +57,7 @@ StepReport Partitioned::attempt(double dt) {
     report = iterate(step);
   }
   coupling_seconds_ -= fluid_seconds() - fluid_before;
-  if (report.ok()) report.cause = acceptable().cause;
+  judge(report);
   return report;
 }
 

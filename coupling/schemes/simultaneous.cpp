@@ -80,7 +80,7 @@ StepReport Simultaneous::attempt(double dt) {
     report.cause = text.str();
   }
   if (report.ok()) report.cause = massless_and_dry();
-  if (report.ok()) report.cause = acceptable().cause;
+  judge(report);
   return report;
 }
 

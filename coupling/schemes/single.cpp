@@ -20,8 +20,9 @@ StepReport FluidOnly::attempt(double dt) {
   clock_.start(dt);
   auto status = fluid_->begin({.kick = clock_.kick(dt), .dt = dt}, {});
   if (status.ok()) status = fluid_->solve({});
-  if (status.ok()) status = fluid_->acceptable();
-  return {.cause = status.cause, .passes = 1};
+  const bool solved = status.ok();
+  if (solved) status = fluid_->acceptable();
+  return {.cause = status.cause, .passes = 1, .of_fluid = solved && !status.ok()};
 }
 
 void FluidOnly::commit() {

@@ -9,9 +9,10 @@
 namespace splashdown::coupling {
 
 struct StepReport {
-  std::string cause;    ///< why the step must be refused; empty: it may be committed
-  int passes = 0;       ///< coupling passes
-  double residual = 0;  ///< of the interface velocities, relative [-]
+  std::string cause;      ///< why the step must be refused; empty: it may be committed
+  int passes = 0;         ///< coupling passes
+  double residual = 0;    ///< of the interface velocities, relative [-]
+  bool of_fluid = false;  ///< the sides agree, and it is the fluid that may not go on like this
   bool ok() const { return cause.empty(); }
 };
 
@@ -21,7 +22,7 @@ class Stepper {
   virtual double time() const = 0;
   virtual double stable_dt() const = 0;
   virtual StepReport attempt(double dt) = 0;  ///< begin + solve, always from t_n
-  /// After an attempt that no smaller dt cured: FluidPart::release_fragment.
+  /// After an attempt that was refused `of_fluid` and that no smaller dt cured: FluidPart::release_fragment.
   virtual bool release_fragment() { return false; }
   virtual void commit() = 0;  ///< accepts the last attempt
   virtual std::vector<std::pair<std::string, double>> phase_seconds() const = 0;

@@ -85,8 +85,8 @@ class Coupled : public Stepper {
 
  protected:
   Step begin_structure(double dt);
-  /// Whether the trials of both sides may be committed.
-  Status acceptable() const;
+  /// Refuses what so far is no cause of refusal if the trial of a side may not be committed.
+  void judge(StepReport& report) const;
   double fluid_seconds() const;
   /// Velocities below this many lengths of the structure a step are roundoff of positions: at rest [m/s].
   double still(double dt) const;

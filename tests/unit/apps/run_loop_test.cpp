@@ -18,7 +18,7 @@ class FakeStepper final : public coupling::Stepper {
   double stable_dt() const override { return 0.01 / (1 + state_ * state_); }
   coupling::StepReport attempt(double dt) override {
     dt_ = dt;
-    return {.cause = refuse ? refuse(time_, dt) : "", .passes = 1, .residual = 0};
+    return {.cause = refuse ? refuse(time_, dt) : "", .passes = 1, .of_fluid = of_fluid};
   }
   void commit() override {
     state_ += dt_ * std::cos(7 * time_);
@@ -38,6 +38,7 @@ class FakeStepper final : public coupling::Stepper {
 
   std::function<std::string(double, double)> refuse;
   std::function<bool()> release;
+  bool of_fluid = true;  // what is refused
 
  private:
   double time_ = 0, state_ = 0, dt_ = 0;
@@ -191,6 +192,21 @@ TEST(RunLoop, lets_a_fragment_go_after_ten_refusals_and_tries_the_same_step_agai
       EXPECT_EQ(story.host.saved.loop.released, 0) << "a run that is continued from there lets it go again";
     }
   }
+}
+
+TEST(RunLoop, lets_no_fragment_go_for_what_is_not_the_fluids_fault) {
+  Story story;
+  story.stepper.of_fluid = false;
+  story.stepper.refuse = [](double time, double) {
+    return time < 0.1 ? "" : "the coupling did not converge: residual 1";
+  };
+  story.stepper.release = [] {
+    ADD_FAILURE() << "a wild last pass is no reason";
+    return true;
+  };
+  story.run(0.5);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::failed);
+  EXPECT_EQ(story.loop.rejected.at("the coupling did not converge"), 20);
 }
 
 TEST(RunLoop, takes_an_exception_of_an_attempt_for_a_refusal) {

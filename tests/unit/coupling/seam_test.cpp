@@ -85,6 +85,31 @@ TEST(Simultaneous, solves_any_fluid_in_one_pass) {
   }
 }
 
+// What may be cured by letting a fragment of the fluid go: nothing that the sides do not agree on.
+TEST(Report, says_whether_it_is_the_fluid_that_may_not_go_on) {
+  for (const char* cause : {"", "an element turns over"}) {
+    const bool unfit = *cause != 0;
+    std::vector<Pair> agreeing, others;
+    agreeing.push_back(simultaneous({.mu = 3, .force = 13}));
+    agreeing.push_back(
+        partitioned({.mu = 0.5, .force = 13}, std::make_unique<NoTerm>(), std::make_unique<Aitken>(0.5)));
+    others.push_back(partitioned({.mu = 3, .force = 13}, std::make_unique<NoTerm>(),
+                                 std::make_unique<ConstantRelaxation>(0.1), {.max_passes = 1}));
+    for (auto& pair : agreeing) {
+      pair.water->unfit = cause;
+      const auto report = pair.stepper->attempt(0.01);
+      EXPECT_EQ(report.cause, cause);
+      EXPECT_EQ(report.of_fluid, unfit);
+    }
+    for (auto& pair : others) {
+      pair.water->unfit = cause;
+      const auto report = pair.stepper->attempt(0.01);
+      EXPECT_NE(report.cause, cause);
+      EXPECT_FALSE(report.of_fluid) << report.cause;
+    }
+  }
+}
+
 TEST(Simultaneous, swings_with_the_frequency_of_leapfrog) {
   // q_n = q_0 cos(n theta), 1 - cos(theta) = (k dt^2 / 2) / (m + m_a): exact, no energy is gained or lost.
   const Oscillator made{.mu = 9};

@@ -39,6 +39,8 @@ class Water final : public FluidPart, private Linearised {
     now_.place = now_.motion = now_.impulse = Vector::Zero(G_.rows());
   }
 
+  std::string unfit;  // why what was solved last may not be committed
+
   State& state() { return now_; }
   const State& state() const { return now_; }
 
@@ -94,7 +96,7 @@ class Water final : public FluidPart, private Linearised {
     return solution_.impulse.allFinite() ? Status{} : Status{"the toy's solution is not finite"};
   }
   const Solution& solution() const override { return solution_; }
-  Status acceptable() const override { return {}; }
+  Status acceptable() const override { return {unfit}; }
   void commit(const Placement& walls) override {
     now_.time += step_.dt;
     now_.place = walls;
