@@ -1,6 +1,7 @@
 #include "core/facet_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/closest_point.hpp"
@@ -133,19 +134,6 @@ typename FacetTree<d>::TightBox FacetTree<d>::tight_box(int first, int count) co
 }
 
 template <int d>
-void FacetTree<d>::set_tight_boxes(int branch, int first, int count) {
-  constexpr int few = 8;  // larger branches are hardly flat
-  if (count <= few) {
-    branches_[branch].tight = static_cast<int>(tight_.size());
-    tight_.push_back(tight_box(first, count));
-  }
-  if (branches_[branch].count > 0) return;
-  const int child = branches_[branch].first;
-  set_tight_boxes(child, first, count / 2);
-  set_tight_boxes(child + 1, first + count / 2, count - count / 2);
-}
-
-template <int d>
 void FacetTree<d>::set_boxes() {
   for (auto b = branches_.rbegin(); b != branches_.rend(); ++b)  // children stand behind their parents
     if (b->count > 0)
@@ -155,16 +143,109 @@ void FacetTree<d>::set_boxes() {
   if (d == 2) return;
   tight_.reserve(2 * pieces_.size());
   for (std::size_t i = 0; i < pieces_.size(); ++i) tight_.push_back(tight_box(static_cast<int>(i), 1));
-  set_tight_boxes(0, 0, static_cast<int>(pieces_.size()));
+  for (Branch& b : branches_) {
+    if (b.count == 0) continue;
+    b.tight = static_cast<int>(tight_.size());
+    tight_.push_back(tight_box(b.first, b.count));
+  }
+  by_fours(0);
+}
+
+template <int d>
+int FacetTree<d>::by_fours(int branch) {
+  std::vector<int> below{branch};
+  for (int level = 0; level < 2; ++level) {
+    std::vector<int> next;
+    for (int b : below)
+      if (branches_[b].count > 0)
+        next.push_back(b);
+      else
+        next.insert(next.end(), {branches_[b].first, branches_[b].first + 1});
+    below = std::move(next);
+  }
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Four four{};
+  for (int b : below) {
+    const Box& box = branches_[b].box;
+    for (int i = 0; i < d; ++i) {
+      four.low[i][four.count] = std::nextafter(static_cast<float>(box.min()[i]), -infinity);
+      four.high[i][four.count] = std::nextafter(static_cast<float>(box.max()[i]), infinity);
+    }
+    four.to[four.count++] = b;
+  }
+  const std::size_t index = fours_.size();
+  fours_.push_back(four);
+  for (int k = 0; k < four.count; ++k) {
+    const int to = branches_[four.to[k]].count > 0 ? ~four.to[k] : by_fours(four.to[k]);
+    fours_[index].to[k] = to;
+  }
+  return static_cast<int>(index);
+}
+
+template <int d>
+void FacetTree<d>::look_into(const Branch& leaf, const Vec<d>& x, Hit& best) const {
+  constexpr double surely = 1 - 1e-9;  // roundoff
+  if (leaf.tight >= 0 && surely * tight_[leaf.tight].squared_distance(x) > best.squared_distance) return;
+  for (int i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    const double least = d == 3 ? tight_[i].squared_distance(x) : pieces_[i].box().squaredExteriorDistance(x);
+    if (surely * least > best.squared_distance) continue;
+    const Vec<d> c = closest_on(pieces_[i].corner, x);
+    const double r = (c - x).squaredNorm();
+    const bool as_near = best.facet < 0 || (d == 3 && pieces_[i].facet < best.facet);
+    if (r < best.squared_distance || (as_near && r <= best.squared_distance)) best = {pieces_[i].facet, c, r};
+  }
+}
+
+template <int d>
+void FacetTree<d>::search_fours(const Vec<d>& x, double loose, Hit& best) const {
+  constexpr float surely = 1 - 1e-6F;  // roundoff of squares
+  std::array<Eigen::Array4f, d> below, above;
+  for (int i = 0; i < d; ++i) {
+    const auto rounded = static_cast<float>(x[i]);
+    const float off = std::numeric_limits<float>::epsilon() * std::abs(rounded);
+    below[i].setConstant(rounded - off);
+    above[i].setConstant(rounded + off);
+  }
+  const float least_share = surely * static_cast<float>(loose);
+  struct Entry {
+    float lower;
+    int to;
+  };
+  std::array<Entry, 128> stack;  // three more a level
+  int top = 0;
+  stack[top++] = {0.0F, 0};
+  while (top > 0) {
+    const auto [lower, index] = stack[--top];
+    if (lower > best.squared_distance) continue;
+    if (index < 0) {
+      look_into(branches_[~index], x, best);
+      continue;
+    }
+    const Four& four = fours_[index];
+    Eigen::Array4f squared = Eigen::Array4f::Zero();
+    for (int i = 0; i < d; ++i) squared += (four.low[i] - above[i]).max(below[i] - four.high[i]).max(0.0F).square();
+    squared *= least_share;
+    const auto reach = static_cast<float>(best.squared_distance / surely);
+    const int first = top;
+    for (int k = 0; k < four.count; ++k) {
+      if (!(squared[k] <= reach)) continue;
+      int at = top++;  // the nearest one is looked at first
+      for (; at > first && stack[at - 1].lower < squared[k]; --at) stack[at] = stack[at - 1];
+      stack[at] = {squared[k], four.to[k]};
+    }
+  }
 }
 
 template <int d>
 typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, double slack) const {
-  constexpr double surely = 1 - 1e-9;  // roundoff
   const double loose = (1 + slack) * (1 + slack);
   Hit best;
   best.squared_distance = reach * reach;
   if (branches_.empty()) return best;
+  if constexpr (d == 3) {
+    search_fours(x, loose, best);
+    return best;
+  }
   std::array<std::pair<double, int>, 64> stack;
   int top = 0;
   stack[top++] = {branches_[0].box.squaredExteriorDistance(x), 0};
@@ -172,16 +253,8 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
     const auto [lower, index] = stack[--top];
     if (lower * loose > best.squared_distance) continue;
     const Branch& b = branches_[index];
-    if (b.tight >= 0 && surely * tight_[b.tight].squared_distance(x) > best.squared_distance) continue;
     if (b.count > 0) {
-      for (int i = b.first; i < b.first + b.count; ++i) {
-        const double least = d == 3 ? tight_[i].squared_distance(x) : pieces_[i].box().squaredExteriorDistance(x);
-        if (surely * least > best.squared_distance) continue;
-        const Vec<d> c = closest_on(pieces_[i].corner, x);
-        const double r = (c - x).squaredNorm();
-        if (r < best.squared_distance || (best.facet < 0 && r <= best.squared_distance))
-          best = {pieces_[i].facet, c, r};
-      }
+      look_into(b, x, best);
       continue;
     }
     std::pair<double, int> a{branches_[b.first].box.squaredExteriorDistance(x), b.first};

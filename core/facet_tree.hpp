@@ -1,5 +1,5 @@
 // Nearest facet of a simplicial surface: a bounding-box tree, O(log n) a query, O(n log n) to build.
-// In space pieces, and branches of a few, have tight boxes, too, with an axis along the normal (Gottschalk, Lin, Manocha 1996): upright boxes of slanted facets overlap so much that a cone of needles was asked for two hundred of them a query.
+// In space pieces and leaves have tight boxes, too, with an axis along the normal (Gottschalk, Lin, Manocha 1996): upright boxes of slanted facets overlap so much that a cone of needles was asked for two hundred of them a query.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ class FacetTree {
 
   bool empty() const { return pieces_.empty(); }
   /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,
-  /// relative: far from a curved surface all facets are about as near, and telling which one is takes long.
+  /// relative: far from a curved surface all facets are about as near, and telling which one is takes long. In space the first of
+  /// facets that are equally near.
   Hit nearest(const Vec<d>& x, double reach, double slack = 0) const;
   using Box = Eigen::AlignedBox<double, d>;
   /// All facets that meet an upright box, and some that pass near it, in ascending order.
@@ -48,6 +49,12 @@ class FacetTree {
     int facet;
     Box box() const;
   };
+  /// In space branches are looked at by fours: single precision, rounded outwards.
+  struct Four {
+    std::array<Eigen::Array4f, d> low, high;
+    std::array<int, 4> to;  // a four, or ~ a leaf of branches_
+    int count = 0;          // in use
+  };
   /// What a piece is sorted by.
   struct Key {
     Vec<d> centre;
@@ -57,12 +64,15 @@ class FacetTree {
   std::vector<Key> keys() const;
   void build(std::vector<Key>& keys, int branch, int first, int count);
   void set_boxes();
-  void set_tight_boxes(int branch, int first, int count);
   TightBox tight_box(int first, int count) const;
+  int by_fours(int branch);
+  void look_into(const Branch& leaf, const Vec<d>& x, Hit& best) const;
+  void search_fours(const Vec<d>& x, double loose, Hit& best) const;
 
   std::vector<Piece> pieces_;  // needles come in several: boxes around whole ones hardly tell them apart
   std::vector<Branch> branches_;
-  std::vector<TightBox> tight_;  // of the pieces, then of branches; none in the plane
+  std::vector<Four> fours_;
+  std::vector<TightBox> tight_;  // of the pieces, then of leaves; none in the plane
   double roundoff_ = 0;          // of coordinates [m]
 };
 

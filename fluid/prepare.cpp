@@ -6,6 +6,7 @@
 #include "fluid/contact/separation.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/mesh/droplets.hpp"
+#include "fluid/mesh/hubs.hpp"
 #include "fluid/mesh/landing.hpp"
 #include "fluid/mesh/sheets.hpp"
 #include "fluid/mesh/size_field.hpp"
@@ -17,7 +18,8 @@ namespace splashdown::fluid {
 template <int d>
 void Fluid<d>::State::size_nodes() {
   const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh);
-  in_parallel(work.nodes.size(), [&](std::size_t i) { work.nodes.h[i] = field(work.nodes.x[i]); });
+  in_parallel(work.nodes.size(),
+              [&](std::size_t i) { work.nodes.h[i] = field(work.nodes.x[i], work.nodes.tie[i].wall); });
 }
 
 // A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it; one that comes back brings
@@ -126,15 +128,23 @@ template <int d>
 void Fluid<d>::State::cut(std::size_t liquid) {
   Nodes<d>& nodes = work.nodes;
   constexpr int attempts = 3;  // to do without nodes that keep the triangulation from the wall's facets
+  std::vector<Hub<d>> hubs = hubs_of<d>(nodes, walls_at(work.poses));
   for (int attempt = 1;; ++attempt) {
     const auto spray = nodes.spray;
     std::vector<Facet<d>> kept;
     if (keeps_facets<d>) kept = smaller_parts_first<d>(work.mesh.boundary, nodes);
+    std::vector<Vec<d>> hub_points;
+    for (const Hub<d>& hub : hubs) hub_points.push_back(hub.x);
     Delaunay<d> cells =
-        triangulation.follow(std::span(nodes.x).first(liquid), std::span(nodes.vertex).first(liquid), kept);
+        triangulation.follow(std::span(nodes.x).first(liquid), std::span(nodes.vertex).first(liquid), kept, hub_points);
     std::iota(nodes.vertex.begin(), nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), 0);
     std::fill(nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), nodes.vertex.end(), -1);
-    auto found = recognise<d>(std::move(cells), nodes, work.mesh.boundary, walls_at(work.poses));
+    auto found = recognise<d>(std::move(cells), nodes, work.mesh.boundary, walls_at(work.poses), {}, hubs);
+    if (found.hub_in_water) {
+      hubs.clear();
+      --attempt;
+      continue;
+    }
     if (found.piercing.empty() || attempt == attempts) {
       work.mesh = std::move(found);
       if (now.dt > 0) let_sheets_fly<d>(nodes, work.mesh, [&](int i) { return is_inviscid(i); });

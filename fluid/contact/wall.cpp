@@ -36,6 +36,7 @@ Wall<d>::Wall(const WallSpec<d>& spec)
   find_bends();
   find_convexity();
   find_basin();
+  find_centre();
 }
 
 template <int d>
@@ -196,10 +197,29 @@ void Wall<d>::find_convexity() {
         for (int k = 0; k < d; ++k)
           if (stands_out(facets(k, g), f, v)) convex_corner_[v] = 0;
   convex_crease_.assign(creases_.size(), 1);
-  for (int f = 0; f < facets.cols() && d == 3; ++f)
+  if (d == 2) return;
+  // One surface that is convex along all of its edges is convex as a whole (Tietze 1928, Nakajima 1928).
+  is_convex_ = !turned_inside_out_ && is_in_one_piece();
+  for (int f = 0; f < facets.cols(); ++f)
     for (int k = 0; k < d; ++k)
-      for (int j = 0; j < d && crease_of_(k, f) >= 0; ++j)
-        if (stands_out(facets(j, across_(k, f)), f, facets(k, f))) convex_crease_[crease_of_(k, f)] = 0;
+      for (int j = 0; j < d && across_(k, f) >= 0; ++j) {
+        if (!stands_out(facets(j, across_(k, f)), f, facets(k, f))) continue;
+        if (crease_of_(k, f) >= 0) convex_crease_[crease_of_(k, f)] = 0;
+        is_convex_ = false;
+      }
+}
+
+// All facets hang together across edges, and none of these is open.
+template <int d>
+bool Wall<d>::is_in_one_piece() const {
+  if (across_.minCoeff() < 0) return false;
+  std::vector<char> reached(across_.cols(), 0);
+  std::vector<int> next{0};
+  reached[0] = 1;
+  for (std::size_t i = 0; i < next.size(); ++i)
+    for (int k = 0; k < d; ++k)
+      if (const int g = across_(k, next[i]); !reached[g]) reached[g] = 1, next.push_back(g);
+  return next.size() == reached.size();
 }
 
 template <int d>
@@ -216,6 +236,28 @@ void Wall<d>::find_basin() {
     if (above.minCoeff() < -tiny_ || (!known && basin_.size() == few)) return basin_.clear();
     if (!known) basin_.push_back(plane);
   }
+}
+
+// From cones with their tip in the middle of the box: V = sum v, V x = sum v (mean of corners), v = A.(x - tip) / d.
+template <int d>
+void Wall<d>::find_centre() {
+  const Vec<d> tip = box_.center();
+  const auto& facets = spec_.surface.facets;
+  Vec<d> sum = Vec<d>::Zero();
+  double enclosed = 0;
+  for (int f = 0; f < facets.cols(); ++f) {
+    std::array<Vec<d>, d> corner;
+    Vec<d> mean = Vec<d>::Zero();
+    for (int k = 0; k < d; ++k) {
+      corner[k] = spec_.surface.vertices.col(facets(k, f)) - tip;
+      mean += corner[k] / (d + 1);
+    }
+    const double cone = area_vector(corner).dot(corner[0]) / d;
+    sum += cone * mean;
+    enclosed += cone;
+  }
+  centre_ = enclosed != 0 ? Vec<d>(tip + sum / enclosed) : tip;
+  depth_of_centre_ = -nearest(Isometry<d>::Identity(), centre_, 2 * diameter()).distance;
 }
 
 template <int d>

@@ -55,6 +55,8 @@ class Wall {
            tie.vertex < static_cast<int>(spec_.surface.vertices.cols()) && tie.crease >= -1 &&
            tie.crease < static_cast<int>(creases_.size());
   }
+  /// Whether the solid is surely convex: what lies between points of it lies in it, and behind the plane of each facet. In space.
+  bool is_convex() const { return is_convex_; }
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
@@ -76,6 +78,9 @@ class Wall {
     double radius;  ///< of curvature, the smallest along the edges that meet there [m]
   };
   const std::vector<Bend>& bends() const { return bends_; }
+  /// Centre of the volume that the surface encloses, wall frame, and how deep in the solid it lies: negative outside of it.
+  const Vec<d>& centre() const { return centre_; }
+  double depth_of_centre() const { return depth_of_centre_; }
   bool encloses_fluid() const { return turned_inside_out_; }  ///< a tank
   /// Box around the surface in the wall frame.
   const Eigen::AlignedBox<double, d>& box() const { return box_; }
@@ -83,11 +88,13 @@ class Wall {
 
  private:
   void find_normals();
+  void find_centre();
   void find_creases();
   void find_corners();
   void find_patches();
   void find_bends();
   void find_convexity();
+  bool is_in_one_piece() const;
   void find_basin();
   bool is_crease(int f, int g) const;
   struct OnCrease {
@@ -117,9 +124,12 @@ class Wall {
   std::vector<char> is_corner_, is_sharp_;           // of vertices; sharp: a corner or on a crease
   std::vector<char> convex_corner_, convex_crease_;  // of vertices, of creases
   Eigen::AlignedBox<double, d> box_;
-  bool turned_inside_out_;    // the solid is outside
+  bool turned_inside_out_;  // the solid is outside
+  bool is_convex_ = false;
   std::vector<Plane> basin_;  // that bound a convex tank of few sides; otherwise none
-  double tiny_;               // length below which points coincide
+  Vec<d> centre_;
+  double depth_of_centre_;
+  double tiny_;  // length below which points coincide
 };
 
 extern template class Wall<2>;

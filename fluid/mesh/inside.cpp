@@ -61,22 +61,26 @@ void InsideTest<d>::Bins::fill(std::span<const int> items, const std::vector<std
   // Items that pile up behind each other, as those of a wall along the rays, reach into bins in proportion to their number:
   // fewer bins then.
   constexpr std::size_t bins_an_item = 8;
+  std::vector<std::array<std::size_t, 2>> reach(items.size());  // first and last bin
   std::size_t entries = 0;
   do {
     edges.clear();
     for (std::size_t i = per_bin; i < lower.size(); i += per_bin) edges.push_back(lower[i]);
     entries = 0;
-    for (int i : items) entries += of(range[i][1]) - of(range[i][0]) + 1;
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      reach[k] = {of(range[items[k]][0]), of(range[items[k]][1])};
+      entries += reach[k][1] - reach[k][0] + 1;
+    }
     per_bin *= 4;
   } while (entries > bins_an_item * items.size());
   start.assign(edges.size() + 2, 0);
-  for (int i : items)
-    for (std::size_t b = of(range[i][0]), last = of(range[i][1]); b <= last; ++b) ++start[b + 1];
+  for (const auto& [first, last] : reach)
+    for (std::size_t b = first; b <= last; ++b) ++start[b + 1];
   for (std::size_t b = 1; b < start.size(); ++b) start[b] += start[b - 1];
   member.resize(start.back());
   std::vector<int> next(start.begin(), start.end() - 1);
-  for (int i : items)
-    for (std::size_t b = of(range[i][0]), last = of(range[i][1]); b <= last; ++b) member[next[b]++] = i;
+  for (std::size_t k = 0; k < items.size(); ++k)
+    for (std::size_t b = reach[k][0]; b <= reach[k][1]; ++b) member[next[b]++] = items[k];
 }
 
 template <int d>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fluid/mesh/hubs.hpp"
 #include "fluid/mesh/inside.hpp"
 #include "fluid/mesh/pierced.hpp"
 #include "fluid/parallel.hpp"
@@ -90,10 +91,11 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
   const double length = longest_edge(f, nodes);
   Vec<d> centre = Vec<d>::Zero();
   int patch = -1;
-  bool one_patch = true, at_vertex = false;
+  bool one_patch = true, at_vertex = false, is_tied_whole = true;
   for (int n : f.nodes) {
     centre += nodes.x[n] / d;
     const WallTie& tie = nodes.tie[n];
+    is_tied_whole = is_tied_whole && tie.wall == wall;
     if (tie.wall != wall) {
       if (tie.wall < 0 || at.walls[wall].distance_unsigned(at.poses[wall], nodes.x[n], length) >= facet_meet * length)
         return false;
@@ -105,6 +107,7 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
     at_vertex = at_vertex || tie.sharp();
   }
   // Chords of a convex hull lie in the solid, however deep: no air is there to be a surface to. Beyond it none cuts a corner.
+  if (at.walls[wall].is_convex() && is_tied_whole) return true;
   const bool cuts_corner = d == 2 && !one_patch && !at_vertex;
   return at.walls[wall].nearest(at.poses[wall], centre, length).distance < (cuts_corner ? 0 : facet_sag * length);
 }
@@ -276,11 +279,14 @@ Recognised<d> recognise(Nodes<d>& nodes, const std::vector<Facet<d>>& old_bounda
 
 template <int d>
 Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary,
-                        const WallsAt<d>& walls, const Alpha& limit) {
+                        const WallsAt<d>& walls, const Alpha& limit, std::span<const Hub<d>> hubs) {
   const InsideTest<d> inside(nodes.x, old_boundary);
   std::vector<char> inner(nodes.size(), 1);
   for (const auto& f : old_boundary)
     for (int n : f.nodes) inner[n] = 0;
+  Recognised<d> mesh;
+  mesh.hub_in_water = reach_water(all, hubs, nodes, inside);
+  if (mesh.hub_in_water) return mesh;
 
   auto decide = [&](const std::array<int, d + 1>& cell) -> Content {
     const Shape s = shape<d>(edge_matrix<d>(corners(nodes.x, cell)));
@@ -308,7 +314,6 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   if constexpr (d == 3) piercing = recover_walls(all, nodes, inner, walls, content, decide);
   fill_cracks(all, nodes, walls, content);
 
-  Recognised<d> mesh;
   mesh.cells.reserve(all.cells.size());
   nodes.spray.assign(nodes.size(), 1);
   nodes.surface.assign(nodes.size(), 0);

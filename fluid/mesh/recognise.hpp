@@ -32,18 +32,26 @@ struct Alpha {
   double join = 0.3;   ///< ... joins two surfaces; 0.8 would fill the cavity under a jet
 };
 
+/// A point deep in the solid that a wall encloses (hubs.hpp).
+template <int d>
+struct Hub {
+  int wall;
+  Vec<d> x;
+};
+
 template <int d>
 struct Recognised : Mesh<d> {
   /// Inner nodes of cells that lie in a wall for some part, in space, though the water around them should be there: without
   /// them the triangulation has the wall's facets.
   std::vector<int> piercing;
+  bool hub_in_water = false;  ///< cells of a hub hold some of it; nothing else has been looked at
 };
 
 /// Finds the fluid cells among `all` and labels boundary facets; sets nodes.surface and nodes.spray.
 /// `old_boundary`: closed facets between the same nodes.
 template <int d>
 Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary,
-                        const WallsAt<d>& walls, const Alpha& limit = {});
+                        const WallsAt<d>& walls, const Alpha& limit = {}, std::span<const Hub<d>> hubs = {});
 
 /// Among the cells of the nodes' triangulation.
 template <int d>

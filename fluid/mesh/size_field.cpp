@@ -89,12 +89,15 @@ void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh) 
 }
 
 template <int d>
-double SizeField<d>::operator()(const Vec<d>& point) const {
+double SizeField<d>::operator()(const Vec<d>& point, int on_wall) const {
   double h = spec_.far;
   for (std::size_t w = 0; w < wall_size_.size(); ++w) {
     const double reach = (h - wall_size_[w]) / spec_.growth;
     if (reach <= 0) continue;
-    h = wall_size_[w] + spec_.growth * walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach, slack<d>);
+    const double distance = d == 3 && static_cast<int>(w) == on_wall
+                                ? 0.0
+                                : walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach, slack<d>);
+    h = wall_size_[w] + spec_.growth * distance;
   }
   h = points_.least(point, h);
   const double reach = (h - spec_.surface) / spec_.growth;

@@ -197,14 +197,19 @@ void sort_cells(ClosedDelaunay<d>& mesh, std::size_t points) {
 namespace {
 
 template <int d>
-Delaunay<d> near_cells(const ClosedDelaunay<d>& mesh, std::size_t points) {
+Delaunay<d> near_cells(const ClosedDelaunay<d>& mesh, std::size_t points, std::size_t hubs) {
+  Delaunay<d> out;
+  out.first_hub = static_cast<int>(points - hubs);
   std::vector<int> number(mesh.cells.size(), -1), near;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    if (*std::max_element(mesh.cells[c].begin(), mesh.cells[c].end()) < static_cast<int>(points)) {
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const int last = *std::max_element(mesh.cells[c].begin(), mesh.cells[c].end());
+    if (last < out.first_hub) {
       number[c] = static_cast<int>(near.size());
       near.push_back(static_cast<int>(c));
+    } else if (last < static_cast<int>(points)) {
+      out.at_hubs.push_back(mesh.cells[c]);
     }
-  Delaunay<d> out;
+  }
   out.cells.resize(near.size());
   out.neighbours.resize(near.size());
   in_parallel(near.size(), [&](std::size_t i) {
@@ -218,17 +223,18 @@ Delaunay<d> near_cells(const ClosedDelaunay<d>& mesh, std::size_t points) {
 
 template <>
 Delaunay<2> near_part(const ClosedDelaunay<2>& mesh, std::span<const Vec<2>> points,
-                      const std::vector<Facet<2>>& facets) {
-  if (has_edges(mesh, points.size(), facets)) return near_cells(mesh, points.size());
+                      const std::vector<Facet<2>>& facets, std::size_t hubs) {
+  if (has_edges(mesh, points.size(), facets)) return near_cells(mesh, points.size(), hubs);
   ClosedDelaunay<2> constrained = mesh;
   MovedCells<2> cells(constrained, points);
   Flips(cells).keep(facets);
-  return near_cells(constrained, points.size());
+  return near_cells(constrained, points.size(), hubs);
 }
 
 template <>
-Delaunay<3> near_part(const ClosedDelaunay<3>& mesh, std::span<const Vec<3>> points, const std::vector<Facet<3>>&) {
-  return near_cells(mesh, points.size());
+Delaunay<3> near_part(const ClosedDelaunay<3>& mesh, std::span<const Vec<3>> points, const std::vector<Facet<3>>&,
+                      std::size_t hubs) {
+  return near_cells(mesh, points.size(), hubs);
 }
 
 template Delaunay<2> delaunay<2>(std::span<const Vec<2>>, const std::vector<Facet<2>>&);

@@ -23,6 +23,8 @@ template <int d>
 struct Delaunay {
   std::vector<std::array<int, d + 1>> cells;       ///< positively oriented
   std::vector<std::array<int, d + 1>> neighbours;  ///< cell opposite to each corner, -1 beyond the hull
+  std::vector<std::array<int, d + 1>> at_hubs;     ///< cells with hubs (hubs.hpp), which are numbered after the points
+  int first_hub = 0;
 };
 
 /// Points that coincide with an earlier one belong to no cell. In space some cells at the hull are missing: those with
@@ -52,10 +54,10 @@ std::array<Vec<d>, d + 1> far_points(double extent);
 /// in memory.
 template <int d>
 void sort_cells(ClosedDelaunay<d>& mesh, std::size_t points);
-/// The cells between the points themselves; in the plane with the facets as edges.
+/// The cells between the points themselves, the last `hubs` of which are hubs; in the plane with the facets as edges.
 template <int d>
 Delaunay<d> near_part(const ClosedDelaunay<d>& mesh, std::span<const Vec<d>> points,
-                      const std::vector<Facet<d>>& facets);
+                      const std::vector<Facet<d>>& facets, std::size_t hubs = 0);
 
 /// Order of the points along a space-filling curve.
 template <int d>

@@ -177,15 +177,21 @@ class Update {
 
 template <int d>
 Delaunay<d> MovingDelaunay<d>::follow(std::span<const Vec<d>> points, std::span<const int> before,
-                                      const std::vector<Facet<d>>& facets) {
-  if (last_.complete && last_.extent == extent_of<d>(points) && Update<d>(last_, points).run(before, points_)) {
-    sort_cells<d>(last_, points.size());
+                                      const std::vector<Facet<d>>& facets, std::span<const Vec<d>> hubs) {
+  std::vector<Vec<d>> all(points.begin(), points.end());
+  all.insert(all.end(), hubs.begin(), hubs.end());
+  std::vector<int> all_before(before.begin(), before.end());
+  for (std::size_t k = 0; k < hubs.size(); ++k)
+    all_before.push_back(hubs.size() == hubs_ ? static_cast<int>(points_ + k) : -1);
+  if (last_.complete && last_.extent == extent_of<d>(all) && Update<d>(last_, all).run(all_before, points_ + hubs_)) {
+    sort_cells<d>(last_, all.size());
     ++followed_;
   } else {
-    last_ = closed_delaunay<d>(points);
+    last_ = closed_delaunay<d>(all);
   }
   points_ = points.size();
-  return near_part<d>(last_, points, facets);
+  hubs_ = hubs.size();
+  return near_part<d>(last_, all, facets, hubs_);
 }
 
 template class MovingDelaunay<2>;

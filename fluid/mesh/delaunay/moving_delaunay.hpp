@@ -20,14 +20,15 @@ namespace splashdown::fluid {
 template <int d>
 class MovingDelaunay {
  public:
-  /// delaunay(points, facets). `before`: number of each point in the last call, -1 if it is new.
-  Delaunay<d> follow(std::span<const Vec<d>> points, std::span<const int> before, const std::vector<Facet<d>>& facets);
+  /// delaunay(points, facets), with hubs (hubs.hpp) among them. `before`: number of each point in the last call, -1 if it is new.
+  Delaunay<d> follow(std::span<const Vec<d>> points, std::span<const int> before, const std::vector<Facet<d>>& facets,
+                     std::span<const Vec<d>> hubs = {});
   /// Calls that were answered without a triangulation from nothing.
   int followed() const { return followed_; }
 
  private:
   ClosedDelaunay<d> last_;
-  std::size_t points_ = 0;
+  std::size_t points_ = 0, hubs_ = 0;
   int followed_ = 0;
 };
 

@@ -91,6 +91,32 @@ TYPED_TEST(FacetTreeIn, finds_what_looking_at_all_facets_finds) {
   }
 }
 
+// Boxes of single precision, whose roundoff here is as large as the facets.
+TYPED_TEST(FacetTreeIn, finds_small_facets_far_from_the_origin) {
+  constexpr int d = TypeParam::value;
+  std::mt19937 random(5);
+  auto s = soup<d>(300, random);
+  const Vec<d> there = Vec<d>::Constant(1e7);
+  s.vertices = (0.1 * s.vertices).colwise() + there;
+  const FacetTree<d> tree(s.vertices, s.facets);
+  for (int sample = 0; sample < 200; ++sample) {
+    const Vec<d> x = there + 2 * scenes::random_vector<Vec<d>>(random, {});
+    double best = std::numeric_limits<double>::max();
+    for (int f = 0; f < 300; ++f) best = std::min(best, (closest_on(s.corners(f), x) - x).norm());
+    EXPECT_NEAR(std::sqrt(tree.nearest(x, 1e3).squared_distance), best, 100 * eps * there.norm());
+  }
+}
+
+TEST(FacetTree3, finds_the_first_of_facets_that_are_equally_near) {
+  const auto s = scenes::block({-1, -1, -1}, {1, 1, 1});
+  const FacetTree<3> tree(s.vertices, s.facets);
+  for (int v = 0; v < s.vertices.cols(); ++v) {
+    int first = 0;
+    while ((s.facets.col(first).array() != v).all()) ++first;
+    EXPECT_EQ(tree.nearest(2 * s.vertices.col(v), 9).facet, first) << v;
+  }
+}
+
 TYPED_TEST(FacetTreeIn, keeps_the_slack_it_is_given) {
   constexpr int d = TypeParam::value;
   std::mt19937 random(4);
