@@ -129,8 +129,7 @@ void Fluid<d>::State::cut(std::size_t liquid) {
   Nodes<d>& nodes = work.nodes;
   constexpr int attempts = 3;  // to do without nodes that keep the triangulation from the wall's facets
   std::vector<Hub<d>> hubs = hubs_of<d>(nodes, walls_at(work.poses));
-  for (int attempt = 1;; ++attempt) {
-    const auto spray = nodes.spray;
+  const auto recognised = [&] {
     std::vector<Facet<d>> kept;
     if (keeps_facets<d>) kept = smaller_parts_first<d>(work.mesh.boundary, nodes);
     std::vector<Vec<d>> hub_points;
@@ -139,11 +138,14 @@ void Fluid<d>::State::cut(std::size_t liquid) {
         triangulation.follow(std::span(nodes.x).first(liquid), std::span(nodes.vertex).first(liquid), kept, hub_points);
     std::iota(nodes.vertex.begin(), nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), 0);
     std::fill(nodes.vertex.begin() + static_cast<std::ptrdiff_t>(liquid), nodes.vertex.end(), -1);
-    auto found = recognise<d>(std::move(cells), nodes, work.mesh.boundary, walls_at(work.poses), {}, hubs);
+    return recognise<d>(std::move(cells), nodes, work.mesh.boundary, walls_at(work.poses), {}, hubs);
+  };
+  for (int attempt = 1;; ++attempt) {
+    const auto spray = nodes.spray;
+    auto found = recognised();
     if (found.hub_in_water) {
       hubs.clear();
-      --attempt;
-      continue;
+      found = recognised();
     }
     if (found.piercing.empty() || attempt == attempts) {
       work.mesh = std::move(found);

@@ -19,7 +19,7 @@ std::vector<Hub<d>> hubs_of(const Nodes<d>& nodes, const WallsAt<d>& walls, cons
   return hubs;
 }
 
-// Asked in the middle of the cell and near the facet beyond which the hub sees no more.
+// Asked in the middle of the cell and near the facet across from the hub: water that the hub takes ends there.
 template <int d>
 bool reach_water(const Delaunay<d>& all, std::span<const Hub<d>> hubs, const Nodes<d>& nodes,
                  const InsideTest<d>& inside) {
