@@ -324,7 +324,8 @@ void read_root(Reader& root, Study& study) {
   root.text("title", study.title, "Use a short text in quotes.");
   root.text("scene", scene, "Name the scene file, relative to this file.", Need::required);
   study.scene = (study.file.parent_path() / scene).lexically_normal();
-  if (!scene.empty() && !std::filesystem::is_regular_file(study.scene))
+  std::error_code unusable;  // a name that no file system takes: too long, say
+  if (!scene.empty() && !std::filesystem::is_regular_file(study.scene, unusable))
     problems.add("scene", "there is no such file: " + study.scene.string(),
                  "Name the scene file, relative to this file.");
   root.texts("set", study.set, set_cure);
