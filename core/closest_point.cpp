@@ -11,9 +11,8 @@ Vec<3> closest_on(const std::array<Vec<3>, 3>& f, const Vec<3>& x) {
   Vec<3> best;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
-    const Vec<3> r = x - f[k];
-    if (n.dot(edge[k].cross(r)) >= 0) continue;
-    const Vec<3> c = f[k] + std::clamp(r.dot(edge[k]) / edge[k].squaredNorm(), 0.0, 1.0) * edge[k];
+    if (n.dot(edge[k].cross(x - f[k])) >= 0) continue;
+    const Vec<3> c = closest_on_segment<3>(f[k], f[(k + 1) % 3], x);
     const double squared = (c - x).squaredNorm();
     if (squared < least) best = c, least = squared;
   }

@@ -19,7 +19,7 @@ class SizeField {
   /// `wetted`: wetted measure of each wall [m in 2D]; `mesh`: its free boundary is a source.
   SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted, std::span<const Vec<d>> x,
             const Mesh<d>& mesh);
-  /// `on_wall`: the wall that the point is known to lie on, -1: none is.
+  /// `on_wall`: the wall that the point is known to lie on, -1: none is. In the plane it is asked all the same.
   double operator()(const Vec<d>& point, int on_wall = -1) const;
   double at_wall(std::size_t wall) const { return wall_size_[wall]; }
 

@@ -61,6 +61,15 @@ inline Surface<3> cone(double radius, double height, int segments) {
   return s;
 }
 
+inline Surface<3> together(const Surface<3>& a, const Surface<3>& b) {
+  Surface<3> both;
+  both.vertices.resize(3, a.vertices.cols() + b.vertices.cols());
+  both.vertices << a.vertices, b.vertices;
+  both.facets.resize(3, a.facets.cols() + b.facets.cols());
+  both.facets << a.facets, (b.facets.array() + static_cast<int>(a.vertices.cols())).matrix();
+  return both;
+}
+
 template <int d>
 Surface<d> turned_inside_out(Surface<d> s) {
   s.facets.row(0).swap(s.facets.row(1));

@@ -52,15 +52,6 @@ Surface<3> turned(Surface<3> surface, int first, int count) {
   return surface;
 }
 
-Surface<3> both(const Surface<3>& a, const Surface<3>& b) {
-  Surface<3> sum;
-  sum.vertices.resize(3, a.vertices.cols() + b.vertices.cols());
-  sum.vertices << a.vertices, b.vertices;
-  sum.facets.resize(3, a.facets.cols() + b.facets.cols());
-  sum.facets << a.facets, (b.facets.array() + static_cast<int>(a.vertices.cols())).matrix();
-  return sum;
-}
-
 /// `shake`: every corner is written by itself, off by so much.
 std::string ascii(const Surface<3>& s, double shake = 0) {
   std::string text = "solid hull\n";
@@ -151,7 +142,7 @@ TEST_F(SurfaceFileTest, points_that_rounding_has_parted_are_one) {
 }
 
 TEST_F(SurfaceFileTest, parts_beside_each_other_are_one_body) {
-  const auto file = read_surface_file(write("catamaran.stl", ascii(both(cube(), cube({5, 0, 0})))));
+  const auto file = read_surface_file(write("catamaran.stl", ascii(scenes::together(cube(), cube({5, 0, 0})))));
   EXPECT_EQ(file.parts, 2);
   EXPECT_NEAR(volume(file.surface), 16, 1e-12);
 }
@@ -172,20 +163,21 @@ TEST_F(SurfaceFileTest, holes_that_touch_in_a_point_are_holes) {
 TEST_F(SurfaceFileTest, an_inverted_surface_is_refused_whole_or_in_part) {
   EXPECT_EQ(told(ascii(turned(cube(), 0, 12))), "is inside out: all its normals point inward");
   EXPECT_TRUE(says(told(ascii(turned(cube(), 5, 1))), "facets turned against their neighbours, 1 of 12, at ("));
-  EXPECT_TRUE(says(told(ascii(turned(both(cube(), cube({5, 0, 0})), 12, 12))), "a part that is inside out, at ("));
-  EXPECT_TRUE(says(told(ascii(both(cube(), cube({0, 0, 0}, 1)))), "a part inside another one"));
+  EXPECT_TRUE(
+      says(told(ascii(turned(scenes::together(cube(), cube({5, 0, 0})), 12, 12))), "a part that is inside out, at ("));
+  EXPECT_TRUE(says(told(ascii(scenes::together(cube(), cube({0, 0, 0}, 1)))), "a part inside another one"));
 }
 
 TEST_F(SurfaceFileTest, a_surface_that_crosses_itself_is_told_where) {
-  const auto text = told(ascii(both(cube(), cube({1.5, 0.3, 0.2}))));
+  const auto text = told(ascii(scenes::together(cube(), cube({1.5, 0.3, 0.2}))));
   EXPECT_TRUE(says(text, "crosses itself: ")) << text;
   EXPECT_TRUE(says(text, "the first at (")) << text;
 }
 
 TEST_F(SurfaceFileTest, parts_that_share_an_edge_or_a_point_are_no_solid) {
-  EXPECT_TRUE(
-      says(told(ascii(both(cube(), cube({2, 2, 0})))), "4 facets meet at the edge from (1, 1, 1) to (1, 1, -1)"));
-  EXPECT_TRUE(says(told(ascii(both(cube(), cube({2, 2, 2})))), "touch in the point (1, 1, 1)"));
+  EXPECT_TRUE(says(told(ascii(scenes::together(cube(), cube({2, 2, 0})))),
+                   "4 facets meet at the edge from (1, 1, 1) to (1, 1, -1)"));
+  EXPECT_TRUE(says(told(ascii(scenes::together(cube(), cube({2, 2, 2})))), "touch in the point (1, 1, 1)"));
 }
 
 TEST_F(SurfaceFileTest, a_facet_without_area_is_told_with_its_number) {

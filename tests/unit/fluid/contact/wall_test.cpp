@@ -197,22 +197,13 @@ TEST(WallOfTriangles, a_cone_has_a_tip_and_one_ring) {
   EXPECT_EQ(Wall<3>(scenes::wall("flat cone", scenes::cone(1, 0.1, 64), 1)).corners().size(), 0u) << "blunter than 30";
 }
 
-Surface<3> together(const Surface<3>& a, const Surface<3>& b) {
-  Surface<3> both;
-  both.vertices.resize(3, a.vertices.cols() + b.vertices.cols());
-  both.vertices << a.vertices, b.vertices;
-  both.facets.resize(3, a.facets.cols() + b.facets.cols());
-  both.facets << a.facets, (b.facets.array() + static_cast<int>(a.vertices.cols())).matrix();
-  return both;
-}
-
 TEST(WallConvex, solids_in_one_piece_that_nothing_stands_out_of) {
   const auto is_convex = [](Surface<3> s) { return Wall<3>(scenes::wall("", std::move(s), 1)).is_convex(); };
   const auto cube = scenes::block({-1, -1, -1}, {1, 1, 1});
   EXPECT_TRUE(is_convex(cube));
   EXPECT_TRUE(is_convex(scenes::cone(1, 0.3, 40)));
   EXPECT_FALSE(is_convex(scenes::turned_inside_out(cube))) << "a tank";
-  EXPECT_FALSE(is_convex(together(cube, scenes::block({2, -1, -1}, {4, 1, 1})))) << "two pieces";
+  EXPECT_FALSE(is_convex(scenes::together(cube, scenes::block({2, -1, -1}, {4, 1, 1})))) << "two pieces";
   auto dented = scenes::cone(1, 0.3, 40);
   for (int v = 0; v < dented.vertices.cols(); ++v) dented.vertices.col(v).z() *= 1 + 1e-3 * (v % 2);
   EXPECT_FALSE(is_convex(dented));
@@ -223,7 +214,7 @@ TEST(WallCentre, is_that_of_the_volume_and_as_deep_as_the_nearest_facet) {
   EXPECT_LE((cube.centre() - Vec<3>(2, 5, 6)).norm(), 100 * eps);
   EXPECT_NEAR(cube.depth_of_centre(), 1, 100 * eps);
   const auto left = scenes::block({-3, -1, -1}, {-1, 1, 1}), right = scenes::block({1, -1, -1}, {3, 1, 1});
-  const Wall<3> two(scenes::wall("", together(left, right), 1));
+  const Wall<3> two(scenes::wall("", scenes::together(left, right), 1));
   EXPECT_NEAR(two.depth_of_centre(), -1, 100 * eps) << "in the middle between two";
   const Wall<2> triangle(scenes::wall("", outline({{0, 0}, {3, 0}, {0, 3}}), 1));
   EXPECT_LE((triangle.centre() - Vec<2>(1, 1)).norm(), 100 * eps);
