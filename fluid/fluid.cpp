@@ -194,7 +194,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   carry<d>(nodes, moved_volumes);
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
   const double swept = enclosed_volume(s.work.mesh.boundary, nodes.x);
-  carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water, moved_volumes));
+  carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water, moved_volumes, s.equation.lumped_volume()));
   s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
   average_wall_pressure<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.equation.unknown(),
                            s.trial.repaired, s.kick);

@@ -192,8 +192,8 @@ void Fluid<d>::State::settle(double before) {
   absorb_droplets(work.nodes, work.mesh);
   const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
-  const auto volumes =
-      return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water, nodal_volumes(work.mesh, work.nodes.x));
+  const auto volumes = return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water,
+                                     nodal_volumes(work.mesh, work.nodes.x), work.nodes.volume);
   free_water.give_back(free_carried, volumes, work.nodes.v);
   work.ledger.volume = enclosed_volume(work.mesh.boundary, work.nodes.x);
   work.ledger.returned += work.ledger.volume - after;

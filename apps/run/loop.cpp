@@ -18,6 +18,9 @@ constexpr int refusals_for_release = 10;
 // Twenty: what no dt of that size cures is no matter of dt.
 constexpr int most_refusals = 20;
 constexpr double smallest_share = 1e-6;
+// A day at a millisecond a step. An impact may be as short for a few steps.
+constexpr double never = 1e-8;
+constexpr long patience = 100;
 
 struct Attempt {
   coupling::StepReport report;
@@ -71,9 +74,15 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
           host.checkpoint();
           return {interrupted, *cause};
         }
-      if (last || host.checkpoint_due()) host.checkpoint();
+      if (last || state.crawling >= patience || host.checkpoint_due()) host.checkpoint();
     }
 
+    if (!last && state.crawling >= patience)
+      return {
+          failed,
+          fmt::format("the steps have become too short to go on: {} in a row of {:.1e} s and less, with {:.2g} s left. "
+                      "Water moves too fast for longer ones, as where a gap closes",
+                      state.crawling, state.dt_previous, stop - time)};
     const double criterion = std::min(stepper.stable_dt(), host.dt_bound());
     if (!(criterion > 0 && std::isfinite(criterion)))
       return {failed, fmt::format("the time-step criterion gives dt = {} s", criterion)};
@@ -102,6 +111,7 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
     if (last) return {done, {}};
     stepper.commit();
     ++state.steps;
+    state.crawling = step.dt < never * (stop - time) ? state.crawling + 1 : 0;
     state.dt_previous = step.dt;
     state.dt_cap = growth * (step.dt < wanted ? step.dt : regular);
   }

@@ -3,7 +3,8 @@
 //   dt = min(criterion, growth dt_{n-1});  a refused step is tried again with half of it.
 //
 // After ten refusals of a step the fluid may let go the fragment for which it was refused, and dt is what it was; after twenty the
-// run ends.
+// run ends. It also ends where a hundred steps in a row are below 1e-8 of what is left of the time: the last film between
+// two walls gets faster as it gets thinner, and no such run reaches its end.
 //
 // Nothing here depends on the wall clock except when checkpoints are taken and when a budget ends, neither
 // of which changes a step. The steps that the stop time shortens are taken after a last checkpoint, so a run
@@ -25,6 +26,7 @@ struct LoopState {
   long steps = 0;                        ///< committed
   std::map<std::string, long> rejected;  ///< refused attempts by cause
   long released = 0;                     ///< fragments of the fluid that no smaller dt kept with the rest
+  long crawling = 0;                     ///< committed of late, each below 1e-8 of what was left of the time
 };
 
 /// A step that was tried with success and is not committed yet: everything at `time` is known.

@@ -20,7 +20,8 @@ void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::s
   std::vector<int> index(nodes.size(), -1);
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    nodes.separates[i] = nodes.surface[i] && nodes.tie[i].sharp();
+    const WallTie& tie = nodes.tie[i];
+    nodes.separates[i] = nodes.surface[i] && tie.sharp() && at.walls[tie.wall].is_convex(tie);
     if (!nodes.separates[i] || nodes.tie[i].crease < 0) continue;
     index[i] = static_cast<int>(edges.size());
     edges.emplace_back();

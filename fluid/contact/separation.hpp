@@ -10,7 +10,7 @@
 
 namespace splashdown::fluid {
 
-/// Finds the nodes at edges of walls where the flow leaves them (Nodes::separates): corners on the free surface, and
+/// Finds the nodes at convex edges of walls where the flow leaves them (Nodes::separates): corners on the free surface, and
 /// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
 /// stands at a crease like at any other place of a wall. `velocities`: of the walls, `gravity`: g.
 template <int d>

@@ -38,6 +38,12 @@ void settle(std::vector<Part>& parts, bool last) {
   largest.grow();
 }
 
+/// Kinetic energy of a part, over the density (volume_books.hpp).
+struct PartEnergy {
+  double carried = 0, kept = 0, returning = 0;
+  double share() const { return returning > 0 ? std::clamp((carried - kept) / returning, 0.0, 1.0) : 0.0; }
+};
+
 /// The free surface around each node: area vector and measure.
 template <int d>
 struct FreeSurface {
@@ -171,28 +177,50 @@ struct Books {
   }
 };
 
+/// Velocities with what has come back: `volumes` have become `now`.
+template <int d>
+void slow_down(Nodes<d>& nodes, const FreeWater<d>& free, std::span<const double> carried,
+               std::span<const double> volumes, std::span<const double> now) {
+  const std::vector<int>& part = free.part();
+  const auto moments = free.moments(volumes, nodes.v);
+  const auto mean = [&](std::size_t i) {
+    return free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>(Vec<d>::Zero());
+  };
+  std::vector<PartEnergy> energies(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes.spray[i]) continue;
+    const double of_volume = 0.5 * (nodes.v[i] - mean(i)).squaredNorm(), before = std::max(0.0, volumes[i]);
+    PartEnergy& e = energies[part[i]];
+    e.carried += carried[i] * of_volume;
+    e.kept += std::clamp(now[i], 0.0, before) * of_volume;
+    e.returning += std::max(0.0, now[i] - before) * of_volume;
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const double before = std::max(0.0, volumes[i]); now[i] > before) {
+      const Vec<d> w = mean(i);
+      const double moving = before + energies[part[i]].share() * (now[i] - before);
+      nodes.v[i] = w + std::sqrt(moving / now[i]) * (nodes.v[i] - w);
+    }
+}
+
 }  // namespace
 
 template <int d>
 std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
-                                  const FreeWater<d>& free, const std::vector<double>& volumes) {
+                                  const FreeWater<d>& free, const std::vector<double>& volumes,
+                                  std::span<const double> carried) {
   const std::vector<int>& part = free.part();
   std::vector<double> now = volumes;
   Books<d> books{nodes, mesh, walls, part};
   for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth, pass + 1 == passes); ++pass)
     books.near.renew(nodes.x, now);
-  const auto moments = free.moments(volumes, nodes.v);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (const double before = std::max(0.0, volumes[i]); now[i] > before) {
-      const Vec<d> w = free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>::Zero();
-      nodes.v[i] = w + std::sqrt(before / now[i]) * (nodes.v[i] - w);
-    }
+  slow_down<d>(nodes, free, carried, volumes, now);
   return now;
 }
 
 template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&,
-                                           const std::vector<double>&);
+                                           const std::vector<double>&, std::span<const double>);
 template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&,
-                                           const std::vector<double>&);
+                                           const std::vector<double>&, std::span<const double>);
 
 }  // namespace splashdown::fluid

@@ -7,12 +7,23 @@
 //   dx_i = g l_i A_i / S_i,   g = owed / sum_i l_i |A_i|^2 / S_i,   l_i = min(V_i / S_i, S_i^(1/(d-1)))
 //
 // V_i: volume around node i, A_i: area vector of its free surface, S_i: its measure, so that sheets and tips
-// grow by the same share of their thickness as the rest. Velocities of nodes that gain volume fall so that their kinetic
-// energy stays, v <- w + (v - w) (V before / V after)^1/2, w: mean velocity of free water, zero where walls are: volume comes
-// back without energy. Nodes whose cells have turned over have no volume, before and after: they keep their velocity. The sum
-// of volume and what is owed, spray included, is the volume that the water began with, to roundoff.
+// grow by the same share of their thickness as the rest. Nodes whose cells have turned over have no volume, before and after:
+// they keep their velocity. The sum of volume and what is owed, spray included, is the volume that the water began with, to
+// roundoff.
+//
+// Energy. With V0_i what nodes carried before they were moved or triangulated anew, V_i what they have then, V1_i with what
+// comes back, and w the mean velocity of free water, zero where walls are, a part has had, has kept and gets back
+//
+//   T0 = sum V0_i |v_i - w|^2 / 2,  T = sum min(V_i, V1_i) |v_i - w|^2 / 2,  R = sum max(0, V1_i - V_i) |v_i - w|^2 / 2
+//
+// and volume brings as much of R as was lost, s = (T0 - T) / R within [0, 1]:
+//
+//   v_i <- w + (v_i - w) ((V_i + s (V1_i - V_i)) / V1_i)^1/2
+//
+// Water that a cut has made smaller and that grows again goes on at its speed; other volume comes without energy.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "fluid/mesh/free_water.hpp"
@@ -25,14 +36,15 @@ namespace splashdown::fluid {
 /// Moves free nodes of the surface of `mesh` by what is owed, Nodes::volume + Nodes::owed of before less the volume of the
 /// cells now, `volumes` around each node [m^d] (nodal_volumes of the mesh), and sets Nodes::owed so that this sum is kept; returns the volume around each node then [m^d]. Nodes turn no
 /// cells over and enter no walls; tied ones stay on theirs, and water that walls enclose on all sides has no room: it gets
-/// nothing back.
+/// nothing back. `carried`: V0_i of nodes [m^d].
 template <int d>
 std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
-                                  const FreeWater<d>& free, const std::vector<double>& volumes);
+                                  const FreeWater<d>& free, const std::vector<double>& volumes,
+                                  std::span<const double> carried);
 
 extern template std::vector<double> return_volume(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, const FreeWater<2>&,
-                                                  const std::vector<double>&);
+                                                  const std::vector<double>&, std::span<const double>);
 extern template std::vector<double> return_volume(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, const FreeWater<3>&,
-                                                  const std::vector<double>&);
+                                                  const std::vector<double>&, std::span<const double>);
 
 }  // namespace splashdown::fluid

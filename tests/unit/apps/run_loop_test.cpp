@@ -53,7 +53,7 @@ struct Saved {
 class FakeHost final : public LoopHost {
  public:
   FakeHost(const FakeStepper& stepper, const LoopState& loop) : stepper_(stepper), loop_(loop) {}
-  double dt_bound() const override { return bound; }
+  double dt_bound() const override { return bound_at ? std::min(bound, bound_at(stepper_.time())) : bound; }
   void record(const StepMade& step) override { rows.push_back(step); }
   void refused(double, double, const std::string&) override {}
   void released(double, const std::string&) override { ++fragments; }
@@ -73,6 +73,7 @@ class FakeHost final : public LoopHost {
   Saved saved;
   int checkpoints = 0, fragments = 0;
   double bound = 1;
+  std::function<double(double)> bound_at;
   std::size_t checkpoint_every = 0, interrupt_after = 1000000;
 
  private:
@@ -165,6 +166,27 @@ TEST(RunLoop, gives_up_with_the_cause_and_a_checkpoint_of_the_last_good_state) {
   saved.load(in);
   EXPECT_EQ(saved.time(), story.stepper.time());
   EXPECT_EQ(story.loop.rejected.at("no fluid"), 20);
+}
+
+TEST(RunLoop, gives_up_where_steps_become_so_short_that_no_end_is_in_sight) {
+  Story story;
+  story.host.bound_at = [](double time) { return std::max(1e-12, 0.1 * (0.3 - time)); };  // 1 ps from 0.3 s on
+  story.run(0.5);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::failed);
+  EXPECT_NE(story.end.cause.find("too short to go on: 100 in a row"), std::string::npos) << story.end.cause;
+  EXPECT_EQ(story.host.checkpoints, 1);
+  EXPECT_EQ(story.loop.crawling, 100);
+  Story again;
+  again.resume(story.host);
+  again.run(0.5);
+  EXPECT_EQ(again.end.cause, story.end.cause);
+  // A few of them, as at an impact, are none of its business.
+  Story impact;
+  int few = 50;  // and fifteen more until they have grown
+  impact.host.bound_at = [&](double time) { return time > 0.2 && few-- > 0 ? 1e-12 : 1.; };
+  impact.run(0.5);
+  EXPECT_EQ(impact.end.status, LoopEnd::Status::done);
+  EXPECT_EQ(impact.loop.crawling, 0);
 }
 
 TEST(RunLoop, lets_a_fragment_go_after_ten_refusals_and_tries_the_same_step_again) {

@@ -9,15 +9,16 @@ using scenes::eps;
 
 constexpr double gravity = 9.81, size = 0.1;
 
-// The bottom of a block that ends at its edge x = 1, with one node inside it and those of the edge, which are on the free
+// The bottom of a block, or the floor of a `hollow` one, that ends at its edge x = 1, with one node inside it and those of the edge, which are on the free
 // surface. `behind`: a node on the side x = 1 is wetted, too.
 template <int d>
 struct AtTheEdge : scenes::Walls<d> {
-  explicit AtTheEdge(double speed, bool behind = false) {
+  explicit AtTheEdge(double speed, bool behind = false, bool hollow = false) {
     const auto at = scenes::elsewhere<d>();
     Vec<d> min = Vec<d>::Constant(-1), max = Vec<d>::Ones();
     min[d - 1] = 0;
-    this->add_wall(scenes::box<d>(min - at.translation(), max - at.translation()), at);
+    const auto box = scenes::box<d>(min - at.translation(), max - at.translation());
+    this->add_wall(hollow ? scenes::turned_inside_out<d>(box) : box, at);
     auto add = [&](Vec<d> x, bool surface) {
       return nodes.add(x, speed * Vec<d>::Unit(0), 0, scenes::tie_at<d>(this->walls[0], at, x, 0), surface);
     };
@@ -58,6 +59,11 @@ TEST(Separation, of_a_corner_in_the_plane_is_where_the_surface_meets_it) {
   AtTheEdge<2> wet(0);
   wet.nodes.surface[wet.edge[0]] = 0;
   EXPECT_FALSE(wet.separates());
+}
+
+TEST(Separation, no_flow_leaves_a_wall_where_it_is_hollow) {
+  EXPECT_FALSE(AtTheEdge<2>(10 * slowest, false, true).separates());
+  EXPECT_FALSE(AtTheEdge<3>(10 * slowest, false, true).separates());
 }
 
 TEST(Separation, of_a_crease_takes_fast_water) {
