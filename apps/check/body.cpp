@@ -45,27 +45,11 @@ std::string motion_text(const Body& body) {
   return fmt::format("free in {}; starts with {}", fmt::join(body.free, ", "), start(""));
 }
 
-bool is_round(const Shape& shape) {
-  return std::holds_alternative<CircleShape>(shape) || std::holds_alternative<EllipseShape>(shape) ||
-         std::holds_alternative<CapsuleShape>(shape) || std::holds_alternative<SphereShape>(shape);
-}
-
-/// Smallest angle between the water and the bottom beside the lowest point, at the initial attitude.
 template <int d>
-std::string deadrise_text(const Body& body, const rigid::Surface<d>& hull) {
-  if (is_round(body.shape)) return "0 deg at the lowest point of the round bottom, growing beside it";
-  Eigen::Index lowest = 0;
-  hull.vertices.row(d - 1).minCoeff(&lowest);
-  double least = 90;
-  for (Eigen::Index i = 0; i < hull.facets.cols(); ++i) {
-    if ((hull.facets.col(i).array() != lowest).all()) continue;
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[static_cast<std::size_t>(k)] = hull.vertices.col(hull.facets(k, i));
-    const Vec<d> n = area_vector(corner);
-    const double across = n.template head<d - 1>().norm();
-    least = std::min(least, std::atan2(across, std::abs(n[d - 1])) * degrees);
-  }
-  return fmt::format("{:.4g} deg beside the lowest point", least);
+std::string deadrise_text(const Body& body) {
+  const auto angle = deadrise<d>(body);
+  if (!angle) return "0 deg at the lowest point of the round bottom, growing beside it";
+  return fmt::format("{:.4g} deg beside the lowest point", *angle * degrees);
 }
 
 /// Elements at the tightest curve of the hull, and whether they can follow it.
@@ -143,7 +127,7 @@ void print_body(const Scene& scene, const Body& body) {
       fmt::format("{} m now, {} m in the shape's frame", text<d>(rigid::Vec<d>(spec.pose.translation())),
                   text<d>(mass_properties<d>(body).centre)));
   if (!scene.fluid) return;
-  row("deadrise", deadrise_text<d>(body, hull));
+  row("deadrise", deadrise_text<d>(body));
   row("hull elements", fmt::format("{:g} m", body.size));
   print_curvature<d>(scene, body);
   if (!body.mass && !body.density) return;

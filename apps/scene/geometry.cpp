@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <variant>
+
+#include "core/geometry.hpp"
 #include "rigid/shapes/solids.hpp"
 
 namespace splashdown::apps {
@@ -13,6 +19,26 @@ using rigid::Vec;
 using Turn = Eigen::AngleAxisd;
 
 }  // namespace
+
+template <int d>
+std::optional<double> deadrise(const Body& body) {
+  const bool is_round =
+      std::holds_alternative<CircleShape>(body.shape) || std::holds_alternative<EllipseShape>(body.shape) ||
+      std::holds_alternative<CapsuleShape>(body.shape) || std::holds_alternative<SphereShape>(body.shape);
+  if (is_round) return {};
+  const auto hull = outline<d>(body);
+  Eigen::Index lowest = 0;
+  hull.vertices.row(d - 1).minCoeff(&lowest);
+  double least = 90 * radians;
+  for (Eigen::Index i = 0; i < hull.facets.cols(); ++i) {
+    if ((hull.facets.col(i).array() != lowest).all()) continue;
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[static_cast<std::size_t>(k)] = hull.vertices.col(hull.facets(k, i));
+    const Vec<d> n = area_vector(corner);
+    least = std::min(least, std::atan2(n.template head<d - 1>().norm(), std::abs(n[d - 1])));
+  }
+  return least;
+}
 
 template <int d>
 rigid::MassProperties<d> mass_properties(const Body& body) {
@@ -115,6 +141,8 @@ template rigid::Isometry<2> shape_pose<2>(const Point&, const Attitude&);
 template rigid::Isometry<3> shape_pose<3>(const Point&, const Attitude&);
 template Surface<2> outline<2>(const Body&);
 template Surface<3> outline<3>(const Body&);
+template std::optional<double> deadrise<2>(const Body&);
+template std::optional<double> deadrise<3>(const Body&);
 template Extents<2> extents<2>(const Surface<2>&);
 template Extents<3> extents<3>(const Surface<3>&);
 template std::string text<2>(const Vec<2>&, int);

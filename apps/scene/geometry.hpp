@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "apps/scene/scene.hpp"
@@ -48,6 +49,10 @@ rigid::Surface<d> outline(const Region& region);
 /// In the world frame at t = 0.
 template <int d>
 rigid::Surface<d> outline(const Body& body);
+/// Smallest angle between the horizontal and a bottom with a keel or corner, beside its lowest point, at t = 0 [rad]; none of
+/// round bottoms.
+template <int d>
+std::optional<double> deadrise(const Body& body);
 /// Turned inside out: encloses what is outside it.
 template <int d>
 rigid::Surface<d> tank_outline(const Tank& tank);

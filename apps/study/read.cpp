@@ -286,6 +286,10 @@ std::optional<std::size_t> read_axis_name(Reader& reader, std::string_view key, 
   std::vector<std::string> valid;
   for (const auto& axis : study.axes) valid.push_back(axis.name);
   std::string name;
+  if (valid.empty()) {  // a mistake that has been told
+    reader.text(key, name, "Name an axis.", need);
+    return {};
+  }
   if (!reader.reference(key, name, valid, need) || name.empty()) return {};
   return static_cast<std::size_t>(std::ranges::find(valid, name) - valid.begin());
 }

@@ -16,7 +16,9 @@ namespace splashdown::coupling {
 
 struct Secant {
   Eigen::VectorXd residual, image;  ///< differences
-  double kept = 1e-8;  ///< share of its length that must be left of the residual, otherwise it is dependent
+  /// Share of its length that must be left of the residual, otherwise it is dependent. Below it is what truncated solves and the
+  /// curvature of a pass leave.
+  double kept = 1e-6;
 };
 
 class Secants {

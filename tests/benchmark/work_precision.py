@@ -13,6 +13,7 @@ import csv
 import json
 import pathlib
 import resource
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -51,10 +52,10 @@ def smoothed_peak(series, width):
     return max(at(primitive, t) - at(primitive, t - width) for t in ends) / width
 
 
-def similarity(folder, end, force, pressure):
-    """Constant entry, speed 1 m/s: F / (rho V^3 t) of the last 60 %, largest Cp of the last tenth."""
-    load = [(t, f / (1000 * t)) for t, f in column(folder, "fy", where=lambda t: t >= 0.4 * end)]
-    errors = {"force": mean(load) / force - 1}
+def similarity(folder, end, force, pressure, last=0.6):
+    """Constant entry, speed 1 m/s: F / (rho V^3 t) of the last share of the run, largest Cp of its last tenth."""
+    load = [(t, f / (1000 * t)) for t, f in column(folder, "fy", where=lambda t: t >= (1 - last) * end)]
+    errors = {"force": mean(load) / force - 1, "its scatter": statistics.pstdev(f for _, f in load) / force}
     if (folder / "surface_pressure.csv").exists():
         highest = {}
         for t, p in column(folder, "p", "surface_pressure.csv", lambda t: t >= 0.9 * end):
@@ -94,6 +95,8 @@ CASES = {
                  [["--refine=0.12"], ["--refine=0.18"], ["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"]]),
     "wedge_10": ("wedge_entry/scene_10.toml", lambda f: similarity(f, 0.125, 212.97, 1),
                  [["--refine=0.12"], ["--refine=0.18"], ["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"]]),
+    "wedge_5": ("wedge_entry/scene_5.toml", lambda f: similarity(f, 0.0613, 937, 1, 0.4),
+                [["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"]]),
     "wedge_drop": ("wedge_drop/scene.toml", wedge_drop,
                    [["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"],
                     ["--refine=1.41"], ["--refine=2"]]),

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/motion_guess.hpp"
@@ -26,8 +28,9 @@ struct Rules<3> {
   static constexpr double entering = 33, wetted_fraction = 0.03, wet = 14, growth = 0.25;
 };
 constexpr double of_calm_surface = 5, of_waves = 20, of_liquid = 30, a_wave = 40, far_of_liquid = 8;
-constexpr double wet_from = 0.02;       // of its height under water at the start: more than a touch
-constexpr double gentle_froude2 = 0.1;  // V^2 / (g c): a hull that is put down, not thrown
+constexpr double wet_from = 0.02;               // of its height under water at the start: more than a touch
+constexpr double least_deadrise = 3 * radians;  // below it trapped air decides (Chuang 1967)
+constexpr double gentle_froude2 = 0.1;          // V^2 / (g c): a hull that is put down, not thrown
 
 double two_digits(double value) {
   const int digit = static_cast<int>(std::floor(std::log10(value))) - 1;
@@ -96,6 +99,25 @@ Hull<d> hull_of(const Scene& scene, const Body& body) {
                                          : "half of the wetted width at the end";
   return hull;
 }
+
+// The root of a jet has the jet's thickness as its only length (Wagner 1932): pi/8 (V / c')^2 c = c tan^2 beta / 2 pi at deadrise
+// beta.
+std::optional<std::string> jet_against_rules(const Scene& scene, const Body& body, const Hull<2>& hull) {
+  const auto angle = deadrise<2>(body);
+  if (!hull.enters || !angle) return {};
+  const double jet = std::pow(std::tan(*angle), 2) / (2 * pi) * hull.half;
+  if (*angle < least_deadrise || jet > hull.size()) return {};
+  const auto& size = scene.fluid->size;
+  const double most = jet / 2, finest = size.hollow ? std::min(size.hollow_min, body.size) : body.size;
+  if (finest <= 1.05 * most) return {};
+  const std::string given =
+      size.hollow ? fmt::format("fluid.size.hollow_min = {:.3g} m", size.hollow_min)
+                  : fmt::format("body.{}.size = {:.3g} m without fluid.size.hollow", body.name, body.size);
+  return fmt::format(
+      "{} leaves the jet of {}, {:.2g} m thick, fewer than two elements: use hollow = 0.2, hollow_min = {:.2g} m",
+      given, body.name, jet, two_digits(most));
+}
+std::optional<std::string> jet_against_rules(const Scene&, const Body&, const Hull<3>&) { return {}; }
 
 template <int d>
 double least_liquid_extent(const Scene& scene) {
@@ -206,6 +228,7 @@ std::vector<std::string> sizes_against_rules(const Scene& scene) {
           "fluid.size.wetted_fraction = {:g} leaves {:.2g} elements on half of the wetted width, "
           "not {:.2g}: use {:g}",
           size.wetted_fraction, 1 / size.wetted_fraction, 1 / Rules<d>::wetted_fraction, Rules<d>::wetted_fraction));
+    if (auto jet = jet_against_rules(scene, body, hull)) list.push_back(std::move(*jet));
   }
   if (choice.surface > 0 && size.surface > rounded * choice.surface)
     list.push_back(fmt::format("fluid.size.surface = {:.3g} m is more than {}: use {:.2g} m", size.surface,

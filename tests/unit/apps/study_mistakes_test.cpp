@@ -38,6 +38,12 @@ TEST_F(StudyTest, quantities_may_use_every_entry_that_a_run_can_have) {
   }
 }
 
+TEST_F(StudyTest, without_axes_has_no_mistake_in_its_chart) {
+  const auto messages = messages_of("scene = \"scene.toml\"\n[chart]\nx = \"ratio\"\n");
+  ASSERT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
+  EXPECT_NE(messages[0].find("axis is missing"), std::string::npos) << messages[0];
+}
+
 using testing::Mistake;
 
 class BadStudyIsRefused : public StudyTest, public ::testing::WithParamInterface<Mistake> {};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/read/read.hpp"
@@ -71,6 +72,32 @@ TEST(ChosenSizes, obey_their_own_rules_and_printed_ones_are_told_when_they_do_no
   ASSERT_EQ(coarse.size(), 1u);
   for (const char* piece : {"body.box.size = 0.01 m", "4.8 elements", "not 50", "use 0.00096 m"})
     EXPECT_NE(coarse[0].find(piece), std::string::npos) << piece << " is not in: " << coarse[0];
+}
+
+// c tan^2 beta / 2 pi with c = 1 m.
+TEST(ChosenSizes, of_a_hull_of_small_deadrise_resolve_its_jet) {
+  const auto told = [](double beta, const std::string& hollow) {
+    const double end = 2 / std::numbers::pi * std::tan(beta * std::numbers::pi / 180);
+    const auto scene =
+        read(fmt::format(
+                 "dimension = 2\n[time]\nend = {}\n[tank]\nmin = [-9, -9]\nmax = [9, 2]\n[fluid]\ndensity = 1000\n"
+                 "[fluid.size]\nsurface = 0.3\n{}[[fluid.region]]\nshape = \"box\"\nmin = [-9, -9]\nmax = [9, 0]\n"
+                 "[[body]]\nname = \"wedge\"\nshape = {{type = \"wedge\", deadrise_deg = {}, breadth = 4}}\n"
+                 "motion = \"prescribed\"\nvelocity = [0, -1]\nsize = 0.01\n",
+                 end, hollow, beta))
+            .scene;
+    const auto rules = sizes_against_rules<2>(scene);
+    return rules.empty() ? "" : rules[0];
+  };
+  const auto none = told(5, "");
+  EXPECT_NE(none.find("without fluid.size.hollow"), std::string::npos) << none;
+  EXPECT_NE(none.find("0.0012 m thick, fewer than two elements: use hollow = 0.2, hollow_min = 0.00061 m"),
+            std::string::npos)
+      << none;
+  EXPECT_NE(told(5, "hollow = 0.2\nhollow_min = 0.0025\n").find("hollow_min = 0.0025 m leaves"), std::string::npos);
+  EXPECT_EQ(told(5, "hollow = 0.2\nhollow_min = 0.00061\n"), "");
+  EXPECT_EQ(told(20, ""), "") << "the hull's own elements do";
+  EXPECT_EQ(told(2, ""), "") << "trapped air decides";
 }
 
 TEST(ChosenSizes, of_a_scene_with_mistakes_are_not_among_them) {
