@@ -40,14 +40,14 @@ Refusal Fluid<d>::State::refusal() const {
 template <int d>
 Refusal Fluid<d>::State::inverted_element() const {
   constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
-  const auto moved = [&](int n) { return Vec<d>((trial.moved.x[n] - work.nodes.x[n]) / most); };
+  const double per_rate = dt / most;
   const auto margin = [&](std::size_t c) {
     double least = std::numeric_limits<double>::infinity();
     const auto& cell = work.mesh.cells[c];
     if (std::none_of(cell.begin(), cell.end(), [&](int n) { return equation.unknown()[n] >= 0; })) return least;
     for (int i = 0; i < d; ++i)
       for (int j = i + 1; j <= d; ++j) {
-        const double change = (moved(cell[i]) - moved(cell[j])).squaredNorm();
+        const double change = per_rate * per_rate * (result.velocity[cell[i]] - result.velocity[cell[j]]).squaredNorm();
         least = std::min(least, squared_length(work, cell[i], cell[j]) - change);
       }
     return least;
@@ -60,11 +60,11 @@ Refusal Fluid<d>::State::inverted_element() const {
     if (const double m = margin(c); m < least) least = m, worst = c;
   const auto& cell = work.mesh.cells[worst];
   Vec<d> mean = Vec<d>::Zero();
-  for (int n : cell) mean += moved(n) / (d + 1);
+  for (int n : cell) mean += result.velocity[n] / (d + 1);
   int runs_away = -1;
   double most_apart = 0;
   for (int n : cell)
-    if (const double apart = (moved(n) - mean).squaredNorm(); may_fly_alone(n) && apart > most_apart)
+    if (const double apart = (result.velocity[n] - mean).squaredNorm(); may_fly_alone(n) && apart > most_apart)
       most_apart = apart, runs_away = n;
   return {{"an element turns over within the step: " + place<d>(work.nodes.x[cell[0]])}, runs_away};
 }

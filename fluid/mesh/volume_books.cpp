@@ -187,18 +187,20 @@ void slow_down(Nodes<d>& nodes, const FreeWater<d>& free, std::span<const double
     return free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>(Vec<d>::Zero());
   };
   std::vector<PartEnergy> energies(nodes.size());
+  std::vector<double> its_own(nodes.size(), 0.0);  // of what a node gains, what it had carried
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes.spray[i]) continue;
     const double of_volume = 0.5 * (nodes.v[i] - mean(i)).squaredNorm(), before = std::max(0.0, volumes[i]);
+    its_own[i] = std::max(0.0, std::min(carried[i], now[i]) - before);
     PartEnergy& e = energies[part[i]];
     e.carried += carried[i] * of_volume;
     e.kept += std::clamp(now[i], 0.0, before) * of_volume;
-    e.returning += std::max(0.0, now[i] - before) * of_volume;
+    e.returning += its_own[i] * of_volume;
   }
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (const double before = std::max(0.0, volumes[i]); now[i] > before) {
       const Vec<d> w = mean(i);
-      const double moving = before + energies[part[i]].share() * (now[i] - before);
+      const double moving = before + energies[part[i]].share() * its_own[i];
       nodes.v[i] = w + std::sqrt(moving / now[i]) * (nodes.v[i] - w);
     }
 }

@@ -11,16 +11,16 @@
 // they keep their velocity. The sum of volume and what is owed, spray included, is the volume that the water began with, to
 // roundoff.
 //
-// Energy. With V0_i what nodes carried before they were moved or triangulated anew, V_i what they have then, V1_i with what
-// comes back, and w the mean velocity of free water, zero where walls are, a part has had, has kept and gets back
+// Energy. Of what a node gains, O_i is its own: with V0_i what it carried before it was moved or triangulated anew, V_i what it
+// has then, V1_i with what comes back, and w the mean velocity of free water, zero where walls are,
 //
-//   T0 = sum V0_i |v_i - w|^2 / 2,  T = sum min(V_i, V1_i) |v_i - w|^2 / 2,  R = sum max(0, V1_i - V_i) |v_i - w|^2 / 2
+//   O_i = max(0, min(V0_i, V1_i) - V_i),   T0 = sum V0_i |v_i - w|^2 / 2,   T = sum min(V_i, V1_i) |v_i - w|^2 / 2,
+//   R = sum O_i |v_i - w|^2 / 2,           s = (T0 - T) / R within [0, 1],
 //
-// and volume brings as much of R as was lost, s = (T0 - T) / R within [0, 1]:
+//   v_i <- w + (v_i - w) ((V_i + s O_i) / V1_i)^1/2     where V1_i > V_i
 //
-//   v_i <- w + (v_i - w) ((V_i + s (V1_i - V_i)) / V1_i)^1/2
-//
-// Water that a cut has made smaller and that grows again goes on at its speed; other volume comes without energy.
+// Water that a cut has made smaller and that grows again goes on at its speed, if its part has lost that much; other volume
+// comes without energy.
 #pragma once
 
 #include <span>
