@@ -57,11 +57,17 @@ void say(const RunOptions& options, const std::string& text) {
 /// Where, when and why; what was saved; what might help.
 template <int d>
 std::string failure_text(const LoopEnd& end, const Run<d>& run, const fs::path& directory) {
+  const auto cure =
+      run.loop().crawls()
+          ? fmt::format("End the run earlier (--until {:.4g}), or keep walls farther apart than an element.",
+                        0.99 * run.time())
+          : std::string(
+                "Smaller steps (--set time.cfl=0.25) or finer elements may help;\n"
+                "--resume continues from there.");
   return fmt::format(
       "error: the simulation could not go on at t = {:.9g} s, step {}: {}\n"
-      "The last good state is in {}. Smaller steps (--set time.cfl=0.25) or finer elements may help;\n"
-      "--resume continues from there.",
-      run.time(), run.loop().steps, end.cause, (directory / "checkpoint").string());
+      "The last good state is in {}. {}",
+      run.time(), run.loop().steps, end.cause, (directory / "checkpoint").string(), cure);
 }
 
 /// Draws report.html from the files, and counts the time that it takes as the run's.

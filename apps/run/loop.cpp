@@ -20,7 +20,6 @@ constexpr int most_refusals = 20;
 constexpr double smallest_share = 1e-6;
 // A day at a millisecond a step. An impact may be as short for a few steps.
 constexpr double never = 1e-8;
-constexpr long patience = 100;
 
 struct Attempt {
   coupling::StepReport report;
@@ -74,10 +73,10 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
           host.checkpoint();
           return {interrupted, *cause};
         }
-      if (last || state.crawling >= patience || host.checkpoint_due()) host.checkpoint();
+      if (last || state.crawls() || host.checkpoint_due()) host.checkpoint();
     }
 
-    if (!last && state.crawling >= patience)
+    if (!last && state.crawls())
       return {
           failed,
           fmt::format("the steps have become too short to go on: {} in a row of {:.1e} s and less, with {:.2g} s left. "

@@ -27,6 +27,9 @@ struct LoopState {
   std::map<std::string, long> rejected;  ///< refused attempts by cause
   long released = 0;                     ///< fragments of the fluid that no smaller dt kept with the rest
   long crawling = 0;                     ///< committed of late, each below 1e-8 of what was left of the time
+
+  /// Whether the steps have become too short to go on.
+  bool crawls() const { return crawling >= 100; }
 };
 
 /// A step that was tried with success and is not committed yet: everything at `time` is known.
