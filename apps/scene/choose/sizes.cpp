@@ -29,6 +29,7 @@ struct Rules<3> {
 };
 constexpr double of_calm_surface = 5, of_waves = 20, of_liquid = 30, a_wave = 40, far_of_liquid = 8;
 constexpr double wet_from = 0.02;               // of its height under water at the start: more than a touch
+constexpr double rounded = 1.05;                // what two digits make of a size
 constexpr double least_deadrise = 3 * radians;  // below it trapped air decides (Chuang 1967)
 constexpr double gentle_froude2 = 0.1;          // V^2 / (g c): a hull that is put down, not thrown
 
@@ -109,7 +110,7 @@ std::optional<std::string> jet_against_rules(const Scene& scene, const Body& bod
   if (*angle < least_deadrise || jet > hull.size()) return {};
   const auto& size = scene.fluid->size;
   const double most = jet / 2, finest = size.hollow ? std::min(size.hollow_min, body.size) : body.size;
-  if (finest <= 1.05 * most) return {};
+  if (finest <= rounded * most) return {};
   const std::string given =
       size.hollow ? fmt::format("fluid.size.hollow_min = {:.3g} m", size.hollow_min)
                   : fmt::format("body.{}.size = {:.3g} m without fluid.size.hollow", body.name, body.size);
@@ -215,7 +216,6 @@ std::vector<std::string> sizes_against_rules(const Scene& scene) {
   std::vector<std::string> list;
   const auto choice = choose<d>(scene);
   const auto& size = scene.fluid->size;
-  const double rounded = 1.05;  // what two digits make of a size
   for (std::size_t b = 0; b < choice.hulls.size(); ++b) {
     const auto& hull = choice.hulls[b];
     const auto& body = scene.bodies[b];

@@ -9,8 +9,8 @@ using scenes::eps;
 
 constexpr double gravity = 9.81, size = 0.1;
 
-// The bottom of a block, or the floor of a `hollow` one, that ends at its edge x = 1, with one node inside it and those of the edge, which are on the free
-// surface. `behind`: a node on the side x = 1 is wetted, too.
+// The bottom of a block, or the floor of a `hollow` one, that ends at its edge x = 1, with one node inside it and those of
+// the edge, which are on the free surface. `behind`: a node on the side x = 1 is wetted, too.
 template <int d>
 struct AtTheEdge : scenes::Walls<d> {
   explicit AtTheEdge(double speed, bool behind = false, bool hollow = false) {
