@@ -185,6 +185,14 @@ std::string accuracy_text(const std::optional<std::pair<double, std::string>>& a
                   : "a band that is not known: too few meshes";
 }
 
+/// With those that have no band.
+std::string reached_accuracy_text(const Price& price, const RungSpec& run) {
+  const auto accuracy = price.reached(run);
+  const auto without = price.without_band(run);
+  if (!accuracy || without.empty()) return accuracy_text(accuracy);
+  return fmt::format("{}; none yet for {}: on too few meshes", accuracy_text(accuracy), fmt::join(without, ", "));
+}
+
 /// A run whose files can be taken over.
 bool is_made(const Source& source, const Rung& rung) {
   return rung.spec.role == Role::rung && fs::exists(source.folder / rung.folder / "checkpoint");
@@ -251,7 +259,7 @@ std::string reached_text(const Aim& aim, const RunOptions& options, const fs::pa
   rungs.push_back(std::move(reached));
   const auto price = price_of(rungs, quantities, aim.price.dimension, unused);
   auto text = fmt::format("reached     {} for the run, {:+.0f} % of what was predicted; {}\n", about_time(seconds),
-                          100 * (seconds / aim.predicted - 1), accuracy_text(price.accuracy(aim.refine)));
+                          100 * (seconds / aim.predicted - 1), reached_accuracy_text(price, {aim.refine, Role::rung}));
   if (options.seconds)
     text += fmt::format("            {} with the probes, {:+.0f} % of what was asked\n", about_time(all),
                         100 * (all / *options.seconds - 1));

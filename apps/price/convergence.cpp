@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -14,19 +15,41 @@ namespace splashdown::apps {
 namespace {
 
 // Of the paper, section 4: orders below count as none, orders from 2.1 on as higher than a second-order method has.
-constexpr double least_order = 0.5, order_too_high = 2.1;
+constexpr double least_order = 0.5, highest_order = 2, order_too_high = 2.1;
 constexpr double good_safety = 1.25, poor_safety = 3;
+constexpr double sure = 0.95;
+
+/// Meshes with elements beyond this many times the finest's tell little of its error, where enough others are there.
+constexpr double coarsest_that_counts = 4.04;  // refinements are rounded
+constexpr int rungs_that_count = 4;
+constexpr double replicate = 1.1;  // sizes nearer than this are one rung
+
+int rungs_of(std::span<const MeshValue> values) {
+  std::vector<double> sizes;
+  for (const auto& value : values) sizes.push_back(value.h);
+  std::ranges::sort(sizes);
+  int rungs = 0;
+  for (double last = 0; const double size : sizes)
+    if (size > replicate * last) ++rungs, last = size;
+  return rungs;
+}
+
+/// Without those on too coarse meshes.
+std::vector<MeshValue> that_count(std::span<const MeshValue> values) {
+  const double finest = std::ranges::min_element(values, {}, &MeshValue::h)->h;
+  std::vector<MeshValue> sorted(values.begin(), values.end()), counting;
+  std::ranges::sort(sorted, {}, &MeshValue::h);
+  for (const auto& value : sorted)
+    if (value.h <= coarsest_that_counts * finest || rungs_of(counting) < rungs_that_count) counting.push_back(value);
+  return counting;
+}
 
 // The search for the order: beyond these ends h^p is a constant, or nothing but the coarsest mesh.
 constexpr double search_from = 0.02, search_to = 10;
 constexpr int search_points = 500;
 
-/// Student's t, two-sided 95 %, by degrees of freedom.
-double t95(double free) {
-  constexpr double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-  const auto index = std::min<std::size_t>(static_cast<std::size_t>(free), std::size(table)) - 1;
-  return table[index];
-}
+/// Student's t, two-sided, by degrees of freedom.
+double students_limit(double free) { return boost::math::quantile(boost::math::students_t(free), 1 - (1 - sure) / 2); }
 
 double sum_of_squares(const Eigen::VectorXd& weights, const Eigen::VectorXd& residual) {
   return weights.dot(residual.cwiseAbs2());
@@ -37,22 +60,15 @@ double sum_of_squares(const Eigen::VectorXd& weights, const Eigen::VectorXd& res
 /// All fits of one set of values.
 class Fitter {
  public:
-  explicit Fitter(std::span<const MeshValue> values) : h_(values.size()), phi_(values.size()) {
+  explicit Fitter(std::span<const MeshValue> values)
+      : values_(values), h_(values.size()), phi_(values.size()), rungs_(rungs_of(values)) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       h_[static_cast<Eigen::Index>(i)] = values[i].h;
       phi_[static_cast<Eigen::Index>(i)] = values[i].value;
     }
     equal_ = Eigen::VectorXd::Constant(h_.size(), 1. / static_cast<double>(h_.size()));
     fine_ = h_.cwiseInverse() / h_.cwiseInverse().sum();
-    std::vector<double> sizes(h_.begin(), h_.end());
-    std::ranges::sort(sizes);
-    const double replicate = 1.1;
-    for (double last = 0; const double size : sizes) {
-      if (size > replicate * last) ++rungs_, last = size;
-    }
   }
-
-  int rungs() const { return rungs_; }
 
   Convergence best() {
     std::vector<Convergence> fits;
@@ -61,7 +77,8 @@ class Fitter {
     if (fits.empty()) fits = without_order(any_too_low_);
     auto best = *std::ranges::min_element(fits, {}, &Convergence::deviation_);
     if (!best.order_) best.refusal_ = refusal;
-    if (likeliest_) best.cautious_ = widest();
+    if (likeliest_ && likeliest_->deviation_ > 0 && an_order_is_possible())
+      best.odds_.emplace(values_, least_order, highest_order);
     best.range_ = (phi_.maxCoeff() - phi_.minCoeff()) / (rungs_ - 1);
     best.safety_ = best.order_ && !best.scattered() ? good_safety : poor_safety;
     return best;
@@ -93,18 +110,14 @@ class Fitter {
     return fit(Form::unknown_order, weights, {p});
   }
 
-  /// Among the orders that the scatter leaves possible (likelihood ratio, 95 %) the one with the largest error on the finest
-  /// mesh: a few per cent of noise on four meshes leave an order between 0.8 and 1.3 undecided, and errors twice apart.
-  CautiousTerm widest() const {
-    const double free = static_cast<double>(h_.size()) - 3, finest = h_.minCoeff();
-    const double limit = likeliest_->deviation_ * likeliest_->deviation_ * (1 + t95(free) * t95(free) / free);
-    CautiousTerm widest;
-    for (double p = least_order; p < order_too_high; p += 0.02) {
-      const auto other = fit_of_order(likeliest_->weighted_ ? fine_ : equal_, p);
-      if (other.deviation_ * other.deviation_ <= limit && other.error(finest) > widest.at(finest))
-        widest = {other.first_, other.exponent_};
-    }
-    return widest;
+  /// One in the asymptotic range that the scatter does not exclude (likelihood ratio).
+  bool an_order_is_possible() const {
+    const double free = static_cast<double>(h_.size()) - 3, t = students_limit(free);
+    const auto& weights = likeliest_->weighted_ ? fine_ : equal_;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double p : {least_order, std::clamp(likeliest_->exponent_, least_order, highest_order), highest_order})
+      least = std::min(least, fit_of_order(weights, p).deviation_);
+    return least * least <= likeliest_->deviation_ * likeliest_->deviation_ * (1 + t * t / free);
   }
 
   /// The best order between the ends of the search, the end itself if it is there.
@@ -165,18 +178,17 @@ class Fitter {
     return fits;
   }
 
+  std::span<const MeshValue> values_;
   Eigen::VectorXd h_, phi_, equal_, fine_;
-  int rungs_ = 0;
+  int rungs_;
   bool any_too_low_ = false;
   std::optional<Convergence> likeliest_;  // of any order
 };
 
 std::optional<Convergence> Convergence::of(std::span<const MeshValue> values) {
   if (std::ranges::any_of(values, [](const auto& v) { return !std::isfinite(v.value) || !(v.h > 0); })) return {};
-  if (values.size() < 3) return {};
-  Fitter fitter(values);
-  if (fitter.rungs() < 3) return {};
-  return fitter.best();
+  if (rungs_of(values) < 3) return {};
+  return Fitter(that_count(values)).best();
 }
 
 double Convergence::fitted(double h) const { return limit_ + first_ * std::pow(h, exponent_) + second_ * h * h; }
@@ -188,11 +200,22 @@ double Convergence::error(double h) const {
   return vertex > 0 && vertex < h ? std::max(at(h), at(vertex)) : at(h);
 }
 
+double Convergence::usual_band(double h, double beside) const {
+  return scattered() ? poor_safety * (error(h) + beside) : safety_ * error(h) + beside;
+}
+
+double Convergence::of_the_model(double h) const { return order_ ? (good_safety - 1) * error(h) : 0; }
+
 double Convergence::band(const MeshValue& measured) const {
-  const double h = measured.h, beside = deviation_ + std::abs(measured.value - fitted(h));
+  const auto& [h, value] = measured;
   if (range_ == 0) return 0;
-  if (scattered()) return poor_safety * (std::max(error(h), cautious_.at(h)) + beside);
-  return std::max(safety_ * error(h), good_safety * cautious_.at(h)) + beside;
+  if (odds_) return odds_->within(value, sure) + of_the_model(h);
+  return usual_band(h, deviation_ + std::abs(value - fitted(h)));
+}
+
+double Convergence::band(double h) const {
+  if (range_ == 0) return 0;
+  return odds_ ? odds_->within_of_one_at(h, sure) + of_the_model(h) : usual_band(h, deviation_);
 }
 
 }  // namespace splashdown::apps

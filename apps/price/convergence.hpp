@@ -7,12 +7,14 @@
 // weights 1/h; the fit with the least sigma counts: with an order in [0.5, 2.1) the one of unknown order, above first or
 // second order, below all three. Where sigma is below Delta = (max phi - min phi)/(rungs - 1), F multiplies eps alone, 1.25
 // with such an order and 3 without; elsewhere the data scatter and F = 3.
-// Eca and Hoekstra (2014), J. Comput. Phys. 262, 104-130, whose bands are meant for 95 % of cases. With two changes: where data
-// scatter theirs is F = 3 sigma/Delta, with a Delta that falls as one over the number of meshes, so that each further mesh
-// widens the band of mere noise, from 9 to 15 standard deviations with four and twelve; F = 3 holds the limit as surely. And F eps is
-// at least 1.25 times the error of every order p in [0.5, 2.1) that the scatter leaves possible, (n - 3)(S_p/S - 1) <= t^2 with S
-// the least sum of squares of any order and t Student's. Without it, noise of a twentieth of the finest mesh's error leaves one
-// true value in four outside.
+// Eca and Hoekstra (2014), J. Comput. Phys. 262, 104-130, whose bands are meant for 95 % of cases. With two changes:
+// - Meshes more than four times as coarse as the finest do not count where four others are there.
+// - With more than three values U is that distance within which the limit lies with 95 %, as long as an order in [0.5, 2] is
+//   possible: (n - 3)(S_p/S - 1) <= t^2 with S the least sum of squares of any order and t Student's (LimitOdds); where an
+//   order is found, and 0.25 eps, as their F has it for what the form itself gets wrong. Their rule for data that scatter, F = 3 sigma/Delta, gives
+//   mere noise 9 standard deviations with four meshes and 15 with twelve; fits of three coefficients follow the noise, and
+//   what they say of the limit is then taken three times; and of noisy series with an order it leaves one true value in
+//   four outside.
 #pragma once
 
 #include <cmath>
@@ -20,20 +22,12 @@
 #include <span>
 #include <string>
 
+#include "apps/price/mesh_value.hpp"
+#include "apps/price/odds.hpp"
+
 namespace splashdown::apps {
 
-struct MeshValue {
-  double h;  ///< element size, relative
-  double value;
-};
-
 enum class Form { unknown_order, first_order, second_order, first_and_second_order };
-
-/// The error of the widest order that the values leave possible.
-struct CautiousTerm {
-  double coefficient = 0, exponent = 1;
-  double at(double h) const { return std::abs(coefficient) * std::pow(h, exponent); }
-};
 
 class Convergence {
  public:
@@ -53,15 +47,18 @@ class Convergence {
   double error(double h) const;  ///< eps; never less at a larger h
   /// Of a value measured at h, and of one that is still to be measured there.
   double band(const MeshValue& measured) const;
-  double band(double h) const { return band({h, fitted(h)}); }
+  double band(double h) const;
 
  private:
+  double usual_band(double h, double beside) const;  ///< of the paper, but for the factor of scattered data
+  double of_the_model(double h) const;               ///< (1.25 - 1) eps where there is an order
+
   Form form_ = Form::first_order;
   std::optional<double> order_;
   std::string refusal_;
   double limit_ = 0, first_ = 0, second_ = 0;  // coefficients of h^exponent and, in the last form, of h^2
   bool weighted_ = false;
-  CautiousTerm cautious_;
+  std::optional<LimitOdds> odds_;
   double exponent_ = 1, deviation_ = 0, range_ = 0, safety_ = 3;
 
   friend class Fitter;

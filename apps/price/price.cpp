@@ -103,11 +103,13 @@ std::optional<double> PricedQuantity::band(double refine) const {
   return std::hypot(fit->band(1 / refine), 2 * scatter.value_or(0)) + tank.value_or(0);
 }
 
-std::optional<double> PricedQuantity::band_of_finest() const {
-  if (!fit) return {};
-  const auto& [rung, last] = rungs.back();
-  return std::hypot(fit->band({1 / rung.spec.refine, last}), 2 * scatter.value_or(0)) + tank.value_or(0);
+std::optional<double> PricedQuantity::band_of(const RungSpec& spec) const {
+  const double measured = at(spec);
+  if (!fit || !std::isfinite(measured)) return band(spec.refine);
+  return std::hypot(fit->band({1 / spec.refine, measured}), 2 * scatter.value_or(0)) + tank.value_or(0);
 }
+
+std::optional<double> PricedQuantity::band_of_finest() const { return band_of(rungs.back().first.spec); }
 
 std::optional<double> PricedQuantity::accuracy(double refine) const {
   const auto width = band(refine);
@@ -134,14 +136,32 @@ std::optional<double> Price::seconds(double refine) const {
   return cost.known() ? std::optional(cost.seconds(refine)) : std::nullopt;
 }
 
-std::optional<std::pair<double, std::string>> Price::accuracy(double refine) const {
+template <class Band>
+std::optional<std::pair<double, std::string>> Price::widest(const Band& band) const {
   std::optional<std::pair<double, std::string>> worst;
   for (const auto& quantity : quantities) {
-    const auto accuracy = quantity.accuracy(refine);
-    if (quantity.what.counts && accuracy && (!worst || *accuracy > worst->first))
-      worst = {*accuracy, quantity.what.name};
+    const auto width = band(quantity);
+    if (!quantity.what.counts || !width || quantity.value == 0) continue;
+    const double relative = *width / std::abs(quantity.value);
+    if (!worst || relative > worst->first) worst = {relative, quantity.what.name};
   }
   return worst;
+}
+
+std::optional<std::pair<double, std::string>> Price::accuracy(double refine) const {
+  return widest([refine](const PricedQuantity& quantity) { return quantity.band(refine); });
+}
+
+std::optional<std::pair<double, std::string>> Price::reached(const RungSpec& spec) const {
+  return widest([&](const PricedQuantity& quantity) { return quantity.band_of(spec); });
+}
+
+std::vector<std::string> Price::without_band(const RungSpec& spec) const {
+  std::vector<std::string> names;
+  for (const auto& quantity : quantities)
+    if (quantity.what.counts && !(quantity.fit && std::isfinite(quantity.at(spec))))
+      names.push_back(quantity.what.name);
+  return names;
 }
 
 std::optional<double> Price::refine_for(double wanted) const {

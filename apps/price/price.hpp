@@ -31,6 +31,8 @@ struct PricedQuantity {
   double at(const RungSpec& spec) const;            ///< of the run there; nan: there is none
   std::optional<double> band(double refine) const;  ///< of a run there [unit]
   std::optional<double> band_of_finest() const;
+  /// Of the value measured there; of one to be measured, if there is none.
+  std::optional<double> band_of(const RungSpec& spec) const;
   /// Relative, of a run that is still to be made there; nothing: not known.
   std::optional<double> accuracy(double refine) const;
 };
@@ -55,10 +57,18 @@ struct Price {
   double coarsest() const;
   /// The least relative accuracy that all quantities that count have there; nothing: not known of any.
   std::optional<std::pair<double, std::string>> accuracy(double refine) const;
+  /// The same of what was measured there.
+  std::optional<std::pair<double, std::string>> reached(const RungSpec& spec) const;
+  /// Quantities that count and of which nothing is known there: no value, or on too few meshes for a band.
+  std::vector<std::string> without_band(const RungSpec& spec) const;
   /// The coarsest mesh with that accuracy, up to `farthest` times finer than any made.
   std::optional<double> refine_for(double accuracy) const;
   /// The finest mesh whose run takes no longer, not below the coarsest made, nor more than `farthest_run` times finer than any.
   std::optional<double> refine_in(double seconds) const;
+
+ private:
+  template <class Band>
+  std::optional<std::pair<double, std::string>> widest(const Band& band) const;
 };
 
 /// Beyond it the fit says nothing that could be held against a run.

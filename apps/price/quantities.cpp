@@ -17,6 +17,9 @@ constexpr const char* quantity_cure =
     "Use e.g. --quantity \"peak=max(smooth(fy, time, 5e-4)) from bodies.csv:wedge\" or "
     "\"passes=summary.coupling.passes_mean\".";
 
+/// Across half of a patch: with fewer its mean is the pressure of one node or two, which need not converge.
+constexpr double least_patch_elements = 2;
+
 class Defaults {
  public:
   explicit Defaults(const Scene& scene) : scene_(scene) {}
@@ -66,7 +69,10 @@ class Defaults {
     }
   }
   void add(const PatchEntry& patch) {
-    entry(patch.name + ".peak_pressure", "Pa", "patches." + patch.name + ".peak_pressure.value");
+    const auto of = "patches." + patch.name + ".";
+    entry(patch.name + ".peak_pressure", "Pa", of + "peak_pressure.value");
+    quantities_.back().resolution = of + "grades.peak_pressure.evidence.patch_elements";
+    quantities_.back().least_resolution = least_patch_elements;
   }
   void add(const AccelerationEntry& point) {
     entry(point.name + ".peak_g_cfc60", "g", "equipment." + point.name + ".cfc60.value");
@@ -159,6 +165,13 @@ double value_in(const std::filesystem::path& folder, const PriceQuantity& quanti
     if (const auto path = quantity::after("summary", name)) return quantity::find_entry(summary, *path);
     return quantity::find_column(table, name);
   };
+  if (!quantity.resolution.empty()) {
+    const auto found = quantity::find_entry(summary, quantity.resolution);
+    if (found && !(found->numbers.front() >= quantity.least_resolution)) {
+      why = fmt::format("summary.{} is below {:g}", quantity.resolution, quantity.least_resolution);
+      return none;
+    }
+  }
   try {
     if (!quantity.path.empty()) {
       if (const auto entry = quantity::find_entry(summary, quantity.path)) return entry->numbers.front();

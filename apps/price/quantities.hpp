@@ -18,6 +18,9 @@ struct PriceQuantity {
   bool asked = false;      ///< by the user, who is told if it has no value
   std::string path;        ///< of a number in summary.json; empty: `expression`
   StudyQuantity measured;  ///< its expression
+  /// A number of summary.json below whose least the mesh is too coarse for a value; empty: there is none.
+  std::string resolution = {};
+  double least_resolution = 0;
 };
 
 std::vector<PriceQuantity> default_quantities(const Scene& scene);

@@ -52,6 +52,8 @@ Json json_of(const PricedQuantity& quantity) {
           {"expression", quantity.what.measured.quantity},
           {"from", quantity.what.measured.table},
           {"where", quantity.what.measured.where},
+          {"resolution", quantity.what.resolution},
+          {"least_resolution", quantity.what.least_resolution},
           {"rungs", json_of(quantity.rungs)},
           {"replicates", json_of(quantity.replicates)},
           {"tank", number(quantity.tank)},
@@ -88,6 +90,8 @@ PriceQuantity quantity_of(const std::string& name, const Json& json) {
   quantity.measured.quantity = json.at("expression").get<std::string>();
   quantity.measured.table = json.at("from").get<std::string>();
   quantity.measured.where = json.at("where").get<std::string>();
+  quantity.resolution = json.at("resolution").get<std::string>();
+  quantity.least_resolution = json.at("least_resolution").get<double>();
   return quantity;
 }
 

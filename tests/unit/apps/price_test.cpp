@@ -1,4 +1,5 @@
-// Laws of price lists: fits of manufactured series, seconds, rows, what is written and read back.
+// Laws of price lists: seconds, rows, what is written and read back.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,131 +15,6 @@
 
 namespace splashdown::apps {
 namespace {
-
-const std::vector<double> usual = {2, std::sqrt(2.), 1, std::sqrt(0.5)};  // element sizes of the usual ladder
-
-template <class Value>
-std::vector<MeshValue> series(const Value& value, const std::vector<double>& sizes = usual) {
-  std::vector<MeshValue> values;
-  for (const double h : sizes) values.push_back({h, value(h)});
-  return values;
-}
-
-Convergence fit(const std::vector<MeshValue>& values) { return Convergence::of(values).value(); }
-
-class Order : public ::testing::TestWithParam<double> {};
-
-TEST_P(Order, of_an_exact_series_is_found_with_its_limit_and_the_band_is_a_quarter_wider_than_the_error) {
-  const double p = GetParam();
-  const auto values = series([p](double h) { return 7 - 0.3 * std::pow(h, p); });
-  const auto found = fit(values);
-  ASSERT_TRUE(found.order()) << found.refusal();
-  const double digits = 1e-6;  // a search to 1e-9 in p, through the condition of the fit, about 1e2 here
-  EXPECT_NEAR(*found.order(), p, digits);
-  EXPECT_NEAR(found.extrapolated(), 7, digits);
-  EXPECT_NEAR(found.band(values.back()), 1.25 * 0.3 * std::pow(values.back().h, p), digits);
-}
-INSTANTIATE_TEST_SUITE_P(orders, Order, ::testing::Values(0.6, 1., 1.5, 2.));
-
-TEST(Convergence, of_a_higher_order_is_refused_and_bounded_by_one_that_the_method_has) {
-  const auto values = series([](double h) { return 1 + 0.1 * h * h * h; });
-  const auto found = fit(values);
-  EXPECT_FALSE(found.order());
-  EXPECT_NE(found.refusal().find("faster than with order 2.1"), std::string::npos) << found.refusal();
-  EXPECT_EQ(found.form(), Form::second_order);
-  EXPECT_GE(found.band(values.back()), std::abs(values.back().value - 1));
-}
-
-TEST(Convergence, of_a_low_order_is_refused_and_said) {
-  const auto found = fit(series([](double h) { return 1 + 0.1 * std::log(h); }));
-  EXPECT_FALSE(found.order());
-  EXPECT_NE(found.refusal().find("below 0.5"), std::string::npos) << found.refusal();
-}
-
-TEST(Convergence, of_an_oscillating_series_has_a_band_that_holds_all_of_it) {
-  int k = 0;
-  const auto values = series([&](double) { return 5 + (k++ % 2 == 0 ? 0.2 : -0.2); });
-  const auto found = fit(values);
-  EXPECT_TRUE(found.scattered());
-  for (const auto& value : values) EXPECT_GE(found.band(value), 0.2);
-}
-
-TEST(Convergence, of_a_constant_has_no_band) {
-  const auto found = fit(series([](double) { return 4.; }));
-  EXPECT_FALSE(found.order());
-  EXPECT_EQ(found.band(1), 0);
-  EXPECT_NEAR(found.extrapolated(), 4, 1e-12);  // round-off
-}
-
-TEST(Convergence, of_three_meshes_has_a_band_and_no_order) {
-  const auto values = series([](double h) { return 1 + h; }, {2, 1, 0.5});
-  const auto found = fit(values);
-  EXPECT_FALSE(found.order());
-  const double roundoff = 1e-12;
-  EXPECT_NEAR(found.band(values.back()), 3 * 0.5, roundoff);
-}
-
-TEST(Convergence, needs_three_sizes_and_numbers) {
-  const auto line = [](double h) { return 1 + h; };
-  EXPECT_FALSE(Convergence::of(series(line, {2, 1})));
-  EXPECT_FALSE(Convergence::of(series(line, {2, 1, 1.02, 0.98})));  // replicates are one
-  EXPECT_FALSE(Convergence::of(series([](double h) { return h < 1 ? NAN : h; })));
-}
-
-TEST(Convergence, promises_no_less_on_coarser_meshes) {
-  for (const double bend : {-0.3, -0.1, 0.1, 0.3}) {
-    const auto found = fit(series([=](double h) { return 2 + 0.4 * h + bend * h * h; }));
-    for (double h = 0.1; h < 4; h *= 1.1) EXPECT_LE(found.band(h), found.band(1.1 * h) * (1 + 1e-12)) << bend;
-  }
-}
-
-/// Bands of series with noise, of meshes sqrt(2) apart with two replicates beside the last but one; the truth is 1.
-struct NoisyBands {
-  int within = 0;
-  std::vector<double> bands;
-
-  template <class Error>
-  NoisyBands(const Error& error, double noise, int meshes, int tries) {
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal(0, noise);
-    std::vector<double> sizes;
-    for (int k = 0; k < meshes; ++k) sizes.push_back(std::pow(0.5, 0.5 * k));
-    const double replicated = sizes[sizes.size() - 2];
-    sizes.insert(sizes.end() - 1, {replicated / 0.98, replicated / 1.02});
-    for (int i = 0; i < tries; ++i) {
-      const auto values = series([&](double h) { return 1 + error(h) + normal(random); }, sizes);
-      bands.push_back(fit(values).band(values.back()));
-      within += std::abs(values.back().value - 1) <= bands.back() ? 1 : 0;
-    }
-  }
-  double share() const { return within / static_cast<double>(bands.size()); }
-  double median() {
-    const auto middle = bands.begin() + static_cast<std::ptrdiff_t>(bands.size() / 2);
-    std::ranges::nth_element(bands, middle);
-    return *middle;
-  }
-};
-
-TEST(Convergence, of_noisy_series_holds_the_true_value_in_nineteen_of_twenty) {
-  for (const double p : {1., 2.})
-    for (const int meshes : {4, 8})
-      for (const double noise : {0.05, 0.3, 1., 3.}) {  // of the finest mesh's error
-        const auto power = [p](double h) { return std::pow(h, p); };
-        const double finest = power(std::pow(0.5, 0.5 * (meshes - 1)));
-        EXPECT_GE(NoisyBands(power, noise * finest, meshes, 100).share(), 0.95) << p << ' ' << noise << ' ' << meshes;
-      }
-}
-
-TEST(Convergence, of_mere_noise_holds_it_too_and_more_meshes_do_not_widen_the_band) {
-  double before = std::numeric_limits<double>::infinity();
-  for (const int meshes : {4, 6, 9}) {
-    NoisyBands noise([](double) { return 0.; }, 1, meshes, 100);
-    EXPECT_GE(noise.share(), 0.95) << meshes;
-    const double median = noise.median();
-    EXPECT_LT(median, before) << meshes;
-    before = median;
-  }
-}
 
 Rung rung(double refine, double seconds, std::vector<double> values, Role role = Role::rung) {
   return {.spec = {refine, role},
@@ -371,6 +247,36 @@ TEST(PriceQuantity, defaults_follow_bodies_and_records) {
   for (const auto& quantity : default_quantities(scene)) names.push_back(quantity.name);
   for (const char* name : {"wedge.peak_g_cfc60", "wedge.impulse", "wedge.velocity_change", "keel.peak_pressure"})
     EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
+}
+
+TEST(PriceQuantity, of_a_patch_has_no_value_on_a_mesh_that_does_not_resolve_it) {
+  const auto text = std::string(testing::wedge_drop) +
+                    "\n[[record]]\nkind = \"pressure_patch\"\nname = \"belly\"\nbody = \"wedge\"\n"
+                    "centre = [0.0, 0.0]\nradius = 0.05\n";
+  const auto quantities = default_quantities(read_scene_text(text, "scene.toml").scene);
+  const auto patch = *std::ranges::find(quantities, "belly.peak_pressure", &PriceQuantity::name);
+  const ScratchFolder folder;
+  const auto measured = [&](double elements) {
+    folder.write("summary.json",
+                 fmt::format(R"({{"patches": {{"belly": {{"peak_pressure": {{"value": 7}}, )"
+                             R"("grades": {{"peak_pressure": {{"evidence": {{"patch_elements": {}}}}}}}}}}}}})",
+                             elements));
+    std::string why;
+    const double value = value_in(folder.path(), patch, why);
+    EXPECT_EQ(std::isnan(value), why.find("patch_elements") != std::string::npos) << why;
+    return value;
+  };
+  EXPECT_EQ(measured(2.1), 7);
+  EXPECT_TRUE(std::isnan(measured(1.9)));
+}
+
+TEST(Price, of_a_run_that_was_made_is_the_band_about_its_value) {
+  const auto list = price();
+  const auto& smooth = list.quantities.front();
+  const RungSpec run{1.41, Role::rung};
+  EXPECT_EQ(list.reached(run)->first, *smooth.band_of_finest() / smooth.value);
+  EXPECT_EQ(list.reached({3, Role::rung})->first, list.accuracy(3)->first);
+  EXPECT_TRUE(list.without_band(run).empty());
 }
 
 TEST(Price, belongs_to_its_scene_whatever_its_refinement_and_title) {

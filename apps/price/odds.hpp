@@ -1,0 +1,45 @@
+// Where the limit of a ladder of noisy values may be.
+//
+//   phi_i = phi_0 + alpha h_i^p + e_i,   e_i normal with variance s^2 g(h_i),   g = 1 or h/H
+//
+// H is the geometric mean of the sizes. Before any value is known each order p between two ends is as likely as another, each
+// of the two laws of noise too, and phi_0, alpha H^p and log s may be anything. Then, given p and g, phi_0 follows Student's t
+// with n - 2 degrees of freedom about its least-squares value, with its standard error; and a pair (p, g) has the weight
+// det(X^T W X)^(-1/2) S^(-(n-2)/2) det(W)^(1/2), with the weighted sum of squares S (Gelman et al. 2013, Bayesian Data Analysis, section 14.2,
+// integrated over the coefficients and s). The odds of phi_0 are the weighted sum over the pairs.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "apps/price/mesh_value.hpp"
+
+namespace splashdown::apps {
+
+class LimitOdds {
+ public:
+  /// At least four values, of three sizes or more, not all the same. Orders from `lowest` to `highest`.
+  LimitOdds(std::span<const MeshValue> values, double lowest, double highest);
+
+  /// The distance from a value of the ladder within which phi_0 lies with this probability.
+  double within(double value, double probability) const;
+  /// The same for a value that is still to be measured at h; never less at a larger h.
+  double within_of_one_at(double h, double probability) const;
+
+ private:
+  /// Student's t about a mean with a scale.
+  struct Part {
+    double weight, mean, scale;
+  };
+  /// The least b with P(|x| <= b) = probability for the sum of the parts.
+  double quantile(const std::vector<Part>& parts, double probability) const;
+
+  struct Pair {
+    double weight, order, limit, limit_error, middle, middle_error, noise;  // middle: alpha H^p
+    bool grows;                                                             // g = h/H
+  };
+  std::vector<Pair> pairs_;
+  double mean_size_, freedom_;
+};
+
+}  // namespace splashdown::apps
