@@ -16,6 +16,8 @@ typename FacetTree<d>::Box FacetTree<d>::Piece::box() const {
 }
 
 namespace {
+constexpr int leaf_size = 4;
+
 template <int d>
 std::vector<std::array<Vec<d>, d>> corners_of(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
                                               const Eigen::Matrix<int, d, Eigen::Dynamic>& facets) {
@@ -89,7 +91,6 @@ std::vector<typename FacetTree<d>::Key> FacetTree<d>::keys() const {
 
 template <int d>
 void FacetTree<d>::build(std::vector<Key>& keys, int branch, int first, int count) {
-  constexpr int leaf_size = 4;
   if (count <= leaf_size) {
     branches_[branch] = {{}, first, count, -1};
     return;
@@ -108,29 +109,58 @@ void FacetTree<d>::build(std::vector<Key>& keys, int branch, int first, int coun
   build(keys, child + 1, first + half, count - half);
 }
 
-/// Across the normal the box lies along the longest edge.
+/// One axis along the normal, one along the longest edge.
 template <int d>
-typename FacetTree<d>::TightBox FacetTree<d>::tight_box(int first, int count) const {
+typename FacetTree<d>::TightBox FacetTree<d>::tight_box(const Piece& piece) const {
   TightBox out;
   if constexpr (d == 3) {
-    Vec<3> normal = Vec<3>::Zero(), along = Vec<3>::Zero();
-    for (int i = first; i < first + count; ++i) {
-      const auto& c = pieces_[i].corner;
-      normal += (c[1] - c[0]).cross(c[2] - c[0]);
-      for (int k = 0; k < 3; ++k)
-        if (const Vec<3> e = c[(k + 1) % 3] - c[k]; e.squaredNorm() > along.squaredNorm()) along = e;
-    }
+    const auto& c = piece.corner;
+    Vec<3> normal = (c[1] - c[0]).cross(c[2] - c[0]), along = Vec<3>::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (const Vec<3> e = c[(k + 1) % 3] - c[k]; e.squaredNorm() > along.squaredNorm()) along = e;
     if (along.squaredNorm() > 0) along.normalize();
     normal -= normal.dot(along) * along;
     if (!(normal.squaredNorm() > 0)) normal = along.unitOrthogonal();
     normal.normalize();
     out.axes << normal.transpose(), along.transpose(), normal.cross(along).transpose();
-    for (int i = first; i < first + count; ++i)
-      for (const auto& corner : pieces_[i].corner) out.box.extend(out.axes * corner);
+    for (const auto& corner : c) out.box.extend(out.axes * corner);
     out.box.min().array() -= roundoff_;
     out.box.max().array() += roundoff_;
   }
   return out;
+}
+
+template <int d>
+typename FacetTree<d>::Leaf FacetTree<d>::leaf_of(int first, int count) const {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Leaf leaf{.centre = pieces_[first].corner[0], .axes = {}, .low = {}, .high = {}};
+  for (int k = 0; k < leaf_size; ++k) {
+    const TightBox box =
+        tight_box(pieces_[first + std::min(k, count - 1)]);  // places that are not in use repeat the last one
+    const Vec<d> centre = box.axes * leaf.centre;
+    for (int i = 0; i < d; ++i) {
+      for (int j = 0; j < d; ++j) leaf.axes[i][j][k] = static_cast<float>(box.axes(i, j));
+      leaf.low[i][k] = std::nextafter(static_cast<float>(box.box.min()[i] - centre[i]), -infinity);
+      leaf.high[i][k] = std::nextafter(static_cast<float>(box.box.max()[i] - centre[i]), infinity);
+    }
+  }
+  return leaf;
+}
+
+/// In single precision each product of an axis and a distance x is off by 2 eps |x| at most, their sums by 2 eps more; with
+/// |x_1| + |x_2| + |x_3| in place of |x|.
+template <int d>
+Eigen::Array4f FacetTree<d>::Leaf::least_squared_distances(const Vec<d>& x) const {
+  constexpr float surely = 1 - 1e-6F;  // roundoff of squares
+  const Eigen::Matrix<float, d, 1> from = (x - centre).template cast<float>();
+  const float off = 4 * std::numeric_limits<float>::epsilon() * from.template lpNorm<1>();
+  Eigen::Array4f squared = Eigen::Array4f::Zero();
+  for (int i = 0; i < d; ++i) {
+    Eigen::Array4f along = axes[i][0] * from[0];
+    for (int j = 1; j < d; ++j) along += axes[i][j] * from[j];
+    squared += (low[i] - along - off).max(along - off - high[i]).max(0.0F).square();
+  }
+  return surely * squared;
 }
 
 template <int d>
@@ -141,12 +171,10 @@ void FacetTree<d>::set_boxes() {
     else
       b->box = branches_[b->first].box.merged(branches_[b->first + 1].box);
   if (d == 2) return;
-  tight_.reserve(2 * pieces_.size());
-  for (std::size_t i = 0; i < pieces_.size(); ++i) tight_.push_back(tight_box(static_cast<int>(i), 1));
   for (Branch& b : branches_) {
     if (b.count == 0) continue;
-    b.tight = static_cast<int>(tight_.size());
-    tight_.push_back(tight_box(b.first, b.count));
+    b.leaf = static_cast<int>(leaves_.size());
+    leaves_.push_back(leaf_of(b.first, b.count));
   }
   by_fours(0);
 }
@@ -185,14 +213,18 @@ int FacetTree<d>::by_fours(int branch) {
 template <int d>
 void FacetTree<d>::look_into(const Branch& leaf, const Vec<d>& x, Hit& best) const {
   constexpr double surely = 1 - 1e-9;  // roundoff
-  if (leaf.tight >= 0 && surely * tight_[leaf.tight].squared_distance(x) > best.squared_distance) return;
-  for (int i = leaf.first; i < leaf.first + leaf.count; ++i) {
-    const double least = d == 3 ? tight_[i].squared_distance(x) : pieces_[i].box().squaredExteriorDistance(x);
-    if (surely * least > best.squared_distance) continue;
-    const Vec<d> c = closest_on(pieces_[i].corner, x);
+  Eigen::Array4f least = Eigen::Array4f::Zero();
+  if constexpr (d == 3) {
+    least = leaves_[leaf.leaf].least_squared_distances(x);
+  }
+  for (int k = 0; k < leaf.count; ++k) {
+    const Piece& piece = pieces_[leaf.first + k];
+    if (d == 2 && surely * piece.box().squaredExteriorDistance(x) > best.squared_distance) continue;
+    if (least[k] > best.squared_distance) continue;
+    const Vec<d> c = closest_on(piece.corner, x);
     const double r = (c - x).squaredNorm();
-    const bool as_near = best.facet < 0 || (d == 3 && pieces_[i].facet < best.facet);
-    if (r < best.squared_distance || (as_near && r <= best.squared_distance)) best = {pieces_[i].facet, c, r};
+    const bool as_near = best.facet < 0 || (d == 3 && piece.facet < best.facet);
+    if (r < best.squared_distance || (as_near && r <= best.squared_distance)) best = {piece.facet, c, r};
   }
 }
 

@@ -37,12 +37,11 @@ class FacetTree {
   struct TightBox {
     Eigen::Matrix<double, d, d> axes;
     Box box;
-    double squared_distance(const Vec<d>& x) const { return box.squaredExteriorDistance(axes * x); }
   };
   struct Branch {
     Box box;
     int first, count;  // leaf: pieces [first, first + count); else count = 0, children first, first + 1
-    int tight = -1;
+    int leaf = -1;     // of leaves_
   };
   struct Piece {
     std::array<Vec<d>, d> corner;
@@ -55,6 +54,14 @@ class FacetTree {
     std::array<int, 4> to;  // a four, or ~ a leaf of branches_
     int count = 0;          // in use
   };
+  /// The tight boxes of a leaf's pieces, side by side, as `Four` has them; about a centre, which keeps their digits.
+  struct Leaf {
+    Vec<d> centre;
+    std::array<std::array<Eigen::Array4f, d>, d> axes;
+    std::array<Eigen::Array4f, d> low, high;
+    /// Not above the squares of the distances.
+    Eigen::Array4f least_squared_distances(const Vec<d>& x) const;
+  };
   /// What a piece is sorted by.
   struct Key {
     Vec<d> centre;
@@ -64,7 +71,8 @@ class FacetTree {
   std::vector<Key> keys() const;
   void build(std::vector<Key>& keys, int branch, int first, int count);
   void set_boxes();
-  TightBox tight_box(int first, int count) const;
+  TightBox tight_box(const Piece& piece) const;
+  Leaf leaf_of(int first, int count) const;
   int by_fours(int branch);
   void look_into(const Branch& leaf, const Vec<d>& x, Hit& best) const;
   void search_fours(const Vec<d>& x, double loose, Hit& best) const;
@@ -72,8 +80,8 @@ class FacetTree {
   std::vector<Piece> pieces_;  // needles come in several: boxes around whole ones hardly tell them apart
   std::vector<Branch> branches_;
   std::vector<Four> fours_;
-  std::vector<TightBox> tight_;  // of the pieces, then of leaves; none in the plane
-  double roundoff_ = 0;          // of coordinates [m]
+  std::vector<Leaf> leaves_;  // none in the plane
+  double roundoff_ = 0;       // of coordinates [m]
 };
 
 extern template class FacetTree<2>;

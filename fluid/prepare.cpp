@@ -96,7 +96,7 @@ void Fluid<d>::State::collect_drops() {
   };
   std::vector<char> left = join_drops(nodes);
   const double flying = carried(left);
-  absorb_drops(nodes, work.mesh.boundary, left);
+  absorb_drops(nodes, work.mesh.boundary, walls_at(work.poses), left);
   std::vector<int> kept;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (left[i]) kept.push_back(static_cast<int>(i));

@@ -151,9 +151,8 @@ void WallMotion<d>::move_drop(int i, const Isometry<d>& pose, double dt, Moved& 
     out.tie[i] = {};
     return;
   }
-  const double inwards = std::min(0.0, (out.x[i] - near.point).dot(near.normal) / dt);
+  out.u[i] += (near.point - out.x[i]) / dt;  // in a corner it has no normal
   out.x[i] = near.point;
-  out.u[i] -= inwards * near.normal;
   out.tie[i] = {tie.wall, near.patch};
 }
 

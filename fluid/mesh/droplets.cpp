@@ -17,6 +17,21 @@ std::vector<int> drops_among(const std::vector<char>& spray, const std::vector<c
   return drops;
 }
 
+/// Whether there is water before a drop that touches a wall: the middle of a drop of size s lies s / 2 off the wall that it slides
+/// on, and the liquid's facets are chords of a wall that is curved.
+template <int d>
+bool slides_under_water(const Vec<d>& x, double size, double h, const WallsAt<d>& at, const InsideTest<d>& inside) {
+  constexpr double chord = 0.05;  // farther off a wall than this, over h, facets of a wall that is resolved are not
+  for (std::size_t w = 0; w < at.walls.size(); ++w) {
+    if (!at.walls[w].may_touch(at.poses[w], x, 0.5 * size)) continue;
+    const auto near = at.walls[w].nearest(at.poses[w], x, 0.5 * size);
+    if (near.distance >= 0.5 * size) continue;
+    for (const double off : {0.5 * size, chord * h})
+      if (inside(near.point + off * near.normal)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 template <int d>
@@ -54,7 +69,8 @@ std::vector<char> join_drops(Nodes<d>& nodes) {
 }
 
 template <int d>
-void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, std::vector<char>& left) {
+void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, const WallsAt<d>& walls,
+                  std::vector<char>& left) {
   // To give way by more than this, over h, would be no small change of the surface: such a drop hands over its momentum, and
   // its volume is owed.
   constexpr double most = 0.25;
@@ -74,10 +90,10 @@ void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, std::v
   const FacetTree<d> surface(free);
   const InsideTest<d> inside(nodes.x, boundary);
   for (int i : drops) {
-    const double V = nodes.volume[i], touch = 0.5 * drop_size<d>(V);
-    auto hit = surface.nearest(nodes.x[i], touch);
+    const double V = nodes.volume[i], size = drop_size<d>(V);
+    auto hit = surface.nearest(nodes.x[i], 0.5 * size);
     if (hit.facet < 0) {
-      if (!inside(nodes.x[i])) continue;
+      if (!inside(nodes.x[i]) && !slides_under_water<d>(nodes.x[i], size, nodes.h[i], walls, inside)) continue;
       hit = surface.nearest(nodes.x[i], std::numeric_limits<double>::max());
       if (hit.facet < 0) continue;
     }
@@ -98,7 +114,7 @@ template double drop_size<2>(double);
 template double drop_size<3>(double);
 template std::vector<char> join_drops(Nodes<2>&);
 template std::vector<char> join_drops(Nodes<3>&);
-template void absorb_drops(Nodes<2>&, const std::vector<Facet<2>>&, std::vector<char>&);
-template void absorb_drops(Nodes<3>&, const std::vector<Facet<3>>&, std::vector<char>&);
+template void absorb_drops(Nodes<2>&, const std::vector<Facet<2>>&, const WallsAt<2>&, std::vector<char>&);
+template void absorb_drops(Nodes<3>&, const std::vector<Facet<3>>&, const WallsAt<3>&, std::vector<char>&);
 
 }  // namespace splashdown::fluid

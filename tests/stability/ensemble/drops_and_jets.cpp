@@ -46,9 +46,15 @@ Member drop_or_jet(std::uint64_t seed) {
   s.word("title", kind);
   s.table("time").set("end", end);
   if (weighs) s.table("gravity");
+  const double depth = std::max(6 * half, 5 * h);
+  // A jet turned by a wall keeps its speed (Bernoulli); two that meet slantwise, thrice that at most. The front of
+  // a drop of radius r throws a sheet at 4 r V / c, c the half length on which it meets what it falls on (Wagner
+  // 1932, as for the round drops), two elements at least. And all may fall to the floor.
+  const double sheet = std::max(3 * V, is_jet ? 0.0 : 2 * radius / h * V);
+  const double fastest = std::sqrt(sheet * sheet + 2 * g * (length + depth));
   // The front of a jet on a wall keeps clear of the tank's sides, which would turn it once more.
-  const double most = 3 * V, reach = is_jet && !pool && !meet ? most * end : 0.0;
-  const double W = std::max({8 * half, 10 * h, reach}), depth = std::max(6 * half, 5 * h);
+  const double reach = is_jet && !pool && !meet ? fastest * end : 0.0;
+  const double W = std::max({8 * half, 10 * h, reach});
   if (!meet) s.table("tank").set("min", Point{-W, -depth}).set("max", Point{W, 2 * length + W});
   s.table("fluid").set("density", water);
   s.table("fluid.size").set("surface", h).set("far", 2 * h).set("growth", 0.2);
@@ -69,11 +75,7 @@ Member drop_or_jet(std::uint64_t seed) {
   // No walls move and nothing else acts: the first energy is all there is. A thousandth for the second order of the
   // leapfrog, (dt V / h)^2 / 24 at the default cfl of a half being ten times that in a single element.
   m.laws.energy = EnergyLaw{.bound = 1e-3, .scale = 0.5 * water * V * V * brought};
-  // A jet turned by a wall keeps its speed (Bernoulli); two that meet slantwise, thrice that at most. The front of
-  // a drop of radius r throws a sheet at 4 r V / c, c the half length on which it meets what it falls on (Wagner
-  // 1932, as for the round drops), two elements at least.
-  const double sheet = std::max(most, is_jet ? 0.0 : 2 * radius / h * V);
-  m.laws.speed = SpeedLaw{.nodes = std::sqrt(sheet * sheet + 2 * g * (length + depth))};
+  m.laws.speed = SpeedLaw{.nodes = fastest};
   m.laws.volume = VolumeLaw{.bound = 0.005, .scale = brought};
   m.laws.passes.reset();
   return m;

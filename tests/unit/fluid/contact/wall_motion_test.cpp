@@ -256,6 +256,21 @@ TYPED_TEST(WallMotions, a_drop_on_a_wall_gives_up_what_carries_it_in) {
   }
 }
 
+TYPED_TEST(WallMotions, a_drop_rests_in_a_corner_however_it_falls_into_it) {
+  constexpr int d = TypeParam::value;
+  for (const auto& v : {Vec<d>(-3 * Vec<d>::Unit(d - 1)), Vec<d>(-Vec<d>::Ones())}) {
+    scenes::Tank<d> tank(across);
+    tank.mesh = {};
+    const int drop = tank.nodes.add(Vec<d>::Zero(), Vec<d>::Zero(), 0, {0, 0, -1}, false, 0.1);
+    tank.nodes.spray[drop] = 1;
+    std::vector<Vec<d>> all(tank.nodes.size(), Vec<d>::Zero());
+    all[drop] = v;
+    const auto out = moved_by<d>({tank.nodes, tank.mesh, tank.at(), std::vector<char>{0}}, tank, all, 0.1);
+    EXPECT_LE(out.x[drop].norm(), 20 * eps);
+    EXPECT_LE(out.u[drop].norm(), 1000 * eps);
+  }
+}
+
 TYPED_TEST(WallMotions, a_dry_node_leaves_a_wall_that_goes_away) {
   constexpr int d = TypeParam::value;
   ConvexEdge<d> edge(false);

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "tests/unit/fluid/scenes.hpp"
+#include "tests/unit/fluid/contact/contact.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -100,7 +100,7 @@ TYPED_TEST(Droplets, that_land_raise_the_surface_by_their_volume_and_bring_their
   std::vector<char> left(nodes.size(), 1);
   const double enclosed = enclosed_volume(pool.mesh.boundary, nodes.x);
   const auto before = carried<d>(nodes, left);
-  absorb_drops<d>(nodes, pool.mesh.boundary, left);
+  absorb_drops<d>(nodes, pool.mesh.boundary, {}, left);
   EXPECT_FALSE(left[drop]);
   EXPECT_TRUE(left[far]);
   const auto after = carried<d>(nodes, left);
@@ -108,6 +108,28 @@ TYPED_TEST(Droplets, that_land_raise_the_surface_by_their_volume_and_bring_their
   EXPECT_LE(after.energy, before.energy);
   // The shift is V / (d area); what it does at second order is its share of the facets' length.
   EXPECT_NEAR(enclosed_volume(pool.mesh.boundary, nodes.x) - enclosed, V, 1e-2 * V);
+}
+
+// Such a drop lies on the facets of the liquid there, neither inside nor outside of them.
+TYPED_TEST(Droplets, that_slide_along_a_wall_land_in_the_water_that_wets_it) {
+  constexpr int d = TypeParam::value;
+  scenes::Tank<d> tank(4);
+  auto& nodes = tank.nodes;
+  nodes.volume = nodal_volumes(tank.mesh, nodes.x);
+  const auto count = nodes.size();
+  const auto on_wall = [&](double up) {
+    return add_drop<d>(nodes, scenes::point<d>(0.5, up) - 0.5 * Vec<d>::Unit(0), -Vec<d>::Unit(d - 1), 1e-6);
+  };
+  const int below = on_wall(0.4), above = on_wall(1.4);
+  nodes.h.assign(nodes.size(), 0.25);
+  std::vector<char> left(nodes.size(), 1);
+  const auto before = carried<d>(nodes, left);
+  absorb_drops<d>(nodes, tank.mesh.boundary, tank.at(), left);
+  EXPECT_FALSE(left[below]);
+  EXPECT_TRUE(left[above]);
+  const auto after = carried<d>(nodes, left);
+  EXPECT_NEAR(after.volume, before.volume, static_cast<double>(count) * scenes::eps);
+  EXPECT_LE((after.momentum - before.momentum).norm(), 1e3 * scenes::eps * before.momentum.norm());
 }
 
 // Both sides of a sheet without thickness: the nodes of its facets have no area that could give way.
@@ -121,7 +143,7 @@ TYPED_TEST(Droplets, without_volume_leave_a_surface_without_area_where_it_is) {
   std::swap(back.nodes[0], back.nodes[1]);
   add_drop<d>(nodes, Vec<d>::Constant(1.0 / d), Vec<d>::Ones(), 0);
   std::vector<char> left(nodes.size(), 1);
-  absorb_drops<d>(nodes, {front, back}, left);
+  absorb_drops<d>(nodes, {front, back}, {}, left);
   for (int k = 0; k < d; ++k) EXPECT_EQ(nodes.x[k], Vec<d>(Vec<d>::Unit(k)));
 }
 
