@@ -102,7 +102,7 @@ void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, const 
         std::all_of(corners.begin(), corners.end(), [&](int n) { return V / d < most * nodes.h[n] * area[n].norm(); });
     for (int n : corners) {
       const double before = nodes.volume[n], share = V / d;
-      if (fits) nodes.x[n] += share / area[n].squaredNorm() * area[n];
+      if (fits && nodes.tie[n].wall < 0) nodes.x[n] += share / area[n].squaredNorm() * area[n];
       if (before + share > 0) nodes.v[n] = (before * nodes.v[n] + share * nodes.v[i]) / (before + share);
       nodes.volume[n] = before + share;
     }

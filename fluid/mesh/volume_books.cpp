@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
+
+#include "fluid/mesh/shares.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -134,6 +137,13 @@ class NearSurface {
   const Mesh<d>& mesh_;
 };
 
+/// The places of a part's surface that may move, and the nodes there.
+template <int d>
+struct PartSurface {
+  std::vector<int> nodes;
+  std::vector<SurfacePlace<d>> places;
+};
+
 template <int d>
 struct Books {
   Nodes<d>& nodes;
@@ -142,9 +152,30 @@ struct Books {
   const std::vector<int>& part;
   const NearSurface<d> near{nodes, mesh};
 
-  /// Moves the surface, and books what comes back with it, if a part is owed more than `least` of its volume. `last`:
-  /// what a part cannot lose the largest one does.
-  bool grow(const std::vector<double>& volumes, double least, bool last) {
+  /// Of nodes in the growth of their part: its centre of mass stays where it was. `outwards`: as far as they move at most.
+  std::vector<double> shares(const std::vector<double>& volumes, const std::vector<Part>& parts,
+                             const std::vector<Vec<d>>& outwards, const FreeSurface<d>& surface) const {
+    const std::size_t count = nodes.size();
+    std::vector<Vec<d>> lost(count, Vec<d>::Zero());  // volume times place
+    std::map<int, PartSurface<d>> surfaces;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (nodes.spray[i] || !(std::abs(parts[part[i]].owed) > worth * parts[part[i]].volume)) continue;
+      lost[part[i]] += (nodes.volume[i] + nodes.owed[i] - volumes[i]) * nodes.x[i];
+      if (!near.may_move(i)) continue;
+      surfaces[part[i]].nodes.push_back(static_cast<int>(i));
+      surfaces[part[i]].places.push_back({nodes.x[i], outwards[i].dot(surface.area[i])});
+    }
+    std::vector<double> shares(count, 1.0);
+    for (const auto& [k, surface_of_part] : surfaces) {
+      const auto of_part = shares_about<d>(lost[k] / parts[k].owed, surface_of_part.places);
+      for (std::size_t j = 0; j < of_part.size(); ++j) shares[surface_of_part.nodes[j]] = of_part[j];
+    }
+    return shares;
+  }
+
+  /// Moves the surface, and books what comes back with it, if a part is owed more than `least` of its volume. `first`: by shares;
+  /// what these leave comes back everywhere. `last`: what a part cannot lose the largest one does.
+  bool grow(const std::vector<double>& volumes, double least, bool first, bool last) {
     const std::size_t count = nodes.size();
     std::vector<Part> parts(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -160,6 +191,7 @@ struct Books {
       outwards[i] = surface.outwards(i, volumes[i]);
       parts[part[i]].room += outwards[i].dot(surface.area[i]);
     }
+    const auto share = first ? shares(volumes, parts, outwards, surface) : std::vector<double>(count, 1.0);
     settle(parts, last);
     std::vector<Vec<d>> moved = nodes.x;
     for (std::size_t i = 0; i < count; ++i) {
@@ -168,7 +200,7 @@ struct Books {
       const double more = p.volume > 0 ? (p.growth * p.room + p.owed) / p.volume : 0.0;
       nodes.owed[i] = volumes[i] * (1 + more) - nodes.volume[i];
       if (!near.may_move(i)) continue;
-      const Vec<d> to = nodes.x[i] + p.growth * outwards[i];
+      const Vec<d> to = nodes.x[i] + std::clamp(p.growth * share[i], -most, most) * outwards[i];
       if (!meets_wall(walls, nodes.x[i], to)) moved[i] = to;
     }
     near.keep_order(nodes.x, moved);
@@ -214,7 +246,7 @@ std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const Wa
   const std::vector<int>& part = free.part();
   std::vector<double> now = volumes;
   Books<d> books{nodes, mesh, walls, part};
-  for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth, pass + 1 == passes); ++pass)
+  for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth, pass == 0, pass + 1 == passes); ++pass)
     books.near.renew(nodes.x, now);
   slow_down<d>(nodes, free, carried, volumes, now);
   return now;
