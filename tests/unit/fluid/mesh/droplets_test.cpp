@@ -92,6 +92,7 @@ TYPED_TEST(Droplets, that_land_raise_the_surface_by_their_volume_and_bring_their
   auto& nodes = pool.nodes;
   nodes.volume = nodal_volumes(pool.mesh, nodes.x);
   for (auto& f : pool.mesh.boundary) f.wall = -1;
+  for (auto& tie : nodes.tie) tie = {};
   const double V = 1e-5;
   // Well inside: the surface gives way to it all the same.
   const int drop = add_drop<d>(nodes, Vec<d>::Constant(0.4), Vec<d>::Constant(-3), V);
@@ -130,6 +131,27 @@ TYPED_TEST(Droplets, that_slide_along_a_wall_land_in_the_water_that_wets_it) {
   const auto after = carried<d>(nodes, left);
   EXPECT_NEAR(after.volume, before.volume, static_cast<double>(count) * scenes::eps);
   EXPECT_LE((after.momentum - before.momentum).norm(), 1e3 * scenes::eps * before.momentum.norm());
+}
+
+TYPED_TEST(Droplets, that_land_at_a_contact_line_leave_its_nodes_on_the_wall) {
+  constexpr int d = TypeParam::value;
+  scenes::Tank<d> tank(4);
+  auto& nodes = tank.nodes;
+  nodes.volume = nodal_volumes(tank.mesh, nodes.x);
+  nodes.h.assign(nodes.size(), 0.25);
+  Vec<d> place = scenes::point<d>(0.4, 1);
+  place[0] = 0.1;
+  const int drop = add_drop<d>(nodes, place, -Vec<d>::Unit(d - 1), 1e-4);
+  std::vector<char> left(nodes.size(), 1);
+  const auto before = nodes.x;
+  absorb_drops<d>(nodes, tank.mesh.boundary, tank.at(), left);
+  EXPECT_FALSE(left[drop]);
+  EXPECT_NE(nodes.x, before);  // others give way
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes.tie[i].wall >= 0) {
+      EXPECT_EQ(nodes.x[i], before[i]);
+    }
+  }
 }
 
 // Both sides of a sheet without thickness: the nodes of its facets have no area that could give way.
