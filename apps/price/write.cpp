@@ -90,8 +90,8 @@ PriceQuantity quantity_of(const std::string& name, const Json& json) {
   quantity.measured.quantity = json.at("expression").get<std::string>();
   quantity.measured.table = json.at("from").get<std::string>();
   quantity.measured.where = json.at("where").get<std::string>();
-  quantity.resolution = json.at("resolution").get<std::string>();
-  quantity.least_resolution = json.at("least_resolution").get<double>();
+  quantity.resolution = json.value("resolution", "");
+  quantity.least_resolution = json.value("least_resolution", 0.);
   return quantity;
 }
 

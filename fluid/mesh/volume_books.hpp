@@ -4,10 +4,10 @@
 // are liquid change what the mesh encloses. The difference is owed to the connected water where it arose, and comes back in
 // the same step: the free surface moves outwards by
 //
-//   dx_i = g l_i A_i / S_i,   g = owed / sum_i l_i |A_i|^2 / S_i,   l_i = min(V_i / S_i, S_i^(1/(d-1)))
+//   dx_i = g w_i l_i A_i / S_i,   g = owed / sum_i l_i |A_i|^2 / S_i,   l_i = min(V_i / S_i, S_i^(1/(d-1)))
 //
 // V_i: volume around node i, A_i: area vector of its free surface, S_i: its measure, so that sheets and tips
-// grow by the same share of their thickness as the rest. Nodes whose cells have turned over have no volume, before and after:
+// grow by the same share of their thickness as the rest, but for w_i, which keeps the centre of mass (shares.hpp). Nodes whose cells have turned over have no volume, before and after:
 // they keep their velocity. The sum of volume and what is owed, spray included, is the volume that the water began with, to
 // roundoff.
 //
