@@ -11,7 +11,7 @@
 namespace splashdown::apps {
 namespace {
 
-/// Between the orders that are summed over: bands move by a hundredth with half of it.
+/// Between the orders that are summed over (trapezoidal rule): bands move by a fiftieth with half of it.
 constexpr double order_step = 0.1;
 constexpr double negligible = 1e-4;  // of the likeliest pair's weight
 
@@ -47,7 +47,9 @@ LimitOdds::LimitOdds(std::span<const MeshValue> values, double lowest, double hi
                         .middle_error = std::sqrt(variance * inverse(1, 1)),
                         .noise = std::sqrt(variance),
                         .grows = grows});
-      logarithms.push_back(-0.5 * std::log(normal.determinant()) - 0.5 * freedom_ * std::log(squares));
+      const bool at_end = p == lowest || p + order_step > highest + order_step / 2;
+      logarithms.push_back(std::log(at_end ? 0.5 : 1.) - 0.5 * std::log(normal.determinant()) -
+                           0.5 * freedom_ * std::log(squares));
     }
   }
   const double largest = *std::ranges::max_element(logarithms);

@@ -159,7 +159,7 @@ struct Books {
     std::vector<Vec<d>> lost(count, Vec<d>::Zero());  // volume times place
     std::map<int, PartSurface<d>> surfaces;
     for (std::size_t i = 0; i < count; ++i) {
-      if (nodes.spray[i] || !(std::abs(parts[part[i]].owed) > worth * parts[part[i]].volume)) continue;
+      if (nodes.spray[i] || !(std::abs(parts[part[i]].owed) > worth * std::abs(parts[part[i]].volume))) continue;
       lost[part[i]] += (nodes.volume[i] + nodes.owed[i] - volumes[i]) * nodes.x[i];
       if (!near.may_move(i)) continue;
       surfaces[part[i]].nodes.push_back(static_cast<int>(i));
