@@ -20,7 +20,7 @@ constexpr double good_safety = 1.25, poor_safety = 3;
 constexpr double sure = 0.95;
 
 /// Meshes with elements beyond this many times the finest's tell little of its error, where enough others are there.
-constexpr double coarsest_that_counts = 4.04;  // refinements are rounded
+constexpr double coarsest_that_counts = 8.08;  // refinements are rounded
 constexpr int rungs_that_count = 4;
 constexpr double replicate = 1.1;  // sizes nearer than this are one rung
 

@@ -8,7 +8,7 @@
 // second order, below all three. Where sigma is below Delta = (max phi - min phi)/(rungs - 1), F multiplies eps alone, 1.25
 // with such an order and 3 without; elsewhere the data scatter and F = 3.
 // Eca and Hoekstra (2014), J. Comput. Phys. 262, 104-130, whose bands are meant for 95 % of cases. With two changes:
-// - Meshes more than four times as coarse as the finest do not count where four others are there.
+// - Meshes more than eight times as coarse as the finest do not count where four others are there.
 // - With more than three values U is that distance within which the limit lies with 95 %, as long as an order in [0.5, 2] is
 //   possible: (n - 3)(S_p/S - 1) <= t^2 with S the least sum of squares of any order and t Student's (LimitOdds); where an
 //   order is found, and 0.25 eps, as their F has it for what the form itself gets wrong. Their rule for data that scatter, F = 3 sigma/Delta, gives
