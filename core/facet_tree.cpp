@@ -17,6 +17,13 @@ typename FacetTree<d>::Box FacetTree<d>::Piece::box() const {
 
 namespace {
 constexpr int leaf_size = 4;
+constexpr float surely_in_floats = 1 - 1e-6F;  // roundoff of squares
+
+/// Squared distances from [from, to] to four intervals.
+Eigen::Array4f squared_gaps(const Eigen::Array4f& low, const Eigen::Array4f& high, const Eigen::Array4f& from,
+                            const Eigen::Array4f& to) {
+  return (low - to).max(from - high).max(0.0F).square();
+}
 
 template <int d>
 std::vector<std::array<Vec<d>, d>> corners_of(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
@@ -147,20 +154,19 @@ typename FacetTree<d>::Leaf FacetTree<d>::leaf_of(int first, int count) const {
   return leaf;
 }
 
-/// In single precision each product of an axis and a distance x is off by 2 eps |x| at most, their sums by 2 eps more; with
-/// |x_1| + |x_2| + |x_3| in place of |x|.
+/// In single precision each product of an axis and a distance x is off by 1.5 eps |x| at most, their sums and what is added
+/// to them by 1.5 eps more; with |x_1| + |x_2| + |x_3| in place of |x|.
 template <int d>
 Eigen::Array4f FacetTree<d>::Leaf::least_squared_distances(const Vec<d>& x) const {
-  constexpr float surely = 1 - 1e-6F;  // roundoff of squares
   const Eigen::Matrix<float, d, 1> from = (x - centre).template cast<float>();
   const float off = 4 * std::numeric_limits<float>::epsilon() * from.template lpNorm<1>();
   Eigen::Array4f squared = Eigen::Array4f::Zero();
   for (int i = 0; i < d; ++i) {
     Eigen::Array4f along = axes[i][0] * from[0];
     for (int j = 1; j < d; ++j) along += axes[i][j] * from[j];
-    squared += (low[i] - along - off).max(along - off - high[i]).max(0.0F).square();
+    squared += squared_gaps(low[i], high[i], along - off, along + off);
   }
-  return surely * squared;
+  return surely_in_floats * squared;
 }
 
 template <int d>
@@ -230,7 +236,6 @@ void FacetTree<d>::look_into(const Branch& leaf, const Vec<d>& x, Hit& best) con
 
 template <int d>
 void FacetTree<d>::search_fours(const Vec<d>& x, double loose, Hit& best) const {
-  constexpr float surely = 1 - 1e-6F;  // roundoff of squares
   std::array<Eigen::Array4f, d> below, above;
   for (int i = 0; i < d; ++i) {
     const auto rounded = static_cast<float>(x[i]);
@@ -238,7 +243,7 @@ void FacetTree<d>::search_fours(const Vec<d>& x, double loose, Hit& best) const 
     below[i].setConstant(rounded - off);
     above[i].setConstant(rounded + off);
   }
-  const float least_share = surely * static_cast<float>(loose);
+  const float least_share = surely_in_floats * static_cast<float>(loose);
   struct Entry {
     float lower;
     int to;
@@ -255,9 +260,9 @@ void FacetTree<d>::search_fours(const Vec<d>& x, double loose, Hit& best) const 
     }
     const Four& four = fours_[index];
     Eigen::Array4f squared = Eigen::Array4f::Zero();
-    for (int i = 0; i < d; ++i) squared += (four.low[i] - above[i]).max(below[i] - four.high[i]).max(0.0F).square();
+    for (int i = 0; i < d; ++i) squared += squared_gaps(four.low[i], four.high[i], below[i], above[i]);
     squared *= least_share;
-    const auto reach = static_cast<float>(best.squared_distance / surely);
+    const auto reach = static_cast<float>(best.squared_distance / surely_in_floats);
     const int first = top;
     for (int k = 0; k < four.count; ++k) {
       if (!(squared[k] <= reach)) continue;

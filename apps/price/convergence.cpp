@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -47,9 +46,6 @@ std::vector<MeshValue> that_count(std::span<const MeshValue> values) {
 // The search for the order: beyond these ends h^p is a constant, or nothing but the coarsest mesh.
 constexpr double search_from = 0.02, search_to = 10;
 constexpr int search_points = 500;
-
-/// Student's t, two-sided, by degrees of freedom.
-double students_limit(double free) { return boost::math::quantile(boost::math::students_t(free), 1 - (1 - sure) / 2); }
 
 double sum_of_squares(const Eigen::VectorXd& weights, const Eigen::VectorXd& residual) {
   return weights.dot(residual.cwiseAbs2());
@@ -112,7 +108,7 @@ class Fitter {
 
   /// One in the asymptotic range that the scatter does not exclude (likelihood ratio).
   bool an_order_is_possible() const {
-    const double free = static_cast<double>(h_.size()) - 3, t = students_limit(free);
+    const double free = static_cast<double>(h_.size()) - 3, t = students_limit(free, sure);
     const auto& weights = likeliest_->weighted_ ? fine_ : equal_;
     double least = std::numeric_limits<double>::infinity();
     for (const double p : {least_order, std::clamp(likeliest_->exponent_, least_order, highest_order), highest_order})

@@ -17,6 +17,10 @@ constexpr double negligible = 1e-4;  // of the likeliest pair's weight
 
 }  // namespace
 
+double students_limit(double freedom, double probability) {
+  return boost::math::quantile(boost::math::students_t(freedom), 1 - (1 - probability) / 2);
+}
+
 LimitOdds::LimitOdds(std::span<const MeshValue> values, double lowest, double highest)
     : freedom_(static_cast<double>(values.size()) - 2) {
   const auto n = static_cast<Eigen::Index>(values.size());
@@ -68,7 +72,7 @@ double LimitOdds::quantile(const std::vector<Part>& parts, double probability) c
       inside += weight * (cdf(t, (b - mean) / scale) - cdf(t, (-b - mean) / scale));
     return inside - probability;
   };
-  const double far = boost::math::quantile(t, 1 - (1 - probability) / 2);
+  const double far = students_limit(freedom_, probability);
   double high = 0;  // each part lies within with more than the probability
   for (const auto& part : parts) high = std::max(high, std::abs(part.mean) + far * part.scale);
   if (!(missing(high) > 0)) return high;

@@ -16,6 +16,9 @@
 
 namespace splashdown::apps {
 
+/// Student's t, two-sided: |t| is not above it with this probability.
+double students_limit(double freedom, double probability);
+
 class LimitOdds {
  public:
   /// At least four values, of three sizes or more, not all the same. Orders from `lowest` to `highest`.

@@ -98,25 +98,29 @@ std::vector<std::pair<Rung, double>>& PricedQuantity::list(Role role) {
   return role == Role::rung ? rungs : role == Role::replicate ? replicates : in_larger_tank;
 }
 
+double PricedQuantity::with_scatter_and_tank(double U) const {
+  return std::hypot(U, 2 * scatter.value_or(0)) + tank.value_or(0);
+}
+
 std::optional<double> PricedQuantity::band(double refine) const {
   if (!fit) return {};
-  return std::hypot(fit->band(1 / refine), 2 * scatter.value_or(0)) + tank.value_or(0);
+  return with_scatter_and_tank(fit->band(1 / refine));
 }
 
 std::optional<double> PricedQuantity::band_of(const RungSpec& spec) const {
   const double measured = at(spec);
   if (!fit || !std::isfinite(measured)) return band(spec.refine);
-  return std::hypot(fit->band({1 / spec.refine, measured}), 2 * scatter.value_or(0)) + tank.value_or(0);
+  return with_scatter_and_tank(fit->band({1 / spec.refine, measured}));
 }
 
 std::optional<double> PricedQuantity::band_of_finest() const { return band_of(rungs.back().first.spec); }
 
-std::optional<double> PricedQuantity::accuracy(double refine) const {
-  const auto width = band(refine);
-  const double size = std::abs(value);
-  if (!width || size == 0) return {};
-  return *width / size;
+std::optional<double> PricedQuantity::relative(std::optional<double> width) const {
+  if (!width || value == 0) return {};
+  return *width / std::abs(value);
 }
+
+std::optional<double> PricedQuantity::accuracy(double refine) const { return relative(band(refine)); }
 
 double Price::finest() const {
   double finest = 0;
@@ -140,10 +144,9 @@ template <class Band>
 std::optional<std::pair<double, std::string>> Price::widest(const Band& band) const {
   std::optional<std::pair<double, std::string>> worst;
   for (const auto& quantity : quantities) {
-    const auto width = band(quantity);
-    if (!quantity.what.counts || !width || quantity.value == 0) continue;
-    const double relative = *width / std::abs(quantity.value);
-    if (!worst || relative > worst->first) worst = {relative, quantity.what.name};
+    const auto relative = quantity.relative(band(quantity));
+    if (quantity.what.counts && relative && (!worst || *relative > worst->first))
+      worst = {*relative, quantity.what.name};
   }
   return worst;
 }

@@ -33,8 +33,12 @@ struct PricedQuantity {
   std::optional<double> band_of_finest() const;
   /// Of the value measured there; of one to be measured, if there is none.
   std::optional<double> band_of(const RungSpec& spec) const;
+  std::optional<double> relative(std::optional<double> band) const;  ///< to the value of the finest rung
   /// Relative, of a run that is still to be made there; nothing: not known.
   std::optional<double> accuracy(double refine) const;
+
+ private:
+  double with_scatter_and_tank(double U) const;
 };
 
 struct PriceRow {

@@ -17,16 +17,16 @@ std::vector<int> drops_among(const std::vector<char>& spray, const std::vector<c
   return drops;
 }
 
-/// Whether there is water before a drop that touches a wall: the middle of a drop of size s lies s / 2 off the wall that it slides
+/// Whether there is water before a drop that touches a wall: its middle lies half its size, `touch`, off the wall that it slides
 /// on, and the liquid's facets are chords of a wall that is curved.
 template <int d>
-bool slides_under_water(const Vec<d>& x, double size, double h, const WallsAt<d>& at, const InsideTest<d>& inside) {
+bool slides_under_water(const Vec<d>& x, double touch, double h, const WallsAt<d>& at, const InsideTest<d>& inside) {
   constexpr double chord = 0.05;  // farther off a wall than this, over h, facets of a wall that is resolved are not
   for (std::size_t w = 0; w < at.walls.size(); ++w) {
-    if (!at.walls[w].may_touch(at.poses[w], x, 0.5 * size)) continue;
-    const auto near = at.walls[w].nearest(at.poses[w], x, 0.5 * size);
-    if (near.distance >= 0.5 * size) continue;
-    for (const double off : {0.5 * size, chord * h})
+    if (!at.walls[w].may_touch(at.poses[w], x, touch)) continue;
+    const auto near = at.walls[w].nearest(at.poses[w], x, touch);
+    if (near.distance >= touch) continue;
+    for (const double off : {touch, chord * h})
       if (inside(near.point + off * near.normal)) return true;
   }
   return false;
@@ -90,10 +90,10 @@ void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, const 
   const FacetTree<d> surface(free);
   const InsideTest<d> inside(nodes.x, boundary);
   for (int i : drops) {
-    const double V = nodes.volume[i], size = drop_size<d>(V);
-    auto hit = surface.nearest(nodes.x[i], 0.5 * size);
+    const double V = nodes.volume[i], touch = 0.5 * drop_size<d>(V);
+    auto hit = surface.nearest(nodes.x[i], touch);
     if (hit.facet < 0) {
-      if (!inside(nodes.x[i]) && !slides_under_water<d>(nodes.x[i], size, nodes.h[i], walls, inside)) continue;
+      if (!inside(nodes.x[i]) && !slides_under_water<d>(nodes.x[i], touch, nodes.h[i], walls, inside)) continue;
       hit = surface.nearest(nodes.x[i], std::numeric_limits<double>::max());
       if (hit.facet < 0) continue;
     }

@@ -20,13 +20,11 @@ std::vector<double> shares_about(const Vec<d>& lost_at, std::span<const SurfaceP
   const double L = box.diagonal().norm();
   const Vec<d> origin = lost_at.cwiseMax(box.min()).cwiseMin(box.max());
   Vec<d> a = Vec<d>::Zero();
-  double whole = 0, weighed = 0;
-  for (const auto& place : places) whole += place.room;
   const auto share = [&](const SurfacePlace<d>& place) { return std::exp(a.dot(place.x - origin) / L); };
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Vec<d> mean = Vec<d>::Zero();
     Mat<d> square = Mat<d>::Zero();
-    weighed = 0;
+    double weighed = 0;
     for (const auto& place : places) {
       const Vec<d> y = (place.x - origin) / L;
       const double weight = place.room * share(place);
@@ -39,9 +37,10 @@ std::vector<double> shares_about(const Vec<d>& lost_at, std::span<const SurfaceP
     a -= std::min(1.0, longest / step.norm()) * step;
     if (step.norm() < precise) break;
   }
-  weighed = 0;
-  for (const auto& place : places) weighed += place.room * share(place);
-  std::ranges::transform(places, shares.begin(), [&](const auto& place) { return share(place) * whole / weighed; });
+  std::ranges::transform(places, shares.begin(), share);
+  double whole = 0, weighed = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) whole += places[i].room, weighed += places[i].room * shares[i];
+  for (double& one : shares) one = one * whole / weighed;
   return shares;
 }
 

@@ -173,9 +173,11 @@ struct Books {
     return shares;
   }
 
-  /// Moves the surface, and books what comes back with it, if a part is owed more than `least` of its volume. `first`: by shares;
-  /// what these leave comes back everywhere. `last`: what a part cannot lose the largest one does.
-  bool grow(const std::vector<double>& volumes, double least, bool first, bool last) {
+  /// Moves the surface, and books what comes back with it, if a part is owed anything, or `worth` behind the first pass. In the
+  /// first one by shares; what these leave comes back everywhere. In the last one what a part cannot lose the largest one does.
+  bool grow(const std::vector<double>& volumes, int pass) {
+    const bool first = pass == 0, last = pass + 1 == passes;
+    const double least = first ? 0 : worth;
     const std::size_t count = nodes.size();
     std::vector<Part> parts(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -246,8 +248,7 @@ std::vector<double> return_volume(Nodes<d>& nodes, const Mesh<d>& mesh, const Wa
   const std::vector<int>& part = free.part();
   std::vector<double> now = volumes;
   Books<d> books{nodes, mesh, walls, part};
-  for (int pass = 0; pass < passes && books.grow(now, pass == 0 ? 0 : worth, pass == 0, pass + 1 == passes); ++pass)
-    books.near.renew(nodes.x, now);
+  for (int pass = 0; pass < passes && books.grow(now, pass); ++pass) books.near.renew(nodes.x, now);
   slow_down<d>(nodes, free, carried, volumes, now);
   return now;
 }
