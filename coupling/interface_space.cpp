@@ -14,8 +14,8 @@ InterfaceSpace::InterfaceSpace(const StructurePart& structure, std::span<const I
   for (const auto& piece : pieces) hull[piece.wall] += piece.measure;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const auto& [wall, measure] = pieces[k];
-    const double moved = walls_[wall].mass + fluid_density * walls_[wall].volume;
-    weight_[count + static_cast<Eigen::Index>(k)] = std::sqrt(measure * hull[wall]) / moved;
+    const double mass = walls_[wall].mass, with_water = mass + fluid_density * walls_[wall].volume;
+    weight_[count + static_cast<Eigen::Index>(k)] = std::sqrt(measure * hull[wall] / (mass * with_water));
   }
 }
 

@@ -1,10 +1,14 @@
 // What fluid and structure have to agree about, as one vector of velocities [m/s].
 //
 //   motion     each coordinate times its scale (of a rigid wall V, omega * radius of gyration)
-//   lagged     mean phi_I of each piece of a hull with an interface Laplacian, times sqrt(l_I |hull|) / (m + m_w):
-//              the norm of these entries is |hull| rms(phi) / (m + m_w), the velocity that the impulse gives to
-//              the body with the water of mass m_w that it has to move, here that of its own volume.
-//              l_I: measure of the piece, |hull|: of all
+//   lagged     mean phi_I of each piece of a hull with an interface Laplacian, times
+//              sqrt(l_I |hull|) / sqrt(m (m + m_w)), l_I: measure of the piece, |hull|: of all,
+//              m_w: mass of the water in the body's place
+//
+// A pass multiplies an error of phi by |hull| / m on its way to the body, which answers alone, and an error of the
+// body's velocity by about m_w / |hull| on its way to phi. The weight makes the two slopes equal, sqrt(m_w / m): a
+// balanced matrix (Osborne 1960; Parlett, Reinsch 1969), whose residuals mean the same in both parts. With m + m_w
+// for m_w heavy bodies weigh phi by the velocity that it gives them.
 #pragma once
 
 #include <Eigen/Core>
