@@ -40,7 +40,9 @@ struct Ledger {
   double remesh_deleted = 0;    ///< volume lost there (negative)
   double returned = 0;          ///< volume that came back at the free surface for what these three changed
   double spray = 0;             ///< volume now carried by separated drops
+  double hull_chords = 0;       ///< volume that the facets of sunken hulls have taken from the mesh; part of `volume`
   double kinetic_energy = 0, potential_energy = 0;
+  double chord_energy = 0;   ///< potential energy of the water in `hull_chords`; part of potential_energy
   double energy_remesh = 0;  ///< kinetic energy changed by node insertion and removal
   double energy_repair = 0;  ///< kinetic energy taken by repair impulses
   double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fluid/approach_bound.hpp"
 #include "fluid/contact/ventilation.hpp"
@@ -83,6 +84,7 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effec
   now.mesh = std::move(liquid.mesh);
   now.nodes.volume = nodal_volumes(now.mesh, now.nodes.x);
   now.nodes.part = parts_of(now.mesh, now.nodes.size());
+  now.chords.assign(s_->walls.size(), 0.0);
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }
@@ -178,6 +180,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   Ledger& ledger = s.work.ledger;
   const double before = ledger.volume;
   auto& moved = s.trial.moved;
+  const auto hulls_before = s.holes_now();
   s.wall_motion->move(s.trial.v_after, poses, s.dt, moved);
   Nodes<d>& nodes = s.work.nodes;
   const double acceleration_dt = least_in_parallel(nodes.size(), [&](std::size_t i) {
@@ -193,13 +196,15 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   const std::vector<double> moved_volumes = volumes_around(nodes, s.work.mesh, s.equation.around());
   carry<d>(nodes, moved_volumes);
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
-  const double swept = enclosed_volume(s.work.mesh.boundary, nodes.x);
+  const auto left = std::exchange(s.work.poses, {poses.begin(), poses.end()});
+  s.follow_hulls(hulls_before, left);
+  const double swept = s.water();
   carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water, moved_volumes, s.equation.lumped_volume()));
   s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
   average_wall_pressure<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.equation.unknown(),
                            s.trial.repaired, s.kick);
   ventilate<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.spec.density, s.gravity().norm());
-  ledger.volume = enclosed_volume(s.work.mesh.boundary, nodes.x);
+  ledger.volume = s.water();
   ledger.time_integration += swept - before;
   ledger.returned += ledger.volume - swept;
   ledger.energy_repair += s.trial.energy_repaired - s.trial.energy_before;
@@ -208,7 +213,6 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   s.work.acceleration_dt = acceleration_dt;
   s.work.time += s.dt;
   s.work.dt = s.dt;
-  s.work.poses.assign(poses.begin(), poses.end());
   s.work.velocity = s.result.wall_velocities;
   s.now = std::move(s.work);
   s.prepared = s.solved = false;

@@ -50,7 +50,7 @@ void archive_present(Stream stream, Present<d>& s) {
   stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.nodes.owed), stream.list(s.nodes.h),
       stream.list(s.nodes.wall_pressure);
   stream.list(s.mesh.cells), stream.list(s.mesh.boundary);
-  stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted);
+  stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted), stream.list(s.chords);
 }
 
 template <class T>
@@ -73,10 +73,11 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
        {nodes.v.size(), nodes.p.size(), nodes.tie.size(), nodes.surface.size(), nodes.separates.size(),
         nodes.spray.size(), nodes.volume.size(), nodes.owed.size(), nodes.h.size(), nodes.wall_pressure.size()})
     good = good && size == count;
-  good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count;
+  good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count &&
+         s.chords.size() == wall_count;
   good = good && all_finite(nodes.x) && all_finite(nodes.v) && all_finite(nodes.p) && all_finite(nodes.volume) &&
          all_finite(nodes.wall_pressure) && all_finite(nodes.owed) && all_finite(s.velocity) && all_finite(s.wetted) &&
-         std::ranges::all_of(nodes.h, [](double h) { return h > 0 && std::isfinite(h); });
+         all_finite(s.chords) && std::ranges::all_of(nodes.h, [](double h) { return h > 0 && std::isfinite(h); });
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
   for (const auto& pose : s.poses) good = good && pose.matrix().allFinite() && pose.linear().isUnitary(roundoff);
   const auto is_node = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < count; };

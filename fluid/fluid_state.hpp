@@ -13,6 +13,7 @@
 #include "fluid/mesh/adapt.hpp"
 #include "fluid/mesh/delaunay/moving_delaunay.hpp"
 #include "fluid/mesh/free_water.hpp"
+#include "fluid/mesh/holes.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "fluid/timer.hpp"
@@ -30,6 +31,7 @@ struct Present {
   std::vector<Isometry<d>> poses;
   std::vector<Twist<d>> velocity;  // of walls, at t_{n-1/2}
   std::vector<double> wetted;
+  std::vector<double> chords;  // by which hulls hold more than when the water closed around them
   double acceleration_dt = std::numeric_limits<double>::infinity();
   Ledger ledger;
 };
@@ -143,12 +145,17 @@ struct Fluid<d>::State {
   void collect_drops();
   std::size_t put_drops_last();
   void cut(std::size_t liquid);
-  void settle(double before);
+  void settle(double before, const std::vector<Hole<d>>& hulls_before);
   void let_fragment_fly(int node);
   bool is_inviscid(int node) const;
   void book_spray(const std::vector<char>& was_spray);
   void hand_over(const std::vector<char>& goes, const std::vector<std::array<int, d + 1>>& cells);
   Vec<d> gravity() const;
+
+  // Hulls in the midst of the water (sunken.cpp).
+  std::vector<Hole<d>> holes_now() const { return holes(work.mesh, work.nodes.x, walls.size()); }
+  void follow_hulls(const std::vector<Hole<d>>& before, const std::vector<Isometry<d>>& poses);
+  double water() const { return enclosed_volume(work.mesh.boundary, work.nodes.x) + work.ledger.hull_chords; }
 
   // The motion over it (solve.cpp).
   StepResult<d> solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);

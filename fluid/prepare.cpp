@@ -172,30 +172,31 @@ void Fluid<d>::State::prepare() {
   attach_nodes<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity);
   if (now.dt > 0) adapt(work.nodes, work.mesh, walls_at(work.poses));
   collect_drops();
-  const double before = enclosed_volume(work.mesh.boundary, work.nodes.x);
+  const double before = water();
   const std::size_t liquid = put_drops_last();
   cut(liquid);
   const double adapted = before - now.ledger.volume;
-  settle(before);
+  settle(before, holes(now.mesh, now.nodes.x, walls.size()));
   (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
   prepared = true;
 }
 
 // What nodes of a new mesh carry, and what its volume has changed by.
 template <int d>
-void Fluid<d>::State::settle(double before) {
+void Fluid<d>::State::settle(double before, const std::vector<Hole<d>>& hulls_before) {
   free_water = FreeWater<d>(work.mesh, work.nodes);
   free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
   mix_joined<d>(work.mesh, free_water.part(), work.nodes);
   separate<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   absorb_droplets(work.nodes, work.mesh);
-  const double after = enclosed_volume(work.mesh.boundary, work.nodes.x);
+  follow_hulls(hulls_before, work.poses);
+  const double after = water();
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
   const auto volumes = return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water,
                                      nodal_volumes(work.mesh, work.nodes.x), work.nodes.volume);
   free_water.give_back(free_carried, volumes, work.nodes.v);
-  work.ledger.volume = enclosed_volume(work.mesh.boundary, work.nodes.x);
+  work.ledger.volume = water();
   work.ledger.returned += work.ledger.volume - after;
   work.wetted = wetted_measures(work.mesh, work.nodes.x, walls.size());
 }
@@ -205,12 +206,13 @@ template <int d>
 void Fluid<d>::State::let_fragment_fly(int node) {
   const auto scope = timer.scope(remesh);
   const double before = work.ledger.volume;
+  const auto hulls_before = holes_now();
   const auto spray = work.nodes.spray;
   std::vector<char> flies(work.nodes.size(), 0);
   flies[node] = 1;
   let_fly<d>(work.nodes, work.mesh, flies);
   book_spray(spray);
-  settle(before);
+  settle(before, hulls_before);
 }
 
 template struct Fluid<2>::State;

@@ -261,7 +261,8 @@ void Fluid<d>::State::evaluate_energies(StepResult<d>& found) const {
   Ledger& ledger = found.ledger;
   ledger = work.ledger;
   ledger.work_on_walls += 0.5 * work.dt * found.power_on_walls;
-  ledger.kinetic_energy = ledger.potential_energy = 0;
+  ledger.kinetic_energy = 0;
+  ledger.potential_energy = ledger.chord_energy;
   found.pressure.resize(nodes.size());
   std::vector<Vec<d>> v_n(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -56,6 +56,31 @@ TEST_P(TurningEllipse, stays_wet_all_around) {
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutGravity, TurningEllipse, testing::Bool());
 
+// Elements as long as the tips are tight: nodes that slide around them change what the facets enclose. The water has not
+// become more or less by it, so that nothing is owed to its surface but what nodes lose on curved paths: of the chords'
+// changes a share of the angle that the hull turns by in a step.
+TEST(TurningEllipse, of_coarse_facets_leaves_the_surface_where_it_is) {
+  auto scene = submerged(0.5, 0.2, 0.08, 1e6 * water, 4, 0);
+  scene.bodies[0].free = {false, false, false};
+  const double rate = std::numbers::pi / 2, dt = 0.01, turned = rate * dt;
+  scene.set_velocity(0, {0, 0, rate});
+  const auto stepper = scenes::coupled(scene);
+  const auto enclosed = [&] {
+    const auto& view = stepper->fluid();
+    return fluid::enclosed_volume(view.mesh().boundary, view.nodes().x);
+  };
+  double last = enclosed(), changes = 0;
+  while (stepper->time() < 2) {
+    ASSERT_TRUE(stepper->attempt(std::min(dt, stepper->stable_dt())).ok());
+    stepper->commit();
+    changes += std::abs(enclosed() - last), last = enclosed();
+  }
+  const auto& ledger = stepper->fluid().ledger();
+  EXPECT_GT(changes, 1e-2 * std::numbers::pi * 0.5 * 0.2) << "of the hull: chords as long as the tip is tight";
+  EXPECT_LT(std::abs(ledger.returned), turned * changes);
+  EXPECT_NEAR(last + ledger.hull_chords, ledger.volume_initial, turned * changes);
+}
+
 // A buoyant plate with a tip radius of one element's length, hinged at its end. Water and plate have no other energy than
 // what buoyancy gives them; what the mesh makes of the hull is smaller than the hull by its chords.
 TEST(HingedPlate, gets_no_more_energy_than_its_buoyancy_gives) {
