@@ -217,7 +217,7 @@ int FacetTree<d>::by_fours(int branch) {
 }
 
 template <int d>
-void FacetTree<d>::look_into(const Branch& leaf, const Vec<d>& x, Hit& best) const {
+void FacetTree<d>::look_into(const Branch& leaf, const Vec<d>& x, double loose, Hit& best) const {
   constexpr double surely = 1 - 1e-9;  // roundoff
   Eigen::Array4f least = Eigen::Array4f::Zero();
   if constexpr (d == 3) {
@@ -225,8 +225,8 @@ void FacetTree<d>::look_into(const Branch& leaf, const Vec<d>& x, Hit& best) con
   }
   for (int k = 0; k < leaf.count; ++k) {
     const Piece& piece = pieces_[leaf.first + k];
-    if (d == 2 && surely * piece.box().squaredExteriorDistance(x) > best.squared_distance) continue;
-    if (least[k] > best.squared_distance) continue;
+    if (d == 2 && surely * loose * piece.box().squaredExteriorDistance(x) > best.squared_distance) continue;
+    if (loose * least[k] > best.squared_distance) continue;
     const Vec<d> c = closest_on(piece.corner, x);
     const double r = (c - x).squaredNorm();
     const bool as_near = best.facet < 0 || (d == 3 && piece.facet < best.facet);
@@ -255,7 +255,7 @@ void FacetTree<d>::search_fours(const Vec<d>& x, double loose, Hit& best) const 
     const auto [lower, index] = stack[--top];
     if (lower > best.squared_distance) continue;
     if (index < 0) {
-      look_into(branches_[~index], x, best);
+      look_into(branches_[~index], x, loose, best);
       continue;
     }
     const Four& four = fours_[index];
@@ -291,7 +291,7 @@ typename FacetTree<d>::Hit FacetTree<d>::nearest(const Vec<d>& x, double reach, 
     if (lower * loose > best.squared_distance) continue;
     const Branch& b = branches_[index];
     if (b.count > 0) {
-      look_into(b, x, best);
+      look_into(b, x, loose, best);
       continue;
     }
     std::pair<double, int> a{branches_[b.first].box.squaredExteriorDistance(x), b.first};

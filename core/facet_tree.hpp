@@ -74,7 +74,7 @@ class FacetTree {
   TightBox tight_box(const Piece& piece) const;
   Leaf leaf_of(int first, int count) const;
   int by_fours(int branch);
-  void look_into(const Branch& leaf, const Vec<d>& x, Hit& best) const;
+  void look_into(const Branch& leaf, const Vec<d>& x, double loose, Hit& best) const;
   void search_fours(const Vec<d>& x, double loose, Hit& best) const;
 
   std::vector<Piece> pieces_;  // needles come in several: boxes around whole ones hardly tell them apart
