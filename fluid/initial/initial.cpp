@@ -81,13 +81,17 @@ class Filler {
     }
   }
 
-  // What is water, without nodes that smoothing pushed through a wall: they have no cell then, and are no drops either.
+  // What is water, without inner nodes that keep the triangulation from a wall, then without those that smoothing pushed through
+  // one: they have no cell, and are no drops either. As long as the boundary is the old one its nodes stay.
   void cut() {
     for (;;) {
       auto found = recognise<d>(out_.nodes, out_.mesh.boundary, walls_, outline_decides);
-      std::vector<char> goes = out_.nodes.spray;
+      std::vector<char> goes(out_.nodes.size(), 0);
       for (int n : found.piercing) goes[n] = 1;
-      if (found.piercing.empty()) out_.mesh = std::move(found);
+      if (found.piercing.empty()) {
+        goes = out_.nodes.spray;
+        out_.mesh = std::move(found);
+      }
       if (!discard(goes, out_.nodes, out_.mesh.boundary)) return;
     }
   }

@@ -161,6 +161,16 @@ double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const Wall
   return inside == 0 ? 0.0 : volume<3>(x) * std::min(inside, 5) / 5;
 }
 
+// Whether it has nodes on two patches of a wall, off the edge between them.
+bool spans_patches(const std::array<int, 4>& cell, const Nodes<3>& nodes) {
+  for (int i = 1; i < 4; ++i)
+    for (int j = 0; j < i; ++j) {
+      const WallTie &a = nodes.tie[cell[i]], &b = nodes.tie[cell[j]];
+      if (a.wall >= 0 && a.wall == b.wall && !a.sharp() && !b.sharp() && a.patch != b.patch) return true;
+    }
+  return false;
+}
+
 // Gives facets back to walls that cells of the water pierce (pierced.hpp), as long as that leaves less of such cells in the
 // solid. `decide`: what a cell holds. Cells that still do.
 template <class Decide>
@@ -175,8 +185,14 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
   auto misses_water = [&](int c) {
     return content[c] != water && is_mixed(all.cells[c]) && pierced(all.cells[c], nodes, at) > 0;
   };
+  // Water on both sides of an edge of a hull, joined through it.
+  auto cuts_edge = [&](int c) {
+    const Cell& cell = all.cells[c];
+    return content[c] == water && is_mixed(cell) && spans_patches(cell, nodes) && pierced(cell, nodes, at) > 0;
+  };
+  auto is_wrong = [&](int c) { return misses_water(c) || cuts_edge(c); };
   std::vector<char> misses(all.cells.size());
-  in_parallel(all.cells.size(), [&](std::size_t c) { misses[c] = misses_water(static_cast<int>(c)); });
+  in_parallel(all.cells.size(), [&](std::size_t c) { misses[c] = is_wrong(static_cast<int>(c)); });
   std::vector<int> piercing;
   for (std::size_t c = 0; c < misses.size(); ++c)
     if (misses[c]) piercing.push_back(static_cast<int>(c));
@@ -184,7 +200,7 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
   for (std::size_t next = 0; next < piercing.size(); ++next) {
     const int c = piercing[next];
     const Cell cell = all.cells[c];
-    if (cell[0] < 0 || !misses_water(c)) continue;
+    if (cell[0] < 0 || !is_wrong(c)) continue;
     Flip best;
     double least = better;
     auto consider = [&](Flip flip) {

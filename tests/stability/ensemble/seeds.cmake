@@ -7,7 +7,7 @@
 # docs/stability.md, the fallen ones included. BUDGET: wall seconds of a run. AS, SET: the class with other values.
 splashdown_ensemble(round_drops CI 31:36 NIGHTLY 1:180 BUDGET 600)
 splashdown_ensemble(round_drops_3d NIGHTLY 1:12 BUDGET 900)
-splashdown_ensemble(light_solids CI 5,12,16,32:34,36:39,42,44,45,203,242,249 NIGHTLY 1:250 BUDGET 300)
+splashdown_ensemble(light_solids CI 5,12,16,32:34,36:39,42,44,45,203,242,249,418 NIGHTLY 1:500 BUDGET 300)
 splashdown_ensemble(light_polygons CI 2,6,16,18,21,23,27,31:47,60,193,229,246,338,361,388,423,426,456 NIGHTLY 1:1000 BUDGET 300)
 splashdown_ensemble(light_polygons AS rubbing_polygons SET contact.friction=0.5
                     CI 1,20,27,28,60,89,105,140,220 NIGHTLY 1:250 BUDGET 300)

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "fluid/mesh/holes.hpp"
 #include "fluid/mesh/size_field.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
@@ -145,6 +146,41 @@ TEST(InitialLiquidInSpace, turned_boxes_under_water_are_wetted_all_over) {
     EXPECT_NEAR(area_of(liquid, -1), 4, 1e-12) << k;
     const double hull = 2 * (side.x() * side.y() + side.y() * side.z() + side.z() * side.x());
     EXPECT_NEAR(area_of(liquid, 1), hull, 1e-9 * hull) << k;
+  }
+}
+
+// Nodes that keep the triangulation from a hull go while others, on the boundary, have no cell: those stay until there is another
+// boundary. (It named nodes that were gone, and what the memory beside them held decided.)
+TEST(InitialLiquidInSpace, a_tilted_box_afloat_displaces_what_is_under_water) {
+  Basin basin(0.15);
+  basin.spec.size.far = 0.2;
+  const Vec<3> side(0.304011, 0.239526, 0.149009);
+  auto box = scenes::wall("box", scenes::block(-0.5 * side, 0.5 * side), side.z() / 3);
+  box.pose.linear() = (Eigen::AngleAxisd(std::numbers::pi / 6, Vec<3>::UnitY()) *
+                       Eigen::AngleAxisd(std::numbers::pi / 36, Vec<3>::UnitX()))
+                          .matrix();
+  basin.spec.walls.push_back(box);
+  // Where the water line meets an edge of the box a cell may cut it: an eighth of h^3 each, of eight at most.
+  EXPECT_NEAR(volume_of(basin.fill()), 4 - 0.5 * side.prod(), std::pow(box.size, 3));
+}
+
+// Water above the flat top that is joined to the slanted side, through the rim, takes a piece of the hull. Rings of edges of
+// length h are polygons: of the area pi rho^2 within them h^2 pi / 6 is missing, of the cone (h / r)^2 / 2.
+TEST(InitialLiquidInSpace, cones_under_water_keep_their_rims) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int k = 0; k < 20; ++k) {
+    Basin basin(0.3);
+    const double radius = 0.3, height = radius * (0.36 + 0.6 * share(random));  // 20 to 44 degrees
+    auto cone = scenes::wall("cone", scenes::cone(radius, height, 96), height / (2 + 2 * share(random)));
+    cone.pose.linear() =
+        Eigen::Quaterniond(share(random), share(random), share(random), share(random)).normalized().matrix();
+    cone.pose.translation() = Vec<3>(0.1, -0.1, -0.5) - 0.6 * height * cone.pose.linear().col(2);
+    basin.spec.walls.push_back(cone);
+    const auto liquid = basin.fill();
+    EXPECT_NEAR(area_of(liquid, -1), 4, 1e-12) << k;
+    const double whole = std::numbers::pi * radius * radius * height / 3, chord = cone.size / radius;
+    EXPECT_LT(1 - holes(liquid.mesh, liquid.nodes.x, 2)[1].volume / whole, chord * chord / 2) << k;
   }
 }
 
