@@ -1,6 +1,7 @@
 #include "fluid/mesh/delaunay/moving_delaunay.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "fluid/mesh/delaunay/flips.hpp"
@@ -67,10 +68,14 @@ class Update {
       now[before[i]] = static_cast<int>(i);
     }
     std::iota(now.begin() + static_cast<std::ptrdiff_t>(points_before), now.end(), static_cast<int>(before.size()));
+    std::atomic<bool> is_whole = true;  // a cell that lost a corner and was not mended is none to go on from
     in_parallel(mesh_.cells.size(), [&](std::size_t c) {
-      for (int& n : mesh_.cells[c]) n = now[n];
+      for (int& n : mesh_.cells[c]) {
+        if (n < 0) is_whole = false;
+        n = n < 0 ? gone_point : now[n];
+      }
     });
-    return true;
+    return is_whole;
   }
 
   // All that is wrong with cells, in their order.
