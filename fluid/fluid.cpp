@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "fluid/approach_bound.hpp"
 #include "fluid/contact/ventilation.hpp"
@@ -85,6 +84,7 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effec
   now.nodes.volume = nodal_volumes(now.mesh, now.nodes.x);
   now.nodes.part = parts_of(now.mesh, now.nodes.size());
   now.chords.assign(s_->walls.size(), 0.0);
+  now.holes = holes(now.mesh, now.nodes.x, s_->walls.size());
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }
@@ -180,7 +180,6 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   Ledger& ledger = s.work.ledger;
   const double before = ledger.volume;
   auto& moved = s.trial.moved;
-  const auto hulls_before = s.holes_now();
   s.wall_motion->move(s.trial.v_after, poses, s.dt, moved);
   Nodes<d>& nodes = s.work.nodes;
   const double acceleration_dt = least_in_parallel(nodes.size(), [&](std::size_t i) {
@@ -196,8 +195,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   const std::vector<double> moved_volumes = volumes_around(nodes, s.work.mesh, s.equation.around());
   carry<d>(nodes, moved_volumes);
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
-  const auto left = std::exchange(s.work.poses, {poses.begin(), poses.end()});
-  s.follow_hulls(hulls_before, left);
+  s.follow_hulls(poses);
   const double swept = s.water();
   carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water, moved_volumes, s.equation.lumped_volume()));
   s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
@@ -213,6 +211,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   s.work.acceleration_dt = acceleration_dt;
   s.work.time += s.dt;
   s.work.dt = s.dt;
+  s.work.poses.assign(poses.begin(), poses.end());
   s.work.velocity = s.result.wall_velocities;
   s.now = std::move(s.work);
   s.prepared = s.solved = false;

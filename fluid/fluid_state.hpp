@@ -32,6 +32,7 @@ struct Present {
   std::vector<Twist<d>> velocity;  // of walls, at t_{n-1/2}
   std::vector<double> wetted;
   std::vector<double> chords;  // by which hulls hold more than when the water closed around them
+  std::vector<Hole<d>> holes;  // of walls, in this mesh; not in a checkpoint: it follows from the mesh
   double acceleration_dt = std::numeric_limits<double>::infinity();
   Ledger ledger;
 };
@@ -145,7 +146,7 @@ struct Fluid<d>::State {
   void collect_drops();
   std::size_t put_drops_last();
   void cut(std::size_t liquid);
-  void settle(double before, const std::vector<Hole<d>>& hulls_before);
+  void settle(double before);
   void let_fragment_fly(int node);
   bool is_inviscid(int node) const;
   void book_spray(const std::vector<char>& was_spray);
@@ -153,8 +154,7 @@ struct Fluid<d>::State {
   Vec<d> gravity() const;
 
   // Hulls in the midst of the water (sunken.cpp).
-  std::vector<Hole<d>> holes_now() const { return holes(work.mesh, work.nodes.x, walls.size()); }
-  void follow_hulls(const std::vector<Hole<d>>& before, const std::vector<Isometry<d>>& poses);
+  void follow_hulls(std::span<const Isometry<d>> poses);
   double water() const { return enclosed_volume(work.mesh.boundary, work.nodes.x) + work.ledger.hull_chords; }
 
   // The motion over it (solve.cpp).

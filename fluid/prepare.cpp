@@ -176,21 +176,21 @@ void Fluid<d>::State::prepare() {
   const std::size_t liquid = put_drops_last();
   cut(liquid);
   const double adapted = before - now.ledger.volume;
-  settle(before, holes(now.mesh, now.nodes.x, walls.size()));
+  settle(before);
   (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
   prepared = true;
 }
 
 // What nodes of a new mesh carry, and what its volume has changed by.
 template <int d>
-void Fluid<d>::State::settle(double before, const std::vector<Hole<d>>& hulls_before) {
+void Fluid<d>::State::settle(double before) {
   free_water = FreeWater<d>(work.mesh, work.nodes);
   free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
   mix_joined<d>(work.mesh, free_water.part(), work.nodes);
   separate<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
   absorb_droplets(work.nodes, work.mesh);
-  follow_hulls(hulls_before, work.poses);
+  follow_hulls(work.poses);
   const double after = water();
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
   const auto volumes = return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water,
@@ -206,13 +206,12 @@ template <int d>
 void Fluid<d>::State::let_fragment_fly(int node) {
   const auto scope = timer.scope(remesh);
   const double before = work.ledger.volume;
-  const auto hulls_before = holes_now();
   const auto spray = work.nodes.spray;
   std::vector<char> flies(work.nodes.size(), 0);
   flies[node] = 1;
   let_fly<d>(work.nodes, work.mesh, flies);
   book_spray(spray);
-  settle(before, hulls_before);
+  settle(before);
 }
 
 template struct Fluid<2>::State;

@@ -1,28 +1,29 @@
 // Hulls in the midst of the water: what their facets take from it or leave to it is no loss or gain.
 #include <algorithm>
+#include <utility>
 
 #include "fluid/fluid_state.hpp"
 
 namespace splashdown::fluid {
 
-// Follows hulls that water was all around `before`, at `poses`, and is around still, at those of `work`. What their facets
-// enclose more or less is not owed. The potential energy is that of water around a hull which keeps the volume V_0 that it
-// went under with: of volume V and centre c before, V' and c' now, and c* where the hull's motion carries c,
+// Follows hulls that water was all around, at the poses of `work`, and is around still, at `poses`. What their facets enclose
+// more or less is not owed. The potential energy is that of water around a hull which keeps the volume V_0 that it went
+// under with: of volume V and centre c before, V' and c' now, and c* where the hull's motion carries c,
 //
 //   dE = -rho g . (V' c' - V c - V_0 (c* - c)),   V_0 = V - chords
 template <int d>
-void Fluid<d>::State::follow_hulls(const std::vector<Hole<d>>& before, const std::vector<Isometry<d>>& poses) {
-  const auto after = holes_now();
+void Fluid<d>::State::follow_hulls(std::span<const Isometry<d>> poses) {
+  const auto before = std::exchange(work.holes, holes(work.mesh, work.nodes.x, walls.size()));
   std::vector<double> taken(walls.size(), 0.0);
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    const Hole<d>&from = before[w], &to = after[w];
+    const Hole<d>&from = before[w], &to = work.holes[w];
     if (!from.is_closed() || !to.is_closed()) {
       work.chords[w] = 0;
       continue;
     }
     taken[w] = to.volume - from.volume;
     const double own = from.volume - work.chords[w];
-    const Vec<d> carried = work.poses[w] * (poses[w].inverse() * from.centre);
+    const Vec<d> carried = poses[w] * (work.poses[w].inverse() * from.centre);
     work.ledger.chord_energy -= spec.density * gravity().dot(to.volume * (to.centre - from.centre) +
                                                              taken[w] * from.centre - own * (carried - from.centre));
     work.ledger.hull_chords += taken[w];

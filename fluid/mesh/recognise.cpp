@@ -172,7 +172,7 @@ bool spans_patches(const std::array<int, 4>& cell, const Nodes<3>& nodes) {
 }
 
 // Gives facets back to walls that cells of the water pierce (pierced.hpp), as long as that leaves less of such cells in the
-// solid. `decide`: what a cell holds. Cells that still do.
+// solid. `decide`: what a cell holds. Those that still leave a hole in the water.
 template <class Decide>
 std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& inner,
                                const WallsAt<3>& at, std::vector<Content>& content, const Decide& decide) {
@@ -182,20 +182,16 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
     return std::any_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall >= 0; }) &&
            std::any_of(cell.begin(), cell.end(), [&](int n) { return inner[n]; });
   };
-  auto misses_water = [&](int c) {
-    return content[c] != water && is_mixed(all.cells[c]) && pierced(all.cells[c], nodes, at) > 0;
-  };
-  // Water on both sides of an edge of a hull, joined through it.
-  auto cuts_edge = [&](int c) {
+  // A hole in the water, or water on both sides of an edge of a hull that is joined through it.
+  auto is_wrong = [&](int c) {
     const Cell& cell = all.cells[c];
-    return content[c] == water && is_mixed(cell) && spans_patches(cell, nodes) && pierced(cell, nodes, at) > 0;
+    return is_mixed(cell) && (content[c] != water || spans_patches(cell, nodes)) && pierced(cell, nodes, at) > 0;
   };
-  auto is_wrong = [&](int c) { return misses_water(c) || cuts_edge(c); };
-  std::vector<char> misses(all.cells.size());
-  in_parallel(all.cells.size(), [&](std::size_t c) { misses[c] = is_wrong(static_cast<int>(c)); });
+  std::vector<char> wrong(all.cells.size());
+  in_parallel(all.cells.size(), [&](std::size_t c) { wrong[c] = is_wrong(static_cast<int>(c)); });
   std::vector<int> piercing;
-  for (std::size_t c = 0; c < misses.size(); ++c)
-    if (misses[c]) piercing.push_back(static_cast<int>(c));
+  for (std::size_t c = 0; c < wrong.size(); ++c)
+    if (wrong[c]) piercing.push_back(static_cast<int>(c));
   constexpr double better = 0.999;  // each flip leaves less than that, so that they come to an end
   for (std::size_t next = 0; next < piercing.size(); ++next) {
     const int c = piercing[next];
@@ -223,7 +219,7 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
       piercing.push_back(f);
     }
   }
-  std::erase_if(piercing, [&](int c) { return all.cells[c][0] < 0 || !misses_water(c); });
+  std::erase_if(piercing, [&](int c) { return all.cells[c][0] < 0 || content[c] == water || !is_wrong(c); });
   return piercing;
 }
 

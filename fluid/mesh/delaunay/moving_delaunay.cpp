@@ -71,8 +71,10 @@ class Update {
     std::atomic<bool> is_whole = true;  // a cell that lost a corner and was not mended is none to go on from
     in_parallel(mesh_.cells.size(), [&](std::size_t c) {
       for (int& n : mesh_.cells[c]) {
-        if (n < 0) is_whole = false;
-        n = n < 0 ? gone_point : now[n];
+        if (n < 0)
+          is_whole = false;
+        else
+          n = now[n];
       }
     });
     return is_whole;
