@@ -126,6 +126,7 @@ Evidence EvidenceStatistics::about(const Pulse& peak, const IntervalHistory& cha
     for (auto i = step_at(peak.time - 1. / *cfc); i < step_at(peak.time); ++i)
       evidence.growing = std::max(evidence.growing, growing(middle_of(wet_, i)));
     if (const auto smooth = filtered(channel, *cfc)) evidence.step = step_share(*smooth, peak.time);
+    evidence.sampling = lost_to_steps(channel, *cfc, peak.time);
     add_shares(&loads->values[n * index_at(*loads, peak.time)], evidence);
   }
   return evidence;

@@ -57,8 +57,9 @@ std::vector<double> filtered_with_margins(std::span<const double> samples, doubl
   return work;
 }
 
-/// Longest interval that overlaps [from, to].
-double longest_interval(const IntervalHistory& history, double from, double to) {
+/// Longest interval within 1/CFC of a time.
+double longest_interval(const IntervalHistory& history, int cfc, double time) {
+  const double from = time - 1.0 / cfc, to = time + 1.0 / cfc;
   const auto& ends = history.ends;
   double longest = 0;
   for (std::size_t i = static_cast<std::size_t>(std::ranges::lower_bound(ends, from) - ends.begin()); i < ends.size();
@@ -133,8 +134,12 @@ std::optional<IntervalHistory> filtered(const IntervalHistory& history, int cfc)
 }
 
 bool fine_enough(const IntervalHistory& history, int cfc, double time) {
-  const double period = 1.0 / cfc;
-  return longest_interval(history, time - period, time + period) * required_samples_per_cfc * cfc <= 1 + 1e-9;
+  return longest_interval(history, cfc, time) * required_samples_per_cfc * cfc <= 1 + 1e-9;
+}
+
+double lost_to_steps(const IntervalHistory& history, int cfc, double time) {
+  const double x = std::numbers::pi * std::min(1., longest_interval(history, cfc, time) * cfc / 0.6);
+  return x > 0 ? 1 - std::sin(x) / x : 0;
 }
 
 }  // namespace splashdown::apps

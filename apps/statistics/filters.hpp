@@ -14,6 +14,9 @@
 namespace splashdown::apps {
 
 inline constexpr int channel_frequency_classes[] = {60, 180, 600, 1000};
+/// Up to this one, of structures and of their velocities, a peak has a value however long the steps are, with what that costs in its
+/// band (grades.hpp); higher ones have none from records that J211 does not allow.
+inline constexpr int highest_graded_class = 180;
 
 /// Interval averages of a few channels (the components of a vector): interval i ends at ends[i] and begins
 /// where the one before ended; values holds `channels` numbers an interval.
@@ -43,5 +46,9 @@ std::optional<IntervalHistory> filtered(const IntervalHistory& history, int cfc)
 
 /// Whether the record is sampled as J211 asks for, 10 CFC times a second, within 1/CFC of a time.
 bool fine_enough(const IntervalHistory& history, int cfc, double time);
+
+/// What means over the longest step T within 1/CFC of a time take from the highest frequency that the filter lets through,
+/// f = CFC/0.6: 1 - sin(pi f T)/(pi f T), 4.5 % with the longest steps that J211 allows; 1 from f T = 1 on.
+double lost_to_steps(const IntervalHistory& history, int cfc, double time);
 
 }  // namespace splashdown::apps

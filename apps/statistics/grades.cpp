@@ -60,6 +60,9 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   if (!std::isnan(e.step))
     list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
                                         kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps")});
+  if (std::isfinite(e.sampling))
+    list.push_back({e.sampling, fmt::format("its steps are too long for the filter's class (SAE J211): {}",
+                                            percent_text(e.sampling))});
   if (std::isfinite(e.sideways))
     list.push_back(
         {e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids", percent_text(e.sideways))});

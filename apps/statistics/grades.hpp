@@ -8,6 +8,7 @@
 //             A load that mostly carries weight is wrong by as little as its inertial part: times |m a| / load. A pressure is
 //             local: times 1 + 2/(1 + n_p), with n_p elements on half of the patch, 3 at a point
 //   step      of filtered peaks in the filtered channel
+//   sampling  of filtered peaks: what means over the steps take (filters.hpp)
 //   sideways  symmetric scenes
 //   repair    what pressures lack; a raw peak of a load that is impulse by half or more goes as 1/dt and has no value
 //
@@ -40,7 +41,7 @@ Grade grade_of_band(double band);
 void grade_numbers(Summary& summary);
 
 /// The numbers that a body's verdict goes by, with their names: accelerations and loads of CFC 60, raw where the record is too
-/// short or its steps are too long for that class, and means over patches.
+/// short for that class, and means over patches.
 struct Headline {
   std::string name, value;
   const NumberGrade* grade = nullptr;

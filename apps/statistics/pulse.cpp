@@ -95,7 +95,8 @@ std::map<int, Pulse> filtered_pulses(const IntervalHistory& history) {
     const auto channels = filtered(history, cfc);
     if (!channels) continue;
     const Pulse pulse = pulse_of(*channels, history.begin, history.ends.back());
-    if (pulse.time >= 0 && fine_enough(history, cfc, pulse.time)) pulses.emplace(cfc, pulse);
+    if (pulse.time < 0) continue;
+    if (cfc <= highest_graded_class || fine_enough(history, cfc, pulse.time)) pulses.emplace(cfc, pulse);
   }
   return pulses;
 }

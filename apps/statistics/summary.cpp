@@ -64,6 +64,7 @@ Json json_of(const Evidence& evidence) {
   put("step_share", evidence.step);
   put("sideways_share", evidence.sideways);
   put("patch_elements", evidence.pressed);
+  put("sampling_share", evidence.sampling);
   return json;
 }
 

@@ -40,6 +40,7 @@ struct Evidence {
   double step = std::numeric_limits<double>::quiet_NaN();      ///< deviation from the steps around it, relative
   double sideways = std::numeric_limits<double>::quiet_NaN();  ///< load that symmetry forbids, over the load
   double pressed = std::numeric_limits<double>::quiet_NaN();   ///< elements on half of the width of a patch
+  double sampling = std::numeric_limits<double>::quiet_NaN();  ///< what steps too long for the filter's class take
 };
 
 /// Of one number (grades.hpp).

@@ -6,9 +6,10 @@ namespace splashdown::fluid {
 
 template <int d>
 MovedCells<d>::MovedCells(ClosedDelaunay<d>& m, std::span<const Vec<d>> points)
-    : mesh(m), infinity(static_cast<int>(points.size()) + ClosedDelaunay<d>::far), at(points.size()) {
+    : mesh(m), infinity(static_cast<int>(points.size()) + ClosedDelaunay<d>::far), at(infinity) {
   in_parallel(points.size(), [&](std::size_t i) { at[i] = Cgal<d>::point(points[i]); });
-  for (const auto& x : far_points<d>(mesh.extent)) at.push_back(Cgal<d>::point(x));
+  const auto far = far_points<d>(mesh.extent);
+  std::transform(far.begin(), far.end(), at.begin() + static_cast<std::ptrdiff_t>(points.size()), Cgal<d>::point);
 }
 
 template <int d>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <utility>
 
 #include "fluid/mesh/delaunay/flips.hpp"
 #include "fluid/mesh/delaunay/patch.hpp"
@@ -68,16 +69,10 @@ class Update {
       now[before[i]] = static_cast<int>(i);
     }
     std::iota(now.begin() + static_cast<std::ptrdiff_t>(points_before), now.end(), static_cast<int>(before.size()));
-    std::atomic<bool> is_whole = true;  // a cell that lost a corner and was not mended is none to go on from
     in_parallel(mesh_.cells.size(), [&](std::size_t c) {
-      for (int& n : mesh_.cells[c]) {
-        if (n < 0)
-          is_whole = false;
-        else
-          n = now[n];
-      }
+      for (int& n : mesh_.cells[c]) n = now[n];
     });
-    return is_whole;
+    return true;
   }
 
   // All that is wrong with cells, in their order.
@@ -190,12 +185,14 @@ Delaunay<d> MovingDelaunay<d>::follow(std::span<const Vec<d>> points, std::span<
   std::vector<int> all_before(before.begin(), before.end());
   for (std::size_t k = 0; k < hubs.size(); ++k)
     all_before.push_back(hubs.size() == hubs_ ? static_cast<int>(points_ + k) : -1);
-  if (last_.complete && last_.extent == extent_of<d>(all) && Update<d>(last_, all).run(all_before, points_ + hubs_)) {
-    sort_cells<d>(last_, all.size());
+  ClosedDelaunay<d> mesh = std::exchange(last_, {});  // of a call that throws nothing is kept
+  if (mesh.complete && mesh.extent == extent_of<d>(all) && Update<d>(mesh, all).run(all_before, points_ + hubs_)) {
+    sort_cells<d>(mesh, all.size());
     ++followed_;
   } else {
-    last_ = closed_delaunay<d>(all);
+    mesh = closed_delaunay<d>(all);
   }
+  last_ = std::move(mesh);
   points_ = points.size();
   hubs_ = hubs.size();
   return near_part<d>(last_, all, facets, hubs_);

@@ -165,7 +165,8 @@ auto PatchGrower<d>::within(const FacetAt& f) const -> std::optional<Inner> {
   return Inner{other, other->index(found->cell)};
 }
 
-// The facet may be part of the rim: the cell beyond leaves the new one within alone. One that has lost a corner others mend.
+// The facet may be part of the rim: there is a new cell within, which the cell beyond leaves alone. One that has lost a corner
+// others mend.
 template <int d>
 bool PatchGrower<d>::holds(const FacetAt& f) const {
   const auto inner = within(f);
@@ -173,7 +174,8 @@ bool PatchGrower<d>::holds(const FacetAt& f) const {
   const FacetAt other = mesh_->beyond(f);
   const Cell& beyond = mesh_->mesh.cells[other.cell];
   if (MovedCells<d>::lost_a_corner(beyond) || !mesh_->finite(beyond)) return true;
-  return mesh_->positive(beyond) && !mesh_->in_conflict(beyond, inner->cell->vertex(inner->corner)->info());
+  const int opposite = inner->cell->vertex(inner->corner)->info();
+  return opposite != mesh_->infinity && mesh_->positive(beyond) && !mesh_->in_conflict(beyond, opposite);
 }
 
 // The cells within the rim. False if the patch is too small for its points.
