@@ -8,6 +8,8 @@
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
 
+#include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -66,8 +68,48 @@ Complex meshed(const Domain& domain, const SizeField<3>& field) {
   return complex;
 }
 
-void append(const Complex& complex, const WallsAt<3>& walls, InitialLiquid<3>& out) {
+// Cells of the liquid. Mesh_3 takes those whose circumcentre lies in it, which in gaps thinner than an element leaves out some
+// that do themselves, and holes in the water where they are.
+class LiquidCells {
+ public:
+  LiquidCells(const Complex& complex, const Domain& domain) : complex_(complex), is_liquid_(domain.is_in_domain_object()) {}
+
+  bool operator()(Triangulation::Cell_handle cell) {
+    if (complex_.is_in_complex(cell)) return true;
+    if (complex_.triangulation().is_infinite(cell)) return false;
+    const auto [known, fresh] = left_out_.try_emplace(cell, false);
+    if (fresh) known->second = lies_in_liquid(cell);
+    return known->second;
+  }
+
+ private:
+  // By its centroid and a point towards each corner.
+  bool lies_in_liquid(Triangulation::Cell_handle cell) const {
+    std::array<Vec<3>, 4> x;
+    Vec<3> centroid = Vec<3>::Zero();
+    for (int k = 0; k < 4; ++k) {
+      x[k] = vec(complex_.triangulation().point(cell, k).point());
+      centroid += x[k] / 4;
+    }
+    constexpr double towards = 0.9, flat = 1e-9;  // volume over the longest edge's cube
+    double longest = 0;
+    for (int k = 1; k < 4; ++k)
+      for (int j = 0; j < k; ++j) longest = std::max(longest, (x[k] - x[j]).norm());
+    if (volume<3>([&](int k) { return x[k]; }) < flat * longest * longest * longest) return false;
+    auto is_liquid = [&](const Vec<3>& at) { return is_liquid_(Kernel::Point_3(at.x(), at.y(), at.z())).has_value(); };
+    return is_liquid(centroid) && std::ranges::all_of(x, [&](const Vec<3>& corner) {
+             return is_liquid(centroid + towards * (corner - centroid));
+           });
+  }
+
+  const Complex& complex_;
+  const Domain::Is_in_domain is_liquid_;
+  std::map<Triangulation::Cell_handle, bool> left_out_;
+};
+
+void append(const Complex& complex, const Domain& domain, const WallsAt<3>& walls, InitialLiquid<3>& out) {
   const auto& triangulation = complex.triangulation();
+  LiquidCells is_liquid(complex, domain);
   std::map<Triangulation::Vertex_handle, int> at;
   auto node = [&](Triangulation::Vertex_handle v) {
     const auto [known, fresh] = at.try_emplace(v, 0);
@@ -78,15 +120,17 @@ void append(const Complex& complex, const WallsAt<3>& walls, InitialLiquid<3>& o
     }
     return known->second;
   };
-  for (auto c = complex.cells_in_complex_begin(); c != complex.cells_in_complex_end(); ++c)
+  for (const Triangulation::Cell_handle c : triangulation.finite_cell_handles()) {
+    if (!is_liquid(c)) continue;
     for (int k = 0; k < 4; ++k) {
       node(c->vertex(k));
       const auto other = c->neighbor(k);
-      if (complex.is_in_complex(other)) continue;
+      if (is_liquid(other)) continue;
       Facet<3> f;
       for (int j = 0; j < 3; ++j) f.nodes[j] = node(c->vertex(opposite<3>[k][j]));
       out.mesh.boundary.push_back(f);
     }
+  }
 }
 
 }  // namespace
@@ -97,7 +141,7 @@ void fill_within(const Rounded& skin, const Curves& curves, const SizeField<3>& 
   Domain domain(skin, &random);
   domain.add_features(curves.lines.begin(), curves.lines.end());
   for (const auto& corner : curves.corners) domain.add_corner(corner);
-  append(meshed(domain, field), walls, out);
+  append(meshed(domain, field), domain, walls, out);
 }
 
 }  // namespace splashdown::fluid
