@@ -166,6 +166,7 @@ class Adapter {
       const WallTie &a = nodes_.tie[e.a], &b = nodes_.tie[e.b];
       const bool same_patch = d == 2 && a.wall >= 0 && a.wall == b.wall && a.patch == b.patch;
       if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
+      if (a.wall >= 0 && b.wall >= 0 && a.wall != b.wall) continue;               // across a gap between walls
       if (rank_a == rank_b) {
         if (!may_merge_with_its_like(rank_a, e)) continue;
         nodes_.inherited[e.a] += nodes_.carried(e.a);

@@ -179,8 +179,16 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
   using Cell = std::array<int, 4>;
   // What a node within the water is joined to; most cells beyond the water have none.
   auto is_mixed = [&](const Cell& cell) {
-    return std::any_of(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall >= 0; }) &&
-           std::any_of(cell.begin(), cell.end(), [&](int n) { return inner[n]; });
+    int last = -1;
+    bool two_walls = false, within = false;
+    for (int n : cell) {
+      const int w = nodes.tie[n].wall;
+      within = within || inner[n];
+      if (w < 0) continue;
+      two_walls = two_walls || (last >= 0 && w != last);
+      last = w;
+    }
+    return last >= 0 && (within || two_walls);
   };
   // A hole in the water, or water on both sides of an edge of a hull that is joined through it.
   auto is_wrong = [&](int c) {

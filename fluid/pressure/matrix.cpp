@@ -55,7 +55,12 @@ void PressureEquation<d>::measure(double density) {
   std::vector<double> keeps(count);
   in_parallel(count, [&](std::size_t i) {
     double heaviest = 0;
-    for (const auto [c, k] : around_.around(i)) heaviest = std::max(heaviest, rate_[c]);
+    bool near_surface = false;
+    for (const auto [c, k] : around_.around(i)) {
+      heaviest = std::max(heaviest, rate_[c]);
+      for (int n : mesh_->cells[c]) near_surface = near_surface || nodes_->surface[n];
+    }
+    if (!near_surface) heaviest = 0;
     const double resists = std::max(lumped_[i], lightest * heaviest);
     per_nodal_mass_[i] = resists > 0 ? 1 / (density * (d + 1) * resists) : 0.0;
     keeps[i] = resists > 0 ? 1 - lumped_[i] / ((d + 2) * resists) : 0.0;
