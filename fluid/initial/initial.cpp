@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fluid/contact/attachment.hpp"
+#include "fluid/initial/gaps.hpp"
 #include "fluid/initial/parts.hpp"
 #include "fluid/mesh/adapt.hpp"
 #include "fluid/mesh/size_field.hpp"
@@ -32,6 +33,7 @@ class Filler {
     if (out_.nodes.size() == 0)
       throw std::invalid_argument("no liquid: every region lies outside the tank or inside a body");
     refine();
+    if constexpr (d == 3) refuse_holes(out_, spec_.liquids, walls_);
     set_velocities();
     return std::move(out_);
   }

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "fluid/initial/gaps.hpp"
 #include "fluid/initial/space_parts.hpp"
 
 namespace splashdown::fluid {
@@ -160,7 +161,13 @@ void outline(const LiquidSpec<3>& liquid, const FluidSpec<3>& spec, const WallsA
   const Surface<3> region = clipped(liquid, walls);
   if (region.facets.cols() == 0) return;
   const Skin skin = skin_of(region, walls);
-  fill_within(skin.mesh, curves_of(skin, walls), size_field(spec, skin, walls), walls, out);
+  const Curves curves = curves_of(skin, walls);
+  const SizeField<3> field = size_field(spec, skin, walls);
+  std::vector<std::array<Vec<3>, 2>> edges;
+  for (const auto& line : curves.lines)
+    for (std::size_t i = 1; i < line.size(); ++i) edges.push_back({vec(line[i - 1]), vec(line[i])});
+  refuse_narrow_gaps(edges, field, walls);
+  fill_within(skin.mesh, curves, field, walls, out);
 }
 
 }  // namespace splashdown::fluid

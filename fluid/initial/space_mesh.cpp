@@ -72,7 +72,8 @@ Complex meshed(const Domain& domain, const SizeField<3>& field) {
 // that do themselves, and holes in the water where they are.
 class LiquidCells {
  public:
-  LiquidCells(const Complex& complex, const Domain& domain) : complex_(complex), is_liquid_(domain.is_in_domain_object()) {}
+  LiquidCells(const Complex& complex, const Domain& domain)
+      : complex_(complex), is_liquid_(domain.is_in_domain_object()) {}
 
   bool operator()(Triangulation::Cell_handle cell) {
     if (complex_.is_in_complex(cell)) return true;

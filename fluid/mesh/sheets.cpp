@@ -38,9 +38,10 @@ void keep_coarse_water(const Nodes<d>& nodes, const Mesh<d>& mesh, std::vector<c
 }
 
 template <int d>
-void hand_over_volume(const std::array<int, d + 1>& cell, const std::vector<char>& flies, Nodes<d>& nodes) {
+void hand_over_volume(const std::array<int, d + 1>& cell, const std::vector<char>& flies, const std::vector<Vec<d>>& x,
+                      Nodes<d>& nodes) {
   const auto flying = std::ranges::count_if(cell, [&](int n) { return flies[n]; });
-  const double share = volume<d>(corners(nodes.x, cell)) / (d + 1);
+  const double share = volume<d>(corners(x, cell)) / (d + 1);
   for (int stays : cell) {
     if (flies[stays]) continue;
     const double given = std::clamp(share, 0.0, std::max(0.0, nodes.volume[stays])) / static_cast<double>(flying);
@@ -50,6 +51,7 @@ void hand_over_volume(const std::array<int, d + 1>& cell, const std::vector<char
       if (!flies[n]) continue;
       const double had = std::max(0.0, nodes.volume[n]);
       nodes.v[n] = (had * nodes.v[n] + given * nodes.v[stays]) / (had + given);
+      nodes.x[n] = (had * nodes.x[n] + given * x[stays]) / (had + given);
       nodes.volume[n] += given;
     }
   }
@@ -68,8 +70,9 @@ void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies) {
     std::ranges::sort(facet);
     return facet;
   };
+  const std::vector<Vec<d>> x = nodes.x;
   for (const auto& cell : sheet) {
-    hand_over_volume<d>(cell, flies, nodes);
+    hand_over_volume<d>(cell, flies, x, nodes);
     for (int k = 0; k <= d; ++k) outside[key(facet_nodes(cell, k))] = false;
   }
   std::erase_if(mesh.boundary, [&](const auto& f) {
