@@ -49,10 +49,10 @@ class Defaults {
                       impulse = force.substr(0, 1) + " s" + force.substr(1);
     const std::string of = "bodies." + body.name + ".", up = scene_.dimension == 2 ? "y" : "z";
     const auto vertical = fmt::format("{}", scene_.dimension - 1);
-    // CFC 60 and 180: whole structures and their velocities (SAE J211-1). Higher classes are left out on coarse rungs.
+    // CFC 60, of structures as a whole (SAE J211-1), is the headline, and there on all rungs; CFC 180 on those with short steps.
     if (body.motion == Motion::free) {
       entry(body.name + ".peak_g_cfc60", "g", of + "peak_acceleration_g.cfc60.value");
-      entry(body.name + ".peak_g_cfc180", "g", of + "peak_acceleration_g.cfc180.value");
+      entry(body.name + ".peak_g_cfc180", "g", of + "peak_acceleration_g.cfc180.value", false);
       entry(body.name + ".peak_g_raw", "g", of + "peak_acceleration_g.raw.value", false);
     }
     entry(body.name + ".peak_force_cfc60", force, of + "peak_force_filtered.cfc60.value", body.motion != Motion::free);

@@ -9,7 +9,6 @@
 #include "apps/cli/plain_text.hpp"
 #include "apps/record/frames/frames.hpp"
 #include "apps/run/progress.hpp"
-#include "apps/statistics/filters.hpp"
 #include "apps/statistics/grades.hpp"
 
 namespace splashdown::apps {
@@ -72,9 +71,8 @@ std::string pulse_text(const PulseSummary& acceleration, const PulseGrades& grad
   for (const auto& [cfc, pulse] : classes) {
     names += fmt::format("{}{}", names.empty() ? "" : "/", cfc);
     const auto graded = grades.cfc.find(cfc);
-    const bool told = graded != grades.cfc.end() && cfc <= highest_graded_class;
     peaks += fmt::format("{}{:.3g}{}", peaks.empty() ? "" : ", ", pulse.value,
-                         band_text(told ? &graded->second : nullptr));
+                         band_text(cfc == structures_class && graded != grades.cfc.end() ? &graded->second : nullptr));
   }
   auto text = fmt::format("CFC {}: {} g", names, peaks);
   const auto chosen = classes.contains(180) ? classes.find(180) : classes.begin();

@@ -14,9 +14,9 @@
 namespace splashdown::apps {
 
 inline constexpr int channel_frequency_classes[] = {60, 180, 600, 1000};
-/// Up to this one, of structures and of their velocities, a peak has a value however long the steps are, with what that costs in its
-/// band (grades.hpp); higher ones have none from records that J211 does not allow.
-inline constexpr int highest_graded_class = 180;
+/// Loads on structures as a whole. Peaks of this class have a value however long the steps are, with what that costs in their band
+/// (grades.hpp); higher ones have none from records that J211 does not allow.
+inline constexpr int structures_class = 60;
 
 /// Interval averages of a few channels (the components of a vector): interval i ends at ends[i] and begins
 /// where the one before ended; values holds `channels` numbers an interval.

@@ -23,14 +23,12 @@
 // which are of a body at rest.
 #pragma once
 
+#include "apps/statistics/filters.hpp"
 #include "apps/statistics/summary.hpp"
 
 namespace splashdown::apps {
 
 inline constexpr double resolved_band = 0.05, doubtful_band = 0.10;
-
-/// SAE J211: loads on structures as a whole.
-inline constexpr int structures_class = 60;
 
 /// Share of the error of the mesh in a load, see above.
 double mesh_band(int dimension, const Evidence& evidence);

@@ -96,7 +96,7 @@ std::map<int, Pulse> filtered_pulses(const IntervalHistory& history) {
     if (!channels) continue;
     const Pulse pulse = pulse_of(*channels, history.begin, history.ends.back());
     if (pulse.time < 0) continue;
-    if (cfc <= highest_graded_class || fine_enough(history, cfc, pulse.time)) pulses.emplace(cfc, pulse);
+    if (cfc == structures_class || fine_enough(history, cfc, pulse.time)) pulses.emplace(cfc, pulse);
   }
   return pulses;
 }

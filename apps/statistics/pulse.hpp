@@ -22,7 +22,8 @@ namespace splashdown::apps {
 Pulse pulse_of(const IntervalHistory& history, double from = -std::numeric_limits<double>::infinity(),
                double to = std::numeric_limits<double>::infinity());
 
-/// The pulse of the filtered channels, for each class for which the record is long enough and, above highest_graded_class, fine enough (filters.hpp).
+/// The pulse of the filtered channels, for each class for which the record is long enough and, above that of structures, fine
+/// enough (filters.hpp).
 std::map<int, Pulse> filtered_pulses(const IntervalHistory& history);
 
 }  // namespace splashdown::apps

@@ -289,6 +289,40 @@ void fill_cracks(const Delaunay<d>& all, const Nodes<d>& nodes, const WallsAt<d>
   for (int c : thin) content[c] = none;
 }
 
+// Water between nodes of one hull that nothing but that hull bounds is what chords leave in a hollow of it. No pressure is right in
+// it: none has to be zero.
+template <int d>
+void leave_out_pockets(const Delaunay<d>& all, const Nodes<d>& nodes, const WallsAt<d>& at,
+                       std::vector<Content>& content) {
+  auto hull_of = [&](int c) {
+    const auto& cell = all.cells[c];
+    const int wall = nodes.tie[cell[0]].wall;
+    const bool is_one = std::ranges::all_of(cell, [&](int n) { return nodes.tie[n].wall == wall; });
+    return is_filled(content[c]) && is_one && wall >= 0 && !at.walls[wall].encloses_fluid() ? wall : -1;
+  };
+  std::vector<char> seen(content.size(), 0);
+  std::vector<int> pocket;
+  for (std::size_t first = 0; first < content.size(); ++first) {
+    const int hull = seen[first] ? -1 : hull_of(static_cast<int>(first));
+    if (hull < 0) continue;
+    pocket.assign(1, static_cast<int>(first));
+    seen[first] = 1;
+    bool is_closed = true;
+    for (std::size_t i = 0; i < pocket.size(); ++i)
+      for (int k = 0; k <= d; ++k) {
+        const int c = pocket[i], other = all.neighbours[c][k];
+        if (other < 0 || !is_filled(content[other]))
+          is_closed = is_closed && wall_of(Facet<d>{facet_nodes(all.cells[c], k)}, nodes, at) >= 0;
+        else if (hull_of(other) != hull)
+          is_closed = false;
+        else if (!seen[other])
+          seen[other] = 1, pocket.push_back(other);
+      }
+    if (is_closed)
+      for (int c : pocket) content[c] = none;
+  }
+}
+
 }  // namespace
 
 template <int d>
@@ -333,6 +367,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   std::vector<int> piercing;
   if constexpr (d == 3) piercing = recover_walls(all, nodes, inner, walls, content, decide);
   fill_cracks(all, nodes, walls, content);
+  leave_out_pockets(all, nodes, walls, content);
 
   mesh.cells.reserve(all.cells.size());
   nodes.spray.assign(nodes.size(), 1);

@@ -45,8 +45,10 @@ void PressureEquation<d>::measure(double density) {
   in_parallel(count, [&](std::size_t i) {
     for (const auto [c, k] : around_.around(i)) lumped_[i] += rate_[c];
   });
-  // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour.
-  constexpr double lightest = 0.02;
+  // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour. In the plane that is
+  // for those beside the free surface: gaps between walls are thin on purpose, and what resists more than it weighs
+  // no hydrostatic pressure carries.
+  constexpr double lightest = 0.02, lightest_within = d == 2 ? 1e-4 : lightest;
   in_parallel(mesh_->cells.size(), [&](std::size_t c) {
     rate_[c] = 0;
     for (int n : mesh_->cells[c]) rate_[c] = std::max(rate_[c], lumped_[n]);
@@ -60,8 +62,7 @@ void PressureEquation<d>::measure(double density) {
       heaviest = std::max(heaviest, rate_[c]);
       for (int n : mesh_->cells[c]) near_surface = near_surface || nodes_->surface[n];
     }
-    if (!near_surface) heaviest = 0;
-    const double resists = std::max(lumped_[i], lightest * heaviest);
+    const double resists = std::max(lumped_[i], (near_surface ? lightest : lightest_within) * heaviest);
     per_nodal_mass_[i] = resists > 0 ? 1 / (density * (d + 1) * resists) : 0.0;
     keeps[i] = resists > 0 ? 1 - lumped_[i] / ((d + 2) * resists) : 0.0;
   });

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -125,6 +126,37 @@ TEST(Peaks, classes_beyond_the_sampling_rate_are_absent) {
   EXPECT_TRUE(peaks.contains(180));
   EXPECT_FALSE(peaks.contains(600));
   EXPECT_FALSE(peaks.contains(1000));
+}
+
+// In CFC 60 long steps cost accuracy, and the peak says how much.
+TEST(Peaks, of_structures_are_there_however_long_the_steps_are) {
+  const double step = 0.01;
+  const auto record = half_sine_pulse(0.05, step);
+  const auto peaks = filtered_pulses(record);
+  ASSERT_TRUE(peaks.contains(60));
+  EXPECT_EQ(peaks.size(), 1u);
+  const double lost = lost_to_steps(record, 60, peaks.at(60).time);
+  EXPECT_NEAR(lost, 1, 1e-12);  // a step as long as the period of the cut-off frequency
+}
+
+// A sine at the cut-off frequency, averaged over the steps of the record and brought back as steps: its part of that frequency.
+TEST(Filters, what_steps_take_is_what_their_means_lack_of_the_cut_off_frequency) {
+  const int cfc = 60;
+  const double f = cfc / 0.6, pi = std::numbers::pi;
+  for (const double samples : {4., 6., 10., 40.}) {
+    const double step = 1 / (samples * f);
+    IntervalHistory record{1, 0, {}, {}};
+    double in_phase = 0, whole = 0;  // with the sine, of the steps and of itself
+    for (int i = 0; i < 10 * static_cast<int>(samples); ++i) {
+      const double begin = i * step, end = begin + step;
+      const double mean = (std::cos(2 * pi * f * begin) - std::cos(2 * pi * f * end)) / (2 * pi * f * step);
+      record.append(end, std::array{mean});
+      in_phase += mean * mean * step;
+      whole += 0.5 * step;
+    }
+    const double kept = 1 - lost_to_steps(record, cfc, 0.05);
+    EXPECT_NEAR(in_phase, kept * kept * whole, 1e-12) << samples;
+  }
 }
 
 TEST(Filters, a_record_too_long_to_be_resampled_has_no_class) {

@@ -184,6 +184,44 @@ TEST(InitialLiquidInSpace, cones_under_water_keep_their_rims) {
   }
 }
 
+/// A basin with a box beside one of its walls.
+Basin with_gap(double h, double gap, const Vec<3>& side, double depth) {
+  Basin basin(h);
+  auto box = scenes::wall("box", scenes::block(-0.5 * side, 0.5 * side), h);
+  box.pose.translation() << -1 + gap + 0.5 * side.x(), 0.05, -depth;
+  basin.spec.walls.push_back(box);
+  return basin;
+}
+
+// Between two walls nearer to each other than an element a cell's circumcentre may lie in either.
+TEST(InitialLiquidInSpace, gaps_of_four_tenths_of_an_element_and_more_are_filled) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int k = 0; k < 12; ++k) {
+    const double h = 0.15 + 0.1 * share(random), gap = h * std::pow(0.4, share(random));
+    const Vec<3> side(0.3 + 0.3 * share(random), 0.3 + 0.3 * share(random), 0.3 + 0.3 * share(random));
+    const double depth = share(random) < 0.5 ? 0 : 0.5;
+    const double displaced = depth == 0 ? 0.5 : 1;
+    const auto liquid = with_gap(h, gap, side, depth).fill();
+    EXPECT_NEAR(volume_of(liquid), 4 - displaced * side.prod(), 1e-9) << k << ": gap " << gap / h << " h";
+  }
+}
+
+TEST(InitialLiquidInSpace, gaps_that_cannot_be_filled_are_told_with_their_place) {
+  for (const double share : {0.04, 0.004}) {
+    const auto basin = with_gap(0.2, share * 0.2, {0.4, 0.4, 0.4}, 0.5);
+    try {
+      basin.fill();
+      FAIL() << share;
+    } catch (const std::invalid_argument& error) {
+      const std::string text = error.what();
+      EXPECT_TRUE(text.starts_with("the gap between ")) << text;
+      for (const char* word : {"tank", "box", " at (-0.99", "elements of 0.2 m", "Use smaller ones"})
+        EXPECT_NE(text.find(word), std::string::npos) << text;
+    }
+  }
+}
+
 TEST(InitialLiquidInSpace, no_liquid_is_told) {
   Basin basin(0.3);
   basin.spec.liquids[0].boundary = scenes::block({3, 3, 3}, {4, 4, 4});

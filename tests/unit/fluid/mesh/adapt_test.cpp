@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "fluid/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -160,6 +161,27 @@ TEST(Adapt, leaves_no_two_nodes_in_one_place_and_loses_no_volume) {
       << "what has gone has handed on its volume";
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) EXPECT_GT((nodes.x[i] - nodes.x[j]).norm(), 0) << i << " " << j;
+}
+
+// The contact lines on both sides of a gap, a tenth of an element wide, and a corner on one of them.
+TEST(Adapt, does_not_merge_across_a_gap_between_walls) {
+  std::vector<Wall<2>> walls;
+  const std::vector<Isometry<2>> poses(2, Isometry<2>::Identity());
+  walls.emplace_back(scenes::wall("left", scenes::rectangle({-1, -1}, {0, 0}), 0.1));
+  walls.emplace_back(scenes::wall("right", scenes::rectangle({0.01, -1}, {1, 1}), 0.1));
+  Nodes<2> nodes;
+  Mesh<2> mesh;
+  const auto add = [&](double x, double y, WallTie tie, bool surface) {
+    nodes.add({x, y}, Vec<2>::Zero(), 0, tie, surface, 0.1);
+  };
+  const WallsAt<2> at{walls, poses};
+  for (const double y : {-0.2, -0.1, 0.}) add(0, y, tie_at<2>({0, y}, at), y == 0);
+  for (const double y : {0., -0.1, -0.2}) add(0.01, y, tie_at<2>({0.01, y}, at), y == 0);
+  ASSERT_GE(nodes.tie[2].vertex, 0);
+  for (int i = 0; i < 6; ++i) mesh.boundary.push_back({{(i + 1) % 6, i}, i == 2 || i == 5 ? -1 : i < 2 ? 0 : 1});
+  mesh = recognise<2>(nodes, mesh.boundary, at);
+  ASSERT_EQ(mesh.cells.size(), 4u);
+  EXPECT_EQ(adapt<2>(nodes, mesh, at).removed, 0);
 }
 
 TEST(Adapt, does_not_merge_across_a_thin_jet) {

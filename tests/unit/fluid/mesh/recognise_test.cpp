@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "fluid/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -281,6 +282,35 @@ TEST(Recognise, a_film_that_walls_close_in_is_no_water) {
     EXPECT_EQ(open, !mesh.cells.empty()) << width << ": what is water has a way out";
     EXPECT_NEAR(area(mesh, film.nodes), width < 1e-4 ? 0 : 0.0498 * width, 100 * eps) << width;
     for (char flies : film.nodes.spray) EXPECT_EQ(flies != 0, width < 1e-4) << width;
+  }
+}
+
+// A chord across a notch of a hull passes for a facet on it where the notch is shallow. Nothing but the hull bounds what is behind.
+TEST(Recognise, water_that_a_hull_alone_closes_in_is_none) {
+  const double length = 0.1;
+  for (const double depth : {0.02, 0.05, 0.08, 0.2, 0.5}) {
+    auto spec = scenes::still_water(1, 0.8, 0.06);
+    spec.walls.insert(spec.walls.begin(), scenes::wall("notched",
+                                                       scenes::outline({{-0.4, -0.6},
+                                                                        {0.4, -0.6},
+                                                                        {0.4, -0.2},
+                                                                        {length / 2, -0.2},
+                                                                        {0, -0.2 - depth * length},
+                                                                        {-length / 2, -0.2},
+                                                                        {-0.4, -0.2}}),
+                                                       0.06));
+    const scenes::Placed placed(spec);
+    Liquid notch;
+    notch.h = 0.06;
+    notch.add_ring({{-length / 2, -0.2}, {0, -0.2 - depth * length}, {length / 2, -0.2}});
+    for (std::size_t i = 0; i < 3; ++i) notch.nodes.tie[i] = tie_at<2>(notch.nodes.x[i], placed.at());
+    notch.nodes.h.assign(3, notch.h);
+    const auto mesh = recognise<2>(notch.nodes, notch.boundary, placed.at());
+    const bool open =
+        std::any_of(mesh.boundary.begin(), mesh.boundary.end(), [](const Facet<2>& f) { return f.wall < 0; });
+    EXPECT_EQ(open, !mesh.cells.empty()) << depth << ": what is water has a way out";
+    EXPECT_EQ(mesh.cells.empty(), depth < 0.1) << depth;
+    for (char flies : notch.nodes.spray) EXPECT_EQ(flies != 0, depth < 0.1) << depth;
   }
 }
 

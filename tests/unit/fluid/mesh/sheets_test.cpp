@@ -36,6 +36,14 @@ VelocityMoments<d> carried(const Nodes<d>& nodes) {
   return all;
 }
 
+/// Volume times place.
+template <int d>
+Vec<d> moment(const Nodes<d>& nodes) {
+  Vec<d> sum = Vec<d>::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) sum += nodes.volume[i] * nodes.x[i];
+  return sum;
+}
+
 template <int d>
 double volume_of_cells(const scenes::Lattice<d>& p) {
   return std::accumulate(p.mesh.cells.begin(), p.mesh.cells.end(), 0.0,
@@ -81,12 +89,14 @@ TYPED_TEST(Sheets, nodes_whose_cells_all_lie_between_free_surfaces_fly) {
     for (int n : cell) EXPECT_FALSE(nodes.spray[n]);
 }
 
-TYPED_TEST(Sheets, they_take_their_volume_and_momentum_along_and_no_energy) {
+TYPED_TEST(Sheets, they_take_their_volume_place_and_momentum_along_and_no_energy) {
   constexpr int d = TypeParam::value;
   auto p = pool_with_sheet<d>();
   const auto before = carried(p.nodes);
+  const auto place = moment(p.nodes);
   let_sheets_fly<d>(p.nodes, p.mesh, any_node);
   const auto after = carried(p.nodes);
+  EXPECT_LE((moment(p.nodes) - place).norm(), 1000 * scenes::eps);  // nothing is lifted
   EXPECT_NEAR(after.volume, before.volume, 1000 * scenes::eps);
   EXPECT_LE((after.momentum - before.momentum).norm(), 1000 * scenes::eps);
   EXPECT_LT(after.energy, before.energy);
@@ -97,7 +107,7 @@ TYPED_TEST(Sheets, they_take_their_volume_and_momentum_along_and_no_energy) {
   }
 }
 
-TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_and_momentum_stay) {
+TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_place_and_momentum_stay) {
   constexpr int d = TypeParam::value;
   for (const std::size_t node : {0, 7, 12}) {  // at a corner, at a side, within
     scenes::Lattice<d> p(5);
@@ -105,9 +115,11 @@ TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_and_momentum_stay) {
     std::mt19937 random(7);
     for (auto& v : p.nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
     const auto before = carried(p.nodes);
+    const auto place = moment(p.nodes);
     std::vector<char> flies(p.nodes.size(), 0);
     flies[node] = 1;
     let_fly<d>(p.nodes, p.mesh, flies);
+    EXPECT_LE((moment(p.nodes) - place).norm(), 1000 * scenes::eps);
     EXPECT_TRUE(p.nodes.spray[node]);
     const auto after = carried(p.nodes);
     EXPECT_NEAR(after.volume, before.volume, 1000 * scenes::eps);
