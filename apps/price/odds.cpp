@@ -32,8 +32,8 @@ LimitOdds::LimitOdds(std::span<const MeshValue> values, double lowest, double hi
   mean_size_ = std::exp(sizes.array().log().mean());
   const double roundoff = 1e-12 * (phi.maxCoeff() - phi.minCoeff());
   std::vector<double> logarithms;
-  for (const bool grows : {false, true}) {
-    const Eigen::VectorXd weights = (mean_size_ / sizes.array()).pow(grows ? 1 : 0);  // det W = 1
+  for (const double growth : {0., 1., 2., 4.}) {
+    const Eigen::VectorXd weights = (mean_size_ / sizes.array()).pow(growth);  // det W = 1
     for (int k = 0; lowest + k * order_step < highest + order_step / 2; ++k) {
       const double p = lowest + k * order_step;
       Eigen::MatrixX2d X(n, 2);
@@ -50,7 +50,7 @@ LimitOdds::LimitOdds(std::span<const MeshValue> values, double lowest, double hi
                         .middle = solution[1],
                         .middle_error = std::sqrt(variance * inverse(1, 1)),
                         .noise = std::sqrt(variance),
-                        .grows = grows});
+                        .growth = growth});
       const bool at_end = p == lowest || p + order_step > highest + order_step / 2;
       logarithms.push_back(std::log(at_end ? 0.5 : 1.) - 0.5 * std::log(normal.determinant()) -
                            0.5 * freedom_ * std::log(squares));
@@ -91,7 +91,7 @@ double LimitOdds::within_of_one_at(double h, double probability) const {
   std::vector<Part> parts;
   for (const auto& pair : pairs_) {
     const double relative = h / mean_size_, power = std::pow(relative, pair.order);
-    const double noise = pair.noise * (pair.grows ? std::sqrt(relative) : 1);
+    const double noise = pair.noise * std::pow(relative, 0.5 * pair.growth);
     parts.push_back({pair.weight, pair.middle * power, std::hypot(pair.middle_error * power, noise)});
   }
   return quantile(parts, probability);

@@ -1,9 +1,9 @@
 // Where the limit of a ladder of noisy values may be.
 //
-//   phi_i = phi_0 + alpha h_i^p + e_i,   e_i normal with variance s^2 g(h_i),   g = 1 or h/H
+//   phi_i = phi_0 + alpha h_i^p + e_i,   e_i normal with variance s^2 g(h_i),   g = 1, h/H, (h/H)^2 or (h/H)^4
 //
 // H is the geometric mean of the sizes. Before any value is known each order p between two ends is as likely as another, each
-// of the two laws of noise too, and phi_0, alpha H^p and log s may be anything. Then, given p and g, phi_0 follows Student's t
+// law of noise too, and phi_0, alpha H^p and log s may be anything. Then, given p and g, phi_0 follows Student's t
 // with n - 2 degrees of freedom about its least-squares value, with its standard error; and a pair (p, g) has the weight
 // det(X^T W X)^(-1/2) S^(-(n-2)/2) det(W)^(1/2), with the weighted sum of squares S (Gelman et al. 2013, Bayesian Data Analysis, section 14.2,
 // integrated over the coefficients and s). The odds of phi_0 are the weighted sum over the pairs.
@@ -39,7 +39,7 @@ class LimitOdds {
 
   struct Pair {
     double weight, order, limit, limit_error, middle, middle_error, noise;  // middle: alpha H^p
-    bool grows;                                                             // g = h/H
+    double growth;                                                          // g = (h/H)^growth
   };
   std::vector<Pair> pairs_;
   double mean_size_, freedom_;

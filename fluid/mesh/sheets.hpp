@@ -6,12 +6,12 @@
 // on a wall flies as a drop (droplets.hpp), under the effects alone, and the cells around it are no water any more:
 //
 //   of each of them, V, every corner that stays gives V / (d + 1) to the corners that fly, in equal shares, with its momentum:
-//     v <- (V_f v_f + s v) / (V_f + s),  V_f <- V_f + s
+//     v <- (V_f v_f + s v) / (V_f + s), x likewise,  V_f <- V_f + s
 //
 // Water that has just closed a gap between two waters stays until nodes carry it. So does all of a part of which more than half would
 // fly, but for one that all does: its mesh is coarse rather than its water thin.
 //
-// Volume and momentum are kept, kinetic energy falls by what the velocities differ across a cell.
+// Volume, momentum and centre of mass are kept, kinetic energy falls by what the velocities differ across a cell.
 #pragma once
 
 #include <functional>
