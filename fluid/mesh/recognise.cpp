@@ -297,8 +297,8 @@ void leave_out_pockets(const Delaunay<d>& all, const Nodes<d>& nodes, const Wall
   auto hull_of = [&](int c) {
     const auto& cell = all.cells[c];
     const int wall = nodes.tie[cell[0]].wall;
-    const bool is_one = std::ranges::all_of(cell, [&](int n) { return nodes.tie[n].wall == wall; });
-    return is_filled(content[c]) && is_one && wall >= 0 && !at.walls[wall].encloses_fluid() ? wall : -1;
+    if (wall < 0 || !is_filled(content[c]) || at.walls[wall].encloses_fluid()) return -1;
+    return std::ranges::all_of(cell, [&](int n) { return nodes.tie[n].wall == wall; }) ? wall : -1;
   };
   std::vector<char> seen(content.size(), 0);
   std::vector<int> pocket;

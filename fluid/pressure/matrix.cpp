@@ -60,7 +60,8 @@ void PressureEquation<d>::measure(double density) {
     bool near_surface = false;
     for (const auto [c, k] : around_.around(i)) {
       heaviest = std::max(heaviest, rate_[c]);
-      for (int n : mesh_->cells[c]) near_surface = near_surface || nodes_->surface[n];
+      if constexpr (lightest_within < lightest)
+        for (int n : mesh_->cells[c]) near_surface = near_surface || nodes_->surface[n];
     }
     const double resists = std::max(lumped_[i], (near_surface ? lightest : lightest_within) * heaviest);
     per_nodal_mass_[i] = resists > 0 ? 1 / (density * (d + 1) * resists) : 0.0;
