@@ -23,6 +23,16 @@ constexpr double coarsest_that_counts = 8.08;  // refinements are rounded
 constexpr int rungs_that_count = 4;
 constexpr double replicate = 1.1;  // sizes nearer than this are one rung
 
+int rungs_of(std::span<const MeshValue> values) {
+  std::vector<double> sizes;
+  for (const auto& value : values) sizes.push_back(value.h);
+  std::ranges::sort(sizes);
+  int rungs = 0;
+  for (double last = 0; const double size : sizes)
+    if (size > replicate * last) ++rungs, last = size;
+  return rungs;
+}
+
 /// Without those on too coarse meshes.
 std::vector<MeshValue> that_count(std::span<const MeshValue> values) {
   const double finest = std::ranges::min_element(values, {}, &MeshValue::h)->h;
@@ -43,16 +53,6 @@ double sum_of_squares(const Eigen::VectorXd& weights, const Eigen::VectorXd& res
 
 }  // namespace
 
-int rungs_of(std::span<const MeshValue> values) {
-  std::vector<double> sizes;
-  for (const auto& value : values) sizes.push_back(value.h);
-  std::ranges::sort(sizes);
-  int rungs = 0;
-  for (double last = 0; const double size : sizes)
-    if (size > replicate * last) ++rungs, last = size;
-  return rungs;
-}
-
 /// All fits of one set of values.
 class Fitter {
  public:
@@ -68,7 +68,6 @@ class Fitter {
 
   Convergence best() {
     std::vector<Convergence> fits;
-    if (rungs_ == 2) return through_two();
     std::string refusal = "three meshes are too few for an order";
     if (h_.size() > 3) fits = with_order(refusal);
     if (fits.empty()) fits = without_order(any_too_low_);
@@ -82,16 +81,6 @@ class Fitter {
   }
 
  private:
-  /// Of first order, whatever it is.
-  Convergence through_two() const {
-    auto line = fit(Form::first_order, equal_, {1});
-    if (h_.size() == 2) line.deviation_ = 0;
-    line.refusal_ = "two meshes are too few for an order";
-    line.range_ = phi_.maxCoeff() - phi_.minCoeff();
-    line.safety_ = poor_safety;
-    return line;
-  }
-
   /// Linear in its coefficients: exponents of h beside the constant. Infinite deviation without a degree of freedom left.
   Convergence fit(Form form, const Eigen::VectorXd& weights, std::vector<double> exponents) const {
     const auto columns = static_cast<Eigen::Index>(exponents.size()) + 1;
@@ -194,7 +183,7 @@ class Fitter {
 
 std::optional<Convergence> Convergence::of(std::span<const MeshValue> values) {
   if (std::ranges::any_of(values, [](const auto& v) { return !std::isfinite(v.value) || !(v.h > 0); })) return {};
-  if (rungs_of(values) < 2) return {};
+  if (rungs_of(values) < 3) return {};
   return Fitter(that_count(values)).best();
 }
 

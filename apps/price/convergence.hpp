@@ -15,8 +15,6 @@
 //   mere noise 9 standard deviations with four meshes and 15 with twelve; fits of three coefficients follow the noise, and
 //   what they say of the limit is then taken three times; and of noisy series with an order it leaves one true value in
 //   four outside.
-// Of two sizes only the line through them is known: U = 3 eps, as Roache has it for two grids (1994, J. Fluids Eng. 116,
-// 405-413), with first order, which is less than what most have.
 #pragma once
 
 #include <cmath>
@@ -31,12 +29,9 @@ namespace splashdown::apps {
 
 enum class Form { unknown_order, first_order, second_order, first_and_second_order };
 
-/// Different sizes among them.
-int rungs_of(std::span<const MeshValue> values);
-
 class Convergence {
  public:
-  /// Nothing with fewer than two sizes or a value that is not finite. Values at sizes within 10 % of each other are
+  /// Nothing with fewer than three sizes or a value that is not finite. Values at sizes within 10 % of each other are
   /// replicates: they count in the fit and are one rung.
   static std::optional<Convergence> of(std::span<const MeshValue> values);
 

@@ -17,7 +17,6 @@ namespace {
 
 // As price lists have them: 1, 2, 5.
 constexpr double listed_percent[] = {20, 10, 5, 2, 1, 0.5};
-constexpr int meshes_of_a_price = 3;
 
 std::optional<double> deviation_of(const std::vector<double>& values) {
   if (values.size() < 2) return {};
@@ -51,18 +50,10 @@ std::optional<double> tank_influence(const PricedQuantity& quantity, int dimensi
   return std::abs(value - sum / count) / (1 - std::pow(tank_growth, -dimension));
 }
 
-int meshes_of(const std::vector<Rung>& rungs) {
-  std::vector<MeshValue> sizes;
-  for (const auto& rung : rungs) sizes.push_back({1 / rung.spec.refine, 0});
-  return rungs_of(sizes);
-}
-
-/// `meshes`: of the ladder. Two tell little; of a longer ladder a quantity that has no more has none that counts yet.
-std::optional<Convergence> fit_of(const PricedQuantity& quantity, int meshes) {
+std::optional<Convergence> fit_of(const PricedQuantity& quantity) {
   std::vector<MeshValue> values;
   for (const auto* list : {&quantity.rungs, &quantity.replicates})
     for (const auto& [rung, value] : *list) values.push_back({1 / rung.spec.refine, value});
-  if (rungs_of(values) < std::min(meshes, meshes_of_a_price)) return {};
   return Convergence::of(values);
 }
 
@@ -79,7 +70,7 @@ double least(double low, double high, const Holds& holds) {
 
 std::vector<PriceRow> rows_of(const Price& price) {
   std::vector<PriceRow> rows;
-  if (meshes_of(price.rungs) < meshes_of_a_price || !price.accuracy(price.finest())) return rows;
+  if (price.rungs.empty() || !price.accuracy(price.finest())) return rows;
   for (const double percent : listed_percent) {
     PriceRow row{
         .accuracy_percent = percent, .seconds = {}, .refine = price.refine_for(percent / 100), .decided_by = {}};
@@ -216,7 +207,7 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
     priced.value = priced.rungs.back().second;
     priced.scatter = scatter_of(priced);
     priced.tank = tank_influence(priced, dimension);
-    priced.fit = fit_of(priced, meshes_of(price.rungs));
+    priced.fit = fit_of(priced);
     price.quantities.push_back(std::move(priced));
   }
   list_rows(price);
