@@ -110,7 +110,7 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
     if (last) return {done, {}};
     stepper.commit();
     ++state.steps;
-    state.crawling = step.dt < never * (stop - time) ? state.crawling + 1 : 0;
+    state.crawling = step.dt < never * stop ? state.crawling + 1 : 0;
     state.dt_previous = step.dt;
     state.dt_cap = growth * (step.dt < wanted ? step.dt : regular);
   }

@@ -26,7 +26,7 @@ struct LoopState {
   long steps = 0;                        ///< committed
   std::map<std::string, long> rejected;  ///< refused attempts by cause
   long released = 0;                     ///< fragments of the fluid that no smaller dt kept with the rest
-  long crawling = 0;                     ///< committed of late, each below 1e-8 of what was left of the time
+  long crawling = 0;                     ///< committed of late, each below 1e-8 of the whole time
 
   /// Whether the steps have become too short to go on.
   bool crawls() const { return crawling >= 100; }
