@@ -32,7 +32,7 @@ LimitOdds::LimitOdds(std::span<const MeshValue> values, double lowest, double hi
   mean_size_ = std::exp(sizes.array().log().mean());
   const double roundoff = 1e-12 * (phi.maxCoeff() - phi.minCoeff());
   std::vector<double> logarithms;
-  for (const double growth : {0., 1., 2., 4.}) {
+  for (const double growth : {0., 1., 2.}) {
     const Eigen::VectorXd weights = (mean_size_ / sizes.array()).pow(growth);  // det W = 1
     for (int k = 0; lowest + k * order_step < highest + order_step / 2; ++k) {
       const double p = lowest + k * order_step;

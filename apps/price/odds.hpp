@@ -1,6 +1,6 @@
 // Where the limit of a ladder of noisy values may be.
 //
-//   phi_i = phi_0 + alpha h_i^p + e_i,   e_i normal with variance s^2 g(h_i),   g = 1, h/H, (h/H)^2 or (h/H)^4
+//   phi_i = phi_0 + alpha h_i^p + e_i,   e_i normal with variance s^2 g(h_i),   g = 1, h/H or (h/H)^2
 //
 // H is the geometric mean of the sizes. Before any value is known each order p between two ends is as likely as another, each
 // law of noise too, and phi_0, alpha H^p and log s may be anything. Then, given p and g, phi_0 follows Student's t
