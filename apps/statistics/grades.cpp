@@ -61,7 +61,7 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
     list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
                                         kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps")});
   if (std::isfinite(e.sampling))
-    list.push_back({e.sampling, fmt::format("its steps are too long for the filter's class (SAE J211): {}",
+    list.push_back({e.sampling, fmt::format("means over its steps may take {} of what the filter lets through",
                                             percent_text(e.sampling))});
   if (std::isfinite(e.sideways))
     list.push_back(

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+
+#include "fluid/initial/parts.hpp"
 
 namespace splashdown::fluid {
 namespace {
 
-constexpr double touching = 1e-9;    // over the size of a wall
 constexpr double narrowest = 0.01;   // over h
 constexpr double on_surface = 1e-3;  // of a liquid, over h
 
@@ -20,7 +22,7 @@ constexpr double on_surface = 1e-3;  // of a liquid, over h
 }
 
 bool touches(const Wall<3>& wall, const Isometry<3>& pose, const Vec<3>& x) {
-  const double tiny = touching * wall.diameter();
+  const double tiny = on_wall * wall.diameter();
   return wall.distance_unsigned(pose, x, 2 * tiny) < tiny;
 }
 
@@ -36,8 +38,8 @@ void refuse_narrow_gaps(std::span<const std::array<Vec<3>, 2>> edges, const Size
         const Wall<3>& other = walls.walls[w];
         if (w == own || !other.has_creases() || touches(other, walls.poses[w], middle)) continue;
         const auto nearest = other.nearest_crease(walls.poses[w], from, to);
-        const double h = size(nearest.point);
-        if (nearest.distance > touching * other.diameter() && nearest.distance < narrowest * h)
+        if (nearest.distance <= on_wall * other.diameter()) continue;
+        if (const double h = size(nearest.point); nearest.distance < narrowest * h)
           refuse(walls.walls[own], other, nearest.point, h,
                  fmt::format("is {:.3g} m wide, too narrow for ", nearest.distance));
       }
@@ -46,9 +48,7 @@ void refuse_narrow_gaps(std::span<const std::array<Vec<3>, 2>> edges, const Size
 }
 
 void refuse_holes(const InitialLiquid<3>& mesh, std::span<const LiquidSpec<3>> liquids, const WallsAt<3>& walls) {
-  std::vector<Wall<3>> outlines;
-  for (const auto& liquid : liquids)
-    outlines.emplace_back(WallSpec<3>{"", liquid.boundary, Isometry<3>::Identity(), Twist<3>::Zero(), 0});
+  const auto outlines = outlines_of<3>(liquids);
   const auto& nodes = mesh.nodes;
   for (const auto& f : mesh.mesh.boundary) {
     const int wall = nodes.tie[f.nodes[0]].wall;

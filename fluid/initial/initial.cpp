@@ -15,7 +15,6 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double on_wall = 1e-9;  // over the wall's size: roundoff of the clipping
 // While nodes are still few, cells are large for their size field and only the outline tells what is fluid.
 constexpr Alpha outline_decides{std::numeric_limits<double>::infinity(), 0.0, 0.0};
 // Until the node spacing no longer changes visibly; Mesh_3 has done most of it in space.
@@ -43,10 +42,7 @@ class Filler {
   void set_velocities() {
     const auto& liquids = spec_.liquids;
     if (std::none_of(liquids.begin(), liquids.end(), [](const auto& liquid) { return bool(liquid.velocity); })) return;
-    std::vector<Wall<d>> outlines;
-    if (liquids.size() > 1)
-      for (const auto& liquid : liquids)
-        outlines.emplace_back(WallSpec<d>{"", liquid.boundary, Isometry<d>::Identity(), Twist<d>::Zero(), 0});
+    const auto outlines = liquids.size() > 1 ? outlines_of<d>(liquids) : std::vector<Wall<d>>{};
     for (std::size_t i = 0; i < out_.nodes.size(); ++i) {
       const Vec<d>& x = out_.nodes.x[i];
       double best = std::numeric_limits<double>::max();

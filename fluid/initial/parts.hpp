@@ -1,6 +1,9 @@
 // What `fill` is made of.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "fluid/initial/initial.hpp"
 #include "fluid/mesh/size_field.hpp"
 
@@ -14,6 +17,18 @@ template <>
 void outline(const LiquidSpec<2>&, const FluidSpec<2>&, const WallsAt<2>&, InitialLiquid<2>&);
 template <>
 void outline(const LiquidSpec<3>&, const FluidSpec<3>&, const WallsAt<3>&, InitialLiquid<3>&);
+
+/// The boundaries of liquids as they were asked for, to measure distances from.
+template <int d>
+std::vector<Wall<d>> outlines_of(std::span<const LiquidSpec<d>> liquids) {
+  std::vector<Wall<d>> outlines;
+  for (const auto& liquid : liquids)
+    outlines.emplace_back(WallSpec<d>{"", liquid.boundary, Isometry<d>::Identity(), Twist<d>::Zero(), 0});
+  return outlines;
+}
+
+/// Distance of points on a wall, over its size: roundoff of the clipping.
+inline constexpr double on_wall = 1e-9;
 
 /// The wall that a point of a clipped outline lies on, to roundoff.
 template <int d>

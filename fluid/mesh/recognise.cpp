@@ -177,18 +177,13 @@ template <class Decide>
 std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& inner,
                                const WallsAt<3>& at, std::vector<Content>& content, const Decide& decide) {
   using Cell = std::array<int, 4>;
-  // What a node within the water is joined to; most cells beyond the water have none.
+  // A node of a wall, joined to one within the water or on another wall; most cells beyond the water have none.
   auto is_mixed = [&](const Cell& cell) {
-    int last = -1;
-    bool two_walls = false, within = false;
-    for (int n : cell) {
-      const int w = nodes.tie[n].wall;
-      within = within || inner[n];
-      if (w < 0) continue;
-      two_walls = two_walls || (last >= 0 && w != last);
-      last = w;
-    }
-    return last >= 0 && (within || two_walls);
+    auto tied = [&](int n) { return nodes.tie[n].wall >= 0; };
+    const auto on = std::ranges::find_if(cell, tied);
+    return on != cell.end() && std::ranges::any_of(cell, [&](int n) {
+             return inner[n] || (tied(n) && nodes.tie[n].wall != nodes.tie[*on].wall);
+           });
   };
   // A hole in the water, or water on both sides of an edge of a hull that is joined through it.
   auto is_wrong = [&](int c) {
