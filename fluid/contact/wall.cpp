@@ -62,6 +62,16 @@ bool Wall<d>::is_crease(int f, int g) const {
   return normal_.col(f).dot(normal_.col(g)) < least_smooth_cosine;
 }
 
+// Whether a neighbour across an edge lies in front of a facet, with its own corners apart from the edge.
+template <int d>
+bool Wall<d>::is_hollow(int f, int g) const {
+  const auto& facets = spec_.surface.facets;
+  const auto from = spec_.surface.vertices.col(facets(0, f));
+  for (int k = 0; k < d; ++k)
+    if ((spec_.surface.vertices.col(facets(k, g)) - from).dot(normal_.col(f)) > tiny_) return true;
+  return false;
+}
+
 // Edges between facets, and chains of those that are creases.
 template <int d>
 void Wall<d>::find_creases() {
@@ -78,19 +88,21 @@ void Wall<d>::find_creases() {
             if (facets(j, g) == b && facets((j + 1) % d, g) == a) across_(k, f) = g;
         if (across_(k, f) >= 0 && is_crease(f, across_(k, f))) of_vertex[a].push_back({f, k});
       }
-    // A crease ends where it branches or turns sharply.
+    // A crease ends where it branches or turns sharply, and where a hollow one becomes convex.
     auto other_end = [&](const std::array<int, 2>& e) { return facets((e[1] + 1) % d, e[0]); };
     auto along = [&](int from, int to) {
       return Vec<d>((spec_.surface.vertices.col(to) - spec_.surface.vertices.col(from)).normalized());
     };
+    auto hollow = [&](const std::array<int, 2>& e) { return is_hollow(e[0], across_(e[1], e[0])); };
     for (std::size_t v = 0; v < of_vertex.size(); ++v) {
       const auto& edges = of_vertex[v];
       const int at = static_cast<int>(v);
       is_sharp_[v] = !edges.empty();
-      auto turns = [&] {
-        return along(other_end(edges[0]), at).dot(along(at, other_end(edges[1]))) < least_smooth_cosine;
+      auto ends = [&] {
+        return hollow(edges[0]) != hollow(edges[1]) ||
+               along(other_end(edges[0]), at).dot(along(at, other_end(edges[1]))) < least_smooth_cosine;
       };
-      is_corner_[v] = !edges.empty() && (edges.size() != 2 || turns());
+      is_corner_[v] = !edges.empty() && (edges.size() != 2 || ends());
     }
     auto follow = [&](int from, int index) {
       for (auto edge = of_vertex[from][index];;) {
@@ -182,31 +194,35 @@ void Wall<d>::find_bends() {
     if (curvature[v] > straight) bends_.push_back({vertices.col(v), 1 / curvature[v]});
 }
 
-// Seen from each facet, the others at the corner or beyond the crease lie behind it.
+// Where a convex crease ends water flows around the corner, whatever else meets there. Without creases: where the neighbours lie
+// behind it.
 template <int d>
 void Wall<d>::find_convexity() {
   const auto& vertices = spec_.surface.vertices;
   const auto& facets = spec_.surface.facets;
-  auto stands_out = [&](int v, int f, int from) {
-    return (vertices.col(v) - vertices.col(from)).dot(normal_.col(f)) > tiny_;
-  };
-  convex_corner_.assign(vertices.cols(), 1);
-  for (int v : corners_)
-    for (int f : facets_of_[v])
-      for (int g : facets_of_[v])
-        for (int k = 0; k < d; ++k)
-          if (stands_out(facets(k, g), f, v)) convex_corner_[v] = 0;
   convex_crease_.assign(creases_.size(), 1);
-  if (d == 2) return;
   // One surface that is convex along all of its edges is convex as a whole (Tietze 1928, Nakajima 1928).
-  is_convex_ = !turned_inside_out_ && is_in_one_piece();
-  for (int f = 0; f < facets.cols(); ++f)
-    for (int k = 0; k < d; ++k)
-      for (int j = 0; j < d && across_(k, f) >= 0; ++j) {
-        if (!stands_out(facets(j, across_(k, f)), f, facets(k, f))) continue;
-        if (crease_of_(k, f) >= 0) convex_crease_[crease_of_(k, f)] = 0;
-        is_convex_ = false;
+  is_convex_ = d == 3 && !turned_inside_out_ && is_in_one_piece();
+  for (int f = 0; f < facets.cols() && d == 3; ++f)
+    for (int k = 0; k < d; ++k) {
+      if (across_(k, f) < 0 || !is_hollow(f, across_(k, f))) continue;
+      if (crease_of_(k, f) >= 0) convex_crease_[crease_of_(k, f)] = 0;
+      is_convex_ = false;
+    }
+  convex_corner_.assign(vertices.cols(), 1);
+  for (int v : corners_) {
+    bool ends = false, ends_convex = false;
+    double in_front = 0;
+    for (int f : facets_of_[v])
+      for (int k = 0; k < d; ++k) {
+        in_front += (vertices.col(facets(k, f)) - vertices.col(v)).dot(vertex_normal_.col(v));
+        const int crease = crease_of_(k, f);
+        if (crease < 0 || (facets(k, f) != v && facets((k + 1) % d, f) != v)) continue;
+        ends = true;
+        ends_convex = ends_convex || convex_crease_[crease] != 0;
       }
+    convex_corner_[v] = ends ? ends_convex : in_front < 0;
+  }
 }
 
 // All facets hang together across edges, and none of these is open.

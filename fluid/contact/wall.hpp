@@ -45,7 +45,8 @@ class Wall {
   };
   /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
   Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
-  /// Whether the solid is convex at this corner or along this crease: water flows around it. In hollow ones it stays.
+  /// Whether the solid is convex along this crease, or along one that ends at this corner: water flows around it. In hollow ones it
+  /// stays.
   bool is_convex(const WallTie& sharp) const {
     return sharp.vertex >= 0 ? convex_corner_[sharp.vertex] != 0 : convex_crease_[sharp.crease] != 0;
   }
@@ -97,6 +98,7 @@ class Wall {
   bool is_in_one_piece() const;
   void find_basin();
   bool is_crease(int f, int g) const;
+  bool is_hollow(int f, int g) const;
   struct OnCrease {
     Vec<d> point, along;  // in the wall's frame
   };

@@ -202,29 +202,41 @@ std::optional<Eigen::VectorXd> PressureEquation<d>::corrected(LinearSolver& solv
   return impulse + std::clamp(iteration.share(), 0.0, 1.0) * iteration.left().impulse;
 }
 
+// What the water adds to the walls' inertia if held nodes move with them: they let no impulse move them, their own motion is flux,
+// and their mass and what pressure would give them is the walls'.
 template <int d>
 Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
   constexpr int m = freedoms<d>;
   const auto count = static_cast<Eigen::Index>(walls.size()) * m;
-  Eigen::MatrixXd flux = Eigen::MatrixXd::Zero(size(), count);
-  for (std::size_t k = 0; k < walls.size(); ++k)
-    for (const Mode& mode : modes_[walls[k]])
-      flux.row(mode.unknown).segment(static_cast<Eigen::Index>(k) * m, m) += mode.row.transpose();
   // An interface Laplacian in the factor is one body's answer, not the water's.
   LinearSolver without{most_direct<d>};
   LinearSolver& solver = laplacian_.pieces().empty() ? solver_ : without;
-  if (&solver == &without && flux.size() > 0) {
+  if (&solver == &without && size() > 0) {
     SymmetricMatrix water;
     assemble(water);
     without.factor(water);
   }
-  Eigen::MatrixXd impulses(size(), count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    std::optional<Eigen::VectorXd> answer = corrected(solver, flux.col(k));
-    if (!answer) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
-    impulses.col(k) = *answer;
+  Eigen::MatrixXd G(count, count);
+  std::vector<Twist<d>> s(modes_.size(), Twist<d>::Zero());
+  for (Eigen::Index column = 0; column < count; ++column) {
+    const std::size_t moved = walls[static_cast<std::size_t>(column / m)];
+    s[moved] = Twist<d>::Unit(column % m);
+    std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
+    held_.hold(v, s);
+    Eigen::VectorXd flux = -flux_of(v);
+    for (const Mode& mode : modes_[moved]) flux(mode.unknown) += mode.row(column % m);
+    const std::optional<Eigen::VectorXd> impulse = corrected(solver, flux);
+    if (!impulse) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
+    const std::span<const double> pressure(impulse->data(), static_cast<std::size_t>(size()));
+    v.assign(nodes_->size(), Vec<d>::Zero());
+    accelerate(pressure, v);
+    for (Twist<d>& twist : s) twist *= -1;
+    const std::vector<Wrench<d>> of_held = held_.excess(v, s);
+    s[moved].setZero();
+    for (std::size_t k = 0; k < walls.size(); ++k)
+      G.col(column).segment(static_cast<Eigen::Index>(k) * m, m) =
+          this->impulse(walls[k], pressure) + of_held[walls[k]];
   }
-  const Eigen::MatrixXd G = algebra::transposed_product(flux, impulses);
   return 0.5 * (G + G.transpose());
 }
 

@@ -135,8 +135,8 @@ class PressureEquation {
   /// the means,  d(B phi, Q phi) / d(s, m) = (B; Q) (A + K)^-1 (-B^T, Q^T L). NaN if a solve fails.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls);
   /// G = B X [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the world frame,
-  /// whatever answers they have in this equation. X solves A X = B^T and gets the corrections of a step, so that this is the
-  /// inertia which bodies meet in it. NaN if a solve fails.
+  /// whatever answers they have in this equation. X solves A X = B^T and gets the corrections of a step, and what hollow edges hold
+  /// moves with them, so that this is the inertia which bodies meet in it. NaN if a solve fails.
   Eigen::MatrixXd added_mass_of(std::span<const std::size_t> walls);
 
   int size() const { return static_cast<int>(node_.size()); }
@@ -156,6 +156,7 @@ class PressureEquation {
   void wall_modes(std::span<const Vec<d>> centres);
   void hold_mass(std::vector<HeldNode<d>> held, double density);
   bool add_bodies();
+  Eigen::VectorXd flux_of(std::span<const Vec<d>> v) const;
   Eigen::VectorXd taken_by(const Eigen::VectorXd& phi) const;
   std::optional<Eigen::VectorXd> corrected(LinearSolver& solver, const Eigen::VectorXd& flux) const;
   Eigen::VectorXd of_held(std::span<const double> phi) const;

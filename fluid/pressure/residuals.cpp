@@ -75,16 +75,23 @@ void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<co
   }
 }
 
-// K phi: the volume that the motion by an impulse takes out, in flux form.
+// The volume that these velocities create if walls stand still, in flux form.
 template <int d>
-Eigen::VectorXd PressureEquation<d>::taken_by(const Eigen::VectorXd& phi) const {
-  std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
-  accelerate({phi.data(), static_cast<std::size_t>(phi.size())}, v);
+Eigen::VectorXd PressureEquation<d>::flux_of(std::span<const Vec<d>> v) const {
   const std::vector<Twist<d>> still(modes_.size(), Twist<d>::Zero());
   const std::vector<Vec<d>> origin(modes_.size(), Vec<d>::Zero());
   std::vector<double> r;
   flux_residual(nodes_->x, v, still, origin, r);
-  return -Eigen::Map<const Eigen::VectorXd>(r.data(), size());
+  return Eigen::Map<const Eigen::VectorXd>(r.data(), size());
+}
+
+// K phi: the volume that the motion by an impulse takes out, of nodes that nothing holds.
+template <int d>
+Eigen::VectorXd PressureEquation<d>::taken_by(const Eigen::VectorXd& phi) const {
+  std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
+  accelerate({phi.data(), static_cast<std::size_t>(phi.size())}, v);
+  held_.hold(v, std::vector<Twist<d>>(modes_.size(), Twist<d>::Zero()));
+  return -flux_of(v);
 }
 
 template <int d>

@@ -69,6 +69,22 @@ TEST(AddedMass, as_a_matrix_is_what_the_step_answers_with) {
   }
 }
 
+TEST(AddedMass, of_a_star_is_what_the_step_answers_with) {
+  // Its hollow corners hold water that moves with it. s_after = (M + G)^-1 M s.
+  constexpr double h = 0.1, mass = 10;
+  coupling::scenes::Scene scene = ring(h);
+  scene.fluid.walls.front() = fluid::scenes::wall("star", fluid::scenes::star(5, a, 0.5 * a), h);
+  const Eigen::Matrix3d M = mass * Eigen::Matrix3d::Identity();
+  fluid::Fluid<2> f(scene.fluid, fluid::scenes::no_effects());
+  const std::array<std::size_t, 1> star{0};
+  const Eigen::Vector3d s(0.3, 1, -0.5);
+  ASSERT_TRUE(f.begin(1e-6, 1e-6, {Eigen::Matrix3d::Identity(), M, {}}).ok());
+  const Eigen::Matrix3d G = f.added_mass(star);
+  ASSERT_TRUE(f.solve(std::vector<fluid::Twist<2>>{s}).status.ok());
+  const Eigen::Vector3d after = f.result().wall_velocities[0], expected = (M + G).ldlt().solve(M * s);
+  EXPECT_LE((after - expected).norm(), 1e-3 * expected.norm());
+}
+
 TEST(AddedMass, does_not_depend_on_the_body_that_feels_it) {
   const double reference = added_mass(0.1, 1000, 0);
   // The corrections are cut off, and what they leave depends on what the body does: a hundredth of the error of

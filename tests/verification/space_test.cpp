@@ -214,6 +214,26 @@ TEST(InSpace, two_spheres_know_of_each_other_as_dipoles_do) {
   EXPECT_NEAR(G(2, 8), 0.5 * other, (mesh + std::pow(c / far, 3)) * 0.5 * other);
 }
 
+// Hollow edges hold water that moves with the hull, their ends and convex edges do not. s_after = (M + G)^-1 M s, M of a hull that
+// hardly weighs anything: 1 % of what moves with it. Four corrections leave a thousandth or two of either.
+TEST(InSpace, added_mass_of_a_star_is_what_the_step_answers_with) {
+  constexpr double outer = 0.5, h = 0.12, mass = 10;
+  fluid::FluidSpec<3> spec;
+  spec.size = {.surface = 0.8, .far = 0.8, .growth = 0.4};
+  spec.liquids.push_back({ball(2, 12), {}});
+  spec.walls.push_back(fs::wall<3>("star", fs::star(4, outer, 0.5 * outer, 0.4), h));
+  Fluid<3> f(spec, effects(0));
+  using Matrix = Eigen::Matrix<double, 6, 6>;
+  const Matrix M = mass * Matrix::Identity();
+  const fluid::Twist<3> s = (fluid::Twist<3>() << 0.3, 1, -0.5, 0.2, 0, 0.7).finished();
+  const std::array<std::size_t, 1> star{0};
+  ASSERT_TRUE(f.begin(instant, instant, {Matrix::Identity(), M, {}}).ok());
+  const Eigen::MatrixXd G = f.added_mass(star);
+  ASSERT_TRUE(f.solve(std::vector{s}).status.ok());
+  const fluid::Twist<3> after = f.result().wall_velocities[0], expected = (M + G).ldlt().solve(M * s);
+  EXPECT_LE((after - expected).norm(), 5e-3 * expected.norm()) << after.transpose() << '\n' << expected.transpose();
+}
+
 // A disc of radius c on the water: M_a = 4 rho c^3 / 3, half of Lamb's. Its pressure falls to zero at the edge like the root of the
 // distance: the last element, h, carries (2 h / c)^(3/2) of the impulse.
 TEST(InSpace, a_disc_that_hits_the_water_flat_stops_it_by_its_added_mass) {

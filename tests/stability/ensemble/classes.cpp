@@ -2,15 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <stdexcept>
 
 namespace splashdown::ensemble {
+
+void Member::write_to(const std::filesystem::path& folder) const {
+  std::ofstream(folder / "scene.toml") << scene;
+  for (const auto& file : files)
+    std::filesystem::create_symlink(std::filesystem::path(SPLASHDOWN_SOURCE) / file, folder / file.filename());
+  for (const TextFile& each : texts) std::ofstream(folder / each.name) << each.text;
+}
 
 const std::vector<Class>& classes() {
   static const std::vector<Class> all{
       {"round_drops", "circles, ellipses and capsules dropped on still water, in the plane", round_drop},
       {"round_drops_3d", "spheres and capsules dropped on still water, in space", round_drop_in_space},
       {"light_solids", "boxes, cones, capsules and revolved bodies down to no mass, in space", light_solid},
+      {"light_hulls", "hulls from files, with corners and hollows, in space: free, hinged, in piles", light_hull},
       {"light_polygons", "convex polygons and boxes down to a millionth of water's density, free, hinged, in piles",
        light_polygon},
       {"drops_and_jets", "drops and jets into pools, at each other and on walls, without bodies", drop_or_jet},

@@ -22,6 +22,7 @@ Member generate(const std::string& name, std::uint64_t seed);
 Member round_drop(std::uint64_t seed);
 Member round_drop_in_space(std::uint64_t seed);
 Member light_solid(std::uint64_t seed);
+Member light_hull(std::uint64_t seed);
 Member light_polygon(std::uint64_t seed);
 Member drop_or_jet(std::uint64_t seed);
 Member still_tank(std::uint64_t seed);

@@ -49,12 +49,20 @@ struct Laws {
   bool may_be_refused = false;
 };
 
+struct TextFile {
+  std::string name, text;
+};
+
 struct Member {
   std::string kind;  ///< its class
   std::uint64_t seed = 0;
   std::string what;                          ///< in a few words
   std::string scene;                         ///< TOML
   std::vector<std::filesystem::path> files;  ///< of this project, to lie beside the scene
+  std::vector<TextFile> texts;               ///< made for it, to lie beside the scene
+
+  /// The scene, as "scene.toml", and its files.
+  void write_to(const std::filesystem::path& folder) const;
   Laws laws;
 };
 

@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -63,9 +62,7 @@ Run run_of(const Member& member, const Options& options) {
   const fs::path home = options.scratch / member.kind / std::to_string(member.seed);
   fs::remove_all(home);
   fs::create_directories(home);
-  std::ofstream(home / "scene.toml") << member.scene;
-  for (const fs::path& file : member.files)
-    fs::create_symlink(fs::path(SPLASHDOWN_SOURCE) / file, home / file.filename());
+  member.write_to(home);
 
   Run run;
   run.folder = home / "run";

@@ -36,6 +36,31 @@ inline Surface<2> ellipse(double a, double b, int segments, const Vec<2>& centre
   }
   return outline(p);
 }
+/// A star about the origin: tips at `outer`, hollow corners at `inner` between them.
+inline Surface<2> star(int tips, double outer, double inner) {
+  std::vector<Vec<2>> p;
+  for (int i = 0; i < 2 * tips; ++i) {
+    const double angle = std::numbers::pi * i / tips, r = i % 2 == 0 ? outer : inner;
+    p.push_back(r * Vec<2>(std::cos(angle), std::sin(angle)));
+  }
+  return outline(p);
+}
+/// The same, extruded from z = -half to half. Corner i below, 2 tips + i above.
+inline Surface<3> star(int tips, double outer, double inner, double half) {
+  const int n = 2 * tips;
+  const Surface<2> flat = star(tips, outer, inner);
+  Surface<3> s{Eigen::Matrix3Xd::Zero(3, 2 * n + 2), Eigen::Matrix3Xi(3, 4 * n)};
+  s.vertices.topLeftCorner(2, n) = s.vertices.block(0, n, 2, n) = flat.vertices;
+  s.vertices.row(2) << Eigen::RowVectorXd::Constant(n, -half), Eigen::RowVectorXd::Constant(n, half), -half, half;
+  for (int i = 0; i < n; ++i) {
+    const int next = (i + 1) % n;
+    s.facets.col(4 * i) << 2 * n, next, i;
+    s.facets.col(4 * i + 1) << 2 * n + 1, n + i, n + next;
+    s.facets.col(4 * i + 2) << i, next, n + next;
+    s.facets.col(4 * i + 3) << i, n + next, n + i;
+  }
+  return s;
+}
 /// The box between two corners.
 inline Surface<3> block(const Vec<3>& min, const Vec<3>& max) {
   Surface<3> s{Eigen::Matrix3Xd(3, 8), Eigen::Matrix3Xi(3, 12)};

@@ -197,6 +197,39 @@ TEST(WallOfTriangles, a_cone_has_a_tip_and_one_ring) {
   EXPECT_EQ(Wall<3>(scenes::wall("flat cone", scenes::cone(1, 0.1, 64), 1)).corners().size(), 0u) << "blunter than 30";
 }
 
+// Two slopes that are a ridge for x < 0 and a valley beyond.
+TEST(WallOfTriangles, a_crease_ends_where_a_ridge_becomes_a_valley) {
+  Surface<3> s{Eigen::Matrix3Xd(3, 9), Eigen::Matrix3Xi(3, 8)};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) s.vertices.col(3 * j + i) << i - 1, j - 1, j == 1 ? 0 : 0.35 * (i - 1);
+  s.facets << 3, 0, 4, 4, 3, 4, 4, 4,  //
+      0, 1, 2, 1, 4, 7, 5, 8,          //
+      4, 4, 5, 2, 6, 6, 8, 7;
+  const Wall<3> wall(scenes::wall("slopes", s, 1));
+  const auto ridge = wall.nearest(Isometry<3>::Identity(), {-0.5, 0, 0.1}, 1).crease,
+             valley = wall.nearest(Isometry<3>::Identity(), {0.5, 0, 0}, 1).crease;
+  ASSERT_GE(ridge, 0);
+  ASSERT_GE(valley, 0);
+  EXPECT_TRUE(wall.is_convex({0, -1, -1, ridge}));
+  EXPECT_FALSE(wall.is_convex({0, -1, -1, valley}));
+  EXPECT_TRUE(wall.is_convex({0, -1, 4, -1})) << "water flows around the end of the ridge";
+}
+
+TEST(WallConvex, corners_of_a_star_are_but_not_the_creases_between_its_tips) {
+  constexpr int tips = 5;
+  const Wall<3> wall(scenes::wall("star", scenes::star(tips, 1, 0.5, 1), 1));
+  EXPECT_EQ(wall.corners().size(), 4u * tips);
+  for (int v : wall.corners()) EXPECT_TRUE(wall.is_convex({0, -1, v, -1})) << v;
+  for (int i = 0; i < 2 * tips; ++i) {
+    const double angle = std::numbers::pi * i / tips, r = i % 2 ? 0.5 : 1;
+    const int crease = wall.nearest(Isometry<3>::Identity(), {r * std::cos(angle), r * std::sin(angle), 0}, 1).crease;
+    ASSERT_GE(crease, 0) << i;
+    EXPECT_EQ(wall.is_convex({0, -1, -1, crease}), i % 2 == 0) << i;
+  }
+  const Wall<3> around(scenes::wall("tank", scenes::turned_inside_out(scenes::block({-1, -1, -1}, {1, 1, 1})), 1));
+  for (int v : around.corners()) EXPECT_FALSE(around.is_convex({0, -1, v, -1})) << v;
+}
+
 TEST(WallConvex, solids_in_one_piece_that_nothing_stands_out_of) {
   const auto is_convex = [](Surface<3> s) { return Wall<3>(scenes::wall("", std::move(s), 1)).is_convex(); };
   const auto cube = scenes::block({-1, -1, -1}, {1, 1, 1});
