@@ -107,7 +107,7 @@ void split_facet(Nodes<d>& nodes, Mesh<d>& mesh, int facet, const Vec<d>& point,
 }
 
 template <int d>
-void occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
+bool occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
   constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
   struct Corner {
     int wall, vertex;
@@ -120,9 +120,10 @@ void occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
     for (int v : at.walls[w].corners())
       if (!taken[v]) dry.push_back({w, v});
   }
-  if (dry.empty() || nodes.size() == 0) return;
+  if (dry.empty() || nodes.size() == 0) return false;
   const double reach = near * std::ranges::max(nodes.h);
   LiquidBoundary<d> boundary(nodes, mesh, dry.size());
+  bool any = false;
   for (const auto [w, v] : dry) {
     const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
     const auto hit = boundary.nearest(point, reach);
@@ -138,6 +139,7 @@ void occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
     const bool arrived =
         hit.distance < (touches ? on_facet : 1e-9) * size || (hit.distance < near * size && boundary.encloses(point));
     if (!arrived) continue;
+    any = true;
     const WallTie tie{w, -1, v};
     if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
       nodes.x[closest] = point;
@@ -147,6 +149,7 @@ void occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
     }
     boundary.changed();
   }
+  return any;
 }
 
 // The edge leaves a smooth patch of the wall over one of its creases.
@@ -162,7 +165,7 @@ bool passes_crease(const Nodes<d>& nodes, const Wall<d>& wall, const Isometry<d>
 }
 
 template <int d>
-void occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
+bool occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
   struct Pass {
     int a, b, wall;
     typename Wall<d>::Crossing at;
@@ -175,9 +178,10 @@ void occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
       Pass pass{a, b, w, {}};
       if (passes_crease<d>(nodes, at.walls[w], at.poses[w], w, a, b, pass.at)) passes.push_back(pass);
     }
-  if (passes.empty()) return;
+  if (passes.empty()) return false;
   const BoundaryEdges<d> edges(mesh.boundary, nodes.size());
   std::vector<char> touched(nodes.size(), 0);
+  bool any = false;
   for (const Pass& pass : passes) {
     if (touched[pass.a] || touched[pass.b]) continue;
     bool taken = false;  // by a third node of the facets at the edge
@@ -187,6 +191,7 @@ void occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
                           (nodes.x[n] - pass.at.point).norm() < snap * nodes.h[n]);
     });
     if (taken) continue;
+    any = true;
     const WallTie tie{pass.wall, -1, -1, pass.at.crease};
     const int closest = pass.at.share < 0.5 ? pass.a : pass.b;
     if ((nodes.x[closest] - pass.at.point).norm() < snap * nodes.h[closest] && !nodes.tie[closest].sharp()) {
@@ -202,18 +207,19 @@ void occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
                             (1 - t) * nodes.h[pass.a] + t * nodes.h[pass.b]);
     edges.split(mesh.boundary, pass.a, pass.b, m);
   }
+  return any;
 }
 
 }  // namespace
 
 template <int d>
-void attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities) {
+bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities) {
   tie_arrivals<d>(nodes, walls, velocities);
-  occupy_corners(nodes, mesh, walls);
-  occupy_creases(nodes, mesh, walls);
+  const bool corners = occupy_corners(nodes, mesh, walls), creases = occupy_creases(nodes, mesh, walls);
+  return corners || creases;
 }
 
-template void attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
-template void attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
+template bool attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
+template bool attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
 
 }  // namespace splashdown::fluid

@@ -10,11 +10,11 @@
 
 namespace splashdown::fluid {
 
-/// Ties nodes that have reached a wall; puts nodes at wetted corners and creases. `velocities`: of the walls.
+/// Ties nodes that have reached a wall; puts nodes at wetted corners and creases, true if there were any. `velocities`: of the walls.
 template <int d>
-void attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities);
+bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities);
 
-extern template void attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
-extern template void attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
+extern template bool attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
+extern template bool attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
 
 }  // namespace splashdown::fluid

@@ -12,6 +12,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -55,10 +56,10 @@ void protect_edges(const Domain& domain, const Sizing& size, Complex& complex) {
   }
 }
 
-// Mesh_3 bounds circumradii from above; these factors make the mean edge about h.
-Complex meshed(const Domain& domain, const SizeField<3>& field) {
+// Mesh_3 bounds circumradii from above; these factors, of `scale` 1, make the mean edge about h.
+Complex meshed(const Domain& domain, const SizeField<3>& field, double scale) {
   namespace params = CGAL::parameters;
-  const Sizing edges{&field, 1.0}, facets{&field, 0.75}, cells{&field, 0.8}, sag{&field, 0.1};
+  const Sizing edges{&field, scale}, facets{&field, 0.75 * scale}, cells{&field, 0.8 * scale}, sag{&field, 0.1};
   const Criteria criteria(params::edge_size = edges, params::facet_angle = 25, params::facet_size = facets,
                           params::facet_distance = sag, params::cell_radius_edge_ratio = 2, params::cell_size = cells);
   Complex complex;
@@ -68,44 +69,63 @@ Complex meshed(const Domain& domain, const SizeField<3>& field) {
   return complex;
 }
 
+// Roundoff where edges of bodies meet all but exactly may stop Mesh_3 at one of its assertions. Other points do not lie there.
+Complex meshed(const Domain& domain, const SizeField<3>& field) {
+  for (const double scale : {1.0, 0.97, 0.94, 0.9}) {
+    try {
+      return meshed(domain, field, scale);
+    } catch (const CGAL::Failure_exception&) {
+    }
+  }
+  throw std::invalid_argument(
+      "no mesh fills the liquid: edges of bodies, tank and surface come closer to each other than a mesh resolves. "
+      "Move the "
+      "bodies by a hundredth of their size, or give them other sizes");
+}
+
 // Cells of the liquid. Mesh_3 takes those whose circumcentre lies in it, which in gaps thinner than an element leaves out some
-// that do themselves, and holes in the water where they are.
+// that do themselves, and holes in the water where they are, and takes some that lie in a wall.
 class LiquidCells {
  public:
   LiquidCells(const Complex& complex, const Domain& domain)
       : complex_(complex), is_liquid_(domain.is_in_domain_object()) {}
 
   bool operator()(Triangulation::Cell_handle cell) {
-    if (complex_.is_in_complex(cell)) return true;
     if (complex_.triangulation().is_infinite(cell)) return false;
-    const auto [known, fresh] = left_out_.try_emplace(cell, false);
-    if (fresh) known->second = lies_in_liquid(cell);
+    const bool is_taken = complex_.is_in_complex(cell);
+    if (is_taken && !is_between_boundaries(cell)) return true;
+    const auto [known, fresh] = doubtful_.try_emplace(cell, false);
+    if (fresh) known->second = is_taken ? is_liquid(centroid(cell)) : lies_in_liquid(cell);
     return known->second;
   }
 
  private:
+  bool is_liquid(const Vec<3>& at) const { return is_liquid_(Kernel::Point_3(at.x(), at.y(), at.z())).has_value(); }
+  static bool is_between_boundaries(Triangulation::Cell_handle cell) {
+    return std::ranges::all_of(std::array{0, 1, 2, 3}, [&](int k) { return cell->vertex(k)->in_dimension() < 3; });
+  }
+  Vec<3> corner(Triangulation::Cell_handle cell, int k) const {
+    return vec(complex_.triangulation().point(cell, k).point());
+  }
+  Vec<3> centroid(Triangulation::Cell_handle cell) const {
+    return (corner(cell, 0) + corner(cell, 1) + corner(cell, 2) + corner(cell, 3)) / 4;
+  }
   // By its centroid and a point towards each corner.
   bool lies_in_liquid(Triangulation::Cell_handle cell) const {
-    std::array<Vec<3>, 4> x;
-    Vec<3> centroid = Vec<3>::Zero();
-    for (int k = 0; k < 4; ++k) {
-      x[k] = vec(complex_.triangulation().point(cell, k).point());
-      centroid += x[k] / 4;
-    }
+    const std::array x{corner(cell, 0), corner(cell, 1), corner(cell, 2), corner(cell, 3)};
+    const Vec<3> middle = centroid(cell);
     constexpr double towards = 0.9, flat = 1e-9;  // volume over the longest edge's cube
     double longest = 0;
     for (int k = 1; k < 4; ++k)
       for (int j = 0; j < k; ++j) longest = std::max(longest, (x[k] - x[j]).norm());
     if (volume<3>([&](int k) { return x[k]; }) < flat * longest * longest * longest) return false;
-    auto is_liquid = [&](const Vec<3>& at) { return is_liquid_(Kernel::Point_3(at.x(), at.y(), at.z())).has_value(); };
-    return is_liquid(centroid) && std::ranges::all_of(x, [&](const Vec<3>& corner) {
-             return is_liquid(centroid + towards * (corner - centroid));
-           });
+    return is_liquid(middle) &&
+           std::ranges::all_of(x, [&](const Vec<3>& at) { return is_liquid(middle + towards * (at - middle)); });
   }
 
   const Complex& complex_;
   const Domain::Is_in_domain is_liquid_;
-  std::map<Triangulation::Cell_handle, bool> left_out_;
+  std::map<Triangulation::Cell_handle, bool> doubtful_;
 };
 
 void append(const Complex& complex, const Domain& domain, const WallsAt<3>& walls, InitialLiquid<3>& out) {

@@ -131,6 +131,13 @@ TEST(Ending, early_breaks_the_law_unless_the_scene_may_be_refused) {
   EXPECT_TRUE(verdict_of(laws, {{0, 0, 11}}, 0, R"({"verdict": {"grade": "unphysical"}})").refused);
 }
 
+TEST(Ending, before_the_first_step_is_right_where_no_mesh_fills_a_gap) {
+  Laws laws;
+  laws.may_not_be_meshed = true;
+  EXPECT_TRUE(verdict_of(laws, {{0, 0, 0}}, 2).refused);
+  EXPECT_FALSE(verdict_of(laws, {{0, 0, 0}}, 3).held());
+}
+
 // A box of one square metre that weighs a tenth of water, turned by 45 degrees, easier to move along one of its
 // axes: it goes sideways as it rises.
 TEST(Release, follows_the_whole_matrix) {

@@ -86,7 +86,8 @@ class Judgement {
     verdict_.cause = text_at(summary, "/cause");
     if (verdict_.cause.empty() && run_.exit_code != 0 && run_.exit_code != 130) verdict_.cause = run_.log;
     const bool red = text_at(summary, "/verdict/grade") == "unphysical";
-    verdict_.refused = laws_.may_be_refused && (run_.exit_code == 2 || run_.exit_code == 3 || red);
+    verdict_.refused = (laws_.may_be_refused && (run_.exit_code == 2 || run_.exit_code == 3 || red)) ||
+                       (laws_.may_not_be_meshed && run_.exit_code == 2);
     if (verdict_.refused) return verdict_;
     verdict_.findings.push_back({"ends", run_.exit_code == 0 ? 0.0 : 1.0, 0, verdict_.cause});
     if (run_.exit_code != 2) measure(summary);

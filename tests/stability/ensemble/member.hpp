@@ -47,6 +47,8 @@ struct Laws {
   std::optional<ReleaseLaw> release;
   /// Impossible scenes: a run that is refused (2), stops with a cause (3) or calls itself unphysical obeys all laws.
   bool may_be_refused = false;
+  /// Bodies so close to each other that no mesh may fill what is between them: refused before the first step (2) is right.
+  bool may_not_be_meshed = false;
 };
 
 struct TextFile {

@@ -207,6 +207,22 @@ TEST(InitialLiquidInSpace, gaps_of_four_tenths_of_an_element_and_more_are_filled
   }
 }
 
+// With two elements a side, more or less, smoothing may lead the triangulation over a vertical edge of the box.
+TEST(InitialLiquidInSpace, coarse_boxes_afloat_displace_what_is_under_water) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int k = 0; k < 24; ++k) {
+    Basin basin(0.2 + 0.15 * share(random));
+    const double h = basin.spec.size.surface, side = h * (1.6 + share(random)),
+                 draft = side * (0.5 + 0.4 * share(random));
+    auto box = scenes::wall("box", scenes::block(Vec<3>::Constant(-0.5 * side), Vec<3>::Constant(0.5 * side)), h);
+    box.pose.translation() << -1 + 0.5 * side + h * (0.5 + 0.5 * share(random)), 0.1 * share(random),
+        0.5 * side - draft;
+    basin.spec.walls.push_back(box);
+    EXPECT_NEAR(volume_of(basin.fill()), 4 - side * side * draft, 1e-9) << k << ": " << side / h << " elements a side";
+  }
+}
+
 TEST(InitialLiquidInSpace, gaps_that_cannot_be_filled_are_told_with_their_place) {
   for (const double share : {0.04, 0.004}) {
     const auto basin = with_gap(0.2, share * 0.2, {0.4, 0.4, 0.4}, 0.5);
