@@ -42,6 +42,14 @@ double energy_gain(const quantity::Table& fluid, double scale) {
   return given > 0 || gain > 0 ? gain / given : 0;
 }
 
+/// Over all rows: what remeshing has given to the water, over what walls gave.
+double remesh_gain(const quantity::Table& fluid, double scale) {
+  const auto &remesh = column(fluid, "energy_remesh"), &work = column(fluid, "work_on_walls");
+  double gain = 0, given = scale;
+  for (std::size_t i = 0; i < work.size(); ++i) gain = most(gain, remesh[i]), given = most(given, -work[i]);
+  return given > 0 || gain > 0 ? gain / given : 0;
+}
+
 double volume_error(const quantity::Table& fluid, double scale) {
   const auto &liquid = column(fluid, "volume"), &spray = column(fluid, "volume_spray");
   double error = 0;
@@ -113,6 +121,8 @@ class Judgement {
     } catch (const std::exception&) {  // each law says that its column is missing
     }
     if (laws_.energy) find("energy", laws_.energy->bound, [&] { return energy_gain(fluid, laws_.energy->scale); });
+    if (laws_.energy)
+      find("energy of remeshing", laws_.energy->remesh, [&] { return remesh_gain(fluid, laws_.energy->scale); });
     if (laws_.speed) {
       find("speed of nodes", 1, [&] { return node_speed(fluid) / laws_.speed->nodes; });
       if (std::isfinite(laws_.speed->bodies))

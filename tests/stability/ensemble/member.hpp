@@ -15,9 +15,10 @@ inline constexpr double water = 1000.0;  // [kg/m^3]
 
 /// The water may not hold more energy than it had and was given.
 struct EnergyLaw {
-  double bound = 0.02;  ///< of what the walls gave, or of `scale` if that is more
-  double scale = 0;     ///< [J; 2D: J/m]
-  double in_most = 0;   ///< bound that holds in 95 of 100 members, 0: none
+  double bound = 0.02;   ///< of what the walls gave, or of `scale` if that is more
+  double scale = 0;      ///< [J; 2D: J/m]
+  double remesh = 0.02;  ///< bound of what remeshing alone may give, over the same
+  double in_most = 0;    ///< bound that holds in 95 of 100 members, 0: none
 };
 
 /// Nothing moves faster than pressure, gravity and walls can make it.
