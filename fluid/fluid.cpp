@@ -206,7 +206,6 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   ledger.time_integration += swept - before;
   ledger.returned += ledger.volume - swept;
   ledger.energy_repair += s.trial.energy_repaired - s.trial.energy_before;
-  ledger.energy_remesh += s.trial.energy_before - s.energy_carried;
   ledger.work_on_walls = s.now.ledger.work_on_walls + s.kick * s.result.power_on_walls;
   s.work.acceleration_dt = acceleration_dt;
   s.work.time += s.dt;

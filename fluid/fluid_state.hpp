@@ -117,9 +117,8 @@ struct Fluid<d>::State {
   PressureEquation<d> equation;
   std::optional<WallMotion<d>> wall_motion;
   Trial<d> trial;
-  StepResult<d> result;       // of the last solve
-  bool solved = false;        // it is of the begun step
-  double energy_carried = 0;  // before remeshing
+  StepResult<d> result;  // of the last solve
+  bool solved = false;   // it is of the begun step
 
   WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
 
@@ -142,6 +141,7 @@ struct Fluid<d>::State {
 
   // The mesh of a step (prepare.cpp).
   void prepare();
+  double field_energy(const Present<d>& at) const;
   void size_nodes();
   void collect_drops();
   std::size_t put_drops_last();

@@ -324,12 +324,13 @@ double Fluid<d>::State::work_of(std::span<const double> impulses, std::span<cons
   return work_done;
 }
 
+// Drops included.
 template <int d>
 double Fluid<d>::State::kinetic_energy(std::span<const Vec<d>> v) const {
-  double e = 0;
+  double drops = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
-    e += (work.nodes.spray[i] ? work.nodes.volume[i] : equation.lumped_volume()[i]) * v[i].squaredNorm();
-  return 0.5 * spec.density * e;
+    if (work.nodes.spray[i]) drops += work.nodes.volume[i] * v[i].squaredNorm();
+  return equation.kinetic_energy(v) + 0.5 * spec.density * drops;
 }
 
 template struct Fluid<2>::State;

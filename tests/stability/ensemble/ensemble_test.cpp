@@ -72,9 +72,9 @@ Verdict verdict_of(
     const Laws& laws, const std::vector<std::array<double, 3>>& rows, int exit_code = 0,
     const std::string& summary = R"({"steps": 100, "rejected_steps": 2, "coupling": {"passes_max": 1}})") {
   const ScratchFolder folder;
-  std::string text = "time,volume,volume_spray,kinetic_energy,potential_energy,work_on_walls,max_speed\n";
+  std::string text = "time,volume,volume_spray,kinetic_energy,potential_energy,work_on_walls,max_speed,energy_remesh\n";
   for (const auto& row : rows)
-    text += "0,1,0," + std::to_string(row[0]) + ",0," + std::to_string(row[1]) + "," + std::to_string(row[2]) + "\n";
+    text += "0,1,0," + std::to_string(row[0]) + ",0," + std::to_string(row[1]) + "," + std::to_string(row[2]) + ",0\n";
   folder.write("fluid.csv", text);
   folder.write("summary.json", summary);
   Member m;
