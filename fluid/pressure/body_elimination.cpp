@@ -202,8 +202,17 @@ std::optional<Eigen::VectorXd> PressureEquation<d>::corrected(LinearSolver& solv
   return impulse + std::clamp(iteration.share(), 0.0, 1.0) * iteration.left().impulse;
 }
 
-// What the water adds to the walls' inertia if held nodes move with them: they let no impulse move them, their own motion is flux,
-// and their mass and what pressure would give them is the walls'.
+// B^T s - D w: the flux of walls that move, and with them the nodes that they hold.
+template <int d>
+Eigen::VectorXd PressureEquation<d>::flux_of_walls(std::span<const Twist<d>> s) const {
+  std::vector<Vec<d>> w(nodes_->size(), Vec<d>::Zero());
+  held_.hold(w, s);
+  Eigen::VectorXd flux = -flux_of(w);
+  for (std::size_t k = 0; k < modes_.size(); ++k)
+    for (const Mode& mode : modes_[k]) flux(mode.unknown) += mode.row.dot(s[k]);
+  return flux;
+}
+
 template <int d>
 Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
   constexpr int m = freedoms<d>;
@@ -219,23 +228,18 @@ Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> 
   Eigen::MatrixXd G(count, count);
   std::vector<Twist<d>> s(modes_.size(), Twist<d>::Zero());
   for (Eigen::Index column = 0; column < count; ++column) {
-    const std::size_t moved = walls[static_cast<std::size_t>(column / m)];
-    s[moved] = Twist<d>::Unit(column % m);
+    Twist<d>& moved = s[walls[static_cast<std::size_t>(column / m)]];
+    moved = Twist<d>::Unit(column % m);
+    const std::optional<Eigen::VectorXd> X = corrected(solver, flux_of_walls(s));
+    if (!X) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
+    const std::span<const double> phi(X->data(), static_cast<std::size_t>(size()));
     std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
-    held_.hold(v, s);
-    Eigen::VectorXd flux = -flux_of(v);
-    for (const Mode& mode : modes_[moved]) flux(mode.unknown) += mode.row(column % m);
-    const std::optional<Eigen::VectorXd> impulse = corrected(solver, flux);
-    if (!impulse) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
-    const std::span<const double> pressure(impulse->data(), static_cast<std::size_t>(size()));
-    v.assign(nodes_->size(), Vec<d>::Zero());
-    accelerate(pressure, v);
-    for (Twist<d>& twist : s) twist *= -1;
-    const std::vector<Wrench<d>> of_held = held_.excess(v, s);
-    s[moved].setZero();
+    accelerate(phi, v);
+    moved = -moved;
+    const std::vector<Wrench<d>> of_held = held_.excess(v, s);  // R X + M_h
+    moved.setZero();
     for (std::size_t k = 0; k < walls.size(); ++k)
-      G.col(column).segment(static_cast<Eigen::Index>(k) * m, m) =
-          this->impulse(walls[k], pressure) + of_held[walls[k]];
+      G.col(column).segment(static_cast<Eigen::Index>(k) * m, m) = impulse(walls[k], phi) + of_held[walls[k]];
   }
   return 0.5 * (G + G.transpose());
 }

@@ -134,9 +134,9 @@ class PressureEquation {
   /// Slope of a solve: what twists of walls and impulses that Laplacians lag on change in the walls' impulses and in
   /// the means,  d(B phi, Q phi) / d(s, m) = (B; Q) (A + K)^-1 (-B^T, Q^T L). NaN if a solve fails.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls);
-  /// G = B X [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the world frame,
-  /// whatever answers they have in this equation. X solves A X = B^T and gets the corrections of a step, and what hollow edges hold
-  /// moves with them, so that this is the inertia which bodies meet in it. NaN if a solve fails.
+  /// G = (B + R) X + M_h [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the world
+  /// frame, whatever answers they have in this equation. X solves A X = B^T - D w, w the motion of nodes that are held, and gets the
+  /// corrections of a step, so that this is the inertia which bodies meet in it. NaN if a solve fails.
   Eigen::MatrixXd added_mass_of(std::span<const std::size_t> walls);
 
   int size() const { return static_cast<int>(node_.size()); }
@@ -157,6 +157,7 @@ class PressureEquation {
   void hold_mass(std::vector<HeldNode<d>> held, double density);
   bool add_bodies();
   Eigen::VectorXd flux_of(std::span<const Vec<d>> v) const;
+  Eigen::VectorXd flux_of_walls(std::span<const Twist<d>> s) const;
   Eigen::VectorXd taken_by(const Eigen::VectorXd& phi) const;
   std::optional<Eigen::VectorXd> corrected(LinearSolver& solver, const Eigen::VectorXd& flux) const;
   Eigen::VectorXd of_held(std::span<const double> phi) const;
