@@ -8,7 +8,7 @@
 splashdown_ensemble(round_drops CI 31:36 NIGHTLY 1:180 BUDGET 600)
 splashdown_ensemble(round_drops_3d NIGHTLY 1:12 BUDGET 900)
 splashdown_ensemble(light_solids CI 5,12,16,32:34,36:39,42,44,45,203,242,249,418 NIGHTLY 1:500 BUDGET 300)
-splashdown_ensemble(light_hulls CI 2,3,7,8,14,16,17,22,23,25,36,40,340 NIGHTLY 1:400 BUDGET 300)
+splashdown_ensemble(light_hulls CI 2,3,7,8,14,16,17,22,23,25,36,40,340 NIGHTLY 1:200 BUDGET 300)
 splashdown_ensemble(light_polygons CI 2,6,16,18,21,23,27,31:47,60,193,229,246,361,388,423,426,456 NIGHTLY 1:1000 BUDGET 300)
 splashdown_ensemble(light_polygons AS rubbing_polygons SET contact.friction=0.5
                     CI 1,20,27,28,60,89,105,140,220 NIGHTLY 1:250 BUDGET 300)
