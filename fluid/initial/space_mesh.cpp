@@ -79,8 +79,7 @@ Complex meshed(const Domain& domain, const SizeField<3>& field) {
   }
   throw std::invalid_argument(
       "no mesh fills the liquid: edges of bodies, tank and surface come closer to each other than a mesh resolves. "
-      "Move the "
-      "bodies by a hundredth of their size, or give them other sizes");
+      "Move the bodies by a hundredth of their size, or give them other sizes");
 }
 
 // Cells of the liquid. Mesh_3 takes those whose circumcentre lies in it, which in gaps thinner than an element leaves out some
