@@ -179,7 +179,7 @@ struct Fluid<d>::State {
   Vec<d> at_t_n(const Vec<d>& before, const Vec<d>& after) const {
     return before + work.dt / (work.dt + dt) * (after - before);
   }
-  double kinetic_energy(std::span<const Vec<d>> v) const;
+  double energy_of_drops(std::span<const Vec<d>> v) const;
   double work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0, std::span<const Twist<d>> s_1) const;
   std::vector<double> carried_impulse() const;
   void middle(std::span<const Vec<d>> u, double by) {

@@ -87,10 +87,11 @@ Status Fluid<d>::State::repair() {
   const auto& held = equation.held();
   trial.repaired.assign(equation.size(), 0.0);
   trial.repair_handed.assign(walls.size(), Wrench<d>::Zero());
-  trial.energy_before = kinetic_energy(v);
   Eigen::VectorXd excess = equation.on_motions(held.excess(v, s_before));
   std::vector<Vec<d>> free = v;  // as if no wall held them
   double energy = equation.kinetic_energy(v);
+  const double drops = energy_of_drops(v);
+  trial.energy_before = energy + drops;
   for (int k = 0; k < repairs; ++k) {
     middle(v, -0.5 * work.dt);
     equation.flux_residual(trial.x_mid, v, s_before, centres(moved_poses(s_before, -0.5 * work.dt)), r);
@@ -130,7 +131,7 @@ Status Fluid<d>::State::repair() {
     for (std::size_t w = 0; w < handed.size(); ++w) trial.repair_handed[w] += taken * handed[w];
     for (int i = 0; i < equation.size(); ++i) trial.repaired[i] += r[i];
   }
-  trial.energy_repaired = kinetic_energy(v);
+  trial.energy_repaired = energy + drops;
   return {};
 }
 
@@ -324,13 +325,12 @@ double Fluid<d>::State::work_of(std::span<const double> impulses, std::span<cons
   return work_done;
 }
 
-// Drops included.
 template <int d>
-double Fluid<d>::State::kinetic_energy(std::span<const Vec<d>> v) const {
-  double drops = 0;
+double Fluid<d>::State::energy_of_drops(std::span<const Vec<d>> v) const {
+  double sum = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
-    if (work.nodes.spray[i]) drops += work.nodes.volume[i] * v[i].squaredNorm();
-  return equation.kinetic_energy(v) + 0.5 * spec.density * drops;
+    if (work.nodes.spray[i]) sum += work.nodes.volume[i] * v[i].squaredNorm();
+  return 0.5 * spec.density * sum;
 }
 
 template struct Fluid<2>::State;
