@@ -11,6 +11,7 @@
 #include "fluid/initial/surface_file.hpp"
 #include "tests/stability/ensemble/classes.hpp"
 #include "tests/stability/ensemble/random.hpp"
+#include "tests/stability/ensemble/release.hpp"
 #include "tests/stability/ensemble/scene_text.hpp"
 
 namespace splashdown::ensemble {
@@ -222,10 +223,7 @@ Member light_hull(std::uint64_t seed) {
   m.laws.may_not_be_meshed = bodies > 1;
   // A body without mass that leaves the water has no law of motion any more.
   m.laws.may_be_refused = massless && !under;
-  if (release) {
-    const double layer = std::sqrt(viscosity / water * 0.1 * std::sqrt(finest / g));
-    if (walls.empty() || layer < 0.01 * finest) m.laws.release = ReleaseLaw{.water = basin.water()};
-  }
+  if (release) m.laws.release = release_law(walls.empty() ? 0 : viscosity, finest, finest, basin.water());
   return m;
 }
 

@@ -7,6 +7,7 @@
 
 #include "tests/stability/ensemble/classes.hpp"
 #include "tests/stability/ensemble/random.hpp"
+#include "tests/stability/ensemble/release.hpp"
 #include "tests/stability/ensemble/scene_text.hpp"
 
 namespace splashdown::ensemble {
@@ -121,10 +122,7 @@ Member light_polygon(std::uint64_t seed) {
   m.laws.speed = SpeedLaw{.nodes = 6 * lift + 10 * fall, .bodies = 2 * lift + fall};
   // Where contacts open and close there is more than one pass.
   if (bodies > 1) m.laws.passes.reset();
-  if (release) {
-    const double layer = std::sqrt(viscosity / water * 0.1 * std::sqrt(finest / g));
-    if (walls.empty() || layer < 0.01 * finest) m.laws.release = ReleaseLaw{.water = basin.water()};
-  }
+  if (release) m.laws.release = release_law(walls.empty() ? 0 : viscosity, finest, finest, basin.water());
   return m;
 }
 

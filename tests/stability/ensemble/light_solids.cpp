@@ -9,6 +9,7 @@
 
 #include "tests/stability/ensemble/classes.hpp"
 #include "tests/stability/ensemble/random.hpp"
+#include "tests/stability/ensemble/release.hpp"
 #include "tests/stability/ensemble/scene_text.hpp"
 
 namespace splashdown::ensemble {
@@ -130,13 +131,8 @@ Member light_solid(std::uint64_t seed) {
   // has r = 5 c.
   const double lift = 8 * 0.35 * std::sqrt(g * L), fall = dropped ? std::sqrt(V * V + 2 * g * (height + L)) : 0;
   m.laws.speed = SpeedLaw{.nodes = 3 * lift + 10 * fall, .bodies = lift + fall};
-  if (under) {
-    // Between the first step and none viscosity has its say: only where the layer of the first step is thin is the
-    // first acceleration that of an ideal fluid. A hundredth of the shortest side changes the added mass by that
-    // share.
-    const double layer = std::sqrt(viscosity / water * 0.1 * std::sqrt(body.shortest / elements / g));
-    if (walls.empty() || layer < 0.01 * body.shortest) m.laws.release = ReleaseLaw{.water = basin.water()};
-  }
+  if (under)
+    m.laws.release = release_law(walls.empty() ? 0 : viscosity, body.shortest / elements, body.shortest, basin.water());
   return m;
 }
 

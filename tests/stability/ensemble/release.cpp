@@ -1,13 +1,13 @@
 #include "tests/stability/ensemble/release.hpp"
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "apps/quantity/table.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
-#include "tests/stability/ensemble/member.hpp"
 
 namespace splashdown::ensemble {
 
@@ -49,6 +49,12 @@ double error(const std::filesystem::path& run, const apps::Scene& scene, double 
 }
 
 }  // namespace
+
+std::optional<ReleaseLaw> release_law(double viscosity, double size, double thickness, double liquid) {
+  const double layer = std::sqrt(viscosity / water * 0.1 * std::sqrt(size / g));
+  if (layer >= 0.01 * thickness) return std::nullopt;
+  return ReleaseLaw{.water = liquid};
+}
 
 double release_error(const std::filesystem::path& run, double water_volume) {
   const auto scene = apps::read_scene(run / "scene.resolved.toml").scene;

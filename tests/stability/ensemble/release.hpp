@@ -8,8 +8,16 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "tests/stability/ensemble/member.hpp"
 
 namespace splashdown::ensemble {
+
+/// The law for a body that is let go in liquid of this viscosity [Pa s; 0: none]; none at all where viscosity has its say between
+/// the first step, of elements of `size`, and none: where its layer then is more than a hundredth of `thickness` [m], which would
+/// change the added mass by that share. `water`: as below.
+std::optional<ReleaseLaw> release_law(double viscosity, double size, double thickness, double water);
 
 /// |a - a_expected| / |a_expected| of the centre of mass, from a run's folder. `water`: volume of the liquid if the
 /// body were not there. Throws std::runtime_error if a file is not what it should be.
