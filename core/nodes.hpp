@@ -59,6 +59,7 @@ struct Nodes {
   std::vector<double> owed;           ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
   std::vector<int> part;              ///< which water of the last mesh it belonged to (parts_of), -1: was not there
   std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
+  std::vector<double> field_energy;  ///< over the density: what the field had around it (field_energy.hpp)
 
   std::size_t size() const { return x.size(); }
 
@@ -78,6 +79,7 @@ struct Nodes {
     owed.push_back(0);
     part.push_back(-1);
     inherited.emplace_back();
+    field_energy.push_back(0);
     return static_cast<int>(x.size()) - 1;
   }
 
@@ -99,7 +101,8 @@ struct Nodes {
     owed[heir] += volume[gone] + owed[gone];
     inherited[heir] += carried(gone);
     inherited[heir] += inherited[gone];
-    volume[gone] = owed[gone] = 0;
+    field_energy[heir] += field_energy[gone];
+    volume[gone] = owed[gone] = field_energy[gone] = 0;
     inherited[gone] = {};
   }
 
@@ -112,7 +115,7 @@ struct Nodes {
     };
     pick(x), pick(v), pick(p), pick(h), pick(tie), pick(wall_pressure), pick(surface), pick(separates), pick(spray),
         pick(vertex);
-    pick(volume), pick(owed), pick(part), pick(inherited);
+    pick(volume), pick(owed), pick(part), pick(inherited), pick(field_energy);
   }
 };
 

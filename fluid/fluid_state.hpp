@@ -141,7 +141,7 @@ struct Fluid<d>::State {
 
   // The mesh of a step (prepare.cpp).
   void prepare();
-  double field_energy(const Present<d>& at) const;
+  double hold_field_energy();
   void size_nodes();
   void collect_drops();
   std::size_t put_drops_last();

@@ -1,11 +1,14 @@
 // The mesh of a step: sizes, contact, nodes, the triangulation and which of its cells are fluid.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <set>
 
 #include "fluid/contact/attachment.hpp"
 #include "fluid/contact/separation.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/mesh/droplets.hpp"
+#include "fluid/mesh/field_energy.hpp"
 #include "fluid/mesh/hubs.hpp"
 #include "fluid/mesh/landing.hpp"
 #include "fluid/mesh/sheets.hpp"
@@ -22,8 +25,8 @@ void Fluid<d>::State::size_nodes() {
               [&](std::size_t i) { work.nodes.h[i] = field(work.nodes.x[i], work.nodes.tie[i].wall); });
 }
 
-// A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it; one that comes back brings
-// it. What stays is owed to the rest.
+// A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it, and off water that a wall touches no more
+// energy than the field had around it (other water keeps its momentum); one that comes back brings it. What stays is owed to the rest.
 template <int d>
 void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
   Nodes<d>& nodes = work.nodes;
@@ -39,14 +42,22 @@ void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
   }
   work.ledger.spray -= returning;
   const double share = leaving > 0 ? std::clamp(lost / leaving, 0.0, 1.0) : 0.0;
+  std::set<int> at_walls;  // parts of the last mesh
+  for (std::size_t i = 0; i < was_spray.size() && leaving > 0; ++i)
+    if (nodes.tie[i].wall >= 0 && !was_spray[i]) at_walls.insert(nodes.part[i]);
   for (std::size_t i = 0; i < was_spray.size(); ++i) {
     if (nodes.spray[i] <= was_spray[i]) continue;
     const double carried = nodes.volume[i] + nodes.owed[i];
-    const double flies = share * std::max(0.0, carried);
+    const double flies = share * std::max(0.0, carried), held = share * std::max(0.0, nodes.field_energy[i]);
+    if (const double has = VelocityMoments<d>::of(flies, nodes.v[i]).energy;
+        has > held && at_walls.contains(nodes.part[i]))
+      nodes.v[i] *= std::sqrt(held / has);
+    const auto drop = VelocityMoments<d>::of(flies, nodes.v[i]);
     if (!nodes.spray[heaviest]) {
       nodes.bequeath(i, heaviest);
       nodes.owed[heaviest] -= flies;
-      nodes.inherited[heaviest] -= VelocityMoments<d>::of(flies, nodes.v[i]);
+      nodes.inherited[heaviest] -= drop;
+      nodes.field_energy[heaviest] -= drop.energy;
     }
     nodes.volume[i] = flies;
     nodes.owed[i] = 0;
@@ -161,30 +172,18 @@ void Fluid<d>::State::cut(std::size_t liquid) {
   }
 }
 
-// int rho |v|^2 / 2 dx of the velocity as it is interpolated, and the drops': exact for what flips do not change.
+// Gives nodes the energy that the field has around them, for the next mesh to keep: of all water, [J].
 template <int d>
-double Fluid<d>::State::field_energy(const Present<d>& at) const {
-  const auto& v = at.nodes.v;
-  std::vector<double> of_cell(at.mesh.cells.size());
-  in_parallel(of_cell.size(), [&](std::size_t c) {
-    const auto& cell = at.mesh.cells[c];
-    Vec<d> sum = Vec<d>::Zero();
-    double squares = 0;
-    for (int n : cell) sum += v[n], squares += v[n].squaredNorm();
-    of_cell[c] = std::max(0.0, volume<d>(corners(at.nodes.x, cell))) * (squares + sum.squaredNorm());
-  });
-  double drops = 0;
-  for (std::size_t i = 0; i < v.size(); ++i)
-    if (at.nodes.spray[i]) drops += at.nodes.volume[i] * v[i].squaredNorm();
-  const double liquid = std::accumulate(of_cell.begin(), of_cell.end(), 0.0) / ((d + 1) * (d + 2));
-  return 0.5 * spec.density * (liquid + drops);
+double Fluid<d>::State::hold_field_energy() {
+  work.nodes.field_energy = field_energies(work.mesh, work.nodes);
+  return spec.density * std::accumulate(work.nodes.field_energy.begin(), work.nodes.field_energy.end(), 0.0);
 }
 
 template <int d>
 void Fluid<d>::State::prepare() {
   const auto scope = timer.scope(remesh);
   work = now;
-  const double energy = field_energy(now);
+  const double energy = hold_field_energy();
   size_nodes();
   attach_nodes<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity);
   if (now.dt > 0) adapt(work.nodes, work.mesh, walls_at(work.poses));
@@ -195,7 +194,7 @@ void Fluid<d>::State::prepare() {
   const double adapted = before - now.ledger.volume;
   settle(before);
   (adapted > 0 ? work.ledger.remesh_created : work.ledger.remesh_deleted) += adapted;
-  work.ledger.energy_remesh += field_energy(work) - energy;
+  work.ledger.energy_remesh += hold_field_energy() - energy;
   prepared = true;
 }
 
@@ -211,8 +210,10 @@ void Fluid<d>::State::settle(double before) {
   follow_hulls(work.poses);
   const double after = water();
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
-  const auto volumes = return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water,
-                                     nodal_volumes(work.mesh, work.nodes.x), work.nodes.volume);
+  const auto recognised = nodal_volumes(work.mesh, work.nodes.x);
+  const auto volumes =
+      return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water, recognised, work.nodes.volume);
+  limit_field_energy<d>(work.nodes, work.mesh, free_water, recognised, volumes);
   free_water.give_back(free_carried, volumes, work.nodes.v);
   work.ledger.volume = water();
   work.ledger.returned += work.ledger.volume - after;
@@ -223,14 +224,14 @@ void Fluid<d>::State::settle(double before) {
 template <int d>
 void Fluid<d>::State::let_fragment_fly(int node) {
   const auto scope = timer.scope(remesh);
-  const double before = work.ledger.volume, energy = field_energy(work);
+  const double before = work.ledger.volume, energy = hold_field_energy();
   const auto spray = work.nodes.spray;
   std::vector<char> flies(work.nodes.size(), 0);
   flies[node] = 1;
   let_fly<d>(work.nodes, work.mesh, flies);
   book_spray(spray);
   settle(before);
-  work.ledger.energy_remesh += field_energy(work) - energy;
+  work.ledger.energy_remesh += hold_field_energy() - energy;
 }
 
 template struct Fluid<2>::State;

@@ -62,6 +62,7 @@ std::vector<char> join_drops(Nodes<d>& nodes) {
       nodes.x[a] = share * nodes.x[a] + (1 - share) * nodes.x[b];
       nodes.v[a] = share * nodes.v[a] + (1 - share) * nodes.v[b];
       nodes.volume[a] = Va + Vb;
+      nodes.field_energy[a] += nodes.field_energy[b];
       left[b] = 0;
     }
   }
@@ -105,6 +106,7 @@ void absorb_drops(Nodes<d>& nodes, const std::vector<Facet<d>>& boundary, const 
       if (fits && nodes.tie[n].wall < 0) nodes.x[n] += share / area[n].squaredNorm() * area[n];
       if (before + share > 0) nodes.v[n] = (before * nodes.v[n] + share * nodes.v[i]) / (before + share);
       nodes.volume[n] = before + share;
+      nodes.field_energy[n] += nodes.field_energy[i] / d;
     }
     left[i] = 0;
   }

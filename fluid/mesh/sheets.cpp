@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fluid/mesh/field_energy.hpp"
 #include "fluid/mesh/landing.hpp"
 #include "fluid/mesh/parts.hpp"
 
@@ -57,6 +58,16 @@ void hand_over_volume(const std::array<int, d + 1>& cell, const std::vector<char
   }
 }
 
+// What flies takes along the energy that the field had in the cell.
+template <int d>
+void hand_over_energy(const std::array<int, d + 1>& cell, const std::vector<char>& flies, Nodes<d>& nodes) {
+  const auto flying = std::ranges::count_if(cell, [&](int n) { return flies[n]; });
+  const double share = cell_energy<d>(cell, nodes.x, nodes.v) / (d + 1);
+  for (int n : cell)
+    nodes.field_energy[n] +=
+        flies[n] ? share * static_cast<double>(d + 1 - flying) / static_cast<double>(flying) : -share;
+}
+
 }  // namespace
 
 template <int d>
@@ -70,6 +81,7 @@ void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies) {
     std::ranges::sort(facet);
     return facet;
   };
+  for (const auto& cell : sheet) hand_over_energy<d>(cell, flies, nodes);
   const std::vector<Vec<d>> x = nodes.x;
   for (const auto& cell : sheet) {
     hand_over_volume<d>(cell, flies, x, nodes);

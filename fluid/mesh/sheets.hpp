@@ -8,6 +8,8 @@
 //   of each of them, V, every corner that stays gives V / (d + 1) to the corners that fly, in equal shares, with its momentum:
 //     v <- (V_f v_f + s v) / (V_f + s), x likewise,  V_f <- V_f + s
 //
+// and what it has of the field's energy in the cell (field_energy.hpp).
+//
 // Water that has just closed a gap between two waters stays until nodes carry it. So does all of a part of which more than half would
 // fly, but for one that all does: its mesh is coarse rather than its water thin.
 //
@@ -22,7 +24,7 @@
 namespace splashdown::fluid {
 
 /// Lets nodes of sheets for which `may_fly` holds do so, and those that are left without cells: removes the cells from `mesh`,
-/// closes its boundary, sets Nodes::spray and Nodes::surface, and hands over Nodes::volume.
+/// closes its boundary, sets Nodes::spray and Nodes::surface, and hands over Nodes::volume and Nodes::field_energy.
 template <int d>
 void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int)>& may_fly);
 
