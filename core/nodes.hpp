@@ -59,7 +59,7 @@ struct Nodes {
   std::vector<double> owed;           ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
   std::vector<int> part;              ///< which water of the last mesh it belonged to (parts_of), -1: was not there
   std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
-  std::vector<double> field_energy;  ///< over the density: what the field had around it (field_energy.hpp)
+  std::vector<double> field_energy;           ///< over the density: what the field had around it (field_energy.hpp)
 
   std::size_t size() const { return x.size(); }
 

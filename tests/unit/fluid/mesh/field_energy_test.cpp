@@ -83,8 +83,7 @@ TYPED_TEST(FieldEnergy, that_a_mesh_adds_goes_where_it_came_and_momentum_stays) 
   EXPECT_LE(box.energy() - held, 1e-5 * excess);  // exchanges end where 1e-6 is left
   EXPECT_GE(box.energy() - held, -1e4 * scenes::eps * held);
   EXPECT_LT((box.momentum() - momentum).norm(), 1e3 * scenes::eps * std::sqrt(held));
-  for (std::size_t i = 0; i < v.size(); ++i)
-    EXPECT_TRUE(box.nodes.x[i].x() <= 0.6 || box.nodes.v[i] == v[i]) << i;
+  for (std::size_t i = 0; i < v.size(); ++i) EXPECT_TRUE(box.nodes.x[i].x() <= 0.6 || box.nodes.v[i] == v[i]) << i;
 }
 
 TYPED_TEST(FieldEnergy, that_one_patch_gains_and_another_has_lost_is_left_alone) {
