@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "fluid/mesh/parts.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -30,45 +31,16 @@ double part_of_exchange(double excess, double linear, double square) {
   return std::min(1.0, discriminant > 0 ? 2 * excess / (std::sqrt(discriminant) - linear) : -linear / (2 * square));
 }
 
-/// Nodes whose volume has changed, in patches that hang together by cells.
+/// Nodes whose volume has changed, as far as they hang together by cells: of each the first one of its patch, -1: in none.
 template <int d>
-class Patches {
- public:
-  Patches(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> recognised) : first_(nodes.size(), -1) {
-    constexpr double roundoff = 1e-6;  // of sums of volumes
-    for (std::size_t i = 0; i < first_.size(); ++i)
-      if (!nodes.spray[i] && std::abs(recognised[i] - nodes.volume[i]) > roundoff * (recognised[i] + nodes.volume[i]))
-        first_[i] = static_cast<int>(i);
-    for (const auto& cell : mesh.cells) {
-      int first = -1;
-      for (int n : cell) {
-        if (!has(n)) continue;
-        const int other = find(n);
-        if (first >= 0) first_[std::max(first, other)] = std::min(first, other);
-        first = first < 0 ? other : std::min(first, other);
-      }
-    }
-    for (std::size_t i = 0; i < first_.size(); ++i)
-      if (has(static_cast<int>(i))) first_[i] = first_[first_[i]];  // of lower nodes they are known
-  }
-
-  bool has(int node) const { return first_[node] >= 0; }
-  /// The patch, by its first node; -1: none.
-  int of(int node) const { return first_[node]; }
-  /// That the nodes of a cell are in; they are in one at most.
-  int of_cell(const std::array<int, d + 1>& cell) const {
-    const auto in = std::ranges::find_if(cell, [&](int n) { return has(n); });
-    return in == cell.end() ? -1 : of(*in);
-  }
-
- private:
-  int find(int n) {
-    while (first_[n] != n) n = first_[n] = first_[first_[n]];
-    return n;
-  }
-
-  std::vector<int> first_;
-};
+std::vector<int> patches_of(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> recognised) {
+  constexpr double roundoff = 1e-6;  // of sums of volumes
+  std::vector<char> changed(nodes.size());
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    changed[i] =
+        !nodes.spray[i] && std::abs(recognised[i] - nodes.volume[i]) > roundoff * (recognised[i] + nodes.volume[i]);
+  return parts_of(mesh, changed);
+}
 
 /// A cell with nodes of a patch that has an excess.
 struct ActiveCell {
@@ -79,7 +51,7 @@ struct ActiveCell {
 /// By how much velocities change in a whole exchange; zero of nodes in no patch.
 template <int d>
 void exchange(const Mesh<d>& mesh, const std::vector<Vec<d>>& v, const std::vector<ActiveCell>& cells,
-              const Patches<d>& patches, std::span<const double> volumes, std::vector<Vec<d>>& change) {
+              const std::vector<int>& patch, std::span<const double> volumes, std::vector<Vec<d>>& change) {
   for (const auto& active : cells)
     for (int n : mesh.cells[active.cell]) change[n].setZero();
   for (const auto& active : cells) {
@@ -87,20 +59,19 @@ void exchange(const Mesh<d>& mesh, const std::vector<Vec<d>>& v, const std::vect
     Vec<d> mean = Vec<d>::Zero();
     int count = 0;
     for (int n : cell)
-      if (patches.has(n)) mean += v[n], ++count;
+      if (patch[n] >= 0) mean += v[n], ++count;
     mean /= count;
     for (int n : cell)
-      if (patches.has(n) && volumes[n] > 0) change[n] += active.volume / ((d + 1) * volumes[n]) * (mean - v[n]);
+      if (patch[n] >= 0 && volumes[n] > 0) change[n] += active.volume / ((d + 1) * volumes[n]) * (mean - v[n]);
   }
 }
 
 /// What each patch is to lose, at its first node: its share in what the patches of its part have gained, of what that has in excess.
-template <int d>
-std::vector<double> excess_of_patches(const Patches<d>& patches, const std::vector<double>& gain,
+std::vector<double> excess_of_patches(const std::vector<int>& patch, const std::vector<double>& gain,
                                       const std::vector<double>& of_part, const std::vector<int>& part) {
   std::vector<double> excess(gain.size(), 0.0), gained(gain.size(), 0.0);
   for (std::size_t i = 0; i < gain.size(); ++i)
-    if (const int patch = patches.of(static_cast<int>(i)); patch >= 0) excess[patch] += gain[i];
+    if (patch[i] >= 0) excess[patch[i]] += gain[i];
   for (std::size_t i = 0; i < gain.size(); ++i) gained[part[i]] += std::max(0.0, excess[i]);
   for (std::size_t i = 0; i < gain.size(); ++i)
     excess[i] = excess[i] > 0 ? excess[i] * std::max(0.0, of_part[part[i]]) / gained[part[i]] : 0.0;
@@ -109,20 +80,23 @@ std::vector<double> excess_of_patches(const Patches<d>& patches, const std::vect
 
 /// Lets nodes of patches exchange momentum until they have lost their excess, or nothing more goes.
 template <int d>
-void take_out(std::vector<double> excess, const Patches<d>& patches, const Mesh<d>& mesh,
+void take_out(std::vector<double> excess, const std::vector<int>& patch, const Mesh<d>& mesh,
               std::span<const double> volumes, Nodes<d>& nodes) {
   constexpr int exchanges = 6;
   constexpr double left = 1e-6;  // of an excess
   const std::size_t count = nodes.size();
   std::vector<ActiveCell> cells;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    if (const int patch = patches.of_cell(mesh.cells[c]); patch >= 0 && excess[patch] > 0)
-      cells.push_back({static_cast<int>(c), patch, filled<d>(mesh.cells[c], nodes.x)});
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto& cell = mesh.cells[c];  // its nodes are in one patch at most
+    const auto in = std::ranges::find_if(cell, [&](int n) { return patch[n] >= 0; });
+    if (in != cell.end() && excess[patch[*in]] > 0)
+      cells.push_back({static_cast<int>(c), patch[*in], filled<d>(cell, nodes.x)});
+  }
   const std::vector<double> at_first = excess;
   std::vector<Vec<d>> change(count, Vec<d>::Zero());
   std::vector<double> linear(count), square(count), theta(count);  // of patches
   for (int k = 0; k < exchanges && !cells.empty(); ++k) {
-    exchange<d>(mesh, nodes.v, cells, patches, volumes, change);
+    exchange<d>(mesh, nodes.v, cells, patch, volumes, change);
     for (const auto& active : cells) linear[active.patch] = square[active.patch] = 0;
     for (const auto& active : cells) {
       const auto& cell = mesh.cells[active.cell];
@@ -134,8 +108,7 @@ void take_out(std::vector<double> excess, const Patches<d>& patches, const Mesh<
       excess[p] += theta[p] * (linear[p] + theta[p] * square[p]);
     }
     for (std::size_t i = 0; i < count; ++i)
-      if (const int patch = patches.of(static_cast<int>(i)); patch >= 0 && theta[patch] > 0)
-        nodes.v[i] += theta[patch] * change[i];
+      if (patch[i] >= 0 && theta[patch[i]] > 0) nodes.v[i] += theta[patch[i]] * change[i];
     for (std::size_t p = 0; p < count; ++p)
       if (theta[p] == 0 || excess[p] <= left * at_first[p]) excess[p] = 0;
     std::erase_if(cells, [&](const ActiveCell& active) { return excess[active.patch] == 0; });
@@ -169,8 +142,8 @@ void limit_field_energy(Nodes<d>& nodes, const Mesh<d>& mesh, const FreeWater<d>
     if (!nodes.spray[i] && !free.has(i)) of_part[free.part()[i]] += gain[i];
   }
   if (std::ranges::none_of(of_part, [](double energy) { return energy > 0; })) return;
-  const Patches<d> patches(nodes, mesh, recognised);
-  take_out<d>(excess_of_patches(patches, gain, of_part, free.part()), patches, mesh, volumes, nodes);
+  const std::vector<int> patch = patches_of(nodes, mesh, recognised);
+  take_out<d>(excess_of_patches(patch, gain, of_part, free.part()), patch, mesh, volumes, nodes);
 }
 
 template double cell_energy<2>(const std::array<int, 3>&, const std::vector<Vec<2>>&, const std::vector<Vec<2>>&);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -14,6 +15,8 @@
 namespace splashdown::fluid::scenes {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
+
+inline double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 /// Closed outline through the points, in their order.
 inline Surface<2> outline(const std::vector<Vec<2>>& points) {

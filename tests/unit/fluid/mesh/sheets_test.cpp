@@ -51,8 +51,6 @@ double volume_of_cells(const scenes::Lattice<d>& p) {
                          [&](double sum, const auto& cell) { return sum + volume<d>(corners(p.nodes.x, cell)); });
 }
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
 const auto any_node = [](int) { return true; };
 
 // It counts to no node yet: those that stay would have to give the volume of other water away.
@@ -120,11 +118,11 @@ TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_place_and_momentum_sta
     const auto before = carried(p.nodes);
     const auto place = moment(p.nodes);
     p.nodes.field_energy = field_energies(p.mesh, p.nodes);
-    const double held = sum(p.nodes.field_energy);
+    const double held = scenes::sum(p.nodes.field_energy);
     std::vector<char> flies(p.nodes.size(), 0);
     flies[node] = 1;
     let_fly<d>(p.nodes, p.mesh, flies);
-    EXPECT_NEAR(sum(p.nodes.field_energy), held, 1000 * scenes::eps);
+    EXPECT_NEAR(scenes::sum(p.nodes.field_energy), held, 1000 * scenes::eps);
     // It is all of its cells, of which the field had more: Jensen.
     EXPECT_LE(p.nodes.carried(node).energy, p.nodes.field_energy[node]);
     EXPECT_LE((moment(p.nodes) - place).norm(), 1000 * scenes::eps);

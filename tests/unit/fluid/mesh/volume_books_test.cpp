@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "fluid/mesh/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
@@ -15,11 +13,9 @@ class VolumeBooks : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(VolumeBooks, Dimensions);
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
 template <int d>
 double in_the_books(const Nodes<d>& nodes) {
-  return sum(nodes.volume) + sum(nodes.owed);
+  return scenes::sum(nodes.volume) + scenes::sum(nodes.owed);
 }
 
 template <int d>
