@@ -52,8 +52,9 @@ struct PriceOptions {
   std::optional<std::filesystem::path> out;
   std::vector<std::string> quantities;  ///< NAME=EXPRESSION [from TABLE] [where CONDITION]
   int rungs = usual_rungs;
-  std::optional<double> budget;  ///< wall seconds for all runs
-  bool open_water = false;       ///< what its tank does to the scene belongs to the band
+  std::optional<double> budget;    ///< wall seconds for all runs
+  std::optional<double> accuracy;  ///< that a mesh of the list is to have, in per cent
+  bool open_water = false;         ///< what its tank does to the scene belongs to the band
   std::optional<int> threads;
   bool large = false;  ///< whatever memory the runs take
   bool quiet = false;

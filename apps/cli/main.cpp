@@ -111,16 +111,24 @@ void add_refine(CLI::App* command, std::vector<std::string>& set) {
       ->trigger_on_parse(false);
 }
 
+CLI::Option* add_accuracy(CLI::App* command, std::optional<double>& accuracy, const std::string& help) {
+  return command
+      ->add_option_function<std::string>(
+          "--accuracy", [&accuracy](const std::string& text) { accuracy = percent_of(text); }, help)
+      ->type_name("PERCENT")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return percent_of(text) ? std::string()
+                                    : fmt::format("must be a positive percentage, e.g. 2%, not {}", text);
+          },
+          ""));
+}
+
 /// What chooses the mesh.
 void add_aims(CLI::App* run_app, RunOptions& run) {
-  auto* accuracy = run_app->add_option_function<std::string>(
-      "--accuracy", [&run](const std::string& text) { run.accuracy = percent_of(text); },
-      "choose the mesh for this band of the loads, e.g. 2%, by the scene's price list or coarse runs");
-  accuracy->type_name("PERCENT")->check(CLI::Validator(
-      [](const std::string& text) {
-        return percent_of(text) ? std::string() : fmt::format("must be a positive percentage, e.g. 2%, not {}", text);
-      },
-      ""));
+  auto* accuracy =
+      add_accuracy(run_app, run.accuracy,
+                   "choose the mesh for this band of the loads, e.g. 2%, by the scene's price list or coarse runs");
   auto* seconds = run_app->add_option("--seconds", run.seconds, "choose the mesh for a run of these wall seconds");
   seconds->check(positive_number());
   run_app->add_option("--price", run.price,
@@ -191,6 +199,10 @@ CLI::App* add_price(CLI::App& app, PriceOptions& price) {
   price_app->add_option("--rungs", price.rungs, "meshes, each 1.41 times finer than the one before, from half on")
       ->check(CLI::Range(fewest_rungs, most_rungs))
       ->capture_default_str();
+  add_accuracy(price_app, price.accuracy,
+               fmt::format("go on with finer meshes, {} in all, until one has this band, e.g. 10%; with --budget 20% "
+                           "is asked for anyway",
+                           most_rungs));
   price_app->add_flag("--open-water", price.open_water,
                       "the tank stands for open water: one more run, in a larger tank, for its influence");
   price_app->add_option("--budget", price.budget, "wall seconds for all runs; what does not fit is left out")

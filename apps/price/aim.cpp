@@ -77,17 +77,6 @@ std::optional<Source> listed_price(const RunOptions& options) {
   return Source{std::move(*price), file.string(), folder};
 }
 
-/// The scene on a mesh; nothing: it does not allow that mesh.
-std::optional<Scene> scene_at(const RunOptions& options, double refine) {
-  auto set = options.overrides;
-  set.push_back("fluid.size.refine=" + digits_of(refine));
-  try {
-    return read_scene(options.scene, set).scene;
-  } catch (const SceneError&) {
-    return {};
-  }
-}
-
 double guessed_seconds(const Scene& scene) {
   const auto cost = scene.dimension == 2 ? predicted_cost<2>(scene) : predicted_cost<3>(scene);
   return cost.seconds_to_start + cost.steps * cost.seconds_per_step;
@@ -96,8 +85,11 @@ double guessed_seconds(const Scene& scene) {
 /// Meshes that the scene allows, about its own.
 ProbeRange allowed_probes(const RunOptions& options, double own) {
   auto range = probe_range;
-  while (range.coarsest < usual_first && !scene_at(options, own * probe_factor(range.coarsest))) ++range.coarsest;
-  while (range.finest > usual_first + 1 && !scene_at(options, own * probe_factor(range.finest))) --range.finest;
+  const auto allowed = [&](int k) {
+    return scene_at(options.scene, options.overrides, own * probe_factor(k)).has_value();
+  };
+  while (range.coarsest < usual_first && !allowed(range.coarsest)) ++range.coarsest;
+  while (range.finest > usual_first + 1 && !allowed(range.finest)) --range.finest;
   return range;
 }
 
@@ -148,7 +140,7 @@ Source probed_price(const RunOptions& options, const Scene& scene) {
   std::optional<int> next = usual_first;
   if (options.seconds)
     next = first_probe(*options.seconds, range, usual_first,
-                       [&](int k) { return guessed_seconds(*scene_at(options, refine(k))); });
+                       [&](int k) { return guessed_seconds(*scene_at(options.scene, options.overrides, refine(k))); });
   while (next && ladder.climb({refine(*next), Role::rung})) {
     const ProbesMade made{static_cast<int>(ladder.made().size()), *next, ladder.spent()};
     if (options.seconds && made.count > 0)
@@ -215,10 +207,11 @@ void choose(Aim& aim, const RunOptions& options) {
     aim.refine = *refine;
   } else {
     const double far = farthest_extrapolation * price.finest();
-    throw SceneError({fmt::format(
-        "--accuracy {:g}%: up to refine {:.3g}, {:g} times the finest mesh made, the best is {}. Use a "
-        "larger value, or splashdown price {} --rungs 5: more meshes, narrower bands.",
-        *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)), options.scene.string())});
+    throw SceneError(
+        {fmt::format("--accuracy {:g}%: up to refine {:.3g}, {:g} times the finest mesh made, the best is {}. Use a "
+                     "larger value, or splashdown price {} --accuracy {:g}%: more meshes, narrower bands.",
+                     *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)),
+                     options.scene.string(), *options.accuracy)});
   }
   aim.refine = as_written(aim.refine);
   aim.predicted = *price.seconds(aim.refine) + aim.report;

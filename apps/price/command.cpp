@@ -18,10 +18,22 @@ namespace fs = std::filesystem;
 
 struct PricePlan {
   LadderOrder order;
-  std::vector<double> refines;
+  std::vector<double> refines;  ///< of the ladder
+  std::vector<double> finer;    ///< that may follow it
+  double accuracy = 0;          ///< that one of all is to have
   std::string title, digest;
   bool has_tank = false;
 };
+
+/// What a list begins with: without a mesh that has it, a budget is better spent than kept.
+constexpr double least_accuracy = 0.2;
+
+/// Meshes that may follow the ladder, of those that the scene allows.
+std::vector<double> finer_than(const std::vector<double>& refines, const PriceOptions& options, double own) {
+  auto all = rung_refines(most_rungs, own);
+  while (all.size() > refines.size() && !scene_at(options.scene, options.set, all.back())) all.pop_back();
+  return {all.begin() + static_cast<std::ptrdiff_t>(refines.size()), all.end()};
+}
 
 /// Throws SceneError.
 PricePlan plan_of(const PriceOptions& options) {
@@ -34,6 +46,8 @@ PricePlan plan_of(const PriceOptions& options) {
   plan.title = scene.title;
   plan.has_tank = scene.tank.has_value();
   plan.refines = rung_refines(options.rungs, scene.fluid->size.refine);
+  plan.finer = finer_than(plan.refines, options, scene.fluid->size.refine);
+  plan.accuracy = options.accuracy ? *options.accuracy / 100 : least_accuracy;
   plan.digest = digest_of_scene(options.scene, options.set);
   auto& order = plan.order;
   order.scene = options.scene;
@@ -47,7 +61,8 @@ PricePlan plan_of(const PriceOptions& options) {
   order.dimension = scene.dimension;
   if (options.open_water) order.larger_tank = larger_tank_of(scene, options.scene.string());
   order.expected_nodes =
-      expected_nodes(options.scene, options.set, plan.refines.front(), farthest_extrapolation * plan.refines.back());
+      expected_nodes(options.scene, options.set, plan.refines.front(),
+                     farthest_extrapolation * (plan.finer.empty() ? plan.refines : plan.finer).back());
   auto& quantities = order.quantities;
   for (const auto& argument : options.quantities) quantities.push_back(parsed_quantity(argument));
   // Who names quantities wants these at their price; the others are shown beside them.
@@ -64,19 +79,51 @@ PricePlan plan_of(const PriceOptions& options) {
   return plan;
 }
 
+/// Whether one of the meshes that were made has the accuracy that is asked for.
+bool is_reached(const Price& price, double accuracy) {
+  const auto refine = price.refine_for(accuracy);
+  return refine && *refine <= price.finest();
+}
+
+/// What to do next.
+std::string next_text(const PricePlan& plan, const Price& price, const Ladder& ladder, const PriceOptions& options) {
+  std::string text;
+  if (plan.has_tank && !options.open_water)
+    text += "what the tank does is not in these bands: if it stands for open water, --open-water adds it\n";
+  if (ladder.end().interrupted) return text + "stopped; the same command continues\n";
+  if (ladder.end().out_of_budget)
+    return text + "the budget ended the ladder; with a larger one the same command continues\n";
+  if (price.rows.empty() || is_reached(price, plan.accuracy)) return text;
+  const double percent = 100 * plan.accuracy;
+  const auto next = std::ranges::find_if(plan.finer, [&](double refine) { return refine > price.finest(); });
+  if (next == plan.finer.end())
+    return text + fmt::format(
+                      "no mesh has {:g} % yet, and the ladder ends here: begin it finer, --set "
+                      "fluid.size.refine=X, about which it is built\n",
+                      percent);
+  return text + fmt::format("no mesh has {0:g} % yet: --accuracy {0:g}% goes on, the next one takes about {1}\n",
+                            percent, about_time(ladder.seconds_at(*next).value_or(0)));
+}
+
 void write_price(const Price& price, const fs::path& folder, std::vector<std::string>& notes) {
   write_file_atomically(folder / price_file, price_json(price));
   if (auto note = draw_price(price, folder)) notes.push_back(std::move(*note));
   write_report(folder);
 }
 
+/// Of what was made.
+Price price_of(const PricePlan& plan, const Ladder& ladder, std::vector<std::string>& notes) {
+  auto price = price_of(ladder.made(), plan.order.quantities, plan.order.dimension, notes);
+  price.expected_nodes = plan.order.expected_nodes;
+  list_rows(price);
+  return price;
+}
+
 int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& options) {
   const auto& folder = plan.order.folder;
   auto notes = ladder.end().notes;
-  auto price = price_of(ladder.made(), plan.order.quantities, plan.order.dimension, notes);
+  auto price = price_of(plan, ladder, notes);
   price.scene = fs::absolute(options.scene).lexically_normal().string();
-  price.expected_nodes = plan.order.expected_nodes;
-  list_rows(price);
   price.title = plan.title;
   price.scene_digest = plan.digest;
   leave_at_interrupt(options.quiet ? "" : "\nstopped while the chart was drawn: the same command draws it\n");
@@ -87,11 +134,7 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
     if (const auto line = price_line(price); !line.empty()) fmt::print("{}\n", line);
     fmt::print("  files       {}/: report.html price.json{}\n", folder.string(),
                fs::exists(folder / "price.svg") ? " price.svg" : "");
-    if (plan.has_tank && !options.open_water)
-      fmt::print("what the tank does is not in these bands: if it stands for open water, --open-water adds it\n");
-    if (ladder.end().interrupted) fmt::print("stopped; the same command continues\n");
-    if (ladder.end().out_of_budget)
-      fmt::print("the budget ended the ladder; with a larger one the same command continues\n");
+    fmt::print("{}", next_text(plan, price, ladder, options));
   }
   if (ladder.end().interrupted) return exit_code::interrupted;
   if (!price.rows.empty()) return exit_code::done;
@@ -109,7 +152,9 @@ int price_command(const PriceOptions& options) {
   std::optional<FolderLock> lock;
   try {
     plan = plan_of(options);
-    ladder.emplace(plan.order, possible_rungs(plan.refines, options.open_water));
+    auto possible = possible_rungs(plan.refines, options.open_water);
+    for (const double refine : plan.finer) possible.push_back({refine, Role::rung});
+    ladder.emplace(plan.order, possible);
     std::string foreign;
     for (const auto& message : foreign_places(ladder->runs(), plan.order.folder)) foreign += message + "\n";
     if (fs::exists(plan.order.folder / "study.json"))
@@ -122,6 +167,11 @@ int price_command(const PriceOptions& options) {
   }
   catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");
   climb_all(*ladder, plan.refines, options.open_water);
+  if (options.accuracy || options.budget)
+    climb_on(*ladder, plan.finer, [&] {
+      std::vector<std::string> unused;
+      return is_reached(price_of(plan, *ladder, unused), plan.accuracy);
+    });
   return conclude(plan, *ladder, options);
 }
 

@@ -17,6 +17,7 @@
 #include "apps/run/interrupt.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/scene/read/echo.hpp"
+#include "apps/scene/read/read.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/study/run.hpp"
 #include "apps/study/table.hpp"
@@ -61,6 +62,15 @@ std::vector<double> rung_refines(int rungs, double scene) {
     refines.push_back(std::stod(fmt::format("{:.3g}", exact)));
   }
   return refines;
+}
+
+std::optional<Scene> scene_at(const fs::path& scene, std::vector<std::string> set, double refine) {
+  set.push_back("fluid.size.refine=" + digits_of(refine));
+  try {
+    return read_scene(scene, set).scene;
+  } catch (const SceneError&) {
+    return {};
+  }
 }
 
 Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
@@ -256,6 +266,11 @@ void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_wat
     }
     if (!ladder.climb({refines[k], Role::rung})) return;
   }
+}
+
+void climb_on(Ladder& ladder, const std::vector<double>& finer, const std::function<bool()>& reached) {
+  for (const double refine : finer)
+    if (reached() || !ladder.climb({refine, Role::rung})) return;
 }
 
 }  // namespace splashdown::apps

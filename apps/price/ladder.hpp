@@ -46,6 +46,9 @@ std::string digits_of(double refine);
 /// 0.5, 0.71, 1, 1.41 ... times `scene`, three digits.
 std::vector<double> rung_refines(int rungs, double scene);
 
+/// The scene on that mesh; nothing: it does not allow it.
+std::optional<Scene> scene_at(const std::filesystem::path& scene, std::vector<std::string> set, double refine);
+
 struct LadderOrder {
   std::filesystem::path scene, folder;
   std::vector<std::string> set;
@@ -102,6 +105,8 @@ std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& n
 /// Rungs from the coarsest on, and before the last one two replicates of the one before it, and that one in a larger tank, as
 /// the budget allows.
 void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water);
+/// Finer rungs, one after the other, until `reached` holds, as the budget allows.
+void climb_on(Ladder& ladder, const std::vector<double>& finer, const std::function<bool()>& reached);
 /// All that `climb_all` may want.
 std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool open_water);
 

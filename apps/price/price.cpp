@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -14,9 +15,6 @@
 
 namespace splashdown::apps {
 namespace {
-
-// As price lists have them: 1, 2, 5.
-constexpr double listed_percent[] = {20, 10, 5, 2, 1, 0.5};
 
 std::optional<double> deviation_of(const std::vector<double>& values) {
   if (values.size() < 2) return {};
@@ -68,15 +66,31 @@ double least(double low, double high, const Holds& holds) {
   return high;
 }
 
-std::vector<PriceRow> rows_of(const Price& price) {
+/// Of one quantity or of all together, at a refinement.
+using AccuracyAt = std::function<std::optional<Decided>(double)>;
+
+/// The coarsest mesh with that accuracy, up to `farthest_extrapolation` times finer than any made.
+std::optional<double> refine_for(const Price& price, const AccuracyAt& accuracy, double wanted) {
+  const auto holds = [&](double refine) {
+    const auto worst = accuracy(refine);
+    return worst && worst->first <= wanted;
+  };
+  const double far = farthest_extrapolation * price.finest();
+  if (price.rungs.empty() || !holds(far)) return {};
+  return least(price.coarsest(), far, holds);
+}
+
+std::vector<PriceRow> rows_of(const Price& price, const AccuracyAt& accuracy) {
   std::vector<PriceRow> rows;
-  if (price.rungs.empty() || !price.accuracy(price.finest())) return rows;
+  if (price.rungs.empty() || !accuracy(price.finest())) return rows;
   for (const double percent : listed_percent) {
-    PriceRow row{
-        .accuracy_percent = percent, .seconds = {}, .refine = price.refine_for(percent / 100), .decided_by = {}};
+    PriceRow row{.accuracy_percent = percent,
+                 .seconds = {},
+                 .refine = refine_for(price, accuracy, percent / 100),
+                 .decided_by = {}};
     if (row.refine) row.seconds = price.seconds(*row.refine);
     row.extrapolated = !row.refine || *row.refine > price.finest();
-    row.decided_by = price.accuracy(row.refine.value_or(farthest_extrapolation * price.finest()))->second;
+    row.decided_by = accuracy(row.refine.value_or(farthest_extrapolation * price.finest()))->second;
     // What the coarsest mesh does better than asked says nothing about coarser ones.
     const bool same = !rows.empty() && row.refine && rows.back().refine == row.refine;
     if (same) rows.pop_back();
@@ -141,8 +155,8 @@ std::optional<double> Price::seconds(double refine) const {
 }
 
 template <class Band>
-std::optional<std::pair<double, std::string>> Price::widest(const Band& band) const {
-  std::optional<std::pair<double, std::string>> worst;
+std::optional<Decided> Price::widest(const Band& band) const {
+  std::optional<Decided> worst;
   for (const auto& quantity : quantities) {
     const auto relative = quantity.relative(band(quantity));
     if (quantity.what.counts && relative && (!worst || *relative > worst->first))
@@ -151,11 +165,11 @@ std::optional<std::pair<double, std::string>> Price::widest(const Band& band) co
   return worst;
 }
 
-std::optional<std::pair<double, std::string>> Price::accuracy(double refine) const {
+std::optional<Decided> Price::accuracy(double refine) const {
   return widest([refine](const PricedQuantity& quantity) { return quantity.band(refine); });
 }
 
-std::optional<std::pair<double, std::string>> Price::reached(const RungSpec& spec) const {
+std::optional<Decided> Price::reached(const RungSpec& spec) const {
   return widest([&](const PricedQuantity& quantity) { return quantity.band_of(spec); });
 }
 
@@ -168,13 +182,8 @@ std::vector<std::string> Price::without_band(const RungSpec& spec) const {
 }
 
 std::optional<double> Price::refine_for(double wanted) const {
-  const auto holds = [&](double refine) {
-    const auto worst = accuracy(refine);
-    return worst && worst->first <= wanted;
-  };
-  const double far = farthest_extrapolation * finest();
-  if (rungs.empty() || !holds(far)) return {};
-  return least(coarsest(), far, holds);
+  return apps::refine_for(
+      *this, [this](double refine) { return accuracy(refine); }, wanted);
 }
 
 std::optional<double> Price::refine_in(double wanted) const {
@@ -197,7 +206,8 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
                           .fit = {},
                           .rungs = {},
                           .replicates = {},
-                          .in_larger_tank = {}};
+                          .in_larger_tank = {},
+                          .rows = {}};
     for (const auto& rung : price.rungs)
       if (std::isfinite(rung.values[q])) priced.list(rung.spec.role).emplace_back(rung, rung.values[q]);
     if (priced.rungs.empty()) {
@@ -214,7 +224,22 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
   return price;
 }
 
-void list_rows(Price& price) { price.rows = rows_of(price); }
+void list_rows(Price& price) {
+  price.rows = rows_of(price, [&](double refine) { return price.accuracy(refine); });
+  for (auto& quantity : price.quantities) {
+    if (!quantity.what.counts) continue;
+    quantity.rows = rows_of(price, [&](double refine) {
+      const auto accuracy = quantity.accuracy(refine);
+      return accuracy ? std::optional(Decided{*accuracy, quantity.what.name}) : std::nullopt;
+    });
+  }
+}
+
+const PriceRow* row_for(const std::vector<PriceRow>& rows, double percent) {
+  const auto row = std::ranges::find_if(
+      rows, [&](const PriceRow& other) { return other.accuracy_percent <= percent && other.seconds; });
+  return row == rows.end() ? nullptr : &*row;
+}
 
 std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set) {
   set.emplace_back("fluid.size.refine=1");

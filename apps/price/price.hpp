@@ -18,6 +18,22 @@
 
 namespace splashdown::apps {
 
+/// As price lists have them: 1, 2, 5.
+inline constexpr double listed_percent[] = {20, 10, 5, 2, 1, 0.5};
+
+/// A relative accuracy and the quantity that decides it.
+using Decided = std::pair<double, std::string>;
+
+struct PriceRow {
+  double accuracy_percent = 0;
+  std::optional<double> seconds, refine;  ///< absent: refinement does not get there
+  bool extrapolated = false;
+  std::string decided_by;  ///< the quantity that asks for most
+};
+
+/// Of the first of the rows with this accuracy or a better one; nothing: there is none that refinement gets to.
+const PriceRow* row_for(const std::vector<PriceRow>& rows, double percent);
+
 struct PricedQuantity {
   PriceQuantity what;
   double value = 0;                ///< of the finest rung
@@ -26,6 +42,7 @@ struct PricedQuantity {
   std::optional<Convergence> fit;  ///< absent: too few rungs
   /// With the value, from the coarsest on.
   std::vector<std::pair<Rung, double>> rungs, replicates, in_larger_tank;
+  std::vector<PriceRow> rows;  ///< what it costs by itself; empty: it does not count or has no fit
 
   std::vector<std::pair<Rung, double>>& list(Role role);
   double at(const RungSpec& spec) const;            ///< of the run there; nan: there is none
@@ -41,13 +58,6 @@ struct PricedQuantity {
   double with_scatter_and_tank(double U) const;
 };
 
-struct PriceRow {
-  double accuracy_percent = 0;
-  std::optional<double> seconds, refine;  ///< absent: refinement does not get there
-  bool extrapolated = false;
-  std::string decided_by;  ///< the quantity that asks for most
-};
-
 struct Price {
   std::string scene, title, scene_digest;
   int dimension = 2;
@@ -60,9 +70,9 @@ struct Price {
   double finest() const;
   double coarsest() const;
   /// The least relative accuracy that all quantities that count have there; nothing: not known of any.
-  std::optional<std::pair<double, std::string>> accuracy(double refine) const;
+  std::optional<Decided> accuracy(double refine) const;
   /// The same of what was measured there.
-  std::optional<std::pair<double, std::string>> reached(const RungSpec& spec) const;
+  std::optional<Decided> reached(const RungSpec& spec) const;
   /// Quantities that count and of which nothing is known there: no value, or on too few meshes for a band.
   std::vector<std::string> without_band(const RungSpec& spec) const;
   /// The coarsest mesh with that accuracy, up to `farthest` times finer than any made.
@@ -72,7 +82,7 @@ struct Price {
 
  private:
   template <class Band>
-  std::optional<std::pair<double, std::string>> widest(const Band& band) const;
+  std::optional<Decided> widest(const Band& band) const;
 };
 
 /// Beyond it the fit says nothing that could be held against a run.

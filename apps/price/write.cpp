@@ -37,6 +37,17 @@ Json json_of(const std::vector<std::pair<Rung, double>>& rungs) {
   return list;
 }
 
+Json json_of(const std::vector<PriceRow>& rows) {
+  Json list = Json::array();
+  for (const auto& row : rows)
+    list.push_back({{"accuracy_percent", row.accuracy_percent},
+                    {"seconds", number(row.seconds)},
+                    {"refine", number(row.refine)},
+                    {"extrapolated", row.extrapolated},
+                    {"decided_by", row.decided_by}});
+  return list;
+}
+
 Json json_of(const PricedQuantity& quantity) {
   const auto band = quantity.band_of_finest();
   const auto& fit = quantity.fit;
@@ -54,6 +65,7 @@ Json json_of(const PricedQuantity& quantity) {
           {"where", quantity.what.measured.where},
           {"resolution", quantity.what.resolution},
           {"least_resolution", quantity.what.least_resolution},
+          {"rows", json_of(quantity.rows)},
           {"rungs", json_of(quantity.rungs)},
           {"replicates", json_of(quantity.replicates)},
           {"tank", number(quantity.tank)},
@@ -99,12 +111,18 @@ std::string value_text(double value, const std::string& unit) {
   return unit == "-" ? fmt::format("{:.4g}", value) : with_unit(value, unit);  // without a unit no prefix
 }
 
-const std::vector<std::pair<const char*, Role>> lists = {
-    {"rungs", Role::rung}, {"replicates", Role::replicate}, {"in_larger_tank", Role::larger_tank}};
-
 std::string relative(const std::optional<double>& part, double whole) {
   return part && whole != 0 ? fmt::format("{:.2g} %", 100 * std::abs(*part / whole)) : "?";
 }
+
+/// With the prefix that its value has.
+std::string band_text(double band, double value, const std::string& unit) {
+  const double factor = unit == "-" ? 1 : prefix_of(value).factor;
+  return fmt::format("+- {:.2g} ({})", band / factor, relative(band, value));
+}
+
+const std::vector<std::pair<const char*, Role>> lists = {
+    {"rungs", Role::rung}, {"replicates", Role::replicate}, {"in_larger_tank", Role::larger_tank}};
 
 std::string row_text(const PriceRow& row) {
   return fmt::format("  {:>5g} %  {:>8}  {:>6.3g}  {}{}\n", row.accuracy_percent, about_time(*row.seconds), *row.refine,
@@ -128,6 +146,28 @@ std::string rows_text(const Price& price) {
     if (!row.seconds) break;  // nor are the closer ones
   }
   return text;
+}
+
+/// Each quantity by itself, where the list alone does not say it.
+std::string prices_text(const Price& price, std::size_t width) {
+  const auto priced = [](const PricedQuantity& quantity) { return !quantity.rows.empty(); };
+  if (std::ranges::count_if(price.quantities, priced) < 2) return {};
+  std::string text = fmt::format("  {:<{}}", "each by itself", width);
+  for (const double percent : listed_percent) text += fmt::format("  {:>7}", fmt::format("{:g} %", percent));
+  text += "\n";
+  bool any_beyond = false;
+  for (const auto& quantity : price.quantities) {
+    if (!priced(quantity)) continue;
+    text += fmt::format("  {:<{}}", quantity.what.name, width);
+    for (const double percent : listed_percent) {
+      const auto* row = row_for(quantity.rows, percent);
+      const bool beyond = row && row->extrapolated;
+      any_beyond |= beyond;
+      text += fmt::format("  {:>7}", row ? about_time(*row->seconds) + (beyond ? "*" : "") : "-");
+    }
+    text += "\n";
+  }
+  return text + (any_beyond ? "  * extrapolated\n" : "");
 }
 
 /// Why a quantity plays no part in the rows; empty: it does.
@@ -167,13 +207,7 @@ std::string price_json(const Price& price) {
   root["title"] = price.title;
   root["scene_digest"] = price.scene_digest;
   root["dimension"] = price.dimension;
-  root["rows"] = Json::array();
-  for (const auto& row : price.rows)
-    root["rows"].push_back({{"accuracy_percent", row.accuracy_percent},
-                            {"seconds", number(row.seconds)},
-                            {"refine", number(row.refine)},
-                            {"extrapolated", row.extrapolated},
-                            {"decided_by", row.decided_by}});
+  root["rows"] = json_of(price.rows);
   root["quantities"] = Json::object();
   for (const auto& quantity : price.quantities) root["quantities"][quantity.what.name] = json_of(quantity);
   root["runs"] = Json::array();
@@ -244,7 +278,7 @@ std::string price_text(const Price& price) {
                                  number_of(Role::larger_tank) > 0 ? ", one in a larger tank" : "", price.finest());
   if (!price.rows.empty()) text += "  accuracy      time  refine  decided by\n";
   text += rows_text(price);
-  std::size_t width = 8;
+  std::size_t width = 14;
   for (const auto& quantity : price.quantities) width = std::max(width, quantity.what.name.size());
   text +=
       fmt::format("  {:<{}}  {:>12}  {:>20}  {:>5}  {:>7}\n", "quantity", width, "value", "band", "order", "scatter");
@@ -253,11 +287,11 @@ std::string price_text(const Price& price) {
     const auto order = quantity.fit ? quantity.fit->order() : std::nullopt;
     text += fmt::format("  {:<{}}  {:>12}  {:>20}  {:>5}  {:>7}{}\n", quantity.what.name, width,
                         value_text(quantity.value, quantity.what.unit),
-                        band ? fmt::format("+- {:.2g} ({})", *band, relative(band, quantity.value)) : "?",
+                        band ? band_text(*band, quantity.value, quantity.what.unit) : "?",
                         order ? fmt::format("{:.2f}", *order) : "-", relative(quantity.scatter, quantity.value),
                         not_counted(quantity));
   }
-  return text + refusals_text(price);
+  return text + prices_text(price, width) + refusals_text(price);
 }
 
 }  // namespace splashdown::apps

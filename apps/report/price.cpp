@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "apps/record/tables/csv.hpp"
 #include "apps/report/data.hpp"
@@ -57,6 +60,32 @@ std::string quantities_table(const Json& price) {
                rows);
 }
 
+/// What each accuracy takes for each quantity by itself: the first of its rows that is as good.
+std::string prices_table(const Json& price) {
+  std::set<double, std::greater<>> listed;
+  for (const auto& q : price.at("quantities"))
+    for (const auto& row : q.value("rows", Json::array())) listed.insert(number_at(row, {"accuracy_percent"}));
+  std::vector<std::string> heads = {"quantity"};
+  for (const double percent : listed) heads.push_back(fmt::format("{:g} %", percent));
+  std::string rows;
+  for (const auto& [name, q] : price.at("quantities").items()) {
+    const auto& own = q.value("rows", Json::array());
+    if (own.empty()) continue;
+    rows += fmt::format("<tr><td><b>{}</b></td>", html_escaped(name));
+    for (const double percent : listed) {
+      const auto row = std::ranges::find_if(own, [&](const Json& other) {
+        return number_at(other, {"accuracy_percent"}) <= percent && !other.at("seconds").is_null();
+      });
+      rows += row == own.end() ? cell(NAN)
+                               : fmt::format("<td>{}{}</td>", seconds_text(number_at(*row, {"seconds"})),
+                                             row->at("extrapolated").get<bool>() ? "*" : "");
+    }
+    rows += "</tr>\n";
+  }
+  if (rows.empty()) return {};
+  return table("What each quantity costs by itself", heads, rows) + "<p>* extrapolated beyond the finest mesh</p>\n";
+}
+
 std::string runs_table(const fs::path& directory, const Json& price) {
   std::string rows;
   for (const auto& run : price.at("runs")) {
@@ -79,8 +108,16 @@ Banner banner_of(const Json& price) {
       line += fmt::format("{}<b>{:g} %</b>: {}{}", line.empty() ? "" : "; ", number_at(row, {"accuracy_percent"}),
                           seconds_text(number_at(row, {"seconds"})),
                           row.at("extrapolated").get<bool>() ? ", extrapolated" : "");
-  if (line.empty()) banner = {Mood::fair, "Too few meshes for a price", {"Three meshes are needed at least."}};
-  if (!line.empty()) banner.sentences.push_back(line + ".");
+  if (price.at("rows").empty())
+    banner = {Mood::fair, "Too few meshes for a price", {"Three meshes are needed at least."}};
+  else if (line.empty())
+    banner = {Mood::fair,
+              "No accuracy of all quantities together is in reach",
+              {fmt::format("<b>{}</b> asks for more than elements four times smaller. What each quantity costs by "
+                           "itself stands below.",
+                           escaped_at(price.at("rows").front(), "decided_by"))}};
+  else
+    banner.sentences.push_back(line + ".");
   return banner;
 }
 
@@ -103,7 +140,7 @@ ReportResult write_price_report(const fs::path& directory) {
     write_file_atomically(
         result.page,
         html_page(title, html_header(title, directory, banner_of(price), {}) + rows_table(price) + chart +
-                             quantities_table(price) + runs_table(directory, price) +
+                             prices_table(price) + quantities_table(price) + runs_table(directory, price) +
                              "<footer>Made by Splashdown from <code>price.json</code> in this folder.</footer>\n"));
   } catch (const Json::exception& error) {
     throw std::runtime_error(

@@ -190,18 +190,17 @@ std::string verdict_rows(const Verdict& verdict, Ink ink) {
 
 }  // namespace
 
-std::string with_unit(double value, const std::string& unit) {
-  struct Prefix {
-    double factor;
-    const char* name;
-  };
-  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}};
-  if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);
+MetricPrefix prefix_of(double value) {
+  constexpr MetricPrefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}};
   // 0.9995 and more round to a thousand of the next smaller prefix.
   for (const auto& prefix : prefixes)
-    if (std::abs(value) >= 0.9995 * prefix.factor)
-      return fmt::format("{:.4g} {}{}", value / prefix.factor, prefix.name, unit);
-  return fmt::format("{:.3g} {}", value, unit);
+    if (std::isfinite(value) && std::abs(value) >= 0.9995 * prefix.factor) return prefix;
+  return {1, ""};
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  const auto prefix = prefix_of(value);
+  return fmt::format("{:.4g} {}{}", value / prefix.factor, prefix.name, unit);
 }
 
 std::string closing_text(const Summary& summary, const std::filesystem::path& directory, Ink ink) {

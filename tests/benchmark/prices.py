@@ -76,7 +76,7 @@ def told_rows(rows):
 def main():
     program, *wanted = sys.argv[1:]
     inside = known = 0
-    print("| case | took | list | quantity | true | value ± band | deviation |\n|---|---|---|---|---|---|---|")
+    print("| case | took | list | quantity | by itself | true | value ± band | deviation |\n|---|---|---|---|---|---|---|---|")
     for case in wanted or CASES:
         found, took = price(program, case)
         first = f"{case} | {told_seconds(took)} | {told_rows(found['rows'])}"
@@ -90,7 +90,7 @@ def main():
                 known += 1
                 inside += abs(value - true) <= band
                 deviation = f"{100 * (value / true - 1):+.2g} %" + ("" if abs(value - true) <= band else ", outside")
-            print(f"| {first} | {name} | {'' if true is None else f'{true:g}'} | {row} | {deviation} |", flush=True)
+            print(f"| {first} | {name} | {told_rows(quantity['rows'])} | {'' if true is None else f'{true:g}'} | {row} | {deviation} |", flush=True)
             first = " | |"
     print(f"\n{inside} of {known} within the band")
 

@@ -184,6 +184,26 @@ TEST(Price, a_row_s_mesh_has_its_accuracy_and_none_coarser_has) {
   }
 }
 
+TEST(Price, of_each_quantity_is_the_list_s_at_most_and_of_one_of_them_the_list_s) {
+  std::vector<std::string> notes;
+  auto rungs = ladder();
+  for (auto& made : rungs) made.values[1] = 20 + 0.1 * std::pow(made.spec.refine, -2);  // dearer at first, then cheaper
+  const auto list = price_of(rungs, {named("first_order"), named("second_order")}, 2, notes);
+  ASSERT_TRUE(row_for(list.rows, 1));
+  for (const auto& row : list.rows) {
+    if (!row.seconds) continue;
+    double dearest = 0;
+    for (const auto& quantity : list.quantities) {
+      const auto* own = row_for(quantity.rows, row.accuracy_percent);
+      ASSERT_TRUE(own) << quantity.what.name << " at " << row.accuracy_percent << " %";
+      dearest = std::max(dearest, *own->seconds);
+    }
+    EXPECT_DOUBLE_EQ(dearest, *row.seconds) << row.accuracy_percent << " %, decided by " << row.decided_by;
+  }
+  EXPECT_FALSE(row_for(list.quantities[0].rows, 1e-9));
+  EXPECT_TRUE(price().quantities[1].rows.empty()) << "it does not count";
+}
+
 TEST(Price, of_open_water_counts_what_the_tank_changes) {
   auto rungs = ladder();
   rungs.push_back(rung(1, 2, {10 + 0.1 - 0.05, 0}, Role::larger_tank));

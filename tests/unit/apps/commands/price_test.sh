@@ -30,6 +30,13 @@ check "five runs" test "$(wc -l <before)" -eq 5
 check "and once more" exits 0 price --out list
 runs_of list >after
 check "makes no run again" cmp before after
+check "an accuracy that a mesh has asks for no other" exits 0 price --out list --accuracy 10000%
+runs_of list >after
+check "so that none is made" cmp before after
+check "one that none has makes the ladder go on" exits 130 stopped_at list/refine-1.41/scene.resolved.toml \
+  "$splashdown" price scene.toml --rungs 3 --out list --accuracy 1e-9%
+check "a list without a row says how to go on" exits 0 "$splashdown" price scene.toml --rungs 3 --out list
+check "and what that takes" grep -Eq 'no mesh has 20 % yet: --accuracy 20% goes on, the next one takes about [0-9]' stdout
 check "rungs have what they cost" grep -q '"node_steps": [1-9]' list/price.json
 check "its page can be written anew" exits 0 "$splashdown" report list
 mkdir study && echo '{}' >study/study.json
