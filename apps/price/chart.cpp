@@ -13,6 +13,8 @@ namespace {
 
 // Okabe and Ito (2008): told apart by everybody, also in print.
 constexpr std::array curve_colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
+/// Of the first six, of the next six ...: point, size and dashes.
+constexpr std::array curve_marks = {"pt 7 ps 0.4 dt 1", "pt 5 ps 0.5 dt 3", "pt 9 ps 0.6 dt 4"};
 constexpr const char* ink = "#24313d";
 
 struct Work {
@@ -61,15 +63,17 @@ std::string script_of(const Price& price) {
     data += block(name, points);
     plots += fmt::format("{}{} using 1:2 {}", plots.empty() ? "plot " : ", \\\n  ", name, style);
   };
-  std::size_t colour = 0;
+  std::size_t curve = 0;
   for (const auto& quantity : price.quantities) {
     std::vector<Work> points;
     for (const auto& [rung, value] : quantity.rungs)
       if (const auto accuracy = quantity.accuracy(rung.spec.refine); accuracy && *accuracy > 0)
         points.push_back({rung.seconds, 100 * *accuracy});
-    if (quantity.what.counts)
-      add(points, fmt::format("with linespoints lw 1.2 pt 7 ps 0.4 lc rgb '{}' title {} noenhanced",
-                              curve_colours[colour++ % curve_colours.size()], gnuplot_text(quantity.what.name)));
+    if (!quantity.what.counts) continue;
+    add(points, fmt::format("with linespoints lw 1.2 {} lc rgb '{}' title {} noenhanced",
+                            curve_marks[curve / curve_colours.size() % curve_marks.size()],
+                            curve_colours[curve % curve_colours.size()], gnuplot_text(quantity.what.name)));
+    ++curve;
   }
   const auto all = made(price);
   add(all, fmt::format("with lines lw 3 lc rgb '{}' title 'all of them'", ink));

@@ -21,6 +21,7 @@ struct PricePlan {
   std::vector<double> refines;  ///< of the ladder
   std::vector<double> finer;    ///< that may follow it
   double accuracy = 0;          ///< that one of all is to have
+  bool goes_on = false;         ///< to the finer ones, until one has it
   std::string title, digest;
   bool has_tank = false;
 };
@@ -47,6 +48,7 @@ PricePlan plan_of(const PriceOptions& options) {
   plan.has_tank = scene.tank.has_value();
   plan.refines = rung_refines(options.rungs, scene.fluid->size.refine);
   plan.finer = finer_than(plan.refines, options, scene.fluid->size.refine);
+  plan.goes_on = options.accuracy || options.budget;
   plan.accuracy = options.accuracy ? *options.accuracy / 100 : least_accuracy;
   plan.digest = digest_of_scene(options.scene, options.set);
   auto& order = plan.order;
@@ -60,9 +62,9 @@ PricePlan plan_of(const PriceOptions& options) {
   order.quiet = options.quiet;
   order.dimension = scene.dimension;
   if (options.open_water) order.larger_tank = larger_tank_of(scene, options.scene.string());
+  const auto& finest = plan.goes_on && !plan.finer.empty() ? plan.finer.back() : plan.refines.back();
   order.expected_nodes =
-      expected_nodes(options.scene, options.set, plan.refines.front(),
-                     farthest_extrapolation * (plan.finer.empty() ? plan.refines : plan.finer).back());
+      expected_nodes(options.scene, options.set, plan.refines.front(), farthest_extrapolation * finest);
   auto& quantities = order.quantities;
   for (const auto& argument : options.quantities) quantities.push_back(parsed_quantity(argument));
   // Who names quantities wants these at their price; the others are shown beside them.
@@ -167,7 +169,7 @@ int price_command(const PriceOptions& options) {
   }
   catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");
   climb_all(*ladder, plan.refines, options.open_water);
-  if (options.accuracy || options.budget)
+  if (plan.goes_on)
     climb_on(*ladder, plan.finer, [&] {
       std::vector<std::string> unused;
       return is_reached(price_of(plan, *ladder, unused), plan.accuracy);
