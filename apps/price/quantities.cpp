@@ -62,10 +62,12 @@ class Defaults {
     expression(body.name + ".velocity_change", "m/s", "bodies.csv:" + body.name,
                fmt::format("last(v{0}) - first(v{0})", up));
     entry(body.name + ".greatest_submergence", "m", of + "maximum_submergence.value");
-    // The mean of what follows the instant from which it rests: there is none where it does not.
+    // Over the second half of the time for which its speed has stayed below 2 % of sqrt(g L): in the first it still swings by
+    // some per cent of its draft. There is none where it does not settle.
     if (scene_.gravity) {
       expression(body.name + ".rest_submergence", "m", "bodies.csv:" + body.name, "mean(submergence, time)");
-      quantities_.back().measured.where = "time >= summary." + of + "settled_time";
+      quantities_.back().measured.where =
+          fmt::format("time >= 0.5*(summary.{}settled_time + summary.simulated_time)", of);
     }
   }
   void add(const PatchEntry& patch) {

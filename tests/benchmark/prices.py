@@ -65,6 +65,8 @@ def price(program, case):
 
 
 def told_seconds(seconds):
+    if seconds >= 6000:
+        return f"{seconds / 3600:.2g} h"
     return f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:.2g} min"
 
 
