@@ -290,9 +290,10 @@ template <int d>
 void leave_out_pockets(const Delaunay<d>& all, const Nodes<d>& nodes, const WallsAt<d>& at,
                        std::vector<Content>& content) {
   auto hull_of = [&](int c) {
+    if (!is_filled(content[c])) return -1;  // nor has it the vertex at infinity for a corner
     const auto& cell = all.cells[c];
     const int wall = nodes.tie[cell[0]].wall;
-    if (wall < 0 || !is_filled(content[c]) || at.walls[wall].encloses_fluid()) return -1;
+    if (wall < 0 || at.walls[wall].encloses_fluid()) return -1;
     return std::ranges::all_of(cell, [&](int n) { return nodes.tie[n].wall == wall; }) ? wall : -1;
   };
   std::vector<char> seen(content.size(), 0);
