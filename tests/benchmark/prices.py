@@ -21,8 +21,8 @@ PEAK_3D = "max(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225))"
 PEAK_TIME_3D = ("argmax(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225), "
                 "select(time, abs(time - 0.00325) < 0.00225))")
 
-# Pressure of a cone: the largest of means in rings of 0.025 V t in height. True is the same mean of reference_cp_*.csv; at 45 degrees, where
-# the apex has the largest, between that by height and that by area (1.552, 1.536).
+# Pressure of a cone: the largest of means in rings of 0.025 V t in height. At 45 degrees the apex has it, and reference_cp_45.csv a mean of
+# 1.552 by height and 1.536 by area.
 CONE_LOAD = "force=mean(fz/(1000*time^2), time) from bodies.csv:cone where time >= 0.2"
 CONE_CP = "cp_max=max(bins(2*p/1000, z/time, -1, 0.25, 50)) from surface_pressure.csv:cone where time >= 0.4"
 
@@ -44,7 +44,6 @@ CASES = {
                     ["peak_force=max(smooth(fy, time, 2e-4)) from bodies.csv:wedge"], {"peak_force": 7360}),
     "capsule_drop_2d": ("capsule_drop_2d/scene.toml", [], [], {"capsule.rest_submergence": 0.0688812 - 0.0371386 / 8}),
     "cone_entry_45": ("cone_entry/scene_45.toml", [], [CONE_LOAD, CONE_CP], {"force": 3.331, "cp_max": 1.544}),
-    "cone_entry_30": ("cone_entry/scene.toml", [], [CONE_LOAD, CONE_CP], {"force": 24.69, "cp_max": 4.587}),
     "capsule_water_landing": ("capsule_water_landing/scene.toml", [],
                               [f"peak={PEAK_3D} from bodies.csv:capsule",
                                f"speed_at_peak=-interp(time, vz, {PEAK_TIME_3D})/4.5 from bodies.csv:capsule"],
