@@ -117,7 +117,6 @@ void write_price(const Price& price, const fs::path& folder, std::vector<std::st
 Price price_of(const PricePlan& plan, const Ladder& ladder, std::vector<std::string>& notes) {
   auto price = price_of(ladder.made(), plan.order.quantities, plan.order.dimension, notes);
   price.expected_nodes = plan.order.expected_nodes;
-  list_rows(price);
   return price;
 }
 
@@ -125,6 +124,7 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
   const auto& folder = plan.order.folder;
   auto notes = ladder.end().notes;
   auto price = price_of(plan, ladder, notes);
+  list_rows(price);
   price.scene = fs::absolute(options.scene).lexically_normal().string();
   price.title = plan.title;
   price.scene_digest = plan.digest;

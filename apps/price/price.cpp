@@ -220,7 +220,6 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
     priced.fit = fit_of(priced);
     price.quantities.push_back(std::move(priced));
   }
-  list_rows(price);
   return price;
 }
 

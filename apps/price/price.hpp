@@ -31,7 +31,7 @@ struct PriceRow {
   std::string decided_by;  ///< the quantity that asks for most
 };
 
-/// Of the first of the rows with this accuracy or a better one; nothing: there is none that refinement gets to.
+/// The first row with this accuracy or a better one; nothing: refinement does not get there.
 const PriceRow* row_for(const std::vector<PriceRow>& rows, double percent);
 
 struct PricedQuantity {
@@ -93,7 +93,7 @@ inline constexpr double farthest_run = 2;
 /// Quantities without a value on three rungs are left out, and named in `notes`.
 Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>& quantities, int dimension,
                std::vector<std::string>& notes);
-/// Anew, when the price has learned what nodes its scene expects.
+/// Fills the rows of the price and of its quantities, when it knows what nodes its scene expects: each is a search over bands.
 void list_rows(Price& price);
 
 /// Of a scene at refine = 1, whatever its title and output: FNV-1a, 16 hexadecimal digits.

@@ -44,6 +44,7 @@ std::vector<Rung> ladder() {
 Price price() {
   std::vector<std::string> notes;
   auto price = price_of(ladder(), {named("smooth"), named("wild", false)}, 2, notes);
+  list_rows(price);
   price.scene = "scene.toml", price.scene_digest = "0";
   EXPECT_TRUE(notes.empty());
   return price;
@@ -188,7 +189,8 @@ TEST(Price, of_each_quantity_is_the_list_s_at_most_and_of_one_of_them_the_list_s
   std::vector<std::string> notes;
   auto rungs = ladder();
   for (auto& made : rungs) made.values[1] = 20 + 0.1 * std::pow(made.spec.refine, -2);  // dearer at first, then cheaper
-  const auto list = price_of(rungs, {named("first_order"), named("second_order")}, 2, notes);
+  auto list = price_of(rungs, {named("first_order"), named("second_order")}, 2, notes);
+  list_rows(list);
   ASSERT_TRUE(row_for(list.rows, 1));
   for (const auto& row : list.rows) {
     if (!row.seconds) continue;
