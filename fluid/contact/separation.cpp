@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 #include "fluid/contact/wall.hpp"
 
@@ -50,55 +49,60 @@ void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::s
     if (e.both_sides || calm) nodes.separates[i] = 0;
   }
 }
+
 template <int d>
 std::vector<Separation<d>> separations(const Nodes<d>& nodes, const Mesh<d>& mesh) {
-  std::vector<Separation<d>> all;
-  auto separates = [&](int n) { return nodes.separates[n] != 0; };
-  std::vector<int> index(nodes.size(), -1);
-  for (bool inner : {true, false})  // neighbours at the edge themselves serve where there are no others
+  std::vector<Separation<d>> pairs;
+  std::vector<char> meets(nodes.size(), 0);
+  const auto separates = [&](int n) { return nodes.separates[n] != 0; };
+  const auto find = [&](auto&& are_pair) {
     for (const auto& f : mesh.boundary) {
       if (f.wall < 0) continue;
-      for (int n : f.nodes) {
-        if (!separates(n) || (!inner && index[n] >= 0)) continue;
-        for (int other : f.nodes) {
-          if (other == n || separates(other) == inner) continue;
-          if (index[n] < 0) index[n] = static_cast<int>(all.size()), all.push_back({n, {}, Vec<d>::Zero()});
-          all[index[n]].upstream.push_back({other});
-        }
-      }
+      for (int n : f.nodes)
+        for (int other : f.nodes)
+          if (n != other && separates(n) && are_pair(n, other)) pairs.push_back({n, other});
     }
-  for (const auto& f : mesh.boundary)
-    for (int n : f.nodes)
-      if (index[n] >= 0) all[index[n]].area += area_vector_of<d>(f, nodes.x);
-  return all;
+    for (const auto& pair : pairs) meets[pair.edge] = 1;
+  };
+  find([&](int, int other) { return !separates(other); });
+  find([&](int n, int other) { return !meets[n] && separates(other) && (meets[other] || n < other); });
+  if (pairs.empty()) return pairs;
+  std::vector<Vec<d>> area(nodes.size(), Vec<d>::Zero());
+  for (const auto& f : mesh.boundary) {
+    const Vec<d> of_facet = area_vector_of<d>(f, nodes.x);
+    for (int n : f.nodes) area[n] += of_facet;
+  }
+  for (auto& pair : pairs)
+    pair.area = separates(pair.neighbour) ? area[pair.edge] + area[pair.neighbour] : area[pair.edge];
+  return pairs;
 }
 
 template <int d>
 void share_momentum(std::span<const double> volume, std::span<Separation<d>> separations) {
-  std::map<int, int> meets;  // edge nodes that a neighbour has
-  for (const auto& s : separations)
-    for (const auto& up : s.upstream) ++meets[up.node];
-  for (auto& s : separations)
-    for (auto& up : s.upstream) {
-      const double of_edge = std::max(0.0, volume[s.at]), of_neighbour = std::max(0.0, volume[up.node]);
-      const double a = of_edge / static_cast<double>(s.upstream.size()), b = of_neighbour / meets[up.node];
-      if (a + b == 0) continue;
-      up.taken = of_edge > 0 ? a * b / (a + b) / of_edge : 0.0;
-      up.given = of_neighbour > 0 ? a * b / (a + b) / of_neighbour : 0.0;
-    }
+  std::map<int, int> pairs;  // of a node
+  for (const auto& s : separations) ++pairs[s.edge], ++pairs[s.neighbour];
+  for (auto& s : separations) {
+    const double of_edge = std::max(0.0, volume[s.edge]), of_neighbour = std::max(0.0, volume[s.neighbour]);
+    const double a = of_edge / pairs[s.edge], b = of_neighbour / pairs[s.neighbour];
+    if (a + b == 0) continue;
+    s.taken = of_edge > 0 ? a * b / (a + b) / of_edge : 0.0;
+    s.given = of_neighbour > 0 ? a * b / (a + b) / of_neighbour : 0.0;
+  }
 }
 
 template <int d>
 void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u) {
-  std::vector<std::pair<int, Vec<d>>> changes;
-  for (const auto& s : separations)
-    for (const auto& up : s.upstream) {
-      Vec<d> past = u[up.node] - u[s.at];
-      if (d == 3 && !s.area.isZero(0)) past -= past.dot(s.area) / s.area.squaredNorm() * s.area;
-      changes.emplace_back(s.at, up.taken * past);
-      changes.emplace_back(up.node, -up.given * past);
-    }
-  for (const auto& [node, change] : changes) u[node] += change;
+  std::vector<Vec<d>> past(separations.size());
+  for (std::size_t k = 0; k < past.size(); ++k) {
+    const Separation<d>& s = separations[k];
+    past[k] = u[s.neighbour] - u[s.edge];
+    if (d == 3 && !s.area.isZero(0)) past[k] -= past[k].dot(s.area) / s.area.squaredNorm() * s.area;
+  }
+  for (std::size_t k = 0; k < past.size(); ++k) {
+    const Separation<d>& s = separations[k];
+    u[s.edge] += s.taken * past[k];
+    u[s.neighbour] -= s.given * past[k];
+  }
 }
 
 template void separate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);

@@ -17,25 +17,21 @@ template <int d>
 void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities,
               double gravity);
 
-/// A node where the flow leaves an edge.
+/// A node where the flow leaves an edge, and a wetted neighbour of it, with their shares of the difference of velocities.
 template <int d>
 struct Separation {
-  /// A wetted neighbour, and shares of the difference of velocities that the node and the neighbour take.
-  struct Upstream {
-    int node;
-    double taken = 0, given = 0;
-  };
-  int at;
-  std::vector<Upstream> upstream;
-  Vec<d> area;  ///< of the boundary around the node
+  int edge, neighbour;
+  Vec<d> area = Vec<d>::Zero();  ///< of the boundary around the edge node; around both if the flow leaves both
+  double taken = 0, given = 0;
 };
 
-/// Of the nodes that `separate` has found, those with wetted neighbours.
+/// The pairs of the nodes that `separate` has found with neighbours where no flow leaves, twice where two facets join them. A
+/// node that has none meets what there is, other edge nodes: two of them are one pair, whichever sees the other.
 template <int d>
 std::vector<Separation<d>> separations(const Nodes<d>& nodes, const Mesh<d>& mesh);
 
 /// The shares, from the volume of water around nodes [m^d]: with a and b what edge node i and neighbour j have for each other,
-/// V_i and V_j shared among all that they meet, and m = a b / (a + b),
+/// V_i and V_j shared among all pairs that they are in, and m = a b / (a + b),
 ///
 ///   taken = m / V_i,  given = m / V_j
 ///

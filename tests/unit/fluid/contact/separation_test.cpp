@@ -106,19 +106,35 @@ TYPED_TEST(Upstream, is_what_is_wetted_beside_the_edge) {
   ASSERT_EQ(found.size(), edge.edge.size());
   Vec<d> area = area_vector_of<d>(edge.mesh.boundary[0], edge.nodes.x);
   for (const auto& s : found) {
-    ASSERT_EQ(s.upstream.size(), 1u);
-    EXPECT_EQ(s.upstream[0].node, edge.inside);
+    EXPECT_EQ(s.neighbour, edge.inside);
     EXPECT_LE((s.area - area).norm(), eps);
   }
 }
 
-// Edge nodes 0, 1, 2 with neighbours among 3 to 6, several of them shared, and volumes of three decades.
+// One facet spans the side of a body from edge to edge: each edge has the other one beside it, and they are one pair.
+TEST(Upstream, two_edges_that_have_no_other_neighbour_are_one_pair) {
+  scenes::Walls<2> walls;
+  walls.add_wall(scenes::box<2>({-1, 0}, {1, 1}), Isometry<2>::Identity());
+  Nodes<2> nodes;
+  Mesh<2> mesh;
+  for (double x : {-1., 1.}) {
+    nodes.add({x, 0}, Vec<2>::Zero(), 0, scenes::tie_at<2>(walls.walls[0], walls.pose[0], {x, 0}, 0), true);
+    nodes.separates.back() = 1;
+  }
+  mesh.boundary.push_back({{0, 1}, 0});
+  const auto pairs = separations<2>(nodes, mesh);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_NE(pairs[0].edge, pairs[0].neighbour);
+}
+
+// Edge nodes 0, 1, 2 with neighbours among 3 to 6, several of them shared, edge nodes 0 and 1 beside each other, and volumes of
+// three decades.
 template <int d>
 struct Exchange {
   std::mt19937 random{5};
   std::vector<Vec<d>> u;
   std::vector<double> volume;
-  std::vector<Separation<d>> met{{0, {{3}, {4}}, {}}, {1, {{4}}, {}}, {2, {{4}, {5}, {6}}, {}}};
+  std::vector<Separation<d>> met{{0, 3}, {0, 4}, {1, 4}, {1, 0}, {2, 4}, {2, 5}, {2, 6}};
 
   Exchange() {
     std::uniform_real_distribution<double> decades(-3, 0);
@@ -158,7 +174,7 @@ TYPED_TEST(Upstream, takes_momentum_from_nobody_and_makes_no_energy) {
 TYPED_TEST(Upstream, and_its_edge_have_one_velocity_but_for_what_crosses_the_surface_in_space) {
   constexpr int d = TypeParam::value;
   Exchange<d> e;
-  std::vector<Separation<d>> pair{{0, {{3}}, e.met[0].area}};
+  std::vector<Separation<d>> pair{{0, 3, e.met[0].area}};
   share_momentum<d>(e.volume, pair);
   const auto before = e.u;
   mix_with_upstream<d>(pair, e.u);
