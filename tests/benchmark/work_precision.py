@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the digits of four scenes cost: docs/performance.md's tables of this program.
 
-    tests/benchmark/work_precision.py build/release/splashdown [CASE...]     (default: all but the cone)
+    tests/benchmark/work_precision.py build/release/splashdown [CASE...]     (default: all but the cones)
     tests/benchmark/work_precision.py build/release/splashdown --presets [CASE...]
     tests/benchmark/work_precision.py build/release/splashdown --growth [CASE...]     how fast elements may grow
 
@@ -69,9 +69,9 @@ def wedge_drop(folder):
     return {"peak force": smoothed_peak(column(folder, "fy"), 5e-4) / 26746 - 1, "speed at 16 ms": -speed / 5.068 - 1}
 
 
-def cone(folder):
+def cone(folder, force):
     load = [(t, f / (1000 * t * t)) for t, f in column(folder, "fz", where=lambda t: t >= 0.2)]
-    return {"force": mean(load) / 3.331 - 1}
+    return {"force": mean(load) / force - 1, "its scatter": statistics.pstdev(f for _, f in load) / force}
 
 
 def capsule(folder):
@@ -85,6 +85,11 @@ def wide(factor, half=13.5):
     size = factor * half
     return [f"--set=tank.min=[-{size},-{size}]", f"--set=tank.max=[{size},3.0]",
             f"--set=fluid.region.0.min=[-{size},-{size}]", f"--set=fluid.region.0.max=[{size},0.0]"]
+
+
+def root(size, smallest):
+    """Elements on a cone's hull, and the smallest at the root of its jet."""
+    return [f"--set=body.cone.size={size}", "--set=fluid.size.hollow=0.3", f"--set=fluid.size.hollow_min={smallest}"]
 
 
 CASES = {
@@ -101,13 +106,15 @@ CASES = {
                    [["--refine=0.25"], ["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"],
                     ["--refine=1.41"], ["--refine=2"]]),
     "light_capsule": ("capsule_drop_2d/scene.toml", capsule, [["--refine=0.7", "--until=0.3"], ["--refine=1", "--until=0.3"]]),
-    "cone_45": ("cone_entry/scene_45.toml", cone, [["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"]]),
+    "cone_45": ("cone_entry/scene_45.toml", lambda f: cone(f, 3.331),
+                [["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"], root(0.06, 0.015), root(0.04, 0.01)]),
+    "cone_30": ("cone_entry/scene.toml", lambda f: cone(f, 24.69), [["--refine=0.5"], ["--refine=1"], root(0.05, 0.0125), root(0.035, 0.01)]),
 }
 
 
 def told_options(options):
     """As they were given; of a wider tank that it is."""
-    given = [option.removeprefix("--set=fluid.size.") for option in options if "tank" not in option and "region" not in option]
+    given = [option.removeprefix("--set=fluid.size.").removeprefix("--set=body.") for option in options if "tank" not in option and "region" not in option]
     return " ".join([*given, "wide"] if len(given) < len(options) else given)
 
 
@@ -129,7 +136,7 @@ CASES_BY_SCENE = {scene: errors for scene, errors, _ in CASES.values()}
 def main():
     program, names = sys.argv[1], sys.argv[2:]
     of_presets, of_growth = "--presets" in names, "--growth" in names
-    names = [name for name in names if not name.startswith("--")] or [name for name in CASES if name != "cone_45"]
+    names = [name for name in names if not name.startswith("--")] or [name for name in CASES if not name.startswith("cone")]
     for name in names:
         scene, _, ladder = CASES[name]
         if of_presets:
