@@ -50,6 +50,14 @@ struct Hull {
   double size() const { return half / (enters ? Rules<d>::entering : Rules<d>::wet); }
 };
 
+/// How much larger than the rules' the elements of an entering hull may be: in space twice where those at the root of its jet
+/// are half as large at most (docs/performance.md, "A cone").
+template <int d>
+double allowance(const Sizes& size, const Hull<d>& hull) {
+  const bool fine_root = d == 3 && hull.enters && size.hollow && size.hollow_min <= hull.size() / 2;
+  return fine_root ? 2 * rounded : rounded;
+}
+
 /// Speed at the water, downward [m/s].
 template <int d>
 double entry_speed(const Scene& scene, const Body& body, double fall) {
@@ -219,11 +227,12 @@ std::vector<std::string> sizes_against_rules(const Scene& scene) {
   for (std::size_t b = 0; b < choice.hulls.size(); ++b) {
     const auto& hull = choice.hulls[b];
     const auto& body = scene.bodies[b];
-    if (body.size > rounded * hull.size())
+    const double most = allowance<d>(size, hull);
+    if (body.size > most * hull.size())
       list.push_back(fmt::format(
           "body.{}.size = {:.3g} m puts {:.2g} elements on {} ({:.2g} m), not {:g}: use {:.2g} m", body.name, body.size,
           hull.half / body.size, hull.why, hull.half, hull.half / hull.size(), two_digits(hull.size())));
-    if (hull.enters && size.wetted_fraction > rounded * Rules<d>::wetted_fraction)
+    if (hull.enters && size.wetted_fraction > most * Rules<d>::wetted_fraction)
       list.push_back(fmt::format(
           "fluid.size.wetted_fraction = {:g} leaves {:.2g} elements on half of the wetted width, "
           "not {:.2g}: use {:g}",

@@ -1,6 +1,7 @@
 // Element sizes for a scene that names none, by the rules of docs/guide.md, "Choose sizes and steps".
 //
-//   entering hull   c/50 in the plane, c/33 in space, at most; later elements grow with the wetted width (wetted_fraction)
+//   entering hull   c/50 in the plane, c/33 in space, at most; later elements grow with the wetted width (wetted_fraction). In
+//      space half as many do where the root of the jet has smaller ones (hollow)
 //      c  half of the wetted width at the largest load, at most half of the hull's breadth, at least that of a flat bottom.
 //         A free body loads most when its added mass is a fifth of its mass (wedge, Ma ~ d^2, F ~ d/(1 + Ma/m)^3), in space
 //         an eighth (round bottom, Ma ~ d^1.5): rho pi/2 c^2 = m/5, 4/3 rho c^3 = m/8 (Wagner 1932). Prescribed motion: c at the
@@ -10,7 +11,7 @@
 //                   for half a period of heave or the hull floats from the start; without a hull forty a wave that is
 //                   given, else a thirtieth of the liquid's least extent
 //   far             the hull's breadth, at most an eighth of the liquid's least extent
-//   growth          0.1 in the plane, 0.25 in space
+//   growth          0.2 in the plane, 0.25 in space
 //
 // Every length follows from lengths of the scene, masses and ratios of speeds to sqrt(g L): a scene ten times as large, with
 // Froude's speeds and times, has sizes ten times as large. Sizes are rounded to two digits.

@@ -74,6 +74,22 @@ TEST(ChosenSizes, obey_their_own_rules_and_printed_ones_are_told_when_they_do_no
     EXPECT_NE(coarse[0].find(piece), std::string::npos) << piece << " is not in: " << coarse[0];
 }
 
+TEST(ChosenSizes, of_a_hull_in_space_may_be_twice_as_large_where_the_root_of_its_jet_has_small_elements) {
+  const auto told = [](const std::string& root) {
+    return sizes_against_rules<3>(
+        read("dimension = 3\n[time]\nend = 0.3\n[tank]\nmin = [-9, -9, -9]\nmax = [9, 9, 2]\n[fluid]\ndensity = 1000\n"
+             "[fluid.size]\nsurface = 0.3\ngrowth = 0.25\nwetted_fraction = 0.06\n" +
+             root +
+             "[[fluid.region]]\nshape = \"box\"\nmin = [-9, -9, -9]\nmax = [9, 9, 0]\n[[body]]\nname = \"ball\"\n"
+             "shape = {type = \"sphere\", radius = 1.0}\nmotion = \"prescribed\"\nposition = [0, 0, 1]\n"
+             "velocity = [0, 0, -1]\nsize = 0.05\n")
+            .scene);
+  };
+  EXPECT_EQ(told("").size(), 2u) << "size and wetted_fraction";
+  EXPECT_EQ(told("hollow = 0.3\nhollow_min = 0.02\n").size(), 2u);
+  EXPECT_TRUE(told("hollow = 0.3\nhollow_min = 0.006\n").empty());
+}
+
 // c tan^2 beta / 2 pi with c = 1 m.
 TEST(ChosenSizes, of_a_hull_of_small_deadrise_resolve_its_jet) {
   const auto told = [](double beta, const std::string& hollow) {
