@@ -62,18 +62,16 @@ std::vector<Separation<d>> separations(const Nodes<d>& nodes, const Mesh<d>& mes
         for (int other : f.nodes)
           if (n != other && separates(n) && are_pair(n, other)) pairs.push_back({n, other});
     }
-    for (const auto& pair : pairs) meets[pair.edge] = 1;
   };
   find([&](int, int other) { return !separates(other); });
+  for (const auto& pair : pairs) meets[pair.edge] = 1;
   find([&](int n, int other) { return !meets[n] && separates(other) && (meets[other] || n < other); });
   if (pairs.empty()) return pairs;
-  std::vector<Vec<d>> area(nodes.size(), Vec<d>::Zero());
-  for (const auto& f : mesh.boundary) {
-    const Vec<d> of_facet = area_vector_of<d>(f, nodes.x);
-    for (int n : f.nodes) area[n] += of_facet;
-  }
-  for (auto& pair : pairs)
-    pair.area = separates(pair.neighbour) ? area[pair.edge] + area[pair.neighbour] : area[pair.edge];
+  std::vector<Vec<d>> area(nodes.size(), Vec<d>::Zero());  // around edge nodes
+  for (const auto& f : mesh.boundary)
+    for (int n : f.nodes)
+      if (separates(n)) area[n] += area_vector_of<d>(f, nodes.x);
+  for (auto& pair : pairs) pair.area = area[pair.edge] + area[pair.neighbour];
   return pairs;
 }
 

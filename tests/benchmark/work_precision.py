@@ -107,8 +107,9 @@ CASES = {
                     ["--refine=1.41"], ["--refine=2"]]),
     "light_capsule": ("capsule_drop_2d/scene.toml", capsule, [["--refine=0.7", "--until=0.3"], ["--refine=1", "--until=0.3"]]),
     "cone_45": ("cone_entry/scene_45.toml", lambda f: cone(f, 3.331),
-                [["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], ["--refine=1"], root(0.06, 0.015), root(0.04, 0.01)]),
-    "cone_30": ("cone_entry/scene.toml", lambda f: cone(f, 24.69), [["--refine=0.5"], ["--refine=1"], root(0.05, 0.0125), root(0.035, 0.01)]),
+                [["--refine=0.35"], ["--refine=0.5"], ["--refine=0.71"], root(0.06, 0.015), root(0.04, 0.01), ["--refine=1"]]),
+    "cone_30": ("cone_entry/scene.toml", lambda f: cone(f, 24.69),
+                [["--refine=0.5"], root(0.05, 0.0125), root(0.035, 0.01), ["--refine=1"]]),
 }
 
 
