@@ -45,24 +45,33 @@ void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
   std::set<int> at_walls;  // parts of the last mesh
   for (std::size_t i = 0; i < was_spray.size() && leaving > 0; ++i)
     if (nodes.tie[i].wall >= 0 && !was_spray[i]) at_walls.insert(nodes.part[i]);
+  VelocityMoments<d> flown, left;  // of waters that fly as a whole, where none stays that could have what is left
+  std::vector<std::size_t> whole;
   for (std::size_t i = 0; i < was_spray.size(); ++i) {
     if (nodes.spray[i] <= was_spray[i]) continue;
     const double carried = nodes.volume[i] + nodes.owed[i];
     const double flies = share * std::max(0.0, carried), held = share * std::max(0.0, nodes.field_energy[i]);
-    if (const double has = VelocityMoments<d>::of(flies, nodes.v[i]).energy;
-        has > held && at_walls.contains(nodes.part[i]))
-      nodes.v[i] *= std::sqrt(held / has);
-    const auto drop = VelocityMoments<d>::of(flies, nodes.v[i]);
+    auto all = nodes.carried(i);
+    Vec<d> v = (all += nodes.inherited[i]).volume > 0 ? all.mean_velocity() : nodes.v[i];
+    if (const double has = VelocityMoments<d>::of(flies, v).energy; has > held && at_walls.contains(nodes.part[i]))
+      v *= std::sqrt(held / has);
+    const auto drop = VelocityMoments<d>::of(flies, v);
     if (!nodes.spray[heaviest]) {
       nodes.bequeath(i, heaviest);
       nodes.owed[heaviest] -= flies;
       nodes.inherited[heaviest] -= drop;
       nodes.field_energy[heaviest] -= drop.energy;
+    } else if (!at_walls.contains(nodes.part[i])) {
+      flown += drop, left += all, left -= drop;
+      whole.push_back(i);
     }
+    nodes.v[i] = v;
     nodes.volume[i] = flies;
     nodes.owed[i] = 0;
     work.ledger.spray += flies;
   }
+  if (flown.volume > 0)
+    for (std::size_t i : whole) nodes.v[i] += left.momentum / flown.volume;
 }
 
 // What nodes that go have carried passes to a neighbour that stays.
@@ -201,7 +210,7 @@ void Fluid<d>::State::prepare() {
 // What nodes of a new mesh carry, and what its volume has changed by.
 template <int d>
 void Fluid<d>::State::settle(double before) {
-  free_water = FreeWater<d>(work.mesh, work.nodes);
+  free_water = FreeWater<d>(work.mesh, work.nodes, walls_at(work.poses));
   free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
   mix_joined<d>(work.mesh, free_water.part(), work.nodes);
@@ -213,8 +222,8 @@ void Fluid<d>::State::settle(double before) {
   const auto recognised = nodal_volumes(work.mesh, work.nodes.x);
   const auto volumes =
       return_volume(work.nodes, work.mesh, walls_at(work.poses), free_water, recognised, work.nodes.volume);
-  limit_field_energy<d>(work.nodes, work.mesh, free_water, recognised, volumes);
   free_water.give_back(free_carried, volumes, work.nodes.v);
+  limit_field_energy<d>(work.nodes, work.mesh, free_water, recognised, volumes);
   work.ledger.volume = water();
   work.ledger.returned += work.ledger.volume - after;
   work.wetted = wetted_measures(work.mesh, work.nodes.x, walls.size());

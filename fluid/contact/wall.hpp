@@ -59,6 +59,10 @@ class Wall {
   /// Whether the solid is surely convex: what lies between points of it lies in it, and behind the plane of each facet. In space.
   bool is_convex() const { return is_convex_; }
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
+  /// Of a flat patch, out of the solid, world frame.
+  Vec<d> flat_normal(const Isometry<d>& pose, int patch) const {
+    return pose.linear() * normal_.col(patch_facets_[patch].front());
+  }
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
   bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {

@@ -141,7 +141,8 @@ bool WallMotion<d>::is_chord(int facet, std::span<const WallTie> tie) const {
   return curved;
 }
 
-// A drop on a wall slides along it: the wall takes what would carry it in, and no more.
+// A drop on a wall slides along it: the wall takes what would carry it in, and no more. Within a step it may go farther into a thin
+// wall than to its middle: it comes back on its own side.
 template <int d>
 void WallMotion<d>::move_drop(int i, const Isometry<d>& pose, double dt, Moved& out) const {
   const WallTie tie = nodes_.tie[i];
@@ -151,9 +152,10 @@ void WallMotion<d>::move_drop(int i, const Isometry<d>& pose, double dt, Moved& 
     out.tie[i] = {};
     return;
   }
-  out.u[i] += (near.point - out.x[i]) / dt;  // in a corner it has no normal
-  out.x[i] = near.point;
-  out.tie[i] = {tie.wall, near.patch};
+  const auto own = tie.patch >= 0 ? wall.nearest_on_patch(pose, out.x[i], tie.patch) : near;
+  out.u[i] += (own.point - out.x[i]) / dt;  // in a corner it has no normal
+  out.x[i] = own.point;
+  out.tie[i] = {tie.wall, own.patch};
 }
 
 template <int d>

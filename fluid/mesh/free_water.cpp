@@ -8,11 +8,34 @@
 namespace splashdown::fluid {
 
 template <int d>
-FreeWater<d>::FreeWater(const Mesh<d>& mesh, const Nodes<d>& nodes)
-    : part_(parts_of(mesh, nodes.size())), free_(nodes.size(), 1) {
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (nodes.spray[i] || nodes.tie[i].wall >= 0) free_[part_[i]] = 0;
-  for (int first : part_) any_ = any_ || free_[first];
+FreeWater<d>::FreeWater(const Mesh<d>& mesh, const Nodes<d>& nodes, const WallsAt<d>& walls)
+    : part_(parts_of(mesh, nodes.size())), kept_(nodes.size(), all) {
+  constexpr double roundoff = 1e-9;  // of what is left of a normal that others span
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const WallTie& tie = nodes.tie[i];
+    int& kept = kept_[part_[i]];
+    if (nodes.spray[i]) kept = drop;
+    if (kept < all || tie.wall < 0) continue;
+    if (tie.sharp() || tie.patch < 0 || !walls.walls[tie.wall].is_flat(tie.patch)) {
+      kept = none;
+      continue;
+    }
+    Vec<d> pushed = directions_[kept] * walls.walls[tie.wall].flat_normal(walls.poses[tie.wall], tie.patch);
+    if (pushed.norm() <= roundoff) continue;
+    pushed.normalize();
+    if (kept == all) {
+      kept = static_cast<int>(directions_.size());
+      directions_.push_back(Mat<d>::Identity());
+    }
+    directions_[kept] -= pushed * pushed.transpose();
+    if (directions_[kept].trace() < 0.5) kept = none;
+  }
+  any_ = std::ranges::any_of(part_, [&](int first) { return kept_[first] >= all; });
+}
+
+template <int d>
+Vec<d> FreeWater<d>::kept(std::size_t node, const Vec<d>& v) const {
+  return directions_[kept_[part_[node]]] * v;
 }
 
 template <int d>
@@ -21,7 +44,7 @@ auto FreeWater<d>::moments(std::span<const double> volumes, std::span<const Vec<
   if (!any_) return {};
   Moments sum(part_.size());
   for (std::size_t i = 0; i < part_.size(); ++i) {
-    if (!has(i)) continue;
+    if (kept_[part_[i]] < all) continue;
     sum[part_[i]] += VelocityMoments<d>::of(volumes[i], v[i]);
     if (!inherited.empty()) sum[part_[i]] += inherited[i];
   }
@@ -31,20 +54,24 @@ auto FreeWater<d>::moments(std::span<const double> volumes, std::span<const Vec<
 template <int d>
 void FreeWater<d>::give_back(const Moments& had, std::span<const double> volumes, std::vector<Vec<d>>& v) const {
   if (!any_) return;
-  Moments all(part_.size());
-  for (std::size_t i = 0; i < part_.size(); ++i) all[part_[i]] += VelocityMoments<d>::of(volumes[i], v[i]);
-  const auto largest = std::ranges::max_element(all, {}, &VelocityMoments<d>::volume) - all.begin();
+  Moments has_now(part_.size());
+  for (std::size_t i = 0; i < part_.size(); ++i)
+    if (kept_[part_[i]] != drop) has_now[part_[i]] += VelocityMoments<d>::of(volumes[i], v[i]);
+  const auto largest = std::ranges::max_element(has_now, {}, &VelocityMoments<d>::volume) - has_now.begin();
   std::vector<Vec<d>> mean(part_.size(), Vec<d>::Zero());
   Vec<d> left = Vec<d>::Zero();
   for (std::size_t first = 0; first < part_.size(); ++first) {
-    if (!has(first) || part_[first] != static_cast<int>(first)) continue;
-    mean[first] = (had[first].volume > 0 ? had : all)[first].mean_velocity();
-    left += had[first].momentum - all[first].volume * mean[first];
+    if (part_[first] != static_cast<int>(first) || kept_[first] < all) continue;
+    mean[first] = (had[first].volume > 0 ? had : has_now)[first].mean_velocity();
+    left += kept(first, had[first].momentum - has_now[first].volume * mean[first]);
   }
-  if (all[largest].volume > 0) mean[largest] += left / all[largest].volume;
+  if (has_now[largest].volume > 0) mean[largest] += left / has_now[largest].volume;
   for (std::size_t i = 0; i < v.size(); ++i) {
-    if (!has(i)) continue;
-    const auto &was = had[part_[i]], &is = all[part_[i]];
+    const auto &was = had[part_[i]], &is = has_now[part_[i]];
+    if (!has(i)) {
+      if (kept_[part_[i]] > all) v[i] += kept(i, mean[part_[i]] - is.mean_velocity());
+      continue;
+    }
     const double T = was.inner_energy(), T_now = is.inner_energy();
     const double share = T_now > T ? std::sqrt(T / T_now) : 1.0;
     v[i] = mean[part_[i]] + share * (v[i] - is.mean_velocity());

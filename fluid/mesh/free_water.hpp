@@ -11,12 +11,20 @@
 // keeps the mean velocity, and the motion about it gains no energy. The momentum of volume that a part has lost or gained,
 // (M - M') P / M, goes where that volume goes, to the largest part (volume_books.hpp): of a single one P is kept. A uniform
 // shift is the least change of velocities that does it, and no strain.
+//
+// Flat walls take momentum along their normals alone. Water that touches no others keeps what it has along all of them: with the
+// projector Q on the directions that no wall of the part pushes in, none where there are edges or curved walls,
+//
+//   v_i <- v_i + Q (P / M - w')
+//
+// What energy that brings is taken out with what the new mesh has brought (field_energy.hpp).
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "fluid/mesh/mesh.hpp"
+#include "fluid/mesh/recognise.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {
@@ -24,28 +32,33 @@ namespace splashdown::fluid {
 template <int d>
 class FreeWater {
  public:
-  /// Of each part, at its first node; nothing where no part is free.
+  /// Of each part, at its first node; nothing where no part keeps any.
   using Moments = std::vector<VelocityMoments<d>>;
 
   FreeWater() = default;
-  /// Which water of `mesh` hangs together, and which of it is free.
-  FreeWater(const Mesh<d>& mesh, const Nodes<d>& nodes);
+  /// Which water of `mesh` hangs together, and in which directions walls push none of it.
+  FreeWater(const Mesh<d>& mesh, const Nodes<d>& nodes, const WallsAt<d>& walls);
 
   /// Of each node the first one of its part (parts_of).
   const std::vector<int>& part() const { return part_; }
   /// Whether the node is a corner of cells of a part that no wall touches.
-  bool has(std::size_t node) const { return any_ && free_[part_[node]]; }
+  bool has(std::size_t node) const { return any_ && kept_[part_[node]] == all; }
+  /// What no wall changes of a velocity of the node's part.
+  Vec<d> kept(std::size_t node, const Vec<d>& v) const;
 
   /// What nodal volumes with these velocities amount to, and, if not empty, what nodes have inherited.
   Moments moments(std::span<const double> volumes, std::span<const Vec<d>> v,
                   std::span<const VelocityMoments<d>> inherited = {}) const;
-  /// Gives parts the velocity that they had, with no more energy, and the largest one what the others have left of momentum.
+  /// Gives parts the velocity that they had, free ones with no more energy, and the largest one what the others have left of
+  /// momentum.
   void give_back(const Moments& had, std::span<const double> volumes, std::vector<Vec<d>>& v) const;
 
  private:
+  static constexpr int drop = 0, none = 1, all = 2;  // and more: some
   bool any_ = false;
   std::vector<int> part_;
-  std::vector<char> free_;  // of the first node of each part
+  std::vector<int> kept_;  // of the first node of each part, which directions
+  std::vector<Mat<d>> directions_{Mat<d>::Zero(), Mat<d>::Zero(), Mat<d>::Identity()};  // projectors
 };
 
 extern template class FreeWater<2>;

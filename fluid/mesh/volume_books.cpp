@@ -218,7 +218,7 @@ void slow_down(Nodes<d>& nodes, const FreeWater<d>& free, std::span<const double
   const std::vector<int>& part = free.part();
   const auto moments = free.moments(volumes, nodes.v);
   const auto mean = [&](std::size_t i) {
-    return free.has(i) ? moments[part[i]].mean_velocity() : Vec<d>(Vec<d>::Zero());
+    return moments.empty() ? Vec<d>(Vec<d>::Zero()) : free.kept(i, moments[part[i]].mean_velocity());
   };
   std::vector<PartEnergy> energies(nodes.size());
   std::vector<double> its_own(nodes.size(), 0.0);  // of what a node gains, what it had carried

@@ -256,6 +256,22 @@ TYPED_TEST(WallMotions, a_drop_on_a_wall_gives_up_what_carries_it_in) {
   }
 }
 
+TYPED_TEST(WallMotions, a_drop_that_goes_past_the_middle_of_a_thin_wall_comes_back_on_its_own_side) {
+  constexpr int d = TypeParam::value;
+  scenes::Walls<d> plate;
+  plate.add_wall(scenes::box<d>(scenes::point<d>(-1, -0.1), scenes::point<d>(1, 0)));
+  Nodes<d> nodes;
+  const auto top = plate.walls[0].nearest(plate.pose[0], Vec<d>::Zero(), 1);
+  nodes.add(Vec<d>::Zero(), Vec<d>::Zero(), 0, {0, top.patch, -1}, false, 0.1);
+  nodes.spray[0] = 1;
+  const Mesh<d> no_water;
+  const auto out =
+      moved_by<d>({nodes, no_water, plate.at(), std::vector<char>{0}}, plate, {scenes::point<d>(1, -0.8)}, 0.1);
+  EXPECT_LE((out.x[0] - scenes::point<d>(0.1, 0)).norm(), 10 * eps);
+  EXPECT_LE((out.u[0] - scenes::point<d>(1, 0)).norm(), 100 * eps);
+  EXPECT_EQ(out.tie[0], nodes.tie[0]);
+}
+
 TYPED_TEST(WallMotions, a_drop_rests_in_a_corner_however_it_falls_into_it) {
   constexpr int d = TypeParam::value;
   for (const auto& v : {Vec<d>(-3 * Vec<d>::Unit(d - 1)), Vec<d>(-Vec<d>::Ones())}) {

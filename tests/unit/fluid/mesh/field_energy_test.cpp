@@ -38,7 +38,7 @@ struct Box : scenes::Lattice<d> {
   }
   double energy() const { return scenes::sum(field_energies(this->mesh, this->nodes)); }
   void limit() {
-    limit_field_energy<d>(this->nodes, this->mesh, FreeWater<d>(this->mesh, this->nodes), volumes, volumes);
+    limit_field_energy<d>(this->nodes, this->mesh, FreeWater<d>(this->mesh, this->nodes, {}), volumes, volumes);
   }
   void expect_left_alone() {
     const auto before = this->nodes.v;

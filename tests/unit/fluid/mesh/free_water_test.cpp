@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fluid/mesh/recognise.hpp"
-#include "tests/unit/fluid/scenes.hpp"
+#include "tests/unit/fluid/contact/contact.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -40,7 +40,7 @@ TYPED_TEST(FreeWaters, has_its_momentum_back_whatever_its_volumes_are_now) {
   constexpr int d = TypeParam::value;
   Block<d> block;
   const auto carried = block.sum(block.nodes.volume);
-  const FreeWater<d> free(block.mesh, block.nodes);
+  const FreeWater<d> free(block.mesh, block.nodes, {});
   free.give_back(free.moments(block.nodes.volume, block.nodes.v), block.now, block.nodes.v);
   const auto has = block.sum(block.now);
   EXPECT_LT((has.momentum - carried.momentum).norm(), 1e3 * scenes::eps * carried.momentum.norm());
@@ -56,7 +56,7 @@ TYPED_TEST(FreeWaters, gains_no_energy_where_fast_nodes_grow) {
   }
   const auto carried = block.sum(block.nodes.volume);
   ASSERT_GT(block.sum(block.now).inner_energy(), carried.inner_energy());
-  const FreeWater<d> free(block.mesh, block.nodes);
+  const FreeWater<d> free(block.mesh, block.nodes, {});
   free.give_back(free.moments(block.nodes.volume, block.nodes.v), block.now, block.nodes.v);
   const double energy = carried.inner_energy();
   // Cancellation: the energy of the mean motion is a hundred times as large.
@@ -70,7 +70,7 @@ TYPED_TEST(FreeWaters, counts_what_nodes_have_inherited) {
   const auto carried = block.sum(nodes.volume);
   nodes.bequeath(0, 1);
   EXPECT_EQ(nodes.volume[0], 0);
-  const FreeWater<d> free(block.mesh, nodes);
+  const FreeWater<d> free(block.mesh, nodes, {});
   const auto moments = free.moments(nodes.volume, nodes.v, nodes.inherited);
   const auto& all = moments[free.part()[0]];
   EXPECT_NEAR(all.volume, carried.volume, 1e3 * scenes::eps * carried.volume);
@@ -78,12 +78,89 @@ TYPED_TEST(FreeWaters, counts_what_nodes_have_inherited) {
   EXPECT_NEAR(all.energy, carried.energy, 1e3 * scenes::eps * carried.energy);
 }
 
+/// A plate on which the block stands, and one beside it, turned and away from the origin.
+template <int d>
+scenes::Walls<d> plates() {
+  scenes::Walls<d> walls;
+  const Isometry<d> at = scenes::elsewhere<d>();
+  const Vec<d> origin = at.translation();
+  walls.add_wall(scenes::box<d>(scenes::point<d>(-9, -1) - origin, scenes::point<d>(9, 0) - origin), at);
+  Vec<d> far = Vec<d>::Constant(9);
+  far[0] = 0;
+  walls.add_wall(scenes::box<d>(Vec<d>::Constant(-9), far));
+  return walls;
+}
+
+TYPED_TEST(FreeWaters, keeps_its_momentum_along_flat_walls_and_gives_the_rest_to_them) {
+  constexpr int d = TypeParam::value;
+  const auto walls = plates<d>();
+  for (const int plates : {1, 2}) {
+    Block<d> block;
+    auto& nodes = block.nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      // Of a node at both the second one.
+      for (int w = 0; w < plates; ++w)
+        if (nodes.x[i][w == 0 ? d - 1 : 0] == 0) {
+          Vec<d> beside = nodes.x[i];
+          beside[w == 0 ? 0 : d - 1] += 0.5;
+          nodes.tie[i] = scenes::tie_at<d>(walls.walls[w], walls.pose[w], beside, w);
+        }
+    }
+    const auto carried = block.sum(nodes.volume);
+    const auto v = nodes.v;
+    const FreeWater<d> water(block.mesh, nodes, walls.at());
+    EXPECT_FALSE(water.has(0));
+    water.give_back(water.moments(nodes.volume, nodes.v), block.now, nodes.v);
+    const Vec<d> change = nodes.v[0] - v[0];
+    EXPECT_NEAR(change[d - 1], 0, 100 * scenes::eps);
+    for (std::size_t i = 0; i < v.size(); ++i)
+      EXPECT_LE((nodes.v[i] - v[i] - change).norm(), 100 * scenes::eps) << "strains nothing";
+    // M'/M of the momentum: the volume is one part's.
+    const Vec<d> missing = block.sum(block.now).momentum - carried.momentum;
+    for (int k = 0; k + 1 < d; ++k) {
+      const bool is_kept = k > 0 || plates == 1;
+      if (is_kept)
+        EXPECT_NEAR(missing[k], 0, 1e3 * scenes::eps * carried.momentum.norm()) << k;
+      else
+        EXPECT_NEAR(change[k], 0, 100 * scenes::eps);
+    }
+    EXPECT_EQ(change.isZero(), d == 2 && plates == 2);
+  }
+}
+
+TYPED_TEST(FreeWaters, keeps_nothing_at_edges_and_curved_walls) {
+  constexpr int d = TypeParam::value;
+  const auto walls = plates<d>();
+  Block<d> block;
+  block.nodes.tie[3] = {0, -1, 0};
+  const auto v = block.nodes.v;
+  const FreeWater<d> water(block.mesh, block.nodes, walls.at());
+  water.give_back(water.moments(block.nodes.volume, block.nodes.v), block.now, block.nodes.v);
+  EXPECT_EQ(block.nodes.v, v);
+}
+
+TYPED_TEST(FreeWaters, gives_what_a_part_leaves_to_other_water_and_not_to_a_drop_that_is_larger) {
+  constexpr int d = TypeParam::value;
+  Block<d> block;
+  auto& nodes = block.nodes;
+  const int drop = nodes.add(Vec<d>::Constant(5), Vec<d>::Unit(0), 0, {}, false, 1);
+  nodes.spray[drop] = 1;
+  nodes.volume[drop] = 100;
+  block.now.push_back(100);
+  const auto carried = block.sum(nodes.volume);
+  const FreeWater<d> free(block.mesh, nodes, {});
+  auto had = free.moments(nodes.volume, nodes.v);
+  had[free.part()[0]].volume *= 0.5;  // half of it is drops by now, and has left its momentum
+  free.give_back(had, block.now, nodes.v);
+  EXPECT_LE((block.sum(block.now).momentum - carried.momentum).norm(), 1e3 * scenes::eps * carried.momentum.norm());
+}
+
 TYPED_TEST(FreeWaters, is_none_that_a_wall_touches) {
   constexpr int d = TypeParam::value;
   Block<d> block;
   block.nodes.tie[3].wall = 0;
   const auto v = block.nodes.v;
-  const FreeWater<d> free(block.mesh, block.nodes);
+  const FreeWater<d> free(block.mesh, block.nodes, {});
   free.give_back(free.moments(block.nodes.volume, block.nodes.v), block.now, block.nodes.v);
   EXPECT_EQ(block.nodes.v, v);
 }

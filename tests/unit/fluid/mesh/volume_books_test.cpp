@@ -47,7 +47,7 @@ scenes::Lattice<d> pool() {
 template <int d>
 void give_volume_back(scenes::Lattice<d>& pool, const WallsAt<d>& walls = {}) {
   const auto carried = pool.nodes.volume;
-  return_volume<d>(pool.nodes, pool.mesh, walls, FreeWater<d>(pool.mesh, pool.nodes),
+  return_volume<d>(pool.nodes, pool.mesh, walls, FreeWater<d>(pool.mesh, pool.nodes, walls),
                    nodal_volumes(pool.mesh, pool.nodes.x), carried);
 }
 
