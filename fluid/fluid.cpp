@@ -176,7 +176,7 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   State& s = *s_;
   const auto scope = s.timer.scope(motion);
   s.work.ledger = s.result.ledger;
-  s.work.nodes.p = s.result.pressure;
+  s.work.nodes.p = s.result.carried;
   Ledger& ledger = s.work.ledger;
   const double before = ledger.volume;
   auto& moved = s.trial.moved;

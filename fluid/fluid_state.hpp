@@ -76,11 +76,11 @@ struct Trial {
   Eigen::VectorXd known, answer;                 // impulses on the motions besides the pressure's, and what they did
   Eigen::VectorXd unanswered;                    // impulses that the motions have yet to answer
   double energy_before = 0, energy_repaired = 0,
-         energy_unloaded = 0;           // of v: as carried, repaired, before the pressure
-  std::vector<double> phi;              // physical impulse
-  std::vector<Vec<d>> v_after;          // of nodes, with the pressure
-  std::vector<Twist<d>> s_after;        // of walls
-  typename WallMotion<d>::Moved moved;  // along the walls
+         energy_unloaded = 0;            // of v: as carried, repaired, before the pressure
+  std::vector<double> phi, uncorrected;  // physical impulse, with and without the corrections
+  std::vector<Vec<d>> v_after;           // of nodes, with the pressure
+  std::vector<Twist<d>> s_after;         // of walls
+  typename WallMotion<d>::Moved moved;   // along the walls
 };
 
 // Why a step is refused, and the node that it is for: a fragment of the water that could fly on by itself; -1: none.
@@ -169,6 +169,7 @@ struct Fluid<d>::State {
   Status what_is_left(std::span<const double> previous, Correction<d>& left);
   void evaluate(StepResult<d>& found);
   void evaluate_loads(StepResult<d>& found) const;
+  void evaluate_pressure(StepResult<d>& found) const;
   void evaluate_energies(StepResult<d>& found) const;
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
   void apply_body_impulse(const Eigen::VectorXd& impulse);

@@ -25,8 +25,9 @@ void Fluid<d>::State::size_nodes() {
               [&](std::size_t i) { work.nodes.h[i] = field(work.nodes.x[i], work.nodes.tie[i].wall); });
 }
 
-// A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it, and off water that a wall touches no more
-// energy than the field had around it (other water keeps its momentum); one that comes back brings it. What stays is owed to the rest.
+// A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it, with the mean velocity of what it carried
+// and inherited, and off water that a wall touches no more energy than the field had around it (other water keeps its momentum); one that
+// comes back brings it. What stays is owed to the rest, volume and momentum; where no water stays, drops off free water share its momentum.
 template <int d>
 void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
   Nodes<d>& nodes = work.nodes;

@@ -205,6 +205,7 @@ Status Fluid<d>::State::what_is_left(std::span<const double> previous, Correctio
 // The matrix stands for what `accelerate` and `move` make of an impulse, and is the preconditioner of what they make of it.
 template <int d>
 Status Fluid<d>::State::correct(std::span<const double> previous) {
+  trial.uncorrected = trial.phi;
   Correction<d> left;
   move_nodes();
   if (auto status = what_is_left(previous, left); !status.ok()) return status;
@@ -233,6 +234,7 @@ void Fluid<d>::State::evaluate(StepResult<d>& found) {
   found.velocity = trial.moved.u;
   found.interface_impulse = equation.laplacian().means(trial.phi);
   evaluate_loads(found);
+  evaluate_pressure(found);
   evaluate_energies(found);
   found.status = finite(found);
 }
@@ -256,6 +258,41 @@ void Fluid<d>::State::evaluate_loads(StepResult<d>& found) const {
                   found.imbalance);
 }
 
+// The corrections' operator D M^-1 D^T hardly sees pressures that change their sign from node to node, so that what it makes of
+// noise has them; the Laplacian of the pressure solve allows none. What is told of a step is
+//
+//   p = (phi_0 + S (phi - phi_0)) / kick,   (S q)_i = sum_c V_c mean_c(q) / sum_c V_c
+//
+// over the cells around a node: loads and motions are those of phi.
+template <int d>
+void Fluid<d>::State::evaluate_pressure(StepResult<d>& found) const {
+  const std::size_t count = work.nodes.size();
+  found.carried.assign(count, 0.0);
+  std::vector<double> corrected(count, 0.0);  // by, [Pa s]
+  for (std::size_t i = 0; i < count; ++i) {
+    const int k = equation.unknown()[i];
+    if (k < 0) continue;
+    found.carried[i] = trial.phi[k] / kick;
+    corrected[i] = trial.phi[k] - trial.uncorrected[k];
+  }
+  const auto& cells = work.mesh.cells;
+  std::vector<double> weight(cells.size()), weighted(cells.size());
+  in_parallel(cells.size(), [&](std::size_t c) {
+    double mean = 0;
+    for (int n : cells[c]) mean += corrected[n] / (d + 1);
+    weight[c] = std::max(0.0, volume<d>(corners(work.nodes.x, cells[c])));
+    weighted[c] = weight[c] * mean;
+  });
+  found.pressure.assign(count, 0.0);
+  in_parallel(count, [&](std::size_t i) {
+    if (equation.unknown()[i] < 0) return;
+    double sum = 0, of_all = 0;
+    for (const auto [c, k] : equation.around().around(i)) sum += weighted[c], of_all += weight[c];
+    const double smooth = of_all > 0 ? sum / of_all : 0.0;
+    found.pressure[i] = found.carried[i] + (smooth - corrected[i]) / kick;
+  });
+}
+
 template <int d>
 void Fluid<d>::State::evaluate_energies(StepResult<d>& found) const {
   const Nodes<d>& nodes = work.nodes;
@@ -264,11 +301,8 @@ void Fluid<d>::State::evaluate_energies(StepResult<d>& found) const {
   ledger.work_on_walls += 0.5 * work.dt * found.power_on_walls;
   ledger.kinetic_energy = 0;
   ledger.potential_energy = ledger.chord_energy;
-  found.pressure.resize(nodes.size());
   std::vector<Vec<d>> v_n(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const int k = equation.unknown()[i];
-    found.pressure[i] = k < 0 ? 0.0 : trial.phi[k] / kick;
     const double mass = spec.density * (nodes.spray[i] ? nodes.volume[i] : equation.lumped_volume()[i]);
     v_n[i] = at_t_n(nodes.v[i], found.velocity[i]);
     if (nodes.spray[i]) ledger.kinetic_energy += 0.5 * mass * v_n[i].squaredNorm();

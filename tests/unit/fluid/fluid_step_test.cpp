@@ -49,6 +49,37 @@ TEST(FluidStep, what_a_velocity_lacks_of_keeping_the_volume_is_repaired_and_load
   EXPECT_LT(std::abs(load.physical[0]), 0.005 * load.repair[0]);
 }
 
+TEST(FluidStep, tells_a_pressure_without_what_corrections_add_from_node_to_node) {
+  // A jerked tank, whose water moves anyhow from node to node. Along its wall: fourth differences, which see little but what
+  // alternates, and the mean, to the second order of the smoothing in a twentieth of the depth.
+  auto spec = scenes::still_water(width, depth, 0.5 * size);
+  spec.liquids[0].velocity = [](const Vec<2>& x) {
+    return Vec<2>(0.1 * std::sin(1e4 * x.x()), 0.1 * std::sin(1e4 * x.y()));
+  };
+  Fluid<2> water(std::move(spec), scenes::no_effects());
+  const double dt = 1e-3;
+  ASSERT_TRUE(water.begin(dt, dt, {}).ok());
+  ASSERT_TRUE(water.solve(std::vector<Twist<2>>{{1, 0, 0}}).status.ok());
+  std::vector<std::size_t> wall;
+  for (std::size_t i = 0; i < water.nodes().size(); ++i)
+    if (std::abs(water.nodes().x[i].x() + 0.5 * width) < 0.01 * size) wall.push_back(i);
+  std::ranges::sort(wall, {}, [&](std::size_t i) { return water.nodes().x[i].y(); });
+  const auto along_wall = [&](const std::vector<double>& p) {
+    double roughness = 0, mean = 0;
+    for (std::size_t k = 2; k + 2 < wall.size(); ++k) {
+      const double fourth = p[wall[k - 2]] - 4 * p[wall[k - 1]] + 6 * p[wall[k]] - 4 * p[wall[k + 1]] + p[wall[k + 2]];
+      roughness += fourth * fourth, mean += p[wall[k]] / static_cast<double>(wall.size() - 4);
+    }
+    return std::pair{std::sqrt(roughness), mean};
+  };
+  const auto& result = water.result();
+  const auto [rough, mean] = along_wall(result.carried);
+  const auto [smooth, same] = along_wall(result.pressure);
+  EXPECT_LT(smooth, 0.5 * rough);
+  EXPECT_NEAR(same, mean, 0.01 * mean);
+  EXPECT_EQ(std::vector<double>(water.pressure().begin(), water.pressure().end()), result.pressure);
+}
+
 // What water gains and its tank gets in the last of equal steps with these velocities of the tank, in which nothing moves.
 struct Exchange {
   double momentum, impulse;
