@@ -52,17 +52,17 @@ void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
     if (nodes.spray[i] <= was_spray[i]) continue;
     const double carried = nodes.volume[i] + nodes.owed[i];
     const double flies = share * std::max(0.0, carried), held = share * std::max(0.0, nodes.field_energy[i]);
+    const bool at_wall = at_walls.contains(nodes.part[i]);
     auto all = nodes.carried(i);
     Vec<d> v = (all += nodes.inherited[i]).volume > 0 ? all.mean_velocity() : nodes.v[i];
-    if (const double has = VelocityMoments<d>::of(flies, v).energy; has > held && at_walls.contains(nodes.part[i]))
-      v *= std::sqrt(held / has);
+    if (const double has = VelocityMoments<d>::of(flies, v).energy; at_wall && has > held) v *= std::sqrt(held / has);
     const auto drop = VelocityMoments<d>::of(flies, v);
     if (!nodes.spray[heaviest]) {
       nodes.bequeath(i, heaviest);
       nodes.owed[heaviest] -= flies;
       nodes.inherited[heaviest] -= drop;
       nodes.field_energy[heaviest] -= drop.energy;
-    } else if (!at_walls.contains(nodes.part[i])) {
+    } else if (!at_wall) {
       flown += drop, left += all, left -= drop;
       whole.push_back(i);
     }

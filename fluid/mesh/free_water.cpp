@@ -30,12 +30,12 @@ FreeWater<d>::FreeWater(const Mesh<d>& mesh, const Nodes<d>& nodes, const WallsA
     directions_[kept] -= pushed * pushed.transpose();
     if (directions_[kept].trace() < 0.5) kept = none;
   }
-  any_ = std::ranges::any_of(part_, [&](int first) { return kept_[first] >= all; });
+  any_ = std::ranges::any_of(part_, [&](int first) { return keeps_any(first); });
 }
 
 template <int d>
 Vec<d> FreeWater<d>::kept(std::size_t node, const Vec<d>& v) const {
-  return directions_[kept_[part_[node]]] * v;
+  return directions_[directions_of(node)] * v;
 }
 
 template <int d>
@@ -44,7 +44,7 @@ auto FreeWater<d>::moments(std::span<const double> volumes, std::span<const Vec<
   if (!any_) return {};
   Moments sum(part_.size());
   for (std::size_t i = 0; i < part_.size(); ++i) {
-    if (kept_[part_[i]] < all) continue;
+    if (!keeps_any(i)) continue;
     sum[part_[i]] += VelocityMoments<d>::of(volumes[i], v[i]);
     if (!inherited.empty()) sum[part_[i]] += inherited[i];
   }
@@ -56,20 +56,21 @@ void FreeWater<d>::give_back(const Moments& had, std::span<const double> volumes
   if (!any_) return;
   Moments has_now(part_.size());
   for (std::size_t i = 0; i < part_.size(); ++i)
-    if (kept_[part_[i]] != drop) has_now[part_[i]] += VelocityMoments<d>::of(volumes[i], v[i]);
+    if (directions_of(i) != drop) has_now[part_[i]] += VelocityMoments<d>::of(volumes[i], v[i]);
   const auto largest = std::ranges::max_element(has_now, {}, &VelocityMoments<d>::volume) - has_now.begin();
   std::vector<Vec<d>> mean(part_.size(), Vec<d>::Zero());
   Vec<d> left = Vec<d>::Zero();
   for (std::size_t first = 0; first < part_.size(); ++first) {
-    if (part_[first] != static_cast<int>(first) || kept_[first] < all) continue;
+    if (part_[first] != static_cast<int>(first) || !keeps_any(first)) continue;
     mean[first] = (had[first].volume > 0 ? had : has_now)[first].mean_velocity();
     left += kept(first, had[first].momentum - has_now[first].volume * mean[first]);
   }
   if (has_now[largest].volume > 0) mean[largest] += left / has_now[largest].volume;
   for (std::size_t i = 0; i < v.size(); ++i) {
+    if (!keeps_any(i)) continue;
     const auto &was = had[part_[i]], &is = has_now[part_[i]];
     if (!has(i)) {
-      if (kept_[part_[i]] > all) v[i] += kept(i, mean[part_[i]] - is.mean_velocity());
+      v[i] += kept(i, mean[part_[i]] - is.mean_velocity());
       continue;
     }
     const double T = was.inner_energy(), T_now = is.inner_energy();

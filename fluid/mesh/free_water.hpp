@@ -42,7 +42,7 @@ class FreeWater {
   /// Of each node the first one of its part (parts_of).
   const std::vector<int>& part() const { return part_; }
   /// Whether the node is a corner of cells of a part that no wall touches.
-  bool has(std::size_t node) const { return any_ && kept_[part_[node]] == all; }
+  bool has(std::size_t node) const { return any_ && directions_of(node) == all; }
   /// What no wall changes of a velocity of the node's part.
   Vec<d> kept(std::size_t node, const Vec<d>& v) const;
 
@@ -54,10 +54,14 @@ class FreeWater {
   void give_back(const Moments& had, std::span<const double> volumes, std::vector<Vec<d>>& v) const;
 
  private:
-  static constexpr int drop = 0, none = 1, all = 2;  // and more: some
+  static constexpr int drop = 0, none = 1, all = 2;  // more than `all`: some
+  /// Which directions the node's part keeps: of directions_.
+  int directions_of(std::size_t node) const { return kept_[part_[node]]; }
+  bool keeps_any(std::size_t node) const { return directions_of(node) >= all; }
+
   bool any_ = false;
   std::vector<int> part_;
-  std::vector<int> kept_;  // of the first node of each part, which directions
+  std::vector<int> kept_;  // of the first node of each part
   std::vector<Mat<d>> directions_{Mat<d>::Zero(), Mat<d>::Zero(), Mat<d>::Identity()};  // projectors
 };
 
