@@ -14,6 +14,7 @@
 #include "fluid/mesh/delaunay/moving_delaunay.hpp"
 #include "fluid/mesh/free_water.hpp"
 #include "fluid/mesh/holes.hpp"
+#include "fluid/mesh/sheets.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "fluid/timer.hpp"
@@ -112,6 +113,7 @@ struct Fluid<d>::State {
   MovingDelaunay<d> triangulation;
   FreeWater<d> free_water;                      // of the mesh of work
   typename FreeWater<d>::Moments free_carried;  // by it into the step
+  Cracks<d> cracks;                             // in the mesh of work (Recognised)
 
   double kick = 0, dt = 0;
   PressureEquation<d> equation;

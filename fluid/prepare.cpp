@@ -11,7 +11,6 @@
 #include "fluid/mesh/field_energy.hpp"
 #include "fluid/mesh/hubs.hpp"
 #include "fluid/mesh/landing.hpp"
-#include "fluid/mesh/sheets.hpp"
 #include "fluid/mesh/size_field.hpp"
 #include "fluid/mesh/volume_books.hpp"
 #include "fluid/parallel.hpp"
@@ -169,8 +168,9 @@ void Fluid<d>::State::cut(std::size_t liquid) {
       found = recognised();
     }
     if (found.piercing.empty() || attempt == attempts) {
+      cracks = std::move(found.cracks);
       work.mesh = std::move(found);
-      if (now.dt > 0) let_sheets_fly<d>(nodes, work.mesh, [&](int i) { return is_inviscid(i); });
+      if (now.dt > 0) let_sheets_fly<d>(nodes, work.mesh, cracks, [&](int i) { return is_inviscid(i); });
       return book_spray(spray);
     }
     nodes.spray = spray;
@@ -238,7 +238,7 @@ void Fluid<d>::State::let_fragment_fly(int node) {
   const auto spray = work.nodes.spray;
   std::vector<char> flies(work.nodes.size(), 0);
   flies[node] = 1;
-  let_fly<d>(work.nodes, work.mesh, flies);
+  let_fly<d>(work.nodes, work.mesh, cracks, flies);
   book_spray(spray);
   settle(before);
   work.ledger.energy_remesh += hold_field_energy() - energy;

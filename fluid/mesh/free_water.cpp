@@ -58,11 +58,28 @@ void FreeWater<d>::give_back(const Moments& had, std::span<const double> volumes
   for (std::size_t i = 0; i < part_.size(); ++i)
     if (directions_of(i) != drop) has_now[part_[i]] += VelocityMoments<d>::of(volumes[i], v[i]);
   const auto largest = std::ranges::max_element(has_now, {}, &VelocityMoments<d>::volume) - has_now.begin();
+  const auto is_part = [&](std::size_t i) { return part_[i] == static_cast<int>(i) && keeps_any(i); };
+  const auto gain = [&](std::size_t first) {
+    constexpr double roundoff = 1e-9;
+    const double change = has_now[first].volume - had[first].volume;
+    return std::abs(change) > roundoff * had[first].volume ? change : 0.0;
+  };
+  VelocityMoments<d> lost;
+  double gained = 0;
+  for (std::size_t first = 0; first < part_.size(); ++first) {
+    if (!is_part(first)) continue;
+    if (gain(first) < 0) lost += VelocityMoments<d>::of(-gain(first), had[first].mean_velocity());
+    gained += std::max(0.0, gain(first));
+  }
   std::vector<Vec<d>> mean(part_.size(), Vec<d>::Zero());
   Vec<d> left = Vec<d>::Zero();
   for (std::size_t first = 0; first < part_.size(); ++first) {
-    if (part_[first] != static_cast<int>(first) || !keeps_any(first)) continue;
+    if (!is_part(first)) continue;
     mean[first] = (had[first].volume > 0 ? had : has_now)[first].mean_velocity();
+    if (const double more = gain(first); more > 0 && lost.volume > 0) {
+      const double moved = more * std::min(1.0, lost.volume / gained);
+      mean[first] += moved / (had[first].volume + moved) * (lost.mean_velocity() - mean[first]);
+    }
     left += kept(first, had[first].momentum - has_now[first].volume * mean[first]);
   }
   if (has_now[largest].volume > 0) mean[largest] += left / has_now[largest].volume;

@@ -8,9 +8,13 @@
 //
 //   v_i <- P / M + min(1, (T / T')^1/2) (v_i - w')
 //
-// keeps the mean velocity, and the motion about it gains no energy. The momentum of volume that a part has lost or gained,
-// (M - M') P / M, goes where that volume goes, to the largest part (volume_books.hpp): of a single one P is kept. A uniform
-// shift is the least change of velocities that does it, and no strain.
+// keeps the mean velocity, and the motion about it gains no energy. The momentum of volume that a part has lost, (M - M') P / M,
+// goes where that volume goes (volume_books.hpp): to parts that have gained, as far as they have,
+//
+//   P / M <- (P + delta w) / (M + delta),   delta their share of it, w its mean velocity
+//
+// and what is left to the largest part. Of a single one P is kept. A uniform shift is the least change of velocities that does it,
+// and no strain.
 //
 // Flat walls take momentum along their normals alone. Water that touches no others keeps what it has along all of them: with the
 // projector Q on the directions that no wall of the part pushes in, none where there are edges or curved walls,
@@ -49,8 +53,8 @@ class FreeWater {
   /// What nodal volumes with these velocities amount to, and, if not empty, what nodes have inherited.
   Moments moments(std::span<const double> volumes, std::span<const Vec<d>> v,
                   std::span<const VelocityMoments<d>> inherited = {}) const;
-  /// Gives parts the velocity that they had, free ones with no more energy, and the largest one what the others have left of
-  /// momentum.
+  /// Gives parts the velocity that they had, with that of the volume that they got from others, free ones with no more energy,
+  /// and the largest one what is left of momentum.
   void give_back(const Moments& had, std::span<const double> volumes, std::vector<Vec<d>>& v) const;
 
  private:

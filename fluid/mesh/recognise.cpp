@@ -369,6 +369,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   nodes.spray.assign(nodes.size(), 1);
   nodes.surface.assign(nodes.size(), 0);
   for (std::size_t c = 0; c < all.cells.size(); ++c) {
+    if (content[c] == closed_crack) mesh.cracks.push_back(all.cells[c]);
     if (content[c] != water) continue;
     mesh.cells.push_back(all.cells[c]);
     for (int k = 0; k <= d; ++k) {

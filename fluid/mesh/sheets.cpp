@@ -71,7 +71,7 @@ void hand_over_energy(const std::array<int, d + 1>& cell, const std::vector<char
 }  // namespace
 
 template <int d>
-void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies) {
+void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, Cracks<d>& cracks, const std::vector<char>& flies) {
   const auto goes = [&](const auto& simplex) { return std::ranges::any_of(simplex, [&](int n) { return flies[n]; }); };
   const auto sheet = std::ranges::stable_partition(mesh.cells, [&](const auto& cell) { return !goes(cell); });
   if (sheet.empty()) return;
@@ -86,6 +86,14 @@ void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies) {
   for (const auto& cell : sheet) {
     hand_over_volume<d>(cell, flies, x, nodes);
     for (int k = 0; k <= d; ++k) outside[key(facet_nodes(cell, k))] = false;
+  }
+  const auto opens = [&](const std::array<int, d + 1>& crack) {
+    bool beside = goes(crack);
+    for (int k = 0; k <= d && !beside; ++k) beside = outside.contains(key(facet_nodes(crack, k)));
+    for (int k = 0; k <= d && beside; ++k) outside[key(facet_nodes(crack, k))] = false;
+    return beside;
+  };
+  while (std::erase_if(cracks, opens) > 0) {
   }
   std::erase_if(mesh.boundary, [&](const auto& f) {
     const auto found = outside.find(key(f.nodes));
@@ -107,17 +115,17 @@ void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies) {
 }
 
 template <int d>
-void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int)>& may_fly) {
+void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, Cracks<d>& cracks, const std::function<bool(int)>& may_fly) {
   std::vector<char> flies = of_sheets(nodes, mesh);
   for (std::size_t i = 0; i < flies.size(); ++i) flies[i] = flies[i] && may_fly(static_cast<int>(i));
   if (std::ranges::find(flies, 1) == flies.end()) return;
   keep_coarse_water<d>(nodes, mesh, flies);
-  let_fly<d>(nodes, mesh, flies);
+  let_fly<d>(nodes, mesh, cracks, flies);
 }
 
-template void let_fly(Nodes<2>&, Mesh<2>&, const std::vector<char>&);
-template void let_fly(Nodes<3>&, Mesh<3>&, const std::vector<char>&);
-template void let_sheets_fly(Nodes<2>&, Mesh<2>&, const std::function<bool(int)>&);
-template void let_sheets_fly(Nodes<3>&, Mesh<3>&, const std::function<bool(int)>&);
+template void let_fly(Nodes<2>&, Mesh<2>&, Cracks<2>&, const std::vector<char>&);
+template void let_fly(Nodes<3>&, Mesh<3>&, Cracks<3>&, const std::vector<char>&);
+template void let_sheets_fly(Nodes<2>&, Mesh<2>&, Cracks<2>&, const std::function<bool(int)>&);
+template void let_sheets_fly(Nodes<3>&, Mesh<3>&, Cracks<3>&, const std::function<bool(int)>&);
 
 }  // namespace splashdown::fluid

@@ -23,18 +23,22 @@
 
 namespace splashdown::fluid {
 
-/// Lets nodes of sheets for which `may_fly` holds do so, and those that are left without cells: removes the cells from `mesh`,
-/// closes its boundary, sets Nodes::spray and Nodes::surface, and hands over Nodes::volume and Nodes::field_energy.
 template <int d>
-void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::function<bool(int)>& may_fly);
+using Cracks = std::vector<std::array<int, d + 1>>;
+
+/// Lets nodes of sheets for which `may_fly` holds do so, and those that are left without cells: removes the cells from `mesh`,
+/// closes its boundary, sets Nodes::spray and Nodes::surface, and hands over Nodes::volume and Nodes::field_energy. `cracks`, which
+/// are closed as long as there is water all around (Recognised), open beside what flies.
+template <int d>
+void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, Cracks<d>& cracks, const std::function<bool(int)>& may_fly);
 
 /// Lets these nodes, and those that are left without cells, fly in the same way, whatever they are of.
 template <int d>
-void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, const std::vector<char>& flies);
+void let_fly(Nodes<d>& nodes, Mesh<d>& mesh, Cracks<d>& cracks, const std::vector<char>& flies);
 
-extern template void let_fly(Nodes<2>&, Mesh<2>&, const std::vector<char>&);
-extern template void let_fly(Nodes<3>&, Mesh<3>&, const std::vector<char>&);
-extern template void let_sheets_fly(Nodes<2>&, Mesh<2>&, const std::function<bool(int)>&);
-extern template void let_sheets_fly(Nodes<3>&, Mesh<3>&, const std::function<bool(int)>&);
+extern template void let_fly(Nodes<2>&, Mesh<2>&, Cracks<2>&, const std::vector<char>&);
+extern template void let_fly(Nodes<3>&, Mesh<3>&, Cracks<3>&, const std::vector<char>&);
+extern template void let_sheets_fly(Nodes<2>&, Mesh<2>&, Cracks<2>&, const std::function<bool(int)>&);
+extern template void let_sheets_fly(Nodes<3>&, Mesh<3>&, Cracks<3>&, const std::function<bool(int)>&);
 
 }  // namespace splashdown::fluid

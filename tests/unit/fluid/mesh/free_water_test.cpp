@@ -63,6 +63,39 @@ TYPED_TEST(FreeWaters, gains_no_energy_where_fast_nodes_grow) {
   EXPECT_NEAR(block.sum(block.now).inner_energy(), energy, 1e6 * scenes::eps * energy);
 }
 
+// One part has lost what others have gained: it comes with the velocity that it had.
+TYPED_TEST(FreeWaters, volume_that_changes_parts_takes_its_momentum_along) {
+  constexpr int d = TypeParam::value;
+  Nodes<d> nodes;
+  Mesh<d> mesh;
+  std::vector<double> now;
+  for (int part = 0; part < 3; ++part) {
+    std::array<int, d + 1> cell;
+    for (int k = 0; k <= d; ++k) {
+      cell[k] = static_cast<int>(nodes.size());
+      Vec<d> x = Vec<d>::Constant(2 * part);
+      if (k < d) x[k] += 1;
+      nodes.add(x, Vec<d>::Constant(part == 0 ? 5 : -5 - part), 0, {}, true);
+      nodes.volume.back() = part == 0 ? 1.0 : 0.5;
+      now.push_back(part == 0 ? 0.9 : 0.55);
+    }
+    mesh.cells.push_back(cell);
+  }
+  const auto sum = [&](const std::vector<double>& volumes) {
+    VelocityMoments<d> all;
+    for (std::size_t i = 0; i < nodes.size(); ++i) all += VelocityMoments<d>::of(volumes[i], nodes.v[i]);
+    return all;
+  };
+  const auto before = sum(nodes.volume);
+  const FreeWater<d> water(mesh, nodes, {});
+  water.give_back(water.moments(nodes.volume, nodes.v), now, nodes.v);
+  const auto after = sum(now);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 100 * scenes::eps * before.momentum.norm());
+  EXPECT_LT(after.energy, before.energy);
+  EXPECT_NEAR(nodes.v[0][0], 5, 100 * scenes::eps);
+  EXPECT_NEAR(nodes.v[d + 1][0], (0.5 * -6 + 0.05 * 5) / 0.55, 100 * scenes::eps);
+}
+
 TYPED_TEST(FreeWaters, counts_what_nodes_have_inherited) {
   constexpr int d = TypeParam::value;
   Block<d> block;

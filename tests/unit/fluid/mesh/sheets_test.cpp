@@ -15,12 +15,18 @@ class Sheets : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Sheets, Dimensions);
 
+template <int d>
+struct Pool : scenes::Lattice<d> {
+  Cracks<d> cracks;
+
+  Pool() : scenes::Lattice<d>(5) { this->nodes.volume = nodal_volumes(this->mesh, this->nodes.x); }
+};
+
 // Water whose nodes are all on free surfaces as far as x = `length`, in random motion.
 template <int d>
-scenes::Lattice<d> pool_with_sheet(double length = 0.4) {
-  scenes::Lattice<d> pool(5);
+Pool<d> pool_with_sheet(double length = 0.4) {
+  Pool<d> pool;
   Nodes<d>& nodes = pool.nodes;
-  nodes.volume = nodal_volumes(pool.mesh, nodes.x);
   std::mt19937 random(7);
   for (auto& v : nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -58,7 +64,7 @@ TYPED_TEST(Sheets, water_that_has_just_closed_a_gap_stays) {
   constexpr int d = TypeParam::value;
   auto p = pool_with_sheet<d>();
   for (std::size_t i = 0; i < p.nodes.size(); ++i) p.nodes.part[i] = static_cast<int>(i);
-  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  let_sheets_fly<d>(p.nodes, p.mesh, p.cracks, any_node);
   EXPECT_EQ(std::ranges::count(p.nodes.spray, 1), 0);
 }
 
@@ -66,12 +72,12 @@ TYPED_TEST(Sheets, water_that_has_just_closed_a_gap_stays) {
 TYPED_TEST(Sheets, water_of_which_most_would_fly_stays_whole) {
   constexpr int d = TypeParam::value;
   auto p = pool_with_sheet<d>(0.8);
-  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  let_sheets_fly<d>(p.nodes, p.mesh, p.cracks, any_node);
   EXPECT_EQ(std::ranges::count(p.nodes.spray, 1), 0);
   // All of it: a shred in the air.
   auto shred = pool_with_sheet<d>(1);
   for (auto& tie : shred.nodes.tie) tie = {};
-  let_sheets_fly<d>(shred.nodes, shred.mesh, any_node);
+  let_sheets_fly<d>(shred.nodes, shred.mesh, p.cracks, any_node);
   EXPECT_TRUE(shred.mesh.cells.empty());
 }
 
@@ -83,7 +89,7 @@ TYPED_TEST(Sheets, nodes_whose_cells_all_lie_between_free_surfaces_fly) {
   for (const auto& cell : p.mesh.cells)
     if (std::ranges::any_of(cell, [&](int n) { return !nodes.surface[n] || nodes.tie[n].wall >= 0; }))
       for (int n : cell) stays[n] = 1;
-  let_sheets_fly<d>(nodes, p.mesh, any_node);
+  let_sheets_fly<d>(nodes, p.mesh, p.cracks, any_node);
   EXPECT_GT(std::ranges::count(nodes.spray, 1), 0);
   for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(nodes.spray[i], !stays[i]) << i;
   for (const auto& cell : p.mesh.cells)
@@ -95,7 +101,7 @@ TYPED_TEST(Sheets, they_take_their_volume_place_and_momentum_along_and_no_energy
   auto p = pool_with_sheet<d>();
   const auto before = carried(p.nodes);
   const auto place = moment(p.nodes);
-  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  let_sheets_fly<d>(p.nodes, p.mesh, p.cracks, any_node);
   const auto after = carried(p.nodes);
   EXPECT_LE((moment(p.nodes) - place).norm(), 1000 * scenes::eps);  // nothing is lifted
   EXPECT_NEAR(after.volume, before.volume, 1000 * scenes::eps);
@@ -111,8 +117,7 @@ TYPED_TEST(Sheets, they_take_their_volume_place_and_momentum_along_and_no_energy
 TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_place_and_momentum_stay) {
   constexpr int d = TypeParam::value;
   for (const std::size_t node : {0, 7, 12}) {  // at a corner, at a side, within
-    scenes::Lattice<d> p(5);
-    p.nodes.volume = nodal_volumes(p.mesh, p.nodes.x);
+    Pool<d> p;
     std::mt19937 random(7);
     for (auto& v : p.nodes.v) v = scenes::random_vector<Vec<d>>(random, {});
     const auto before = carried(p.nodes);
@@ -121,7 +126,7 @@ TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_place_and_momentum_sta
     const double held = scenes::sum(p.nodes.field_energy);
     std::vector<char> flies(p.nodes.size(), 0);
     flies[node] = 1;
-    let_fly<d>(p.nodes, p.mesh, flies);
+    let_fly<d>(p.nodes, p.mesh, p.cracks, flies);
     EXPECT_NEAR(scenes::sum(p.nodes.field_energy), held, 1000 * scenes::eps);
     // It is all of its cells, of which the field had more: Jensen.
     EXPECT_LE(p.nodes.carried(node).energy, p.nodes.field_energy[node]);
@@ -138,7 +143,7 @@ TYPED_TEST(Sheets, any_node_may_be_told_to_fly_and_volume_place_and_momentum_sta
 TYPED_TEST(Sheets, what_stays_is_enclosed_by_its_boundary) {
   constexpr int d = TypeParam::value;
   auto p = pool_with_sheet<d>();
-  let_sheets_fly<d>(p.nodes, p.mesh, any_node);
+  let_sheets_fly<d>(p.nodes, p.mesh, p.cracks, any_node);
   Vec<d> closure = Vec<d>::Zero();
   for (const auto& f : p.mesh.boundary) {
     closure += area_vector_of<d>(f, p.nodes.x);
@@ -148,15 +153,54 @@ TYPED_TEST(Sheets, what_stays_is_enclosed_by_its_boundary) {
   EXPECT_NEAR(enclosed_volume(p.mesh.boundary, p.nodes.x), volume_of_cells<d>(p), 1000 * scenes::eps);
 }
 
+// Beside what flies it opens, and cracks beside it with it; elsewhere it stays closed.
+TYPED_TEST(Sheets, a_crack_stays_closed_as_long_as_there_is_water_around_it) {
+  constexpr int d = TypeParam::value;
+  for (const bool beside : {true, false}) {
+    Pool<d> p;
+    std::vector<char> flies(p.nodes.size(), 0);
+    auto& cells = p.mesh.cells;
+    const auto is_within = [&](const auto& cell) {
+      return std::ranges::all_of(
+          cell, [&](int n) { return (p.nodes.x[n].array() > 0.1).all() && (p.nodes.x[n].array() < 0.9).all(); });
+    };
+    const auto shared = [](const auto& a, const auto& b) {
+      return std::ranges::count_if(a, [&](int n) { return std::ranges::find(b, n) != b.end(); });
+    };
+    // Two cells that share a facet stand for flat ones.
+    const auto first = std::ranges::find_if(cells, is_within);
+    p.cracks.push_back(*first);
+    cells.erase(first);
+    const auto second = std::ranges::find_if(
+        cells, [&](const auto& cell) { return is_within(cell) && shared(cell, p.cracks[0]) == d; });
+    p.cracks.push_back(*second);
+    cells.erase(second);
+    if (beside) {
+      const auto neighbour = std::ranges::find_if(
+          cells, [&](const auto& cell) { return shared(cell, p.cracks[1]) == d && shared(cell, p.cracks[0]) < d; });
+      const auto opposite = std::ranges::find_if(
+          *neighbour, [&](int n) { return std::ranges::find(p.cracks[1], n) == p.cracks[1].end(); });
+      flies[*opposite] = 1;
+    } else {
+      flies[0] = 1;
+    }
+    let_fly<d>(p.nodes, p.mesh, p.cracks, flies);
+    EXPECT_EQ(p.cracks.size(), beside ? 0 : 2);
+    double filled = volume_of_cells<d>(p);
+    for (const auto& crack : p.cracks) filled += volume<d>(corners(p.nodes.x, crack));
+    EXPECT_NEAR(enclosed_volume(p.mesh.boundary, p.nodes.x), filled, 1000 * scenes::eps);
+  }
+}
+
 TYPED_TEST(Sheets, nodes_that_may_not_fly_do_so_only_without_cells) {
   constexpr int d = TypeParam::value;
   auto p = pool_with_sheet<d>();
   const auto cells = p.mesh.cells;
-  let_sheets_fly<d>(p.nodes, p.mesh, [](int) { return false; });
+  let_sheets_fly<d>(p.nodes, p.mesh, p.cracks, [](int) { return false; });
   EXPECT_EQ(p.mesh.cells, cells);
   EXPECT_EQ(std::ranges::count(p.nodes.spray, 1), 0);
   // Every other one: the rest has cells, or flies too.
-  let_sheets_fly<d>(p.nodes, p.mesh, [](int n) { return n % 2 == 0; });
+  let_sheets_fly<d>(p.nodes, p.mesh, p.cracks, [](int n) { return n % 2 == 0; });
   std::vector<char> has_cells(p.nodes.size(), 0);
   for (const auto& cell : p.mesh.cells)
     for (int n : cell) has_cells[n] = 1;
