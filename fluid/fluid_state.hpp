@@ -14,7 +14,7 @@
 #include "fluid/mesh/delaunay/moving_delaunay.hpp"
 #include "fluid/mesh/free_water.hpp"
 #include "fluid/mesh/holes.hpp"
-#include "fluid/mesh/sheets.hpp"
+#include "fluid/mesh/recognise.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "fluid/timer.hpp"

@@ -11,6 +11,7 @@
 #include "fluid/mesh/field_energy.hpp"
 #include "fluid/mesh/hubs.hpp"
 #include "fluid/mesh/landing.hpp"
+#include "fluid/mesh/sheets.hpp"
 #include "fluid/mesh/size_field.hpp"
 #include "fluid/mesh/volume_books.hpp"
 #include "fluid/parallel.hpp"

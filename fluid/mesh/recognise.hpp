@@ -39,13 +39,16 @@ struct Hub {
   Vec<d> x;
 };
 
+/// Flat cells with water all around, which are neither cells nor surface.
+template <int d>
+using Cracks = std::vector<std::array<int, d + 1>>;
+
 template <int d>
 struct Recognised : Mesh<d> {
   /// Inner nodes of cells that lie in a wall for some part, in space, though the water around them should be there: without
   /// them the triangulation has the wall's facets.
   std::vector<int> piercing;
-  std::vector<std::array<int, d + 1>>
-      cracks;                 ///< flat cells with water all around, which are neither cells nor surface
+  Cracks<d> cracks;
   bool hub_in_water = false;  ///< cells of a hub hold some of it; nothing else has been looked at
 };
 

@@ -19,12 +19,10 @@
 #include <functional>
 
 #include "fluid/mesh/mesh.hpp"
+#include "fluid/mesh/recognise.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {
-
-template <int d>
-using Cracks = std::vector<std::array<int, d + 1>>;
 
 /// Lets nodes of sheets for which `may_fly` holds do so, and those that are left without cells: removes the cells from `mesh`,
 /// closes its boundary, sets Nodes::spray and Nodes::surface, and hands over Nodes::volume and Nodes::field_energy. `cracks`, which

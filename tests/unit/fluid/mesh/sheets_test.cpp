@@ -77,7 +77,7 @@ TYPED_TEST(Sheets, water_of_which_most_would_fly_stays_whole) {
   // All of it: a shred in the air.
   auto shred = pool_with_sheet<d>(1);
   for (auto& tie : shred.nodes.tie) tie = {};
-  let_sheets_fly<d>(shred.nodes, shred.mesh, p.cracks, any_node);
+  let_sheets_fly<d>(shred.nodes, shred.mesh, shred.cracks, any_node);
   EXPECT_TRUE(shred.mesh.cells.empty());
 }
 
