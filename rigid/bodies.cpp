@@ -180,6 +180,7 @@ Status Bodies<d>::acceptable() const {
     if (w.movers[i] && turn > most_turn)
       return {message("a body turns too far within the step: \"", w.specs[i].name, "\" by ", turn, " rad")};
   }
+  if (const auto status = w.squeezed(); !status.ok()) return status;
   return w.passes_through();
 }
 

@@ -98,7 +98,8 @@ class Bodies final : public BodiesView<d> {
   std::span<const BodyState<d>> adopt(const Eigen::VectorXd& velocities);
   /// Opens and closes contacts as the last trial asks for if the impulses on all bodies are these. False: they were right.
   bool update_contacts(const Eigen::VectorXd& impulses);
-  /// Whether the last trial stays on its side of what it may touch: contacts are looked for as far as velocities of t_n reach.
+  /// Whether the last trial stays on its side of what it may touch: contacts are looked for as far as velocities of t_n reach, and
+  /// hulls that are held may leave others no room.
   Status acceptable() const;
   /// Accepts the last trial.
   void commit();

@@ -108,6 +108,11 @@ Eigen::VectorXd Motions::unspent(const Eigen::VectorXd& velocity, const Eigen::V
   return known_ + modes_.transpose() * impulse - inertia_ * amplitudes(velocity);
 }
 
+double Motions::leverage() const {
+  const Eigen::VectorXd rates = rows_of(least_, closed_);
+  return rates.size() == 0 ? 0 : pushed_.norm() / (rates.cwiseAbs().maxCoeff() + resolution_);
+}
+
 bool Motions::update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) {
   if (closed_.empty()) return false;
   const Eigen::VectorXd y = amplitudes(velocity);

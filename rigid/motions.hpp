@@ -51,6 +51,11 @@ class Motions {
   Eigen::VectorXd unspent(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) const;
   /// Opens and closes contacts as velocity and impulse ask for. False: they were right.
   bool update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);
+  /// What closed contacts ask for beyond s_0: the slowest velocities that meet them.
+  Eigen::VectorXd asked() const { return modes_ * pushed_; }
+  /// Its size over the rates of these contacts. A wedge of angle a between two of them makes it 1/a; a lever, the ratio of its
+  /// arms.
+  double leverage() const;
   /// Contacts as they are now are a guess: how often they changed until here does not count.
   void forget_changes() { changes_ = 0, smooth_ = false; }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 #include "rigid/embedding.hpp"
 #include "rigid/message.hpp"
@@ -295,14 +296,39 @@ Status Bodies<d>::World::passes_through() const {
   for (const Condition<d>& c : contacts->within_reach(reaching, dt)) {
     if (std::ranges::any_of(near, [&](const Condition<d>& n) { return n.body == c.body && n.first == c.first; }))
       continue;
-    const double rate = rate_of<d>(c, trials);
-    double speed = trials[c.body].velocity.norm();
-    if (c.other) speed += trials[*c.other].velocity.norm();
-    constexpr double crossed = 1e-6;  // of the speed: roundoff
-    if (rate < std::min(c.rate, 0.0) - crossed * speed * (1 + reach(specs[c.body])))
+    if (crosses(c))
       return {message("a body passes through what it touches within the step: \"", specs[c.body].name, "\"")};
   }
   return {};
+}
+
+template <int d>
+bool Bodies<d>::World::crosses(const Condition<d>& c) const {
+  double speed = trials[c.body].velocity.norm();
+  if (c.other) speed += trials[*c.other].velocity.norm();
+  constexpr double roundoff = 1e-6;  // of the speed
+  return rate_of<d>(c, trials) < std::min(c.rate, 0.0) - roundoff * speed * (1 + reach(specs[c.body]));
+}
+
+template <int d>
+Status Bodies<d>::World::squeezed() const {
+  const auto cause = [](const std::string& body, const std::string& what) {
+    return Status{message("bodies close in on \"", body, "\", ", what)};
+  };
+  for (const Condition<d>& c : near)
+    if (crosses(c)) return cause(specs[c.other && !movers[c.body] ? *c.other : c.body].name, "which has no room left");
+  // A wedge of three degrees between two contacts; positions and hulls do not know angles better than some tenths of one.
+  constexpr double most = 20;
+  if (motions.leverage() <= most) return {};
+  const Eigen::VectorXd asked = motions.asked();
+  double fastest = 0;
+  std::size_t of = 0;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const Twist<d> s = asked.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
+    const double speed = s.template head<d>().norm() + reach(specs[i]) * s.template tail<rotations<d>>().norm();
+    if (speed > fastest) fastest = speed, of = i;
+  }
+  return cause(specs[of].name, message("which would leave more than ", most, " times as fast as they come"));
 }
 
 template struct Bodies<2>::World;

@@ -62,6 +62,9 @@ struct Bodies<d>::World {
   void drift(const Eigen::VectorXd& velocities);
   /// Velocities under these impulses, contacts opening and closing as they ask for; none if that does not end.
   static std::optional<Eigen::VectorXd> settled(Motions& motions, const Eigen::VectorXd& impulses);
+  /// Contacts that cannot be had together, or only where a body leaves many times as fast as others close in on it: those that
+  /// are held, or come on a path, leave it no room.
+  Status squeezed() const;
   /// Faster than at t_n, bodies reach more than was looked at.
   Status passes_through() const;
 
@@ -75,6 +78,8 @@ struct Bodies<d>::World {
   MassMatrix inertia(std::size_t body) const;  ///< of one that forces move, in the step
   /// dq/dt that a unit impulse along it gives bodies in the void; infinite without mass.
   double compliance(const Condition<d>& rate) const;
+  /// Whether trial velocities break a condition by more than roundoff.
+  bool crosses(const Condition<d>& condition) const;
   /// Left sides, a row each, of the velocities of all bodies.
   Eigen::MatrixXd rows_of(const std::vector<Condition<d>>& conditions) const;
   void solve_conditions();

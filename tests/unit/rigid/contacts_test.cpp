@@ -61,6 +61,53 @@ TEST(Contact, looks_as_far_as_bodies_come) {
   EXPECT_NE(bodies.acceptable().cause.find("turns too far"), std::string::npos);
 }
 
+/// Two boxes that come from both sides at the same height, each at this speed from this distance of its inner face.
+std::vector<BodySpec<2>> jaws(double from, double speed, double height) {
+  std::vector<BodySpec<2>> both;
+  for (const double side : {-1.0, 1.0}) {
+    BodySpec<2> jaw = of_shape(box(0.2, 0.2), {0, 0});
+    jaw.motion = Motion::prescribed;
+    jaw.path = [=](double t) {
+      return Isometry<2>(Eigen::Translation<double, 2>(side * (from + 0.1 - speed * t), height));
+    };
+    jaw.pose = jaw.path(0);
+    both.push_back(jaw);
+  }
+  return both;
+}
+
+TEST(Contact, refuses_a_step_that_leaves_a_body_no_room) {
+  std::vector<BodySpec<2>> specs = jaws(0.5 + 1e-2, 1, 0);
+  specs.push_back(of_shape(box(1, 1), {0, 0}));
+  specs.back().name = "nut";
+  Bodies<2> bodies(std::move(specs), {}, {}, ContactSpec<2>{});
+  const double dt = 3e-3;
+  const std::vector<Wrench<2>> none(3, Wrench<2>::Zero());
+  while (bodies.time() + dt < 1e-2) {
+    bodies.begin(dt, dt), bodies.solve(none);
+    ASSERT_TRUE(bodies.acceptable().ok()) << bodies.time();
+    bodies.commit();
+  }
+  bodies.begin(dt, dt), bodies.solve(none);
+  EXPECT_NE(bodies.acceptable().cause.find("close in on \"nut\", which has no room"), std::string::npos)
+      << bodies.acceptable().cause;
+}
+
+// Between jaws a seed of half angle a leaves 1/tan(a) times as fast as each of them comes. Hulls do not know small angles.
+TEST(Contact, squeezes_seeds_out_unless_they_are_too_slim) {
+  for (const double slope : {0.5, 0.1, 0.03}) {
+    std::vector<BodySpec<2>> specs = jaws(0.6 * slope, 1, -0.5);  // their upper corners touch
+    specs.push_back(of_shape(polygon(std::vector<Vec<2>>{{0, -1}, {slope, 0}, {-slope, 0}}), {0, -1 / 3.}));
+    specs.back().name = "seed";
+    Bodies<2> bodies(std::move(specs), {}, {}, ContactSpec<2>{});
+    const double dt = 1e-5;
+    bodies.begin(dt, dt), bodies.solve(std::vector<Wrench<2>>(3, Wrench<2>::Zero()));
+    const auto& [pose, velocity] = bodies.trials()[2];
+    EXPECT_NEAR(velocity[1] * slope, 1, 1e-6);
+    EXPECT_EQ(bodies.acceptable().ok(), slope > 0.05) << slope << ": " << bodies.acceptable().cause;
+  }
+}
+
 TEST(Contact, only_pushes) {
   BodySpec<2> a = of_shape(box(1, 1), {0, 0}), b = of_shape(box(1, 1), {1, 0});
   b.velocity << 1, 0, 0;
