@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace splashdown::quantity {
@@ -36,6 +37,24 @@ double value_at(const Column& x, const Column& y, double at) {
   const double share = (at - x[i]) / (x[i + 1] - x[i]);
   return y[i] + share * (y[i + 1] - y[i]);
 }
+
+/// Of the piecewise linear curve from x.front() on; x does not decrease. Refers to both columns.
+class RunningIntegral {
+ public:
+  RunningIntegral(const Column& y, const Column& x) : y_(y), x_(x), at_points_(x.size(), 0.0) {
+    if (x.size() < 2) throw std::runtime_error("a window needs two rows");
+    for (std::size_t i = 1; i < x.size(); ++i)
+      at_points_[i] = at_points_[i - 1] + 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
+  }
+  double operator()(double at) const {
+    const std::size_t i = interval_of(x_, at);
+    return at == x_[i] ? at_points_[i] : at_points_[i] + 0.5 * (y_[i] + value_at(x_, y_, at)) * (at - x_[i]);
+  }
+
+ private:
+  const Column &y_, &x_;
+  Column at_points_;
+};
 
 }  // namespace
 
@@ -94,15 +113,9 @@ Column smoothed(const Column& y, const Column& x, double width) {
 }
 
 Column window_means(const Column& y, const Column& x, double width) {
-  if (x.size() < 2) throw std::runtime_error("a window needs two rows");
   require_width(width);
   require_increasing(x);
-  Column running(x.size(), 0.0);
-  for (std::size_t i = 1; i < x.size(); ++i) running[i] = running[i - 1] + 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
-  const auto integral_to = [&](double at) {
-    const std::size_t i = interval_of(x, at);
-    return running[i] + 0.5 * (y[i] + value_at(x, y, at)) * (at - x[i]);
-  };
+  const RunningIntegral integral_to(y, x);
   // Rounding of the division must not drop a window that fits exactly.
   const double windows = std::floor((x.back() - x.front()) / width * (1 + 1e-12));
   if (!(windows <= double(most_pieces)))
@@ -114,6 +127,28 @@ Column window_means(const Column& y, const Column& x, double width) {
     means.push_back((integral_to(std::min(from + width, x.back())) - integral_to(from)) / width);
   }
   return means;
+}
+
+double largest_mean(const Column& y, const Column& x, double width) {
+  require_width(width);
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return x[i]; });
+  Column sorted_x, sorted_y;
+  for (const std::size_t i : order) sorted_x.push_back(x[i]), sorted_y.push_back(y[i]);
+  const RunningIntegral integral_to(sorted_y, sorted_x);
+  const double front = sorted_x.front(), back = sorted_x.back();
+  if (!(back - front >= width))
+    throw std::runtime_error(fmt::format("x spans {}, less than a window of {}", back - front, width));
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double at : sorted_x)
+    for (const double from : {at, at - width}) {
+      if (from < front || from + width > back) continue;
+      const double mean = (integral_to(from + width) - integral_to(from)) / width;
+      if (std::isnan(mean)) return mean;
+      largest = std::max(largest, mean);
+    }
+  return largest;
 }
 
 Column upward_crossings(const Column& y, const Column& x) {

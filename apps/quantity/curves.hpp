@@ -1,6 +1,6 @@
 // Curves given by points (x, y): integrals, fits, interpolation, extrema.
 //
-// Functions that need x to increase throw std::runtime_error where it does not.
+// Where x need not increase it says so; others throw std::runtime_error where it does not.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,10 @@ std::vector<double> smoothed(const std::vector<double>& y, const std::vector<dou
 
 /// Means of the piecewise linear curve over adjoining windows from the first x on; a rest is dropped.
 std::vector<double> window_means(const std::vector<double>& y, const std::vector<double>& x, double width);
+
+/// The largest mean, over windows that begin or end at a point, of the piecewise linear curve through the points in the order of
+/// their x, which may come in any.
+double largest_mean(const std::vector<double>& y, const std::vector<double>& x, double width);
 
 std::vector<double> upward_crossings(const std::vector<double>& y, const std::vector<double>& x);
 std::vector<double> peak_heights(const std::vector<double>& y, const std::vector<double>& x);

@@ -158,6 +158,10 @@ const std::map<std::string, Function>& functions() {
                           [](const Arguments& a) {
                             return Value::column(window_means(a[0].numbers, a[1].numbers, scalar(a[2])));
                           })},
+      {"largest_mean", of_pair(1,
+                               [](const Arguments& a) {
+                                 return Value::number(largest_mean(a[0].numbers, a[1].numbers, scalar(a[2])));
+                               })},
       {"crossings",
        of_pair(0, [](const Arguments& a) { return Value::column(upward_crossings(a[0].numbers, a[1].numbers)); })},
       {"peaks", of_pair(0, [](const Arguments& a) { return Value::column(peak_heights(a[0].numbers, a[1].numbers)); })},

@@ -9,6 +9,7 @@
 //   interp(x, y, at)                    linear, x increasing; nan more than 1 % of the range outside
 //   smooth(y, x, width)                 local least squares parabola, evaluated in its middle
 //   windows(y, x, width)                means over adjoining full windows of x, x increasing
+//   largest_mean(y, x, width)           over a window of x, wherever it lies; x in any order
 //   crossings(y, x)                     x of upward zeros; a first positive value after nan is one
 //   peaks(y, x)                         heights of local maxima (parabola through three points)
 //   group_max(y, key), group_argmax(y, key, x)   per run of equal keys

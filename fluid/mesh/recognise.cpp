@@ -12,11 +12,8 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double degenerate = 1e-7;   // volume over longest edge^d below which a cell is degenerate
-constexpr double dust = 2e-4;         // volume over h^d below which a cell is no liquid: films of a thousandth of h
-constexpr double solid_depth = 0.02;  // centroids this deep in a wall, over h, belong to no fluid cell
-constexpr double facet_meet = 0.001;  // nodes of another wall this close to a wall, over a facet's length, sit on both
-constexpr double facet_sag = 0.1;     // gap between a wetted facet and its wall, at most, over its length
+constexpr double degenerate = 1e-7;  // volume over longest edge^d below which a cell is degenerate
+constexpr double dust = 2e-4;        // volume over h^d below which a cell is no liquid: films of a thousandth of h
 
 // What a cell holds: cells without volume and all but without it are not asked whether it is water. Pinched ones are, but they
 // are so thin between two walls that any facet of theirs may pass for one on a wall.
@@ -43,73 +40,6 @@ Shape shape(const Mat<d>& J) {
   const double fullness = det / (factorial<d> * (d == 2 ? longest : longest * std::sqrt(longest)));
   if (fullness <= degenerate / factorial<d>) return {0, fullness, true};
   return {(cofactor(J) * half).norm() / det, fullness, false};
-}
-
-// How deep the facet lies in the solid that `wall` wetted before and the cell stands on: a chord, if the hull is convex.
-template <int d>
-double chord_depth(int wall, const std::array<int, d + 1>& cell, const Nodes<d>& nodes,
-                   const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& at) {
-  auto of_cell = [&](int n) { return std::find(cell.begin(), cell.end(), n) != cell.end(); };
-  for (const auto& f : old_boundary) {
-    if (f.wall != wall || !std::all_of(f.nodes.begin(), f.nodes.end(), of_cell)) continue;
-    Vec<d> centre = Vec<d>::Zero();
-    for (int n : f.nodes) centre += nodes.x[n] / d;
-    return -at.walls[wall].nearest(at.poses[wall], centre, at.walls[wall].box().diagonal().norm()).distance;
-  }
-  return 0;
-}
-
-// Only cells that touch a wall can lie in it. One that stands on a chord of a convex hull reaches into the hull with it;
-// one with all its nodes on the wall lies between a chord and the hull.
-template <int d>
-bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double size, const Nodes<d>& nodes,
-              const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& at) {
-  for (int k = 0; k <= d; ++k) {
-    const int w = nodes.tie[cell[k]].wall;
-    if (w < 0 || (k > 0 && w == nodes.tie[cell[k - 1]].wall)) continue;
-    const double reach = at.walls[w].box().diagonal().norm();
-    if (!at.walls[w].may_touch(at.poses[w], centroid, 0)) continue;
-    const double deeper = -at.walls[w].nearest(at.poses[w], centroid, reach).distance - solid_depth * size;
-    if (deeper <= 0) continue;
-    const auto on_wall = std::count_if(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == w; });
-    if (on_wall != d || deeper > chord_depth<d>(w, cell, nodes, old_boundary, at)) return true;
-  }
-  return false;
-}
-
-template <int d>
-double longest_edge(const Facet<d>& f, const Nodes<d>& nodes) {
-  double longest = 0;
-  for (int a = 0; a < d; ++a)
-    for (int b = a + 1; b < d; ++b) longest = std::max(longest, (nodes.x[f.nodes[b]] - nodes.x[f.nodes[a]]).norm());
-  return longest;
-}
-
-// The facet lies on `wall`: its nodes are tied to it, or to another wall and sit where both meet.
-template <int d>
-bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
-  const double length = longest_edge(f, nodes);
-  Vec<d> centre = Vec<d>::Zero();
-  int patch = -1;
-  bool one_patch = true, at_vertex = false, is_tied_whole = true;
-  for (int n : f.nodes) {
-    centre += nodes.x[n] / d;
-    const WallTie& tie = nodes.tie[n];
-    is_tied_whole = is_tied_whole && tie.wall == wall;
-    if (tie.wall != wall) {
-      if (tie.wall < 0 || at.walls[wall].distance_unsigned(at.poses[wall], nodes.x[n], length) >= facet_meet * length)
-        return false;
-      at_vertex = true;
-      continue;
-    }
-    one_patch = one_patch && (patch < 0 || patch == tie.patch);
-    patch = tie.patch;
-    at_vertex = at_vertex || tie.sharp();
-  }
-  // Chords of a convex hull lie in the solid, however deep: no air is there to be a surface to. Beyond it none cuts a corner.
-  if (at.walls[wall].is_convex() && is_tied_whole) return true;
-  const bool cuts_corner = d == 2 && !one_patch && !at_vertex;
-  return at.walls[wall].nearest(at.poses[wall], centre, length).distance < (cuts_corner ? 0 : facet_sag * length);
 }
 
 // In space: flat cells between four nodes of a wall that all their facets lie on. They hold no water to speak of, and
@@ -224,17 +154,6 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
   }
   std::erase_if(piercing, [&](int c) { return all.cells[c][0] < 0 || content[c] == water || !is_wrong(c); });
   return piercing;
-}
-
-template <int d>
-int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at) {
-  for (int k = 0; k < d; ++k) {
-    const int wall = nodes.tie[f.nodes[k]].wall;
-    if (wall < 0) return -1;
-    if (k > 0 && wall == nodes.tie[f.nodes[k - 1]].wall) continue;
-    if (lies_on(wall, f, nodes, at)) return wall;
-  }
-  return -1;
 }
 
 // Between nodes of two walls, and thinner than what is let pass for a facet on one of them.

@@ -12,18 +12,12 @@
 #include <span>
 #include <vector>
 
-#include "fluid/contact/wall.hpp"
+#include "fluid/mesh/at_walls.hpp"
 #include "fluid/mesh/delaunay/delaunay.hpp"
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {
-
-template <int d>
-struct WallsAt {
-  std::span<const Wall<d>> walls;
-  std::span<const Isometry<d>> poses;
-};
 
 /// Circumradius over element size at which a cell ...
 struct Alpha {

@@ -84,6 +84,16 @@ TEST(Curves, decreasing_x_is_refused) {
   EXPECT_THROW(integral({1, 1, 1}, {0, 0, 1}), std::runtime_error);
 }
 
+// A roof between -1 and 1 is largest over a window of w in its middle, 1 - w/4; points may come in any order.
+TEST(Curves, the_largest_mean_is_found_wherever_it_lies) {
+  const Column x = {1, 0, -1, 0.5, -0.5, 2}, y = {0, 1, 0, 0.5, 0.5, 0};
+  EXPECT_NEAR(largest_mean(y, x, 1e-6), 1, 1e-6);
+  EXPECT_NEAR(largest_mean(y, x, 2), 0.5, rounding);
+  EXPECT_NEAR(largest_mean({3, 3, 3, 3}, {0, 1, 1, 2}, 2), 3, rounding) << "points at one place";
+  EXPECT_TRUE(std::isnan(largest_mean({1, std::nan(""), 1}, {0, 1, 2}, 0.5)));
+  EXPECT_THROW(largest_mean(y, x, 3.1), std::runtime_error) << "wider than the points";
+}
+
 TEST(Curves, empty_bins_are_nan_and_others_are_means) {
   const Column means = bin_means({1, 3, 5}, {0.1, 0.2, 2.5}, 0, 3, 3);
   EXPECT_DOUBLE_EQ(means[0], 2);
