@@ -14,5 +14,5 @@ splashdown_ensemble(light_polygons AS rubbing_polygons SET contact.friction=0.5
                     CI 1,20,27,28,60,89,105,140,220 NIGHTLY 1:250 BUDGET 300)
 splashdown_ensemble(drops_and_jets CI 1:8,13,14,17,18,21:23,25,28:33,36,41,42,45:48,51,56,533,675,752,753 NIGHTLY 1:900 BUDGET 300)
 splashdown_ensemble(still_tanks NIGHTLY 1:20 BUDGET 900)
-splashdown_ensemble(slots CI 1:10,18,20,24,2006,2017,2057,2086,2097,2111,4053 NIGHTLY 1:60,2001:2150,4053 BUDGET 300)
+splashdown_ensemble(slots CI 1:10,18,20,24,74,84,2006,2017,2057,2086,2097,2111,4053 NIGHTLY 1:219,2001:2150,4053 BUDGET 300)
 splashdown_ensemble(uav_attitudes NIGHTLY 0:15 BUDGET 900)
