@@ -79,6 +79,7 @@ void Motions::restrict() {
   const std::vector<char> stuck = each(sticks_, tangents_.rows());
   Eigen::VectorXd rates(count(closed_) + count(stuck));
   rates << rows_of(least_, closed_), rows_of(along_, stuck);
+  fastest_asked_ = rates.size() > 0 ? rates.cwiseAbs().maxCoeff() : 0;
   pushing_ = held();
   const algebra::Solutions left = algebra::solutions_of(pushing_, rates, negligible);
   pushed_ = left.point;
@@ -106,11 +107,6 @@ Eigen::VectorXd Motions::velocity(const Eigen::VectorXd& impulse) const {
 
 Eigen::VectorXd Motions::unspent(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) const {
   return known_ + modes_.transpose() * impulse - inertia_ * amplitudes(velocity);
-}
-
-double Motions::leverage() const {
-  const Eigen::VectorXd rates = rows_of(least_, closed_);
-  return rates.size() == 0 ? 0 : pushed_.norm() / (rates.cwiseAbs().maxCoeff() + resolution_);
 }
 
 bool Motions::update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) {

@@ -53,9 +53,10 @@ class Motions {
   bool update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);
   /// What closed contacts ask for beyond s_0: the slowest velocities that meet them.
   Eigen::VectorXd asked() const { return modes_ * pushed_; }
-  /// Its size over the rates of these contacts. A wedge of angle a between two of them makes it 1/a; a lever, the ratio of its
+  /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes it 1/a; a lever, the ratio of its
   /// arms.
-  double leverage() const;
+  double leverage() const { return pushed_.norm() / (fastest_asked_ + resolution_); }
+  double resolution() const { return resolution_; }  ///< of D s - b [m/s]
   /// Contacts as they are now are a guess: how often they changed until here does not count.
   void forget_changes() { changes_ = 0, smooth_ = false; }
 
@@ -83,6 +84,7 @@ class Motions {
   Eigen::MatrixXd ways_;      // n of those that slide, a column each; 0 of others
   bool smooth_ = false;       // no end was found with friction
   Eigen::VectorXd pushed_;    // amplitudes that closed contacts ask for
+  double fastest_asked_ = 0;  // of their rates, and of those that stick
   Eigen::MatrixXd directions_, workless_;
   Eigen::MatrixXd pushing_;  // rows along which closed contacts push, then those that stick
 };

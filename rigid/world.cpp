@@ -307,7 +307,8 @@ bool Bodies<d>::World::crosses(const Condition<d>& c) const {
   double speed = trials[c.body].velocity.norm();
   if (c.other) speed += trials[*c.other].velocity.norm();
   constexpr double roundoff = 1e-6;  // of the speed
-  return rate_of<d>(c, trials) < std::min(c.rate, 0.0) - roundoff * speed * (1 + reach(specs[c.body]));
+  return rate_of<d>(c, trials) <
+         std::min(c.rate, 0.0) - motions.resolution() - roundoff * speed * (1 + reach(specs[c.body]));
 }
 
 template <int d>
