@@ -39,6 +39,7 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
   w.forces = std::move(forces);
   for (const BodySpec<d>& spec : w.specs) {
     check(spec);
+    w.reaches.push_back(reach(spec));
     const bool held_still = spec.motion == Motion::fixed;
     const Isometry<d> pose = spec.motion == Motion::prescribed ? spec.path(0) : spec.pose;
     w.states.push_back({pose, held_still ? Twist<d>::Zero().eval() : spec.velocity});

@@ -22,6 +22,12 @@ struct MassProperties {
 template <int d>
 double reach(const BodySpec<d>& spec);
 
+/// |V| + |w| r of a body with reach r: no point of it is faster [m/s].
+template <int d>
+double farthest_speed(const Twist<d>& velocity, double reach) {
+  return velocity.template head<d>().norm() + reach * velocity.template tail<rotations<d>>().norm();
+}
+
 /// Throws std::invalid_argument naming body, rule and value unless the body can be moved as specified.
 template <int d>
 void check(const BodySpec<d>& spec);

@@ -53,8 +53,8 @@ class Motions {
   bool update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);
   /// What closed contacts ask for beyond s_0: the slowest velocities that meet them.
   Eigen::VectorXd asked() const { return modes_ * pushed_; }
-  /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes it 1/a; a lever, the ratio of its
-  /// arms.
+  /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes it 1/a;
+  /// a lever, the ratio of its arms.
   double leverage() const { return pushed_.norm() / (fastest_asked_ + resolution_); }
   double resolution() const { return resolution_; }  ///< of D s - b [m/s]
   /// Contacts as they are now are a guess: how often they changed until here does not count.

@@ -54,10 +54,8 @@ double Participant<d>::stable_dt() const {
 template <int d>
 Eigen::VectorXd Participant<d>::speeds(const coupling::Motion& motion) const {
   Eigen::VectorXd all(reach_.size());
-  for (Eigen::Index b = 0; b < all.size(); ++b) {
-    const Twist<d> twist = motion.segment<freedoms<d>>(freedoms<d> * b);
-    all[b] = twist.template head<d>().norm() + reach_[b] * twist.template tail<rotations<d>>().norm();
-  }
+  for (Eigen::Index b = 0; b < all.size(); ++b)
+    all[b] = farthest_speed<d>(motion.segment<freedoms<d>>(freedoms<d> * b), reach_[b]);
   return all;
 }
 

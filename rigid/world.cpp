@@ -204,7 +204,7 @@ void Bodies<d>::World::solve_conditions() {
   p.impulse.setZero(freedoms<d> * size());
   for (Eigen::Index i = 0; i < size(); ++i) {
     const auto b = static_cast<std::size_t>(i);
-    p.unit.segment(freedoms<d> * i + d, rotations<d>).setConstant(reach(specs[b]));
+    p.unit.segment(freedoms<d> * i + d, rotations<d>).setConstant(reaches[b]);
     p.before.segment<freedoms<d>>(freedoms<d> * i) = states[b].velocity;
     if (!movers[b]) continue;
     p.inertia.block<freedoms<d>, freedoms<d>>(freedoms<d> * i, freedoms<d> * i) = inertia(b);
@@ -308,7 +308,7 @@ bool Bodies<d>::World::crosses(const Condition<d>& c) const {
   if (c.other) speed += trials[*c.other].velocity.norm();
   constexpr double roundoff = 1e-6;  // of the speed
   return rate_of<d>(c, trials) <
-         std::min(c.rate, 0.0) - motions.resolution() - roundoff * speed * (1 + reach(specs[c.body]));
+         std::min(c.rate, 0.0) - motions.resolution() - roundoff * speed * (1 + reaches[c.body]);
 }
 
 template <int d>
@@ -325,8 +325,8 @@ Status Bodies<d>::World::squeezed() const {
   double fastest = 0;
   std::size_t of = 0;
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    const Twist<d> s = asked.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
-    const double speed = s.template head<d>().norm() + reach(specs[i]) * s.template tail<rotations<d>>().norm();
+    const double speed =
+        farthest_speed<d>(asked.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i)), reaches[i]);
     if (speed > fastest) fastest = speed, of = i;
   }
   return cause(specs[of].name, message("which would leave more than ", most, " times as fast as they come"));

@@ -19,6 +19,7 @@ struct Bodies<d>::World {
   enum class Phase { committed, begun, solved };
 
   std::vector<BodySpec<d>> specs;
+  std::vector<double> reaches;  // of the bodies (body.hpp)
   std::vector<std::unique_ptr<Force<d>>> forces;
   std::vector<BodyState<d>> states, trials;
   std::optional<Contacts<d>> contacts;

@@ -103,9 +103,9 @@ bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double
   for (int k = 0; k <= d; ++k) {
     const int w = nodes.tie[cell[k]].wall;
     if (w < 0 || (k > 0 && w == nodes.tie[cell[k - 1]].wall)) continue;
-    const double reach = at.walls[w].box().diagonal().norm();
     if (!at.walls[w].may_touch(at.poses[w], centroid, 0)) continue;
-    const double deeper = -at.walls[w].nearest(at.poses[w], centroid, reach).distance - solid_depth * size;
+    const double deeper =
+        -at.walls[w].nearest(at.poses[w], centroid, at.walls[w].diameter()).distance - solid_depth * size;
     if (deeper <= 0) continue;
     const auto on_wall = std::count_if(cell.begin(), cell.end(), [&](int n) { return nodes.tie[n].wall == w; });
     if (on_wall != d || deeper > chord_depth<d>(w, cell, nodes, old_boundary, at)) return true;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fluid/mesh/hubs.hpp"
 #include "fluid/mesh/inside.hpp"

@@ -90,9 +90,8 @@ void squeezed(Random& random, Member& m, double H) {
   m.scene = s.text();
   // Water leaves a gap of one element, side / h times as fast as the plates come; the box gets it from there. Plates that stop
   // short of the box leave a gap from whose ends it comes side / (2 gap) times as fast, by continuity.
-  const double left = run - basin.end * speed;
-  const double lift = 2 * std::sqrt(g * H), by_element = 2 * side / basin.surface, by_gap = 0.5 * side / left;
-  const double jet = speed * (left > 0 ? std::max(by_element, by_gap) : by_element);
+  const double left = run - basin.end * speed, by_gap = left > 0 ? 0.5 * side / left : 0;
+  const double lift = 2 * std::sqrt(g * H), jet = speed * std::max(2 * side / basin.surface, by_gap);
   m.laws.speed = SpeedLaw{.nodes = 3 * (lift + jet), .bodies = lift + jet};
   m.laws.energy = EnergyLaw{.bound = 0.02, .scale = water * g * side * side * H};
   m.laws.volume = VolumeLaw{.bound = 0.01, .scale = side * side};

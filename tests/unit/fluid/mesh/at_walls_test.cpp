@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "fluid/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
