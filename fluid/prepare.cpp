@@ -196,7 +196,7 @@ void Fluid<d>::State::prepare() {
   work = now;
   const double energy = hold_field_energy();
   size_nodes();
-  attach_nodes<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity);
+  attach_nodes<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity, now.dt);
   if (now.dt > 0) adapt(work.nodes, work.mesh, walls_at(work.poses));
   collect_drops();
   const double before = water();

@@ -14,20 +14,50 @@ namespace splashdown::fluid {
 namespace {
 
 constexpr double on_facet = 0.02;  // a sharp vertex this close to a wetted facet (over h) lies on it
+constexpr double deep = 0.05;      // a node this deep in a solid (over h) has come through its surface
 constexpr double snap = 0.3;       // a boundary node this close to a sharp vertex (over h) moves onto it
 
+/// What came through a thin wall's one side may be nearer to the other: where it was a step ago, `from`, says which side it is on.
+/// `x` without its way into the solid, if it was outside then or had not come farther than `little`.
 template <int d>
-void tie_arrivals(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d>> velocities) {
+std::optional<Vec<d>> on_own_side(const Wall<d>& wall, const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& x,
+                                  double little) {
+  constexpr int halvings = 20;
+  const auto nearest = [&](const Vec<d>& point) { return wall.nearest(pose, point, wall.diameter()); };
+  Vec<d> entrance = from;
+  if (const double distance = nearest(from).distance; distance > 0) {
+    double outside = 0, within = 1;
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = 0.5 * (outside + within);
+      (nearest(from + middle * (x - from)).distance > 0 ? outside : within) = middle;
+    }
+    entrance = from + within * (x - from);
+  } else if (distance < -little) {
+    return {};
+  }
+  const Vec<d> normal = nearest(entrance).normal;
+  const double depth = (entrance - x).dot(normal);
+  return depth > 0 ? std::optional<Vec<d>>(x + depth * normal) : std::nullopt;
+}
+
+template <int d>
+void tie_arrivals(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d>> velocities, double dt) {
   in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.tie[i].wall >= 0) return;
     for (std::size_t w = 0; w < at.walls.size(); ++w) {
       if (!at.walls[w].may_touch(at.poses[w], nodes.x[i], 0)) continue;
       // Drops may cross more than an element in a step, nodes of the liquid may not.
       const double reach = nodes.spray[i] ? at.walls[w].diameter() : nodes.h[i];
-      const auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
-      const Vec<d> arm = nodes.x[i] - at.poses[w].translation();
-      // A node that a neighbouring edge let go may touch the wall behind the edge while it flies away.
-      if (near.distance > 0 || (nodes.v[i] - rigid_velocity<d>(velocities[w], arm)).dot(near.normal) > 0) continue;
+      auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
+      if (near.distance > 0) continue;
+      const Vec<d> v = nodes.v[i] - rigid_velocity<d>(velocities[w], nodes.x[i] - at.poses[w].translation());
+      if (v.dot(near.normal) > 0) {
+        // A node that a neighbouring edge let go may touch the wall behind the edge while it flies away.
+        if (near.distance > -deep * nodes.h[i]) continue;
+        const auto own = on_own_side<d>(at.walls[w], at.poses[w], nodes.x[i] - dt * v, nodes.x[i], deep * nodes.h[i]);
+        if (!own) continue;
+        near = at.walls[w].nearest(at.poses[w], *own, at.walls[w].diameter());
+      }
       nodes.x[i] = near.point;
       nodes.tie[i] = {static_cast<int>(w), near.patch, -1};
       break;
@@ -213,13 +243,14 @@ bool occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
 }  // namespace
 
 template <int d>
-bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities) {
-  tie_arrivals<d>(nodes, walls, velocities);
+bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities,
+                  double dt) {
+  tie_arrivals<d>(nodes, walls, velocities, dt);
   const bool corners = occupy_corners(nodes, mesh, walls), creases = occupy_creases(nodes, mesh, walls);
   return corners || creases;
 }
 
-template bool attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>);
-template bool attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>);
+template bool attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
+template bool attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
 
 }  // namespace splashdown::fluid

@@ -65,7 +65,7 @@ class Filler {
     };
     sizes();
     const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
-    attach_nodes<d>(out_.nodes, out_.mesh, walls_, at_rest);
+    attach_nodes<d>(out_.nodes, out_.mesh, walls_, at_rest, 0);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
       cut();
@@ -79,7 +79,7 @@ class Filler {
     }
     // What has come to pass a crease between its nodes, and cuts a piece of the wall off, gets a node there. Few pass twice.
     constexpr int most_rounds = 5;
-    for (int round = 0; round < most_rounds && attach_nodes<d>(out_.nodes, out_.mesh, walls_, at_rest); ++round) {
+    for (int round = 0; round < most_rounds && attach_nodes<d>(out_.nodes, out_.mesh, walls_, at_rest, 0); ++round) {
       sizes();
       cut();
     }

@@ -157,7 +157,7 @@ TEST(Ventilation, what_has_left_is_not_on_the_wall) {
     film.ventilate();
     ASSERT_TRUE(film.left(1));
     EXPECT_GT(film.walls[0].nearest(film.pose[0], film.nodes.x[film.at(1, 0)], 1).distance, 0);
-    attach_nodes<2>(film.nodes, film.mesh, {film.walls, film.pose}, film.still);
+    attach_nodes<2>(film.nodes, film.mesh, {film.walls, film.pose}, film.still, 0);
     EXPECT_TRUE(film.left(1));
   }
 }
