@@ -32,12 +32,7 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
   double dt = std::numeric_limits<double>::infinity();
   const auto wet = wet_bodies(fluid, bodies.size());
   if (std::find(wet.begin(), wet.end(), 0) == wet.end()) return dt;
-  Box<d> liquid;
-  double liquid_speed = 0;
-  for (std::size_t i = 0; i < fluid.nodes().size(); ++i) {
-    liquid.extend(fluid.nodes().x[i]);
-    liquid_speed = std::max(liquid_speed, fluid.nodes().v[i].norm());
-  }
+  const auto& nodes = fluid.nodes();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (wet[b]) continue;
     const auto& hull = bodies.spec(b).surface;
@@ -45,10 +40,17 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
     Box<d> box;
     for (Eigen::Index i = 0; i < hull.vertices.cols(); ++i)
       box.extend(state.pose * rigid::Vec<d>(hull.vertices.col(i)));
-    const double reach =
-        std::max(fluid.spec().step.cfl * fluid.spec().walls[b].size, 0.5 * box.exteriorDistance(liquid));
-    const double speed = hull_speed<d>(hull, state.velocity) + liquid_speed;
-    if (speed > 0) dt = std::min(dt, reach / speed);
+    const double own = hull_speed<d>(hull, state.velocity), least = fluid.spec().step.cfl * fluid.spec().walls[b].size;
+    for (const auto& facet : fluid.mesh().boundary) {
+      if (facet.wall >= 0) continue;
+      Box<d> water;
+      double speed = 0;
+      for (int n : facet.nodes) {
+        water.extend(nodes.x[n]);
+        speed = std::max(speed, nodes.v[n].norm());
+      }
+      dt = std::min(dt, std::max(least, 0.5 * box.exteriorDistance(water)) / (own + speed));
+    }
   }
   return dt;
 }

@@ -1,9 +1,10 @@
 // A bound on dt before contact, which the fluid's own criterion cannot see: it knows the nodes it has, not
 // the hull that is about to meet them.
 //
-//   dt <= max(cfl h, gap/2) / (hull speed + liquid speed)      for every hull that is dry
+//   dt <= max(cfl h, gap/2) / (hull speed + speed of the water there)      for every hull that is dry, every facet of the free surface
 //
-// so that no hull enters by more than a share of its own elements in the step of first contact.
+// so that no hull enters by more than a share of its own elements in the step of first contact. Drops that fly by themselves do
+// not count: they meet a hull when they have reached it.
 #pragma once
 
 #include "fluid/fluid.hpp"
@@ -11,7 +12,7 @@
 
 namespace splashdown::apps {
 
-/// Infinity when all hulls are wet or nothing moves. Gaps are between bounding boxes: never overestimated.
+/// Infinity when all hulls are wet or nothing moves. Gaps are between bounding boxes, of the hull and of a facet: never overestimated.
 template <int d>
 double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies);
 

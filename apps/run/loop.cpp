@@ -44,10 +44,17 @@ Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterio
     auto report = attempt(stepper, dt);
     if (report.ok()) return {std::move(report), dt};
     ++state.rejected[kind_of(report.cause)];
+    if (stepper.time() >= state.refused_end) state.refused_end = stepper.time() + dt, state.refused_on_the_way = 0;
+    ++state.refused_on_the_way;
     host.refused(stepper.time(), dt, report.cause);
-    if (dt < smallest_share * criterion || refusals == most_refusals) return {std::move(report), dt};
+    if (state.is_stuck())
+      report.cause += fmt::format(" ({} refusals on the way to {:.9g} s, {:.1e} s from here)", state.refused_on_the_way,
+                                  state.refused_end, state.refused_end - stepper.time());
+    if (dt < smallest_share * criterion || refusals == most_refusals || state.is_stuck())
+      return {std::move(report), dt};
     if (refusals == refusals_for_release && report.of_fluid && stepper.release_fragment()) {
       ++state.released;
+      state.refused_on_the_way = 0;  // other water
       host.released(stepper.time(), report.cause);
       dt = 2 * wanted;
     }

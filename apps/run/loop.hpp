@@ -3,8 +3,10 @@
 //   dt = min(criterion, growth dt_{n-1});  a refused step is tried again with half of it.
 //
 // After ten refusals of a step the fluid may let go the fragment for which it was refused, and dt is what it was; after twenty the
-// run ends. It also ends where a hundred steps in a row are below 1e-8 of what is left of the time: the last film between
-// two walls gets faster as it gets thinner, and no such run reaches its end.
+// run ends. It also ends where shorter steps go on, but the way to the end of one that was refused takes more than a hundred
+// refusals: bodies that a mechanism drives into a corner come nearer in ever shorter steps and never get there. And where a
+// hundred steps in a row are below 1e-8 of the whole time: the last film between two walls gets faster as it gets
+// thinner, and no such run reaches its end.
 //
 // Nothing here depends on the wall clock except when checkpoints are taken and when a budget ends, neither
 // of which changes a step. The steps that the stop time shortens are taken after a last checkpoint, so a run
@@ -27,9 +29,13 @@ struct LoopState {
   std::map<std::string, long> rejected;  ///< refused attempts by cause
   long released = 0;                     ///< fragments of the fluid that no smaller dt kept with the rest
   long crawling = 0;                     ///< committed of late, each below 1e-8 of the whole time
+  double refused_end = 0;                ///< end of the first refused step that has not been passed since [s]
+  long refused_on_the_way = 0;           ///< attempts until there
 
   /// Whether the steps have become too short to go on.
   bool crawls() const { return crawling >= 100; }
+  /// Whether there seems to be no way past a refused step.
+  bool is_stuck() const { return refused_on_the_way > 100; }
 };
 
 /// A step that was tried with success and is not committed yet: everything at `time` is known.

@@ -175,6 +175,17 @@ TEST(Approach, a_dry_hull_moves_by_a_share_of_its_elements_or_half_the_gap) {
   EXPECT_EQ(approach_dt(*wet.fluid, *wet.bodies), std::numeric_limits<double>::infinity());
 }
 
+TEST(Approach, water_counts_with_its_own_distance_and_speed) {
+  const auto beside_a_drop = [](const std::string& x, const std::string& speed) {
+    const auto world =
+        build_world<2>(scene_of(testing::wedge_drop + "[[fluid.region]]\nshape = \"circle\"\ncentre = [" + x +
+                                ", 0.1]\nradius = 0.05\nvelocity = [0, -" + speed + "]\n"));
+    return approach_dt(*world.fluid, *world.bodies);
+  };
+  EXPECT_NEAR(beside_a_drop("1.5", "400"), 0.005 / 6.15, 1e-12);  // far away, however fast
+  EXPECT_NEAR(beside_a_drop("0.5", "1000"), 0.5 * 0.2 / 1006.15, 1e-6);
+}
+
 /// A step made by hand, with what a recorder is told of the body.
 TEST(World, a_body_in_flight_falls_freely) {
   auto world = build_world<2>(scene_of(R"([time]

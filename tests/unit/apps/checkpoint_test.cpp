@@ -142,7 +142,7 @@ TEST_F(CheckpointFolder, that_cannot_be_read_is_refused_and_never_taken_for_none
   auto older = good;
   older.replace(older.find("checkpoint ") + 11, 1, "2");
   holds(older);
-  expect_refused(folder, "state was written by another version of splashdown (format 2, this one reads 9)");
+  expect_refused(folder, "state was written by another version of splashdown (format 20, this one reads 10)");
   holds("not a checkpoint");
   expect_refused(folder, "state is no checkpoint, or its first bytes are damaged");
   fs::remove_all(folder / "checkpoint");

@@ -194,6 +194,27 @@ TEST(RunLoop, gives_up_where_steps_become_so_short_that_no_end_is_in_sight) {
   EXPECT_EQ(impact.loop.crawling, 0);
 }
 
+// A hundredth of the criterion would do, but it is never got through: hulls in a mechanism near its dead point.
+TEST(RunLoop, gives_up_where_no_way_leads_past_a_refused_step) {
+  Story story;
+  story.stepper.refuse = [](double time, double dt) { return time > 0.3 && dt > 2e-5 ? "no room: at the top" : ""; };
+  story.run(0.5);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::failed);
+  EXPECT_EQ(story.end.cause.find("no room: at the top (101 refusals on the way to 0.3"), 0u) << story.end.cause;
+  EXPECT_EQ(story.loop.rejected.at("no room"), story.loop.refused_on_the_way);
+  Story again;
+  again.stepper.refuse = story.stepper.refuse;
+  again.resume(story.host);
+  again.run(0.5);
+  EXPECT_EQ(again.end.cause, story.end.cause);
+  // Hard places that are passed do not add up.
+  Story hard;
+  hard.stepper.refuse = [](double, double dt) { return dt > 0.0005 ? "no room" : ""; };
+  hard.run(0.5);
+  EXPECT_EQ(hard.end.status, LoopEnd::Status::done);
+  EXPECT_GT(hard.loop.rejected.at("no room"), 300);
+}
+
 TEST(RunLoop, lets_a_fragment_go_after_ten_refusals_and_tries_the_same_step_again) {
   for (const bool cures : {true, false}) {
     Story story;
