@@ -120,7 +120,8 @@ void print_body(const Scene& scene, const Body& body) {
                             Units<d>::volume));
   print_file(body.shape);
   if (body.mass || body.density) {
-    row("mass", fmt::format("{:.6g} {} (mean density {:.5g} kg/m^3)", spec.mass, Units<d>::mass, spec.mass / volume));
+    row("mass", fmt::format("{:.6g} {} (mean density {:.5g} kg/m^3{})", spec.mass, Units<d>::mass, spec.mass / volume,
+                            body.without_mass ? "; the scene gives none: the least there is" : ""));
     if (spec.mass > 0) print_inertia(spec);
   }
   row("centre of mass",
@@ -134,7 +135,7 @@ void print_body(const Scene& scene, const Body& body) {
   const double added = impact_mass(scene.fluid->density, hull);
   row("density ratio", fmt::format("{:.4g} of the liquid's", spec.mass / volume / scene.fluid->density));
   const std::string about = fmt::format("about {:.4g} {} ({})", added, Units<d>::mass, plate(hull));
-  if (spec.mass == 0) return row("added mass", about + ": all the inertia there is; the body has no mass");
+  if (body.without_mass) return row("added mass", about + ": all the inertia that counts");
   row("added mass", fmt::format("{}: {:.3g} times its mass{}", about, added / spec.mass,
                                 added > spec.mass ? "; needs interface_term rigid, or an accelerator" : ""));
   print_floating<d>(scene, spec);

@@ -68,7 +68,7 @@ void ask_about_mass(const Body& body, Questions& list) {
   const double lightest = 1, heaviest = 22600;  // below air, 1.2, and a thousandth of water; osmium [kg/m^3]
   const double mass = mass_properties<d>(body).mass, volume = shape_of<d>(body.shape).at_unit_density.mass;
   const double density = mass / volume;
-  if (mass == 0 || (density >= lightest && density <= heaviest)) return;
+  if (mass == 0 || body.without_mass || (density >= lightest && density <= heaviest)) return;
   const bool light = density < lightest;
   const double other = light ? unit_slip : 1 / unit_slip;
   list.push_back(fmt::format("body.{} has a mean density of {:.3g} kg/m^3: {}: did you mean {} = {:.4g}?", body.name,

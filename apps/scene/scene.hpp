@@ -153,11 +153,15 @@ inline std::vector<std::string> freedom_names(int dimension) {
   return {"x", "y", "z", "roll", "pitch", "yaw"};
 }
 
+/// Of a free body of which the scene says that it has no mass, over the fluid's: nothing that loads or motions of bodies in water show.
+inline constexpr double least_density = 1e-4;
+
 struct Body {
   std::string name;
   Shape shape;
   std::optional<double> mass;           ///< [kg, kg/m]; exactly one of mass and density for free motion
   std::optional<double> density;        ///< mean density [kg/m^3]
+  bool without_mass = false;            ///< the scene says 0; what the body has is least_density
   std::optional<Point> centre_of_mass;  ///< in the shape's frame [m]; default: the centroid
   /// About the centre of mass, axes of the shape's frame [kg m^2]; default: of uniform density. In two dimensions the
   /// last entry alone [kg m].

@@ -142,6 +142,17 @@ std::optional<Scene> read_without_sizes(const toml::table& table, const std::fil
   return problems.empty() ? std::optional(scene) : std::nullopt;
 }
 
+/// Free bodies without mass have the least that a body in this fluid has. Where one hardly touches the water nothing else tells how it
+/// moves: a direction along the hull has no inertia there, and roundoff would be its velocity.
+void give_least_mass(Scene& scene) {
+  for (auto& body : scene.bodies) {
+    if (body.motion != Motion::free || !scene.fluid || (body.mass != 0. && body.density != 0.)) continue;
+    body.without_mass = true;
+    body.mass.reset();
+    body.density = least_density * scene.fluid->density;
+  }
+}
+
 SceneFile read_root(toml::table& table, const std::filesystem::path& folder, Problems& problems) {
   SceneFile file;
   if (sizes_are_open(table))
@@ -151,6 +162,7 @@ SceneFile read_root(toml::table& table, const std::filesystem::path& folder, Pro
   const auto labels = read_all(context, table, file.scene);
   check_scene(file.scene, labels, problems);
   problems.throw_if_any();
+  give_least_mass(file.scene);
   file.resolved = echo.text();
   file.notes = std::move(context.notes);
   return file;

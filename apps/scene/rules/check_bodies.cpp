@@ -50,27 +50,16 @@ void check_inertia(const Scene& scene, const Body& body, const std::string& labe
                  cure);
 }
 
-template <int d>
-bool starts_wet(const Scene& scene, const Body& body) {
-  const Solid<d> hull(outline<d>(body));
-  return std::any_of(scene.fluid->regions.begin(), scene.fluid->regions.end(),
-                     [&](const Region& region) { return overlap<d>(hull, Solid<d>(outline<d>(region))); });
-}
-
 /// A body without mass moves as the water lets it.
-template <int d>
 void check_massless(const Scene& scene, const Body& body, const std::string& label, Problems& problems) {
   const bool massless = body.mass == 0. || body.density == 0.;
   if (body.motion != Motion::free || !massless) return;
-  const std::string key = label + (body.mass ? ".mass" : ".density"),
-                    cure = "Give it a mass, or let it start in the water.";
+  const std::string key = label + (body.mass ? ".mass" : ".density");
   if (!scene.fluid)
     return problems.add(key, "a free body without mass needs a fluid that has inertia for it", "Give it a mass.");
   if (scene.coupling && scene.coupling->interface_term != "rigid")
     problems.add(key, "a free body without mass needs coupling.interface_term = \"rigid\"",
                  "Change the term, or give it a mass.");
-  if (!starts_wet<d>(scene, body))
-    problems.add(key, "a free body without mass must start in the fluid, which has inertia for it", cure);
   if (body.inertia) problems.add(label + ".inertia", "a body without mass has no inertia", "Remove it.");
 }
 
@@ -175,7 +164,7 @@ void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& probl
       continue;
     check_inside_tank<d>(scene, body, *shape, label, problems);
     check_size<d>(scene, body, *shape, label, problems);
-    if (!problems.found_in("fluid")) check_massless<d>(scene, body, label, problems);
+    if (!problems.found_in("fluid")) check_massless(scene, body, label, problems);
     shape->vertices = shape_pose<d>(body) * shape->vertices;
     solids[i].emplace(*shape);
     for (std::size_t j = 0; j < i; ++j)

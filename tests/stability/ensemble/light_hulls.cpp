@@ -170,14 +170,12 @@ Member light_hull(std::uint64_t seed) {
   SceneText s = basin.scene();
   if (!walls.empty()) s.table("fluid.viscosity").set("dynamic", viscosity).word("walls", walls);
   double displaced = 0, finest = L, lightness = 0, floor = 0;
-  bool massless = false;
   for (int b = 0; b < bodies; ++b) {
     Hull (*const shapes[])(Random&, double) = {polyhedron, polyhedron, star, aircraft};
     const Hull hull = shapes[random.integer(0, tie == "free" ? 3 : 2)](random, L);
     double ratio = random.chance(0.1) ? 0 : random.log_uniform(1e-6, 2);
-    if (dropped || (b > 0 && !under)) ratio = std::max(ratio, 1e-6);  // without mass bodies have to start in water
+    if (dropped || (b > 0 && !under)) ratio = std::max(ratio, 1e-6);  // light, but for the fall
     if (ratio > 0.8 && ratio < 1.25) ratio = 0.5;
-    massless = massless || ratio == 0;
     const double heading = random.uniform(0, 360), pitch = random.uniform(-90, 90), roll = random.uniform(-180, 180);
     const double size = hull.shortest / (hull.kind == "aircraft" ? 1 : random.pick({2, 2, 2, 3, 3, 3, 4, 4, 6}));
     const double degree = std::numbers::pi / 180;
@@ -221,8 +219,6 @@ Member light_hull(std::uint64_t seed) {
   m.laws.speed = SpeedLaw{.nodes = 6 * lift + 10 * fall, .bodies = 2 * lift + fall};
   if (bodies > 1) m.laws.passes.reset();
   m.laws.may_not_be_meshed = bodies > 1;
-  // A body without mass that leaves the water has no law of motion any more.
-  m.laws.may_be_refused = massless && !under;
   if (release) m.laws.release = release_law(walls.empty() ? 0 : viscosity, finest, finest, basin.water());
   return m;
 }

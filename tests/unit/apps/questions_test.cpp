@@ -81,6 +81,12 @@ TEST(Questions, are_not_asked_of_any_shipped_example) {
   EXPECT_GE(scenes, 30);
 }
 
+TEST(Questions, are_not_asked_of_a_body_without_mass) {
+  for (const char* none : {"mass = 0", "density = 0"})
+    EXPECT_EQ(asked_of(read_scene_text(testing::wedge_drop_with("mass = 241", none), "scene.toml").scene),
+              std::vector<std::string>());
+}
+
 TEST(Questions, a_hull_of_a_kilometre_may_be_in_millimetres) {
   auto text = testing::wedge_drop_with("breadth = 0.5", "breadth = 500");
   for (const auto& [from, to] : {std::pair{"min = [-2, -1]\nmax = [2, 1]", "min = [-2000, -1000]\nmax = [2000, 1000]"},

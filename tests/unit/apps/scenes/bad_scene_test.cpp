@@ -124,8 +124,6 @@ const std::vector<Mistake> scenes = {
     {"body_name_is_a_number", "\"wedge\"\nmass", "\"12\"\nmass", 19, "body.12.name = \"12\"", "not of digits alone"},
     {"mass_negative", "mass = 241", "mass = -1", 20, "body.wedge.mass = -1",
      "must not be below 0 (kg/m). Use motion = \"fixed\""},
-    {"mass_zero_in_the_air", "mass = 241", "mass = 0", 20, "body.wedge.mass = 0",
-     "must start in the fluid, which has inertia for it. Give it a mass"},
     {"joint_of_no_type", "[[record]]", "[[joint]]\ntype = \"hing\"\n[[record]]", 29, "joint[0].type = \"hing\"",
      "Did you mean 'hinge'?"},
     {"joint_of_no_body", "[[record]]", "[[joint]]\ntype = \"hinge\"\nbody = \"wegde\"\npoint = [0, 0]\n[[record]]", 30,

@@ -36,6 +36,21 @@ TEST(GoodScene, says_what_its_file_says) {
   EXPECT_EQ(scene.output.interval, 0.001);
 }
 
+TEST(GoodScene, a_free_body_without_mass_has_the_least_that_one_in_this_fluid_has) {
+  for (const char* none : {"mass = 0", "density = 0"}) {
+    const auto file = read_scene_text(testing::wedge_drop_with("mass = 241", none), "scene.toml");
+    const auto& body = file.scene.bodies.at(0);
+    EXPECT_TRUE(body.without_mass);
+    EXPECT_FALSE(body.mass);
+    EXPECT_DOUBLE_EQ(body.density.value(), 0.1);
+    EXPECT_TRUE(read_scene_text(file.resolved, "scene.resolved.toml").scene.bodies.at(0).without_mass);
+  }
+  EXPECT_FALSE(scene_of(testing::wedge_drop).bodies.at(0).without_mass);
+  const auto held = scene_of(testing::replaced(testing::wedge_drop_with("mass = 241", "mass = 0"), "free = [\"y\"]",
+                                               "motion = \"prescribed\""));
+  EXPECT_EQ(held.bodies.at(0).mass, 0.);
+}
+
 TEST(GoodScene, has_only_the_effects_it_names) {
   const auto scene = scene_of(testing::wedge_drop_with("[gravity]\nacceleration = [0, -9.81]\n", ""));
   EXPECT_FALSE(scene.gravity);
@@ -119,7 +134,7 @@ TEST(GoodScene, is_coupled_where_a_free_body_meets_a_fluid) {
   EXPECT_EQ(scene.coupling->scheme, "iterated");
   EXPECT_EQ(scene.coupling->interface_term, "rigid");
   const auto fixed = scene_of(testing::wedge_drop_with(
-      "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]", "motion = \"fixed\""));
+      "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]", "motion = \"prescribed\""));
   EXPECT_FALSE(fixed.coupling);
   const auto flight =
       scene_of("[time]\nend = 1\n[[body]]\nname = \"a\"\nmass = 1\nshape = {type = \"box\", width = 1, height = 1}\n");
