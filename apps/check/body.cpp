@@ -121,7 +121,7 @@ void print_body(const Scene& scene, const Body& body) {
   print_file(body.shape);
   if (body.mass || body.density) {
     row("mass", fmt::format("{:.6g} {} (mean density {:.5g} kg/m^3{})", spec.mass, Units<d>::mass, spec.mass / volume,
-                            body.without_mass ? "; the scene gives none: the least there is" : ""));
+                            body.without_mass && spec.mass > 0 ? "; the scene gives none: the least there is" : ""));
     if (spec.mass > 0) print_inertia(spec);
   }
   row("centre of mass",

@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "rigid/body.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -16,13 +18,6 @@ std::vector<char> wet_bodies(const fluid::Fluid<d>& fluid, std::size_t count) {
   for (const auto& facet : fluid.mesh().boundary)
     if (facet.wall >= 0 && static_cast<std::size_t>(facet.wall) < count) wet[static_cast<std::size_t>(facet.wall)] = 1;
   return wet;
-}
-
-/// Of the hull's fastest point, at most.
-template <int d>
-double hull_speed(const rigid::Surface<d>& hull, const rigid::Twist<d>& velocity) {
-  const double radius = hull.vertices.colwise().norm().maxCoeff();
-  return velocity.template head<d>().norm() + radius * velocity.template tail<rigid::rotations<d>>().norm();
 }
 
 }  // namespace
@@ -40,7 +35,8 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
     Box<d> box;
     for (Eigen::Index i = 0; i < hull.vertices.cols(); ++i)
       box.extend(state.pose * rigid::Vec<d>(hull.vertices.col(i)));
-    const double own = hull_speed<d>(hull, state.velocity), least = fluid.spec().step.cfl * fluid.spec().walls[b].size;
+    const double own = rigid::farthest_speed<d>(state.velocity, rigid::reach(bodies.spec(b))),
+                 least = fluid.spec().step.cfl * fluid.spec().walls[b].size;
     for (const auto& facet : fluid.mesh().boundary) {
       if (facet.wall >= 0) continue;
       Box<d> water;

@@ -146,8 +146,7 @@ std::optional<Scene> read_without_sizes(const toml::table& table, const std::fil
 /// moves: a direction along the hull has no inertia there, and roundoff would be its velocity.
 void give_least_mass(Scene& scene) {
   for (auto& body : scene.bodies) {
-    if (body.motion != Motion::free || !scene.fluid || (body.mass != 0. && body.density != 0.)) continue;
-    body.without_mass = true;
+    if (body.motion != Motion::free || !scene.fluid || !body.without_mass) continue;
     body.mass.reset();
     body.density = least_density * scene.fluid->density;
   }

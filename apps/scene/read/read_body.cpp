@@ -111,6 +111,7 @@ void read_mass(Reader& reader, Body& body) {
   const std::string fix = "Use motion = \"fixed\" or \"prescribed\" for a body that the fluid does not move.";
   reader.number("mass", body.mass, not_negative(mass_unit(dimension), fix));
   reader.number("density", body.density, not_negative("kg/m^3", fix));
+  body.without_mass = body.mass == 0. || body.density == 0.;
   reader.point("centre_of_mass", body.centre_of_mass, place_rule(dimension));
   reader.inertia("inertia", body.inertia,
                  positive(inertia_unit(dimension), "Leave it out for that of uniform density."));

@@ -52,8 +52,7 @@ void check_inertia(const Scene& scene, const Body& body, const std::string& labe
 
 /// A body without mass moves as the water lets it.
 void check_massless(const Scene& scene, const Body& body, const std::string& label, Problems& problems) {
-  const bool massless = body.mass == 0. || body.density == 0.;
-  if (body.motion != Motion::free || !massless) return;
+  if (body.motion != Motion::free || !body.without_mass) return;
   const std::string key = label + (body.mass ? ".mass" : ".density");
   if (!scene.fluid)
     return problems.add(key, "a free body without mass needs a fluid that has inertia for it", "Give it a mass.");

@@ -134,7 +134,7 @@ TEST(GoodScene, is_coupled_where_a_free_body_meets_a_fluid) {
   EXPECT_EQ(scene.coupling->scheme, "iterated");
   EXPECT_EQ(scene.coupling->interface_term, "rigid");
   const auto fixed = scene_of(testing::wedge_drop_with(
-      "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]", "motion = \"prescribed\""));
+      "mass = 241\nposition = [0, 0.01]\nvelocity = [0, -6.15]\nfree = [\"y\"]", "motion = \"fixed\""));
   EXPECT_FALSE(fixed.coupling);
   const auto flight =
       scene_of("[time]\nend = 1\n[[body]]\nname = \"a\"\nmass = 1\nshape = {type = \"box\", width = 1, height = 1}\n");
