@@ -148,7 +148,8 @@ std::size_t Fluid<d>::State::put_drops_last() {
 template <int d>
 void Fluid<d>::State::cut(std::size_t liquid) {
   Nodes<d>& nodes = work.nodes;
-  constexpr int attempts = 3;  // to do without nodes that keep the triangulation from the wall's facets
+  // To do without nodes that keep the triangulation from the facets of walls. Tips of steep cones take up to seven.
+  constexpr int attempts = 8;
   std::vector<Hub<d>> hubs = hubs_of<d>(nodes, walls_at(work.poses));
   const auto recognised = [&] {
     std::vector<Facet<d>> kept;

@@ -120,15 +120,19 @@ class LiquidBoundary {
 };
 
 template <int d>
-void split_facet(Nodes<d>& nodes, Mesh<d>& mesh, int facet, const Vec<d>& point, WallTie tie) {
-  const Facet<d> old = mesh.boundary[facet];
+int add_on_facet(Nodes<d>& nodes, const Facet<d>& facet, const Vec<d>& point, WallTie tie) {
   Vec<d> v = Vec<d>::Zero();
   double p = 0, size = 0;
-  for (int n : old.nodes) v += nodes.v[n] / d, p += nodes.p[n] / d, size += nodes.h[n] / d;
-  const int m = nodes.add(point, v, p, tie, old.wall < 0, size);
+  for (int n : facet.nodes) v += nodes.v[n] / d, p += nodes.p[n] / d, size += nodes.h[n] / d;
+  return nodes.add(point, v, p, tie, facet.wall < 0, size);
+}
+
+template <int d>
+void split_facet(Mesh<d>& mesh, int facet, int node) {
+  const Facet<d> old = mesh.boundary[facet];
   for (int k = 0; k < d; ++k) {
     Facet<d> part = old;
-    part.nodes[k] = m;
+    part.nodes[k] = node;
     if (k == 0)
       mesh.boundary[facet] = part;
     else
@@ -141,20 +145,26 @@ bool occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
   constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
   struct Corner {
     int wall, vertex;
+    int node;  // that a mesh has left within the water, -1: none
   };
+  std::vector<char> on_boundary(nodes.size(), 0);
+  for (const auto& f : mesh.boundary)
+    for (int n : f.nodes) on_boundary[n] = 1;
   std::vector<Corner> dry;
   for (int w = 0; w < static_cast<int>(at.walls.size()); ++w) {
-    std::vector<char> taken(at.walls[w].spec().surface.vertices.cols(), 0);
-    for (const WallTie& t : nodes.tie)
-      if (t.wall == w && t.vertex >= 0) taken[t.vertex] = 1;
+    constexpr int none = -1, settled = -2;
+    std::vector<int> taken(at.walls[w].spec().surface.vertices.cols(), none);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (const WallTie& t = nodes.tie[i]; t.wall == w && t.vertex >= 0)
+        taken[t.vertex] = on_boundary[i] || nodes.spray[i] ? settled : static_cast<int>(i);
     for (int v : at.walls[w].corners())
-      if (!taken[v]) dry.push_back({w, v});
+      if (taken[v] != settled) dry.push_back({w, v, taken[v]});
   }
   if (dry.empty() || nodes.size() == 0) return false;
   const double reach = near * std::ranges::max(nodes.h);
   LiquidBoundary<d> boundary(nodes, mesh, dry.size());
   bool any = false;
-  for (const auto [w, v] : dry) {
+  for (const auto [w, v, within] : dry) {
     const Vec<d> point = at.walls[w].vertex(at.poses[w], v);
     const auto hit = boundary.nearest(point, reach);
     if (hit.facet < 0) continue;
@@ -171,11 +181,13 @@ bool occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
     if (!arrived) continue;
     any = true;
     const WallTie tie{w, -1, v};
-    if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
+    if (within >= 0) {
+      split_facet(mesh, hit.facet, within);
+    } else if ((nodes.x[closest] - point).norm() < snap * size && nodes.tie[closest].vertex < 0) {
       nodes.x[closest] = point;
       nodes.tie[closest] = tie;
     } else {
-      split_facet(nodes, mesh, hit.facet, point, tie);
+      split_facet(mesh, hit.facet, add_on_facet(nodes, mesh.boundary[hit.facet], point, tie));
     }
     boundary.changed();
   }

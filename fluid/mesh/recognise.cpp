@@ -299,7 +299,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   }
   for (int c : piercing)
     for (int n : all.cells[c])
-      if (inner[n]) mesh.piercing.push_back(n);
+      if (inner[n] && nodes.tie[n].wall < 0) mesh.piercing.push_back(n);
   std::sort(mesh.piercing.begin(), mesh.piercing.end());
   mesh.piercing.erase(std::unique(mesh.piercing.begin(), mesh.piercing.end()), mesh.piercing.end());
   in_parallel(mesh.boundary.size(),

@@ -102,8 +102,10 @@ void sink(Nodes<d>& nodes) {
 // A box whose lowest corner is the only one near the water, this far under its surface at x_d = 1.
 template <int d>
 struct Dip : scenes::Tank<d> {
-  explicit Dip(double depth, double across) : scenes::Tank<d>(4), corner(point<d>(across, 1 - depth)) {
+  explicit Dip(double depth, double across, bool has_node = false)
+      : scenes::Tank<d>(4), corner(point<d>(across, 1 - depth)) {
     this->add_wall(scenes::box<d>(corner, corner + Vec<d>::Constant(3)));
+    if (has_node) this->nodes.add(corner, Vec<d>::Zero(), 0, {1, -1, vertex()}, false, size);
     this->nodes.h.assign(this->nodes.size(), size);
     sink(this->nodes);
     nodes_before = this->nodes.size();
@@ -112,6 +114,11 @@ struct Dip : scenes::Tank<d> {
     attach_nodes<d>(this->nodes, this->mesh, this->at(), this->velocity, 0);
     for (std::size_t i = 0; i < this->nodes.size(); ++i)
       if (this->nodes.tie[i].wall == 1) found.push_back(static_cast<int>(i));
+  }
+  int vertex() const {
+    int v = 0;
+    while (this->walls[1].vertex(this->pose[1], v) != corner) ++v;
+    return v;
   }
   static constexpr double size = 0.25;
   Vec<d> corner;
@@ -147,6 +154,23 @@ TYPED_TEST(Attachment, a_node_near_the_corner_moves_onto_it) {
   EXPECT_GE(dip.nodes.tie[dip.found[0]].vertex, 0);
   EXPECT_EQ(dip.nodes.size(), dip.nodes_before);
   EXPECT_EQ(dip.mesh.boundary.size(), dip.facets_before);
+}
+
+// A triangulation may join the water on both sides of a tip, so that no facet is left at its node.
+TYPED_TEST(Attachment, the_node_of_a_corner_that_was_left_within_the_water_is_on_its_boundary_again) {
+  constexpr int d = TypeParam::value;
+  for (const double across : {0.4, 0.48}) {
+    const Dip<d> dip(0.03, across, true);
+    ASSERT_EQ(dip.found.size(), 1u);
+    const int n = dip.found[0];
+    EXPECT_EQ(dip.nodes.x[n], dip.corner);
+    EXPECT_EQ(dip.nodes.tie[n].vertex, dip.vertex());
+    EXPECT_EQ(dip.nodes.size(), dip.nodes_before);
+    EXPECT_EQ(dip.mesh.boundary.size(), dip.facets_before + d - 1);
+    EXPECT_TRUE(scenes::is_closed(dip.mesh.boundary));
+    EXPECT_TRUE(std::ranges::any_of(dip.mesh.boundary,
+                                    [&](const auto& f) { return std::ranges::find(f.nodes, n) != f.nodes.end(); }));
+  }
 }
 
 TYPED_TEST(Attachment, a_corner_above_the_water_gets_none) {
