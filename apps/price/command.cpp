@@ -124,6 +124,7 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
   const auto& folder = plan.order.folder;
   auto notes = ladder.end().notes;
   auto price = price_of(plan, ladder, notes);
+  price.percent = listed_percent(options.accuracy);
   list_rows(price);
   price.scene = fs::absolute(options.scene).lexically_normal().string();
   price.title = plan.title;

@@ -83,7 +83,7 @@ std::optional<double> refine_for(const Price& price, const AccuracyAt& accuracy,
 std::vector<PriceRow> rows_of(const Price& price, const AccuracyAt& accuracy) {
   std::vector<PriceRow> rows;
   if (price.rungs.empty() || !accuracy(price.finest())) return rows;
-  for (const double percent : listed_percent) {
+  for (const double percent : price.percent) {
     PriceRow row{.accuracy_percent = percent,
                  .seconds = {},
                  .refine = refine_for(price, accuracy, percent / 100),
@@ -221,6 +221,13 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
     price.quantities.push_back(std::move(priced));
   }
   return price;
+}
+
+std::vector<double> listed_percent(std::optional<double> asked) {
+  std::vector<double> all = {20, 10, 5, 2, 1, 0.5};
+  if (asked && std::ranges::find(all, *asked) == all.end()) all.push_back(*asked);
+  std::ranges::sort(all, std::greater());
+  return all;
 }
 
 void list_rows(Price& price) {

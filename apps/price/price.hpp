@@ -18,8 +18,8 @@
 
 namespace splashdown::apps {
 
-/// As price lists have them: 1, 2, 5.
-inline constexpr double listed_percent[] = {20, 10, 5, 2, 1, 0.5};
+/// As price lists have them, 1, 2, 5, and one that is asked for.
+std::vector<double> listed_percent(std::optional<double> asked);
 
 /// A relative accuracy and the quantity that decides it.
 using Decided = std::pair<double, std::string>;
@@ -62,7 +62,8 @@ struct Price {
   std::string scene, title, scene_digest;
   int dimension = 2;
   std::vector<PricedQuantity> quantities;
-  std::vector<Rung> rungs;  ///< all that were made, replicates too
+  std::vector<Rung> rungs;                           ///< all that were made, replicates too
+  std::vector<double> percent = listed_percent({});  ///< what rows are for, from the loosest on
   std::vector<PriceRow> rows;
   std::vector<std::pair<double, double>> expected_nodes;  ///< by refine, of the scene's sizes; empty: not known
 

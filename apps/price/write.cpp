@@ -153,13 +153,13 @@ std::string prices_text(const Price& price, std::size_t width) {
   const auto priced = [](const PricedQuantity& quantity) { return !quantity.rows.empty(); };
   if (std::ranges::count_if(price.quantities, priced) < 2) return {};
   std::string text = fmt::format("  {:<{}}", "each by itself", width);
-  for (const double percent : listed_percent) text += fmt::format("  {:>7}", fmt::format("{:g} %", percent));
+  for (const double percent : price.percent) text += fmt::format("  {:>7}", fmt::format("{:g} %", percent));
   text += "\n";
   bool any_beyond = false;
   for (const auto& quantity : price.quantities) {
     if (!priced(quantity)) continue;
     text += fmt::format("  {:<{}}", quantity.what.name, width);
-    for (const double percent : listed_percent) {
+    for (const double percent : price.percent) {
       const auto* row = row_for(quantity.rows, percent);
       const bool beyond = row && row->extrapolated;
       any_beyond |= beyond;

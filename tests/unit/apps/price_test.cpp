@@ -206,6 +206,19 @@ TEST(Price, of_each_quantity_is_the_list_s_at_most_and_of_one_of_them_the_list_s
   EXPECT_TRUE(price().quantities[1].rows.empty()) << "it does not count";
 }
 
+TEST(Price, list_has_the_accuracy_that_is_asked_for) {
+  EXPECT_EQ(listed_percent({}), (std::vector<double>{20, 10, 5, 2, 1, 0.5}));
+  EXPECT_EQ(listed_percent(5), listed_percent({}));
+  EXPECT_EQ(listed_percent(4), (std::vector<double>{20, 10, 5, 4, 2, 1, 0.5}));
+  auto list = price();
+  list.percent = listed_percent(0.7);
+  list_rows(list);
+  const auto row = std::ranges::find(list.rows, 0.7, &PriceRow::accuracy_percent);
+  ASSERT_NE(row, list.rows.end());
+  ASSERT_TRUE(row->seconds);
+  EXPECT_NEAR(list.accuracy(*row->refine)->first, 0.007, 1e-6);
+}
+
 TEST(Price, of_open_water_counts_what_the_tank_changes) {
   auto rungs = ladder();
   rungs.push_back(rung(1, 2, {10 + 0.1 - 0.05, 0}, Role::larger_tank));
