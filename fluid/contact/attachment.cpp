@@ -147,7 +147,8 @@ bool occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
     int wall, vertex;
     int node;  // that a mesh has left within the water, -1: none
   };
-  std::vector<char> on_boundary(nodes.size(), 0);
+  // In the plane triangulations keep the facets of walls, and none is left.
+  std::vector<char> on_boundary(nodes.size(), d == 2);
   for (const auto& f : mesh.boundary)
     for (int n : f.nodes) on_boundary[n] = 1;
   std::vector<Corner> dry;

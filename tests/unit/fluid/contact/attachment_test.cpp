@@ -157,8 +157,8 @@ TYPED_TEST(Attachment, a_node_near_the_corner_moves_onto_it) {
 }
 
 // A triangulation may join the water on both sides of a tip, so that no facet is left at its node.
-TYPED_TEST(Attachment, the_node_of_a_corner_that_was_left_within_the_water_is_on_its_boundary_again) {
-  constexpr int d = TypeParam::value;
+TEST(AttachmentInSpace, the_node_of_a_corner_that_was_left_within_the_water_is_on_its_boundary_again) {
+  constexpr int d = 3;
   for (const double across : {0.4, 0.48}) {
     const Dip<d> dip(0.03, across, true);
     ASSERT_EQ(dip.found.size(), 1u);
