@@ -39,7 +39,7 @@ using Cracks = std::vector<std::array<int, d + 1>>;
 
 template <int d>
 struct Recognised : Mesh<d> {
-  /// Inner nodes of cells that lie in a wall for some part, in space, though the water around them should be there: without
+  /// Inner nodes, off walls, of cells that lie in a wall for some part, in space, though water should be there: without
   /// them the triangulation has the wall's facets.
   std::vector<int> piercing;
   Cracks<d> cracks;
