@@ -38,6 +38,15 @@ struct Mesh {
   std::vector<Facet<d>> boundary;
 };
 
+/// Marks with 1 which of `nodes` nodes facets hold, the others with 0.
+template <int d>
+std::vector<char> nodes_of(const std::vector<Facet<d>>& facets, std::size_t nodes) {
+  std::vector<char> held(nodes, 0);
+  for (const auto& f : facets)
+    for (int n : f.nodes) held[n] = 1;
+  return held;
+}
+
 /// Corner reader of a cell or facet for the functions of geometry.hpp.
 template <class Positions, class Indices>
 auto corners(const Positions& x, const Indices& nodes) {

@@ -28,6 +28,9 @@ struct Share<2> {
   static constexpr double seconds_to_start = 1.5e-4;  // a node
   static constexpr double seconds_a_node = 6e-6;
   static constexpr double seconds_a_pass = 0.5e-6;  // a node: one more back-substitution
+  // Nodes in jets and in water that rises, over those that an entering hull itself brings: the examples' wedges have
+  // about as many, hulls with sizes that were chosen, whose jets are thinner than an element, hardly any.
+  static constexpr double jets = 1;
   static double nodes(double h) { return 2 / (std::numbers::sqrt3 * h * h); }
 };
 template <>
@@ -36,13 +39,19 @@ struct Share<3> {
   static constexpr double seconds_to_start = 6e-4;
   static constexpr double seconds_a_node = 5.5e-5;
   static constexpr double seconds_a_pass = 2e-6;
+  static constexpr double jets = 1.8;
   static double nodes(double h) { return std::numbers::sqrt2 / (h * h * h); }
 };
 constexpr double bytes_of_program = 1e8;
 // Cells that an estimate looks at, at most: in about a second several times the nodes that are run unasked.
 constexpr std::size_t most_cells = 400'000;
-// Nodes in jets and in water that rises, over those that an entering hull itself brings: median of the examples.
-constexpr double jets = 1.8;
+
+/// Elements that are asked for at the root of the jet of a hull that is wetted so far [m]; none: as large as they like.
+double size_at_root(const Scene& scene, const Body& body, double half) {
+  const auto& size = scene.fluid->size;
+  const auto jet = size.hollow ? jet_thickness(body, half) : std::nullopt;
+  return jet ? std::max(size.hollow_min, *size.hollow * *jet) : std::numeric_limits<double>::max();
+}
 
 /// The element size that a scene asks for and the liquid it fills, with the bodies where they are at a time. The
 /// liquid is that of t = 0: what rises beside a hull is not in it.
@@ -64,6 +73,7 @@ class SizeEstimate {
         bend_box_.extend(bend.at);
         least_bend_ = std::min(least_bend_, bend.size);
       }
+      if constexpr (d == 2) add_roots(scene, body, hull, time);
     }
     if (scene.tank) {
       tank_ = extents<d>(*scene.tank);
@@ -95,6 +105,20 @@ class SizeEstimate {
   }
 
  private:
+  /// Of the jets to both sides, where elements are as small as they are asked for there.
+  void add_roots(const Scene& scene, const Body& body, const Surface<2>& hull, double time) {
+    const double half = wetted_half<2>(scene, body, time), size = size_at_root(scene, body, half);
+    if (half <= 0 || size >= body.size) return;
+    Eigen::Index lowest;
+    hull.vertices.row(1).minCoeff(&lowest);
+    for (const double side : {-half, half}) {
+      const Vec<2> root{hull.vertices(0, lowest) + side, still_water_level<2>(scene).value_or(0)};
+      bends_.push_back({root, size, size});
+      bend_box_.extend(root);
+    }
+    least_bend_ = std::min(least_bend_, size);
+  }
+
   double grown(double size, double distance) const { return size + size_.growth * distance; }
 
   double to_tank(const Vec<d>& x) const {
@@ -185,24 +209,73 @@ Count nodes_in(const SizeEstimate<d>& estimate, const Extents<d>& all) {
   return count;
 }
 
+/// Smallest elements but those that follow how far a hull is wetted [m].
 template <int d>
-double finest(const Scene& scene) {
+double finest_fixed(const Scene& scene) {
   double h = scene.fluid->size.surface;
-  for (const auto& body : scene.bodies) {
-    h = std::min(h, body.size);
-    for (const auto& bend : hull_bends<d>(scene, body)) h = std::min(h, bend.size);
-  }
+  for (const auto& body : scene.bodies)
+    for (const auto& bend : hull_bends<d>(scene, body))
+      if (bend.size < body.size) h = std::min(h, bend.size);
   return h;
+}
+
+/// Speeds of what is in the water, or of the water, in equal parts of the run: of bodies as they are guessed to move once
+/// they have met it, and what gravity makes of it beside them.
+template <int d>
+std::vector<double> speeds_in_parts(const Scene& scene, int parts) {
+  constexpr double of_waves = 0.5;  // of sqrt(g L)
+  const auto s = scales<d>(scene);
+  const auto still = [](const Region& region) { return region.velocity.isZero() && region.velocity_gradient.isZero(); };
+  if (scene.bodies.empty() || !std::ranges::all_of(scene.fluid->regions, still))
+    return std::vector<double>(static_cast<std::size_t>(parts), s.speed);
+  std::vector<double> speeds(static_cast<std::size_t>(parts),
+                             std::min(s.speed, of_waves * std::sqrt(s.gravity * s.length)));
+  for (const auto& body : scene.bodies) {
+    const double above = extents<d>(outline<d>(body)).min()[d - 1] - still_water_level<d>(scene).value_or(0);
+    Vec<d> before = Vec<d>::Zero();
+    for (int i = 0; i < parts; ++i) {
+      const Vec<d> after = guessed_motion<d>(scene, body, scene.time.end * (i + 1) / parts);
+      auto& speed = speeds[static_cast<std::size_t>(i)];
+      if (above + after[d - 1] <= 0)
+        speed = std::min(s.speed, std::max(speed, (after - before).norm() / (scene.time.end / parts)));
+      before = after;
+    }
+  }
+  return speeds;
+}
+
+/// Of the run, each as long as the speed of its time lets it be in the smallest elements.
+template <int d>
+double steps_at_speed(const Scene& scene) {
+  constexpr int parts = 24;
+  const auto speeds = speeds_in_parts<d>(scene, parts);
+  const double fixed = finest_fixed<d>(scene), part = scene.time.end / parts;
+  double count = 0;
+  for (int i = 0; i < parts; ++i) {
+    double h = fixed, dt = scene.time.dt_max;
+    for (const auto& body : scene.bodies)
+      h = std::min(
+          h, std::max(body.size, scene.fluid->size.wetted_fraction * wetted_half<d>(scene, body, part * (i + 0.5))));
+    if (const double speed = speeds[static_cast<std::size_t>(i)]; speed > 0)
+      dt = std::min(dt, scene.time.cfl * h / speed);
+    count += part / dt;
+  }
+  return count;
 }
 
 /// Elements that the contact line meets on the hull in the course of the run.
 template <int d>
 double elements_run_over(const Scene& scene, const Body& body) {
   const double from = wetted_half<d>(scene, body, 0), to = wetted_half<d>(scene, body, scene.time.end);
-  if (to <= from) return 0;
-  const double share = scene.fluid->size.wetted_fraction, grown = share > 0 ? body.size / share : to;
-  const double middle = std::clamp(grown, from, to);  // from here on elements have `share` of the wetted half
-  return (middle - from) / body.size + (middle < to ? std::log(to / middle) / share : 0);
+  constexpr int parts = 1000;
+  double count = 0;
+  for (int i = 0; i < parts && from < to; ++i) {
+    const double half = from + (to - from) * (i + 0.5) / parts;
+    double size = std::max(body.size, scene.fluid->size.wetted_fraction * half);
+    if constexpr (d == 2) size = std::min(size, size_at_root(scene, body, half));
+    count += (to - from) / parts / size;
+  }
+  return count;
 }
 
 template <int d>
@@ -219,7 +292,6 @@ Count nodes_at(const Scene& scene, double time) {
 template <int d>
 Cost predicted_cost(const Scene& scene) {
   Cost cost;
-  cost.dt = scene.time.dt_max;
   double mean = 0;
   if (scene.fluid) {
     // Times at which the bodies' places are looked at: quarters of the run, by the trapezoidal rule.
@@ -227,7 +299,7 @@ Cost predicted_cost(const Scene& scene) {
     for (int i = 0; i <= quarters; ++i) {
       auto [nodes, at_least] = nodes_at<d>(scene, quarters > 0 ? scene.time.end * i / quarters : 0);
       if (i == 0) cost.nodes = nodes;
-      if (nodes > cost.nodes) nodes += jets * (nodes - cost.nodes);
+      if (nodes > cost.nodes) nodes += Share<d>::jets * (nodes - cost.nodes);
       cost.nodes_most = std::max(cost.nodes_most, nodes);
       cost.at_least = cost.at_least || at_least;
       mean += quarters > 0 ? nodes * (i == 0 || i == quarters ? 0.5 : 1) / quarters : nodes;
@@ -236,13 +308,12 @@ Cost predicted_cost(const Scene& scene) {
         break;
       }
     }
-    const double speed = scales<d>(scene).speed;
-    if (speed > 0) cost.dt = std::min(cost.dt, scene.time.cfl * finest<d>(scene) / speed);
-  }
-  cost.steps = scene.time.end / cost.dt;
-  if (scene.fluid)
+    cost.steps = steps_at_speed<d>(scene);
     for (const auto& body : scene.bodies)
       cost.steps = std::max(cost.steps, elements_run_over<d>(scene, body) / scene.time.cfl);
+  } else {
+    cost.steps = scene.time.end / scene.time.dt_max;
+  }
   cost.dt = scene.time.end / cost.steps;
   cost.bytes = bytes_of_program + Share<d>::bytes_a_node * cost.nodes_most;
   cost.seconds_to_start = cost.nodes * Share<d>::seconds_to_start;

@@ -19,8 +19,8 @@ struct Cost {
 /// Nodes: the integral over the liquid of 2/(sqrt(3) h^2), what equilateral triangles of side h have, in three
 /// dimensions of sqrt(2)/h^3, the closest packing. Boundaries, which have half a layer more, are not counted: a box of
 /// 4 m x 4 m x 1 m at h = 0.1 m starts with 26534 nodes instead of 22627. Bodies
-/// stand where `guessed_motion` puts them; what `hollow` adds is not in it. The work
-/// is bounded, whatever the sizes.
+/// stand where `guessed_motion` puts them; what `hollow` adds is in it at the jets of hulls in the plane, not elsewhere.
+/// The work is bounded, whatever the sizes.
 template <int d>
 Cost predicted_cost(const Scene& scene);
 

@@ -1,6 +1,8 @@
 // Where a body will be, without a run: for what a run costs, not for results.
 #pragma once
 
+#include <optional>
+
 #include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {
@@ -15,6 +17,11 @@ rigid::Vec<d> guessed_motion(const Scene& scene, const Body& body, double time);
 /// depth (Wagner 1932); at t = 0 without it.
 template <int d>
 double wetted_half(const Scene& scene, const Body& body, double time);
+
+/// Thickness of the jet beside a hull in the plane whose faces rise at the deadrise beta from its lowest point [m]:
+/// pi/8 (V / c')^2 c = c tan^2 beta / 2 pi, c half of the wetted width (Wagner 1932). None below 3 degrees, where
+/// trapped air decides (Chuang 1967), and without such a point.
+std::optional<double> jet_thickness(const Body& body, double half);
 
 /// What the water adds to a plate on its surface: half of pi/4 b^2 rho a metre for a strip of breadth b, half of
 /// 8/3 rho c^3 for a disc of radius c with the hull's plan area (Lamb 1932, articles 71, 102).

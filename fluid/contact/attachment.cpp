@@ -7,6 +7,7 @@
 #include "core/closest_point.hpp"
 #include "core/facet_tree.hpp"
 #include "fluid/mesh/boundary_edges.hpp"
+#include "fluid/mesh/delaunay/delaunay.hpp"
 #include "fluid/mesh/inside.hpp"
 #include "fluid/parallel.hpp"
 
@@ -140,27 +141,35 @@ void split_facet(Mesh<d>& mesh, int facet, int node) {
   }
 }
 
+struct DryCorner {
+  int wall, vertex;
+  int node;  // that a mesh has left within the water, -1: none
+};
+
+// Corners that no node holds, and those whose node is left within the water, which happens only where triangulations do
+// not keep the facets of walls.
 template <int d>
-bool occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
-  constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
-  struct Corner {
-    int wall, vertex;
-    int node;  // that a mesh has left within the water, -1: none
-  };
-  // In the plane triangulations keep the facets of walls, and none is left.
-  std::vector<char> on_boundary(nodes.size(), d == 2);
-  for (const auto& f : mesh.boundary)
-    for (int n : f.nodes) on_boundary[n] = 1;
-  std::vector<Corner> dry;
+std::vector<DryCorner> dry_corners(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at) {
+  constexpr int none = -1, settled = -2;
+  std::vector<DryCorner> dry;
+  std::vector<char> on_boundary;
   for (int w = 0; w < static_cast<int>(at.walls.size()); ++w) {
-    constexpr int none = -1, settled = -2;
+    if (at.walls[w].corners().empty()) continue;
+    if (!keeps_facets<d> && on_boundary.empty()) on_boundary = nodes_of(mesh.boundary, nodes.size());
     std::vector<int> taken(at.walls[w].spec().surface.vertices.cols(), none);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (const WallTie& t = nodes.tie[i]; t.wall == w && t.vertex >= 0)
-        taken[t.vertex] = on_boundary[i] || nodes.spray[i] ? settled : static_cast<int>(i);
+        taken[t.vertex] = keeps_facets<d> || on_boundary[i] || nodes.spray[i] ? settled : static_cast<int>(i);
     for (int v : at.walls[w].corners())
       if (taken[v] != settled) dry.push_back({w, v, taken[v]});
   }
+  return dry;
+}
+
+template <int d>
+bool occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
+  constexpr double near = 2;  // over h: corners farther from the boundary have not been passed by it in a step
+  const auto dry = dry_corners(nodes, mesh, at);
   if (dry.empty() || nodes.size() == 0) return false;
   const double reach = near * std::ranges::max(nodes.h);
   LiquidBoundary<d> boundary(nodes, mesh, dry.size());

@@ -15,6 +15,7 @@ using splashdown::Facet;
 using splashdown::facet_nodes;
 using splashdown::Mesh;
 using splashdown::nodal_volumes;
+using splashdown::nodes_of;
 using splashdown::opposite;
 using splashdown::wetted_measures;
 

@@ -103,7 +103,7 @@ bool spans_patches(const std::array<int, 4>& cell, const Nodes<3>& nodes) {
 // Gives facets back to walls that cells of the water pierce (pierced.hpp), as long as that leaves less of such cells in the
 // solid. `decide`: what a cell holds. Those that still leave a hole in the water.
 template <class Decide>
-std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& inner,
+std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& on_boundary,
                                const WallsAt<3>& at, std::vector<Content>& content, const Decide& decide) {
   using Cell = std::array<int, 4>;
   // A node of a wall, joined to one within the water or on another wall; most cells beyond the water have none.
@@ -111,7 +111,7 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
     auto tied = [&](int n) { return nodes.tie[n].wall >= 0; };
     const auto on = std::ranges::find_if(cell, tied);
     return on != cell.end() && std::ranges::any_of(cell, [&](int n) {
-             return inner[n] || (tied(n) && nodes.tie[n].wall != nodes.tie[*on].wall);
+             return !on_boundary[n] || (tied(n) && nodes.tie[n].wall != nodes.tie[*on].wall);
            });
   };
   // A hole in the water, or water on both sides of an edge of a hull that is joined through it.
@@ -249,9 +249,7 @@ template <int d>
 Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Facet<d>>& old_boundary,
                         const WallsAt<d>& walls, const Alpha& limit, std::span<const Hub<d>> hubs) {
   const InsideTest<d> inside(nodes.x, old_boundary);
-  std::vector<char> inner(nodes.size(), 1);
-  for (const auto& f : old_boundary)
-    for (int n : f.nodes) inner[n] = 0;
+  const std::vector<char> on_boundary = nodes_of(old_boundary, nodes.size());
   Recognised<d> mesh;
   mesh.hub_in_water = reach_water(all, hubs, nodes, inside);
   if (mesh.hub_in_water) return mesh;
@@ -265,7 +263,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
     for (int n : cell) {
       size += nodes.h[n] / (d + 1);
       centroid += nodes.x[n] / (d + 1);
-      has_inner = has_inner || inner[n];
+      has_inner = has_inner || !on_boundary[n];
     }
     if (!has_inner && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d)) return thin_cell;
     const double alpha = s.radius / size;
@@ -279,7 +277,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   std::vector<Content> content(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });
   std::vector<int> piercing;
-  if constexpr (d == 3) piercing = recover_walls(all, nodes, inner, walls, content, decide);
+  if constexpr (d == 3) piercing = recover_walls(all, nodes, on_boundary, walls, content, decide);
   fill_cracks(all, nodes, walls, content);
   leave_out_pockets(all, nodes, walls, content);
 
@@ -299,7 +297,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   }
   for (int c : piercing)
     for (int n : all.cells[c])
-      if (inner[n] && nodes.tie[n].wall < 0) mesh.piercing.push_back(n);
+      if (!on_boundary[n] && nodes.tie[n].wall < 0) mesh.piercing.push_back(n);
   std::sort(mesh.piercing.begin(), mesh.piercing.end());
   mesh.piercing.erase(std::unique(mesh.piercing.begin(), mesh.piercing.end()), mesh.piercing.end());
   in_parallel(mesh.boundary.size(),

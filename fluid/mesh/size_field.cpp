@@ -73,9 +73,8 @@ void SizeField<d>::find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh) 
     }
   }
   // Thin sheets and spray, cells without an inner node, have no root to resolve.
-  std::vector<char> on_boundary(x.size(), 0), bulk(x.size(), 0);
-  for (const auto& f : boundary)
-    for (int n : f.nodes) on_boundary[n] = 1;
+  const std::vector<char> on_boundary = nodes_of(boundary, x.size());
+  std::vector<char> bulk(x.size(), 0);
   for (const auto& cell : mesh.cells)
     if (std::any_of(cell.begin(), cell.end(), [&](int n) { return !on_boundary[n]; }))
       for (int n : cell) bulk[n] = 1;

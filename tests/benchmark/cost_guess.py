@@ -19,13 +19,14 @@ UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1}
 
 
 def guess(program, scene):
-    """Steps, and seconds of the start and of a step."""
+    """Steps, most nodes, and seconds of the start and of a step."""
     said = subprocess.run([program, "check", scene], capture_output=True, text=True, check=True).stdout
     steps = float(re.search(r"^  steps +about ([\d.e+]+) to", said, re.M)[1])
+    nodes = float(re.findall(r"\d[\d.e+]*", re.search(r"^  nodes +(.*)", said, re.M)[1])[-1])
     start, step = (
         float(found[1]) * UNITS[found[2]]
         for found in (re.search(rf"^  {row} +about ([\d.e+]+) (\w+)", said, re.M) for row in ("the start", "a step")))
-    return steps, start, step
+    return steps, nodes, start, step
 
 
 def main():
@@ -36,12 +37,12 @@ def main():
         scene = file.parent / "scene.resolved.toml"
         if not summary.get("nodes", {}).get("initial") or not summary["wall_seconds"]:
             continue
-        steps, start, step = guess(program, scene)
+        steps, nodes, start, step = guess(program, scene)
         share = summary["simulated_time"] / tomllib.loads(scene.read_text())["time"]["end"]
         error = (start + share * steps * step) / summary["wall_seconds"]
         errors[summary["dimension"]].append(error)
         print(f"{file.parent.relative_to(runs)!s:50} {summary['wall_seconds']:8.1f} s, guess over run {error:6.2f}, "
-              f"in steps {share * steps / summary['steps']:6.2f}")
+              f"in steps {share * steps / summary['steps']:6.2f}, in nodes {nodes / summary['nodes']['max']:6.2f}")
     for dimension, all_errors in errors.items():
         off = [math.exp(abs(math.log(error))) for error in all_errors]
         if off:

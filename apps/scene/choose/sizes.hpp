@@ -7,6 +7,8 @@
 //         an eighth (round bottom, Ma ~ d^1.5): rho pi/2 c^2 = m/5, 4/3 rho c^3 = m/8 (Wagner 1932). Prescribed motion: c at the
 //         end of the run
 //   wet hull        half of its breadth over 30, in space over 14: added mass within 1 %; no hull more than the surface
+//   root of a jet   in the plane with prescribed motion, where the jet is thinner than an element of the hull: a fifth of the
+//                   root's radius, down to half of the jet's thickness at c, at least an eighth of the hull's
 //   free surface    a fifth of the hull's breadth; a twentieth, forty elements a wave of two breadths, where the run lasts
 //                   for half a period of heave or the hull floats from the start; without a hull forty a wave that is
 //                   given, else a thirtieth of the liquid's least extent

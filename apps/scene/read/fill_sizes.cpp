@@ -38,7 +38,7 @@ std::vector<std::string> fill_sizes(toml::table& root, const Scene& read) {
     auto* table = table_of(root, chosen);
     if (!table || table->contains(chosen.key)) continue;
     table->insert(chosen.key, chosen.value);
-    const bool is_length = chosen.key != "growth" && chosen.key != "wetted_fraction";
+    const bool is_length = chosen.key != "growth" && chosen.key != "wetted_fraction" && chosen.key != "hollow";
     const auto name = chosen.table == "body" ? "body." + read.bodies[chosen.index].name : chosen.table;
     lines.push_back(
         fmt::format("{}.{} = {:g}{}: {}", name, chosen.key, chosen.value, is_length ? " m" : "", chosen.why));

@@ -50,7 +50,7 @@ const std::vector<Slip> slips = {
     {"density_of_no_liquid", "density = 1000", "density = 1e6",
      "fluid.density = 1e+06: heavier than any liquid (liquid hydrogen 70, mercury 13600 kg/m^3): did you mean 1000?"},
     {"end_in_milliseconds", "end = 0.02", "end = 500",
-     "time.end = 500 s: about 1200000 steps, 6200 times the 81.09 ms in which things move by their length: did you "
+     "time.end = 500 s: about 220000 steps, 6200 times the 81.09 ms in which things move by their length: did you "
      "mean "
      "0.5 s?"},
     {"body_size_in_millimetres", "size = 0.005", "size = 1e-5",

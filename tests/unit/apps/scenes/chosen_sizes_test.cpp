@@ -90,19 +90,22 @@ TEST(ChosenSizes, of_a_hull_in_space_may_be_twice_as_large_where_the_root_of_its
   EXPECT_TRUE(told("hollow = 0.3\nhollow_min = 0.006\n").empty());
 }
 
-// c tan^2 beta / 2 pi with c = 1 m.
+/// A wedge that is wetted for 1 m to either side at the end: its jet is tan^2 beta / 2 pi thick.
+SceneFile read_wedge(double beta, const std::string& sizes, const std::string& hull_size,
+                     const std::string& motion = "motion = \"prescribed\"\n") {
+  const double end = 2 / std::numbers::pi * std::tan(beta * std::numbers::pi / 180);
+  return read(
+      fmt::format("dimension = 2\n[time]\nend = {}\n[tank]\nmin = [-9, -9]\nmax = [9, 2]\n[fluid]\ndensity = 1000\n{}"
+                  "[[fluid.region]]\nshape = \"box\"\nmin = [-9, -9]\nmax = [9, 0]\n"
+                  "[[body]]\nname = \"wedge\"\nshape = {{type = \"wedge\", deadrise_deg = {}, breadth = 4}}\n"
+                  "velocity = [0, -1]\n{}{}",
+                  end, sizes, beta, motion, hull_size));
+}
+
 TEST(ChosenSizes, of_a_hull_of_small_deadrise_resolve_its_jet) {
   const auto told = [](double beta, const std::string& hollow) {
-    const double end = 2 / std::numbers::pi * std::tan(beta * std::numbers::pi / 180);
-    const auto scene =
-        read(fmt::format(
-                 "dimension = 2\n[time]\nend = {}\n[tank]\nmin = [-9, -9]\nmax = [9, 2]\n[fluid]\ndensity = 1000\n"
-                 "[fluid.size]\nsurface = 0.3\n{}[[fluid.region]]\nshape = \"box\"\nmin = [-9, -9]\nmax = [9, 0]\n"
-                 "[[body]]\nname = \"wedge\"\nshape = {{type = \"wedge\", deadrise_deg = {}, breadth = 4}}\n"
-                 "motion = \"prescribed\"\nvelocity = [0, -1]\nsize = 0.01\n",
-                 end, hollow, beta))
-            .scene;
-    const auto rules = sizes_against_rules<2>(scene);
+    const auto rules =
+        sizes_against_rules<2>(read_wedge(beta, "[fluid.size]\nsurface = 0.3\n" + hollow, "size = 0.01\n").scene);
     return rules.empty() ? "" : rules[0];
   };
   const auto none = told(5, "");
@@ -114,6 +117,22 @@ TEST(ChosenSizes, of_a_hull_of_small_deadrise_resolve_its_jet) {
   EXPECT_EQ(told(5, "hollow = 0.2\nhollow_min = 0.00061\n"), "");
   EXPECT_EQ(told(20, ""), "") << "the hull's own elements do";
   EXPECT_EQ(told(2, ""), "") << "trapped air decides";
+}
+
+TEST(ChosenSizes, have_small_elements_at_the_root_of_a_thin_jet_down_to_an_eighth_of_the_hulls) {
+  const auto chosen = [](double beta, const std::string& hull_size = "") {
+    return read_wedge(beta, "", hull_size).scene.fluid->size;
+  };
+  EXPECT_EQ(chosen(15).hollow, 0.2);
+  EXPECT_EQ(chosen(15).hollow_min, 0.0057) << "half of 0.0114 m";
+  EXPECT_TRUE(sizes_against_rules<2>(read_wedge(15, "", "").scene).empty());
+  EXPECT_EQ(chosen(5).hollow_min, 0.0025) << "of 0.02 m";
+  EXPECT_EQ(sizes_against_rules<2>(read_wedge(5, "", "").scene).size(), 1u) << "and what it leaves is told";
+  EXPECT_FALSE(chosen(20).hollow) << "the hull's own elements do";
+  EXPECT_FALSE(chosen(15, "size = 0.005\n").hollow) << "so do those that are given";
+  EXPECT_FALSE(chosen(2).hollow) << "trapped air decides";
+  const auto free = read_wedge(10, "", "", "density = 300\n").scene;
+  EXPECT_FALSE(free.fluid->size.hollow) << "it goes on after its peak";
 }
 
 TEST(ChosenSizes, of_a_scene_with_mistakes_are_not_among_them) {
