@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "apps/check/body.hpp"
@@ -13,7 +12,6 @@
 #include "apps/run/progress.hpp"
 #include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/geometry.hpp"
-#include "apps/scene/motion_guess.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"
 
@@ -104,9 +102,7 @@ void print_cost(const Scene& scene, const Cost& cost) {
   row("the start", about + with_unit(cost.seconds_to_start, "s") + " on one core");
   row("a step", about + with_unit(cost.seconds_per_step, "s") + " on one core");
   row("the run", about + clock_text(cost.seconds_to_start + cost.steps * cost.seconds_per_step) + " on one core");
-  const bool jets_are_counted =
-      d == 2 && std::ranges::any_of(scene.bodies, [](const Body& body) { return jet_thickness(body, 1).has_value(); });
-  if (scene.fluid->size.hollow && !jets_are_counted)
+  if (cost.without_hollows)
     row("not counted", "finer elements at hollows (hollow): more nodes, shorter steps and a longer run than said");
 }
 

@@ -46,10 +46,16 @@ constexpr double bytes_of_program = 1e8;
 // Cells that an estimate looks at, at most: in about a second several times the nodes that are run unasked.
 constexpr std::size_t most_cells = 400'000;
 
-/// Elements that are asked for at the root of the jet of a hull that is wetted so far [m]; none: as large as they like.
+/// Elements on a hull that is wetted so far [m].
+double size_on_hull(const Scene& scene, const Body& body, double half) {
+  return std::max(body.size, scene.fluid->size.wetted_fraction * half);
+}
+
+/// Elements that are asked for at the root of its jet [m]; none: as large as they like.
+template <int d>
 double size_at_root(const Scene& scene, const Body& body, double half) {
   const auto& size = scene.fluid->size;
-  const auto jet = size.hollow ? jet_thickness(body, half) : std::nullopt;
+  const auto jet = size.hollow ? jet_thickness<d>(body, half) : std::nullopt;
   return jet ? std::max(size.hollow_min, *size.hollow * *jet) : std::numeric_limits<double>::max();
 }
 
@@ -64,16 +70,23 @@ class SizeEstimate {
       const Vec<d> moved = guessed_motion<d>(scene, body, time);
       auto hull = outline<d>(body);
       hull.vertices.colwise() += moved;
-      const double size = std::max(body.size, size_.wetted_fraction * wetted_half<d>(scene, body, time));
-      bodies_.emplace_back(Solid<d>(hull), size);
+      const double half = wetted_half<d>(scene, body, time);
+      bodies_.emplace_back(Solid<d>(hull), size_on_hull(scene, body, half));
       for (auto bend : hull_bends<d>(scene, body)) {
         bend.at += moved;
         if (bend.size >= body.size) continue;
-        bends_.push_back(bend);
-        bend_box_.extend(bend.at);
-        least_bend_ = std::min(least_bend_, bend.size);
+        add(bend);
       }
-      if constexpr (d == 2) add_roots(scene, body, hull, time);
+      if (const double size = size_at_root<d>(scene, body, half); half > 0 && size < body.size) {
+        Eigen::Index lowest;
+        hull.vertices.row(d - 1).minCoeff(&lowest);
+        for (const double side : {-half, half}) {
+          Vec<d> root = hull.vertices.col(lowest);
+          root[0] += side;
+          root[d - 1] = still_water_level<d>(scene).value_or(0);
+          add({root, size, size});
+        }
+      }
     }
     if (scene.tank) {
       tank_ = extents<d>(*scene.tank);
@@ -105,18 +118,10 @@ class SizeEstimate {
   }
 
  private:
-  /// Of the jets to both sides, where elements are as small as they are asked for there.
-  void add_roots(const Scene& scene, const Body& body, const Surface<2>& hull, double time) {
-    const double half = wetted_half<2>(scene, body, time), size = size_at_root(scene, body, half);
-    if (half <= 0 || size >= body.size) return;
-    Eigen::Index lowest;
-    hull.vertices.row(1).minCoeff(&lowest);
-    for (const double side : {-half, half}) {
-      const Vec<2> root{hull.vertices(0, lowest) + side, still_water_level<2>(scene).value_or(0)};
-      bends_.push_back({root, size, size});
-      bend_box_.extend(root);
-    }
-    least_bend_ = std::min(least_bend_, size);
+  void add(const HullBend<d>& bend) {
+    bends_.push_back(bend);
+    bend_box_.extend(bend.at);
+    least_bend_ = std::min(least_bend_, bend.size);
   }
 
   double grown(double size, double distance) const { return size + size_.growth * distance; }
@@ -254,8 +259,7 @@ double steps_at_speed(const Scene& scene) {
   for (int i = 0; i < parts; ++i) {
     double h = fixed, dt = scene.time.dt_max;
     for (const auto& body : scene.bodies)
-      h = std::min(
-          h, std::max(body.size, scene.fluid->size.wetted_fraction * wetted_half<d>(scene, body, part * (i + 0.5))));
+      h = std::min(h, size_on_hull(scene, body, wetted_half<d>(scene, body, part * (i + 0.5))));
     if (const double speed = speeds[static_cast<std::size_t>(i)]; speed > 0)
       dt = std::min(dt, scene.time.cfl * h / speed);
     count += part / dt;
@@ -271,9 +275,7 @@ double elements_run_over(const Scene& scene, const Body& body) {
   double count = 0;
   for (int i = 0; i < parts && from < to; ++i) {
     const double half = from + (to - from) * (i + 0.5) / parts;
-    double size = std::max(body.size, scene.fluid->size.wetted_fraction * half);
-    if constexpr (d == 2) size = std::min(size, size_at_root(scene, body, half));
-    count += (to - from) / parts / size;
+    count += (to - from) / parts / std::min(size_on_hull(scene, body, half), size_at_root<d>(scene, body, half));
   }
   return count;
 }
@@ -308,6 +310,9 @@ Cost predicted_cost(const Scene& scene) {
         break;
       }
     }
+    cost.without_hollows = scene.fluid->size.hollow && std::ranges::none_of(scene.bodies, [](const Body& body) {
+                             return jet_thickness<d>(body, 1).has_value();
+                           });
     cost.steps = steps_at_speed<d>(scene);
     for (const auto& body : scene.bodies)
       cost.steps = std::max(cost.steps, elements_run_over<d>(scene, body) / scene.time.cfl);

@@ -79,11 +79,16 @@ double wetted_half(const Scene& scene, const Body& body, double time) {
   return half_breadth<d>(hull, *level + (time > 0 ? (pi / 2 - 1) * depth : 0));
 }
 
-std::optional<double> jet_thickness(const Body& body, double half) {
+template <>
+std::optional<double> jet_thickness<2>(const Body& body, double half) {
   constexpr double least_deadrise = 3 * radians;
   const auto angle = deadrise<2>(body);
   if (!angle || *angle < least_deadrise) return {};
   return std::pow(std::tan(*angle), 2) / (2 * pi) * half;
+}
+template <>
+std::optional<double> jet_thickness<3>(const Body&, double) {
+  return {};
 }
 
 double impact_mass(double density, const rigid::Surface<2>& hull) {

@@ -20,7 +20,8 @@ double wetted_half(const Scene& scene, const Body& body, double time);
 
 /// Thickness of the jet beside a hull in the plane whose faces rise at the deadrise beta from its lowest point [m]:
 /// pi/8 (V / c')^2 c = c tan^2 beta / 2 pi, c half of the wetted width (Wagner 1932). None below 3 degrees, where
-/// trapped air decides (Chuang 1967), and without such a point.
+/// trapped air decides (Chuang 1967), without such a point, and in space.
+template <int d>
 std::optional<double> jet_thickness(const Body& body, double half);
 
 /// What the water adds to a plate on its surface: half of pi/4 b^2 rho a metre for a strip of breadth b, half of

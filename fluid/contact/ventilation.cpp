@@ -73,11 +73,10 @@ class SuctionRegions {
 // Nodes around which no cell holds two inner nodes: in films of less than two elements.
 template <int d>
 std::vector<char> thin_places(const Nodes<d>& nodes, const Mesh<d>& mesh) {
-  std::vector<char> inner(nodes.size(), 1), thin(nodes.size(), 1);
-  for (const auto& f : mesh.boundary)
-    for (int n : f.nodes) inner[n] = 0;
+  const std::vector<char> on_boundary = nodes_of(mesh.boundary, nodes.size());
+  std::vector<char> thin(nodes.size(), 1);
   for (const auto& cell : mesh.cells)
-    if (std::count_if(cell.begin(), cell.end(), [&](int n) { return inner[n]; }) >= 2)
+    if (std::count_if(cell.begin(), cell.end(), [&](int n) { return !on_boundary[n]; }) >= 2)
       for (int n : cell) thin[n] = 0;
   return thin;
 }

@@ -106,9 +106,7 @@ class Filler {
     const auto& h = out_.nodes.h;
     std::vector<Vec<d>> push(x.size(), Vec<d>::Zero());
     std::vector<double> weight(x.size(), 0.0);
-    std::vector<char> fixed(x.size(), 0);
-    for (const auto& f : out_.mesh.boundary)
-      for (int n : f.nodes) fixed[n] = 1;
+    const std::vector<char> fixed = nodes_of(out_.mesh.boundary, x.size());
     for (const auto& cell : out_.mesh.cells)
       for (int a = 0; a <= d; ++a)
         for (int b = 0; b <= d; ++b) {

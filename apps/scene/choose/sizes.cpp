@@ -112,11 +112,11 @@ Hull<d> hull_of(const Scene& scene, const Body& body) {
 
 /// Of a hull that enters beside a jet thinner than one of its elements: the root of a jet has that thickness as its only
 /// length.
-std::optional<double> thin_jet(const Body& body, const Hull<2>& hull) {
-  const auto jet = hull.enters ? jet_thickness(body, hull.half) : std::nullopt;
+template <int d>
+std::optional<double> thin_jet(const Body& body, const Hull<d>& hull) {
+  const auto jet = hull.enters ? jet_thickness<d>(body, hull.half) : std::nullopt;
   return jet && *jet <= hull.size() ? jet : std::nullopt;
 }
-std::optional<double> thin_jet(const Body&, const Hull<3>&) { return {}; }
 
 template <int d>
 std::optional<std::string> jet_against_rules(const Scene& scene, const Body& body, const Hull<d>& hull) {
@@ -224,25 +224,26 @@ std::vector<ChosenSize> size_rules(const Scene& scene) {
   const auto choice = choose<d>(scene);
   if (!(choice.surface > 0)) return {};
   std::vector<ChosenSize> list;
-  const auto fluid = [&](const char* key, double value, const std::string& why) {
-    list.push_back({"fluid.size", 0, key, value, why});
+  const auto fluid = [&](const char* key, double value, const std::string& why, const char* unit = " m") {
+    list.push_back({"fluid.size", 0, key, value, unit, why});
   };
   const double surface = two_digits(choice.surface);
   fluid("surface", surface, choice.surface_why);
   fluid("far", std::max(surface, two_digits(choice.far)), choice.far_why);
-  fluid("growth", Rules<d>::growth, d == 2 ? "in the plane" : "in space");
+  fluid("growth", Rules<d>::growth, d == 2 ? "in the plane" : "in space", "");
   if (choice.enters)
     fluid("wetted_fraction", Rules<d>::wetted_fraction,
           fmt::format("{:.2g} elements on half of the wetted width once the hull is wetted farther",
-                      1 / Rules<d>::wetted_fraction));
+                      1 / Rules<d>::wetted_fraction),
+          "");
   if (const auto root = root_size<d>(scene, choice.hulls)) {
-    fluid("hollow", of_root, "of the radius of a jet's root");
+    fluid("hollow", of_root, "of the radius of a jet's root", "");
     fluid("hollow_min", two_digits(root->first), root->second);
   }
   for (std::size_t b = 0; b < choice.hulls.size(); ++b) {
     const auto& hull = choice.hulls[b];
     const double size = two_digits(hull.size());
-    list.push_back({"body", b, "size", std::min(size, surface),
+    list.push_back({"body", b, "size", std::min(size, surface), " m",
                     size < surface
                         ? fmt::format("{:g} elements on {}, {:.2g} m", hull.half / hull.size(), hull.why, hull.half)
                         : "that of the surface"});

@@ -33,6 +33,7 @@ struct ChosenSize {
   std::size_t index = 0;  ///< of the body
   std::string key;
   double value = 0;
+  std::string unit;  ///< as it is printed after the value
   std::string why;
 };
 

@@ -38,10 +38,8 @@ std::vector<std::string> fill_sizes(toml::table& root, const Scene& read) {
     auto* table = table_of(root, chosen);
     if (!table || table->contains(chosen.key)) continue;
     table->insert(chosen.key, chosen.value);
-    const bool is_length = chosen.key != "growth" && chosen.key != "wetted_fraction" && chosen.key != "hollow";
     const auto name = chosen.table == "body" ? "body." + read.bodies[chosen.index].name : chosen.table;
-    lines.push_back(
-        fmt::format("{}.{} = {:g}{}: {}", name, chosen.key, chosen.value, is_length ? " m" : "", chosen.why));
+    lines.push_back(fmt::format("{}.{} = {:g}{}: {}", name, chosen.key, chosen.value, chosen.unit, chosen.why));
   }
   if (!lines.empty() && read.fluid->size.refine != 1)
     lines.push_back(fmt::format("all lengths divided by fluid.size.refine = {:g}", read.fluid->size.refine));
