@@ -59,6 +59,9 @@ class FluidView {
   virtual const Mesh<d>& mesh() const = 0;
   /// At the nodes at t_n [Pa]: of the step under way once it is solved, before that what the nodes carry.
   virtual std::span<const double> pressure() const = 0;
+  /// What the repair impulse is as a mean over the kick of a step that is solved, at the nodes [Pa]; before that empty. Walls are
+  /// loaded by the sum of both: in a true impact this is all there is.
+  virtual std::span<const double> repair_pressure() const = 0;
   virtual const Ledger& ledger() const = 0;
   /// Velocity at t_n: mean of the half-step velocities around it.
   virtual Vec<d> velocity_n(std::size_t node) const = 0;

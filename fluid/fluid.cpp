@@ -255,6 +255,10 @@ std::span<const double> Fluid<d>::pressure() const {
   return s_->solved ? s_->result.pressure : nodes().p;
 }
 template <int d>
+std::span<const double> Fluid<d>::repair_pressure() const {
+  return s_->solved ? std::span<const double>(s_->result.repair_pressure) : std::span<const double>();
+}
+template <int d>
 std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
   return s_->prepared ? s_->work.poses : s_->now.poses;
 }

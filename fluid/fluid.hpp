@@ -77,6 +77,7 @@ class Fluid final : public FluidView<d> {
   const Nodes<d>& nodes() const override;
   const Mesh<d>& mesh() const override;
   std::span<const double> pressure() const override;
+  std::span<const double> repair_pressure() const override;
   const Ledger& ledger() const override;
   Vec<d> velocity_n(std::size_t node) const override;
   std::optional<double> pressure_at(const Vec<d>& point) const override;

@@ -268,11 +268,13 @@ template <int d>
 void Fluid<d>::State::evaluate_pressure(StepResult<d>& found) const {
   const std::size_t count = work.nodes.size();
   found.carried.assign(count, 0.0);
+  found.repair_pressure.assign(count, 0.0);
   std::vector<double> corrected(count, 0.0);  // by, [Pa s]
   for (std::size_t i = 0; i < count; ++i) {
     const int k = equation.unknown()[i];
     if (k < 0) continue;
     found.carried[i] = trial.phi[k] / kick;
+    found.repair_pressure[i] = trial.repaired[k] / kick;
     corrected[i] = trial.phi[k] - trial.uncorrected[k];
   }
   const auto& cells = work.mesh.cells;

@@ -31,6 +31,7 @@ struct SizeSpec {
   double hollow_min = 0;  ///< ... but not below this [m]
   /// At a wall h is at most this fraction of the outline's radius of curvature (`size_at_bend`).
   double curvature = 0.5;
+  double corner = 1;  ///< at corners of hulls h is at most this fraction of what it is on the hull
 };
 
 /// dt = min(cfl * min over edges of length / |relative velocity|, min over nodes of sqrt(h / |a|) / 2, dt_max): the

@@ -24,6 +24,8 @@ struct StepResult {
   std::vector<double> interface_impulse;
   std::vector<double> pressure;  ///< at the nodes at t_n, without what corrections add from node to node [Pa]
   std::vector<double> carried;   ///< with it: what nodes carry to the next step [Pa]
+  /// What the repair impulse is as a mean over the kick, at the nodes [Pa]: it loads walls beside the pressure.
+  std::vector<double> repair_pressure;
   std::vector<Vec<d>> velocity;  ///< of the nodes, along their walls: half-step
   Ledger ledger;                 ///< at t_n, as far as it is known before the motion
   double power_on_walls = 0;     ///< over the kick [W, W/m]

@@ -72,10 +72,9 @@ class SizeEstimate {
       hull.vertices.colwise() += moved;
       const double half = wetted_half<d>(scene, body, time);
       bodies_.emplace_back(Solid<d>(hull), size_on_hull(scene, body, half));
-      for (auto bend : hull_bends<d>(scene, body)) {
-        bend.at += moved;
-        if (bend.size >= body.size) continue;
-        add(bend);
+      for (auto spot : hull_spots<d>(scene, body)) {
+        spot.at += moved;
+        add(spot);
       }
       if (const double size = size_at_root<d>(scene, body, half); half > 0 && size < body.size) {
         Eigen::Index lowest;
@@ -84,7 +83,7 @@ class SizeEstimate {
           Vec<d> root = hull.vertices.col(lowest);
           root[0] += side;
           root[d - 1] = still_water_level<d>(scene).value_or(0);
-          add({root, size, size});
+          add({root, size});
         }
       }
     }
@@ -103,8 +102,8 @@ class SizeEstimate {
     double h = size_.far;
     for (const auto& [hull, size] : bodies_) h = std::min(h, grown(size, hull.distance(x)));
     if (!tank_.isEmpty()) h = std::min(h, grown(tank_size_, to_tank(x)));
-    if (!bends_.empty() && grown(least_bend_, bend_box_.exteriorDistance(x)) < h)
-      for (const auto& bend : bends_) h = std::min(h, grown(bend.size, (x - bend.at).norm()));
+    if (!spots_.empty() && grown(least_spot_, spot_box_.exteriorDistance(x)) < h)
+      for (const auto& spot : spots_) h = std::min(h, grown(spot.size, (x - spot.at).norm()));
     if (free_.empty()) return h;
     const auto nearest = free_.nearest(x, std::numeric_limits<double>::max());
     return std::min(h, grown(size_.surface, std::sqrt(nearest.squared_distance)));
@@ -118,10 +117,10 @@ class SizeEstimate {
   }
 
  private:
-  void add(const HullBend<d>& bend) {
-    bends_.push_back(bend);
-    bend_box_.extend(bend.at);
-    least_bend_ = std::min(least_bend_, bend.size);
+  void add(const HullSpot<d>& spot) {
+    spots_.push_back(spot);
+    spot_box_.extend(spot.at);
+    least_spot_ = std::min(least_spot_, spot.size);
   }
 
   double grown(double size, double distance) const { return size + size_.growth * distance; }
@@ -160,9 +159,9 @@ class SizeEstimate {
   Sizes size_;
   std::vector<Solid<d>> regions_;
   std::vector<std::pair<Solid<d>, double>> bodies_;
-  std::vector<HullBend<d>> bends_;
-  Extents<d> bend_box_;  // far from it no bend makes elements smaller
-  double least_bend_ = std::numeric_limits<double>::max();
+  std::vector<HullSpot<d>> spots_;  // bends, corners, roots of jets
+  Extents<d> spot_box_;             // far from it none of them makes elements smaller
+  double least_spot_ = std::numeric_limits<double>::max();
   Extents<d> tank_;
   double tank_size_ = 0;
   FacetTree<d> free_;
@@ -219,8 +218,7 @@ template <int d>
 double finest_fixed(const Scene& scene) {
   double h = scene.fluid->size.surface;
   for (const auto& body : scene.bodies)
-    for (const auto& bend : hull_bends<d>(scene, body))
-      if (bend.size < body.size) h = std::min(h, bend.size);
+    for (const auto& spot : hull_spots<d>(scene, body)) h = std::min(h, spot.size);
   return h;
 }
 

@@ -37,7 +37,10 @@ double above_neighbours(const HullMap<d>& map, std::size_t point) {
 
 template <int d>
 HullReadings<d>::HullReadings(const RecorderSettings<d>& settings)
-    : settings_(settings), peaks_(settings.patches.size()), histories_(settings.patches.size()) {
+    : settings_(settings),
+      peaks_(settings.patches.size()),
+      impulses_(settings.patches.size()),
+      histories_(settings.patches.size()) {
   for (const auto& record : settings.hull_maps) maps_.emplace_back(record.surface, record.size);
 }
 
@@ -49,16 +52,21 @@ void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
     const auto& patch = settings_.patches[i];
     const int wall = wall_called(fluid, patch.body);
     const auto& pose = fluid.wall_poses()[static_cast<std::size_t>(wall)];
-    pressures_.push_back(patch_force(fluid.nodes(), fluid.mesh(), fluid.pressure(), wall, pose, patch.region) /
-                         patch.area);
+    const auto mean = [&](std::span<const double> pressure) {
+      return patch_force(fluid.nodes(), fluid.mesh(), pressure, wall, pose, patch.region) / patch.area;
+    };
+    pressures_.push_back(mean(fluid.pressure()));
     peaks_[i].offer(pressures_[i], time);
+    const double repair = fluid.repair_pressure().empty() ? 0.0 : mean(fluid.repair_pressure());
+    impulses_[i].total += kick.length() * (pressures_[i] + repair);
+    impulses_[i].repair += kick.length() * repair;
     if (histories_[i].ends.empty()) histories_[i] = {1, kick.begin, {}, {}};
     histories_[i].append(kick.end, {&pressures_[i], 1});
   }
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const int wall = wall_called(fluid, settings_.hull_maps[i].body);
-    maps_[i].add(fluid.nodes(), fluid.mesh(), fluid.pressure(), wall,
-                 fluid.wall_poses()[static_cast<std::size_t>(wall)], time);
+    maps_[i].add(fluid.nodes(), fluid.mesh(), fluid.pressure(), fluid.repair_pressure(), wall,
+                 fluid.wall_poses()[static_cast<std::size_t>(wall)], kick);
   }
 }
 
@@ -66,6 +74,8 @@ template <int d>
 void HullReadings<d>::summarise(Summary& summary) const {
   for (std::size_t i = 0; i < peaks_.size(); ++i)
     summary.patches[settings_.patches[i].name] = {.pressure = peaks_[i],
+                                                  .impulse = impulses_[i].total,
+                                                  .impulse_repair = impulses_[i].repair,
                                                   .area = settings_.patches[i].area,
                                                   .body = settings_.patches[i].body,
                                                   .evidence = {},
@@ -86,9 +96,10 @@ template <int d>
 bool HullReadings<d>::fits_settings() const {
   const auto fits = [](const HullMap<d>& map) {
     const auto points = static_cast<std::size_t>(map.surface().vertices.cols());
-    return map.pressure().size() == points && map.time().size() == points;
+    return map.pressure().size() == points && map.time().size() == points && map.impulse().size() == points;
   };
-  return peaks_.size() == settings_.patches.size() && std::ranges::all_of(maps_, fits);
+  return peaks_.size() == settings_.patches.size() && impulses_.size() == peaks_.size() &&
+         std::ranges::all_of(maps_, fits);
 }
 
 template <int d>
@@ -101,8 +112,9 @@ void HullReadings<d>::write() const {
     for (Eigen::Index v = 0; v < surface.vertices.cols(); ++v)
       distance.push_back(ruler.distance(surface.vertices.col(v)));
     surface.vertices.colwise() += centre_of_mass(settings_, record.body);
-    write_surface<d>(settings_.directory / ("hull_" + file_name_of(record.body) + ".vtu"), time_, surface,
-                     {{"p_max", maps_[i].pressure()}, {"t_max", maps_[i].time()}, {"s", distance}});
+    write_surface<d>(
+        settings_.directory / ("hull_" + file_name_of(record.body) + ".vtu"), time_, surface,
+        {{"p_max", maps_[i].pressure()}, {"t_max", maps_[i].time()}, {"impulse", maps_[i].impulse()}, {"s", distance}});
   }
 }
 

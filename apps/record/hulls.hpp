@@ -22,8 +22,8 @@ class HullReadings {
   /// Of a patch, in all steps.
   const IntervalHistory& history(std::size_t patch) const { return histories_[patch]; }
   void summarise(Summary& summary) const;
-  /// hull_BODY.vtu: the surface in the frame of the body's shape with p_max [Pa], t_max [s] (nan: never wet) and s, the
-  /// distance from the keel [m].
+  /// hull_BODY.vtu: the surface in the frame of the body's shape with p_max [Pa], t_max [s] (nan: never wet), impulse [Pa s] and
+  /// s, the distance from the keel [m].
   void write() const;
 
   /// Whether what was loaded belongs to these patches and hulls.
@@ -31,14 +31,23 @@ class HullReadings {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(time_, peaks_, histories_);
+    archive(time_, peaks_, impulses_, histories_);
     for (auto& map : maps_) archive(map);
   }
 
  private:
   const RecorderSettings<d>& settings_;
   double time_ = 0;
+  /// Time integrals of a patch's mean pressure [Pa s].
+  struct Impulse {
+    double total = 0, repair = 0;  ///< both together; of what repairs add
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(total, repair);
+    }
+  };
   std::vector<Peak> peaks_;
+  std::vector<Impulse> impulses_;
   std::vector<IntervalHistory> histories_;
   std::vector<HullMap<d>> maps_;
   std::vector<double> pressures_;

@@ -165,8 +165,8 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 
 template <int d>
 std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh,
-                                                      std::span<const double> pressure, int wall,
-                                                      const SurfaceRuler<d>& ruler, const Isometry<d>& pose) {
+                                                      std::span<const double> pressure, std::span<const double> repair,
+                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose) {
   std::vector<int> wetted;
   for (const auto& facet : mesh.boundary)
     if (facet.wall == wall) wetted.insert(wetted.end(), facet.nodes.begin(), facet.nodes.end());
@@ -178,22 +178,23 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, con
   const Isometry<d> to_wall = pose.inverse();
   for (const int node : wetted) {
     const Vec<d>& x = nodes.x[slot(node)];
-    points.push_back({x, ruler.distance(to_wall * x), pressure[slot(node)]});
+    points.push_back({x, ruler.distance(to_wall * x), pressure[slot(node)], repair.empty() ? 0.0 : repair[slot(node)]});
   }
   std::ranges::stable_sort(points, {}, &SurfacePressurePoint<d>::s);
   return points;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                                   \
-  template std::optional<double> surface_elevation<d>(const Nodes<d>&, const Mesh<d>&,                              \
-                                                      const Eigen::Matrix<double, d - 1, 1>&);                      \
-  template std::optional<double> wall_pressure<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>,         \
-                                                  const Vec<d>&);                                                   \
-  template double patch_force<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>, int, const Isometry<d>&, \
-                                 const PatchRegion<d>&);                                                            \
-  template class SurfaceRuler<d>;                                                                                   \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(                                                \
-      const Nodes<d>&, const Mesh<d>&, std::span<const double>, int, const SurfaceRuler<d>&, const Isometry<d>&);
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                     \
+  template std::optional<double> surface_elevation<d>(const Nodes<d>&, const Mesh<d>&,                                \
+                                                      const Eigen::Matrix<double, d - 1, 1>&);                        \
+  template std::optional<double> wall_pressure<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>,           \
+                                                  const Vec<d>&);                                                     \
+  template double patch_force<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>, int, const Isometry<d>&,   \
+                                 const PatchRegion<d>&);                                                              \
+  template class SurfaceRuler<d>;                                                                                     \
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const Nodes<d>&, const Mesh<d>&,                  \
+                                                                    std::span<const double>, std::span<const double>, \
+                                                                    int, const SurfaceRuler<d>&, const Isometry<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

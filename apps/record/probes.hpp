@@ -29,9 +29,10 @@ double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const d
 
 template <int d>
 struct SurfacePressurePoint {
-  Vec<d> x;  ///< world frame [m]
-  double s;  ///< distance from the keel [m]; in 2D along the outline, counter-clockwise positive
-  double p;  ///< [Pa]
+  Vec<d> x;         ///< world frame [m]
+  double s;         ///< distance from the keel [m]; in 2D along the outline, counter-clockwise positive
+  double p;         ///< [Pa]
+  double p_repair;  ///< mean over the kick of what the repair impulse adds [Pa]
 };
 
 /// Measures distances along a wall's surface from its keel: the lowest point, in the middle of the lowest
@@ -53,10 +54,10 @@ class SurfaceRuler {
   Vec<d> keel_point_;
 };
 
-/// Wetted nodes of a wall, ordered by s.
+/// Wetted nodes of a wall, ordered by s. `repair`: empty where there is none.
 template <int d>
 std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh,
-                                                      std::span<const double> pressure, int wall,
-                                                      const SurfaceRuler<d>& ruler, const Isometry<d>& pose);
+                                                      std::span<const double> pressure, std::span<const double> repair,
+                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose);
 
 }  // namespace splashdown::apps

@@ -224,13 +224,14 @@ void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std
   const Vec<d> origin = centre_of_mass(settings, name);
   const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
   auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
-  for (const auto& point :
-       surface_pressure(input.fluid->nodes(), input.fluid->mesh(), input.fluid->pressure(), wall, ruler, pose)) {
+  for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), input.fluid->pressure(),
+                                            input.fluid->repair_pressure(), wall, ruler, pose)) {
     const Vec<d> on_hull = to_wall * point.x + origin;
     csv << input.time << name;
     for (int k = 0; k < d; ++k) csv << point.x(k);
     csv << point.s << point.p;
     for (int k = 0; k < d; ++k) csv << on_hull(k);
+    csv << point.p_repair;
     csv.end_row();
   }
 }

@@ -103,6 +103,7 @@ struct Sizes {
   std::optional<double> hollow;
   double hollow_min = 0;   ///< ... but not below this [m]; needed with `hollow`
   double curvature = 0.5;  ///< h at a hull over the outline's radius of curvature, at most
+  double corner = 1;       ///< h at a hull's corners over what it is on the hull, at most
 };
 
 struct Viscosity {

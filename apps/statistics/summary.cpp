@@ -235,7 +235,10 @@ std::string to_json(const Summary& summary) {
   if (!summary.equipment.empty())
     for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of_acceleration(point);
   for (const auto& [name, patch] : summary.patches) {
-    json["patches"][name] = {{"peak_pressure", json_of(patch.pressure)}, {"area", number(patch.area)}};
+    json["patches"][name] = {{"peak_pressure", json_of(patch.pressure)},
+                             {"area", number(patch.area)},
+                             {"impulse", number(patch.impulse)},
+                             {"impulse_repair", number(patch.impulse_repair)}};
     if (patch.grade) json["patches"][name]["grades"]["peak_pressure"] = json_of(*patch.grade);
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -106,8 +106,9 @@ struct MaximumPressure {
 };
 
 struct PatchSummary {
-  Peak pressure;    ///< mean over the patch [Pa]
-  double area = 0;  ///< [m, m^2]
+  Peak pressure;                           ///< mean over the patch [Pa]
+  double impulse = 0, impulse_repair = 0;  ///< time integral of that mean, repairs included; of what they add [Pa s]
+  double area = 0;                         ///< [m, m^2]
   std::string body;
   Evidence evidence;
   std::optional<NumberGrade> grade;

@@ -24,7 +24,7 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
     const double length = 0.5 * std::pow(wetted[w], 1.0 / (d - 1));
     wall_size_[w] = std::max(walls.walls[w].spec().size, spec.wetted_fraction * length);
   }
-  find_bends();
+  find_spots();
   if (std::isfinite(spec.hollow)) find_hollows(x, mesh);
   points_.plant();
   if (spec.surface >= spec.far) return;  // the far size already resolves the surface
@@ -35,13 +35,16 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
 }
 
 template <int d>
-void SizeField<d>::find_bends() {
+void SizeField<d>::find_spots() {
   std::vector<Source> found;
   for (std::size_t w = 0; w < wall_size_.size(); ++w)
     for (const auto& bend : walls_.walls[w].bends()) {
       const double size = size_at_bend(spec_, walls_.walls[w].spec().size, bend.radius);
       if (size < wall_size_[w]) found.push_back({walls_.poses[w] * bend.at, size});
     }
+  for (std::size_t w = 0; spec_.corner < 1 && w < wall_size_.size(); ++w)
+    if (const auto& wall = walls_.walls[w]; !wall.encloses_fluid())
+      for (int v : wall.corners()) found.push_back({wall.vertex(walls_.poses[w], v), spec_.corner * wall_size_[w]});
   add(std::move(found));
 }
 

@@ -25,7 +25,7 @@ class SizeField {
 
  private:
   using Source = SizeSource<d>;
-  void find_bends();
+  void find_spots();
   void find_hollows(std::span<const Vec<d>> x, const Mesh<d>& mesh);
   void add(std::vector<Source> found);
 
@@ -33,7 +33,7 @@ class SizeField {
   WallsAt<d> walls_;
   std::vector<double> wall_size_;
   FacetTree<d> surface_;
-  SizeSources<d> points_;  // bends of walls, hollows
+  SizeSources<d> points_;  // bends and corners of walls, hollows
 };
 
 extern template class SizeField<2>;

@@ -136,6 +136,7 @@ HullMap<d>::HullMap(const Surface<d>& surface, double size)
     : surface_(refined<d>(surface, size)), locator_(std::make_unique<Locator>(surface_)) {
   const auto count = static_cast<std::size_t>(surface_.vertices.cols());
   pressure_.assign(count, 0);
+  impulse_.assign(count, 0);
   time_.assign(count, std::numeric_limits<double>::quiet_NaN());
   normal_.assign(count, Vec<d>::Zero());
   for (const auto& facet : facets_of<d>(surface_)) {
@@ -152,14 +153,15 @@ template <int d>
 HullMap<d>::HullMap(HullMap&&) noexcept = default;
 
 template <int d>
-void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
-                     const Isometry<d>& pose, double time) {
+void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure,
+                     std::span<const double> repair, int wall, const Isometry<d>& pose, const Kick& kick) {
   // Facets are chords: beside a convex edge there is a gap of sagitta times angle, h/8 (h/R)^2 < rim h for h < R/4.
   constexpr double rim = 0.01;
   // Cosine of the angle between normals: a point beside a right-angled edge does not face as the other side does, the edge
   // of a blade of 12 degrees, whose normal is that of both sides together, faces like either.
   constexpr double alike = 0.1;
   const Isometry<d> to_wall = pose.inverse();
+  wet_.assign(pressure_.size(), 0);
   for (const auto& facet : mesh.boundary) {
     if (facet.wall != wall) continue;
     std::array<Vec<d>, d> corner;
@@ -180,11 +182,19 @@ void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const
       if (!(normal_[point].dot(out_of_fluid) < -alike * out_of_fluid.norm())) continue;
       const auto foot = footprint<d>(corner, surface_.vertices.col(static_cast<Eigen::Index>(point)));
       if (!(foot.distance <= 0.5 * size) || *std::ranges::min_element(foot.weight) < -rim) continue;
-      double p = 0;
-      for (std::size_t k = 0; k < d; ++k) p += foot.weight[k] * pressure[static_cast<std::size_t>(facet.nodes[k])];
-      if (!std::isfinite(p) || (std::isfinite(time_[point]) && p <= pressure_[point])) continue;
+      const auto at_foot = [&](std::span<const double> values) {
+        double sum = 0;
+        for (std::size_t k = 0; k < d; ++k) sum += foot.weight[k] * values[static_cast<std::size_t>(facet.nodes[k])];
+        return sum;
+      };
+      const double p = at_foot(pressure);
+      if (!std::isfinite(p)) continue;
+      // On an edge of the mesh the facets that meet there say the same.
+      if (!std::exchange(wet_[point], 1))
+        impulse_[point] += kick.length() * (p + (repair.empty() ? 0.0 : at_foot(repair)));
+      if (std::isfinite(time_[point]) && p <= pressure_[point]) continue;
       pressure_[point] = p;
-      time_[point] = time;
+      time_[point] = kick.time;
     }
   }
 }

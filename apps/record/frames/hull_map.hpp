@@ -1,9 +1,10 @@
-// The highest pressure that each part of a hull has seen in a run, and when.
+// The highest pressure that each part of a hull has seen in a run, and when, and the impulse that it got.
 //
 // The hull's surface is divided until no edge is longer than asked for; its vertices are the points. In each step a
 // wetted facet of the mesh gives its linear pressure to the points that lie on it: whose foot on the facet's plane is
 // inside it, nearer than half of its size, where the hull faces the same way. Cost: that of the wetted facets.
-// It is the physical pressure: in the step of a true impact the repair impulse is not part of it.
+// The highest is that of the physical pressure: in the step of a true impact the repair impulse is not part of it. The impulse, the
+// time integral, has both.
 #pragma once
 
 #include <cereal/types/vector.hpp>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/statistics/statistics.hpp"
 #include "core/mesh.hpp"
 #include "core/nodes.hpp"
 
@@ -27,23 +29,26 @@ class HullMap {
   ~HullMap();
   HullMap(HullMap&&) noexcept;
 
-  void add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
-           const Isometry<d>& pose, double time);
+  /// `repair`: mean over the kick of what the repair impulse adds [Pa]; empty where there is none.
+  void add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, std::span<const double> repair,
+           int wall, const Isometry<d>& pose, const Kick& kick);
   const Surface<d>& surface() const { return surface_; }
   const std::vector<double>& pressure() const { return pressure_; }  ///< [Pa]; 0 where never wetted
   const std::vector<double>& time() const { return time_; }          ///< [s]; nan where never wetted
+  const std::vector<double>& impulse() const { return impulse_; }    ///< of both, over the run [Pa s]
 
   /// The points follow from surface and size: only what was seen is state.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(pressure_, time_);
+    archive(pressure_, time_, impulse_);
   }
 
  private:
   struct Locator;
   Surface<d> surface_;
   std::vector<Vec<d>> normal_;  ///< at the points, out of the body
-  std::vector<double> pressure_, time_;
+  std::vector<double> pressure_, time_, impulse_;
+  std::vector<char> wet_;  // in this step
   std::unique_ptr<Locator> locator_;
 };
 

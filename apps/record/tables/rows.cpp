@@ -46,7 +46,8 @@ std::string fluid_header(const std::vector<std::string>& effect_columns) {
 }
 
 std::string surface_pressure_header(int dimension) {
-  return dimension == 2 ? "time,body,x,y,s,p,x_body,y_body" : "time,body,x,y,z,s,p,x_body,y_body,z_body";
+  return dimension == 2 ? "time,body,x,y,s,p,x_body,y_body,p_repair"
+                        : "time,body,x,y,z,s,p,x_body,y_body,z_body,p_repair";
 }
 
 std::string added_mass_header(int dimension) {

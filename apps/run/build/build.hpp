@@ -38,6 +38,14 @@ struct HullBend {
 };
 template <int d>
 std::vector<HullBend<d>> hull_bends(const Scene& scene, const Body& body);
+/// A place where elements are smaller than on the hull around it: at a tight bend or a corner.
+template <int d>
+struct HullSpot {
+  fluid::Vec<d> at;  ///< world frame, at t = 0
+  double size;       ///< of the elements there [m]
+};
+template <int d>
+std::vector<HullSpot<d>> hull_spots(const Scene& scene, const Body& body);
 template <int d>
 rigid::BodySpec<d> body_spec(const Body& body);
 std::vector<rigid::JointSpec> joint_specs(const Scene& scene);

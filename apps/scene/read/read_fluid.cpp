@@ -93,6 +93,8 @@ void read_sizes(Reader& reader, Sizes& size) {
     reader.skip("hollow_min");
   reader.number("curvature", size.curvature,
                 positive("", "Use 0.5, or 0.25 where flow around a tight bend matters: h over its radius."));
+  reader.number("corner", size.corner,
+                share("Use 1, or 0.25 where the pressure at a tip or a steep keel matters: h there over the hull's."));
 }
 
 }  // namespace

@@ -140,9 +140,11 @@ TEST_F(CheckpointFolder, that_cannot_be_read_is_refused_and_never_taken_for_none
   holds(flipped);
   expect_refused(folder, "state is damaged: its checksum does not agree");
   auto older = good;
-  older.replace(older.find("checkpoint ") + 11, 1, "2");
+  const auto number = older.find("checkpoint ") + 11;
+  older[number] = '2';
   holds(older);
-  expect_refused(folder, "state was written by another version of splashdown (format 20, this one reads 10)");
+  expect_refused(folder, "state was written by another version of splashdown (format " + older.substr(number, 2) +
+                             ", this one reads " + good.substr(number, 2) + ")");
   holds("not a checkpoint");
   expect_refused(folder, "state is no checkpoint, or its first bytes are damaged");
   fs::remove_all(folder / "checkpoint");

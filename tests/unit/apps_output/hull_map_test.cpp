@@ -51,7 +51,7 @@ void map_of_a_hydrostatic_box() {
     pose.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
   const auto box = box_of_water<d>(pose);
   HullMap<d> map(box.hull, 0.1);
-  map.add(box.nodes, box.mesh, box.nodes.p, 0, pose, 0.5);
+  map.add(box.nodes, box.mesh, box.nodes.p, {}, 0, pose, {0.5, 0.4, 0.6});
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     const Vec<d> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
     EXPECT_EQ(map.time()[i], 0.5);
@@ -65,18 +65,21 @@ TEST(HullMap, of_a_box_under_water_is_rho_g_z_everywhere) {
   map_of_a_hydrostatic_box<3>();
 }
 
-TEST(HullMap, keeps_the_maximum_pressure_and_its_first_time) {
+TEST(HullMap, keeps_the_maximum_pressure_and_its_first_time_and_sums_impulses) {
   auto box = box_of_water<3>(Isometry<3>::Identity());
   HullMap<3> map(box.hull, 0.25);
+  const std::vector<double> repair(box.nodes.p.size(), 2.0);
   double time = 0;
   for (const double pressure : {5., 8., 8., 3.}) {
     std::ranges::fill(box.nodes.p, pressure);
-    map.add(box.nodes, box.mesh, box.nodes.p, 0, Isometry<3>::Identity(), time++);
+    map.add(box.nodes, box.mesh, box.nodes.p, repair, 0, Isometry<3>::Identity(), {time, time, time + 0.5});
+    ++time;
   }
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     EXPECT_NEAR(map.pressure()[i], 8, 1e-12);
     EXPECT_LE(map.time()[i], 2);  // barycentric weights add up to one but for rounding
     EXPECT_GE(map.time()[i], 1);
+    EXPECT_NEAR(map.impulse()[i], 0.5 * (5 + 8 + 8 + 3 + 4 * 2), 1e-11) << "with what repairs add, once on an edge";
   }
 }
 
@@ -87,12 +90,13 @@ TEST(HullMap, what_stays_dry_has_no_time) {
       if (box.nodes.x[static_cast<std::size_t>(node)].z() > -0.49) facet.wall = -1;
   }
   HullMap<3> map(box.hull, 0.25);
-  map.add(box.nodes, box.mesh, box.nodes.p, 0, Isometry<3>::Identity(), 1);
+  map.add(box.nodes, box.mesh, box.nodes.p, {}, 0, Isometry<3>::Identity(), {1, 1, 2});
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     const double z = map.surface().vertices(2, static_cast<Eigen::Index>(i));
     EXPECT_EQ(std::isfinite(map.time()[i]), z < -0.49) << z;
     if (z > -0.49) {
       EXPECT_EQ(map.pressure()[i], 0);
+      EXPECT_EQ(map.impulse()[i], 0);
     }
   }
 }
@@ -107,7 +111,7 @@ TEST(HullMap, the_other_side_of_a_thin_plate_is_not_wetted) {
   Mesh<2> mesh;
   mesh.boundary = {{{1, 0}, 0}};
   HullMap<2> map(plate, 0.1);
-  map.add(nodes, mesh, nodes.p, 0, Isometry<2>::Identity(), 0);
+  map.add(nodes, mesh, nodes.p, {}, 0, Isometry<2>::Identity(), {0, 0, 1});
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     const Vec<2> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
     if (std::abs(x.x()) < 0.49) {

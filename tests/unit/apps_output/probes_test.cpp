@@ -84,12 +84,15 @@ TEST(SurfacePressure, has_the_wetted_nodes_of_one_wall_in_order) {
   Mesh<2> mesh;
   mesh.boundary = {{{0, 1}, 0}, {{2, 0}, 0}, {{1, 3}, -1}};
   const SurfaceRuler<2> ruler(polygon({{0, 0}, {3, 4}, {-3, 4}}), at_rest);
-  const auto points = surface_pressure<2>(nodes, mesh, nodes.p, 0, ruler, at_rest);
+  const std::vector<double> repair{1, 2, 3, 4};
+  const auto points = surface_pressure<2>(nodes, mesh, nodes.p, repair, 0, ruler, at_rest);
   ASSERT_EQ(points.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(points[i].s, static_cast<double>(i) - 1, 1e-14);
   EXPECT_EQ(points[0].p, 7);
   EXPECT_EQ(points[1].p, 5);
   EXPECT_EQ(points[2].p, 6);
+  EXPECT_EQ(points[0].p_repair, 3);
+  EXPECT_EQ(surface_pressure<2>(nodes, mesh, nodes.p, {}, 0, ruler, at_rest)[0].p_repair, 0) << "none was made";
 }
 
 }  // namespace

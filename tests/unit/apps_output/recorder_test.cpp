@@ -172,7 +172,7 @@ TEST(Recorder, surface_pressure_is_written_at_the_listed_times_only) {
   Recorder<2> recorder(settings_in(folder.path()));
   record_steps(recorder, 0, steps, true);
   recorder.finish();
-  EXPECT_TRUE(folder.text("surface_pressure.csv").starts_with("time,body,x,y,s,p,x_body,y_body\n"));
+  EXPECT_TRUE(folder.text("surface_pressure.csv").starts_with("time,body,x,y,s,p,x_body,y_body,p_repair\n"));
   auto times = read_csv(folder.path() / "surface_pressure.csv", "body").at(0).second["time"];
   times.erase(std::unique(times.begin(), times.end()), times.end());
   ASSERT_EQ(times.size(), 2u);

@@ -59,8 +59,8 @@ TEST(SpatialRecorder, files_have_the_columns_of_three_dimensions) {
   record_steps(recorder, 0, steps, true);
   recorder.finish();
   const auto pressure = read_csv(folder.path() / "surface_pressure.csv", "body").at(0).second;
-  ASSERT_EQ(pressure.names,
-            (std::vector<std::string>{"time", "body", "x", "y", "z", "s", "p", "x_body", "y_body", "z_body"}));
+  ASSERT_EQ(pressure.names, (std::vector<std::string>{"time", "body", "x", "y", "z", "s", "p", "x_body", "y_body",
+                                                      "z_body", "p_repair"}));
   EXPECT_EQ(pressure.rows(), 25u);  // 5 x 5 nodes under the box
   for (std::size_t i = 0; i < pressure.rows(); ++i) {
     EXPECT_NEAR(pressure["z_body"][i], pressure["z"][i], 1e-15);

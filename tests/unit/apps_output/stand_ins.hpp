@@ -16,6 +16,7 @@ class DrawnFluid final : public FluidView<d> {
   std::vector<Isometry<d>> poses;
   Nodes<d> at;
   Mesh<d> cells;
+  std::vector<double> repair;  ///< empty: none was made
   Ledger books;
   double gravity = 0;  ///< 0: no such effect
 
@@ -25,6 +26,7 @@ class DrawnFluid final : public FluidView<d> {
   const Nodes<d>& nodes() const override { return at; }
   const Mesh<d>& mesh() const override { return cells; }
   std::span<const double> pressure() const override { return at.p; }
+  std::span<const double> repair_pressure() const override { return repair; }
   const Ledger& ledger() const override { return books; }
   Vec<d> velocity_n(std::size_t node) const override { return at.v[node]; }
   std::optional<double> pressure_at(const Vec<d>& point) const override {

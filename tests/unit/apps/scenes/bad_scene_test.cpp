@@ -91,6 +91,8 @@ const std::vector<Mistake> scenes = {
     {"refine_leaves_no_share", "far = 0.2", "far = 0.2\nrefine = 0.5\nwetted_fraction = 0.3", 15,
      "fluid.size.wetted_fraction = 0.3: must lie in [0, 0.5]", "so must what fluid.size.refine = 0.5 makes of it, 0.6"},
     {"curvature_zero", "far = 0.2", "far = 0.2\ncurvature = 0", 14, "fluid.size.curvature = 0", "must be positive"},
+    {"corner_larger_than_the_hull", "far = 0.2", "far = 0.2\ncorner = 2", 14, "fluid.size.corner = 2",
+     "0.25 where the pressure"},
     {"no_region", "[[fluid.region]]\nshape = \"box\"\nmin = [-2, -1]\nmax = [2, 0]\n", "", 9, "fluid.region is missing",
      "[[fluid.region]]"},
     {"region_as_table", "[[fluid.region]]", "[fluid.region]", 14, "fluid.region",

@@ -112,6 +112,7 @@ TEST(GoodScene, refined_keeps_what_is_no_length_of_the_mesh) {
   const auto scene = read_scene_text(sized, "t.toml", refined).scene, plain = read_scene_text(sized, "t.toml").scene;
   EXPECT_EQ(scene.fluid->size.growth, plain.fluid->size.growth);
   EXPECT_EQ(scene.fluid->size.curvature, plain.fluid->size.curvature);
+  EXPECT_EQ(scene.fluid->size.corner, plain.fluid->size.corner);
   EXPECT_EQ(scene.fluid->size.hollow, plain.fluid->size.hollow);
   EXPECT_EQ(scene.time.end, plain.time.end);
 }
@@ -191,6 +192,7 @@ wetted_fraction = 0.005
 hollow = 0.3
 hollow_min = 0.01
 curvature = 0.25
+corner = 0.25
 [fluid.viscosity]
 dynamic = 0.1
 walls = "no_slip"

@@ -130,13 +130,14 @@ TEST(SizeField, a_bulge_is_no_hollow) {
 }
 
 // Element size at a point near a hull of elements of 0.05 m.
-double size_at_hull(const Surface<2>& hull, const Vec<2>& x, double curvature = 0.5) {
+double size_at_hull(const Surface<2>& hull, const Vec<2>& x, double curvature = 0.5, double corner = 1) {
   FluidSpec<2> spec;
   spec.walls.push_back(scenes::wall("hull", hull, 0.05));
   const scenes::Placed placed(spec);
   SizeSpec size = graded;
   size.surface = 1;
   size.curvature = curvature;
+  size.corner = corner;
   return SizeField<2>(size, placed.at(), std::vector{0.0}, {}, {})(x);
 }
 
@@ -155,6 +156,14 @@ TEST(SizeField, corners_of_a_hull_are_no_curves) {
   EXPECT_EQ(size_at_hull(scenes::rectangle({-0.01, -0.5}, {0.01, 0.5}), {0.01, 0.5}), 0.05);
   const double low = -std::tan(std::numbers::pi / 18);  // the keel of a wedge of 10 degrees turns by 20
   EXPECT_EQ(size_at_hull(scenes::outline({{0, low}, {1, 0}, {1, 1}, {-1, 1}, {-1, 0}}), {0, low}), 0.05);
+}
+
+TEST(SizeField, corners_of_a_hull_are_as_small_as_asked_for) {
+  const auto box = scenes::rectangle({-0.5, -0.5}, {0.5, 0.5});
+  EXPECT_NEAR(size_at_hull(box, {0.5, -0.5}, 0.5, 0.2), 0.2 * 0.05, eps);
+  EXPECT_NEAR(size_at_hull(box, {0.4, -0.5}, 0.5, 0.2), 0.2 * 0.05 + 0.15 * 0.1, eps) << "and grow from there";
+  EXPECT_EQ(size_at_hull(box, {0, -0.5}, 0.5, 0.2), 0.05);
+  EXPECT_EQ(size_at_hull(scenes::ellipse(0.5, 0.4, 256), {0.5, 0}, 0.5, 0.2), 0.05) << "a curve has none";
 }
 
 /// What all sources together ask for, one by one.
