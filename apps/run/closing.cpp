@@ -211,10 +211,10 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
   for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
   for (const auto& [name, point] : summary.equipment) text += closing_row(name, equipment_text(point));
   for (const auto& [name, patch] : summary.patches)
-    text += closing_row(name,
-                        fmt::format("peak pressure {}{}{}, mean over {:.3g} {}", with_unit(patch.pressure.value, "Pa"),
-                                    at(patch.pressure), band_text(patch.grade ? &*patch.grade : nullptr), patch.area,
-                                    summary.dimension == 2 ? "m" : "m^2"));
+    text += closing_row(name, fmt::format("peak pressure {}{}{}, mean over {:.3g} {}; impulse {}",
+                                          with_unit(patch.pressure.value, "Pa"), at(patch.pressure),
+                                          band_text(patch.grade ? &*patch.grade : nullptr), patch.area,
+                                          summary.dimension == 2 ? "m" : "m^2", with_unit(patch.impulse, "Pa s")));
   if (summary.nodes && summary.ledger) text += closing_row("liquid", liquid_text(summary));
   if (summary.coupling) text += closing_row("coupling", coupling_text(*summary.coupling));
   if (summary.rejected_steps > 0) text += closing_row("refused", refused_text(summary));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "apps/report/words.hpp"
@@ -20,6 +21,7 @@ struct FirstOrder {
 constexpr FirstOrder entering_plane{0.05, 25}, entering_space{0.13, 17}, staying{0.03, 17};
 constexpr double point_factor = 2;  // of the mesh's error at a point, besides the load's own
 constexpr double mostly = 0.5;      // impulse
+constexpr double widest_band = 10;  // that says anything
 constexpr double at_rest_g = 0.02;  // doubtful_above of a g
 
 enum class Kind { acceleration, force, pressure };
@@ -38,7 +40,9 @@ constexpr double worth_telling = resolved_band / 4;
 
 /// Two digits, without an exponent.
 std::string rounded(double value) { return value < 10 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value); }
-std::string percent_text(double share) { return rounded(100 * share) + " %"; }
+std::string percent_text(double share) {
+  return share > widest_band ? fmt::format("over {:g} %", 100 * widest_band) : rounded(100 * share) + " %";
+}
 
 /// What a number is of.
 struct Of {
@@ -69,7 +73,8 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && e.repair >= mostly)))
     list.push_back(
         {e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
-                               kind == Kind::pressure ? "which pressures lack" : "whose peak goes as 1/dt")});
+                               kind == Kind::pressure ? "which pressures lack and impulses hold"
+                                                      : "whose peak goes as 1/dt: the impulse has a value")});
   return list;
 }
 
@@ -78,7 +83,7 @@ void grade(NumberGrade& number, const Of& of, const BodySummary& body) {
   double squared = 0;
   number.reasons.clear();
   for (const auto& share : list) squared += share.error * share.error;
-  number.band = std::sqrt(squared);
+  number.band = squared <= widest_band * widest_band ? std::sqrt(squared) : std::numeric_limits<double>::infinity();
   number.grade = grade_of_band(number.band);
   const auto largest = std::ranges::max_element(list, {}, &Share::error);
   if (number.grade != Grade::resolved)
@@ -103,6 +108,10 @@ const NumberGrade* headline_of(const PulseGrades& grades) {
   const auto found = grades.cfc.find(structures_class);
   if (found != grades.cfc.end()) return &found->second;
   return grades.raw ? &*grades.raw : nullptr;
+}
+
+bool is_impulse(const PulseGrades& grades) {
+  return !grades.cfc.contains(structures_class) && grades.raw && grades.raw->evidence.repair >= mostly;
 }
 
 std::string class_text(const PulseGrades& grades) {
@@ -153,20 +162,24 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& name)
   const auto& body = summary.bodies.at(name);
   if (const auto* a = headline_of(body.acceleration_grades))
     list.push_back({"peak acceleration" + class_text(body.acceleration_grades),
-                    fmt::format("{:.3g} g", value_of(body.acceleration, body.acceleration_grades)), a});
+                    fmt::format("{:.3g} g", value_of(body.acceleration, body.acceleration_grades)), a,
+                    is_impulse(body.acceleration_grades)});
   if (const auto* f = headline_of(body.force_grades))
     list.push_back({"peak force" + class_text(body.force_grades),
-                    with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3), f});
+                    with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3), f,
+                    is_impulse(body.force_grades)});
   for (const auto& [patch_name, patch] : summary.patches)
     if (patch.body == name && patch.grade)
-      list.push_back({"peak pressure on " + patch_name, with_unit(patch.pressure.value, "Pa", 3), &*patch.grade});
+      list.push_back({"peak pressure on " + patch_name, with_unit(patch.pressure.value, "Pa", 3), &*patch.grade,
+                      patch.grade->evidence.repair >= mostly});
   return list;
 }
 
 std::optional<NextStep> next_step(const Summary& summary) {
   double band = 0;
   for (const auto& [name, body] : summary.bodies)
-    for (const auto& headline : headlines(summary, name)) band = std::max(band, headline.grade->band);
+    for (const auto& headline : headlines(summary, name))
+      if (!headline.is_impulse) band = std::max(band, headline.grade->band);
   if (band <= resolved_band || summary.status != "done") return {};
   const double refine = band <= small_refine * resolved_band ? small_refine : halving_refine;
   return NextStep{refine, summary.wall_seconds * std::pow(refine, cost_exponent(summary.dimension))};

@@ -17,7 +17,7 @@
 //
 //   resolved    band <= 5 %, the band of the verdict's energy (verdict.hpp)
 //   doubtful    band <= 10 %: elements of half the size bring it to 5 %
-//   unresolved  above, or no number
+//   unresolved  above, or no number: ten times the value is none
 //
 // Numbers that are not graded: peaks of what moves as prescribed or never touched water, and accelerations below 2 % of g,
 // which are of a body at rest.
@@ -43,6 +43,7 @@ void grade_numbers(Summary& summary);
 struct Headline {
   std::string name, value;
   const NumberGrade* grade = nullptr;
+  bool is_impulse = false;  ///< a raw peak or a pressure where half of the load or more is: no mesh gives it a value
 };
 std::vector<Headline> headlines(const Summary& summary, const std::string& body);
 
@@ -50,7 +51,7 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& body)
 /// one size everywhere would have 3 and 4.
 constexpr double cost_exponent(int dimension) { return dimension == 2 ? 2 : 3; }
 
-/// Nothing to do if every headline is resolved. Half the size, or as much as the widest band needs to be resolved.
+/// Nothing to do if every headline is resolved, or an impulse. Half the size, or as much as the widest band needs to be resolved.
 std::optional<NextStep> next_step(const Summary& summary);
 /// "--refine 2, about 3 min, halves the bands".
 std::string text_of(const NextStep& next);

@@ -123,10 +123,14 @@ void add(Verdict& verdict, const Finding& finding) {
 /// A body is worth what its headline numbers are.
 void add_numbers(Summary& summary, const std::string& name, BodySummary& body) {
   const auto of_run = body.verdict.grade;
-  for (const auto& [what, value, number] : headlines(summary, name)) {
-    if (number->grade <= of_run) continue;
-    Finding finding{number->grade, fmt::format("{}: {} {} within {:.{}f} %: {}.", name, what, value, 100 * number->band,
-                                               number->band < 0.1 ? 1 : 0, fmt::join(number->reasons, "; "))};
+  for (const auto& headline : headlines(summary, name)) {
+    const auto& number = *headline.grade;
+    if (number.grade <= of_run) continue;
+    const auto band = std::isfinite(number.band)
+                          ? fmt::format("within {:.{}f} %", 100 * number.band, number.band < 0.1 ? 1 : 0)
+                          : std::string("without a band");
+    Finding finding{number.grade, fmt::format("{}: {} {} {}: {}.", name, headline.name, headline.value, band,
+                                              fmt::join(number.reasons, "; "))};
     add(body.verdict, finding);
     add(summary.verdict, finding);
   }

@@ -158,5 +158,18 @@ TEST(Grades, what_to_do_next_halves_the_band_and_says_what_it_costs) {
   EXPECT_LT(near.next->refine, 2);
 }
 
+TEST(Grades, no_mesh_gives_the_peak_of_an_impulse_a_value) {
+  auto impact = slam(200, 5000);
+  impact.repair = 1;
+  const auto summary = landing(impact);
+  EXPECT_FALSE(summary.next) << "a finer one has a higher peak";
+  EXPECT_FALSE(std::isfinite(summary.bodies.at("hull").force_grades.raw->band)) << "ten times the value is no band";
+  EXPECT_EQ(summary.verdict.grade, Grade::unresolved);
+  ASSERT_FALSE(summary.verdict.reasons.empty());
+  const auto& reason = summary.verdict.reasons[0];
+  EXPECT_NE(reason.find("without a band: it stands over 1000 % off"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("the impulse has a value"), std::string::npos) << reason;
+}
+
 }  // namespace
 }  // namespace splashdown::apps
