@@ -129,7 +129,9 @@ void print_body(const Scene& scene, const Body& body) {
                   text<d>(mass_properties<d>(body).centre)));
   if (!scene.fluid) return;
   row("deadrise", deadrise_text<d>(body));
-  row("hull elements", fmt::format("{:g} m", body.size));
+  const double corner = scene.fluid->size.corner;
+  row("hull elements", fmt::format("{:g} m", body.size) +
+                           (corner < 1 ? fmt::format(", {:.3g} m at corners", corner * body.size) : std::string()));
   print_curvature<d>(scene, body);
   if (!body.mass && !body.density) return;
   const double added = impact_mass(scene.fluid->density, hull);
