@@ -117,7 +117,7 @@ class SizeEstimate {
   }
 
  private:
-  void add(const HullSpot<d>& spot) {
+  void add(const fluid::SizeSource<d>& spot) {
     spots_.push_back(spot);
     spot_box_.extend(spot.at);
     least_spot_ = std::min(least_spot_, spot.size);
@@ -159,8 +159,8 @@ class SizeEstimate {
   Sizes size_;
   std::vector<Solid<d>> regions_;
   std::vector<std::pair<Solid<d>, double>> bodies_;
-  std::vector<HullSpot<d>> spots_;  // bends, corners, roots of jets
-  Extents<d> spot_box_;             // far from it none of them makes elements smaller
+  std::vector<fluid::SizeSource<d>> spots_;  // bends, corners, roots of jets
+  Extents<d> spot_box_;                      // far from it none of them makes elements smaller
   double least_spot_ = std::numeric_limits<double>::max();
   Extents<d> tank_;
   double tank_size_ = 0;

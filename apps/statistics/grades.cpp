@@ -51,6 +51,9 @@ struct Of {
   bool raw = true;
 };
 
+/// Of the load: no mesh gives its peak a value.
+bool is_impulse(const Evidence& e) { return e.repair >= mostly; }
+
 std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   const auto [dimension, kind, raw] = of;
   std::vector<Share> list;
@@ -70,7 +73,7 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   if (std::isfinite(e.sideways))
     list.push_back(
         {e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids", percent_text(e.sideways))});
-  if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && e.repair >= mostly)))
+  if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && is_impulse(e))))
     list.push_back(
         {e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
                                kind == Kind::pressure ? "which pressures lack and impulses hold"
@@ -111,7 +114,7 @@ const NumberGrade* headline_of(const PulseGrades& grades) {
 }
 
 bool is_impulse(const PulseGrades& grades) {
-  return !grades.cfc.contains(structures_class) && grades.raw && grades.raw->evidence.repair >= mostly;
+  return !grades.cfc.contains(structures_class) && grades.raw && is_impulse(grades.raw->evidence);
 }
 
 std::string class_text(const PulseGrades& grades) {
@@ -171,7 +174,7 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& name)
   for (const auto& [patch_name, patch] : summary.patches)
     if (patch.body == name && patch.grade)
       list.push_back({"peak pressure on " + patch_name, with_unit(patch.pressure.value, "Pa", 3), &*patch.grade,
-                      patch.grade->evidence.repair >= mostly});
+                      is_impulse(patch.grade->evidence)});
   return list;
 }
 

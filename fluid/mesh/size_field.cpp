@@ -16,6 +16,18 @@ double size_at_bend(const SizeSpec& spec, double wall_size, double radius) {
 }
 
 template <int d>
+std::vector<SizeSource<d>> spots_of(const SizeSpec& spec, const Wall<d>& wall, double wall_size) {
+  std::vector<SizeSource<d>> spots;
+  for (const auto& bend : wall.bends()) {
+    const double size = size_at_bend(spec, wall.spec().size, bend.radius);
+    if (size < wall_size) spots.push_back({bend.at, size});
+  }
+  if (spec.corner < 1 && !wall.encloses_fluid())
+    for (int v : wall.corners()) spots.push_back({wall.spec().surface.vertices.col(v), spec.corner * wall_size});
+  return spots;
+}
+
+template <int d>
 SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span<const double> wetted,
                         std::span<const Vec<d>> x, const Mesh<d>& mesh)
     : spec_(spec), walls_(walls), wall_size_(walls.walls.size()), points_(spec.growth) {
@@ -38,13 +50,8 @@ template <int d>
 void SizeField<d>::find_spots() {
   std::vector<Source> found;
   for (std::size_t w = 0; w < wall_size_.size(); ++w)
-    for (const auto& bend : walls_.walls[w].bends()) {
-      const double size = size_at_bend(spec_, walls_.walls[w].spec().size, bend.radius);
-      if (size < wall_size_[w]) found.push_back({walls_.poses[w] * bend.at, size});
-    }
-  for (std::size_t w = 0; spec_.corner < 1 && w < wall_size_.size(); ++w)
-    if (const auto& wall = walls_.walls[w]; !wall.encloses_fluid())
-      for (int v : wall.corners()) found.push_back({wall.vertex(walls_.poses[w], v), spec_.corner * wall_size_[w]});
+    for (const Source& spot : spots_of(spec_, walls_.walls[w], wall_size_[w]))
+      found.push_back({walls_.poses[w] * spot.at, spot.size});
   add(std::move(found));
 }
 
@@ -108,6 +115,8 @@ double SizeField<d>::operator()(const Vec<d>& point, int on_wall) const {
   return h;
 }
 
+template std::vector<SizeSource<2>> spots_of<2>(const SizeSpec&, const Wall<2>&, double);
+template std::vector<SizeSource<3>> spots_of<3>(const SizeSpec&, const Wall<3>&, double);
 template class SizeField<2>;
 template class SizeField<3>;
 

@@ -13,6 +13,10 @@ namespace splashdown::fluid {
 /// Element size at a bend of a wall [m]: `curvature` times its radius, but no less than a quarter of the wall's own size.
 double size_at_bend(const SizeSpec& spec, double wall_size, double radius);
 
+/// Where elements are smaller than `wall_size`, that of the wall [m]: at its bends and, of hulls, at corners. In the wall's frame.
+template <int d>
+std::vector<SizeSource<d>> spots_of(const SizeSpec& spec, const Wall<d>& wall, double wall_size);
+
 template <int d>
 class SizeField {
  public:

@@ -21,11 +21,11 @@ PEAK_3D = "max(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225))"
 PEAK_TIME_3D = ("argmax(select(smooth(az, time, 0.002), abs(time - 0.00325) < 0.00225), "
                 "select(time, abs(time - 0.00325) < 0.00225))")
 
-# Pressure of a cone: the largest mean of p, at 20 and 60 degrees of p + p_repair, what loads the hull, over a ring a sixteenth of V t high, wherever it lies: a
-# twentieth of the wetted radius at 20 to 60 degrees. Repairs are noise from step to step, so (nearly) each step is recorded. The references'
-# curves have their means by the same rule (reference_cp_20.csv, reference_cp_30.csv). At 45 degrees the apex has the largest, in rings
-# of V t/40, of p alone (the largest of many means picks out what repairs scatter), where reference_cp_45.csv has a mean of 1.552 by
-# height and 1.536 by area. At 60 degrees it is the tip: the mean over the area of a disc that wide.
+# Pressure of a cone: the largest mean of p, at 20 and 60 degrees of p + p_repair, what loads the hull, over a ring a sixteenth of V t
+# high, wherever it lies: a twentieth of the wetted radius at 20 to 60 degrees. Repairs are noise from step to step, so (nearly) each
+# step is recorded. The references' curves have their means by the same rule (reference_cp_20.csv, reference_cp_30.csv). At 45 degrees
+# the apex has the largest, in rings of V t/40, of p alone (the largest of many means picks out what repairs scatter), where
+# reference_cp_45.csv has a mean of 1.552 by height and 1.536 by area. At 60 degrees it is the tip: the mean over the area of a disc.
 EACH_STEP = ["--set", 'record=[{kind="surface_pressure", wall="cone"}]']
 CONE_LOAD = "force=mean(fz/(1000*time^2), time) from bodies.csv:cone where time >= {}"
 CONE_CP_45 = "cp_max=max(bins(2*p/1000, z/time, -1, 0.25, 50)) from surface_pressure.csv:cone where time >= 0.4"

@@ -9,6 +9,7 @@
 #include "apps/scene/scene.hpp"
 #include "coupling/schemes/stepper.hpp"
 #include "fluid/fluid.hpp"
+#include "fluid/mesh/size_sources.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {
@@ -38,14 +39,9 @@ struct HullBend {
 };
 template <int d>
 std::vector<HullBend<d>> hull_bends(const Scene& scene, const Body& body);
-/// A place where elements are smaller than on the hull around it: at a tight bend or a corner.
+/// Where elements are smaller than on the hull around it, at tight bends and corners: world frame, at t = 0.
 template <int d>
-struct HullSpot {
-  fluid::Vec<d> at;  ///< world frame, at t = 0
-  double size;       ///< of the elements there [m]
-};
-template <int d>
-std::vector<HullSpot<d>> hull_spots(const Scene& scene, const Body& body);
+std::vector<fluid::SizeSource<d>> hull_spots(const Scene& scene, const Body& body);
 template <int d>
 rigid::BodySpec<d> body_spec(const Body& body);
 std::vector<rigid::JointSpec> joint_specs(const Scene& scene);

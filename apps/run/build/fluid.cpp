@@ -49,14 +49,10 @@ std::vector<HullBend<d>> hull_bends(const Scene& scene, const Body& body) {
 }
 
 template <int d>
-std::vector<HullSpot<d>> hull_spots(const Scene& scene, const Body& body) {
-  std::vector<HullSpot<d>> spots;
-  for (const auto& bend : hull_bends<d>(scene, body))
-    if (bend.size < body.size) spots.push_back({bend.at, bend.size});
-  if (const double corner = scene.fluid->size.corner; corner < 1) {
-    const fluid::Wall<d> wall(hull<d>(body));
-    for (int v : wall.corners()) spots.push_back({wall.vertex(wall.spec().pose, v), corner * body.size});
-  }
+std::vector<fluid::SizeSource<d>> hull_spots(const Scene& scene, const Body& body) {
+  const fluid::Wall<d> wall(hull<d>(body));
+  auto spots = fluid::spots_of(size_spec(scene.fluid->size), wall, body.size);
+  for (auto& spot : spots) spot.at = wall.spec().pose * spot.at;
   return spots;
 }
 
@@ -96,8 +92,8 @@ std::vector<std::unique_ptr<fluid::Effect<d>>> fluid_effects(const Scene& scene)
 
 template std::vector<HullBend<2>> hull_bends<2>(const Scene&, const Body&);
 template std::vector<HullBend<3>> hull_bends<3>(const Scene&, const Body&);
-template std::vector<HullSpot<2>> hull_spots<2>(const Scene&, const Body&);
-template std::vector<HullSpot<3>> hull_spots<3>(const Scene&, const Body&);
+template std::vector<fluid::SizeSource<2>> hull_spots<2>(const Scene&, const Body&);
+template std::vector<fluid::SizeSource<3>> hull_spots<3>(const Scene&, const Body&);
 template fluid::FluidSpec<2> fluid_spec<2>(const Scene&);
 template fluid::FluidSpec<3> fluid_spec<3>(const Scene&);
 template std::vector<std::unique_ptr<fluid::Effect<2>>> fluid_effects<2>(const Scene&);
