@@ -1,7 +1,7 @@
 // What the fluid's pressure equation knows about a body: the interface term.
 //
 // The body answers a pressure impulse phi on its hull with s = s~ + C B phi, C = M_b^-1. Seen from the
-// fluid this adds B^T C B phi to the pressure equation (derivation, scaling and signs: docs/theory.md).
+// fluid this adds B^T C B phi to the pressure equation (derivation, scaling and signs: docs/design-notes).
 //
 //   rigid      B^T C B itself: exact, symmetric positive semidefinite, of low rank; the stepper Simultaneous
 //   laplacian  a local stand-in, a Laplacian of the long modes of phi on the hull (Idelsohn, Del Pin, Rossi,

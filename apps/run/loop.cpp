@@ -9,7 +9,7 @@
 namespace splashdown::apps {
 namespace {
 
-// The first step sees the scene as it was drawn: node spacing and pressure have not met yet (docs/theory.md).
+// The first step sees the scene as it was drawn: node spacing and pressure have not met yet (docs/design-notes).
 constexpr double first_share = 0.2;
 // The leapfrog kick is the mean of two steps; neighbours of similar length keep its second order.
 constexpr double growth = 1.5;

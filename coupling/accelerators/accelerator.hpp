@@ -1,7 +1,7 @@
 // Fixed-point accelerators for x = G(x): one scheme a file behind one small interface.
 //
 // They see a vector and its image, both in m/s, and know neither fluid nor bodies. Symbols: r = G(x) - x,
-// w the relaxation factor. A pass is one evaluation of G. Sources and derivations: docs/theory.md.
+// w the relaxation factor. A pass is one evaluation of G. Sources and derivations: docs/design-notes.
 #pragma once
 
 #include <Eigen/Core>

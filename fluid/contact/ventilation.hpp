@@ -2,7 +2,7 @@
 //
 // A film of thickness delta that runs with v around a hull of curvature kappa is pressed to it by the air alone,
 // p = -rho v^2 kappa delta at the hull. An inviscid film does so to the end of the hull. Water does not: air gets in at the
-// contact line where the boundary layer of the hull separates upstream of it, and films tear (docs/theory.md).
+// contact line where the boundary layer of the hull separates upstream of it, and films tear (docs/design-notes).
 #pragma once
 
 #include <span>

@@ -4,7 +4,7 @@
 // The cycles are run here, on all threads and for several right-hand sides at once, in single precision: hypre as
 // Debian builds it has neither. Smoother: l1 Gauss-Seidel within a fixed number of blocks of rows, forward on the way down,
 // backward on the way up (Baker, Falgout, Kolev, Yang 2011), so that results do not depend on the number of threads.
-// Setup and iterations cost O(rows): docs/theory.md has figures.
+// Setup and iterations cost O(rows): docs/design-notes has figures.
 #pragma once
 
 #include <memory>

@@ -5,7 +5,7 @@
 //   sum_i N_i^T P_i m_i (v_i + a_i(phi) - N_i s)  =  e + R phi - M_h (s - s~),    M_h = sum_i N_i^T P_i m_i N_i
 //
 // e = sum_i N_i^T P_i m_i (v_i - N_i s~). R is a load operator beside B, M_h an inertia beside the body's: a body that answers
-// the pressure answers this in the same equation, at any mass (docs/theory.md). Handed over afterwards, it is a fixed-point
+// the pressure answers this in the same equation, at any mass (docs/design-notes). Handed over afterwards, it is a fixed-point
 // iteration with the gain M_h / (M + added mass).
 #pragma once
 

@@ -14,7 +14,7 @@
 // sum_k phi_k^T K phi_k = sum_k |int phi_k n|^2 / m for phi_k = n_k. On a circle of radius a: lambda = pi a^3 / m,
 // alpha = pi a / m.
 //
-// Two pieces a freedom of a body, whatever the mesh: the rank of K bounds the passes (docs/theory.md, where
+// Two pieces a freedom of a body, whatever the mesh: the rank of K bounds the passes (docs/design-notes, where
 // other numbers are compared). Short parts of the hull that are wetted for themselves are one more.
 #pragma once
 

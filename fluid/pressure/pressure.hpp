@@ -71,7 +71,7 @@ struct WallResponse {
 inline constexpr double lightest_on_surface = 0.1;
 
 /// Passes that bring a solution of A to one of K, the volume that an impulse really takes out (conjugate_residual.hpp). With
-/// fewer in the plane roundoff on still water grows (docs/theory.md).
+/// fewer in the plane roundoff on still water grows (docs/design-notes).
 template <int d>
 inline constexpr int corrections = d == 2 ? 10 : 4;
 

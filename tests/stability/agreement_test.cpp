@@ -116,7 +116,7 @@ TEST_P(Agreement, work_of_the_fluid_is_the_energy_that_the_body_gains) {
 
 TEST(Accelerators, lead_to_one_motion) {
   // A step ends within tolerance / (1 - slope) of where its term's passes lead. Slopes of plain passes are negative,
-  // those with a Laplacian below 6 mu / (1 + 6 mu), mu = M_a / m < 10 (docs/theory.md): eight steps of 60 * 1e-8.
+  // those with a Laplacian below 6 mu / (1 + 6 mu), mu = M_a / m < 10 (docs/design-notes): eight steps of 60 * 1e-8.
   for (double ratio : {1.0 / 3, 0.1})
     for (const char* term : {"laplacian", "robin", "none"}) {
       std::vector<std::vector<fluid::Twist<2>>> found;

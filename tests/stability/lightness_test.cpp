@@ -207,7 +207,7 @@ TEST(RobinTerm, converges_where_plain_exchange_diverges) {
 }
 
 TEST(RobinTerm, needs_no_relaxation_for_a_light_body_that_slams) {
-  // 2 K + A > S on a hull between contact lines, for any mass: convergence, slower for lighter bodies (docs/theory.md).
+  // 2 K + A > S on a hull between contact lines, for any mass: convergence, slower for lighter bodies (docs/design-notes).
   const auto most_passes = [](double ratio, std::unique_ptr<coupling::InterfaceTerm> term, int steps = 25) {
     const auto stepper =
         scenes::coupled(scenes::wedge_drop(ratio * 36, 0.001, 0.02), std::move(term),
