@@ -7,6 +7,7 @@ import unittest
 import changelog
 import identifiers
 import links
+import names
 import sentences
 import theory
 
@@ -81,6 +82,19 @@ class Theory(unittest.TestCase):
             self.assertEqual(len(self.faults("## Symbols\n", "## Symbols\n" + table + row)), 1)
 
 
+class Glossary(unittest.TestCase):
+    def faults(self, rows):
+        return found(theory.glossary_faults, docs__glossary_md="# G\n\n| word | meaning |\n|---|---|\n" + rows)
+
+    def test_rows_are_right(self):
+        self.assertEqual(self.faults("| wave, crest | of water |\n| `find_motion` | finds |\n"), [])
+
+    def test_faults_are_found(self):
+        for rows in ("| wave | one |\n| crest, wave | two |\n", "| `find_notion` | is gone |\n", ""):
+            with self.subTest(rows):
+                self.assertEqual(len(self.faults(rows)), 1)
+
+
 class Identifiers(unittest.TestCase):
     def faults(self, span):
         return found(identifiers.faults, docs__a_md=f"# A\n\nText with `{span}`.\n")
@@ -97,6 +111,19 @@ class Identifiers(unittest.TestCase):
                      "splashdown run x --set old_rate.gone=1"):
             with self.subTest(span):
                 self.assertEqual(len(self.faults(span)), 1)
+
+
+class Names(unittest.TestCase):
+    def faults(self, one, two):
+        return found(names.faults, **{"fluid/one.hpp": one, "rigid/two.hpp": two, "apps/three.hpp": one})
+
+    def test_with_one_meaning_are_left_alone(self):
+        self.assertEqual(self.faults("struct Wave {\n  int a;\n};\nint height(int a);\n", "struct Load {};\nusing core::Wave;\n"), [])
+
+    def test_of_two_headers_are_found(self):
+        for text in ("struct Wave {\n};\n", "template <int d>\ndouble height(const Wave& wave);\n", "enum class Kind { a, b };\n"):
+            with self.subTest(text):
+                self.assertEqual(len(self.faults(text, text)), 1)
 
 
 class Sentences(unittest.TestCase):

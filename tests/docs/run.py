@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Checks documents: run.py ROOT CHECK…, each of links, changelog, theory, glossary, identifiers. Exit code 1: faults, listed."""
+"""Checks documents: run.py ROOT CHECK…, each of links, changelog, theory, glossary, identifiers, names. Exit code 1: faults, listed."""
 import sys
 
 import changelog
 import identifiers
 import links
+import names
 import theory
 
 CHECKS = {
@@ -13,6 +14,7 @@ CHECKS = {
     "theory": theory.faults,
     "glossary": theory.glossary_faults,
     "identifiers": identifiers.faults,
+    "names": names.faults,
 }
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 import os
 import re
 
+import identifiers
 from markdown import Document, read
 
 MOST_LINES = 450
@@ -119,8 +120,11 @@ def symbol_faults(root, name):
 
 
 def glossary_faults(root, name="docs/glossary.md"):
-    seen = {}
+    seen, tree = {}, identifiers.Tree(root)
     for n, cells in rows(root, name, "word"):
+        for word in re.findall(r"`(\w+)`", " ".join(cells)):
+            if word not in tree.words:
+                yield f"{name}:{n}: the sources have no {word}"
         for word in cells[0].split(", "):
             if word in seen:
                 yield f"{name}:{n}: {word} has a meaning already, in line {seen[word]}"
