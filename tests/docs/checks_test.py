@@ -82,6 +82,19 @@ class Theory(unittest.TestCase):
             self.assertEqual(len(self.faults("## Symbols\n", "## Symbols\n" + table + row)), 1)
 
 
+class Mathematics(unittest.TestCase):
+    def faults(self, text):
+        return found(theory.mathematics_faults, docs__a_md="# A\n\n" + text)
+
+    def test_is_right(self):
+        self.assertEqual(self.faults("$`\\nabla p`$, $\\tfrac{1}{2}$, `${x`\n\n| $`\\lvert x\\rvert`$ |\n\n```math\n\\mathbf{x}\n```\n"), [])
+
+    def test_faults_are_found(self):
+        for text in ("$`\\tfrac{1`$\n", "$\\int N_i\nabla\\phi$\n", "| $`|x|`$ |\n", "```math\n\\begin{gathered}x\n```\n", "$`frac{1}{2}`$\n"):
+            with self.subTest(text):
+                self.assertEqual(len(self.faults(text)), 1)
+
+
 class Glossary(unittest.TestCase):
     def faults(self, rows):
         return found(theory.glossary_faults, docs__glossary_md="# G\n\n| word | meaning |\n|---|---|\n" + rows)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks documents: run.py ROOT CHECK…, each of links, changelog, theory, glossary, identifiers, names. Exit code 1: faults, listed."""
+"""Checks documents: run.py ROOT CHECK…, each of links, changelog, theory, glossary, identifiers, names, mathematics. Exit code 1: faults, listed."""
 import sys
 
 import changelog
@@ -15,6 +15,7 @@ CHECKS = {
     "glossary": theory.glossary_faults,
     "identifiers": identifiers.faults,
     "names": names.faults,
+    "mathematics": theory.mathematics_faults,
 }
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@ import os
 import re
 
 import identifiers
-from markdown import Document, read
+from markdown import Document, files, read
 
 MOST_LINES = 450
 PAIR = re.compile(r"`([\w./]+\.(?:cpp|hpp))`: ((?:`\w+`(?:, )?)+)")
@@ -36,6 +36,29 @@ def formula_faults(text):
         yield "a command has lost its backslash"
     if re.search(r"\\(operatorname|def|newcommand|require)\b", text):
         yield "GitHub does not render this command"
+
+
+def mathematics_faults(root):
+    """Of formulas in all documents."""
+    for name in files(root, ".md"):
+        document = Document(read(root, name))
+        for n, line in document.of("text", "table"):
+            bare = re.sub(r"(?<!\$)`[^`]*`(?!\$)", "", line)
+            for formula in re.findall(r"\$`([^`]*)`\$", bare) + re.findall(r"\$([^$`]+)\$", re.sub(r"\$`[^`]*`\$", "", bare)):
+                if document.kinds[n - 1] == "table" and "|" in formula.replace("\\|", ""):
+                    yield f"{name}:{n}: a bar in a table's formula ends the cell; write \\lvert, \\rvert"
+                for fault in formula_faults(formula):
+                    yield f"{name}:{n}: {fault}: {formula}"
+            if re.match(r"abla\b", line):
+                yield f"{name}:{n}: \\nabla has lost its beginning"
+        block = []
+        for n, line in document.of("math", "fence"):
+            if document.kinds[n - 1] == "math":
+                block.append(line)
+            elif block:
+                for fault in formula_faults("\n".join(block)):
+                    yield f"{name}:{n - 1}: {fault}"
+                block = []
 
 
 def pairs(document, first, last):
