@@ -2,7 +2,8 @@
 
     path with /             examples/…, fluid/mesh/*.hpp; the end of a path is enough; folders of results are not looked for
     name of a source        recognise.cpp, volume_books.*; not of data, which programs write
-    A::b, name(…)           words of the sources
+    A::b                    words of one source that is no test
+    name(…)                 a word of the sources
     CamelCase, snake_case   words of sources, scripts, scenes: identifiers, keys, columns, names of tests
     fluid.size.corner       key: each word
     --option                literally in a source or script
@@ -36,6 +37,8 @@ class Tree:
         self.names = {os.path.basename(p) for p in self.paths}
         text = "\n".join(read(root, p) for p in self.paths if p.endswith(SOURCES) and not p.startswith("tests/docs/"))
         self.words = set(re.findall(r"[A-Za-z_][A-Za-z0-9_]*", text)) | set(re.split(r"[/.]", "/".join(self.paths)))
+        self.words_of_file = [set(re.findall(r"[A-Za-z_]\w*", read(root, p))) for p in self.paths
+                              if p.endswith((".hpp", ".cpp")) and not p.startswith("tests/")]
         self.text = text
         self.options = set(re.findall(r"--[a-z][a-z-]*[a-z]", text))
 
@@ -72,8 +75,9 @@ def fault_of(span, tree):
         return None if tree.has_path(span) else f"no file or folder {span}"
     if "::" in span:
         words = re.findall(r"[A-Za-z_]\w*", span.split("(")[0])
-        missing = [w for w in words if w not in tree.words and w != "std"]
-        return f"the sources have no {missing[0]}" if missing else None
+        if words[0] == "std" or any(set(words) <= of_file for of_file in tree.words_of_file):
+            return None
+        return f"no source has {' and '.join(words)} in one file"
     call = re.fullmatch(r"([A-Za-z_]\w+)\((.*)\)", span)
     if call:
         return None if call.group(1) in tree.words else f"the sources have no {call.group(1)}"
