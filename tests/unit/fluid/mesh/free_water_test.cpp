@@ -19,13 +19,13 @@ struct Block : scenes::Lattice<d> {
   std::vector<double> now;
 
   Block() : scenes::Lattice<d>(4) {
-    auto& nodes = this->nodes;
-    nodes.tie.assign(nodes.size(), {});
-    now = nodal_volumes(this->mesh, nodes.x);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
+    auto& at = this->nodes;
+    at.tie.assign(at.size(), {});
+    now = nodal_volumes(this->mesh, at.x);
+    for (std::size_t i = 0; i < at.size(); ++i) {
       const double phase = static_cast<double>(i);
-      nodes.volume[i] = now[i] * (1 + 0.5 * std::sin(3 * phase));
-      for (int k = 0; k < d; ++k) nodes.v[i][k] = 10 + std::cos(phase + k);
+      at.volume[i] = now[i] * (1 + 0.5 * std::sin(3 * phase));
+      for (int k = 0; k < d; ++k) at.v[i][k] = 10 + std::cos(phase + k);
     }
   }
 
