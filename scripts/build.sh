@@ -10,10 +10,9 @@ preset=${1:-release}
 lists=(scripts/packages.txt "${@:2}")
 [[ -z $tests ]] || lists+=(tests/packages.txt)
 
-missing=()
-while read -r package; do
-  dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
-done < <(grep -hv '^#' "${lists[@]}")
+# shellcheck source=scripts/packages.sh
+source scripts/packages.sh
+mapfile -t missing < <(missing_packages "${lists[@]}")
 
 # The largest source needs 2.9 GB, some two, most one.
 jobs=$(nproc)
@@ -27,14 +26,7 @@ if [[ ! -x build/$preset/splashdown && -z $tests ]]; then
   ((${#missing[@]} == 0)) || echo "Before that packages are installed: up to 0.6 GB to load and 2.4 GB of disk on a bare system."
 fi
 
-if ((${#missing[@]})); then
-  echo "installing: ${missing[*]}"
-  as_root=()
-  ((EUID == 0)) || as_root=(sudo)
-  "${as_root[@]}" apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
-fi
+((${#missing[@]} == 0)) || install_packages "${missing[@]}"
 
 if [[ -n $tests ]]; then
   cmake --preset "$preset" -DBUILD_TESTING=ON

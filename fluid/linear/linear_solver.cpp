@@ -1,10 +1,13 @@
 #include "fluid/linear/linear_solver.hpp"
 
-#include <cblas.h>
 #include <omp.h>
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
+
+// In OpenBLAS' cblas.h, whose package is 50 MB, and in no other.
+extern "C" void openblas_set_num_threads(int);
+extern "C" int openblas_get_num_threads();
 
 namespace splashdown::fluid {
 namespace {

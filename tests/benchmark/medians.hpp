@@ -3,13 +3,14 @@
 #pragma once
 
 #include <benchmark/benchmark.h>
-#include <cblas.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
+
+extern "C" void openblas_set_num_threads(int);
 
 namespace splashdown::measured {
 

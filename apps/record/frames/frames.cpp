@@ -1,22 +1,10 @@
 #include "apps/record/frames/frames.hpp"
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkIdTypeArray.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cctype>
-#include <stdexcept>
 
+#include "apps/record/frames/vtu.hpp"
 #include "apps/record/tables/csv.hpp"
 
 namespace splashdown::apps {
@@ -24,91 +12,49 @@ namespace splashdown::apps {
 namespace {
 
 template <int d>
-constexpr int cell_type = d == 2 ? VTK_TRIANGLE : VTK_TETRA;
+constexpr VtuCell cell_type = d == 2 ? VtuCell::triangle : VtuCell::tetrahedron;
 template <int d>
-constexpr int facet_type = d == 2 ? VTK_LINE : VTK_TRIANGLE;
+constexpr VtuCell facet_type = d == 2 ? VtuCell::line : VtuCell::triangle;
 
-template <int d, class Vector>
-void set_tuple(vtkDoubleArray& array, vtkIdType i, const Vector& value) {
-  for (int k = 0; k < 3; ++k) array.SetTypedComponent(i, k, k < d ? value(k) : 0.0);
-}
-
-template <int d, class Range>
-void set_points(vtkUnstructuredGrid& grid, const Range& points, vtkIdType count) {
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i) set_tuple<d>(*coordinates, i, points(i));
-  vtkNew<vtkPoints> vtk_points;
-  vtk_points->SetDataTypeToDouble();
-  vtk_points->SetData(coordinates);
-  grid.SetPoints(vtk_points);
-}
-
-template <class Array, class Value>
-void add_scalar(vtkUnstructuredGrid& grid, const char* name, const std::vector<Value>& values) {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    array->SetValue(static_cast<vtkIdType>(i), static_cast<typename Array::ValueType>(values[i]));
-  grid.GetPointData()->AddArray(array);
+/// Three numbers a vector; in the plane the third is 0.
+template <int d>
+void append(std::vector<double>& numbers, const Vec<d>& vector) {
+  for (int k = 0; k < 3; ++k) numbers.push_back(k < d ? vector(k) : 0.0);
 }
 
 template <int d>
-void add_velocity(vtkUnstructuredGrid& grid, const std::vector<Vec<d>>& values) {
-  const auto count = static_cast<vtkIdType>(values.size());
-  vtkNew<vtkDoubleArray> velocity;
-  velocity->SetName("v");
-  velocity->SetNumberOfComponents(3);
-  velocity->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i) set_tuple<d>(*velocity, i, values[static_cast<std::size_t>(i)]);
-  grid.GetPointData()->AddArray(velocity);
+VtuArray vectors(const std::string& name, const std::vector<Vec<d>>& values) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * values.size());
+  for (const auto& value : values) append<d>(numbers, value);
+  return {name, std::move(numbers), 3};
 }
 
-void write(vtkUnstructuredGrid& grid, double time, const std::filesystem::path& path) {
-  vtkNew<vtkDoubleArray> time_value;
-  time_value->SetName("TimeValue");
-  time_value->InsertNextValue(time);
-  grid.GetFieldData()->AddArray(time_value);
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(path.c_str());
-  writer->SetInputData(&grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  // Digits hardly compress: zlib makes frames a quarter smaller than LZ4 and is most of what they cost.
-  writer->SetCompressorTypeToLZ4();
-  if (writer->Write() != 1) throw std::runtime_error(path.string() + ": cannot write");
-}
+std::vector<VtuArray> time_value(double time) { return {{"TimeValue", std::vector<double>{time}}}; }
 
 template <int d>
 void write_fluid(const Frame<d>& frame, const std::filesystem::path& path) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  const auto count = static_cast<vtkIdType>(frame.x.size());
-  set_points<d>(
-      *grid, [&](vtkIdType i) { return frame.x[static_cast<std::size_t>(i)]; }, count);
-
+  VtuGrid grid;
+  grid.points.reserve(3 * frame.x.size());
+  for (const auto& x : frame.x) append<d>(grid.points, x);
   std::vector<char> used(frame.x.size(), 0);
-  grid->AllocateExact(static_cast<vtkIdType>(frame.cells.size()), d + 1);
   for (const auto& cell : frame.cells) {
-    vtkIdType ids[d + 1];
-    for (std::size_t k = 0; k < d + 1; ++k) {
-      ids[k] = cell[k];
-      used[static_cast<std::size_t>(cell[k])] = 1;
-    }
-    grid->InsertNextCell(cell_type<d>, d + 1, ids);
+    for (const int node : cell) used[static_cast<std::size_t>(node)] = 1;
+    grid.add_cell(cell_type<d>, cell.data(), d + 1);
   }
-  for (vtkIdType i = 0; i < count; ++i)
-    if (!used[static_cast<std::size_t>(i)]) grid->InsertNextCell(VTK_VERTEX, 1, &i);
+  for (int i = 0; i < static_cast<int>(used.size()); ++i)
+    if (!used[static_cast<std::size_t>(i)]) grid.add_cell(VtuCell::vertex, &i, 1);
 
-  add_velocity<d>(*grid, frame.v);
-  add_scalar<vtkDoubleArray>(*grid, "p", frame.p);
-  if (frame.drop_diameter.size() == frame.x.size())
-    add_scalar<vtkDoubleArray>(*grid, "drop_diameter", frame.drop_diameter);
-  add_scalar<vtkUnsignedCharArray>(*grid, "kind", frame.kind);
-  add_scalar<vtkIntArray>(*grid, "wall", frame.wall);
-  grid->GetPointData()->SetActiveScalars("p");
-  write(*grid, frame.time, path);
+  grid.point_data.push_back(vectors<d>("v", frame.v));
+  grid.point_data.push_back({"p", frame.p});
+  if (frame.drop_diameter.size() == frame.x.size()) grid.point_data.push_back({"drop_diameter", frame.drop_diameter});
+  std::vector<unsigned char> kinds;
+  for (const auto kind : frame.kind) kinds.push_back(static_cast<unsigned char>(kind));
+  grid.point_data.push_back({"kind", std::move(kinds)});
+  grid.point_data.push_back({"wall", frame.wall});
+  grid.field_data = time_value(frame.time);
+  grid.scalars = "p";
+  write_vtu(path, grid);
 }
 
 std::string xml_escaped(const std::string& text) {
@@ -143,25 +89,15 @@ std::string file_name_of(const std::string& name) {
 template <int d>
 void write_surface(const std::filesystem::path& path, double time, const Surface<d>& surface, const PointData& data,
                    const Vec<d>& forward, const std::vector<Vec<d>>& v) {
-  vtkNew<vtkUnstructuredGrid> grid;
+  VtuGrid grid;
   const auto& [vertices, facets] = surface;
-  set_points<d>(
-      *grid, [&](vtkIdType i) { return vertices.col(i); }, vertices.cols());
-  grid->AllocateExact(facets.cols(), d);
-  for (Eigen::Index f = 0; f < facets.cols(); ++f) {
-    vtkIdType ids[d];
-    for (int k = 0; k < d; ++k) ids[k] = facets(k, f);
-    grid->InsertNextCell(facet_type<d>, d, ids);
-  }
-  if (static_cast<Eigen::Index>(v.size()) == vertices.cols()) add_velocity<d>(*grid, v);
-  for (const auto& [name, values] : data) add_scalar<vtkDoubleArray>(*grid, name.c_str(), values);
-  vtkNew<vtkDoubleArray> direction;
-  direction->SetName("forward");
-  direction->SetNumberOfComponents(3);
-  direction->SetNumberOfTuples(1);
-  set_tuple<d>(*direction, 0, forward);
-  grid->GetFieldData()->AddArray(direction);
-  write(*grid, time, path);
+  for (Eigen::Index i = 0; i < vertices.cols(); ++i) append<d>(grid.points, vertices.col(i));
+  for (Eigen::Index f = 0; f < facets.cols(); ++f) grid.add_cell(facet_type<d>, facets.col(f).data(), d);
+  if (static_cast<Eigen::Index>(v.size()) == vertices.cols()) grid.point_data.push_back(vectors<d>("v", v));
+  for (const auto& [name, values] : data) grid.point_data.push_back({name, values});
+  grid.field_data = time_value(time);
+  grid.field_data.push_back(vectors<d>("forward", std::vector<Vec<d>>{forward}));
+  write_vtu(path, grid);
 }
 
 template <int d>

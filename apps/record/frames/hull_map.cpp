@@ -1,12 +1,5 @@
 #include "apps/record/frames/hull_map.hpp"
 
-#include <vtkDoubleArray.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStaticPointLocator.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "core/facet_tree.hpp"
 #include "core/geometry.hpp"
 
 namespace splashdown::apps {
@@ -108,27 +102,27 @@ Surface<d> refined(Surface<d> surface, double longest) {
   return surface;
 }
 
+/// Vertices of a surface near a point.
 template <int d>
-struct HullMap<d>::Locator {
-  vtkNew<vtkPolyData> points;
-  vtkNew<vtkStaticPointLocator> tree;
-  vtkNew<vtkIdList> found;
+class HullMap<d>::Locator {
+ public:
+  explicit Locator(const Surface<d>& surface) : surface_(surface), tree_(surface.vertices, surface.facets) {}
+  /// All that are within `radius` of x, in ascending order.
+  const std::vector<int>& within(double radius, const Vec<d>& x) {
+    found_.clear();
+    const Vec<d> reach = Vec<d>::Constant(radius);
+    for (const int facet : tree_.meeting({x - reach, x + reach}))
+      found_.insert(found_.end(), surface_.facets.col(facet).begin(), surface_.facets.col(facet).end());
+    std::ranges::sort(found_);
+    found_.erase(std::ranges::unique(found_).begin(), found_.end());
+    std::erase_if(found_, [&](int vertex) { return !((surface_.vertices.col(vertex) - x).norm() <= radius); });
+    return found_;
+  }
 
-  explicit Locator(const Surface<d>& surface) {
-    vtkNew<vtkPoints> coordinates;
-    coordinates->SetDataTypeToDouble();
-    for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i)
-      coordinates->InsertNextPoint(surface.vertices(0, i), surface.vertices(1, i),
-                                   d == 3 ? surface.vertices(d - 1, i) : 0);
-    points->SetPoints(coordinates);
-    tree->SetDataSet(points);
-    tree->BuildLocator();
-  }
-  vtkIdList& within(double radius, const Vec<d>& x) {
-    const std::array<double, 3> at{x(0), x(1), d == 3 ? x(d - 1) : 0};
-    tree->FindPointsWithinRadius(radius, at.data(), found);
-    return *found;
-  }
+ private:
+  const Surface<d> surface_;
+  FacetTree<d> tree_;
+  std::vector<int> found_;
 };
 
 template <int d>
@@ -176,11 +170,10 @@ void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const
       reach = std::max(reach, (corner[k] - middle).norm());
       size = std::max(size, (corner[k] - corner[0]).norm());
     }
-    auto& near = locator_->within(std::hypot(reach, 0.5 * size), middle);
-    for (vtkIdType i = 0; i < near.GetNumberOfIds(); ++i) {
-      const auto point = static_cast<std::size_t>(near.GetId(i));
+    for (const int near : locator_->within(std::hypot(reach, 0.5 * size), middle)) {
+      const auto point = static_cast<std::size_t>(near);
       if (!(normal_[point].dot(out_of_fluid) < -alike * out_of_fluid.norm())) continue;
-      const auto foot = footprint<d>(corner, surface_.vertices.col(static_cast<Eigen::Index>(point)));
+      const auto foot = footprint<d>(corner, surface_.vertices.col(near));
       if (!(foot.distance <= 0.5 * size) || *std::ranges::min_element(foot.weight) < -rim) continue;
       const auto at_foot = [&](std::span<const double> values) {
         double sum = 0;

@@ -44,7 +44,7 @@ class HullMap {
   }
 
  private:
-  struct Locator;
+  class Locator;
   Surface<d> surface_;
   std::vector<Vec<d>> normal_;  ///< at the points, out of the body
   std::vector<double> pressure_, time_, impulse_;

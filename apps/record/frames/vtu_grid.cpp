@@ -1,39 +1,37 @@
 #include "apps/record/frames/vtu_grid.hpp"
 
-#include <vtkCell.h>
-#include <vtkCellType.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
+#include <algorithm>
 
-#include <stdexcept>
+#include "apps/record/frames/vtu.hpp"
 
 namespace splashdown::apps {
 
+namespace {
+
+/// Of the array of this name; empty without it.
+std::vector<double> numbers(const std::vector<VtuArray>& arrays, const std::string& name) {
+  const auto found = std::ranges::find(arrays, name, &VtuArray::name);
+  if (found == arrays.end()) return {};
+  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+                    found->values);
+}
+
+}  // namespace
+
 Grid read_grid(const std::filesystem::path& path, const std::string& scalar) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!reader->CanReadFile(path.c_str())) throw std::runtime_error(path.string() + ": is not a readable .vtu file");
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkUnstructuredGrid* data = reader->GetOutput();
+  const VtuGrid data = read_vtu(path);
   Grid grid;
-  if (auto* time = data->GetFieldData()->GetArray("TimeValue")) grid.time = time->GetTuple1(0);
-  if (auto* forward = data->GetFieldData()->GetArray("forward")) forward->GetTuple(0, grid.forward.data());
-  auto* values = data->GetPointData()->GetArray(scalar.c_str());
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
-    Point3 x;
-    data->GetPoint(i, x.data());
-    grid.points.push_back(x);
-    grid.values.push_back(values ? values->GetTuple1(i) : 0);
-  }
-  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c) {
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    data->GetCellPoints(c, count, ids);
-    grid.cells.emplace_back(ids, ids + count);
+  if (const auto time = numbers(data.field_data, "TimeValue"); !time.empty()) grid.time = time.front();
+  if (const auto forward = numbers(data.field_data, "forward"); forward.size() == 3)
+    std::ranges::copy(forward, grid.forward.begin());
+  for (std::size_t i = 0; i < data.points.size(); i += 3)
+    grid.points.push_back({data.points[i], data.points[i + 1], data.points[i + 2]});
+  grid.values = numbers(data.point_data, scalar);
+  grid.values.resize(grid.points.size());
+  int begin = 0;
+  for (const int end : data.offsets) {
+    grid.cells.emplace_back(data.connectivity.begin() + begin, data.connectivity.begin() + end);
+    begin = end;
   }
   return grid;
 }

@@ -59,7 +59,7 @@ rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/linear" FILES "." BUT_FILES
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
 rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")
 rule("Bullet stays in rigid/bullet_world.cpp" FILES "." BUT_FILES "^rigid/bullet_world\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
-rule("VTK stays in apps/record" FILES "." BUT_FILES "^apps/record/" INCLUDES "^vtk")
+rule("XML and zlib stay in apps/record/frames" FILES "." BUT_FILES "^apps/record/frames/.*\\.cpp$" INCLUDES "^(pugixml|zlib)\\.")
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
 rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
