@@ -8,11 +8,11 @@ find_package(ZLIB REQUIRED)
 find_package(pugixml REQUIRED)
 
 set(output_sources
-  record/hulls.cpp record/probes.cpp record/recorder.cpp record/view.cpp
+  record/hulls.cpp record/points.cpp record/probes.cpp record/recorder.cpp record/view.cpp
   record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu.cpp record/frames/vtu_blocks.cpp record/frames/vtu_grid.cpp
   record/tables/csv.cpp record/tables/energy.cpp record/tables/evidence.cpp record/tables/files.cpp record/tables/rows.cpp
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
-  statistics/grades.cpp statistics/landing_statistics.cpp
+  statistics/grades.cpp statistics/landing_statistics.cpp statistics/limits.cpp
   statistics/pulse.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict.cpp
   report/data.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp
   report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
@@ -24,4 +24,4 @@ target_compile_features(splashdown_output PUBLIC cxx_std_20)
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(splashdown_output
   PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt
-  PRIVATE splashdown_core pugixml::pugixml PNG::PNG ZLIB::ZLIB)
+  PRIVATE splashdown_core splashdown::quantity pugixml::pugixml PNG::PNG ZLIB::ZLIB)

@@ -252,6 +252,9 @@ std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std:
   auto table = toml::parse(read_scene(scene, set).resolved);
   table.erase("title");
   table.erase("output");
+  table.erase("limit");
+  if (auto* records = table["record"].as_array())
+    for (auto& record : *records) record.as_table()->erase("limit");
   std::ostringstream text;
   text << table;
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a (Fowler, Noll, Vo)

@@ -9,6 +9,7 @@
 
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
+#include "apps/scene/numbers.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -22,7 +23,7 @@ constexpr double least_patch_elements = 2;
 
 class Defaults {
  public:
-  explicit Defaults(const Scene& scene) : scene_(scene) {}
+  explicit Defaults(const Scene& scene) : scene_(scene), numbers_(numbers_of(scene)) {}
 
   std::vector<PriceQuantity> all() && {
     for (const auto& body : scene_.bodies) add_body(body);
@@ -31,8 +32,11 @@ class Defaults {
   }
 
  private:
-  void entry(const std::string& name, const std::string& unit, const std::string& path, bool counts = true) {
-    quantities_.push_back({.name = name, .unit = unit, .counts = counts, .path = path, .measured = {}});
+  /// A number of the run by its name.
+  void entry(const std::string& name, bool counts = true) {
+    const auto number = std::ranges::find(numbers_, name, &NamedNumber::name);
+    quantities_.push_back(
+        {.name = name, .unit = number->unit, .counts = counts, .path = number->paths.front(), .measured = {}});
   }
   void expression(const std::string& name, const std::string& unit, const std::string& table, const std::string& text,
                   bool counts = true) {
@@ -45,23 +49,20 @@ class Defaults {
 
   void add_body(const Body& body) {
     if (!scene_.fluid) return;
-    const std::string force = scene_.dimension == 2 ? "N/m" : "N",
-                      impulse = force.substr(0, 1) + " s" + force.substr(1);
     const std::string of = "bodies." + body.name + ".", up = scene_.dimension == 2 ? "y" : "z";
-    const auto vertical = fmt::format("{}", scene_.dimension - 1);
     // CFC 60, of structures as a whole (SAE J211-1), is the headline, and there on all rungs; CFC 180 on those with short steps.
     if (body.motion == Motion::free) {
-      entry(body.name + ".peak_g_cfc60", "g", of + "peak_acceleration_g.cfc60.value");
-      entry(body.name + ".peak_g_cfc180", "g", of + "peak_acceleration_g.cfc180.value", false);
-      entry(body.name + ".peak_g_raw", "g", of + "peak_acceleration_g.raw.value", false);
+      entry(body.name + ".peak_g_cfc60");
+      entry(body.name + ".peak_g_cfc180", false);
+      entry(body.name + ".peak_g_raw", false);
     }
-    entry(body.name + ".peak_force_cfc60", force, of + "peak_force_filtered.cfc60.value", body.motion != Motion::free);
-    entry(body.name + ".peak_force_raw", force, of + "peak_force.value", false);
-    entry(body.name + ".impulse", impulse, of + "impulse." + vertical);
+    entry(body.name + ".peak_force_cfc60", body.motion != Motion::free);
+    entry(body.name + ".peak_force_raw", false);
+    entry(body.name + ".impulse");
     if (body.motion != Motion::free) return;
     expression(body.name + ".velocity_change", "m/s", "bodies.csv:" + body.name,
                fmt::format("last(v{0}) - first(v{0})", up));
-    entry(body.name + ".greatest_submergence", "m", of + "maximum_submergence.value");
+    entry(body.name + ".greatest_submergence");
     // Over the second half of the time for which its speed has stayed below 2 % of sqrt(g L): in the first it still swings by
     // some per cent of its draft. There is none where it does not settle.
     if (scene_.gravity) {
@@ -71,26 +72,26 @@ class Defaults {
     }
   }
   void add(const PatchEntry& patch) {
-    const auto of = "patches." + patch.name + ".";
-    entry(patch.name + ".peak_pressure", "Pa", of + "peak_pressure.value");
-    quantities_.back().resolution = of + "grades.peak_pressure.evidence.patch_elements";
+    entry(patch.name + ".peak_pressure");
+    quantities_.back().resolution = "patches." + patch.name + ".grades.peak_pressure.evidence.patch_elements";
     quantities_.back().least_resolution = least_patch_elements;
   }
   void add(const AccelerationEntry& point) {
-    entry(point.name + ".peak_g_cfc60", "g", "equipment." + point.name + ".cfc60.value");
-    entry(point.name + ".peak_g_raw", "g", "equipment." + point.name + ".raw.value", false);
+    entry(point.name + ".peak_g_cfc60");
+    entry(point.name + ".peak_g_raw", false);
   }
   void add(const PressureEntry& probe) {
     expression(probe.name + ".peak_pressure", "Pa", "probes.csv:" + probe.name, "max(value)", false);
   }
   void add(const MaximumPressureEntry& map) {
     const auto& name = scene_.bodies[map.body].name;
-    entry(name + ".maximum_pressure", "Pa", "bodies." + name + ".maximum_pressure.value", false);
+    entry(name + ".maximum_pressure", false);
   }
   template <class Other>
   void add(const Other&) {}  // curves and matrices: no single number is the one that is meant
 
   const Scene& scene_;
+  std::vector<NamedNumber> numbers_;
   std::vector<PriceQuantity> quantities_;
 };
 

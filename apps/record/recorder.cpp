@@ -14,6 +14,7 @@
 
 #include "apps/record/frames/frames.hpp"
 #include "apps/record/hulls.hpp"
+#include "apps/record/points.hpp"
 #include "apps/record/probes.hpp"
 #include "apps/record/schedule.hpp"
 #include "apps/record/tables/csv.hpp"
@@ -55,6 +56,7 @@ struct Recorder<d>::State {
   std::vector<BodyStatistics<d>> bodies;
   std::vector<PulseStatistics> equipment;
   HullReadings<d> hulls;
+  PointReadings points;
   double peak_force = 0;
   std::vector<std::string> body_names;
   Ledger ledger;
@@ -72,7 +74,8 @@ struct Recorder<d>::State {
         frames_due(settings.frames.value_or(0)),
         frames(settings.directory),
         equipment(settings.equipment.size()),
-        hulls(settings) {
+        hulls(settings),
+        points(settings.pressure_probes.size()) {
     for (const auto& record : settings.surface_pressure) surface_due.push_back(schedule_of(record));
     for (const auto& record : settings.added_mass) added_mass_due.push_back(schedule_of(record));
   }
@@ -80,7 +83,7 @@ struct Recorder<d>::State {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
-            max_speed_peak, energy, bodies, equipment, hulls, peak_force, body_names, speed, has_fluid,
+            max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, body_names, speed, has_fluid,
             cereal::binary_data(&ledger, sizeof ledger));
   }
 
@@ -94,7 +97,7 @@ struct Recorder<d>::State {
   bool fits_settings() const {
     return body_names.size() == bodies.size() && surface_due.size() == settings.surface_pressure.size() &&
            added_mass_due.size() == settings.added_mass.size() && equipment.size() == settings.equipment.size() &&
-           hulls.fits_settings();
+           hulls.fits_settings() && points.fits(settings.pressure_probes.size());
   }
 
   void start(const RecordInput<d>& input);
@@ -161,7 +164,12 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
     const auto acceleration = equipment_acceleration(input, i);
     equipment[i].add(kick, {acceleration.data(), static_cast<std::size_t>(d)});
   }
-  if (input.fluid) hulls.read(*input.fluid, kick);
+  if (input.fluid) {
+    hulls.read(*input.fluid, kick);
+    std::vector<double> pressures;
+    for (const auto& probe : settings.pressure_probes) pressures.push_back(probe_pressure(input, probe));
+    points.read(kick, std::move(pressures));
+  }
   if (new_peak) peak = take_frame(input);
   previous_dt = input.dt;
 }
@@ -201,7 +209,8 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
     probes.end_row();
   };
   if (input.fluid) {
-    for (const auto& probe : settings.pressure_probes) put(probe.name, probe_pressure(input, probe));
+    for (std::size_t i = 0; i < settings.pressure_probes.size(); ++i)
+      put(settings.pressure_probes[i].name, points.pressures()[i]);
     for (const auto& gauge : settings.gauges)
       put(gauge.name, surface_elevation(input.fluid->nodes(), input.fluid->mesh(), gauge.at)
                           .value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -331,15 +340,26 @@ void Recorder<d>::summarise(Summary& summary) const {
     summary.coupling->passes_max = s.run.passes_max;
   }
   for (std::size_t b = 0; b < s.body_names.size(); ++b) summary.bodies[s.body_names[b]] = s.bodies[b].summary();
-  for (std::size_t i = 0; i < s.equipment.size(); ++i)
-    summary.equipment[s.settings.equipment[i].name] = s.equipment[i].summary(standard_gravity);
-  s.hulls.summarise(summary);
-  const auto steps_of = [&](const std::string& body) -> const EvidenceStatistics* {
+  const auto statistics_of = [&](const std::string& body) -> const BodyStatistics<d>* {
     const auto found = std::ranges::find(s.body_names, body);
-    return found == s.body_names.end() ? nullptr
-                                       : &s.bodies[static_cast<std::size_t>(found - s.body_names.begin())].evidence();
+    return found == s.body_names.end() ? nullptr : &s.bodies[static_cast<std::size_t>(found - s.body_names.begin())];
   };
-  add_pressure_evidence<d>(summary, s.settings, s.hulls, steps_of);
+  for (std::size_t i = 0; i < s.equipment.size(); ++i) {
+    const auto& point = s.settings.equipment[i];
+    auto& equipment = summary.equipment[point.name] = {s.equipment[i].summary(standard_gravity), point.body, {}};
+    if (const auto* body = statistics_of(point.body); body && body->moves_freely())
+      equipment.grades = evidence_of(body->evidence(), equipment, s.equipment[i]);
+  }
+  s.hulls.summarise(summary);
+  if (s.has_fluid)
+    for (std::size_t i = 0; i < s.settings.pressure_probes.size(); ++i)
+      summary.probes[s.settings.pressure_probes[i].name] = {
+          s.points.peak(i), s.settings.pressure_probes[i].body, {}, {}};
+  const auto steps_of = [&](const std::string& body) -> const EvidenceStatistics* {
+    const auto* statistics = statistics_of(body);
+    return statistics ? &statistics->evidence() : nullptr;
+  };
+  add_pressure_evidence<d>(summary, s.settings, {s.hulls, s.points}, steps_of);
 }
 
 template <int d>

@@ -9,6 +9,7 @@
 
 #include "apps/report/page.hpp"
 #include "apps/statistics/attitude.hpp"
+#include "apps/statistics/limits.hpp"
 
 namespace splashdown::apps {
 
@@ -30,9 +31,23 @@ std::string title_of(const RunData& run) {
   return folder_name(run.directory);
 }
 
+/// "belly above 20 kPa? 13.2 kPa ± 1.1 kPa"
+std::string limit_text(const std::string& name, const nlohmann::ordered_json& limit) {
+  const auto text = [&](double value) { return value_text(value, text_at(limit, "unit")); };
+  const char* side = limit.contains("above") ? "above" : "below";
+  const double value = number_at(limit, {"value"}), band = number_at(limit, {"band"});
+  auto words = fmt::format("{} {} {}?", name, side, text(number_at(limit, {side})));
+  if (std::isfinite(value)) words += " " + text(value);
+  if (std::isfinite(band)) words += " ± " + text(band);
+  if (const auto reason = text_at(limit, "reason"); !reason.empty()) words += "; " + reason;
+  return html_escaped(words);
+}
+
 std::string tiles(const RunData& run) {
   std::string html;
   const auto tile = [&](const std::string& value, const std::string& what) { html += html_tile(value, what); };
+  for (const auto& [name, limit] : member(run.summary, "limits").items())
+    tile(html_escaped(text_at(limit, "answer")), limit_text(name, limit));
   const auto& bodies = member(run.summary, "bodies");
   const bool several = bodies.size() > 1;
   for (const auto& [name, body] : bodies.items()) {
@@ -203,7 +218,8 @@ std::string equipment_table(const RunData& run) {
   std::string html =
       "<h2>Equipment</h2>\n<div class=\"scroll\"><table><thead><tr><th>point</th><th>peak g, "
       "raw</th><th>at</th>"
-      "<th>CFC 1000</th><th>CFC 600</th><th>CFC 180</th><th>CFC 60</th><th>rise time</th><th>duration</th><th>change "
+      "<th>CFC 1000</th><th>CFC 600</th><th>CFC 180</th><th>CFC 60</th><th>its band</th><th>rise "
+      "time</th><th>duration</th><th>change "
       "of "
       "velocity</th></tr></thead><tbody>\n";
   for (const auto& [name, point] : points.items()) {
@@ -211,6 +227,7 @@ std::string equipment_table(const RunData& run) {
                         digits(number_at(point, {"raw", "value"}), 3), seconds_text(number_at(point, {"raw", "time"})));
     for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"})
       html += "<td>" + digits(number_at(point, {cfc, "value"}), 3) + "</td>";
+    html += "<td>" + grade_text(point, {"cfc60"}) + "</td>";
     const auto& pulse = shown_pulse(point);
     html +=
         fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", seconds_text(number_at(pulse, {"rise_time"})),

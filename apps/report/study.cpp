@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "apps/cli/pattern.hpp"
 #include "apps/record/tables/csv.hpp"
@@ -145,12 +146,28 @@ std::string status_cell(const std::string& status) {
   return "<td>" + html_escaped(status) + "</td>";
 }
 
+/// Names of the limits that any run has answered.
+std::set<std::string> limits_of(const StudyData& study) {
+  std::set<std::string> names;
+  for (const auto& run : study.runs())
+    if (run.contains("limits") && run["limits"].is_object())
+      for (const auto& [name, answer] : run["limits"].items()) names.insert(name);
+  return names;
+}
+
+std::string limit_cell(const Json& run, const std::string& name) {
+  const auto answer = run.contains("limits") ? text_at(run["limits"], name.c_str()) : "";
+  return "<td>" + (answer.empty() ? "–" : html_escaped(answer)) + "</td>";
+}
+
 std::string runs_table(const StudyData& study) {
   const auto columns = columns_of(study);
+  const auto limits = limits_of(study);
   std::string html = "<h2>Runs</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th>", rows;
   for (const auto& axis : list_at(study.root, "axes")) html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
   html += "<th>status</th>";
   for (const auto& [name, label] : columns) html += "<th>" + html_escaped(label) + "</th>";
+  for (const auto& name : limits) html += "<th>limit " + html_escaped(name) + "</th>";
   html += "</tr></thead><tbody>\n";
   bool linked = false;
   for (const auto& run : study.runs()) {
@@ -167,6 +184,7 @@ std::string runs_table(const StudyData& study) {
     }
     rows += status_cell(text_at(run, "status"));
     for (const auto& [column, label] : columns) rows += number_cell(number_at(run, {"numbers", column.c_str()}));
+    for (const auto& limit : limits) rows += limit_cell(run, limit);
     rows += "</tr>\n";
   }
   html += rows + "</tbody></table></div>\n";

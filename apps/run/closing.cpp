@@ -10,6 +10,7 @@
 #include "apps/record/frames/frames.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/statistics/grades.hpp"
+#include "apps/statistics/limits.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -116,9 +117,10 @@ std::string body_rows(const std::string& name, const BodySummary& body, int dime
   return text;
 }
 
-std::string equipment_text(const PulseSummary& point) {
-  auto text = fmt::format("peak acceleration {:.3g} g{}", point.raw.value, at(point.raw));
-  if (const auto pulse = pulse_text(point); !pulse.empty()) text += ", " + pulse;
+std::string equipment_text(const EquipmentSummary& point) {
+  auto text = fmt::format("peak acceleration {:.3g} g{}{}", point.raw.value, at(point.raw),
+                          band_text(point.grades.raw ? &*point.grades.raw : nullptr));
+  if (const auto pulse = pulse_text(point, point.grades); !pulse.empty()) text += ", " + pulse;
   return text;
 }
 
@@ -221,6 +223,7 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
   if (summary.wall_seconds > 0) text += closing_row("spent on", time_text(summary));
   text += closing_row("files", files_text(directory, summary.bodies));
   text += verdict_rows(summary.verdict, ink);
+  for (const auto& limit : summary.limits) text += closing_row("limit", text_of(limit));
   if (summary.next) text += closing_row("next", text_of(*summary.next));
   return text;
 }

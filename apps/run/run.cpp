@@ -9,7 +9,9 @@
 
 #include "apps/run/approach.hpp"
 #include "apps/run/interrupt.hpp"
+#include "apps/scene/numbers.hpp"
 #include "apps/scene/scales.hpp"
+#include "apps/statistics/limits.hpp"
 #include "apps/statistics/verdict.hpp"
 #include "core/stopwatch.hpp"
 
@@ -247,6 +249,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   }
   recorder_.summarise(s);
   judge(s);
+  s.limits = answered(scene_.limits, numbers_of(scene_), s, scene_.time.end);
   return s;
 }
 

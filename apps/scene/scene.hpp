@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/scene/limit.hpp"
 #include "rigid/shapes/shapes.hpp"
 
 namespace splashdown::apps {
@@ -275,6 +276,7 @@ struct Scene {
   std::optional<Coupling> coupling;  ///< present whenever a free body meets a fluid
   Output output;
   std::vector<RecordEntry> records;
+  std::vector<Limit> limits;  ///< of records, and those that stand alone
 };
 
 }  // namespace splashdown::apps

@@ -151,13 +151,22 @@ void grade_numbers(Summary& summary) {
     body.maximum_pressure_grade.emplace().evidence = body.maximum_pressure->evidence;
     grade(*body.maximum_pressure_grade, {d, Kind::pressure}, body);
   }
-  for (auto& [name, patch] : summary.patches) {
-    patch.grade.reset();
-    const auto body = summary.bodies.find(patch.body);
-    if (body == summary.bodies.end() || !(patch.pressure.value > 0)) continue;
-    patch.grade.emplace().evidence = patch.evidence;
-    grade(*patch.grade, {d, Kind::pressure}, body->second);
+  for (auto& [name, point] : summary.equipment) {
+    const auto body = summary.bodies.find(point.body);
+    if (body == summary.bodies.end() || body->second.landing.first_contact < 0)
+      point.grades = {};
+    else
+      grade(point.grades, point, at_rest_g, {d, Kind::acceleration}, body->second);
   }
+  const auto grade_pressure = [&](auto& place) {
+    place.grade.reset();
+    const auto body = summary.bodies.find(place.body);
+    if (body == summary.bodies.end() || !(place.pressure.value > 0)) return;
+    place.grade.emplace().evidence = place.evidence;
+    grade(*place.grade, {d, Kind::pressure}, body->second);
+  };
+  for (auto& [name, patch] : summary.patches) grade_pressure(patch);
+  for (auto& [name, point] : summary.probes) grade_pressure(point);
 }
 
 std::vector<Headline> headlines(const Summary& summary, const std::string& name) {
@@ -171,6 +180,10 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& name)
     list.push_back({"peak force" + class_text(body.force_grades),
                     with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3), f,
                     is_impulse(body.force_grades)});
+  for (const auto& [point_name, point] : summary.equipment)
+    if (const auto* a = point.body == name ? headline_of(point.grades) : nullptr)
+      list.push_back({"peak acceleration at " + point_name + class_text(point.grades),
+                      fmt::format("{:.3g} g", value_of(point, point.grades)), a, is_impulse(point.grades)});
   for (const auto& [patch_name, patch] : summary.patches)
     if (patch.body == name && patch.grade)
       list.push_back({"peak pressure on " + patch_name, with_unit(patch.pressure.value, "Pa", 3), &*patch.grade,

@@ -39,7 +39,7 @@ Grade grade_of_band(double band);
 void grade_numbers(Summary& summary);
 
 /// The numbers that a body's verdict goes by, with their names: accelerations and loads of CFC 60, raw where the record is too
-/// short for that class, and means over patches.
+/// short for that class, of the body and of its instruments, and means over patches.
 struct Headline {
   std::string name, value;
   const NumberGrade* grade = nullptr;

@@ -41,17 +41,12 @@ PulseSummary PulseStatistics::summary(double unit) const {
   return summary;
 }
 
-namespace {
-
-/// Evidence about each peak of a channel that was recorded in the same steps.
 PulseGrades evidence_of(const EvidenceStatistics& steps, const PulseSummary& pulses, const PulseStatistics& channel) {
   PulseGrades grades;
   if (pulses.raw.time >= 0) grades.raw.emplace().evidence = steps.about(pulses.raw, channel.history(), {});
   for (const auto& [cfc, pulse] : pulses.cfc) grades.cfc[cfc].evidence = steps.about(pulse, channel.history(), cfc);
   return grades;
 }
-
-}  // namespace
 
 template <int d>
 void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
@@ -88,7 +83,7 @@ BodySummary BodyStatistics<d>::summary() const {
   summary.wetted = wetted_;
   summary.landing = landing_.summary();
   summary.force_grades = evidence_of(evidence_, summary.force, force_);
-  if (mass_ == 0) return summary;  // what moves as prescribed has no acceleration of its own
+  if (!moves_freely()) return summary;
   summary.acceleration_grades = evidence_of(evidence_, summary.acceleration, acceleration_);
   const double inertia = mass_ * standard_gravity * summary.acceleration.raw.value;
   if (summary.force.raw.value > 0) summary.inertial = std::min(1., inertia / summary.force.raw.value);

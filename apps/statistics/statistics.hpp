@@ -39,6 +39,9 @@ class PulseStatistics {
   IntervalHistory history_;
 };
 
+/// Evidence about each peak of a channel that was recorded in the same steps.
+PulseGrades evidence_of(const EvidenceStatistics& steps, const PulseSummary& pulses, const PulseStatistics& channel);
+
 template <int d>
 struct BodyReading {
   Twist<d> velocity, acceleration;
@@ -58,6 +61,8 @@ class BodyStatistics {
   void add(const Kick& kick, const BodyReading<d>& reading);
   BodySummary summary() const;
   const EvidenceStatistics& evidence() const { return evidence_; }
+  /// What moves as prescribed has no acceleration of its own.
+  bool moves_freely() const { return mass_ != 0; }
   double peak_force() const { return force_.peak().time < 0 ? 0 : force_.peak().value; }
   template <class Archive>
   void serialize(Archive& archive) {

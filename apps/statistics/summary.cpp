@@ -81,11 +81,16 @@ Json json_of_classes(const std::map<int, NumberGrade>& classes) {
   return json;
 }
 
+Json json_of(const PulseGrades& grades) {
+  Json json = json_of_classes(grades.cfc);
+  if (grades.raw) json["raw"] = json_of(*grades.raw);
+  return json;
+}
+
 /// Under the keys of the numbers themselves.
 Json json_of_grades(const BodySummary& body) {
-  Json json = Json::object(), acceleration = json_of_classes(body.acceleration_grades.cfc);
-  if (body.acceleration_grades.raw) acceleration["raw"] = json_of(*body.acceleration_grades.raw);
-  json["peak_acceleration_g"] = acceleration;
+  Json json = Json::object();
+  json["peak_acceleration_g"] = json_of(body.acceleration_grades);
   if (body.force_grades.raw) json["peak_force"] = json_of(*body.force_grades.raw);
   json["peak_force_filtered"] = json_of_classes(body.force_grades.cfc);
   if (body.maximum_pressure_grade) json["maximum_pressure"] = json_of(*body.maximum_pressure_grade);
@@ -130,6 +135,17 @@ Json json_of(const BodySummary& body) {
   }
   json["verdict"] = json_of(body.verdict);
   json["grades"] = json_of_grades(body);
+  return json;
+}
+
+Json json_of(const LimitAnswer& limit) {
+  Json json = {{"answer", limit.answer},
+               {"quantity", limit.quantity},
+               {limit.above ? "above" : "below", number(limit.limit)},
+               {"value", number(limit.value)},
+               {"band", number(limit.band)},
+               {"unit", limit.unit}};
+  if (!limit.reason.empty()) json["reason"] = limit.reason;
   return json;
 }
 
@@ -232,8 +248,14 @@ std::string to_json(const Summary& summary) {
                      {"max_speed_peak", number(summary.fluid->max_speed_peak)}};
   json["bodies"] = Json::object();
   for (const auto& [name, body] : summary.bodies) json["bodies"][name] = json_of(body);
-  if (!summary.equipment.empty())
-    for (const auto& [name, point] : summary.equipment) json["equipment"][name] = json_of_acceleration(point);
+  for (const auto& [name, point] : summary.equipment) {
+    json["equipment"][name] = json_of_acceleration(point);
+    json["equipment"][name]["grades"] = json_of(point.grades);
+  }
+  for (const auto& [name, point] : summary.probes) {
+    json["probes"][name]["peak_pressure"] = json_of(point.pressure);
+    if (point.grade) json["probes"][name]["grades"]["peak_pressure"] = json_of(*point.grade);
+  }
   for (const auto& [name, patch] : summary.patches) {
     json["patches"][name] = {{"peak_pressure", json_of(patch.pressure)},
                              {"area", number(patch.area)},
@@ -241,6 +263,7 @@ std::string to_json(const Summary& summary) {
                              {"impulse_repair", number(patch.impulse_repair)}};
     if (patch.grade) json["patches"][name]["grades"]["peak_pressure"] = json_of(*patch.grade);
   }
+  for (const auto& limit : summary.limits) json["limits"][limit.name] = json_of(limit);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

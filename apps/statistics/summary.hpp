@@ -114,6 +114,31 @@ struct PatchSummary {
   std::optional<NumberGrade> grade;
 };
 
+/// Of a probe of pressure.
+struct PointSummary {
+  Peak pressure;     ///< [Pa]
+  std::string body;  ///< that it moves with; empty: of a place
+  Evidence evidence;
+  std::optional<NumberGrade> grade;
+};
+
+/// An instrument: the acceleration of a point of a body; peaks [g].
+struct EquipmentSummary : PulseSummary {
+  std::string body;
+  PulseGrades grades;  ///< first with the evidence alone, then graded (grades.hpp)
+};
+
+/// What a run says to a limit (limits.hpp); nan: nothing.
+struct LimitAnswer {
+  std::string name, quantity, unit;
+  bool above = true;  ///< what was asked; if not: below
+  double limit = 0;   ///< [unit]
+  std::string answer;
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< [unit]
+  double band = std::numeric_limits<double>::quiet_NaN();   ///< to either side [unit]
+  std::string reason;                                       ///< why it is neither yes nor no; empty: the band
+};
+
 struct BodySummary {
   PulseSummary acceleration;           ///< of the centre of mass; peaks [g]
   PulseSummary force;                  ///< of the fluid's total load [N, N/m]
@@ -183,8 +208,10 @@ struct Summary {
   std::optional<LedgerSummary> ledger;
   std::optional<FluidSummary> fluid;
   std::map<std::string, BodySummary> bodies;
-  std::map<std::string, PulseSummary> equipment;  ///< accelerations; peaks [g]
+  std::map<std::string, EquipmentSummary> equipment;
   std::map<std::string, PatchSummary> patches;
+  std::map<std::string, PointSummary> probes;
+  std::vector<LimitAnswer> limits;
   std::optional<NextStep> next;  ///< absent: every headline is resolved
 };
 

@@ -64,12 +64,19 @@ nlohmann::json fullest_summary(const Scene& scene) {
   if (scene.coupling) summary.coupling.emplace();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) summary.bodies[scene.bodies[i].name] = whole_body(scene, i);
   for (const auto& record : scene.records) {
-    if (const auto* point = std::get_if<AccelerationEntry>(&record)) summary.equipment[point->name] = all_classes();
+    if (const auto* point = std::get_if<AccelerationEntry>(&record))
+      summary.equipment[point->name] = {all_classes(), {}, all_grades()};
+    if (const auto* point = std::get_if<PressureEntry>(&record)) {
+      summary.probes[point->name].pressure.time = 0;
+      if (point->body) summary.probes[point->name].grade.emplace().evidence = {0, 0, 0, 0, 0, 0};
+    }
     if (const auto* patch = std::get_if<PatchEntry>(&record)) {
       summary.patches[patch->name].pressure.time = 0;
       summary.patches[patch->name].grade.emplace().evidence = {0, 0, 0, 0, 0, 0};
     }
   }
+  for (const auto& limit : scene.limits)
+    summary.limits.push_back({.name = limit.name, .quantity = {}, .unit = {}, .answer = {}, .reason = {}});
   return nlohmann::json::parse(to_json(summary));
 }
 

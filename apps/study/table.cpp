@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "apps/quantity/expression.hpp"
@@ -119,6 +120,14 @@ std::vector<std::string> all_number_columns(const Study& study) {
   return columns;
 }
 
+/// Names of the limits that any run has answered.
+std::vector<std::string> limit_names(const std::vector<Outcome>& outcomes) {
+  std::set<std::string> names;
+  for (const auto& outcome : outcomes)
+    for (const auto& [name, answer] : outcome.limits) names.insert(name);
+  return {names.begin(), names.end()};
+}
+
 /// Text of a csv cell, quoted where RFC 4180 asks for it.
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -129,12 +138,13 @@ std::string cell(const std::string& text) {
 }
 
 std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes) {
-  const auto numbers = all_number_columns(study);
+  const auto numbers = all_number_columns(study), limits = limit_names(outcomes);
   std::string text = "run";
   const auto add = [&](const std::string& entry) { text.append(1, ',').append(cell(entry)); };
   for (const auto& axis : study.axes) add(axis.name);
   add("status");
   for (const auto& name : numbers) add(name);
+  for (const auto& name : limits) add("limit." + name);
   add("cause");
   text += '\n';
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -144,6 +154,10 @@ std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const 
     for (const auto& name : numbers) {
       const auto found = outcomes[i].numbers.find(name);
       add(found == outcomes[i].numbers.end() ? std::string() : fmt::format("{}", found->second));
+    }
+    for (const auto& name : limits) {
+      const auto found = outcomes[i].limits.find(name);
+      add(found == outcomes[i].limits.end() ? std::string() : found->second);
     }
     add(outcomes[i].cause);
     text += '\n';
@@ -183,6 +197,7 @@ nlohmann::ordered_json json_of(const Study& study, const std::vector<StudyRun>& 
     entry["status"] = word(outcomes[i].status);
     if (!outcomes[i].cause.empty()) entry["cause"] = outcomes[i].cause;
     for (const auto& [name, number] : outcomes[i].numbers) entry["numbers"][name] = number;  // nan becomes null
+    for (const auto& [name, answer] : outcomes[i].limits) entry["limits"][name] = answer;
   }
   return root;
 }
@@ -246,6 +261,8 @@ Outcome outcome_of(const Study& study, const StudyRun& run, const fs::path& fold
   outcome.status = status_of(summary.value("status", ""), outcome.cause);
   for (const auto& [name, path] : from_summary)
     if (const auto value = quantity::find_entry(summary, path)) outcome.numbers[name] = value->numbers.front();
+  if (const auto limits = summary.find("limits"); limits != summary.end() && limits->is_object())
+    for (const auto& [name, limit] : limits->items()) outcome.limits[name] = limit.value("answer", "");
   // With a later `until`, or without one, it goes on.
   const double a_step_of_roundoff = 1e-9;
   if (outcome.status == Outcome::Status::converged &&

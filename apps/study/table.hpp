@@ -25,6 +25,7 @@ struct Outcome {
   std::string cause;  ///< why it stopped; empty otherwise
   /// By column: passes_mean, wall_seconds ... and the study's quantities with their errors; absent: no value.
   std::map<std::string, double> numbers;
+  std::map<std::string, std::string> limits;  ///< answers to those of the scene, by name
 
   bool finished() const { return status != Status::waiting && status != Status::interrupted; }
 };

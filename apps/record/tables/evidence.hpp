@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "apps/record/hulls.hpp"
+#include "apps/record/points.hpp"
 #include "apps/record/recorder.hpp"
 #include "apps/statistics/evidence.hpp"
 
@@ -20,9 +21,16 @@ std::vector<char> symmetric_axes(const RecorderSettings<d>& settings, const std:
 /// What mesh and loads of a body said in every step; null for a body without any.
 using StepsOfBody = std::function<const EvidenceStatistics*(const std::string& body)>;
 
-/// Fills the evidence about peaks of patches and about the largest pressures.
+/// What was read of pressures.
 template <int d>
-void add_pressure_evidence(Summary& summary, const RecorderSettings<d>& settings, const HullReadings<d>& hulls,
+struct PressureReadings {
+  const HullReadings<d>& hulls;
+  const PointReadings& points;
+};
+
+/// Fills the evidence about peaks of patches and of points, and about the largest pressures.
+template <int d>
+void add_pressure_evidence(Summary& summary, const RecorderSettings<d>& settings, const PressureReadings<d>& readings,
                            const StepsOfBody& steps_of);
 
 }  // namespace splashdown::apps

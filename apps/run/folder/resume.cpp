@@ -33,7 +33,8 @@ std::map<std::string, std::string> values_of(const std::string& resolved) {
   flatten(toml::parse(resolved), {}, values);
   std::erase_if(values, [](const auto& entry) {
     const auto& key = entry.first;
-    return key == "title" || key == "output.checkpoint" || key.starts_with("time.") || key.starts_with("coupling.");
+    return key == "title" || key == "output.checkpoint" || key.starts_with("time.") || key.starts_with("coupling.") ||
+           key.starts_with("limit[") || key.find("].limit.") != std::string::npos;
   });
   return values;
 }

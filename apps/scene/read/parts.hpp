@@ -17,6 +17,9 @@ std::optional<std::size_t> read_body_name(Reader& reader, std::string_view key, 
 std::optional<Joint> read_joint(Reader& reader, const Scene& scene);
 void read_contact(Reader& reader, Contact& contact);
 void read_record(Reader& reader, Scene& scene);
+/// The key `limit` of the record that was read last.
+void read_limit_of_record(Reader& record, Scene& scene);
+void read_limit(Reader& reader, Scene& scene);
 void read_coupling(Reader& reader, Coupling& coupling);
 
 }  // namespace splashdown::apps

@@ -102,7 +102,13 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     labels.records.push_back(reader.path());
     const auto before = scene.records.size();
     read_record(reader, scene);
-    if (scene.records.size() == before) labels.records.pop_back();
+    if (scene.records.size() == before) return labels.records.pop_back();
+    read_limit_of_record(reader, scene);
+    labels.limits.resize(scene.limits.size(), reader.path() + ".limit");
+  });
+  root.each_table("limit", [&](Reader& reader) {
+    read_limit(reader, scene);
+    labels.limits.resize(scene.limits.size(), reader.path());
   });
   return labels;
 }

@@ -115,7 +115,7 @@ class Reader {
   /// A key that the user named elsewhere.
   const toml::node* named_node(const std::string& name);
 
-  std::optional<Reader> table(std::string_view name, Need need = Need::optional);
+  std::optional<Reader> table(std::string_view name, Need need = Need::optional, std::string cure = {});
   /// The table, or one that is empty, so that its defaults are read and echoed.
   Reader table_or_defaults(std::string_view name);
   /// Each element of an array of tables. Those with a name are called by it: `body.wedge`.

@@ -37,12 +37,12 @@ void Reader::numbers_by_name(std::string_view name, std::map<std::string, double
   }
 }
 
-std::optional<Reader> Reader::table(std::string_view name, Need need) {
+std::optional<Reader> Reader::table(std::string_view name, Need need, std::string cure) {
   if (visit_) {
     note(name, {.type = Wanted::Type::table, .header = header_of(name)}, need);
     return Reader(*context_, no_table, key(name), header_of(name));
   }
-  const auto cure = "Write [" + header_of(name) + "] with its keys below.";
+  if (cure.empty()) cure = "Write [" + header_of(name) + "] with its keys below.";
   const auto* node = find(name, need, "a table", cure);
   if (!node) return {};
   if (const auto* table = node->as_table()) return Reader(*context_, *table, key(name), header_of(name));

@@ -29,6 +29,7 @@ void check_parts(const Scene& scene, const SceneLabels& labels, Problems& proble
   check_bodies<d>(scene, labels, problems);
   check_joints(scene, labels, problems);
   check_records<d>(scene, labels, problems);
+  check_limits(scene, labels, problems);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace splashdown::apps {
 
 /// How messages call the elements of arrays of tables, e.g. `body.wedge`, `fluid.region[0]`.
 struct SceneLabels {
-  std::vector<std::string> bodies, joints, regions, records;
+  std::vector<std::string> bodies, joints, regions, records, limits;
 };
 
 /// The one place where checking asks for the dimension.
@@ -20,6 +20,7 @@ void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& proble
 void check_joints(const Scene& scene, const SceneLabels& labels, Problems& problems);
 template <int d>
 void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& problems);
+void check_limits(const Scene& scene, const SceneLabels& labels, Problems& problems);
 template <int d>
 void check_records(const Scene& scene, const SceneLabels& labels, Problems& problems);
 

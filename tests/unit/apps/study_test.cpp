@@ -176,6 +176,20 @@ TEST_F(StudyTest, a_quantity_without_a_value_is_told_once) {
   EXPECT_NE(notes[0].find("unknown name 'vz'"), std::string::npos) << notes[0];
 }
 
+TEST_F(StudyTest, answers_to_limits_have_a_column_each) {
+  const auto study = read();
+  const auto runs = expand(study);
+  std::vector<Outcome> outcomes(runs.size());
+  outcomes[0].limits = {{"belly", "yes"}, {"seat", "within the band"}};
+  outcomes[1].limits = {{"belly", "no"}};
+  write_tables(study, runs, outcomes, path());
+  const auto csv = text("study.csv");
+  EXPECT_NE(csv.find(",limit.belly,limit.seat,cause\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",yes,within the band,\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",no,,\n"), std::string::npos) << csv;
+  EXPECT_NE(text("study.json").find("\"belly\": \"no\""), std::string::npos);
+}
+
 TEST_F(StudyTest, a_legend_of_numbers_says_what_they_are) {
   const auto study =
       read(testing::replaced(good_study, "x = \"ratio\"\nseries = \"scheme\"\ny = [\"passes_mean\", \"speed_error\"]",

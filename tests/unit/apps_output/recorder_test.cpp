@@ -9,6 +9,7 @@
 #include "apps/record/tables/rows.hpp"
 #include "apps/record/view.hpp"
 #include "apps/report/data.hpp"
+#include "apps/statistics/grades.hpp"
 #include "recorded_runs.hpp"
 
 namespace splashdown::apps {
@@ -239,6 +240,42 @@ TEST(Recorder, equipment_on_a_body_that_does_not_turn_has_the_bodys_pulse) {
   EXPECT_EQ(seat.raw.value, body.raw.value);
   EXPECT_EQ(seat.cfc.at(60).value, body.cfc.at(60).value);
   EXPECT_EQ(seat.cfc.at(60).change, body.cfc.at(60).change);
+}
+
+// An instrument there is as well resolved as the body itself.
+TEST(Recorder, equipment_on_a_body_that_does_not_turn_has_the_bodys_band) {
+  ScratchFolder folder;
+  Recorder<2> recorder(settings_in(folder.path()));
+  record_steps(recorder, 0, steps, true);
+  Summary summary;
+  recorder.summarise(summary);
+  grade_numbers(summary);
+  const auto& seat = summary.equipment.at("seat").grades;
+  const auto& body = summary.bodies.at("wedge").acceleration_grades;
+  ASSERT_TRUE(body.raw);
+  ASSERT_TRUE(seat.raw);
+  EXPECT_EQ(seat.raw->band, body.raw->band);
+  EXPECT_EQ(seat.raw->grade, body.raw->grade);
+  ASSERT_EQ(seat.cfc.size(), body.cfc.size());
+  for (const auto& [cfc, grade] : body.cfc) EXPECT_EQ(seat.cfc.at(cfc).band, grade.band);
+}
+
+TEST(Recorder, the_peak_of_a_probe_is_that_of_all_steps_whatever_rows_are_written) {
+  ScratchFolder every, seldom;
+  auto settings = settings_in(seldom.path());
+  settings.interval = 0.01;
+  Recorder<2> all(settings_in(every.path())), few(settings);
+  record_steps(all, 0, steps, true);
+  record_steps(few, 0, steps, true);
+  const auto probes = read_csv(every.path() / "probes.csv", "probe");
+  const auto& rows = std::ranges::find(probes, "keel", &NamedTables::value_type::first)->second;
+  for (const auto* recorder : {&all, &few}) {
+    Summary summary;
+    recorder->summarise(summary);
+    EXPECT_EQ(summary.probes.at("keel").pressure.value, std::ranges::max(rows["value"]));
+    EXPECT_EQ(summary.probes.at("keel").body, "wedge");
+    EXPECT_EQ(summary.probes.at("air").pressure.value, 0);
+  }
 }
 
 TEST(Recorder, added_mass_is_written_when_asked_for_and_only_then) {

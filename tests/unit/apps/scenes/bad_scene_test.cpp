@@ -368,6 +368,41 @@ TEST(BadScene, devices_are_no_scenes) {
   EXPECT_TRUE(messages[0].starts_with("/dev/zero: cannot be read: it is a device.")) << messages[0];
 }
 
+const std::vector<Mistake> limits = {
+    {"a_limit_as_a_number", "point = [0, 0]\n", "point = [0, 0]\nlimit = 20000\n", 33, "record.keel.limit = 20000",
+     "must be a table, not a number. Write limit = {above = 20000} or limit = {below = 20000}."},
+    {"a_limit_with_its_unit", "point = [0, 0]\n", "point = [0, 0]\nlimit = {above = \"20 kPa\"}\n", 33,
+     "record.keel.limit.above = \"20 kPa\"", "must be a number (Pa), not a string"},
+    {"a_limit_on_both_sides", "point = [0, 0]\n", "point = [0, 0]\nlimit = {above = 2, below = 1}\n", 33,
+     "record.keel.limit.below = 1", "exclude each other"},
+    {"a_limit_without_a_side", "point = [0, 0]\n", "point = [0, 0]\nlimit = {}\n", 33,
+     "record.keel.limit.above is missing", "e.g. above = 20000"},
+    {"a_limit_on_another_key", "point = [0, 0]\n", "point = [0, 0]\nlimit = {abvoe = 2, below = 1}\n", 33,
+     "record.keel.limit.abvoe = 2: unknown key", "Did you mean 'above'?"},
+    {"a_limit_of_a_curve", "kind = \"pressure\"\nname = \"keel\"\nbody = \"wedge\"\npoint = [0, 0]\n",
+     "kind = \"surface_pressure\"\nwall = \"wedge\"\nlimit = {above = 1}\n", 30, "record[0].limit",
+     "has no single number. Use it on a pressure"},
+    {"a_limit_of_a_number_that_is_none", "[output]",
+     "[[limit]]\nname = \"g\"\nquantity = \"wedge.g_cfc60\"\nabove = 12\n[output]", 28,
+     "limit.g.quantity = \"wedge.g_cfc60\"", "is called 'wedge.g_cfc60'. Did you mean 'wedge.peak_g_cfc60'?"},
+    {"a_limit_of_nobody", "[output]",
+     "[[limit]]\nname = \"g\"\nquantity = \"payload_bay.peak_g\"\nabove = 12\n[output]", 28, "limit.g.quantity",
+     "NAME is 'wedge' or 'keel'."},
+    {"a_limit_of_a_number_in_another_unit", "[output]",
+     "[[limit]]\nname = \"g\"\nquantity = \"wedge.peak_g\"\nunit = \"m/s^2\"\nabove = 12\n[output]", 29,
+     "limit.g.unit = \"m/s^2\"", "wedge.peak_g is in g"},
+    {"a_limit_of_no_expression", "[output]",
+     "[[limit]]\nname = \"g\"\nquantity = \"wedge.peak_g +\"\nabove = 12\n[output]", 28, "limit.g.quantity",
+     "Use the name of a number"},
+    {"a_limit_of_a_constant", "[output]", "[[limit]]\nname = \"g\"\nquantity = \"2*3\"\nabove = 12\n[output]", 28,
+     "limit.g.quantity", "holds no number of the run"},
+    {"two_limits_of_one_name", "point = [0, 0]\n",
+     "point = [0, 0]\nlimit = {above = 1}\n[[limit]]\nname = \"keel\"\nquantity = \"wedge.peak_g\"\nbelow = 12\n", 35,
+     "limit.keel.name = \"keel\"", "there is a limit of this name already"},
+};
+INSTANTIATE_TEST_SUITE_P(Limits, BadSceneIsRefused, ::testing::ValuesIn(limits),
+                         [](const auto& test) { return test.param.name; });
+
 TEST(BadScene, a_word_without_its_unit_means_the_key_with_it) {
   const auto messages = messages_of(testing::wedge_drop_with("size = 0.005", "size = 0.005\npitch = 5"));
   ASSERT_EQ(messages.size(), 1u);

@@ -6,6 +6,7 @@
 
 #include "apps/scene/choose/presets.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/numbers.hpp"
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
@@ -49,6 +50,38 @@ TEST(GoodScene, a_free_body_without_mass_has_the_least_that_one_in_this_fluid_ha
   const auto held = scene_of(testing::replaced(testing::wedge_drop_with("mass = 241", "mass = 0"), "free = [\"y\"]",
                                                "motion = \"prescribed\""));
   EXPECT_EQ(held.bodies.at(0).mass, 0.);
+}
+
+TEST(GoodScene, a_limit_of_a_record_is_one_that_stands_alone) {
+  const std::string
+      of_record = "point = [0, 0]\nlimit = {above = 20000}\n",
+      alone = "point = [0, 0]\n[[limit]]\nname = \"keel\"\nquantity = \"keel.peak_pressure\"\nabove = 20000\n";
+  for (const auto& text : {of_record, alone}) {
+    const auto file = read_scene_text(testing::wedge_drop_with("point = [0, 0]\n", text), "scene.toml");
+    for (const auto& scene : {file.scene, read_scene_text(file.resolved, "scene.resolved.toml").scene}) {
+      ASSERT_EQ(scene.limits.size(), 1u);
+      const auto& limit = scene.limits[0];
+      EXPECT_EQ(limit.name, "keel");
+      EXPECT_EQ(limit.quantity, "keel.peak_pressure");
+      EXPECT_EQ(limit.unit, "Pa");
+      EXPECT_TRUE(limit.above);
+      EXPECT_EQ(limit.value, 20000);
+    }
+  }
+}
+
+TEST(GoodScene, every_number_that_has_a_name_takes_a_limit) {
+  auto text = testing::wedge_drop;
+  const auto numbers = numbers_of(scene_of(text));
+  EXPECT_GT(numbers.size(), 10u);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    text += fmt::format("[[limit]]\nname = \"n{}\"\nquantity = \"{}\"\nbelow = {}\n", i, numbers[i].name, i);
+  const auto scene = scene_of(text);
+  ASSERT_EQ(scene.limits.size(), numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    EXPECT_EQ(scene.limits[i].unit, numbers[i].unit);
+    EXPECT_FALSE(scene.limits[i].above);
+  }
 }
 
 TEST(GoodScene, has_only_the_effects_it_names) {
