@@ -121,6 +121,43 @@ LadderOrder probe_order(const RunOptions& options, const Scene& scene) {
   return order;
 }
 
+/// Says what is about to be made, for how long at most, and of what time.
+void announce(const PlannedProbe& probe, double refine, const RunOptions& options) {
+  if (options.quiet) return;
+  const auto time = fmt::format("{} expected, {} at most", about_time(probe.expected), about_time(probe.most));
+  if (probe.is_run)
+    fmt::print("run         at refine {}, by check's guess alone: coarse runs would take more than a third of {}; {}\n",
+               digits_of(refine), about_time(*options.seconds), time);
+  else
+    fmt::print("coarse run  at refine {}: {}, with all others a third of {}\n", digits_of(refine), time,
+               about_time(*options.seconds));
+  std::fflush(stdout);
+}
+
+/// The mesh that was begun last.
+int climb_by(ProbePlan& plan, Ladder& ladder, const RunOptions& options, const std::function<double(int)>& refine,
+             std::string& from) {
+  const auto predicted = [&](int k) { return ladder.seconds_at(refine(k)).value_or(0); };
+  ProbesMade made;
+  int last = usual_first;
+  while (const auto probe = plan.next(made, predicted)) {
+    last = probe->mesh;
+    const RungSpec spec{refine(last), Role::rung};
+    announce(*probe, spec.refine, options);
+    const double before = ladder.spent();
+    const auto count = ladder.made().size();
+    const bool goes_on = ladder.climb(spec, probe->most);
+    if (probe->is_run) from = "check's guess alone";
+    if (!goes_on && (probe->is_run || interrupt_received())) return last;
+    if (!goes_on)
+      plan.stopped(ladder.spent() - before, ladder.part_made(spec));
+    else if (ladder.made().size() == count)
+      plan.failed();
+    made = {static_cast<int>(ladder.made().size()), goes_on ? last : made.finest, ladder.spent()};
+  }
+  return last;
+}
+
 /// Coarse runs beside the run's folder.
 Source probed_price(const RunOptions& options, const Scene& scene) {
   const double own = scene.fluid->size.refine;
@@ -136,23 +173,19 @@ Source probed_price(const RunOptions& options, const Scene& scene) {
   Ladder ladder(order, possible);
   make_study_folder(order.folder);
   const FolderLock lock(order.folder);
-  const auto predicted = [&](int k) { return ladder.seconds_at(refine(k)).value_or(0); };
-  std::optional<int> next = usual_first;
-  if (options.seconds)
-    next = first_probe(*options.seconds, range, usual_first,
-                       [&](int k) { return guessed_seconds(*scene_at(options.scene, options.overrides, refine(k))); });
-  while (next && ladder.climb({refine(*next), Role::rung})) {
-    const ProbesMade made{static_cast<int>(ladder.made().size()), *next, ladder.spent()};
-    if (options.seconds && made.count > 0)
-      next = next_probe(*options.seconds, range, made, predicted);
-    else
-      next = made.count < probes_for_accuracy && made.finest < range.finest ? std::optional(made.finest + 1)
-                                                                            : std::nullopt;
+  auto from = fmt::format("coarse runs in {}", order.folder.string());
+  int last = usual_first;
+  if (options.seconds) {
+    ProbePlan plan(*options.seconds, {range, usual_first, [&](int k) {
+                                        return guessed_seconds(*scene_at(options.scene, options.overrides, refine(k)));
+                                      }});
+    last = climb_by(plan, ladder, options, refine, from);
+  } else {
+    while (ladder.climb({refine(last), Role::rung}) && last < std::min(last_for_accuracy, range.finest)) ++last;
   }
-  if (ladder.made().empty() && !interrupt_received()) refuse_without_probes(options, ladder, refine(*next));
+  if (ladder.made().empty() && !interrupt_received()) refuse_without_probes(options, ladder, refine(last));
   std::vector<std::string> unused;
-  Source source{price_of(ladder.made(), order.quantities, scene.dimension, unused),
-                fmt::format("{} coarse runs in {}", ladder.made().size(), order.folder.string()), order.folder};
+  Source source{price_of(ladder.made(), order.quantities, scene.dimension, unused), from, order.folder};
   source.price.expected_nodes = std::move(order.expected_nodes);
   return source;
 }

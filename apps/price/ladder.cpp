@@ -113,7 +113,7 @@ bool Ladder::affordable(const RungSpec& spec) const {
   return seconds_at(spec.refine).value_or(0) <= seconds_left();
 }
 
-bool Ladder::climb(const RungSpec& spec) {
+bool Ladder::climb(const RungSpec& spec, double most) {
   if (end_.interrupted) return false;
   const auto& run = run_of(spec);
   if (auto rung = read(run, spec)) {
@@ -128,7 +128,7 @@ bool Ladder::climb(const RungSpec& spec) {
     end_.out_of_budget = true;
     return false;
   }
-  if (!make(run, spec)) return false;
+  if (!make(run, spec, most)) return false;
   if (auto rung = read(run, spec)) {
     say(fmt::format("refine {:<6} {:>8.3g} s  {:>9.3g} node-steps  {:>6.0f} MB{}", digits_of(spec.refine),
                     rung->seconds, rung->node_steps, rung->memory_mb,
@@ -138,12 +138,18 @@ bool Ladder::climb(const RungSpec& spec) {
   return true;
 }
 
-bool Ladder::make(const StudyRun& run, const RungSpec& spec) {
+double Ladder::part_made(const RungSpec& spec) const {
+  const auto& run = run_of(spec);
+  return quantity::read_summary(order_.folder / run.name).value("simulated_time", 0.) / run.stop;
+}
+
+bool Ladder::make(const StudyRun& run, const RungSpec& spec, double most) {
   const auto place = order_.folder / run.name, log = order_.folder / (run.name + ".log");
   prepare(run, place);
   fs::remove(log);
   auto study = study_;
-  if (order_.budget) study.budget = std::max(seconds_left(), 0.1);  // none is no budget
+  if (const double seconds = std::min(seconds_left(), most); seconds < HUGE_VAL)
+    study.budget = std::max(seconds, 0.1);  // none is no budget
   auto words = command_of(study, run, place);
   words.emplace_back("--no-report");  // the price list has a page of its own
   ChildProcess process(words, log);

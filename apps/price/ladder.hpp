@@ -1,6 +1,7 @@
 // The runs of a price: one scene at several refinements, one after the other, each in a process of its own.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -77,8 +78,11 @@ class Ladder {
   std::vector<StudyRun> runs() const { return runs_; }
   double seconds_left() const;
 
-  /// Makes the run, or reads it if it is finished; false if the ladder has to end or its cost does not fit in the budget.
-  bool climb(const RungSpec& spec);
+  /// Makes the run, or reads it if it is finished; false if the ladder has to end or its cost does not fit in the budget. It is
+  /// stopped after `most` seconds, with a checkpoint, from which the next climb goes on.
+  bool climb(const RungSpec& spec, double most = HUGE_VAL);
+  /// Of its simulated time, what a run that was stopped has made.
+  double part_made(const RungSpec& spec) const;
   /// Whether the run is finished already or is predicted to fit in the budget.
   bool affordable(const RungSpec& spec) const;
   std::optional<double> seconds_at(double refine) const;
@@ -86,7 +90,7 @@ class Ladder {
 
  private:
   const StudyRun& run_of(const RungSpec& spec) const;
-  bool make(const StudyRun& run, const RungSpec& spec);
+  bool make(const StudyRun& run, const RungSpec& spec, double most);
   std::optional<Rung> read(const StudyRun& run, const RungSpec& spec);
   void say(const std::string& text) const;
 

@@ -9,9 +9,10 @@ namespace {
 // 1.9 times coarser than the mesh that takes the rest. A quarter for a single one is the price of knowing how time grows at
 // all, or of a mesh that uses the time up.
 constexpr double first_probe_share = 0.05, all_share = 0.3, single_share = 0.25;
-constexpr double least_used = 0.9;  // less is worth another probe
-/// From the last probe to the mesh that is chosen: 2^(2/2) = `farthest_run`.
-constexpr int farthest_step = 2;
+/// Of what is left, for a run that nothing but the guess speaks for.
+constexpr double sure_share = 0.7;
+/// What a start says of a whole run: less says nothing.
+constexpr double least_part = 0.01;
 
 }  // namespace
 
@@ -24,12 +25,48 @@ int first_probe(double asked, ProbeRange range, int usual, const SecondsOf& gues
 std::optional<int> next_probe(double asked, ProbeRange range, const ProbesMade& made, const SecondsOf& predicted) {
   const int next = made.finest + 1;
   if (next > range.finest) return {};
-  if (made.spent + predicted(next) <= all_share * asked) return next;
-  if (made.count == 1 && predicted(next) <= single_share * asked) return next;
-  // No mesh in reach takes the time: one that may be chosen in reach of the next has to be paid for, too.
-  const bool out_of_reach = made.spent + predicted(made.finest + farthest_step) < least_used * asked;
-  if (out_of_reach && made.spent + 2 * predicted(next) <= asked) return next;
+  const auto fits = [&](double seconds) { return made.spent + seconds <= all_share * asked; };
+  if (fits(predicted(next))) {
+    const bool last = next + 1 > range.finest || !fits(predicted(next) + predicted(next + 1));
+    return last && next + 1 <= range.finest && fits(predicted(next + 1)) ? next + 1 : next;
+  }
+  if (made.count == 1 && predicted(next) <= single_share * asked && made.spent + predicted(next) <= most_share * asked)
+    return next;
   return {};
+}
+
+std::optional<PlannedProbe> ProbePlan::next(const ProbesMade& made, const SecondsOf& predicted) {
+  if (last_.is_run || (stopped_ && made.count > 0) || guess_.range.coarsest > guess_.range.finest) return {};
+  const double room = most_share * asked_ - made.spent;
+  if (made.count == 0) return last_ = first(room, asked_ - made.spent);
+  const auto mesh = next_probe(asked_, guess_.range, made, predicted);
+  if (!mesh) return {};
+  return last_ = {.mesh = *mesh, .expected = predicted(*mesh), .most = room};
+}
+
+PlannedProbe ProbePlan::first(double room, double left) const {
+  if (stopped_) return run_by_guess(left);
+  const int k = first_probe(asked_, guess_.range, guess_.usual, guess_.seconds);
+  if (guess_.seconds(k) > room) return run_by_guess(left);
+  return {.mesh = k, .expected = guess_.seconds(k), .most = room};
+}
+
+PlannedProbe ProbePlan::run_by_guess(double left) const {
+  const auto expected = [&](int k) { return off_ * guess_.seconds(k) - (stopped_ == k ? done_ : 0); };
+  int k = stopped_.value_or(guess_.range.coarsest);
+  while (k > guess_.range.coarsest && expected(k) > sure_share * left) --k;
+  return {.mesh = k, .expected = expected(k), .most = left, .is_run = true};
+}
+
+void ProbePlan::stopped(double seconds, double share) {
+  stopped_ = last_.mesh;
+  done_ = seconds;
+  off_ = std::max(1., seconds / std::max(share, least_part) / guess_.seconds(last_.mesh));
+}
+
+void ProbePlan::failed() {
+  guess_.range.coarsest = last_.mesh + 1;
+  guess_.usual = std::max(guess_.usual, guess_.range.coarsest);
 }
 
 }  // namespace splashdown::apps

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "apps/price/cost.hpp"
@@ -123,53 +124,124 @@ TEST(RunCost, one_slow_run_of_six_decides_little) {
   EXPECT_LT(std::abs(std::log(RunCost(rungs, {}, 2).seconds(2) / quiet)), std::log(2.) / 4);
 }
 
-/// What probes and the run that is chosen by them take of the time asked for, as run --seconds does it.
-double share_taken(const KnownScene& scene, double asked, double guess_off) {
+/// What a call of run --seconds takes, with a clock that is the cost of a scene: seconds in place of shares.
+struct Taken {
+  double probes = 0, run = 0;
+  bool ended = false;    ///< there is a run that reached its end
+  bool guessed = false;  ///< chosen by the guess alone
+};
+
+Taken taken_of(const KnownScene& scene, double asked, double guess_off, ProbeRange range = {-8, 8}) {
   const auto refine = [](int k) { return std::pow(2., 0.5 * k); };
-  const ProbeRange range{-8, 8};
   std::vector<Rung> rungs;
-  const auto cost = [&] { return RunCost(rungs, {{1. / 64, 1}, {64, std::pow(4096, scene.nodes_power)}}, 2); };
-  double spent = 0;
-  std::optional<int> next = first_probe(asked, range, -4, [&](int k) { return guess_off * scene.seconds(refine(k)); });
-  while (next) {
-    rungs.push_back(scene.made_at(refine(*next)));
-    spent += rungs.back().seconds;
-    next = next_probe(asked, range, {static_cast<int>(rungs.size()), *next, spent},
-                      [&](int k) { return cost().seconds(refine(k)); });
+  const std::vector<std::pair<double, double>> expected = {{1. / 64, 1}, {64, std::pow(4096, scene.nodes_power)}};
+  const auto predicted = [&](int k) { return RunCost(rungs, expected, 2).seconds(refine(k)); };
+  ProbePlan plan(asked, {range, -4, [&](int k) { return guess_off * scene.seconds(refine(k)); }});
+  Taken taken;
+  ProbesMade made;
+  std::map<int, double> done;  // of those that were stopped
+  while (const auto probe = plan.next(made, predicted)) {
+    const auto rung = scene.made_at(refine(probe->mesh));
+    const double left = rung.seconds - done[probe->mesh], spent = std::min(left, probe->most);
+    (probe->is_run ? taken.run : taken.probes) += spent;
+    made.spent += spent;
+    if (left > probe->most) {
+      if (probe->is_run) return taken;  // refused: the time is too short
+      done[probe->mesh] = spent;
+      plan.stopped(spent, spent / rung.seconds);
+      continue;
+    }
+    rungs.push_back(rung);
+    made = {static_cast<int>(rungs.size()), probe->mesh, made.spent};
+    taken.guessed = probe->is_run;
   }
+  taken.ended = true;
+  if (taken.guessed) return taken;
   std::vector<std::string> unused;
   auto price = price_of(rungs, {}, 2, unused);
-  price.expected_nodes = {{1. / 64, 1}, {64, std::pow(4096, scene.nodes_power)}};
-  return (spent + scene.made_at(*price.refine_in(asked - spent)).seconds) / asked;
+  price.expected_nodes = expected;
+  taken.run = scene.made_at(*price.refine_in(asked - made.spent)).seconds;
+  return taken;
+}
+
+/// Exponents one deviation off, clocks that differ by a twentieth from run to run.
+template <class See>
+void each_scene(const See& see) {
+  for (const double nodes_power : {0.6, 1., 2.})
+    for (const double off : {-1., 0., 1.})
+      see(KnownScene{.nodes_power = nodes_power,
+                     .steps_power = 0.75 + 0.15 * off,
+                     .step_power = 1.1 + 0.15 * off,
+                     .around = 0.3,
+                     .noise = 0.05});
 }
 
 TEST(Probes, a_run_that_is_told_its_seconds_takes_them) {
-  // Exponents one deviation off, clocks that differ by a twentieth from run to run, guesses that are off by six either way.
   for (const double asked : {10., 60., 300.})
-    for (const double nodes_power : {0.6, 1., 2.})
-      for (const double off : {-1., 0., 1.})
-        for (const double guess : {1 / 6., 1., 6.}) {
-          const KnownScene scene{.nodes_power = nodes_power,
-                                 .steps_power = 0.75 + 0.15 * off,
-                                 .step_power = 1.1 + 0.15 * off,
-                                 .around = 0.3,
-                                 .noise = 0.05};
-          const double share = share_taken(scene, asked, guess);
-          EXPECT_NEAR(share, 1, 0.3) << asked << " s, nodes " << nodes_power << ", off " << off << ", guess " << guess;
-        }
+    for (const double guess : {1 / 6., 1., 6.})  // off either way
+      each_scene([&](const KnownScene& scene) {
+        const auto taken = taken_of(scene, asked, guess);
+        EXPECT_TRUE(taken.ended);
+        EXPECT_NEAR((taken.probes + taken.run) / asked, 1, 0.3)
+            << asked << " s, nodes " << scene.nodes_power << ", steps " << scene.steps_power << ", guess " << guess;
+      });
+}
+
+TEST(Probes, take_a_third_of_the_time_at_most_whatever_the_guess) {
+  for (const double asked : {0.4, 2., 10., 60., 300.})
+    for (const double guess : {1e-3, 0.05, 1 / 14., 0.3, 1., 3., 20., 1e3})
+      for (const int coarsest : {-8, -4, 2})
+        each_scene([&](const KnownScene& scene) {
+          const auto taken = taken_of(scene, asked, guess, {coarsest, 8});
+          EXPECT_LE(taken.probes, asked / 3 * (1 + 1e-12)) << asked << " s, guess " << guess << ", from " << coarsest;
+        });
+}
+
+// One probe, fourteen times as dear as it was guessed, is stopped; it is what the time pays for, and goes on as the run.
+TEST(Probes, one_that_is_stopped_is_not_lost) {
+  const KnownScene scene{.nodes_power = 1};
+  const double dear = scene.seconds(0.25), asked = 200. / 138 * dear;
+  const auto taken = taken_of(scene, asked, 1 / 14.);
+  EXPECT_TRUE(taken.ended);
+  EXPECT_TRUE(taken.guessed);
+  EXPECT_NEAR(taken.probes, asked / 3, 1e-9);
+  EXPECT_NEAR(taken.probes + taken.run, dear, 1e-9);
+}
+
+TEST(Probes, none_is_made_where_the_coarsest_is_guessed_to_take_more_than_a_third) {
+  ProbePlan plan(10, {{-4, 8}, -4, [](int) { return 4.; }});
+  const auto only = plan.next({}, {});
+  ASSERT_TRUE(only);
+  EXPECT_TRUE(only->is_run);
+  EXPECT_EQ(only->mesh, -4);
+  EXPECT_EQ(only->most, 10);
+  EXPECT_FALSE(plan.next({1, -4, 6}, [](int) { return 0.; }));
+}
+
+TEST(Probes, one_that_cannot_go_on_is_followed_by_a_finer_one) {
+  ProbePlan plan(100, {{-4, -2}, -4, [](int) { return 1.; }});
+  for (const int mesh : {-4, -3, -2}) {
+    const auto probe = plan.next({}, {});
+    ASSERT_TRUE(probe);
+    EXPECT_EQ(probe->mesh, mesh);
+    plan.failed();
+  }
+  EXPECT_FALSE(plan.next({}, {}));
 }
 
 TEST(Probes, that_are_too_dear_are_not_made) {
   const auto seconds = [](int k) { return std::pow(2., k); };
   EXPECT_EQ(first_probe(100, {-4, 8}, 0, seconds), 0);
-  EXPECT_EQ(first_probe(2, {-4, 8}, 0, seconds), -4);          // of a tenth of a second: a sixteenth
-  EXPECT_EQ(first_probe(0.1, {-4, 8}, 0, seconds), -4);        // there is none coarser
-  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 0, 1}, seconds), 1);  // one after the other
-  EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 5}, seconds), 3);
-  EXPECT_FALSE(next_probe(100, {-4, 8}, {3, 4, 29}, seconds));  // 64 s are in reach
-  EXPECT_EQ(next_probe(200, {-4, 8}, {3, 4, 29}, seconds), 5);  // and not enough here
+  EXPECT_EQ(first_probe(2, {-4, 8}, 0, seconds), -4);           // of a tenth of a second: a sixteenth
+  EXPECT_EQ(first_probe(0.1, {-4, 8}, 0, seconds), -4);         // there is none coarser
+  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 0, 1}, seconds), 1);   // one after the other
+  EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 5}, seconds), 4);   // 8 and 16 s together are too many: the finer one
+  EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 15}, seconds), 3);  // 16 s are too many
+  EXPECT_FALSE(next_probe(100, {-4, 8}, {3, 4, 29}, seconds));
+  EXPECT_FALSE(next_probe(200, {-4, 8}, {3, 4, 29}, seconds));  // 61 s are more than three tenths, whatever is in reach
   EXPECT_EQ(next_probe(60, {-4, 8}, {1, 4, 16}, seconds), std::nullopt);
-  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 3, 20}, seconds), 4);  // one alone says nothing of growth
+  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 3, 16}, seconds), 4);  // one alone says nothing of growth
+  EXPECT_FALSE(next_probe(100, {-4, 8}, {1, 3, 20}, seconds));  // but together a third is all
   EXPECT_FALSE(next_probe(100, {-4, 3}, {1, 3, 8}, seconds));   // the scene allows none finer
 }
 
