@@ -22,3 +22,11 @@ trap 'rm -rf "$scratch"' EXIT
 }
 "$cmake" --build "$scratch/library"
 "$scratch/library/wedge_load" >"$scratch/loads.txt" || { cat "$scratch/loads.txt"; exit 1; }
+
+# What the example's README promises comes out, with the compiler's options that it is built with there.
+promised=$(sed -n 's/^ *\([0-9.]* ms  *-[0-9.]* m\/s  *[0-9.]* kN\/m\)$/\1/p' "$here/../../../examples/library/README.md")
+if [[ -z $flags ]] && ! tail -n 1 "$scratch/loads.txt" | grep -qF -- "$promised"; then
+  echo "examples/library/README.md promises '$promised', wedge_load ends with:"
+  tail -n 1 "$scratch/loads.txt"
+  exit 1
+fi
