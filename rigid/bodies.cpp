@@ -144,7 +144,7 @@ std::span<const BodyState<d>> Bodies<d>::solve(const Eigen::VectorXd& impulses) 
   w.expect(w.phase != World::Phase::committed, "solve needs begin first");
   w.expect_all(impulses);
   w.motions.forget_changes();
-  const auto velocity = w.settled(w.motions, impulses);
+  const auto velocity = w.motions.settled(impulses);
   w.impulses = impulses;
   w.drift(velocity ? *velocity : Eigen::VectorXd::Constant(impulses.size(), std::numeric_limits<double>::quiet_NaN()));
   return w.trials;

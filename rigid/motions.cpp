@@ -134,6 +134,16 @@ bool Motions::update_contacts(const Eigen::VectorXd& velocity, const Eigen::Vect
   return true;
 }
 
+std::optional<Eigen::VectorXd> Motions::settled(const Eigen::VectorXd& impulse) {
+  constexpr int most = 100;  // more changes than contacts in a scene
+  Eigen::VectorXd found = velocity(impulse);
+  for (int i = 0; update_contacts(found, impulse); ++i) {
+    if (i == most) return {};
+    found = velocity(impulse);
+  }
+  return found;
+}
+
 bool Motions::open_and_close(const Eigen::VectorXd& rate, const Eigen::MatrixXd& slide, const Found& found) {
   constexpr int together = 5;
   bool any = false;

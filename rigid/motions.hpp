@@ -18,6 +18,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace splashdown::rigid {
@@ -51,6 +52,8 @@ class Motions {
   Eigen::VectorXd unspent(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) const;
   /// Opens and closes contacts as velocity and impulse ask for. False: they were right.
   bool update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);
+  /// Velocity under a further impulse, contacts opening and closing as they ask for; none if that does not end.
+  std::optional<Eigen::VectorXd> settled(const Eigen::VectorXd& impulse);
   /// What closed contacts ask for beyond s_0: the slowest velocities that meet them.
   Eigen::VectorXd asked() const { return modes_ * pushed_; }
   /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes it 1/a;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "rigid/condition_rows.hpp"
 #include "rigid/embedding.hpp"
 #include "rigid/message.hpp"
 
@@ -19,20 +20,6 @@ namespace {
 double weight_of_later(double z) {
   if (z < 1e-3) return 0.5 + z / 12;
   return std::isfinite(z) ? -1 / std::expm1(-z) - 1 / z : 1;
-}
-
-template <int d>
-Eigen::VectorXd rates_of(const std::vector<Condition<d>>& conditions) {
-  Eigen::VectorXd rates(static_cast<Eigen::Index>(conditions.size()));
-  std::ranges::transform(conditions, rates.begin(), &Condition<d>::rate);
-  return rates;
-}
-
-/// What Bullet says in space, of the bodies' own freedoms.
-template <int d>
-Condition<d> lowered_condition(const Condition<3>& c) {
-  const auto lift = embedding<d>();
-  return {c.body, c.other, lift.transpose() * c.first, lift.transpose() * c.second, c.rate};
 }
 
 }  // namespace
@@ -107,14 +94,7 @@ std::vector<Condition<d>> Bodies<d>::World::equalities() {
 
 template <int d>
 Eigen::MatrixXd Bodies<d>::World::rows_of(const std::vector<Condition<d>>& conditions) const {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(conditions.size()), freedoms<d> * size());
-  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    const auto& c = conditions[static_cast<std::size_t>(r)];
-    rows.template block<1, freedoms<d>>(r, freedoms<d> * static_cast<Eigen::Index>(c.body)) += c.first.transpose();
-    if (c.other)
-      rows.template block<1, freedoms<d>>(r, freedoms<d> * static_cast<Eigen::Index>(*c.other)) += c.second.transpose();
-  }
-  return rows;
+  return rigid::rows_of<d>(conditions, size());
 }
 
 template <int d>
@@ -147,12 +127,7 @@ void Bodies<d>::World::find_stops_and_springs() {
       moved[j] = in_space.q;
     const JointCoordinate<d> at{moved[j], lowered_condition<d>(in_space.rate)};
     if (joint.spring) sprung.push_back({*joint.spring, at});
-    for (const double way : {1.0, -1.0}) {
-      const double stop = joint.stops[way > 0 ? 0 : 1];
-      if (!std::isfinite(stop)) continue;
-      near.push_back(
-          {at.rate.body, at.rate.other, way * at.rate.first, way * at.rate.second, way * (stop - at.q) / dt});
-    }
+    add_stops(joint, at, dt, near);
   }
 }
 
@@ -190,7 +165,7 @@ template <int d>
 void Bodies<d>::World::guess_contacts() {
   if (near.empty() || loads.size() == 0) return;
   Motions guess = motions;
-  if (!settled(guess, kick * loads)) return;
+  if (!guess.settled(kick * loads)) return;
   motions = std::move(guess);
   motions.forget_changes();
 }
@@ -237,7 +212,7 @@ void Bodies<d>::World::part_overlaps(Motions::Problem p) {
   p.rubbing = 0;
   p.tangents.resize(0, p.tangents.cols());
   Motions parting(p);
-  if (const auto found = settled(parting, p.impulse)) apart = *found;
+  if (const auto found = parting.settled(p.impulse)) apart = *found;
 }
 
 template <int d>
@@ -251,17 +226,6 @@ void Bodies<d>::World::add_springs(Motions::Problem& p) const {
     p.impulse -= kick * (spring.stiffness * lag + spring.damping * q_rate) * row.transpose();
     p.inertia += kick * (spring.stiffness * dt / 4 + later * spring.damping) * row.transpose() * row;
   }
-}
-
-template <int d>
-std::optional<Eigen::VectorXd> Bodies<d>::World::settled(Motions& motions, const Eigen::VectorXd& impulses) {
-  constexpr int most = 100;  // more changes than contacts in a scene
-  Eigen::VectorXd velocity = motions.velocity(impulses);
-  for (int i = 0; motions.update_contacts(velocity, impulses); ++i) {
-    if (i == most) return {};
-    velocity = motions.velocity(impulses);
-  }
-  return velocity;
 }
 
 template <int d>

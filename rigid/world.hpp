@@ -61,8 +61,6 @@ struct Bodies<d>::World {
   void guess_contacts();
   /// Trial states that these velocities of all bodies lead to.
   void drift(const Eigen::VectorXd& velocities);
-  /// Velocities under these impulses, contacts opening and closing as they ask for; none if that does not end.
-  static std::optional<Eigen::VectorXd> settled(Motions& motions, const Eigen::VectorXd& impulses);
   /// Contacts that cannot be had together, or only where a body leaves many times as fast as others close in on it: those that
   /// are held, or come on a path, leave it no room.
   Status squeezed() const;

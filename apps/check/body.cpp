@@ -110,7 +110,8 @@ std::string sizes_text(const Extents<d>& box) {
 }  // namespace
 
 template <int d>
-void print_body(const Scene& scene, const Body& body) {
+void print_body(const Scene& scene, std::size_t number, const std::optional<Resting<d>>& resting) {
+  const Body& body = scene.bodies[number];
   const auto spec = body_spec<d>(body);
   const double volume = shape_of<d>(body.shape).at_unit_density.mass;
   const auto hull = outline<d>(body);
@@ -140,10 +141,10 @@ void print_body(const Scene& scene, const Body& body) {
   if (body.without_mass) return row("added mass", about + ": all the inertia that counts");
   row("added mass", fmt::format("{}: {:.3g} times its mass{}", about, added / spec.mass,
                                 added > spec.mass ? "; needs interface_term rigid, or an accelerator" : ""));
-  print_floating<d>(scene, spec);
+  if (resting) print_floating<d>(scene, number, *resting);
 }
 
-template void print_body<2>(const Scene&, const Body&);
-template void print_body<3>(const Scene&, const Body&);
+template void print_body<2>(const Scene&, std::size_t, const std::optional<Resting<2>>&);
+template void print_body<3>(const Scene&, std::size_t, const std::optional<Resting<3>>&);
 
 }  // namespace splashdown::apps

@@ -114,7 +114,8 @@ void print_scene(const Scene& scene) {
   row("scales", fmt::format("L = {:.4g} m, U = {:.4g} m/s, L/U = {}", s.length, s.speed,
                             s.speed > 0 ? with_unit(s.length / s.speed, "s") : "-"));
   print_liquid<d>(scene);
-  for (const auto& body : scene.bodies) print_body<d>(scene, body);
+  const auto resting = at_rest<d>(scene);
+  for (std::size_t i = 0; i < resting.size(); ++i) print_body<d>(scene, i, resting[i]);
   print_ties<d>(scene);
   print_effects<d>(scene);
   const auto cost = predicted_cost<d>(scene);

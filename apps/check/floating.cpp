@@ -1,6 +1,7 @@
 #include "apps/check/floating.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,17 +19,45 @@ namespace {
 /// Round-off of an angle that is meant to be zero is not shown.
 double shown(double degrees) { return std::abs(degrees) < 1e-6 ? 0 : degrees; }
 
-double extent(const rigid::BodySpec<3>& spec) { return extents<3>(spec.surface).diagonal().norm(); }
+template <int d>
+double extent(const rigid::BodySpec<d>& spec) {
+  return extents<d>(spec.surface).diagonal().norm();
+}
 
 /// Levers below this share of the extent are those of a round body's facets.
 constexpr double facets = 1e-4;
 
-void describe(const Scene&, const rigid::BodySpec<2>&, const rigid::Floating<2>& rest, double level) {
-  const auto angles = attitude_deg<2>(rest.pose.linear());
+std::string attitude_text(const rigid::Isometry<2>& pose) {
+  return fmt::format("pitch {:.4g} deg", shown(attitude_deg<2>(pose.linear())[1]));
+}
+std::string attitude_text(const rigid::Isometry<3>& pose) {
+  const auto angles = attitude_deg<3>(pose.linear());
+  return fmt::format("heel (roll) {:.4g} deg, trim (pitch) {:.4g} deg", shown(angles[0]), shown(angles[1]));
+}
+
+std::string height_text(double height) {
+  return height < 0 ? fmt::format("{:.4g} m below the water", -height)
+                    : fmt::format("{:.4g} m above the water", height);
+}
+
+/// What is taken for granted about water in hollows.
+template <int d>
+void print_hollow(const Resting<d>& resting, double freeboard, rigid::Hollow then) {
+  if (resting.filled)
+    return row("hollow",
+               "a region reaches into it: taken as flooded, with the level of the water outside; end the "
+               "region at the hull if it is to be dry");
+  if (then == rigid::Hollow::flooded)
+    return row("hollow", "water comes over its rim on the way to rest: taken as flooded");
+  if (std::isfinite(freeboard))
+    row("hollow", fmt::format("dry until water comes over its rim, {:.4g} m above the water at rest", freeboard));
+}
+
+void describe(const Scene&, const Resting<2>& resting, double level) {
+  const auto& rest = *resting.floats;
   row("at rest",
-      fmt::format("floats with a draft of {:.5g} m, pitch {:.4g} deg, GM {:.4g} m, centre of mass "
-                  "{:.4g} m above the water",
-                  rest.draft, shown(angles[1]), rest.metacentric_height, rest.pose.translation().y() - level));
+      fmt::format("floats with a draft of {:.5g} m, {}, GM {:.4g} m, centre of mass {}", rest.draft,
+                  attitude_text(rest.pose), rest.metacentric_height, height_text(rest.pose.translation().y() - level)));
 }
 
 /// The horizontal direction in which the nose (x axis of the shape) points, that of the world's x if it points up.
@@ -38,62 +67,127 @@ rigid::Slope<3> length_axis(const rigid::Floating<3>& rest) {
   return nose.norm() > upright ? rigid::Slope<3>(nose.normalized()) : rigid::Slope<3>::UnitX();
 }
 
-void print_levers(const Scene& scene, const rigid::BodySpec<3>& spec, const rigid::Floating<3>& rest, double level) {
+/// Where a value that rows of a curve have changes its sign from positive [deg], linear between them; nothing if it does not.
+template <class Value>
+std::optional<double> zero_of(const std::vector<rigid::Heeled>& curve, std::size_t from, const Value& value) {
+  for (std::size_t i = from; i < curve.size(); ++i) {
+    if (value(curve[i]) > 0) continue;
+    const double before = value(curve[i - 1]), share = before / (before - value(curve[i]));
+    return (curve[i - 1].heel + share * (curve[i].heel - curve[i - 1].heel)) / radians;
+  }
+  return {};
+}
+
+/// Where the curve is not that of a body that is left alone.
+void print_trim(const std::vector<rigid::Heeled>& curve, double round_off) {
+  const auto unstable =
+      zero_of(curve, 1, [&](const rigid::Heeled& at) { return at.jumped ? 1 : at.trim_height + round_off; });
+  if (unstable)
+    row("", fmt::format("beyond {:.0f} deg its trim is balanced, but not stable: left alone it leaves this curve",
+                        *unstable));
+  for (std::size_t i = 1; i < curve.size(); ++i)
+    if (curve[i].jumped)
+      row("",
+          fmt::format("between {:.0f} and {:.0f} deg it loses its stability in trim: it goes from {:.3g} to {:.3g} deg",
+                      curve[i - 1].heel / radians, curve[i].heel / radians, shown(curve[i - 1].trim / radians),
+                      shown(curve[i].trim / radians)));
+}
+
+void print_levers(const Scene& scene, const Resting<3>& resting, double level) {
+  const auto& spec = resting.spec;
+  const auto& rest = *resting.floats;
   std::vector<double> heels;
   for (int degree = 0; degree <= 180; degree += 15) heels.push_back(degree * radians);
   const auto curve =
       rigid::righting_levers(spec.surface, rest, spec.mass, scene.fluid->density, level, length_axis(rest), heels);
   const auto most =
       std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.lever < b.lever; });
-  if (most->lever < facets * extent(spec))
+  const double last = curve.back().heel / radians;
+  const bool ends = last < 180 - 1e-9;
+  if (!ends && most->lever < facets * extent<3>(spec))
     return row("righting levers", "none to speak of: a round body keeps any heel");
-  // Positive from rest to where the lever changes its sign, linear between the rows.
-  double range = 180;
-  for (std::size_t i = 2; i < curve.size(); ++i)
-    if (curve[i].lever <= 0) {
-      const double share = curve[i - 1].lever / (curve[i - 1].lever - curve[i].lever);
-      range = (curve[i - 1].heel + share * (curve[i].heel - curve[i - 1].heel)) / radians;
-      break;
-    }
+  // Positive from rest to where the lever changes its sign.
+  const double range = zero_of(curve, 2, [](const rigid::Heeled& at) { return at.lever; }).value_or(last);
   row("righting levers",
       fmt::format("heel about its length, to starboard, free to sink and to trim: GZ {:.4g} m at most, near "
                   "{:g} deg; it rights itself up to about {:.0f} deg",
                   most->lever, std::round(most->heel / radians), range));
+  print_trim(curve, facets * extent<3>(spec));
+  if (ends)
+    row("", fmt::format("at {:.1f} deg {}", last,
+                        std::isfinite(curve.back().floating.freeboard) ? "water comes over the rim of its hollow"
+                                                                       : "it trims until it stands on end"));
   row("", "heel [deg]     GZ [m]  draft [m]");
   for (const auto& point : curve) {
-    const double lever = std::abs(point.lever) < 1e-9 * extent(spec) ? 0 : point.lever;
+    const double lever = std::abs(point.lever) < 1e-9 * extent<3>(spec) ? 0 : point.lever;
     row("", fmt::format("{:10.0f} {:10.4f} {:10.4f}", point.heel / radians, lever, point.floating.draft));
   }
 }
 
-void describe(const Scene& scene, const rigid::BodySpec<3>& spec, const rigid::Floating<3>& rest, double level) {
-  const auto angles = attitude_deg<3>(rest.pose.linear());
-  row("at rest",
-      fmt::format("floats with a draft of {:.5g} m, heel (roll) {:.4g} deg, trim (pitch) {:.4g} deg, centre of mass "
-                  "{:.4g} m above the water",
-                  rest.draft, shown(angles[0]), shown(angles[1]), rest.pose.translation().z() - level));
+void describe(const Scene& scene, const Resting<3>& resting, double level) {
+  const auto& rest = *resting.floats;
+  row("at rest", fmt::format("floats with a draft of {:.5g} m, {}, centre of mass {}", rest.draft,
+                             attitude_text(rest.pose), height_text(rest.pose.translation().z() - level)));
   const rigid::Slope<3> length = length_axis(rest), across(-length.y(), length.x());
   const auto height = [&](const rigid::Slope<3>& direction) {
     const double gm = rigid::metacentric_height<3>(rest, direction);
-    return std::abs(gm) < facets * extent(spec) ? 0 : gm;
+    return std::abs(gm) < facets * extent<3>(resting.spec) ? 0 : gm;
   };
   row("metacentric heights", fmt::format("GM {:.4g} m in roll, {:.4g} m in pitch; water plane {:.4g} m^2",
                                          height(across), height(length), rest.submerged.waterline));
-  print_levers(scene, spec, rest, level);
+  print_levers(scene, resting, level);
+}
+
+/// What keeps it from floating as if it were alone.
+template <int d>
+std::string held_text(const Scene& scene, std::size_t number, const rigid::BodyAtRest<d>& rest) {
+  const Body& body = scene.bodies[number];
+  std::vector<std::string> reasons;
+  if (body.free.size() < freedom_names(d).size())
+    reasons.push_back(fmt::format("free in {} only", fmt::join(body.free, ", ")));
+  for (const auto& joint : scene.joints) {
+    if (joint.body != number && joint.other != number) continue;
+    const auto other = joint.body == number ? joint.other : std::optional(joint.body);
+    reasons.push_back(fmt::format("{} to {}", joint.type, other ? scene.bodies[*other].name : "the world"));
+  }
+  if (rest.touches) reasons.emplace_back("touches what it meets");
+  return fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+template <int d>
+void describe_held(const Scene& scene, std::size_t number, const Resting<d>& resting, double level) {
+  const auto& rest = *resting.held;
+  const auto held = held_text<d>(scene, number, rest);
+  if (rest.sinks) return row("at rest", fmt::format("sinks ({})", held));
+  const auto turned = (rest.pose.linear() * resting.spec.surface.vertices).row(d - 1);
+  const double height = turned.maxCoeff() - turned.minCoeff();
+  const auto where = rest.draft <= 0 ? fmt::format("hangs {:.5g} m above the water", -rest.draft)
+                     : rest.draft >= height
+                         ? fmt::format("lies under water, its lowest point {:.5g} m deep", rest.draft)
+                         : fmt::format("floats with a draft of {:.5g} m", rest.draft);
+  row("at rest", fmt::format("{}, {}, centre of mass {} ({})", where, attitude_text(rest.pose),
+                             height_text(rest.pose.translation()(d - 1) - level), held));
+  print_hollow<d>(resting, rest.freeboard, rest.hollow);
 }
 
 }  // namespace
 
 template <int d>
-void print_floating(const Scene& scene, const rigid::BodySpec<d>& spec) {
-  const auto level = still_water_level<d>(scene);
-  if (!level || !scene.gravity) return;
-  const auto rest = rigid::floating_stable<d>(spec.surface, spec.pose, spec.mass, scene.fluid->density, *level);
-  if (!rest) return row("at rest", "sinks: heavier than the water it can displace");
-  describe(scene, spec, *rest, *level);
+void print_floating(const Scene& scene, std::size_t body, const Resting<d>& resting) {
+  const double level = *still_water_level<d>(scene);
+  if (resting.held) return describe_held<d>(scene, body, resting, level);
+  if (!resting.floats) {
+    const bool had_hollow =
+        !resting.filled && !rigid::hollow_bottoms<d>(resting.spec.surface, resting.spec.pose).empty();
+    row("at rest", had_hollow ? "sinks: heavier than the water it can displace, or its hollow is flooded first"
+                              : "sinks: heavier than the water it can displace");
+    return print_hollow<d>(resting, std::numeric_limits<double>::infinity(), rigid::Hollow::dry);
+  }
+  describe(scene, resting, level);
+  print_hollow<d>(resting, resting.floats->freeboard, resting.floats->hollow);
 }
 
-template void print_floating<2>(const Scene&, const rigid::BodySpec<2>&);
-template void print_floating<3>(const Scene&, const rigid::BodySpec<3>&);
+template void print_floating<2>(const Scene&, std::size_t, const Resting<2>&);
+template void print_floating<3>(const Scene&, std::size_t, const Resting<3>&);
 
 }  // namespace splashdown::apps

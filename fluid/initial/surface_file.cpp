@@ -43,6 +43,9 @@ const std::string clean =
     "export it again.";
 const std::string triangulate =
     "Cut its facets into triangles, e.g. Blender: Face > Triangulate Faces, and export it again.";
+const std::string bridge =
+    "Join the rims of both skins, e.g. Blender: Edge > Bridge Edge Loops; for a hull that is closed above, delete the "
+    "inner skin and close the outer one.";
 const std::string unite = "Join the parts, e.g. Blender: Boolean > Union, or mend the place, and export it again.";
 
 /// Points and the polygons between them.
@@ -182,7 +185,8 @@ bool has_open_edge(const Soup& soup) {
   return std::any_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 1; });
 }
 
-void refuse_disagreement(Soup& soup) {
+/// Facets agree about the outside from here on. What disagreed before, told once it is known that it is to stay; empty: nothing.
+std::string oriented(Soup& soup) {
   Findings findings;
   const Soup given = soup;
   pmp::orient_polygon_soup(soup.points, soup.polygons, CGAL::parameters::visitor(Listener(findings)));
@@ -198,12 +202,11 @@ void refuse_disagreement(Soup& soup) {
     throw SurfaceFileError(fmt::format("is not the surface of a solid: parts of it touch in the point {}",
                                        text(given.at(*findings.crowded_point))),
                            unite);
-  if (findings.turned.empty()) return;
+  if (findings.turned.empty()) return {};
   const std::size_t turned = std::min(findings.turned.size(), given.polygons.size() - findings.turned.size());
   const auto first = findings.turned.front();
-  throw SurfaceFileError(fmt::format("has facets turned against their neighbours, {} of {}, at {} (facet {})", turned,
-                                     given.polygons.size(), text(given.centre(first)), first + 1),
-                         flip);
+  return fmt::format("has facets turned against their neighbours, {} of {}, at {} (facet {})", turned,
+                     given.polygons.size(), text(given.centre(first)), first + 1);
 }
 
 /// CGAL's triangulation of a facet believes that its outline, seen along the normal, does not cross itself. Its test of that takes
@@ -228,6 +231,24 @@ void refuse_crossed_outlines(const Polyhedron& mesh) {
                                        text({p.x(), p.y(), p.z()})),
                            triangulate);
   }
+}
+
+std::vector<Polyhedron> shells_of(const Polyhedron& mesh) {
+  std::vector<Polyhedron> parts;
+  pmp::split_connected_components(mesh, parts);
+  return parts;
+}
+
+/// An open part inside the box of another one: an open boat without its rim.
+bool has_open_skins(const Polyhedron& mesh) {
+  std::vector<CGAL::Bbox_3> open;
+  for (const auto& part : shells_of(mesh))
+    if (!CGAL::is_closed(part)) open.push_back(pmp::bbox(part));
+  const auto within = [](const CGAL::Bbox_3& inner, const CGAL::Bbox_3& outer) {
+    return CGAL::do_overlap(inner, outer) && inner + outer == outer && inner != outer;
+  };
+  return std::ranges::any_of(
+      open, [&](const auto& a) { return std::ranges::any_of(open, [&](const auto& b) { return within(a, b); }); });
 }
 
 void refuse_holes(const Polyhedron& mesh) {
@@ -255,7 +276,10 @@ void refuse_holes(const Polyhedron& mesh) {
   for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
     where += fmt::format(", around {} with {} edges", text(found[i].centre), found[i].edges);
   const char* holes_are = found.size() == 1 ? "hole" : "holes";
-  throw SurfaceFileError(fmt::format("is not closed: {} {}{}", found.size(), holes_are, where), close);
+  const bool skins = has_open_skins(mesh);
+  throw SurfaceFileError(fmt::format("is not closed: {} {}{}{}", found.size(), holes_are, where,
+                                     skins ? "; of two skins, one inside the other" : ""),
+                         skins ? bridge : close);
 }
 
 void refuse_crossings(const Polyhedron& mesh) {
@@ -269,29 +293,44 @@ void refuse_crossings(const Polyhedron& mesh) {
       fmt::format("crosses itself: {} pairs of facets, the first at {}", crossings.size(), text(where)), unite);
 }
 
-/// Every closed part is turned outward, and none is inside another one.
-int checked_parts(const Polyhedron& mesh) {
-  std::vector<Polyhedron> parts;
-  pmp::split_connected_components(mesh, parts);
-  const auto place = [](const Polyhedron& part) {
-    const auto& p = part.point(*part.vertices().begin());
-    return Vec<3>(p.x(), p.y(), p.z());
-  };
-  for (const auto& part : parts)
-    if (pmp::volume(part) <= 0)
-      throw SurfaceFileError(parts.size() == 1 ? "is inside out: all its normals point inward"
-                                               : fmt::format("has a part that is inside out, at {}", text(place(part))),
-                             flip);
+Vec<3> place(const Polyhedron& part) {
+  const auto& p = part.point(*part.vertices().begin());
+  return {p.x(), p.y(), p.z()};
+}
+
+/// Parts inside other ones are to go, whichever way they are turned; what is wrong with the others is told with them.
+void refuse_inner_parts(const std::vector<Polyhedron>& parts, bool turned) {
+  if (parts.size() == 1) return;
+  std::vector<char> inner(parts.size(), 0);
   for (const auto& outer : parts) {
-    if (parts.size() == 1) break;
     const CGAL::Side_of_triangle_mesh<Polyhedron, Kernel> side(outer);
-    for (const auto& inner : parts)
-      if (&inner != &outer && side(inner.point(*inner.vertices().begin())) == CGAL::ON_BOUNDED_SIDE)
-        throw SurfaceFileError(
-            fmt::format("has a part inside another one, at {}", text(place(inner))),
-            "Remove it: no water gets there; what it means for the mass goes into mass and inertia.");
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (&parts[i] != &outer && side(parts[i].point(*parts[i].vertices().begin())) == CGAL::ON_BOUNDED_SIDE)
+        inner[i] = 1;
   }
-  return static_cast<int>(parts.size());
+  const auto count = std::ranges::count(inner, 1);
+  if (count == 0) return;
+  for (std::size_t i = 0; i < parts.size(); ++i) turned = turned || (!inner[i] && pmp::volume(parts[i]) <= 0);
+  const auto first = static_cast<std::size_t>(std::ranges::find(inner, 1) - inner.begin());
+  const std::string which = count == 1 ? "a part inside another one, an inner skin or a void"
+                                       : fmt::format("{} parts inside other ones, inner skins or voids", count);
+  throw SurfaceFileError(
+      fmt::format("has {}, at {}{}", which, text(place(parts[first])), turned ? "; what is outside is inside out" : ""),
+      fmt::format("Delete {} alone: no water gets there; what it means for the mass goes into mass and inertia.{}",
+                  count == 1 ? "it" : "them", turned ? " " + flip : ""));
+}
+
+void refuse_inside_out(const std::vector<Polyhedron>& parts) {
+  std::string where;
+  int count = 0;
+  for (const auto& part : parts)
+    if (pmp::volume(part) <= 0 && ++count == 1) where = text(place(part));
+  if (count == 0) return;
+  const bool all = count == static_cast<int>(parts.size());
+  throw SurfaceFileError(all          ? "is inside out: all its normals point inward"
+                         : count == 1 ? fmt::format("has a part that is inside out, at {}", where)
+                                      : fmt::format("has {} parts that are inside out, the first at {}", count, where),
+                         flip);
 }
 
 }  // namespace
@@ -301,15 +340,21 @@ SurfaceFile read_surface_file(const std::filesystem::path& path) {
   merge_points(soup);
   refuse_repeated_corners(soup);
   refuse_without_area(soup);
-  refuse_disagreement(soup);
+  const std::string disagreement = oriented(soup);
   Polyhedron mesh;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
+  if (!disagreement.empty() && !CGAL::is_closed(mesh)) throw SurfaceFileError(disagreement, flip);
   refuse_crossed_outlines(mesh);
   if (!CGAL::is_triangle_mesh(mesh)) pmp::triangulate_faces(mesh);
   refuse_holes(mesh);
-  refuse_crossings(mesh);
+  const bool crosses = pmp::does_self_intersect<CGAL::Sequential_tag>(mesh);
+  const auto parts = shells_of(mesh);
+  if (!crosses) refuse_inner_parts(parts, !disagreement.empty());
+  if (!disagreement.empty()) throw SurfaceFileError(disagreement, flip);
+  if (crosses) refuse_crossings(mesh);
+  refuse_inside_out(parts);
   SurfaceFile file;
-  file.parts = checked_parts(mesh);
+  file.parts = static_cast<int>(parts.size());
   file.surface.vertices.resize(3, static_cast<Eigen::Index>(mesh.number_of_vertices()));
   file.surface.facets.resize(3, static_cast<Eigen::Index>(mesh.number_of_faces()));
   for (const auto v : mesh.vertices()) {

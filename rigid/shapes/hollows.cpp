@@ -1,6 +1,7 @@
 #include "rigid/shapes/hollows.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -140,8 +141,16 @@ bool Hollows<d>::opens_upward(const Corners& turned, int v) const {
 }
 
 template <int d>
+std::vector<int> Hollows<d>::bottoms(const Corners& turned) const {
+  std::vector<int> found;
+  std::ranges::copy_if(concave_, std::back_inserter(found),
+                       [&](int v) { return is_bottom(turned, v) && opens_upward(turned, v); });
+  return found;
+}
+
+template <int d>
 std::vector<double> Hollows<d>::rims(const Corners& turned) const {
-  if (std::ranges::none_of(concave_, [&](int v) { return is_bottom(turned, v) && opens_upward(turned, v); })) return {};
+  if (bottoms(turned).empty()) return {};
   std::vector<int> ascending(neighbours_.size());
   std::iota(ascending.begin(), ascending.end(), 0);
   std::ranges::sort(ascending, {}, [&](int v) { return std::pair(turned(d - 1, v), v); });

@@ -19,9 +19,12 @@ class Hollows {
  public:
   /// Of a closed surface with outward normals, which is kept by reference.
   explicit Hollows(const Surface<d>& surface);
+  bool possible() const { return !concave_.empty(); }  ///< in some attitude
   /// Of the hull in an attitude, its turned vertices given, d x n: the height of the water outside [m] from which on it reaches each
   /// vertex that it covers; the least double for vertices outside hollows. Empty: there is no hollow.
   std::vector<double> rims(const Eigen::Matrix<double, d, Eigen::Dynamic>& turned) const;
+  /// Lowest vertices of hollows that open upward, shallow ones too.
+  std::vector<int> bottoms(const Eigen::Matrix<double, d, Eigen::Dynamic>& turned) const;
 
  private:
   using Corners = Eigen::Matrix<double, d, Eigen::Dynamic>;

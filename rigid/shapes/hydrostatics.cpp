@@ -128,6 +128,18 @@ Submerged<d> submerged(const Surface<d>& surface, const Isometry<d>& pose, doubl
 }
 
 template <int d>
+std::vector<Vec<d>> hollow_bottoms(const Surface<d>& surface, const Isometry<d>& pose) {
+  const Hollows<d> hollows(surface);
+  const Eigen::Matrix<double, d, Eigen::Dynamic> turned = pose.linear() * surface.vertices;
+  const auto rims = hollows.rims(turned);
+  std::vector<Vec<d>> bottoms;
+  if (rims.empty()) return bottoms;
+  for (const int v : hollows.bottoms(turned))
+    if (rims[static_cast<std::size_t>(v)] > no_rim) bottoms.push_back(turned.col(v) + pose.translation());
+  return bottoms;
+}
+
+template <int d>
 std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>& pose, double mass, double density,
                                     double water_level, Hollow hollow) {
   expect_mass(mass, density);
@@ -182,12 +194,14 @@ std::optional<Floating<d>> floating_stable(const Surface<d>& surface, const Isom
 
 template Floating<2> assessed<2>(const InclinedHull<2>&, const Isometry<2>&, const Immersion&, double);
 template Submerged<2> submerged<2>(const Surface<2>&, const Isometry<2>&, double, Hollow);
+template std::vector<Vec<2>> hollow_bottoms<2>(const Surface<2>&, const Isometry<2>&);
 template std::optional<Floating<2>> floating<2>(const Surface<2>&, const Isometry<2>&, double, double, double, Hollow);
 template double metacentric_height<2>(const Floating<2>&, const Slope<2>&);
 template std::optional<Floating<2>> floating_stable<2>(const Surface<2>&, const Isometry<2>&, double, double, double,
                                                        Hollow);
 template Floating<3> assessed<3>(const InclinedHull<3>&, const Isometry<3>&, const Immersion&, double);
 template Submerged<3> submerged<3>(const Surface<3>&, const Isometry<3>&, double, Hollow);
+template std::vector<Vec<3>> hollow_bottoms<3>(const Surface<3>&, const Isometry<3>&);
 template std::optional<Floating<3>> floating<3>(const Surface<3>&, const Isometry<3>&, double, double, double, Hollow);
 template double metacentric_height<3>(const Floating<3>&, const Slope<3>&);
 template std::optional<Floating<3>> floating_stable<3>(const Surface<3>&, const Isometry<3>&, double, double, double,

@@ -37,6 +37,10 @@ template <int d>
 Submerged<d> submerged(const Surface<d>& surface, const Isometry<d>& pose, double water_level,
                        Hollow hollow = Hollow::dry);
 
+/// The lowest points of all hollows of a body that open upward, world frame: whether there is liquid in them decides about Hollow.
+template <int d>
+std::vector<Vec<d>> hollow_bottoms(const Surface<d>& surface, const Isometry<d>& pose);
+
 template <int d>
 struct Floating {
   Isometry<d> pose = Isometry<d>::Identity();
