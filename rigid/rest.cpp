@@ -302,7 +302,7 @@ Eigen::VectorXd Settling<d>::step(const Place& at, const Conditions& conditions,
   p.inertia = dual * curvatures.asDiagonal() * dual.transpose();
   p.impulse = dual * pushes;
   Motions motions(p);
-  const auto found = motions.settled(p.impulse);
+  const auto found = motions.settled(Eigen::VectorXd::Zero(p.impulse.size()));
   Eigen::VectorXd step = found ? *found : Eigen::VectorXd::Zero(p.before.size());
   const double most = stride(at), length = farthest(step);
   unstable_ = length <= balance / stiff_ && principal.eigenvalues()[0] < -neutral;

@@ -158,7 +158,13 @@ template <int d>
 void describe_held(const Scene& scene, std::size_t number, const Resting<d>& resting, double level) {
   const auto& rest = *resting.held;
   const auto held = held_text<d>(scene, number, rest);
-  if (rest.sinks) return row("at rest", fmt::format("sinks ({})", held));
+  const bool heavy =
+      resting.spec.mass >= scene.fluid->density * shape_of<d>(scene.bodies[number].shape).at_unit_density.mass;
+  if (rest.sinks)
+    return row(
+        "at rest",
+        fmt::format("sinks: {} ({})",
+                    heavy ? "heavier than the water it can displace" : "drawn down by what it is tied to", held));
   const auto turned = (rest.pose.linear() * resting.spec.surface.vertices).row(d - 1);
   const double height = turned.maxCoeff() - turned.minCoeff();
   const auto where = rest.draft <= 0 ? fmt::format("hangs {:.5g} m above the water", -rest.draft)

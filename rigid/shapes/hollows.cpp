@@ -64,10 +64,11 @@ void RisingLevel::join(int vertex, const std::vector<int>& lower, double height)
   const int bottom = part(deepest).bottom;
   const double depth = part(deepest).height;
   const bool hollow = part(deepest).hollow;
-  auto& members = part(largest).members;
-  for (const int r : roots) {
+  for (const int r : roots)
     if (part(r).hollow && !hollow && height - part(r).height > shallow_)
       for (const int v : part(r).members) reached_[index(v)] = height;
+  auto& members = part(largest).members;
+  for (const int r : roots) {
     if (r == largest) continue;
     members.insert(members.end(), part(r).members.begin(), part(r).members.end());
     part(r).members = {};

@@ -46,8 +46,9 @@ double height_at(const Body& body, const Floating<3>& rest, double heel, double 
   Isometry<3> pose = rest.pose;
   pose.linear() = Eigen::AngleAxisd(-trim, Vec<3>::UnitY()).toRotationMatrix() *
                   Eigen::AngleAxisd(heel, Vec<3>::UnitX()).toRotationMatrix() * rest.pose.linear();
+  pose.translation().z() = 2 * body.size;  // comes down on the water with a dry hollow
   const auto f = floating<3>(body.surface, pose, body.mass, rho, 0.);
-  return f ? f->pose.translation().z() - f->submerged.centre.z() : std::nan("");
+  return f && f->hollow == Hollow::dry ? f->pose.translation().z() - f->submerged.centre.z() : std::nan("");
 }
 
 Body drawn(unsigned seed) {
