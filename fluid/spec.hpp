@@ -49,6 +49,9 @@ struct FluidSpec {
   TimeStepSpec step;
   std::vector<LiquidSpec<d>> liquids;
   std::vector<WallSpec<d>> walls;
+  /// Called all the time while the first mesh is made, which takes minutes where it is large; what it throws ends that. Empty: nobody
+  /// is asked.
+  std::function<void()> while_meshing = {};
 };
 
 }  // namespace splashdown::fluid

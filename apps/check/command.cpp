@@ -5,6 +5,7 @@
 #include "apps/check/body.hpp"
 #include "apps/check/cost.hpp"
 #include "apps/check/questions.hpp"
+#include "apps/check/start.hpp"
 #include "apps/check/words.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/plain_text.hpp"
@@ -106,9 +107,10 @@ void print_cost(const Scene& scene, const Cost& cost) {
     row("not counted", "finer elements at hollows (hollow): more nodes, shorter steps and a longer run than said");
 }
 
-/// Everything a good scene says.
+/// Everything a good scene says. Throws std::invalid_argument for what `run` would refuse at its start, and says whether it asks for
+/// --large.
 template <int d>
-void print_scene(const Scene& scene) {
+bool print_scene(const Scene& scene) {
   const auto s = scales<d>(scene);
   row("units", d == 2 ? "SI; two-dimensional masses, loads and volumes are per metre of depth" : "SI");
   row("scales", fmt::format("L = {:.4g} m, U = {:.4g} m/s, L/U = {}", s.length, s.speed,
@@ -121,12 +123,15 @@ void print_scene(const Scene& scene) {
   const auto cost = predicted_cost<d>(scene);
   print_cost<d>(scene, cost);
   auto asked = questions<d>(scene, cost);
-  if (const auto why = too_large(cost))
+  const auto why = too_large(cost);
+  if (why)
     asked.push_back(*why + ": did you mean larger element sizes, or lengths in another unit? run asks for --large");
   if (scene.fluid)
     for (const auto& rule : sizes_against_rules<d>(scene)) row("coarser than advised", rule);
   if (!asked.empty()) fmt::print("questions\n");
   for (const auto& question : asked) fmt::print("  {}\n", question);
+  if (!why) check_start<d>(scene, cost, Doubt::mesh);
+  return why.has_value();
 }
 
 }  // namespace
@@ -142,8 +147,12 @@ int check_command(const std::filesystem::path& path, const std::vector<std::stri
   fmt::print("{}: {}\n", path.string(), scene.title.empty() ? "(no title)" : one_line(scene.title));
   for (const auto& note : file.notes) fmt::print("  note: {}\n", one_line(note));
   for (const auto& line : file.chosen) row("chosen", line);
-  scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
-  fmt::print("The scene is good. Run it with: splashdown run {}\n", path.string());
+  try {
+    const bool large = scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
+    fmt::print("The scene is good. Run it with: splashdown run {}{}\n", path.string(), large ? " --large" : "");
+  } catch (const std::exception& error) {
+    return bad_input(fmt::format("{}: {}", path.string(), error.what()));
+  }
   return exit_code::done;
 }
 

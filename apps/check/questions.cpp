@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/check/walls.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/scene/geometry.hpp"
@@ -142,7 +143,11 @@ Questions questions(const Scene& scene, const Cost& cost) {
     ask_about_density(scene, list);
     ask_about_sizes<d>(scene, list);
   }
+  const auto before_end = list.size();
   ask_about_end<d>(scene, cost, list);
+  // Who means another end may never get to a wall.
+  if (list.size() == before_end)
+    for (auto& question : questions_about_walls<d>(scene)) list.push_back(std::move(question));
   ask_about_frames(scene, list);
   return list;
 }

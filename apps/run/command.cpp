@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "apps/check/questions.hpp"
+#include "apps/check/start.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/threads.hpp"
 #include "apps/record/tables/csv.hpp"
@@ -58,7 +59,8 @@ void say(const RunOptions& options, const std::string& text) {
 template <int d>
 std::string failure_text(const LoopEnd& end, const Run<d>& run, const fs::path& directory) {
   const auto cure =
-      run.loop().crawls()
+      !end.cure.empty() ? end.cure
+      : run.loop().crawls()
           ? fmt::format("End the run earlier (--until {:.4g}), or keep walls farther apart than an element.",
                         0.99 * run.time())
           : std::string(
@@ -124,16 +126,6 @@ int go(Run<d>& run, const std::string& scene_name, const RunOptions& options, co
   return exit_code_of(end);
 }
 
-/// Throws SceneError for what the scene's parts refuse when they are built.
-template <int d>
-World<d> build(const Scene& scene, const fs::path& file) {
-  try {
-    return build_world<d>(scene);
-  } catch (const std::exception& error) {
-    throw SceneError({fmt::format("{}: {}", file.string(), error.what())});
-  }
-}
-
 /// What a run begins with.
 struct Start {
   SceneFile file;
@@ -175,14 +167,38 @@ Start read_start(const RunOptions& options) {
 
 /// What the scene may not mean, and whether it is larger than anybody asked for. Throws SceneError.
 template <int d>
-void ask(const Scene& scene, const RunOptions& options) {
-  const auto cost = predicted_cost<d>(scene);
+void ask(const Scene& scene, const Cost& cost, const RunOptions& options) {
   if (!options.quiet)
     for (const auto& question : questions<d>(scene, cost)) fmt::print(stderr, "question: {}\n", question);
   if (const auto why = too_large(cost); why && !options.large)
     throw SceneError({fmt::format(
         "{}: {}. Use larger element sizes, mind the units (splashdown check says more), or run it with --large.",
         options.scene.string(), *why)});
+  if (options.budget && cost.seconds_to_start > *options.budget)
+    fmt::print(stderr, "note: the first mesh takes about {}, more than the budget of {:g} s\n",
+               with_unit(cost.seconds_to_start, "s"), *options.budget);
+}
+
+/// The budget was spent before the first step.
+struct SpentAtStart {};
+
+/// Throws SceneError for what the scene's parts refuse, within seconds for most, and SpentAtStart.
+template <int d>
+World<d> build(const Scene& scene, const Cost& cost, const RunOptions& options, const RunPlan& plan) {
+  std::function<void()> meanwhile;
+  if (plan.budget)
+    meanwhile = [&] {
+      if (std::chrono::steady_clock::now() - plan.started > std::chrono::duration<double>(*plan.budget))
+        throw SpentAtStart{};
+    };
+  try {
+    World<d> world;
+    const auto doubtful = check_start<d>(scene, cost, options.large ? Doubt::accept : Doubt::leave);
+    tell_gaps<d>(scene, doubtful, [&] { world = build_world<d>(scene, meanwhile); });
+    return world;
+  } catch (const std::exception& error) {
+    throw SceneError({fmt::format("{}: {}", options.scene.string(), error.what())});
+  }
 }
 
 /// From the newest checkpoint that the world takes. Throws SceneError, and nothing is changed, if it takes none.
@@ -226,10 +242,15 @@ int run_scene(const RunOptions& options, Start start) {
   const auto directory = start.plan.directory;
   World<d> world;
   try {
-    ask<d>(scene, options);
-    world = build<d>(scene, options.scene);
+    const auto cost = predicted_cost<d>(scene);
+    ask<d>(scene, cost, options);
+    world = build<d>(scene, cost, options, start.plan);
   } catch (const SceneError& error) {
     return bad_input(error.what());
+  } catch (const SpentAtStart&) {
+    fmt::print(stderr, "stopped: the budget of {:g} s was spent before the first mesh was ready; nothing is written\n",
+               *options.budget);
+    return exit_code::interrupted;
   }
   Progress progress(progress_style(options.quiet));
   std::optional<FolderLock> lock;

@@ -103,7 +103,12 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
     }
 
     const LoopState before = state;
-    const auto step = attempt_with_cuts(stepper, wanted, criterion, state, host);
+    auto step = attempt_with_cuts(stepper, wanted, criterion, state, host);
+    std::string cure;
+    if (auto obstacle = step.report.ok() && !last ? host.obstacle() : std::nullopt) {
+      step.report.cause = std::move(obstacle->cause);
+      cure = std::move(obstacle->cure);
+    }
     if (!step.report.ok()) {
       if (undisturbed) {
         // A run that is continued from here makes these attempts again, and counts them then.
@@ -111,7 +116,7 @@ LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, Loop
         host.checkpoint();
         state = std::move(counted);
       }
-      return {failed, step.report.cause};
+      return {failed, step.report.cause, cure};
     }
     host.record({time, step.dt, state.dt_previous, step.report, last});
     if (last) return {done, {}};

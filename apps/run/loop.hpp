@@ -6,7 +6,7 @@
 // run ends. It also ends where shorter steps go on, but the way to the end of one that was refused takes more than a hundred
 // refusals: bodies that a mechanism drives into a corner come nearer in ever shorter steps and never get there. And where a
 // hundred steps in a row are below 1e-8 of the whole time: the last film between two walls gets faster as it gets
-// thinner, and no such run reaches its end.
+// thinner, and no such run reaches its end. And before a step that carries bodies where they must not be.
 //
 // Nothing here depends on the wall clock except when checkpoints are taken and when a budget ends, neither
 // of which changes a step. The steps that the stop time shortens are taken after a last checkpoint, so a run
@@ -46,12 +46,19 @@ struct StepMade {
   bool last = false;  ///< t_n is the stop time; this step is never committed
 };
 
+/// What stands in the way of a step whatever its dt.
+struct Obstacle {
+  std::string cause, cure;
+};
+
 class LoopHost {
  public:
   virtual ~LoopHost() = default;
   /// Bound on the next step besides the stepper's own criterion [s].
   virtual double dt_bound() const = 0;
   virtual void record(const StepMade& step) = 0;
+  /// Whether the step that was tried last may not be committed.
+  virtual std::optional<Obstacle> obstacle() = 0;
   virtual void refused(double time, double dt, const std::string& cause) = 0;
   virtual void released(double time, const std::string& cause) = 0;
   virtual bool checkpoint_due() = 0;
@@ -63,7 +70,8 @@ class LoopHost {
 struct LoopEnd {
   enum class Status { done, interrupted, failed };
   Status status = Status::done;
-  std::string cause;  ///< empty when done
+  std::string cause;      ///< empty when done
+  std::string cure = {};  ///< what helps where shorter steps and finer elements do not; empty: they may
 };
 
 LoopEnd run_loop(coupling::Stepper& stepper, LoopState& state, double stop, LoopHost& host);

@@ -58,6 +58,7 @@ Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, Ru
       recorder_(std::move(settings)),
       plan_(std::move(plan)),
       progress_(progress) {
+  if (world_.bodies) walls_.emplace(scene_, *world_.bodies);
   setup_seconds_ = seconds_since(plan_.started);
   phases_at_start_ = as_map(world_.stepper->phase_seconds());
 }
@@ -131,6 +132,12 @@ void Run<d>::record(const StepMade& step) {
   if (world_.fluid) point.nodes = world_.fluid->nodes().size();
   if (scene_.coupling) point.passes = step.report.passes;
   progress_.show(point);
+}
+
+template <int d>
+std::optional<Obstacle> Run<d>::obstacle() {
+  if (!walls_) return {};
+  return walls_->crossed(world_.bodies->trials(), time());
 }
 
 template <int d>

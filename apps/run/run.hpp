@@ -11,6 +11,7 @@
 #include "apps/run/folder/checkpoint.hpp"
 #include "apps/run/loop.hpp"
 #include "apps/run/progress.hpp"
+#include "apps/run/wall_watch.hpp"
 #include "apps/scene/scene.hpp"
 
 namespace splashdown::apps {
@@ -49,6 +50,7 @@ class Run final : private LoopHost {
 
   double dt_bound() const override;
   void record(const StepMade& step) override;
+  std::optional<Obstacle> obstacle() override;
   void refused(double time, double dt, const std::string& cause) override;
   void released(double time, const std::string& cause) override;
   bool checkpoint_due() override;
@@ -62,6 +64,7 @@ class Run final : private LoopHost {
 
   const Scene& scene_;
   World<d> world_;
+  std::optional<WallWatch<d>> walls_;  // of scenes with bodies
   Recorder<d> recorder_;
   RunPlan plan_;
   Progress& progress_;

@@ -110,19 +110,20 @@ std::vector<int> Solid<d>::facets_near(const Extents<d>& box) const {
 }
 
 template <int d>
-bool overlap(const Solid<d>& a, const Solid<d>& b) {
+bool overlap(const Solid<d>& a, const Solid<d>& b, double depth) {
   const double tolerance = 1e-9 * (a.extents().diagonal().norm() + b.extents().diagonal().norm());
   if (!a.extents().intersects(b.extents())) return false;
   // Two surfaces that coincide: no edge enters the other.
   if ((a.extents().center() - b.extents().center()).norm() < tolerance &&
       (a.extents().sizes() - b.extents().sizes()).norm() < tolerance)
     return true;
-  return reaches_into(a, b, tolerance) || reaches_into(b, a, tolerance);
+  const double least = std::max(tolerance, depth);
+  return reaches_into(a, b, least) || reaches_into(b, a, least);
 }
 
 template class Solid<2>;
 template class Solid<3>;
-template bool overlap<2>(const Solid<2>&, const Solid<2>&);
-template bool overlap<3>(const Solid<3>&, const Solid<3>&);
+template bool overlap<2>(const Solid<2>&, const Solid<2>&, double);
+template bool overlap<3>(const Solid<3>&, const Solid<3>&, double);
 
 }  // namespace splashdown::apps

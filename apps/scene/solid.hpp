@@ -38,9 +38,10 @@ class Solid {
   mutable std::optional<Search> search_;
 };
 
-/// The interiors share more than their boundaries.
+/// The interiors share more than their boundaries; with a depth, points that lie deeper than that in both [m], as far as places of
+/// edges tell.
 template <int d>
-bool overlap(const Solid<d>& a, const Solid<d>& b);
+bool overlap(const Solid<d>& a, const Solid<d>& b, double depth = 0);
 
 extern template class Solid<2>;
 extern template class Solid<3>;

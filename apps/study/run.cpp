@@ -114,6 +114,11 @@ class Runner {
       outcome.status = end.signal != 0 ? Outcome::Status::interrupted : Outcome::Status::failed;
       end_.unable.push_back(name + ": " + outcome.cause);
     }
+    if (end.code == exit_code::interrupted && study_.budget && !interrupt_received() &&
+        !fs::exists(folder_ / name / "summary.json")) {
+      outcome.status = Outcome::Status::stalled;
+      outcome.cause = "the budget is spent before the first mesh is ready";
+    }
     ++made_;
     last_end_ = Clock::now();
     // What a run says about its coupling stands in its summary.

@@ -21,6 +21,10 @@ constexpr Alpha outline_decides{std::numeric_limits<double>::infinity(), 0.0, 0.
 template <int d>
 constexpr int smoothing_sweeps = d == 2 ? 30 : 4;
 
+[[noreturn]] void refuse_nothing() {
+  throw std::invalid_argument("no liquid: every region lies outside the tank or inside a body");
+}
+
 template <int d>
 class Filler {
  public:
@@ -29,8 +33,7 @@ class Filler {
 
   InitialLiquid<d> run() {
     for (const auto& liquid : spec_.liquids) outline<d>(liquid, spec_, walls_, out_);
-    if (out_.nodes.size() == 0)
-      throw std::invalid_argument("no liquid: every region lies outside the tank or inside a body");
+    if (out_.nodes.size() == 0) refuse_nothing();
     refine();
     if constexpr (d == 3) refuse_holes(out_, spec_.liquids, walls_);
     set_velocities();
@@ -68,6 +71,7 @@ class Filler {
     attach_nodes<d>(out_.nodes, out_.mesh, walls_, at_rest, 0);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
+      if (spec_.while_meshing) spec_.while_meshing();
       cut();
       if (settled + 1 == smoothing_sweeps<d>) break;
       const auto report = adapt(out_.nodes, out_.mesh, walls_);
@@ -141,12 +145,27 @@ WallTie tie_at(const Vec<d>& x, const WallsAt<d>& walls) {
 }
 
 template <int d>
+std::optional<Gap> look_at_start(const FluidSpec<d>& spec, const WallsAt<d>& walls) {
+  std::optional<Gap> narrowest;
+  bool is_empty = true;
+  for (const auto& liquid : spec.liquids) {
+    const auto [nothing, gap] = sketch<d>(liquid, spec, walls);
+    is_empty = is_empty && nothing;
+    if (gap && (!narrowest || gap->width * narrowest->size < narrowest->width * gap->size)) narrowest = gap;
+  }
+  if (is_empty) refuse_nothing();
+  return narrowest;
+}
+
+template <int d>
 InitialLiquid<d> fill(const FluidSpec<d>& spec, const WallsAt<d>& walls) {
   return Filler<d>(spec, walls).run();
 }
 
 template WallTie tie_at(const Vec<2>&, const WallsAt<2>&);
 template WallTie tie_at(const Vec<3>&, const WallsAt<3>&);
+template std::optional<Gap> look_at_start(const FluidSpec<2>&, const WallsAt<2>&);
+template std::optional<Gap> look_at_start(const FluidSpec<3>&, const WallsAt<3>&);
 template InitialLiquid<2> fill(const FluidSpec<2>&, const WallsAt<2>&);
 template InitialLiquid<3> fill(const FluidSpec<3>&, const WallsAt<3>&);
 

@@ -18,6 +18,20 @@ void outline(const LiquidSpec<2>&, const FluidSpec<2>&, const WallsAt<2>&, Initi
 template <>
 void outline(const LiquidSpec<3>&, const FluidSpec<3>&, const WallsAt<3>&, InitialLiquid<3>&);
 
+/// What can be told of an outline before it is meshed.
+struct OutlineSketch {
+  bool is_empty = true;
+  std::optional<Gap> gap = {};  ///< the narrowest that the mesh may not fill
+};
+
+/// Throws what `outline` throws before it makes a mesh.
+template <int d>
+OutlineSketch sketch(const LiquidSpec<d>& liquid, const FluidSpec<d>& spec, const WallsAt<d>& walls);
+template <>
+OutlineSketch sketch(const LiquidSpec<2>&, const FluidSpec<2>&, const WallsAt<2>&);
+template <>
+OutlineSketch sketch(const LiquidSpec<3>&, const FluidSpec<3>&, const WallsAt<3>&);
+
 /// The boundaries of liquids as they were asked for, to measure distances from.
 template <int d>
 std::vector<Wall<d>> outlines_of(std::span<const LiquidSpec<d>> liquids) {

@@ -3,6 +3,7 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_set_2.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fluid/initial/parts.hpp"
@@ -51,22 +52,48 @@ PolygonSet clipped(const LiquidSpec<2>& liquid, const WallsAt<2>& walls) {
   return set;
 }
 
+// A closed outline: its points, what they are tied to, and the wall that the edge from each to the next lies on.
+struct Ring {
+  std::vector<Vec<2>> x;
+  std::vector<WallTie> tie;
+  std::vector<int> wall;  // -1: free surface
+};
+
+Ring ring_of(const Polygon& polygon, const WallsAt<2>& walls) {
+  Ring ring;
+  for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v)
+    ring.x.push_back({CGAL::to_double(v->x()), CGAL::to_double(v->y())});
+  const std::size_t n = ring.x.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    ring.tie.push_back(tie_at<2>(ring.x[i], walls));
+    ring.wall.push_back(tie_at<2>(0.5 * (ring.x[i] + ring.x[(i + 1) % n]), walls).wall);
+  }
+  return ring;
+}
+
+// Some point of a path lies beside the line between its ends.
+bool is_curved(const std::vector<Vec<2>>& path) {
+  constexpr double roundoff = 1e-9;  // of its length
+  const Vec<2> chord = path.back() - path.front();
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return std::ranges::any_of(path, [&](const Vec<2>& x) {
+    const Vec<2> from = x - path.front();
+    return std::abs(chord.x() * from.y() - chord.y() * from.x()) > roundoff * length * chord.norm() ||
+           from.norm() > (1 + roundoff) * chord.norm();
+  });
+}
+
 class Outliner {
  public:
-  Outliner(const SizeField<2>& size, const WallsAt<2>& walls, InitialLiquid<2>& out)
-      : size_(size), walls_(walls), out_(out) {}
+  // `at_surface`: `size` with the free surface as a source. Straight lines need no points of it: the mesh is refined along them.
+  Outliner(const SizeField<2>& size, const SizeField<2>& at_surface, const WallsAt<2>& walls, InitialLiquid<2>& out)
+      : size_(size), at_surface_(at_surface), walls_(walls), out_(out) {}
 
   // Resamples a closed outline between its corners to the size field.
-  void chain(const Polygon& polygon) {
-    std::vector<Vec<2>> p;
-    for (auto v = polygon.vertices_begin(); v != polygon.vertices_end(); ++v)
-      p.push_back({CGAL::to_double(v->x()), CGAL::to_double(v->y())});
+  void chain(const Ring& ring) {
+    const auto& [p, tie, wall] = ring;
     const std::size_t n = p.size();
-    std::vector<WallTie> tie(n);
-    for (std::size_t i = 0; i < n; ++i) tie[i] = tie_at<2>(p[i], walls_);
-    auto edge_wall = [&](std::size_t i) { return tie_at<2>(0.5 * (p[i] + p[(i + 1) % n]), walls_).wall; };
-    std::vector<int> wall(n);
-    for (std::size_t i = 0; i < n; ++i) wall[i] = edge_wall(i);
     std::vector<std::size_t> corner;
     for (std::size_t i = 0; i < n; ++i) {
       const Vec<2> before = (p[i] - p[(i + n - 1) % n]).normalized(), after = (p[(i + 1) % n] - p[i]).normalized();
@@ -82,8 +109,8 @@ class Outliner {
       for (std::size_t i = from; i <= to; ++i) path.push_back(p[i % n]);
       add_corner(p[from], tie[from]);
       ring_wall.push_back(wall[from]);
-      for (const Vec<2>& x : graded(path)) {
-        const int w = wall[from];
+      const int w = wall[from];
+      for (const Vec<2>& x : graded(path, w < 0 && is_curved(path) ? at_surface_ : size_)) {
         Vec<2> at = x;
         WallTie on;
         if (w >= 0) {
@@ -101,8 +128,8 @@ class Outliner {
 
   void add_corner(const Vec<2>& x, WallTie tie) { out_.nodes.add(x, Vec<2>::Zero(), 0, tie, false); }
 
-  // Inner points of a path so that each piece holds the same integral of ds / h.
-  std::vector<Vec<2>> graded(const std::vector<Vec<2>>& path) const {
+  // Inner points of a path so that each piece holds the same integral of ds / h. A closed one encloses something.
+  static std::vector<Vec<2>> graded(const std::vector<Vec<2>>& path, const SizeField<2>& size) {
     std::vector<Vec<2>> fine{path.front()};
     std::vector<double> count{0};
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
@@ -110,7 +137,7 @@ class Outliner {
       const double length = (path[i + 1] - path[i]).norm();
       const Vec<2> along = (path[i + 1] - path[i]) / length;
       for (double s = 0; s < length;) {
-        const double h = size_(x);
+        const double h = size(x);
         const double ds = std::min(0.1 * h, length - s);
         s = length - s - ds < 1e-12 * length ? length : s + ds;
         x = path[i] + s * along;
@@ -118,7 +145,8 @@ class Outliner {
         fine.push_back(x);
       }
     }
-    const int pieces = std::max(1, static_cast<int>(std::lround(count.back())));
+    const bool is_closed = path.front() == path.back();
+    const int pieces = std::max(is_closed ? 3 : 1, static_cast<int>(std::lround(count.back())));
     std::vector<Vec<2>> out;
     std::size_t k = 0;
     for (int i = 1; i < pieces; ++i) {
@@ -131,24 +159,42 @@ class Outliner {
   }
 
  private:
-  const SizeField<2>& size_;
+  const SizeField<2>&size_, &at_surface_;
   const WallsAt<2>& walls_;
   InitialLiquid<2>& out_;
 };
 
+SizeField<2> size_field(const FluidSpec<2>& spec, const std::vector<Ring>& rings, const WallsAt<2>& walls) {
+  std::vector<Vec<2>> x;
+  Mesh<2> mesh;
+  for (const Ring& ring : rings) {
+    const int first = static_cast<int>(x.size()), n = static_cast<int>(ring.x.size());
+    x.insert(x.end(), ring.x.begin(), ring.x.end());
+    for (int i = 0; i < n; ++i)
+      mesh.boundary.push_back({{first + i, first + (i + 1) % n}, ring.wall[static_cast<std::size_t>(i)]});
+  }
+  return SizeField<2>(spec.size, walls, std::vector<double>(walls.walls.size(), 0.0), x, mesh);
+}
+
 }  // namespace
 
 template <>
+OutlineSketch sketch(const LiquidSpec<2>& liquid, const FluidSpec<2>&, const WallsAt<2>& walls) {
+  return {.is_empty = clipped(liquid, walls).is_empty()};
+}
+
+template <>
 void outline(const LiquidSpec<2>& liquid, const FluidSpec<2>& spec, const WallsAt<2>& walls, InitialLiquid<2>& out) {
-  const std::vector<double> dry(walls.walls.size(), 0.0);
-  const SizeField<2> size(spec.size, walls, dry, {}, {});
-  Outliner outliner(size, walls, out);
   std::vector<CGAL::Polygon_with_holes_2<Epeck>> parts;
   clipped(liquid, walls).polygons_with_holes(std::back_inserter(parts));
+  std::vector<Ring> rings;
   for (const auto& part : parts) {
-    outliner.chain(part.outer_boundary());
-    for (auto h = part.holes_begin(); h != part.holes_end(); ++h) outliner.chain(*h);
+    rings.push_back(ring_of(part.outer_boundary(), walls));
+    for (auto h = part.holes_begin(); h != part.holes_end(); ++h) rings.push_back(ring_of(*h, walls));
   }
+  const SizeField<2> size = size_field(spec, {}, walls), at_surface = size_field(spec, rings, walls);
+  Outliner outliner(size, at_surface, walls, out);
+  for (const Ring& ring : rings) outliner.chain(ring);
 }
 
 }  // namespace splashdown::fluid

@@ -154,20 +154,48 @@ SizeField<3> size_field(const FluidSpec<3>& spec, const Skin& skin, const WallsA
   return SizeField<3>(spec.size, walls, std::vector<double>(walls.walls.size(), 0.0), x, mesh);
 }
 
-}  // namespace
+// A liquid's outline, ready to be meshed.
+struct Prepared {
+  Skin skin;
+  Curves curves;
+  SizeField<3> field;
+};
 
-template <>
-void outline(const LiquidSpec<3>& liquid, const FluidSpec<3>& spec, const WallsAt<3>& walls, InitialLiquid<3>& out) {
+// Throws GapRefused. Nothing if walls leave nothing of the liquid.
+std::optional<Prepared> prepared(const LiquidSpec<3>& liquid, const FluidSpec<3>& spec, const WallsAt<3>& walls) {
   const Surface<3> region = clipped(liquid, walls);
-  if (region.facets.cols() == 0) return;
-  const Skin skin = skin_of(region, walls);
-  const Curves curves = curves_of(skin, walls);
-  const SizeField<3> field = size_field(spec, skin, walls);
+  if (region.facets.cols() == 0) return {};
+  Skin skin = skin_of(region, walls);
+  Curves curves = curves_of(skin, walls);
+  SizeField<3> field = size_field(spec, skin, walls);
   std::vector<std::array<Vec<3>, 2>> edges;
   for (const auto& line : curves.lines)
     for (std::size_t i = 1; i < line.size(); ++i) edges.push_back({vec(line[i - 1]), vec(line[i])});
   refuse_narrow_gaps(edges, field, walls);
-  fill_within(skin.mesh, curves, field, walls, out);
+  return Prepared{std::move(skin), std::move(curves), std::move(field)};
+}
+
+}  // namespace
+
+template <>
+OutlineSketch sketch(const LiquidSpec<3>& liquid, const FluidSpec<3>& spec, const WallsAt<3>& walls) {
+  const auto start = prepared(liquid, spec, walls);
+  if (!start) return {};
+  std::vector<SkinFacet> facets;
+  const auto& mesh = start->skin.mesh;
+  for (auto f : mesh.faces()) {
+    SkinFacet facet{{}, start->skin.on[f].first};
+    int k = 0;
+    for (auto v : mesh.vertices_around_face(mesh.halfedge(f))) facet.corners[k++] = vec(mesh.point(v));
+    facets.push_back(facet);
+  }
+  return {false, narrowest_gap(facets, spec.size, start->field, walls)};
+}
+
+template <>
+void outline(const LiquidSpec<3>& liquid, const FluidSpec<3>& spec, const WallsAt<3>& walls, InitialLiquid<3>& out) {
+  if (const auto start = prepared(liquid, spec, walls))
+    fill_within(start->skin.mesh, start->curves, start->field, walls, spec.while_meshing, out);
 }
 
 }  // namespace splashdown::fluid

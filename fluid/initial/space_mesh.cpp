@@ -26,14 +26,18 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
-// h times a factor, for Mesh_3.
+// h times a factor, for Mesh_3, which asks for it all the time.
 struct Sizing {
   using FT = Kernel::FT;
   using Point_3 = Kernel::Point_3;
   using Index = Domain::Index;
   const SizeField<3>* field;
   double factor;
-  FT operator()(const Point_3& p, int, const Index&) const { return factor * (*field)(vec(p)); }
+  const std::function<void()>* meanwhile;
+  FT operator()(const Point_3& p, int, const Index&) const {
+    if (*meanwhile) (*meanwhile)();
+    return factor * (*field)(vec(p));
+  }
 };
 
 // What make_mesh_3 of CGAL 5.5 does first. It is not called itself: its optimisers, which are not wanted, are a quarter of what there is to
@@ -57,9 +61,10 @@ void protect_edges(const Domain& domain, const Sizing& size, Complex& complex) {
 }
 
 // Mesh_3 bounds circumradii from above; these factors, of `scale` 1, make the mean edge about h.
-Complex meshed(const Domain& domain, const SizeField<3>& field, double scale) {
+Complex meshed(const Domain& domain, const Sizing& sizing, double scale) {
   namespace params = CGAL::parameters;
-  const Sizing edges{&field, scale}, facets{&field, 0.75 * scale}, cells{&field, 0.8 * scale}, sag{&field, 0.1};
+  const auto times = [&](double factor) { return Sizing{sizing.field, factor, sizing.meanwhile}; };
+  const Sizing edges = times(scale), facets = times(0.75 * scale), cells = times(0.8 * scale), sag = times(0.1);
   const Criteria criteria(params::edge_size = edges, params::facet_angle = 25, params::facet_size = facets,
                           params::facet_distance = sag, params::cell_radius_edge_ratio = 2, params::cell_size = cells);
   Complex complex;
@@ -70,10 +75,10 @@ Complex meshed(const Domain& domain, const SizeField<3>& field, double scale) {
 }
 
 // Roundoff where edges of bodies meet all but exactly may stop Mesh_3 at one of its assertions. Other points do not lie there.
-Complex meshed(const Domain& domain, const SizeField<3>& field) {
+Complex meshed(const Domain& domain, const Sizing& sizing) {
   for (const double scale : {1.0, 0.97, 0.94, 0.9}) {
     try {
-      return meshed(domain, field, scale);
+      return meshed(domain, sizing, scale);
     } catch (const CGAL::Failure_exception&) {
     }
   }
@@ -156,12 +161,12 @@ void append(const Complex& complex, const Domain& domain, const WallsAt<3>& wall
 }  // namespace
 
 void fill_within(const Rounded& skin, const Curves& curves, const SizeField<3>& field, const WallsAt<3>& walls,
-                 InitialLiquid<3>& out) {
+                 const std::function<void()>& meanwhile, InitialLiquid<3>& out) {
   CGAL::Random random(0);
   Domain domain(skin, &random);
   domain.add_features(curves.lines.begin(), curves.lines.end());
   for (const auto& corner : curves.corners) domain.add_corner(corner);
-  append(meshed(domain, field), domain, walls, out);
+  append(meshed(domain, Sizing{&field, 1, &meanwhile}), domain, walls, out);
 }
 
 }  // namespace splashdown::fluid

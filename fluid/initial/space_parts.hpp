@@ -5,6 +5,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <functional>
 #include <vector>
 
 #include "fluid/initial/parts.hpp"
@@ -25,8 +26,9 @@ struct Curves {
 /// What walls leave of the liquid, cut exactly and then rounded. No facets: nothing.
 Surface<3> clipped(const LiquidSpec<3>& liquid, const WallsAt<3>& walls);
 
-/// Adds the mesh of what is inside `skin`, sized by `field`, that keeps to the curves.
+/// Adds the mesh of what is inside `skin`, sized by `field`, that keeps to the curves. `meanwhile` is called for each size that is asked
+/// for, if there is one.
 void fill_within(const Rounded& skin, const Curves& curves, const SizeField<3>& field, const WallsAt<3>& walls,
-                 InitialLiquid<3>& out);
+                 const std::function<void()>& meanwhile, InitialLiquid<3>& out);
 
 }  // namespace splashdown::fluid

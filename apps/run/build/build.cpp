@@ -38,19 +38,18 @@ Coupling one_way() { return {.scheme = "staggered", .interface_term = "none"}; }
 
 /// A part for the stepper, and the fluid in it for who looks at it.
 template <int d>
-std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene, World<d>& world) {
+std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene, std::function<void()> meanwhile, World<d>& world) {
+  auto spec = fluid_spec<d>(scene);
+  spec.while_meshing = std::move(meanwhile);
   auto part = std::make_unique<fluid::Participant<d>>(
-      std::make_unique<fluid::Fluid<d>>(fluid_spec<d>(scene), fluid_effects<d>(scene)));
+      std::make_unique<fluid::Fluid<d>>(std::move(spec), fluid_effects<d>(scene)));
   world.fluid = &part->fluid();
   return part;
 }
 
 template <int d>
 std::unique_ptr<coupling::StructurePart> build_bodies(const Scene& scene, World<d>& world) {
-  std::vector<rigid::BodySpec<d>> specs;
-  for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
-  auto part = std::make_unique<rigid::Participant<d>>(std::make_unique<rigid::Bodies<d>>(
-      std::move(specs), body_forces<d>(scene), joint_specs(scene), contact_spec<d>(scene)));
+  auto part = std::make_unique<rigid::Participant<d>>(bodies_of<d>(scene));
   world.bodies = &part->bodies();
   return part;
 }
@@ -66,9 +65,17 @@ std::unique_ptr<coupling::Stepper> coupled_stepper(const Coupling& coupling, std
 }  // namespace
 
 template <int d>
-World<d> build_world(const Scene& scene) {
+std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
+  std::vector<rigid::BodySpec<d>> specs;
+  for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
+  return std::make_unique<rigid::Bodies<d>>(std::move(specs), body_forces<d>(scene), joint_specs(scene),
+                                            contact_spec<d>(scene));
+}
+
+template <int d>
+World<d> build_world(const Scene& scene, std::function<void()> meanwhile) {
   World<d> world;
-  auto fluid = scene.fluid ? build_fluid<d>(scene, world) : nullptr;
+  auto fluid = scene.fluid ? build_fluid<d>(scene, std::move(meanwhile), world) : nullptr;
   auto bodies = scene.fluid && scene.bodies.empty() ? nullptr : build_bodies<d>(scene, world);
   if (!fluid)
     world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
@@ -79,7 +86,9 @@ World<d> build_world(const Scene& scene) {
   return world;
 }
 
-template World<2> build_world<2>(const Scene&);
-template World<3> build_world<3>(const Scene&);
+template World<2> build_world<2>(const Scene&, std::function<void()>);
+template World<3> build_world<3>(const Scene&, std::function<void()>);
+template std::unique_ptr<rigid::Bodies<2>> bodies_of<2>(const Scene&);
+template std::unique_ptr<rigid::Bodies<3>> bodies_of<3>(const Scene&);
 
 }  // namespace splashdown::apps

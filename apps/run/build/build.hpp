@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,9 +23,12 @@ struct World {
   const rigid::Bodies<d>* bodies = nullptr;    ///< null: no bodies in the scene
 };
 
-/// Throws std::invalid_argument if the parts refuse what the scene asks for.
+/// Throws std::invalid_argument if the parts refuse what the scene asks for. `meanwhile`: FluidSpec::while_meshing.
 template <int d>
-World<d> build_world(const Scene& scene);
+World<d> build_world(const Scene& scene, std::function<void()> meanwhile = {});
+/// Bodies with forces, joints and contacts.
+template <int d>
+std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene);
 
 /// Walls: one a body, in their order, then the tank if there is one.
 template <int d>

@@ -2,6 +2,7 @@
 //
 //   stability_ensemble --command build/release/splashdown --class round_drops --seeds 1:60 --jobs 4
 //   stability_ensemble --class slots --seeds 7:7 --print                       (writes the scene, runs nothing)
+//   stability_ensemble --class slots --seeds 1:9 --write scenes                (the same into scenes/slots/SEED, with files)
 //   stability_ensemble --csv stability.csv --page docs/stability.md           (only writes the page's tables)
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string command, seeds = "1:8";
   std::vector<std::string> classes, changes;
-  fs::path scratch = "stability", csv, page;
+  fs::path scratch = "stability", csv, page, write;
   int jobs = 1;
   double budget = 120;
   bool keep = false, print = false, cut_may_hold = false;
@@ -171,6 +172,7 @@ int run(int argc, char** argv) {
   app.add_option("--page", options.page, "page whose tables are written from --csv");
   app.add_flag("--keep", options.keep, "keep the runs' folders");
   app.add_flag("--print", options.print, "write the scenes to the terminal and run nothing");
+  app.add_option("--write", options.write, "folder that the scenes are written to; nothing is run");
   app.add_flag("--cut-may-hold", options.cut_may_hold, "a run that its budget stopped is judged by what it did");
   CLI11_PARSE(app, argc, argv);
 
@@ -185,6 +187,14 @@ int run(int argc, char** argv) {
   if (options.print) {
     for (const Member& member : members)
       fmt::print("# {} {}: {}\n{}\n", member.kind, member.seed, member.what, member.scene);
+    return 0;
+  }
+  if (!options.write.empty()) {
+    for (const Member& member : members) {
+      const fs::path home = options.write / member.kind / std::to_string(member.seed);
+      fs::create_directories(home);
+      member.write_to(home);
+    }
     return 0;
   }
   if (!members.empty() && options.command.empty()) throw std::runtime_error("--command is needed to run something");

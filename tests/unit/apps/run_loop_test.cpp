@@ -56,6 +56,7 @@ class FakeHost final : public LoopHost {
   double dt_bound() const override { return bound_at ? std::min(bound, bound_at(stepper_.time())) : bound; }
   void record(const StepMade& step) override { rows.push_back(step); }
   void refused(double, double, const std::string&) override {}
+  std::optional<Obstacle> obstacle() override { return in_the_way ? in_the_way(stepper_.time()) : std::nullopt; }
   void released(double, const std::string&) override { ++fragments; }
   bool checkpoint_due() override { return checkpoint_every > 0 && rows.size() % checkpoint_every == 0; }
   void checkpoint() override {
@@ -74,6 +75,7 @@ class FakeHost final : public LoopHost {
   int checkpoints = 0, fragments = 0;
   double bound = 1;
   std::function<double(double)> bound_at;
+  std::function<std::optional<Obstacle>(double)> in_the_way;
   std::size_t checkpoint_every = 0, interrupt_after = 1000000;
 
  private:
@@ -166,6 +168,26 @@ TEST(RunLoop, gives_up_with_the_cause_and_a_checkpoint_of_the_last_good_state) {
   saved.load(in);
   EXPECT_EQ(saved.time(), story.stepper.time());
   EXPECT_EQ(story.loop.rejected.at("no fluid"), 20);
+}
+
+TEST(RunLoop, ends_before_a_step_that_must_not_be_made_with_its_cure) {
+  Story story;
+  story.host.in_the_way = [](double time) {
+    return time > 0.1 ? std::optional<Obstacle>({"through the floor", "add a floor"}) : std::nullopt;
+  };
+  story.run(0.5);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::failed);
+  EXPECT_EQ(story.end.cause, "through the floor");
+  EXPECT_EQ(story.end.cure, "add a floor");
+  EXPECT_EQ(story.host.checkpoints, 1);
+  EXPECT_LT(story.host.rows.back().time, story.stepper.time()) << "the step is not recorded";
+  EXPECT_TRUE(story.loop.rejected.empty());
+  Story again;
+  again.host.in_the_way = story.host.in_the_way;
+  again.resume(story.host);
+  again.run(0.5);
+  EXPECT_EQ(again.end.cause, "through the floor");
+  EXPECT_EQ(again.stepper.time(), story.stepper.time());
 }
 
 TEST(RunLoop, gives_up_where_steps_become_so_short_that_no_end_is_in_sight) {

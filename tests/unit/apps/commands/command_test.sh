@@ -92,6 +92,9 @@ done
 check "a spent budget interrupts" exits 130 run --out budget --budget 0.001
 check "what is left is a checkpoint" exits 0 run --out budget --resume
 check "that continues bit for bit" same_run whole budget
+check "which is told where even the first mesh was not ready" exits 130 run --out early --budget 1e-9
+check "with nothing written" test ! -e early
+check "and why" grep -q 'the budget of 1e-09 s was spent before the first mesh was ready; nothing is written' stderr
 check "a run does not go back" exits 2 run --out budget --resume --until 0.001
 check "another scene is not continued" exits 2 run --out budget --resume --set body.wedge.mass=61
 check "the message names what differs" grep -q 'body\[0\].mass = 61.0, in the checkpoint 60.0' stderr
@@ -201,6 +204,20 @@ check "a run that cannot go on ends with 3" exits 3 run --out failed --set body.
 check "it names time and cause" grep -q 'could not go on at t = .* the coupling' stderr
 check "the last good state is saved" test -s failed/checkpoint/state
 check "the summary says so" grep -q '"status": "failed"' failed/summary.json
+
+# A heavy body, and nothing that holds it at the floor
+{
+  sed '/^\[\[body\]\]/,$d; s/coarse wedge/stone/; s/end = 0.06/end = 0.6/' scene.toml
+  printf '[[body]]\nname = "stone"\nshape = {type = "circle", radius = 0.1}\ndensity = 2600\nposition = [0, -0.3]\nsize = 0.02\n'
+} >stone.toml
+check "a body on its way through the floor is asked about" exits 0 "$splashdown" check stone.toml
+check "with wall, time and cure" grep -q "body.stone may reach the tank's floor at about t = 0.* s, .* did you mean to add \[contact\]" stdout
+check "a run ends where it gets there" exits 3 "$splashdown" run stone.toml --out stone --no-report
+check "before, it asked" grep -q "question: body.stone may reach the tank's floor" stderr
+check "it names body, wall and time" grep -q "could not go on .*: body.stone goes through the tank's floor: at (.*) m, t = 0" stderr
+check "and the cure" grep -q 'Add \[contact\]' stderr
+check "the last good state is saved" test -s stone/checkpoint/state
+check "with contact it does not end there" exits 0 "$splashdown" run stone.toml --out held --no-report --quiet --set "contact={}" --until 0.3
 
 # Killed at any time, many times
 for pause in 0.05 0.3 0.11 0.17 0.23 0.08 0.29 0.41 0.13 0.19 0.37 0.07 0.31 0.21 0.15 0.45 0.09 0.27 0.33 0.25; do
