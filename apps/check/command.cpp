@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "apps/check/body.hpp"
 #include "apps/check/cost.hpp"
 #include "apps/check/questions.hpp"
 #include "apps/check/start.hpp"
+#include "apps/check/ties.hpp"
 #include "apps/check/words.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/plain_text.hpp"
@@ -107,10 +109,12 @@ void print_cost(const Scene& scene, const Cost& cost) {
     row("not counted", "finer elements at hollows (hollow): more nodes, shorter steps and a longer run than said");
 }
 
-/// Everything a good scene says. Throws std::invalid_argument for what `run` would refuse at its start, and says whether it asks for
-/// --large.
+/// Everything a good scene says. Throws std::invalid_argument for what `run` would refuse at its start, SceneError for what shows
+/// only when the scene's parts meet, and says whether it asks for --large.
 template <int d>
-bool print_scene(const Scene& scene) {
+bool print_scene(const SceneFile& file) {
+  const auto& scene = file.scene;
+  refuse_contradicting_ties<d>(file);
   const auto s = scales<d>(scene);
   row("units", d == 2 ? "SI; two-dimensional masses, loads and volumes are per metre of depth" : "SI");
   row("scales", fmt::format("L = {:.4g} m, U = {:.4g} m/s, L/U = {}", s.length, s.speed,
@@ -119,6 +123,7 @@ bool print_scene(const Scene& scene) {
   const auto resting = at_rest<d>(scene);
   for (std::size_t i = 0; i < resting.size(); ++i) print_body<d>(scene, i, resting[i]);
   print_ties<d>(scene);
+  for (const auto& note : ties_notes<d>(scene)) row("note", note);
   print_effects<d>(scene);
   const auto cost = predicted_cost<d>(scene);
   print_cost<d>(scene, cost);
@@ -148,8 +153,10 @@ int check_command(const std::filesystem::path& path, const std::vector<std::stri
   for (const auto& note : file.notes) fmt::print("  note: {}\n", one_line(note));
   for (const auto& line : file.chosen) row("chosen", line);
   try {
-    const bool large = scene.dimension == 2 ? print_scene<2>(scene) : print_scene<3>(scene);
+    const bool large = scene.dimension == 2 ? print_scene<2>(file) : print_scene<3>(file);
     fmt::print("The scene is good. Run it with: splashdown run {}{}\n", path.string(), large ? " --large" : "");
+  } catch (const SceneError& error) {
+    return bad_input(error.what());
   } catch (const std::exception& error) {
     return bad_input(fmt::format("{}: {}", path.string(), error.what()));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/check/questions/asked.hpp"
 #include "apps/check/walls.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/closing.hpp"
@@ -15,8 +16,6 @@
 
 namespace splashdown::apps {
 namespace {
-
-using Questions = std::vector<std::string>;
 
 // Who mistakes a unit is wrong by a thousand: mm for m, ms for s, g/cm^3 for kg/m^3.
 constexpr double unit_slip = 1000;
@@ -149,6 +148,11 @@ Questions questions(const Scene& scene, const Cost& cost) {
   if (list.size() == before_end)
     for (auto& question : questions_about_walls<d>(scene)) list.push_back(std::move(question));
   ask_about_frames(scene, list);
+  const auto asked = asked_of<d>(scene, cost);
+  ask_about_liquid(asked, list);
+  ask_about_bodies(asked, list);
+  ask_about_places(asked, list);
+  ask_about_times(asked, list);
   return list;
 }
 

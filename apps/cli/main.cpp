@@ -102,7 +102,10 @@ CLI::Validator number_or_preset() {
 void add_refine(CLI::App* command, std::vector<std::string>& set) {
   command
       ->add_option_function<std::string>(
-          "--refine", [&set](const std::string& value) { set.push_back("fluid.size.refine=" + value); },
+          "--refine",
+          [&set](const std::string& value) {
+            set.push_back(fmt::format("--refine {0}: fluid.size.refine={0}", value));
+          },
           "divide all lengths of the mesh, and dt_max, by this: a number, or draft (0.35), standard (1) or reference "
           "(2); "
           "the same as --set fluid.size.refine=X")

@@ -106,11 +106,18 @@ ProbeRange allowed_probes(const RunOptions& options, double own) {
                    options.scene.string())});
 }
 
+/// Coarse runs go beside the folder of the run. Throws SceneError.
+fs::path probe_folder(const RunOptions& options) {
+  const auto folder =
+      fs::absolute(options.out.value_or(default_directory(options.scene)).string() + "_probe").lexically_normal();
+  if (const auto refused = unwritable(folder)) throw SceneError({*refused});
+  return folder;
+}
+
 LadderOrder probe_order(const RunOptions& options, const Scene& scene) {
   LadderOrder order;
   order.scene = options.scene;
-  order.folder =
-      fs::absolute(options.out.value_or(default_directory(options.scene)).string() + "_probe").lexically_normal();
+  order.folder = probe_folder(options);
   order.set = options.overrides;
   order.threads = options.threads;
   order.budget = options.seconds;
@@ -258,6 +265,8 @@ Aim aim_of(const RunOptions& options) {
         {fmt::format("{}: has no [fluid], so there is no mesh to choose. Leave --accuracy and --seconds "
                      "out.",
                      options.scene.string())});
+  if (const auto refused = unwritable(options.out.value_or(default_directory(options.scene))))
+    throw SceneError({*refused});
   const double begin = wall();
   auto listed = listed_price(options);
   Aim aim{listed ? std::move(*listed) : probed_price(options, file.scene)};
@@ -319,7 +328,10 @@ int aimed_run_command(const RunOptions& options) {
   }
   if (interrupt_received()) return exit_code::interrupted;
   auto chosen = options;
-  chosen.overrides.push_back(fmt::format("fluid.size.refine={}", aim.refine));
+  chosen.overrides.push_back(fmt::format("{} (refine {:g}): fluid.size.refine={}",
+                                         options.accuracy ? fmt::format("--accuracy {:g}%", *options.accuracy)
+                                                          : fmt::format("--seconds {:g}", *options.seconds),
+                                         aim.refine, aim.refine));
   const auto folder = options.out.value_or(default_directory(options.scene));
   try {
     chosen.resume = taken_over(aim, chosen, folder);

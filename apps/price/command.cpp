@@ -158,6 +158,7 @@ int price_command(const PriceOptions& options) {
     auto possible = possible_rungs(plan.refines, options.open_water);
     for (const double refine : plan.finer) possible.push_back({refine, Role::rung});
     ladder.emplace(plan.order, possible);
+    if (const auto refused = unwritable(plan.order.folder)) return bad_input(*refused);
     std::string foreign;
     for (const auto& message : foreign_places(ladder->runs(), plan.order.folder)) foreign += message + "\n";
     if (fs::exists(plan.order.folder / "study.json"))

@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <stdexcept>
 
 #include "apps/check/questions.hpp"
 #include "apps/check/start.hpp"
+#include "apps/check/ties.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/threads.hpp"
 #include "apps/record/tables/csv.hpp"
@@ -153,6 +155,7 @@ Start read_start(const RunOptions& options) {
   plan.stop = stop_time(options, start.file.scene);
   plan.resolved = start.file.resolved;
   if (options.resume) start.from = find_checkpoints(plan.directory, plan.resolved);
+  if (const auto refused = unwritable(plan.directory)) throw SceneError({*refused});
   if (!start.resumes() && !options.force)
     if (const auto foreign = foreign_results(plan.directory, options.scene, plan.resolved))
       throw SceneError({*foreign});
@@ -167,9 +170,13 @@ Start read_start(const RunOptions& options) {
 
 /// What the scene may not mean, and whether it is larger than anybody asked for. Throws SceneError.
 template <int d>
-void ask(const Scene& scene, const Cost& cost, const RunOptions& options) {
-  if (!options.quiet)
+void ask(const SceneFile& file, const Cost& cost, const RunOptions& options) {
+  const auto& scene = file.scene;
+  refuse_contradicting_ties<d>(file);
+  if (!options.quiet) {
+    for (const auto& note : ties_notes<d>(scene)) fmt::print("note: {}\n", note);
     for (const auto& question : questions<d>(scene, cost)) fmt::print(stderr, "question: {}\n", question);
+  }
   if (const auto why = too_large(cost); why && !options.large)
     throw SceneError({fmt::format(
         "{}: {}. Use larger element sizes, mind the units (splashdown check says more), or run it with --large.",
@@ -243,10 +250,12 @@ int run_scene(const RunOptions& options, Start start) {
   World<d> world;
   try {
     const auto cost = predicted_cost<d>(scene);
-    ask<d>(scene, cost, options);
+    ask<d>(start.file, cost, options);
     world = build<d>(scene, cost, options, start.plan);
   } catch (const SceneError& error) {
     return bad_input(error.what());
+  } catch (const std::invalid_argument& error) {  // what one of the scene's parts refuses
+    return bad_input(fmt::format("{}: {}", options.scene.string(), error.what()));
   } catch (const SpentAtStart&) {
     fmt::print(stderr, "stopped: the budget of {:g} s was spent before the first mesh was ready; nothing is written\n",
                *options.budget);

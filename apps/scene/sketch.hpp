@@ -59,6 +59,11 @@ class Sketch {
 
   /// All looks at the tables of this name in headers, "" for the root.
   const std::deque<Visit>& visits(const std::string& header) const { return visits_.at(header); }
+  /// The same, null for tables that no reader looks at.
+  const std::deque<Visit>* find(const std::string& header) const {
+    const auto found = visits_.find(header);
+    return found == visits_.end() ? nullptr : &found->second;
+  }
 
  private:
   struct Options {

@@ -98,6 +98,7 @@ int study_command(const StudyOptions& options) {
 
   // Absolute, because the runs of a cluster need not start here.
   const auto folder = fs::absolute(options.out.value_or(default_directory(options.study))).lexically_normal();
+  if (const auto refused = unwritable(folder)) return bad_input(*refused);
   std::optional<FolderLock> lock;
   try {
     std::string foreign;

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -58,6 +61,19 @@ fs::path default_directory(const fs::path& scene) {
   if (by_folder) return fs::path("out") / (folder.empty() ? "scene" : folder);
   const bool told = folder.empty() || here || name == folder || name.starts_with(folder + "_");
   return fs::path("out") / (told ? name : folder + "_" + name);
+}
+
+std::optional<std::string> unwritable(const fs::path& directory) {
+  std::error_code unknown;
+  fs::path there = fs::absolute(directory).lexically_normal();
+  while (!fs::exists(there, unknown) && there.has_relative_path()) there = there.parent_path();
+  const char* cure = "Use another --out, a folder that you may write to.";
+  if (!fs::is_directory(there, unknown))
+    return fmt::format("{}: {} is a file, where a folder is needed. {}", directory.string(), there.string(), cure);
+  if (::access(there.c_str(), W_OK | X_OK) == 0) return {};
+  return fmt::format("{}: files cannot be written{}: {}. {}", directory.string(),
+                     there == fs::absolute(directory).lexically_normal() ? "" : " in " + there.string(),
+                     std::strerror(errno), cure);
 }
 
 std::optional<std::string> foreign_results(const fs::path& directory, const fs::path& scene,

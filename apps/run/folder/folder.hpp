@@ -11,6 +11,9 @@ namespace splashdown::apps {
 /// file lies in the present folder or NAME begins with FOLDER.
 std::filesystem::path default_directory(const std::filesystem::path& scene);
 
+/// Why no files can be written into this folder, or why it cannot be made; nothing if they can. Nothing is written to find out.
+std::optional<std::string> unwritable(const std::filesystem::path& directory);
+
 /// What a run would replace that is not its own: results of another scene, a study, files of somebody else. A
 /// message for users that says
 /// both and what to do; nothing if there is nothing.

@@ -170,6 +170,7 @@ SceneFile read_root(toml::table& table, const std::filesystem::path& folder, Pro
   give_least_mass(file.scene);
   file.resolved = echo.text();
   file.notes = std::move(context.notes);
+  file.places = problems;
   return file;
 }
 

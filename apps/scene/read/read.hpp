@@ -19,6 +19,7 @@ struct SceneFile {
   std::vector<std::string> notes;   ///< what was understood otherwise than it was written
   std::vector<std::string> chosen;  ///< sizes that the scene left open, and why these: a line each
   std::string resolved;             ///< TOML with every value in force; reads to the same scene
+  Problems places{""};              ///< where each key stands: for what is found wrong after reading
 };
 
 /// Words of a dotted key, at most: parsers and tables of TOML go one call deeper with each.

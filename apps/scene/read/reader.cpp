@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "apps/cli/plain_text.hpp"
+#include "apps/scene/read/dimensions.hpp"
+#include "apps/scene/read/units.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -26,6 +28,12 @@ const char* type_name(const toml::node& node) {
     default:
       return "a date";
   }
+}
+
+/// Of something else where a number is wanted; the rule's own cure is for numbers.
+std::string cure_of_number(const toml::node& node, const Rule& rule) {
+  if (const auto text = node.value<std::string>(); text && node.is_string()) return cure_of_text(*text, rule);
+  return "Write one number" + (rule.unit.empty() ? std::string(".") : ", in " + rule.unit + ".");
 }
 
 }  // namespace
@@ -57,7 +65,7 @@ Place place_of(const toml::node& node) {
   const auto& source = node.source();
   if (!source.path) return {};
   // Overrides carry their argument as the source; they have no lines.
-  return {*source.path, source.path->starts_with("--set") ? 0 : static_cast<long>(source.begin.line)};
+  return {*source.path, source.path->starts_with("--") ? 0 : static_cast<long>(source.begin.line)};
 }
 
 Reader::Reader(ReadContext& context, const toml::table& table, std::string path, std::string header, bool in_array)
@@ -88,7 +96,7 @@ Reader::~Reader() {
   for (const auto& [name, node] : *table_) {
     if (known_.contains(name.str()) || ignored_.contains(name.str())) continue;
     context_->problems.note(key(name), place_of(node), written_short(node));
-    context_->problems.add_unknown(key(name), valid);
+    context_->problems.add_unknown(key(name), valid, elsewhere(context_->dimension, header_, name.str()));
   }
 }
 
@@ -152,7 +160,7 @@ void Reader::wrong_type(const std::string& key, const std::string& wanted, const
 
 std::optional<double> Reader::number_of(const toml::node& node, const std::string& key, const Rule& rule) {
   if (!node.is_number()) {
-    wrong_type(key, "a number" + rule.in_unit(), node, rule.cure);
+    wrong_type(key, "a number" + rule.in_unit(), node, cure_of_number(node, rule));
     return {};
   }
   if (!is_exact(node)) {
@@ -186,6 +194,7 @@ std::optional<double> Reader::number_of(const toml::node& node, const std::strin
                            "Use a refine nearer to 1.");
     return {};
   }
+  context_->problems.note_in_force(key, in_force, rule.divisor);
   return in_force;
 }
 
@@ -263,7 +272,7 @@ void Reader::integer(std::string_view name, int& target, const Rule& rule) {
   note(name, {.type = Wanted::Type::whole, .rule = rule});
   if (const auto* node = find(name, Need::optional, {}, {})) {
     if (!node->is_integer())
-      wrong_type(key(name), "a whole number", *node, rule.cure);
+      wrong_type(key(name), "a whole number", *node, "Write it without quotes and without a point, e.g. 50.");
     else if (const auto value = number_of(*node, key(name), rule))
       target = static_cast<int>(*value);
   }

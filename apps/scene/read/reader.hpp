@@ -138,6 +138,10 @@ class Reader {
   }
   std::string header_of(std::string_view name) const;
   bool clipped(std::string_view name, double& time);
+  /// Of a word that is not valid; `near`: the valid one that resembles it, if any.
+  std::string cure_of_word(std::string_view name, const std::string& word, const std::string& near,
+                           const std::string& cure) const;
+  std::string cure_of_words(std::string_view name, const Names& words, const std::string& cure) const;
 
   ReadContext* context_;
   const toml::table* table_;  // null: moved from

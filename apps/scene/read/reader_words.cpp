@@ -1,6 +1,9 @@
 // Words, and names of files.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "apps/scene/read/dimensions.hpp"
 #include "apps/scene/read/reader.hpp"
 
 namespace splashdown::apps {
@@ -49,11 +52,17 @@ bool Reader::choice(std::string_view name, std::string& target, const Names& val
     else if (!node->is_string())
       wrong_type(key(name), "a string", *node, cure);
     else
-      context_->problems.add(key(name), "must be " + listing(valid),
-                             near.empty() ? cure : "Did you mean '" + near + "'?");
+      context_->problems.add(key(name), "must be " + listing(valid), cure_of_word(name, *word, near, cure));
   }
   echo(name, target);
   return good;
+}
+
+std::string Reader::cure_of_word(std::string_view name, const std::string& word, const std::string& near,
+                                 const std::string& cure) const {
+  if (const auto where = word_elsewhere(context_->dimension, header_, name, word); !where.empty())
+    return fmt::format("'{}' exists {}. {}", word, where, cure);
+  return near.empty() ? cure : "Did you mean '" + near + "'?";
 }
 
 void Reader::choices(std::string_view name, Names& target, const Names& valid) {
@@ -72,9 +81,17 @@ void Reader::choices(std::string_view name, Names& target, const Names& valid) {
     if (good)
       target = words;
     else
-      context_->problems.add(key(name), "must be a list of " + listing(valid) + ", each once", cure);
+      context_->problems.add(key(name), "must be a list of " + listing(valid) + ", each once",
+                             cure_of_words(name, words, cure));
   }
   context_->echo.add(section_, name, toml_list(target));
+}
+
+std::string Reader::cure_of_words(std::string_view name, const Names& words, const std::string& cure) const {
+  for (const auto& word : words)
+    if (const auto where = word_elsewhere(context_->dimension, header_, name, word); !where.empty())
+      return fmt::format("'{}' exists {}. {}", word, where, cure);
+  return cure;
 }
 
 bool Reader::reference(std::string_view name, std::string& target, const Names& valid, Need need) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <limits>
+
+#include "apps/scene/rules/rules.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -12,6 +15,10 @@ void check_tank(const Scene& scene, Problems& problems) {
   if (size.head(scene.dimension).minCoeff() <= 0)
     return problems.add("tank.max", "must lie above tank.min on every axis", "Swap them, or mend the signs.");
   const double least = size.head(scene.dimension).minCoeff();
+  if (least < smallest_length)
+    return problems.add("tank.max",
+                        fmt::format("must lie {:g} m above tank.min or more, on every axis", smallest_length),
+                        "Mind the units of its lengths.");
   if (scene.fluid && tank.size > least)
     problems.add("tank.size", fmt::format("must not exceed the tank's smallest side, {:g} m", least),
                  "Use e.g. a tenth of it.");

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "apps/scene/rules/check.hpp"
+#include "apps/scene/rules/rules.hpp"
 #include "apps/scene/solid.hpp"
 
 namespace splashdown::apps {
@@ -21,6 +22,9 @@ struct CheckRegionKeys {
     const double height = box.max[d - 1] - box.min[d - 1];
     if (vec<d>(box.max - box.min).minCoeff() <= 0)
       problems.add(label + ".max", "must lie above min on every axis", "Swap them, or mend the signs.");
+    else if (vec<d>(box.max - box.min).minCoeff() < smallest_length)
+      problems.add(label + ".max", fmt::format("must lie {:g} m above min or more, on every axis", smallest_length),
+                   "Mind the units of its lengths.");
     else if (std::abs(box.surface_amplitude) >= height)
       problems.add(label + ".surface_amplitude", fmt::format("must stay below the depth of {:g} m", height),
                    "Use a smaller wave.");
@@ -41,6 +45,18 @@ void check_sizes(const Scene& scene, Problems& problems) {
                  "Use e.g. a fiftieth of it.");
 }
 
+/// The key that says how large a region is.
+const char* key_of_extent(const Region& region) {
+  struct Key {
+    const char* operator()(const BoxRegion&) const { return ".max"; }
+    const char* operator()(const PolygonRegion&) const { return ".points"; }
+    const char* operator()(const EllipseRegion&) const { return ".semi_axes"; }
+    const char* operator()(const CircleRegion&) const { return ".radius"; }
+    const char* operator()(const SphereRegion&) const { return ".radius"; }
+  };
+  return std::visit(Key{}, region.shape);
+}
+
 template <int d>
 void check_region(const Scene& scene, const Region& region, const std::string& label, std::optional<Solid<d>>& boundary,
                   Problems& problems) {
@@ -53,9 +69,9 @@ void check_region(const Scene& scene, const Region& region, const std::string& l
   try {
     boundary.emplace(outline<d>(region));
   } catch (const std::invalid_argument& error) {
-    if (std::holds_alternative<PolygonRegion>(region.shape))
-      problems.add(label + ".points", error.what(), "List the corners in order, each once.");
-    return;  // for other shapes a rule of a single key has said it already
+    const bool by_hand = std::holds_alternative<PolygonRegion>(region.shape);
+    return problems.add(label + key_of_extent(region), error.what(),
+                        by_hand ? "List the corners in order, each once." : "Mind the units of its lengths.");
   }
   const auto& box = boundary->extents();
   if (scene.fluid->size.surface > box.sizes().minCoeff())

@@ -44,23 +44,42 @@ void Problems::note(const std::string& key, Place place, std::string value) {
 
 Place Problems::place_of(std::string key) const {
   for (;; key = parent(key)) {
-    if (const auto found = notes_.find(key); found != notes_.end()) return found->second.place;
+    if (const auto found = notes_.find(key); found != notes_.end() && !found->second.place.source.empty())
+      return found->second.place;
     if (key.empty()) return {file_, 1};
   }
 }
 
+void Problems::note_in_force(const std::string& key, double value, double divisor) {
+  const auto found = notes_.find(key);
+  if (found == notes_.end()) return;
+  const auto by = notes_.find(refine_key);
+  const bool by_option = by != notes_.end() && by->second.place.line == 0;  // its text says the value
+  found->second.in_force =
+      fmt::format("{:g} once divided by {}", value,
+                  by_option ? by->second.place.source : fmt::format("{} = {:g}", refine_key, divisor));
+}
+
 void Problems::add(const std::string& key, const std::string& rule, const std::string& cure) {
   const auto found = notes_.find(key);
-  const std::string value = found == notes_.end() ? std::string() : found->second.value;
-  const std::string subject = value.empty() ? key : key + " = " + value;
-  problems_.push_back({key, place_of(key), fmt::format("{}{}{}. {}", subject, key.empty() ? "" : ": ", rule, cure)});
+  const Note note = found == notes_.end() ? Note{} : found->second;
+  const bool is_chosen = found != notes_.end() && note.place.source.empty();
+  std::string subject = note.value.empty() ? key : key + " = " + note.value;
+  if (!note.value.empty() && is_chosen) subject += " (chosen, because the scene names none)";
+  if (!note.in_force.empty()) subject += ", " + note.in_force;
+  problems_.push_back({key, place_of(key),
+                       fmt::format("{}{}{}. {}{}", subject, key.empty() ? "" : ": ", rule, cure,
+                                   note.in_force.empty() ? "" : " Or use a refine nearer to 1.")});
 }
 
 void Problems::add_missing(const std::string& key, const std::string& meaning, const std::string& cure) {
   problems_.push_back({key, place_of(key), fmt::format("{} is missing: {}. {}", key, meaning, cure)});
 }
 
-void Problems::add_unknown(const std::string& key, const std::vector<std::string>& valid) {
+void Problems::add_unknown(const std::string& key, const std::vector<std::string>& valid,
+                           const std::string& elsewhere) {
+  if (!elsewhere.empty())
+    return add(key, "exists " + elsewhere, valid.empty() ? "Remove it." : "Valid here: " + listing(valid) + ".");
   const auto cut = key.find_last_of('.');
   const std::string near = nearest(cut == std::string::npos ? key : key.substr(cut + 1), valid);
   if (valid.empty()) return add(key, "unknown key", "This table has no keys: remove it.");

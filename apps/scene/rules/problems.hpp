@@ -29,14 +29,18 @@ class Problems {
  public:
   explicit Problems(std::string file) : file_(std::move(file)) {}
 
-  /// Remembers where a key stands and what it says, for problems that are found later.
+  /// Remembers where a key stands and what it says, for problems that are found later. A place without a source: the program
+  /// has chosen the value.
   void note(const std::string& key, Place place, std::string value);
+  /// That the value in force is another one than the key says: messages tell it, and what made it.
+  void note_in_force(const std::string& key, double value, double divisor);
   bool noted(const std::string& key) const { return notes_.contains(key); }
 
   /// `key = value: rule. cure`, at the key's place or at that of the nearest table around it.
   void add(const std::string& key, const std::string& rule, const std::string& cure);
   void add_missing(const std::string& key, const std::string& meaning, const std::string& cure);
-  void add_unknown(const std::string& key, const std::vector<std::string>& valid);
+  /// `elsewhere`: where the key exists; empty: nowhere.
+  void add_unknown(const std::string& key, const std::vector<std::string>& valid, const std::string& elsewhere = {});
   /// A problem of the file as a whole, or of one of its lines.
   void add_at(const Place& place, const std::string& message);
 
@@ -51,6 +55,7 @@ class Problems {
   struct Note {
     Place place;
     std::string value;
+    std::string in_force = {};  ///< the value in force and what made it
   };
   struct Problem {
     std::string key;
@@ -63,6 +68,9 @@ class Problems {
   std::map<std::string, Note> notes_;
   std::vector<Problem> problems_;
 };
+
+/// What divides sizes and times of the mesh: a key of the scene, and what --refine and --accuracy set.
+inline constexpr const char* refine_key = "fluid.size.refine";
 
 /// The valid word with the fewest edits away, or empty if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& valid);
