@@ -7,6 +7,7 @@
 
 #include "apps/check/cost.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/price/advice.hpp"
 #include "apps/price/cost.hpp"
 #include "apps/price/probes.hpp"
 #include "apps/price/write.hpp"
@@ -247,11 +248,12 @@ void choose(Aim& aim, const RunOptions& options) {
     aim.refine = *refine;
   } else {
     const double far = farthest_extrapolation * price.finest();
+    const auto list = aim.from.ends_with(price_file) ? aim.folder : fs::path();
     throw SceneError(
         {fmt::format("--accuracy {:g}%: up to refine {:.3g}, {:g} times the finest mesh made, the best is {}. Use a "
-                     "larger value, or splashdown price {} --accuracy {:g}%: more meshes, narrower bands.",
+                     "larger value; for this one: {}.",
                      *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)),
-                     options.scene.string(), *options.accuracy)});
+                     advice_for(price, {options.scene, options.overrides, *options.accuracy / 100, list}))});
   }
   aim.refine = as_written(aim.refine);
   aim.predicted = *price.seconds(aim.refine) + aim.report;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/commands.hpp"
+#include "apps/price/advice.hpp"
 #include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
 #include "apps/record/tables/csv.hpp"
@@ -81,12 +82,6 @@ PricePlan plan_of(const PriceOptions& options) {
   return plan;
 }
 
-/// Whether one of the meshes that were made has the accuracy that is asked for.
-bool is_reached(const Price& price, double accuracy) {
-  const auto refine = price.refine_for(accuracy);
-  return refine && *refine <= price.finest();
-}
-
 /// What to do next.
 std::string next_text(const PricePlan& plan, const Price& price, const Ladder& ladder, const PriceOptions& options) {
   std::string text;
@@ -95,14 +90,13 @@ std::string next_text(const PricePlan& plan, const Price& price, const Ladder& l
   if (ladder.end().interrupted) return text + "stopped; the same command continues\n";
   if (ladder.end().out_of_budget)
     return text + "the budget ended the ladder; with a larger one the same command continues\n";
-  if (price.rows.empty() || is_reached(price, plan.accuracy)) return text;
+  if (price.rows.empty() || price.is_reached(plan.accuracy)) return text;
   const double percent = 100 * plan.accuracy;
   const auto next = std::ranges::find_if(plan.finer, [&](double refine) { return refine > price.finest(); });
-  if (next == plan.finer.end())
-    return text + fmt::format(
-                      "no mesh has {:g} % yet, and the ladder ends here: begin it finer, --set "
-                      "fluid.size.refine=X, about which it is built\n",
-                      percent);
+  if (next == plan.finer.end() || scatters_too_much(price, plan.accuracy))
+    return text + fmt::format("no mesh has {:g} % yet: {}\n", percent,
+                              advice_for(price, {options.scene, options.set, plan.accuracy,
+                                                 options.out.value_or(price_directory(options.scene))}));
   return text + fmt::format("no mesh has {0:g} % yet: --accuracy {0:g}% goes on, the next one takes about {1}\n",
                             percent, about_time(ladder.seconds_at(*next).value_or(0)));
 }
@@ -125,6 +119,7 @@ int conclude(const PricePlan& plan, const Ladder& ladder, const PriceOptions& op
   auto notes = ladder.end().notes;
   auto price = price_of(plan, ladder, notes);
   price.percent = listed_percent(options.accuracy);
+  price.asked = plan.accuracy;
   list_rows(price);
   price.scene = fs::absolute(options.scene).lexically_normal().string();
   price.title = plan.title;
@@ -174,7 +169,7 @@ int price_command(const PriceOptions& options) {
   if (plan.goes_on)
     climb_on(*ladder, plan.finer, [&] {
       std::vector<std::string> unused;
-      return is_reached(price_of(plan, *ladder, unused), plan.accuracy);
+      return price_of(plan, *ladder, unused).is_reached(plan.accuracy);
     });
   return conclude(plan, *ladder, options);
 }

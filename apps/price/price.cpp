@@ -80,6 +80,13 @@ std::optional<double> refine_for(const Price& price, const AccuracyAt& accuracy,
   return least(price.coarsest(), far, holds);
 }
 
+/// With the three digits that rows are told with.
+bool is_made(const Price& price, double refine) {
+  return std::ranges::any_of(price.rungs, [&](const Rung& rung) {
+    return rung.spec.role == Role::rung && std::abs(rung.spec.refine / refine - 1) < 1e-3;
+  });
+}
+
 std::vector<PriceRow> rows_of(const Price& price, const AccuracyAt& accuracy) {
   std::vector<PriceRow> rows;
   if (price.rungs.empty() || !accuracy(price.finest())) return rows;
@@ -90,6 +97,7 @@ std::vector<PriceRow> rows_of(const Price& price, const AccuracyAt& accuracy) {
                  .decided_by = {}};
     if (row.refine) row.seconds = price.seconds(*row.refine);
     row.extrapolated = !row.refine || *row.refine > price.finest();
+    row.measured = row.refine && is_made(price, *row.refine);
     row.decided_by = accuracy(row.refine.value_or(farthest_extrapolation * price.finest()))->second;
     // What the coarsest mesh does better than asked says nothing about coarser ones.
     const bool same = !rows.empty() && row.refine && rows.back().refine == row.refine;
@@ -186,6 +194,11 @@ std::optional<double> Price::refine_for(double wanted) const {
       *this, [this](double refine) { return accuracy(refine); }, wanted);
 }
 
+bool Price::is_reached(double wanted) const {
+  const auto refine = refine_for(wanted);
+  return refine && *refine <= finest();
+}
+
 std::optional<double> Price::refine_in(double wanted) const {
   if (rungs.empty()) return {};
   const double far = farthest_run * finest();
@@ -239,6 +252,10 @@ void list_rows(Price& price) {
       return accuracy ? std::optional(Decided{*accuracy, quantity.what.name}) : std::nullopt;
     });
   }
+}
+
+const char* source_of(const PriceRow& row) {
+  return row.extrapolated ? "extrapolated" : row.measured ? "measured" : "interpolated";
 }
 
 const PriceRow* row_for(const std::vector<PriceRow>& rows, double percent) {

@@ -28,8 +28,12 @@ struct PriceRow {
   double accuracy_percent = 0;
   std::optional<double> seconds, refine;  ///< absent: refinement does not get there
   bool extrapolated = false;
+  bool measured = false;   ///< a run was made on this mesh; else, unless it is extrapolated, between two that were
   std::string decided_by;  ///< the quantity that asks for most
 };
+
+/// "measured", "interpolated" or "extrapolated": where the numbers of a row are from.
+const char* source_of(const PriceRow& row);
 
 /// The first row with this accuracy or a better one; nothing: refinement does not get there.
 const PriceRow* row_for(const std::vector<PriceRow>& rows, double percent);
@@ -64,6 +68,7 @@ struct Price {
   std::vector<PricedQuantity> quantities;
   std::vector<Rung> rungs;                           ///< all that were made, replicates too
   std::vector<double> percent = listed_percent({});  ///< what rows are for, from the loosest on
+  double asked = 0;                                  ///< relative accuracy that a mesh was to have; 0: not known
   std::vector<PriceRow> rows;
   std::vector<std::pair<double, double>> expected_nodes;  ///< by refine, of the scene's sizes; empty: not known
 
@@ -78,6 +83,8 @@ struct Price {
   std::vector<std::string> without_band(const RungSpec& spec) const;
   /// The coarsest mesh with that accuracy, up to `farthest` times finer than any made.
   std::optional<double> refine_for(double accuracy) const;
+  /// Whether one of the meshes that were made, or one between them, has that accuracy.
+  bool is_reached(double accuracy) const;
   /// The finest mesh whose run takes no longer, not below the coarsest made, nor more than `farthest_run` times finer than any.
   std::optional<double> refine_in(double seconds) const;
 

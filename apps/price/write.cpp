@@ -10,6 +10,7 @@
 
 #include "apps/cli/plain_text.hpp"
 #include "apps/run/closing.hpp"
+#include "apps/statistics/share.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -44,6 +45,7 @@ Json json_of(const std::vector<PriceRow>& rows) {
                     {"seconds", number(row.seconds)},
                     {"refine", number(row.refine)},
                     {"extrapolated", row.extrapolated},
+                    {"from", row.seconds ? Json(source_of(row)) : Json(nullptr)},
                     {"decided_by", row.decided_by}});
   return list;
 }
@@ -111,8 +113,10 @@ std::string value_text(double value, const std::string& unit) {
   return unit == "-" ? fmt::format("{:.4g}", value) : with_unit(value, unit);  // without a unit no prefix
 }
 
+/// A band or a scatter over the value; "?" where there is nothing to hold it against.
 std::string relative(const std::optional<double>& part, double whole) {
-  return part && whole != 0 ? fmt::format("{:.2g} %", 100 * std::abs(*part / whole)) : "?";
+  const auto ratio = part ? ratio_of(*part, whole) : std::nullopt;
+  return ratio ? fmt::format("{:.2g} %", 100 * *ratio) : "?";
 }
 
 /// With the prefix that its value has.
@@ -126,7 +130,7 @@ const std::vector<std::pair<const char*, Role>> lists = {
 
 std::string row_text(const PriceRow& row) {
   return fmt::format("  {:>5g} %  {:>8}  {:>6.3g}  {}{}\n", row.accuracy_percent, about_time(*row.seconds), *row.refine,
-                     row.decided_by, row.extrapolated ? "  (extrapolated)" : "");
+                     row.decided_by, row.measured ? "" : fmt::format("  ({})", source_of(row)));
 }
 
 /// The first accuracy that refinement does not reach, and what is in its way.
@@ -207,6 +211,8 @@ std::string price_json(const Price& price) {
   root["title"] = price.title;
   root["scene_digest"] = price.scene_digest;
   root["dimension"] = price.dimension;
+  root["asked_percent"] = price.asked > 0 ? Json(100 * price.asked) : Json(nullptr);
+  root["reached"] = price.asked > 0 && price.is_reached(price.asked);
   root["rows"] = json_of(price.rows);
   root["quantities"] = Json::object();
   for (const auto& quantity : price.quantities) root["quantities"][quantity.what.name] = json_of(quantity);
@@ -250,6 +256,8 @@ Price read_price(const std::filesystem::path& file) {
     whole.scene = price.scene;
     whole.title = price.title;
     whole.scene_digest = price.scene_digest;
+    if (const auto asked = root.find("asked_percent"); asked != root.end() && asked->is_number())
+      whole.asked = asked->get<double>() / 100;
     whole.expected_nodes = root.at("expected_nodes").get<std::vector<std::pair<double, double>>>();
     list_rows(whole);
     return whole;

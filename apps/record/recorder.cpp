@@ -58,6 +58,7 @@ struct Recorder<d>::State {
   HullReadings<d> hulls;
   PointReadings points;
   double peak_force = 0;
+  std::vector<char> met_water;  ///< probes, then gauges, at any row
   std::vector<std::string> body_names;
   Ledger ledger;
   double speed = 0;
@@ -75,7 +76,8 @@ struct Recorder<d>::State {
         frames(settings.directory),
         equipment(settings.equipment.size()),
         hulls(settings),
-        points(settings.pressure_probes.size()) {
+        points(settings.pressure_probes.size()),
+        met_water(settings.pressure_probes.size() + settings.gauges.size(), 0) {
     for (const auto& record : settings.surface_pressure) surface_due.push_back(schedule_of(record));
     for (const auto& record : settings.added_mass) added_mass_due.push_back(schedule_of(record));
   }
@@ -83,7 +85,8 @@ struct Recorder<d>::State {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
-            max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, body_names, speed, has_fluid,
+            max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, met_water, body_names, speed,
+            has_fluid,
             cereal::binary_data(&ledger, sizeof ledger));
   }
 
@@ -97,7 +100,8 @@ struct Recorder<d>::State {
   bool fits_settings() const {
     return body_names.size() == bodies.size() && surface_due.size() == settings.surface_pressure.size() &&
            added_mass_due.size() == settings.added_mass.size() && equipment.size() == settings.equipment.size() &&
-           hulls.fits_settings() && points.fits(settings.pressure_probes.size());
+           met_water.size() == settings.pressure_probes.size() + settings.gauges.size() && hulls.fits_settings() &&
+           points.fits(settings.pressure_probes.size());
   }
 
   void start(const RecordInput<d>& input);
@@ -209,11 +213,17 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
     probes.end_row();
   };
   if (input.fluid) {
-    for (std::size_t i = 0; i < settings.pressure_probes.size(); ++i)
-      put(settings.pressure_probes[i].name, points.pressures()[i]);
-    for (const auto& gauge : settings.gauges)
-      put(gauge.name, surface_elevation(input.fluid->nodes(), input.fluid->mesh(), gauge.at)
-                          .value_or(std::numeric_limits<double>::quiet_NaN()));
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < settings.pressure_probes.size(); ++i) {
+      const double pressure = points.pressures()[i];
+      met_water[k++] |= pressure != 0;
+      put(settings.pressure_probes[i].name, pressure);
+    }
+    for (const auto& gauge : settings.gauges) {
+      const auto elevation = surface_elevation(input.fluid->nodes(), input.fluid->mesh(), gauge.at);
+      met_water[k++] |= elevation.has_value();
+      put(gauge.name, elevation.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
     for (std::size_t i = 0; i < settings.patches.size(); ++i) put(settings.patches[i].name, hulls.pressures()[i]);
   }
   for (std::size_t i = 0; i < equipment.size(); ++i) {
@@ -325,6 +335,20 @@ void Recorder<d>::finish() {
   for (auto& [name, file] : s_->files) file.sync();
 }
 
+/// Probes, gauges and patches that met no water.
+template <int d>
+void add_dry_records(const RecorderSettings<d>& settings, const std::vector<char>& met_water, Summary& summary) {
+  std::size_t k = 0;
+  const auto add = [&](const char* kind, const std::string& name, bool wet) {
+    ++summary.wettable_records;
+    if (!wet) summary.dry_records.push_back(fmt::format("{} {}", kind, name));
+  };
+  for (const auto& probe : settings.pressure_probes) add("probe", probe.name, met_water[k++] != 0);
+  for (const auto& gauge : settings.gauges) add("gauge", gauge.name, met_water[k++] != 0);
+  for (const auto& patch : settings.patches)
+    add("patch", patch.name, summary.patches.at(patch.name).pressure.value > 0);
+}
+
 template <int d>
 void Recorder<d>::summarise(Summary& summary) const {
   const State& s = *s_;
@@ -351,6 +375,7 @@ void Recorder<d>::summarise(Summary& summary) const {
       equipment.grades = evidence_of(body->evidence(), equipment, s.equipment[i]);
   }
   s.hulls.summarise(summary);
+  if (s.has_fluid) add_dry_records(s.settings, s.met_water, summary);
   if (s.has_fluid)
     for (std::size_t i = 0; i < s.settings.pressure_probes.size(); ++i)
       summary.probes[s.settings.pressure_probes[i].name] = {

@@ -10,6 +10,7 @@
 #include "apps/record/frames/frames.hpp"
 #include "apps/report/words.hpp"
 #include "apps/statistics/attitude.hpp"
+#include "apps/statistics/share.hpp"
 #include "apps/statistics/summary.hpp"
 #include "apps/statistics/verdict.hpp"
 
@@ -93,12 +94,14 @@ struct BodyPlotter {
     figure.curves = {{"total", t, scaled(total, unit.scale), ink, 1.8},
                      {"physical", t, scaled(difference(total, repair), unit.scale), blue, 1.1},
                      {"repair", t, scaled(repair, unit.scale), red, 1.1}};
-    double impulse = 0, repair_impulse = 0;
+    double impulse = 0, repair_impulse = 0, to_and_fro = 0;
     for (std::size_t i = 1; i < t.size(); ++i) {
       const double dt = table["time"][i] - table["time"][i - 1];
       impulse += 0.5 * dt * (total[i] + total[i - 1]);
+      to_and_fro += 0.5 * dt * (std::abs(total[i]) + std::abs(total[i - 1]));
       if (repair.size() == t.size()) repair_impulse += 0.5 * dt * (repair[i] + repair[i - 1]);
     }
+    const auto share = share_of(repair_impulse, impulse, cancels_below * to_and_fro);
     const auto top = std::ranges::max_element(total, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
     if (top != total.end() && std::isfinite(*top)) {
       const auto i = static_cast<std::size_t>(top - total.begin());
@@ -111,8 +114,10 @@ struct BodyPlotter {
         "is "
         "the resultant of all, at every step. The repair part is what "
         "re-meshing "
-        "costs: it makes up {} of the impulse.",
-        what, std::abs(impulse) > 0 ? percent(std::abs(repair_impulse / impulse)) : "nothing");
+        "costs: {}.",
+        what,
+        share ? "it makes up " + percent(*share) + " of the impulse"
+              : std::string("of the little impulse that is left it is no meaningful share"));
     return figure;
   }
 

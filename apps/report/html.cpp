@@ -183,9 +183,10 @@ std::string body_table(const RunData& run) {
     });
   row("vertical impulse of the load",
       [&](const Body& b) { return with_unit(last_component(b, "impulse"), d == 2 ? "N s/m" : "N s"); });
-  row("its repair part", [](const Body& b) {
-    const double impulse = last_component(b, "impulse");
-    return impulse != 0 ? percent(last_component(b, "impulse_repair") / impulse) : std::string("–");
+  row("repair part of the impulse", [](const Body& b) {
+    const double share = number_at(b, {"repair_share"});
+    if (!b.contains("repair_share")) return std::string("–");  // of an earlier version
+    return std::isfinite(share) ? percent(share) : std::string("no meaningful share");
   });
   row("greatest submergence of the lowest point", [](const Body& b) {
     return with_unit(number_at(b, {"maximum_submergence", "value"}), "m", 3);

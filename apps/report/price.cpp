@@ -10,6 +10,7 @@
 #include "apps/record/tables/csv.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/page.hpp"
+#include "apps/statistics/share.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -33,15 +34,18 @@ std::string table(const std::string& title, const std::vector<std::string>& head
   return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
+/// Of a row with a price; lists of earlier versions know of what is beyond the finest mesh alone.
+std::string source_of(const Json& row) {
+  return row.contains("from") ? escaped_at(row, "from") : row.at("extrapolated").get<bool>() ? "extrapolated" : "";
+}
+
 std::string rows_table(const Json& price) {
   std::string rows;
   for (const auto& row : price.at("rows"))
     rows += fmt::format("<tr><td><b>{:g} %</b></td>{}{}<td>{}</td><td class=\"text\">{}</td></tr>\n",
                         number_at(row, {"accuracy_percent"}), seconds_cell(number_at(row, {"seconds"})),
                         cell(number_at(row, {"refine"}), 3), escaped_at(row, "decided_by"),
-                        row.at("seconds").is_null()          ? "not by refinement alone"
-                        : row.at("extrapolated").get<bool>() ? "extrapolated"
-                                                             : "measured");
+                        row.at("seconds").is_null() ? "not by refinement alone" : source_of(row));
   return table("What accuracy costs", {"accuracy", "wall time", "refine", "decided by", ""}, rows);
 }
 
@@ -49,7 +53,8 @@ std::string quantities_table(const Json& price) {
   std::string rows;
   for (const auto& [name, q] : price.at("quantities").items()) {
     const double value = number_at(q, {"value"}), band = number_at(q, {"band"});
-    const double percent = 100 * std::abs(band / value);
+    const auto ratio = ratio_of(band, value);
+    const double percent = ratio ? 100 * *ratio : NAN;
     rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}{}{}{}{}<td class=\"text\">{}{}</td></tr>\n",
                         html_escaped(name), cell(value), escaped_at(q, "unit"), cell(band, 2), cell(percent, 2),
                         cell(number_at(q, {"order"}), 2), cell(number_at(q, {"richardson"})),
@@ -118,6 +123,12 @@ Banner banner_of(const Json& price) {
                            escaped_at(price.at("rows").front(), "decided_by"))}};
   else
     banner.sentences.push_back(line + ".");
+  const double asked = number_at(price, {"asked_percent"});
+  if (std::isfinite(asked) && !price.value("reached", false)) {
+    banner.mood = std::max(banner.mood, Mood::fair);
+    banner.sentences.push_back(fmt::format(
+        "No mesh that was made has <b>{:g} %</b> in all that counts: what is said of it is extrapolated.", asked));
+  }
   return banner;
 }
 

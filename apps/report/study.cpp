@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -63,6 +64,22 @@ StudyData read_study_folder(const fs::path& directory) {
   return study;
 }
 
+/// A run that reached its end is worth what its verdict says: the page is as good as the worst of them.
+void add_verdicts(const StudyData& study, Banner& banner) {
+  std::string text;
+  for (const char* grade : {"unphysical", "unresolved", "doubtful", "resolved"}) {
+    const auto number = std::ranges::count_if(study.runs(), [&](const Json& run) {
+      return text_at(run, "status") == "converged" && text_at(run, "verdict") == grade;
+    });
+    if (number == 0) continue;
+    banner.mood = std::max(banner.mood, mood_of_grade(grade));
+    text += fmt::format("{}<b class=\"{}\">{} {}</b>", text.empty() ? "" : ", ", css_class(mood_of_grade(grade)),
+                        number, grade);
+  }
+  if (!text.empty())
+    banner.sentences.push_back("Their verdicts: " + text + ". The page of a run says why, and what to do.");
+}
+
 Banner banner_of(const StudyData& study) {
   const std::size_t all = study.runs().size();
   const std::size_t open = study.count("waiting") + study.count("interrupted"), failed = study.count("failed");
@@ -72,6 +89,7 @@ Banner banner_of(const StudyData& study) {
   for (const auto& [status, mood, meaning] : all_status)
     if (const auto number = study.count(status); number > 0)
       banner.sentences.push_back(fmt::format("<b>{}</b> {}.", number, meaning));
+  add_verdicts(study, banner);
   double sum = 0, longest = 0;
   std::string longest_run;
   for (const auto& run : study.runs()) {
@@ -140,9 +158,12 @@ std::string number_cell(double value) {
   return "<td>" + (whole ? count_text(value) : digits(value, 4)) + "</td>";
 }
 
-std::string status_cell(const std::string& status) {
+/// In the colour of the worse of status and verdict.
+std::string status_cell(const std::string& status, const std::string& verdict) {
   for (const auto& words : all_status)
-    if (words.status == status) return fmt::format("<td class=\"{}\"><b>{}</b></td>", css_class(words.mood), status);
+    if (words.status == status)
+      return fmt::format("<td class=\"{}\"><b>{}</b></td>", css_class(std::max(words.mood, mood_of_grade(verdict))),
+                         status);
   return "<td>" + html_escaped(status) + "</td>";
 }
 
@@ -160,12 +181,17 @@ std::string limit_cell(const Json& run, const std::string& name) {
   return "<td>" + (answer.empty() ? "–" : html_escaped(answer)) + "</td>";
 }
 
+std::string verdict_cell(const std::string& verdict) {
+  if (verdict.empty()) return "<td>–</td>";
+  return fmt::format("<td class=\"{}\"><b>{}</b></td>", css_class(mood_of_grade(verdict)), html_escaped(verdict));
+}
+
 std::string runs_table(const StudyData& study) {
   const auto columns = columns_of(study);
   const auto limits = limits_of(study);
   std::string html = "<h2>Runs</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th>", rows;
   for (const auto& axis : list_at(study.root, "axes")) html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
-  html += "<th>status</th>";
+  html += "<th>status</th><th>verdict</th>";
   for (const auto& [name, label] : columns) html += "<th>" + html_escaped(label) + "</th>";
   for (const auto& name : limits) html += "<th>limit " + html_escaped(name) + "</th>";
   html += "</tr></thead><tbody>\n";
@@ -182,7 +208,8 @@ std::string runs_table(const StudyData& study) {
               (value.is_number() ? fmt::format("{:g}", value.get<double>()) : html_escaped(value.get<std::string>())) +
               "</td>";
     }
-    rows += status_cell(text_at(run, "status"));
+    const auto verdict = text_at(run, "verdict");
+    rows += status_cell(text_at(run, "status"), verdict) + verdict_cell(verdict);
     for (const auto& [column, label] : columns) rows += number_cell(number_at(run, {"numbers", column.c_str()}));
     for (const auto& limit : limits) rows += limit_cell(run, limit);
     rows += "</tr>\n";
@@ -197,7 +224,7 @@ std::string causes_table(const StudyData& study) {
   for (const auto& run : study.runs())
     if (const auto cause = text_at(run, "cause"); !cause.empty())
       rows += fmt::format("<tr><td>{}</td>{}<td class=\"text\">{}</td></tr>\n", html_escaped(text_at(run, "run")),
-                          status_cell(text_at(run, "status")), html_escaped(cause));
+                          status_cell(text_at(run, "status"), {}), html_escaped(cause));
   if (rows.empty()) return rows;
   return "<h2>Why runs stopped</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th><th>status</th><th "
          "class=\"text\">cause</th></tr></thead><tbody>\n" +

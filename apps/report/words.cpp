@@ -29,11 +29,6 @@ std::string status_sentence(const nlohmann::ordered_json& summary) {
   return "The run stopped";
 }
 
-Mood mood_of_grade(const std::string& grade) {
-  if (grade == "unphysical") return Mood::bad;
-  return grade == "doubtful" || grade == "unresolved" ? Mood::fair : Mood::good;
-}
-
 /// The grade into the headline and its reasons first: nothing below counts if they are bad.
 void add_verdict(const nlohmann::ordered_json& summary, Banner& banner) {
   if (!summary.contains("verdict")) return;  // of an earlier version
@@ -42,10 +37,22 @@ void add_verdict(const nlohmann::ordered_json& summary, Banner& banner) {
   banner.mood = std::max(banner.mood, mood_of_grade(grade));
   if (!grade.empty()) banner.headline += ": " + grade;
   if (!verdict.is_object() || !verdict.contains("reasons")) return;
+  // What is told although the grade is good is no reason for green either.
+  if (!verdict["reasons"].empty()) banner.mood = std::max(banner.mood, Mood::fair);
   for (const auto& reason : verdict["reasons"])
     if (reason.is_string())
       banner.sentences.push_back("<b class=\"" + std::string(mood_of_grade(grade) == Mood::bad ? "bad" : "fair") +
                                  "\">" + html_escaped(reason.get<std::string>()) + "</b>");
+}
+
+/// The command in a form that can be copied, then what it takes and brings.
+void add_next(const nlohmann::ordered_json& summary, Banner& banner) {
+  if (!summary.contains("next")) return;
+  const auto command = text_at(summary["next"], "command"), text = text_at(summary["next"], "text");
+  if (text.empty()) return;
+  const auto end = command.empty() || !text.starts_with(command) ? text.find(',') : command.size();
+  banner.sentences.push_back("Next: <code>" + html_escaped(text.substr(0, end)) + "</code>" +
+                             (end < text.size() ? html_escaped(text.substr(end)) : "") + ".");
 }
 
 /// " (± 2.1 %)", with the grade if it is not resolved; nothing for what is not graded.
@@ -53,7 +60,9 @@ std::string band_text(const nlohmann::ordered_json& number) {
   const auto grade = text_at(number, "grade");
   if (grade.empty()) return {};
   const double band = number_at(number, {"band_percent"});
-  const auto width = std::isfinite(band) ? "± " + digits(band, 2) + " %" : std::string("no band");
+  const auto width = !std::isfinite(band) ? std::string("no band")
+                     : band < 0.1         ? std::string("± less than 0.1 %")
+                                          : "± " + digits(band, 2) + " %";
   return grade == "resolved" ? " (" + width + ")" : " (" + html_escaped(grade) + ", " + width + ")";
 }
 
@@ -193,6 +202,11 @@ double number_at(const nlohmann::ordered_json& json, std::initializer_list<const
   return at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
+Mood mood_of_grade(const std::string& grade) {
+  if (grade == "unphysical") return Mood::bad;
+  return grade == "doubtful" || grade == "unresolved" ? Mood::fair : Mood::good;
+}
+
 Banner banner_of(const RunData& run) {
   if (!run.summary.is_object())
     return {Mood::fair,
@@ -211,9 +225,7 @@ Banner banner_of(const RunData& run) {
   const bool told = status == "failed" && !banner.sentences.empty();  // the verdict's reason has it
   if (!told && summary.contains("cause") && summary["cause"].is_string())
     banner.sentences.push_back("Cause: " + html_escaped(summary["cause"].get<std::string>()));
-  if (const auto next = text_at(at(summary, {"next"}), "text"); !next.empty())
-    banner.sentences.push_back("Next: <code>" + html_escaped(next.substr(0, next.find(','))) + "</code>" +
-                               html_escaped(next.substr(next.find(','))) + ".");
+  add_next(summary, banner);
   banner.sentences.push_back(fmt::format("<b>{}</b> were simulated in <b>{}</b> of wall time, {} steps.",
                                          seconds_text(number_at(summary, {"simulated_time"})),
                                          seconds_text(number_at(summary, {"wall_seconds"})),
@@ -227,7 +239,7 @@ Banner banner_of(const RunData& run) {
     if (!good && banner.mood == Mood::good) banner.mood = Mood::fair;
   }
   const double gain = number_at(summary, {"ledger", "energy_gain"});
-  if (std::isfinite(gain))
+  if (std::isfinite(gain) && number_at(summary, {"ledger", "energy_scale"}) > 0)
     banner.sentences.push_back(fmt::format(
         "Its energy rose unexplained by <b>{}</b> of {}, the largest of what there was to give or to take ({}).",
         percent(gain), with_unit(number_at(summary, {"ledger", "energy_scale"}), energy_unit(run.dimension())),

@@ -47,6 +47,8 @@ struct Banner {
   std::vector<std::string> sentences;  ///< HTML
 };
 Banner banner_of(const RunData& run);
+/// Of a grade of verdicts; good for what is none.
+Mood mood_of_grade(const std::string& grade);
 
 /// A JSON object's text; none if absent or no text.
 std::string text_at(const nlohmann::ordered_json& json, const char* key);

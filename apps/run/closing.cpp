@@ -11,6 +11,8 @@
 #include "apps/run/progress.hpp"
 #include "apps/statistics/grades.hpp"
 #include "apps/statistics/limits.hpp"
+#include "apps/statistics/next_step.hpp"
+#include "apps/statistics/share.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -19,17 +21,12 @@ std::string closing_row(const std::string& head, const std::string& text) {
   return fmt::format("  {:<12}{}\n", head, text);
 }
 
-/// Two digits, without an exponent.
-std::string percent(double share) {
-  return share < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
-}
-
 std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_unit(peak.time, "s"); }
 
 /// " (+- 2.1 %)", with the grade if it is not resolved; nothing for what is not graded.
 std::string band_text(const NumberGrade* number) {
   if (!number) return {};
-  const auto band = std::isfinite(number->band) ? fmt::format("+- {} %", percent(number->band)) : "no band";
+  const auto band = std::isfinite(number->band) ? "+- " + share_text(number->band) : "no band";
   return number->grade == Grade::resolved ? " (" + band + ")" : fmt::format(" ({}, {})", band, name_of(number->grade));
 }
 
@@ -57,10 +54,11 @@ std::string impact_text(const BodySummary& body, int dimension) {
   auto text = fmt::format("wet from {}, peak force{} {}{}{}, peak acceleration{} {:.3g} g{}{}",
                           with_unit(body.landing.first_contact, "s"), f.filter, with_unit(f.pulse->value, force),
                           at(*f.pulse), band_text(f.grade), a.filter, a.pulse->value, at(*a.pulse), band_text(a.grade));
-  double total = 0, repair = 0;
-  for (const double value : body.impulse) total += value * value;
-  for (const double value : body.impulse_repair) repair += value * value;
-  if (total > 0) text += fmt::format(", repair share of the impulse {} %", percent(std::sqrt(repair / total)));
+  if (body.impulse_to_and_fro > 0) {
+    const auto share = repair_share(body);
+    text += share ? ", repair share of the impulse " + share_text(share)
+                  : ", no meaningful repair share: little impulse is left";
+  }
   return text;
 }
 
@@ -164,7 +162,9 @@ std::string liquid_text(const Summary& summary) {
   auto text = fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final, summary.nodes->max,
                           100 * ledger.volume_error);
   if (ledger.volume_error_bodies) text += fmt::format(" ({:.2g} % of the hulls)", 100 * *ledger.volume_error_bodies);
-  return text + fmt::format(", energy gain {:.2g} % of {}", 100 * ledger.energy_gain,
+  if (!(ledger.energy_scale > 0)) return text;  // nothing that a gain could be a share of
+  const auto gain = ratio_of(ledger.energy_gain, 1);
+  return text + fmt::format(", energy gain {} of {}", gain ? fmt::format("{:.2g} %", 100 * *gain) : "over 1000 %",
                             with_unit(ledger.energy_scale, summary.dimension == 2 ? "J/m" : "J"));
 }
 
@@ -187,6 +187,7 @@ std::string verdict_rows(const Verdict& verdict, Ink ink) {
   if (ink == Ink::colour) name = fmt::format("\x1b[{}m{}\x1b[0m", colour_of(verdict.grade), name);
   auto text = closing_row("verdict", name);
   for (const auto& reason : verdict.reasons) text += closing_row("", reason);
+  for (const auto& number : verdict.about) text += closing_row(&number == &verdict.about.front() ? "of" : "", number);
   return text;
 }
 

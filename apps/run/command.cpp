@@ -18,6 +18,7 @@
 #include "apps/run/folder/folder_lock.hpp"
 #include "apps/run/folder/resume.hpp"
 #include "apps/run/interrupt.hpp"
+#include "apps/run/next.hpp"
 #include "apps/run/run.hpp"
 #include "apps/scene/read/read.hpp"
 
@@ -86,10 +87,11 @@ void report(Summary& summary, const RunOptions& options, const fs::path& directo
 
 /// Writes summary.json and report.html.
 template <int d>
-Summary conclude(const Run<d>& run, const LoopEnd& end, const std::string& scene_name, const RunOptions& options,
+Summary conclude(const Run<d>& run, const LoopEnd& end, const Scene& scene, const RunOptions& options,
                  const fs::path& directory) {
   auto summary = run.summary(end);
-  summary.scene = scene_name;
+  summary.scene = scene.title.empty() ? directory.filename().string() : scene.title;
+  complete(summary.next, options, scene, summary.wall_seconds);
   write_summary(directory, summary);
   if (options.no_report) return summary;
   const auto later = fmt::format("splashdown report {} draws it", directory.string());
@@ -115,9 +117,9 @@ int exit_code_of(const LoopEnd& end) {
 }
 
 template <int d>
-int go(Run<d>& run, const std::string& scene_name, const RunOptions& options, const fs::path& directory) {
+int go(Run<d>& run, const Scene& scene, const RunOptions& options, const fs::path& directory) {
   const auto end = run.go();
-  const auto summary = conclude(run, end, scene_name, options, directory);
+  const auto summary = conclude(run, end, scene, options, directory);
   if (end.status == LoopEnd::Status::failed) fmt::print(stderr, "{}\n", failure_text(end, run, directory));
   if (options.quiet) return exit_code_of(end);
   fmt::print("{}", closing_text(summary, directory, on_terminal() ? Ink::colour : Ink::plain));
@@ -281,7 +283,7 @@ int run_scene(const RunOptions& options, Start start) {
     catch_interrupts(options.quiet ? ""
                                    : "\nstopping after this step; once more stops at once, without a checkpoint\n");
     try {
-      return go(run, scene.title.empty() ? directory.filename().string() : scene.title, options, directory);
+      return go(run, scene, options, directory);
     } catch (const FilesLost& loss) {
       progress.clear();
       return tell_loss(run, loss, options, start.file.resolved);

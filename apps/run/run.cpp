@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/run/approach.hpp"
+#include "apps/run/asked.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/scene/numbers.hpp"
 #include "apps/scene/scales.hpp"
@@ -255,6 +256,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
     coupling.rejected_steps = s.rejected_steps;
   }
   recorder_.summarise(s);
+  s.asked = asked_of(scene_);
   judge(s);
   s.limits = answered(scene_.limits, numbers_of(scene_), s, scene_.time.end);
   return s;

@@ -125,8 +125,12 @@ Evidence EvidenceStatistics::about(const Pulse& peak, const IntervalHistory& cha
   } else if (const auto loads = filtered(loads_, *cfc)) {
     for (auto i = step_at(peak.time - 1. / *cfc); i < step_at(peak.time); ++i)
       evidence.growing = std::max(evidence.growing, growing(middle_of(wet_, i)));
-    if (const auto smooth = filtered(channel, *cfc)) evidence.step = step_share(*smooth, peak.time);
-    evidence.sampling = lost_to_steps(channel, *cfc, peak.time);
+    if (const auto smooth = filtered(channel, *cfc)) {
+      evidence.step = step_share(*smooth, peak.time);
+      const double top = magnitude(*smooth, index_at(*smooth, peak.time));
+      const double quick = top > 0 ? std::min(1., roughness(channel, *cfc, peak.time) / top) : 1;
+      evidence.sampling = quick * lost_to_steps(channel, *cfc, peak.time);
+    }
     add_shares(&loads->values[n * index_at(*loads, peak.time)], evidence);
   }
   return evidence;

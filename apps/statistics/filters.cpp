@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -69,6 +70,24 @@ double longest_interval(const IntervalHistory& history, int cfc, double time) {
     longest = std::max(longest, ends[i] - begin);
   }
   return longest;
+}
+
+double middle_of(const IntervalHistory& history, std::size_t i) {
+  return 0.5 * ((i == 0 ? history.begin : history.ends[i - 1]) + history.ends[i]);
+}
+
+/// Of the mean over an interval from the line through two others.
+double deviation(const IntervalHistory& history, std::size_t i, std::size_t a, std::size_t b) {
+  const auto n = static_cast<std::size_t>(history.channels);
+  const double share =
+      (middle_of(history, i) - middle_of(history, a)) / (middle_of(history, b) - middle_of(history, a));
+  double squared = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto value = [&](std::size_t j) { return history.values[j * n + k]; };
+    const double off = value(i) - value(a) - share * (value(b) - value(a));
+    squared += off * off;
+  }
+  return std::sqrt(squared);
 }
 
 }  // namespace
@@ -140,6 +159,22 @@ bool fine_enough(const IntervalHistory& history, int cfc, double time) {
 double lost_to_steps(const IntervalHistory& history, int cfc, double time) {
   const double x = std::numbers::pi * std::min(1., longest_interval(history, cfc, time) * cfc / 0.6);
   return x > 0 ? 1 - std::sin(x) / x : 0;
+}
+
+double roughness(const IntervalHistory& history, int cfc, double time) {
+  const auto& ends = history.ends;
+  if (ends.size() < 3) return std::numeric_limits<double>::infinity();
+  const std::size_t last = ends.size() - 1;
+  double largest = 0;
+  for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(ends, time - 1.0 / cfc) - ends.begin()); i <= last;
+       ++i) {
+    if ((i == 0 ? history.begin : ends[i - 1]) > time + 1.0 / cfc) break;
+    if (i == 0 || i == last)  // the line goes on beyond the two beside it
+      largest = std::max(largest, i == 0 ? deviation(history, i, 1, 2) : deviation(history, i, last - 2, last - 1));
+    else
+      largest = std::max(largest, deviation(history, i, i - 1, i + 1));
+  }
+  return largest;
 }
 
 }  // namespace splashdown::apps

@@ -51,4 +51,9 @@ bool fine_enough(const IntervalHistory& history, int cfc, double time);
 /// f = CFC/0.6: 1 - sin(pi f T)/(pi f T), 4.5 % with the longest steps that J211 allows; 1 from f T = 1 on.
 double lost_to_steps(const IntervalHistory& history, int cfc, double time);
 
+/// Largest deviation of an interval's mean within 1/CFC of a time from the straight line through those beside it [unit of the
+/// channels]: the part of the signal that is as quick as the intervals. What is slower is in their means. Infinite with fewer
+/// than three intervals.
+double roughness(const IntervalHistory& history, int cfc, double time);
+
 }  // namespace splashdown::apps

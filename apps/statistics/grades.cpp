@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "apps/report/words.hpp"
+#include "apps/statistics/missing.hpp"
 
 namespace splashdown::apps {
 
@@ -30,10 +31,8 @@ enum class Kind { acceleration, force, pressure };
 struct Share {
   double error;
   std::string words;
+  double BandParts::*part = &BandParts::rest;
 };
-
-/// First order: half the size, half the error.
-constexpr double halving_refine = 2, small_refine = 1.4;
 
 /// What a share must reach to be told: a quarter of the band of resolved numbers adds 3 % to it.
 constexpr double worth_telling = resolved_band / 4;
@@ -60,16 +59,22 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   const double near = std::isfinite(e.pressed) ? 1 + point_factor / (1 + e.pressed) : 1;
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
   list.push_back(
-      {mesh, fmt::format("{} elements on half of the wetted width{}{}: {}", rounded(e.elements),
-                         e.growing > mostly ? ", which grows" : "",
-                         std::isfinite(e.pressed) ? fmt::format(", {} on half of the patch", rounded(e.pressed)) : "",
-                         percent_text(mesh))});
+      {mesh,
+       fmt::format("{} elements on half of the wetted width{}{}: {}", rounded(e.elements),
+                   e.growing > mostly ? ", which grows" : "",
+                   std::isfinite(e.pressed) ? fmt::format(", {} on half of the patch", rounded(e.pressed)) : "",
+                   percent_text(mesh)),
+       &BandParts::mesh});
   if (!std::isnan(e.step))
-    list.push_back({e.step, fmt::format("it stands {} off the {} around it", percent_text(e.step),
-                                        kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps")});
+    list.push_back({e.step,
+                    fmt::format("it stands {} off the {} around it", percent_text(e.step),
+                                kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps"),
+                    &BandParts::step});
   if (std::isfinite(e.sampling))
-    list.push_back({e.sampling, fmt::format("means over its steps may take {} of what the filter lets through",
-                                            percent_text(e.sampling))});
+    list.push_back(
+        {e.sampling,
+         fmt::format("means over its steps may take {} of what the filter lets through", percent_text(e.sampling)),
+         &BandParts::sampling});
   if (std::isfinite(e.sideways))
     list.push_back(
         {e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids", percent_text(e.sideways))});
@@ -85,15 +90,19 @@ void grade(NumberGrade& number, const Of& of, const BodySummary& body) {
   const auto list = shares(of, number.evidence, body.inertial);
   double squared = 0;
   number.reasons.clear();
-  for (const auto& share : list) squared += share.error * share.error;
+  number.parts = {};
+  for (const auto& share : list) {
+    squared += share.error * share.error;
+    number.parts.*share.part = std::hypot(number.parts.*share.part, share.error);
+  }
   number.band = squared <= widest_band * widest_band ? std::sqrt(squared) : std::numeric_limits<double>::infinity();
   number.grade = grade_of_band(number.band);
   const auto largest = std::ranges::max_element(list, {}, &Share::error);
   if (number.grade != Grade::resolved)
     for (const auto& share : list)
       if (share.error >= worth_telling || &share == &*largest) number.reasons.push_back(share.words);
-  if (body.verdict.grade > number.grade || (body.verdict.grade == number.grade && number.grade != Grade::resolved)) {
-    number.grade = body.verdict.grade;
+  if (body.of_water > number.grade || (body.of_water == number.grade && number.grade != Grade::resolved)) {
+    number.grade = body.of_water;
     number.reasons.emplace_back("the water's energy or volume, see the verdict");
   }
 }
@@ -104,6 +113,16 @@ void grade(PulseGrades& grades, const PulseSummary& pulses, double least, Of of,
   if (grades.raw) grade(*grades.raw, of, body);
   of.raw = false;
   for (auto& [cfc, number] : grades.cfc) grade(number, of, body);
+}
+
+/// What was measured is no peak.
+void is_to_come(NumberGrade& number) {
+  number.grade = std::max(number.grade, Grade::unresolved);
+  number.reasons.emplace_back("it still rises when the run ends");
+}
+void is_to_come(PulseGrades& grades) {
+  if (grades.raw) is_to_come(*grades.raw);
+  for (auto& [cfc, number] : grades.cfc) is_to_come(number);
 }
 
 /// Of the class that a body's verdict goes by; without it the raw one.
@@ -142,10 +161,12 @@ Grade grade_of_band(double band) {
 void grade_numbers(Summary& summary) {
   const int d = summary.dimension;
   for (auto& [name, body] : summary.bodies) {
+    const bool rises = peak_is_to_come(summary, name);
     const bool touched = body.landing.first_contact >= 0;
     if (!touched) body.acceleration_grades = body.force_grades = {};
     grade(body.acceleration_grades, body.acceleration, at_rest_g, {d, Kind::acceleration}, body);
     grade(body.force_grades, body.force, 0, {d, Kind::force}, body);
+    if (rises) is_to_come(body.acceleration_grades), is_to_come(body.force_grades);
     body.maximum_pressure_grade.reset();
     if (!body.maximum_pressure) continue;
     body.maximum_pressure_grade.emplace().evidence = body.maximum_pressure->evidence;
@@ -189,24 +210,6 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& name)
       list.push_back({"peak pressure on " + patch_name, with_unit(patch.pressure.value, "Pa", 3), &*patch.grade,
                       is_impulse(patch.grade->evidence)});
   return list;
-}
-
-std::optional<NextStep> next_step(const Summary& summary) {
-  double band = 0;
-  for (const auto& [name, body] : summary.bodies)
-    for (const auto& headline : headlines(summary, name))
-      if (!headline.is_impulse) band = std::max(band, headline.grade->band);
-  if (band <= resolved_band || summary.status != "done") return {};
-  const double refine = band <= small_refine * resolved_band ? small_refine : halving_refine;
-  return NextStep{refine, summary.wall_seconds * std::pow(refine, cost_exponent(summary.dimension))};
-}
-
-std::string text_of(const NextStep& next) {
-  const auto time = next.seconds < 90     ? fmt::format("{:.2g} s", next.seconds)
-                    : next.seconds < 5400 ? fmt::format("{:.0f} min", next.seconds / 60)
-                                          : fmt::format("{:.2g} h", next.seconds / 3600);
-  return fmt::format("--refine {:g}, about {}, {}", next.refine, time,
-                     next.refine == halving_refine ? "halves the bands" : "brings the bands to 5 %");
 }
 
 }  // namespace splashdown::apps

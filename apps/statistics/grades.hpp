@@ -8,7 +8,7 @@
 //             A load that mostly carries weight is wrong by as little as its inertial part: times |m a| / load. A pressure is
 //             local: times 1 + 2/(1 + n_p), with n_p elements on half of the patch, 3 at a point
 //   step      of filtered peaks in the filtered channel
-//   sampling  of filtered peaks: what means over the steps take (filters.hpp)
+//   sampling  of filtered peaks: what means over the steps take (filters.hpp), of the part of the signal that is as quick as they are
 //   sideways  symmetric scenes
 //   repair    what pressures lack; a raw peak of a load that is impulse by half or more goes as 1/dt and has no value
 //
@@ -18,6 +18,8 @@
 //   resolved    band <= 5 %, the band of the verdict's energy (verdict.hpp)
 //   doubtful    band <= 10 %: elements of half the size bring it to 5 %
 //   unresolved  above, or no number: ten times the value is none
+//
+// A peak of a free body's load that still rises when the record ends is unresolved, whatever its band (missing.hpp).
 //
 // Numbers that are not graded: peaks of what moves as prescribed or never touched water, and accelerations below 2 % of g,
 // which are of a body at rest.
@@ -34,8 +36,7 @@ inline constexpr double resolved_band = 0.05, doubtful_band = 0.10;
 double mesh_band(int dimension, const Evidence& evidence);
 Grade grade_of_band(double band);
 
-/// Turns the evidence of a summary into bands and grades. `bodies.NAME.verdict` must hold what concerns the whole run:
-/// numbers are no better than that.
+/// Turns the evidence of a summary into bands and grades. `bodies.NAME.of_water` must be filled: numbers are no better than the water.
 void grade_numbers(Summary& summary);
 
 /// The numbers that a body's verdict goes by, with their names: accelerations and loads of CFC 60, raw where the record is too
@@ -46,14 +47,5 @@ struct Headline {
   bool is_impulse = false;  ///< a raw peak or a pressure where half of the load or more is: no mesh gives it a value
 };
 std::vector<Headline> headlines(const Summary& summary, const std::string& body);
-
-/// Wall time over refinement: all sizes divided by r cost r^this. Middle of what docs/guide.md, "The band", measures; elements of
-/// one size everywhere would have 3 and 4.
-constexpr double cost_exponent(int dimension) { return dimension == 2 ? 2 : 3; }
-
-/// Nothing to do if every headline is resolved, or an impulse. Half the size, or as much as the widest band needs to be resolved.
-std::optional<NextStep> next_step(const Summary& summary);
-/// "--refine 2, about 3 min, halves the bands".
-std::string text_of(const NextStep& next);
 
 }  // namespace splashdown::apps

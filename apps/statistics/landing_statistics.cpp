@@ -37,6 +37,8 @@ void LandingStatistics<d>::add(double time, const LandingReading<d>& reading, co
   time_ = time;
   begun_ = true;
   free_ = reading.free;
+  height_ = reading.height;
+  sinking_ = -reading.velocity(d - 1);
   settled_below_ = calm_share * std::sqrt(standard_gravity * extent.length);
   settled_window_ = 2 * std::numbers::pi * std::sqrt(extent.length / standard_gravity);
 
@@ -81,6 +83,8 @@ LandingSummary LandingStatistics<d>::summary() const {
   summary.dry_intervals = dry_;
   summary.settled_below = settled_below_;
   summary.settled_window = settled_window_;
+  summary.height = height_;
+  summary.sinking = sinking_;
   if (free_ && calm_since_ >= 0 && time_ - calm_since_ >= settled_window_) summary.settled = calm_since_;
   return summary;
 }

@@ -27,10 +27,11 @@ HullExtent extent_of(const Surface<d>& surface_in_body_frame);
 
 template <int d>
 struct LandingReading {
-  Eigen::Matrix<double, d, d> rotation;  ///< of the shape's frame
-  Twist<d> velocity;                     ///< at t_n
-  double wetted = 0;                     ///< [m, m^2]
-  bool free = true;                      ///< a body that the water moves
+  Eigen::Matrix<double, d, d> rotation;                      ///< of the shape's frame
+  Twist<d> velocity;                                         ///< at t_n
+  double wetted = 0;                                         ///< [m, m^2]
+  bool free = true;                                          ///< a body that the water moves
+  double height = std::numeric_limits<double>::quiet_NaN();  ///< of the lowest point above the water's level [m]
 };
 
 template <int d>
@@ -44,7 +45,7 @@ class LandingStatistics {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(begun_, time_, first_contact_, now_, lowest_, highest_, tilt_, over_since_, dry_, calm_since_, free_,
-            settled_below_, settled_window_);
+            settled_below_, settled_window_, height_, sinking_);
   }
 
  private:
@@ -56,6 +57,7 @@ class LandingStatistics {
   double over_since_ = -1, calm_since_ = -1;  ///< negative: not now
   std::vector<std::array<double, 2>> dry_;    ///< [s]; end negative: still dry
   double settled_below_ = 0, settled_window_ = 0;
+  double height_ = std::numeric_limits<double>::quiet_NaN(), sinking_ = 0;
 };
 
 }  // namespace splashdown::apps

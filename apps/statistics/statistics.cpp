@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/statistics/pulse.hpp"
+#include "apps/statistics/rise.hpp"
 
 namespace splashdown::apps {
 
@@ -41,6 +42,17 @@ PulseSummary PulseStatistics::summary(double unit) const {
   return summary;
 }
 
+namespace {
+
+/// Of the headline's class where the record has it: single steps hide neither a peak nor that there is none.
+bool rising(const IntervalHistory& force, double first_contact) {
+  const double end = force.ends.back();
+  const auto smooth = filtered(force, structures_class);
+  return rises_at_end(smooth ? *smooth : force, first_contact, end);
+}
+
+}  // namespace
+
 PulseGrades evidence_of(const EvidenceStatistics& steps, const PulseSummary& pulses, const PulseStatistics& channel) {
   PulseGrades grades;
   if (pulses.raw.time >= 0) grades.raw.emplace().evidence = steps.about(pulses.raw, channel.history(), {});
@@ -56,6 +68,7 @@ void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
     impulse_[static_cast<std::size_t>(k)] += total(k) * kick.length();
     impulse_repair_[static_cast<std::size_t>(k)] += reading.load.repair(k) * kick.length();
   }
+  to_and_fro_ += total.template head<d>().norm() * kick.length();
   offer_if_finite(submergence_, reading.submergence, kick.time);
   offer_if_finite(wetted_, reading.load.wetted, kick.time);
   force_.add(kick, {total.data(), static_cast<std::size_t>(d)});
@@ -69,7 +82,8 @@ void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
                  reading.velocity.template head<d>().norm(),
                  reading.symmetric});
   mass_ = reading.free ? reading.mass : 0;
-  landing_.add(kick.time, {reading.rotation, reading.velocity, reading.load.wetted, reading.free}, reading.extent);
+  landing_.add(kick.time, {reading.rotation, reading.velocity, reading.load.wetted, reading.free, -reading.submergence},
+               reading.extent);
 }
 
 template <int d>
@@ -79,9 +93,11 @@ BodySummary BodyStatistics<d>::summary() const {
   summary.force = force_.summary();
   summary.impulse.assign(impulse_.begin(), impulse_.end());
   summary.impulse_repair.assign(impulse_repair_.begin(), impulse_repair_.end());
+  summary.impulse_to_and_fro = to_and_fro_;
   summary.submergence = submergence_;
   summary.wetted = wetted_;
   summary.landing = landing_.summary();
+  if (summary.landing.first_contact >= 0) summary.rising = rising(force_.history(), summary.landing.first_contact);
   summary.force_grades = evidence_of(evidence_, summary.force, force_);
   if (!moves_freely()) return summary;
   summary.acceleration_grades = evidence_of(evidence_, summary.acceleration, acceleration_);

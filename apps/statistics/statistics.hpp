@@ -66,13 +66,15 @@ class BodyStatistics {
   double peak_force() const { return force_.peak().time < 0 ? 0 : force_.peak().value; }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_, evidence_, mass_);
+    archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_, evidence_, mass_,
+            to_and_fro_);
   }
 
  private:
   PulseStatistics acceleration_, force_;
   Peak submergence_, wetted_;
   std::array<double, d> impulse_{}, impulse_repair_{};
+  double to_and_fro_ = 0;  ///< integral of the load's magnitude
   LandingStatistics<d> landing_;
   EvidenceStatistics evidence_;
   double mass_ = 0;  ///< of a free body [kg, kg/m]

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/record/tables/csv.hpp"
-#include "apps/statistics/grades.hpp"
+#include "apps/statistics/next_step.hpp"
+#include "apps/statistics/share.hpp"
 
 namespace splashdown::apps {
 
@@ -51,7 +52,21 @@ Json json_of(const std::vector<double>& values) {
   return json;
 }
 
-Json json_of(const Verdict& verdict) { return {{"grade", name_of(verdict.grade)}, {"reasons", verdict.reasons}}; }
+Json json_of(const Verdict& verdict) {
+  return {{"grade", name_of(verdict.grade)}, {"reasons", verdict.reasons}, {"about", verdict.about}};
+}
+
+Json json_of(const NextStep& next) {
+  Json json;
+  if (next.cure == NextStep::Cure::finer) json["refine"] = number(next.value);
+  if (next.cure == NextStep::Cure::shorter_steps) json["dt_max"] = number(next.value);
+  if (next.cure == NextStep::Cure::longer) json["end"] = number(next.value);
+  json["seconds"] = number(next.seconds);
+  json["promises"] = next.promises;
+  json["command"] = next.command;
+  json["text"] = text_of(next);
+  return json;
+}
 
 Json json_of(const Evidence& evidence) {
   Json json = Json::object();
@@ -126,6 +141,8 @@ Json json_of(const BodySummary& body) {
                {"peak_force_filtered", json_of(body.force.cfc, "impulse")},
                {"impulse", json_of(body.impulse)},
                {"impulse_repair", json_of(body.impulse_repair)},
+               {"repair_share", number(repair_share(body).value_or(NAN))},
+               {"rising", body.rising},
                {"maximum_submergence", json_of(body.submergence)},
                {"maximum_wetted", json_of(body.wetted)}};
   json.update(json_of(body.landing));
@@ -226,9 +243,7 @@ std::string to_json(const Summary& summary) {
   json["status"] = summary.status;
   if (!summary.cause.empty()) json["cause"] = summary.cause;
   json["verdict"] = json_of(summary.verdict);
-  if (summary.next)
-    json["next"] = {
-        {"refine", summary.next->refine}, {"seconds", number(summary.next->seconds)}, {"text", text_of(*summary.next)}};
+  if (summary.next) json["next"] = json_of(*summary.next);
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);

@@ -29,7 +29,8 @@ const char* name_of(Grade grade);
 /// Of a run or of a body (verdict.hpp).
 struct Verdict {
   Grade grade = Grade::resolved;
-  std::vector<std::string> reasons;  ///< sentences: what, how much, what to do
+  std::vector<std::string> reasons;  ///< sentences: what, how much, what to do; what did not happen comes first
+  std::vector<std::string> about;    ///< what the grade is of: the headline numbers with their bands
 };
 
 /// What the steps around a peak say about it (evidence.hpp); nan: nothing.
@@ -43,10 +44,16 @@ struct Evidence {
   double sampling = std::numeric_limits<double>::quiet_NaN();  ///< what steps too long for the filter's class take
 };
 
+/// Independent errors that make a band, relative.
+struct BandParts {
+  double mesh = 0, step = 0, sampling = 0, rest = 0;
+};
+
 /// Of one number (grades.hpp).
 struct NumberGrade {
   Grade grade = Grade::resolved;
   double band = 0;  ///< relative, to either side
+  BandParts parts;
   std::vector<std::string> reasons;
   Evidence evidence;
 };
@@ -95,7 +102,10 @@ struct LandingSummary {
   Peak maximum_tilt;                                           ///< since first contact [deg]
   double capsized_since = -1;                                  ///< over until the end of the record
   double settled = -1;
-  double settled_below = 0, settled_window = 0;      ///< speed [m/s] and time [s] that `settled` asks for
+  double settled_below = 0, settled_window = 0;  ///< speed [m/s] and time [s] that `settled` asks for
+  double height =
+      std::numeric_limits<double>::quiet_NaN();      ///< of the lowest point above the water's level, at the end [m]
+  double sinking = 0;                                ///< speed downward of the centre of mass, at the end [m/s]
   std::vector<std::array<double, 2>> dry_intervals;  ///< after first contact; the last may have no end
 };
 
@@ -144,6 +154,8 @@ struct BodySummary {
   PulseSummary force;                  ///< of the fluid's total load [N, N/m]
   std::vector<double> impulse;         ///< integral of the total load, x y (z) [N s]
   std::vector<double> impulse_repair;  ///< the part of it from repair impulses
+  double impulse_to_and_fro = 0;       ///< integral of the load's magnitude [N s]
+  bool rising = false;                 ///< the load still grows when the record ends (rise.hpp)
   Peak submergence;                    ///< still-water level minus lowest point [m]
   Peak wetted;                         ///< wetted length or area [m, m^2]
   LandingSummary landing;
@@ -151,6 +163,7 @@ struct BodySummary {
   double inertial = 1;  ///< |m a| over the load at the largest load, 1 for bodies that are not free
   PulseGrades acceleration_grades, force_grades;  ///< first with the evidence alone, then graded (grades.hpp)
   std::optional<NumberGrade> maximum_pressure_grade;
+  Grade of_water = Grade::resolved;  ///< what the water's energy and volume leave to its numbers
   Verdict verdict;
 };
 
@@ -182,9 +195,28 @@ struct CouplingSummary {
   std::map<std::string, long> rejected_causes;
 };
 
-/// What would make a run's bands narrower (grades.hpp).
+/// What would make a verdict better (next_step.hpp): one of these, as an option of the command line.
 struct NextStep {
-  double refine = 0, seconds = 0;  ///< what all sizes are to be divided by, and what that costs of wall time [s]
+  enum class Cure { finer, shorter_steps, longer };
+  Cure cure = Cure::finer;
+  double value = 0;  ///< finer: what sizes are divided by, times that of this run; shorter: dt_max [s]; longer: end [s]
+  double seconds = 0;     ///< of wall time
+  std::string effect;     ///< what comes of it, or may not
+  std::string command;    ///< whole; empty: the option alone is told
+  bool promises = false;  ///< a better grade
+};
+
+/// What a scene asks for, against which is held what happened (missing.hpp).
+struct Asked {
+  struct Body {
+    bool free = true, moves = true;
+    std::vector<std::string> tied;  ///< bodies that joints tie to it, whatever is between
+  };
+  std::map<std::string, Body> bodies;
+  bool contact = false;     ///< bodies may carry each other
+  double end = 0;           ///< [s]
+  double gravity = 0;       ///< downward [m/s^2]
+  double path_ends_at = 0;  ///< the last waypoint of all paths [s]; 0: no path
 };
 
 struct Summary {
@@ -212,7 +244,10 @@ struct Summary {
   std::map<std::string, PatchSummary> patches;
   std::map<std::string, PointSummary> probes;
   std::vector<LimitAnswer> limits;
-  std::optional<NextStep> next;  ///< absent: every headline is resolved
+  std::optional<NextStep> next;  ///< absent: every headline is resolved, or nothing is known that helps
+  std::optional<Asked> asked;    ///< absent: not known
+  std::size_t wettable_records = 0;
+  std::vector<std::string> dry_records;  ///< of these: probes, gauges and patches that met no water
 };
 
 std::string to_json(const Summary& summary);

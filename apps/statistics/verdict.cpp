@@ -8,6 +8,9 @@
 
 #include "apps/report/words.hpp"
 #include "apps/statistics/grades.hpp"
+#include "apps/statistics/missing.hpp"
+#include "apps/statistics/next_step.hpp"
+#include "apps/statistics/share.hpp"
 
 namespace splashdown::apps {
 
@@ -45,6 +48,21 @@ std::optional<Finding> failure(const Summary& summary) {
                              summary.simulated_time, summary.cause)};
 }
 
+/// Of what there was to give; over ten times of that the number says no more.
+std::string gain_text(const LedgerSummary& ledger) {
+  const auto ratio = ratio_of(ledger.energy_gain, 1);
+  return ratio ? fmt::format("{:.3g} %", 100 * *ratio) : "more than ten times that";
+}
+
+/// Until when the run is good: a gain that begins with it leaves nothing.
+std::string usable_text(const Summary& summary) {
+  const auto& ledger = *summary.ledger;
+  constexpr double as_good_as_none = 0.02;  // of the run
+  if (!(ledger.energy_gain_since > as_good_as_none * summary.simulated_time))
+    return "The gain rises from the start: use nothing of this run";
+  return fmt::format("Use nothing after t = {:.4g} s, from where on the gain rises", ledger.energy_gain_since);
+}
+
 std::optional<Finding> energy_gain(const Summary& summary) {
   if (!summary.ledger) return {};
   const auto& ledger = *summary.ledger;
@@ -52,13 +70,12 @@ std::optional<Finding> energy_gain(const Summary& summary) {
   if (!found) return {};
   return Finding{
       found->grade,
-      fmt::format("The water gained {} from nowhere until t = {:.4g} s, {:.3g} % of {} ({}): {}. Use nothing after "
-                  "t = {:.4g} s, from where on the gain rises (report.html shows its curve); try finer elements at the "
-                  "bodies and "
-                  "the surface (size, fluid.size.surface) or smaller steps (time.cfl).",
-                  joule(summary, ledger.energy_gain_joule), ledger.energy_gain_time, 100 * ledger.energy_gain,
-                  joule(summary, ledger.energy_scale), ledger.energy_scale_from, found->words,
-                  ledger.energy_gain_since)};
+      fmt::format(
+          "The water gained {} from nowhere until t = {:.4g} s, {} of {} ({}): {}. {} (report.html shows its "
+          "curve); try finer elements at the bodies and the surface (size, fluid.size.surface) or smaller steps "
+          "(time.cfl).",
+          joule(summary, ledger.energy_gain_joule), ledger.energy_gain_time, gain_text(ledger),
+          joule(summary, ledger.energy_scale), ledger.energy_scale_from, found->words, usable_text(summary))};
 }
 
 std::optional<Finding> kinetic_deficit(const Summary& summary) {
@@ -120,19 +137,34 @@ void add(Verdict& verdict, const Finding& finding) {
   verdict.reasons.push_back(finding.reason);
 }
 
-/// A body is worth what its headline numbers are.
+std::string band_text(const NumberGrade& number) {
+  constexpr double least = 0.001;  // told as a number
+  if (!std::isfinite(number.band)) return "without a band";
+  if (number.band < least) return fmt::format("within less than {:g} %", 100 * least);
+  return fmt::format("within {:.{}f} %", 100 * number.band, number.band < 0.1 ? 1 : 0);
+}
+
+/// A body is worth what its headline numbers are. What is still to come was told before.
 void add_numbers(Summary& summary, const std::string& name, BodySummary& body) {
-  const auto of_run = body.verdict.grade;
+  const bool to_come = peak_is_to_come(summary, name);
   for (const auto& headline : headlines(summary, name)) {
     const auto& number = *headline.grade;
-    if (number.grade <= of_run) continue;
-    const auto band = std::isfinite(number.band)
-                          ? fmt::format("within {:.{}f} %", 100 * number.band, number.band < 0.1 ? 1 : 0)
-                          : std::string("without a band");
-    Finding finding{number.grade, fmt::format("{}: {} {} {}: {}.", name, headline.name, headline.value, band,
-                                              fmt::join(number.reasons, "; "))};
+    const auto about = fmt::format("{}: {} {} {}", name, headline.name, headline.value, band_text(number));
+    for (auto* verdict : {&body.verdict, &summary.verdict}) verdict->about.push_back(about);
+    if (number.grade <= body.of_water || (to_come && grade_of_band(number.band) < Grade::unresolved)) continue;
+    const Finding finding{number.grade, fmt::format("{}: {}.", about, fmt::join(number.reasons, "; "))};
     add(body.verdict, finding);
     add(summary.verdict, finding);
+  }
+}
+
+/// First of all.
+void add_missing(Summary& summary) {
+  for (const auto& one : missing(summary)) {
+    const Finding finding{one.grade, one.reason};
+    add(summary.verdict, finding);
+    const auto body = summary.bodies.find(one.body);
+    if (body != summary.bodies.end()) add(body->second.verdict, finding);
   }
 }
 
@@ -140,16 +172,20 @@ void add_numbers(Summary& summary, const std::string& name, BodySummary& body) {
 
 void judge(Summary& summary) {
   summary.verdict = {};
-  for (auto& [name, body] : summary.bodies) body.verdict = {};
+  for (auto& [name, body] : summary.bodies) body.verdict = {}, body.of_water = Grade::resolved;
+  add_missing(summary);
   for (const auto& [measure, concerns] : measurements) {
     const auto finding = measure(summary);
     if (!finding) continue;
     add(summary.verdict, *finding);
     for (auto& [name, body] : summary.bodies)
-      if (concerns(body)) add(body.verdict, *finding);
+      if (concerns(body)) add(body.verdict, *finding), body.of_water = std::max(body.of_water, finding->grade);
   }
   grade_numbers(summary);
   for (auto& [name, body] : summary.bodies) add_numbers(summary, name, body);
+  if (summary.verdict.about.empty())
+    summary.verdict.about.emplace_back(summary.ledger ? "the water's energy and volume alone: no load is graded"
+                                                      : "nothing: there is no water");
   summary.next = next_step(summary);
 }
 

@@ -39,7 +39,7 @@ BodySummary whole_body(const Scene& scene, std::size_t index) {
   const auto d = static_cast<std::size_t>(scene.dimension);
   body.acceleration = body.force = all_classes();
   body.acceleration_grades = body.force_grades = all_grades();
-  body.impulse = body.impulse_repair = std::vector<double>(d);
+  body.impulse = body.impulse_repair = std::vector<double>(d, 1.);
   body.submergence.time = body.wetted.time = body.landing.maximum_tilt.time = 0;
   for (std::size_t k = 0; k < attitude_names.size(); ++k)
     if (d == 3 || k == 1) body.landing.attitude.emplace_back(attitude_names[k], AngleSummary{0, {0, 0}, {0, 0}});

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "apps/cli/child_process.hpp"
 #include "apps/cli/commands.hpp"
@@ -24,16 +23,6 @@ std::vector<Outcome> outcomes_in(const Study& study, const std::vector<StudyRun>
   std::vector<Outcome> outcomes;
   for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder / run.name));
   return outcomes;
-}
-
-/// "60 converged, 10 diverged, 5 stalled"
-std::string counts_text(const std::vector<Outcome>& outcomes) {
-  std::map<Outcome::Status, int> counts;
-  for (const auto& outcome : outcomes) ++counts[outcome.status];
-  std::string text;
-  for (const auto& [status, count] : counts)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, word(status));
-  return text;
 }
 
 /// Tables, chart and report of what the runs have left behind.

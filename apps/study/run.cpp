@@ -124,6 +124,7 @@ class Runner {
     // What a run says about its coupling stands in its summary.
     if (outcome.finished() && outcome.status != Outcome::Status::failed) fs::remove(log_of(i));
     auto text = fmt::format("[{}/{}] {}: {}", before_ + made_, runs_.size(), name, word(outcome.status));
+    if (!outcome.verdict.empty()) text += ", " + outcome.verdict;
     const auto number = [&](const char* column, const char* format) {
       if (const auto found = outcome.numbers.find(column); found != outcome.numbers.end())
         text += fmt::format(fmt::runtime(format), found->second);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "apps/quantity/expression.hpp"
@@ -17,6 +20,9 @@ namespace splashdown::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of a run's verdict, the worse the later.
+constexpr std::array<std::string_view, 4> grades = {"resolved", "doubtful", "unresolved", "unphysical"};
 
 /// Columns from summary.json.
 const std::vector<std::pair<std::string, std::string>> from_summary = {
@@ -36,6 +42,12 @@ Outcome::Status status_of(const std::string& status, const std::string& cause) {
   if (cause.starts_with("the coupling diverged")) return diverged;
   if (cause.starts_with("the coupling did not converge")) return stalled;
   return failed;
+}
+
+/// The grade; empty in summaries of earlier versions.
+std::string verdict_of(const nlohmann::json& summary) {
+  const auto found = summary.find("verdict");
+  return found != summary.end() && found->is_object() ? found->value("grade", "") : "";
 }
 
 /// Why an entry that summaries have is missing in one.
@@ -73,6 +85,8 @@ quantity::Lookup names_of(const Study& study, const StudyRun& run, const Outcome
 /// Deviation of one measured value from what it is held against.
 double error_of(const StudyQuantity& quantity, double value, double reference, const quantity::Lookup& names) {
   const double scale = quantity.scale.empty() ? std::abs(reference) : quantity::evaluate_number(quantity.scale, names);
+  if (!(std::abs(scale) > 0))
+    throw std::runtime_error("has no error: what it is held against is zero. Give the quantity a scale");
   return std::abs(value - reference) / scale;
 }
 
@@ -143,6 +157,7 @@ std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const 
   const auto add = [&](const std::string& entry) { text.append(1, ',').append(cell(entry)); };
   for (const auto& axis : study.axes) add(axis.name);
   add("status");
+  add("verdict");
   for (const auto& name : numbers) add(name);
   for (const auto& name : limits) add("limit." + name);
   add("cause");
@@ -151,6 +166,7 @@ std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const 
     text += cell(runs[i].name);
     for (std::size_t a = 0; a < study.axes.size(); ++a) add(study.axes[a].values[runs[i].value[a]].text);
     add(word(outcomes[i].status));
+    add(outcomes[i].verdict);
     for (const auto& name : numbers) {
       const auto found = outcomes[i].numbers.find(name);
       add(found == outcomes[i].numbers.end() ? std::string() : fmt::format("{}", found->second));
@@ -195,6 +211,7 @@ nlohmann::ordered_json json_of(const Study& study, const std::vector<StudyRun>& 
     }
     entry["set"] = runs[i].set;
     entry["status"] = word(outcomes[i].status);
+    if (!outcomes[i].verdict.empty()) entry["verdict"] = outcomes[i].verdict;
     if (!outcomes[i].cause.empty()) entry["cause"] = outcomes[i].cause;
     for (const auto& [name, number] : outcomes[i].numbers) entry["numbers"][name] = number;  // nan becomes null
     for (const auto& [name, answer] : outcomes[i].limits) entry["limits"][name] = answer;
@@ -222,6 +239,29 @@ const char* word(Outcome::Status status) {
   return "failed";
 }
 
+std::string counts_text(const std::vector<Outcome>& outcomes) {
+  const auto list = [](const auto& counts, const auto& name) {
+    std::string text;
+    for (const auto& [key, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name(key));
+    return text;
+  };
+  std::map<Outcome::Status, std::map<std::size_t, int>> all;
+  for (const auto& outcome : outcomes) {
+    const auto grade = std::ranges::find(grades, outcome.verdict);
+    ++all[outcome.status][static_cast<std::size_t>(grade - grades.begin())];
+  }
+  std::string text;
+  for (auto& [status, by_grade] : all) {
+    int count = 0;
+    for (const auto& [grade, number] : by_grade) count += number;
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", count, word(status));
+    by_grade.erase(grades.size());  // not known
+    if (status == Outcome::Status::converged && !by_grade.empty())
+      text += ": " + list(by_grade, [](std::size_t grade) { return grades[grade]; });
+  }
+  return text;
+}
+
 std::vector<std::string> number_columns() {
   std::vector<std::string> names;
   for (const auto& [name, path] : from_summary) names.push_back(name);
@@ -243,7 +283,7 @@ std::string column_label(const Study& study, const std::string& column) {
 
 std::vector<std::string> outcome_columns() {
   auto names = number_columns();
-  names.insert(names.end(), {"run", "status", "cause", "summary", "ref"});
+  names.insert(names.end(), {"run", "status", "verdict", "cause", "summary", "ref"});
   return names;
 }
 
@@ -258,6 +298,7 @@ Outcome outcome_of(const Study& study, const StudyRun& run, const fs::path& fold
   const auto summary = quantity::read_summary(folder);
   if (!summary.contains("status")) return outcome;
   outcome.cause = summary.value("cause", "");
+  outcome.verdict = verdict_of(summary);
   outcome.status = status_of(summary.value("status", ""), outcome.cause);
   for (const auto& [name, path] : from_summary)
     if (const auto value = quantity::find_entry(summary, path)) outcome.numbers[name] = value->numbers.front();

@@ -22,7 +22,8 @@ struct Outcome {
     failed        ///< stopped for another reason
   };
   Status status = Status::waiting;
-  std::string cause;  ///< why it stopped; empty otherwise
+  std::string cause;    ///< why it stopped; empty otherwise
+  std::string verdict;  ///< what the run's numbers are worth: a grade of its summary; empty: not known
   /// By column: passes_mean, wall_seconds ... and the study's quantities with their errors; absent: no value.
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> limits;  ///< answers to those of the scene, by name
@@ -31,6 +32,9 @@ struct Outcome {
 };
 
 const char* word(Outcome::Status status);
+
+/// "12 converged: 3 resolved, 9 unresolved; 2 diverged"
+std::string counts_text(const std::vector<Outcome>& outcomes);
 
 /// Columns that every study has beside its axes and quantities, and those of them that are numbers.
 std::vector<std::string> outcome_columns();

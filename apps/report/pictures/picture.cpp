@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -59,24 +60,34 @@ std::array<Colour, 256> palette() {
 constexpr std::size_t pixels_of_range = 7;
 
 struct Range {
-  double low = 0, high = 0;
+  double low = 0, high = 0;    ///< of the colours
+  double least = 0, most = 0;  ///< in view; what lies beyond the colours has the outermost one, and the key says so
 };
+
+/// A hundredth of the scale is no colour of its own.
+constexpr double worth_a_mark = 0.01;
 
 /// Lowest and highest pressure in view, without the outermost thousandth.
 Range pressure_range(const Raster& raster) {
   std::vector<float> values;
   for (std::size_t i = 0; i < raster.values.size(); i += pixels_of_range)
     if (std::isfinite(raster.values[i])) values.push_back(raster.values[i]);
-  if (values.empty()) return {0, 1};
+  if (values.empty()) return {0, 1, 0, 1};
   const auto quantile = [&](double q) {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, at);
     return static_cast<double>(*at);
   };
   Range range{std::min(0.0, quantile(0.001)), quantile(0.999)};
+  range.least = INFINITY, range.most = -INFINITY;
+  for (const double value : raster.values)
+    if (std::isfinite(value)) range.least = std::min(range.least, value), range.most = std::max(range.most, value);
   // Rounding below the hydrostatic zero is no suction worth a colour.
   if (range.low > -0.01 * range.high) range.low = 0;
   if (!(range.high > range.low)) range.high = range.low + 1;
+  const double little = worth_a_mark * (range.high - range.low);  // the scale then ends where the values do
+  if (range.most <= range.high + little) range.high = std::max(range.high, range.most);
+  if (range.least >= range.low - little) range.least = range.low;
   return range;
 }
 
@@ -172,6 +183,15 @@ std::string content_of(const PlanePicture& picture, const Box& view, const Raste
   return drawing.content + "</svg>\n";
 }
 
+/// Beside the name of the colours: where they end before the values do.
+std::string beyond_text(const Range& range, const Unit& unit) {
+  const auto value = [&](double v) { return digits(v * unit.scale, 3); };
+  std::string text;
+  if (range.most > range.high) text += ", " + value(range.high) + " and more";
+  if (range.least < range.low) text += ", " + value(range.low) + " and less";
+  return text;
+}
+
 /// Axes and colours' key. gnuplot shows the key beside a plot only, if it is of nothing.
 std::string axes_script(const std::string& name, const Box& view, int height, const Range& range, const Unit& unit,
                         const std::string& colour_label) {
@@ -190,10 +210,10 @@ std::string axes_script(const std::string& name, const Box& view, int height, co
          palette_command() +
          fmt::format(
              "set output '{}.svg'\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
-             "set cbrange [{:.6g}:{:.6g}]\nset cblabel '{} / {}' offset 0.6,0 textcolor rgb '#51606e'\n"
+             "set cbrange [{:.6g}:{:.6g}]\nset cblabel '{} / {}{}' offset 0.6,0 textcolor rgb '#51606e'\n"
              "plot NaN with lines lc palette notitle\n",
              name, view.low[0], view.high[0], view.low[1], view.high[1], range.low * unit.scale,
-             range.high * unit.scale, colour_label, unit.unit);
+             range.high * unit.scale, colour_label, unit.unit, beyond_text(range, unit));
 }
 
 }  // namespace
@@ -208,10 +228,12 @@ FieldFigure figure_of(const std::string& name, const PlanePicture& picture, cons
   figure.name = name;
   figure.script = axes_script(name, view, height, range, unit, colour_label);
   figure.content = content_of(picture, view, raster, range);
-  float top = -std::numeric_limits<float>::infinity();
-  for (const float v : raster.values)
-    if (std::isfinite(v)) top = std::max(top, v);
-  if (std::isfinite(top)) figure.caption = fmt::format("highest pressure in view {}", with_unit(top, "Pa", 3));
+  const bool any = std::ranges::any_of(raster.values, [](float v) { return std::isfinite(v); });
+  if (any) figure.caption = fmt::format("highest pressure in view {}", with_unit(range.most, "Pa", 3));
+  if (any && range.most > range.high)
+    figure.caption += fmt::format(", beyond the colours, which end at {}", with_unit(range.high, "Pa", 3));
+  if (any && range.least < range.low)
+    figure.caption += fmt::format("; lowest {}, below them", with_unit(range.least, "Pa", 3));
   return figure;
 }
 

@@ -257,6 +257,28 @@ TEST(Price, a_row_s_mesh_has_its_accuracy_and_none_coarser_has) {
   }
 }
 
+TEST(Price, a_row_is_called_measured_only_where_a_run_was_made) {
+  const auto list = price();
+  int measured = 0;
+  for (const auto& row : list.rows) {
+    if (!row.refine) continue;
+    const bool made = std::ranges::any_of(list.rungs, [&](const Rung& rung) {
+      return rung.spec.role == Role::rung && std::abs(rung.spec.refine / *row.refine - 1) < 1e-3;
+    });
+    EXPECT_STREQ(source_of(row), *row.refine > list.finest() ? "extrapolated" : made ? "measured" : "interpolated");
+    measured += made;
+  }
+  EXPECT_LT(measured, static_cast<int>(list.rows.size()));
+}
+
+TEST(Price, says_whether_what_was_asked_for_is_reached) {
+  auto list = price();
+  for (const double accuracy : {0.2, 1e-6}) {
+    list.asked = accuracy;
+    EXPECT_NE(price_json(list).find(accuracy > 0.1 ? "\"reached\": true" : "\"reached\": false"), std::string::npos);
+  }
+}
+
 TEST(Price, of_each_quantity_is_the_list_s_at_most_and_of_one_of_them_the_list_s) {
   std::vector<std::string> notes;
   auto rungs = ladder();

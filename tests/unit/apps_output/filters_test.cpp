@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -167,6 +168,55 @@ TEST(Filters, a_record_too_long_to_be_resampled_has_no_class) {
 }
 
 TEST(Peaks, an_empty_record_has_none) { EXPECT_TRUE(filtered_pulses({}).empty()); }
+
+/// Means of a half sine of a duration over equal steps, from -1/60 s on.
+IntervalHistory half_sine(double duration, double step, double phase) {
+  IntervalHistory history{1, -0.05 - phase * step, {}, {}};
+  const auto integral = [=](double t) {
+    t = std::clamp(t, 0., duration);
+    return duration / std::numbers::pi * (1 - std::cos(std::numbers::pi * t / duration));
+  };
+  for (double begin = history.begin; begin < duration + 0.05;) {
+    const double end = begin + step, mean = (integral(end) - integral(begin)) / step;
+    history.append(end, {&mean, 1});
+    begin = end;
+  }
+  return history;
+}
+
+double filtered_peak(const IntervalHistory& history) {
+  return std::ranges::max(filtered(history, structures_class)->values);
+}
+
+// The part of the signal that is as quick as the steps may lose what means take from the highest frequency.
+TEST(Sampling, bounds_what_means_over_steps_take_from_a_filtered_peak) {
+  double widest = 0;
+  for (const double duration : {0.005, 0.01, 0.02, 0.05, 0.1, 0.3})
+    for (const double step : {0.0005, 0.0017, 0.004, 0.01, 0.02, 0.04})
+      for (const double phase : {0.1, 0.4, 0.7}) {
+        const auto history = half_sine(duration, step, phase);
+        const double top = filtered_peak(history), truth = filtered_peak(half_sine(duration, 1e-4, 0));
+        const double share = std::min(1., roughness(history, structures_class, duration / 2) / top) *
+                             lost_to_steps(history, structures_class, duration / 2);
+        EXPECT_LE(truth - top, share * truth + 2e-3 * truth) << duration << " s in steps of " << step;
+        widest = std::max(widest, share);
+      }
+  EXPECT_GT(widest, 0.5) << "pulses shorter than a step are not known";
+}
+
+TEST(Sampling, costs_nothing_where_nothing_is_quick) {
+  for (const double step : {0.01, 0.05, 0.2}) {
+    IntervalHistory rest{2, 0, {}, {}}, bob{1, 0, {}, {}};
+    for (int n = 1; n <= 200; ++n) {
+      const std::array load = {1e-12 * (n % 7), 1962.};
+      rest.append(n * step, load);
+      const double heave = 1962 + 300 * std::sin(2 * std::numbers::pi * n / 60);  // sixty steps a period
+      bob.append(n * step, {&heave, 1});
+    }
+    EXPECT_LT(roughness(rest, structures_class, 100 * step) / 1962, 1e-12);
+    EXPECT_LT(roughness(bob, structures_class, 100 * step) / 1962, 0.001);
+  }
+}
 
 }  // namespace
 }  // namespace splashdown::apps

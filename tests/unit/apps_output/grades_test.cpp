@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "apps/statistics/evidence.hpp"
+#include "apps/statistics/next_step.hpp"
 #include "apps/statistics/verdict.hpp"
 
 namespace splashdown::apps {
@@ -138,6 +139,12 @@ TEST(Grades, a_load_that_carries_weight_does_not_depend_on_the_mesh) {
   EXPECT_EQ(summary.bodies.at("hull").force_grades.raw->grade, Grade::resolved);
 }
 
+TEST(Verdict, says_what_it_is_about) {
+  const auto& about = landing(slam(50)).verdict.about;
+  ASSERT_EQ(about.size(), 2u);
+  EXPECT_EQ(about[0], "hull: peak acceleration, raw 5 g within 2.5 %");
+}
+
 TEST(Grades, are_no_better_than_the_water_that_they_come_from) {
   auto summary = landing(slam(200));
   auto& ledger = summary.ledger.emplace();
@@ -149,13 +156,36 @@ TEST(Grades, are_no_better_than_the_water_that_they_come_from) {
   EXPECT_EQ(summary.bodies.at("hull").force_grades.raw->grade, Grade::unphysical);
 }
 
-TEST(Grades, what_to_do_next_halves_the_band_and_says_what_it_costs) {
+TEST(NextStep, is_the_coarsest_mesh_that_makes_the_grade_better_and_says_what_it_costs) {
   EXPECT_FALSE(landing(slam(50)).next);
-  const auto far = landing(slam(8)), near = landing(slam(20));
-  ASSERT_TRUE(far.next && near.next);
-  EXPECT_EQ(far.next->refine, 2);
-  EXPECT_NEAR(far.next->seconds, 100 * std::pow(2, cost_exponent(2)), 1e-9);
-  EXPECT_LT(near.next->refine, 2);
+  for (const auto& [elements, refine] : {std::pair{20., 1.4}, {15., 2.}, {11., 1.4}, {8., 2.}, {4., 4.}}) {
+    const auto summary = landing(slam(elements));
+    ASSERT_TRUE(summary.next) << elements;
+    EXPECT_EQ(summary.next->value, refine) << elements;
+    EXPECT_TRUE(summary.next->promises) << elements;
+    EXPECT_LT(landing(slam(refine * elements)).verdict.grade, summary.verdict.grade) << "as promised";
+    EXPECT_NEAR(summary.next->seconds, 100 * std::pow(refine, cost_exponent(2)), 1e-9);
+  }
+}
+
+TEST(NextStep, that_may_not_help_says_so) {
+  auto lost = slam(60);
+  lost.sideways = 0.3;
+  const auto alone = landing(slam(200, 0.42)), sideways = landing(lost), few = landing(slam(2));
+  for (const auto* summary : {&alone, &sideways, &few}) {
+    ASSERT_TRUE(summary->next);
+    EXPECT_FALSE(summary->next->promises);
+    EXPECT_NE(text_of(*summary->next).find("may not"), std::string::npos) << text_of(*summary->next);
+  }
+}
+
+TEST(NextStep, of_long_steps_is_shorter_ones) {
+  auto coarse = slam(100);
+  coarse.sampling = 0.3;
+  auto summary = landing(coarse);
+  ASSERT_TRUE(summary.next);
+  EXPECT_EQ(summary.next->cure, NextStep::Cure::shorter_steps);
+  EXPECT_TRUE(summary.next->promises);
 }
 
 TEST(Grades, no_mesh_gives_the_peak_of_an_impulse_a_value) {

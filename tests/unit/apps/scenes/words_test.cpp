@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "apps/check/cost.hpp"
 #include "apps/cli/commands.hpp"
@@ -55,15 +56,16 @@ TEST(Words, a_run_closes_with_its_verdict_in_red_on_a_terminal) {
   EXPECT_NE(colour().find("\x1b[32mresolved\x1b[0m"), std::string::npos);
 }
 
-TEST(Words, a_repair_share_above_the_whole_is_written_out) {
+TEST(Words, a_repair_share_is_one_of_what_is_left_of_the_impulse) {
   Summary summary;
   auto& body = summary.bodies["hull"];
   body.landing.first_contact = 0.01;
   body.impulse = {0, 3};
-  for (const auto& [repair, text] :
-       {std::pair{3.6, "repair share of the impulse 120 %"}, std::pair{0.0372, "repair share of the impulse 1.2 %"},
-        std::pair{0.75, "repair share of the impulse 25 %"}}) {
-    body.impulse_repair = {0, repair};
+  for (const auto& [repair, to_and_fro, text] : {std::tuple{3.6, 4., "no meaningful repair share"},
+                                                 {0.0372, 4., "repair share of the impulse 1.2 %"},
+                                                 {0.75, 4., "repair share of the impulse 25 %"},
+                                                 {0.75, 400., "no meaningful repair share"}}) {
+    body.impulse_repair = {0, repair}, body.impulse_to_and_fro = to_and_fro;
     EXPECT_NE(closing_text(summary, "nowhere").find(text), std::string::npos) << closing_text(summary, "nowhere");
   }
 }

@@ -1,0 +1,45 @@
+#include "apps/run/asked.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace splashdown::apps {
+namespace {
+
+/// By body, the number of the group that joints tie it into.
+std::vector<std::size_t> groups_of(const Scene& scene) {
+  std::vector<std::size_t> group(scene.bodies.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (const auto& joint : scene.joints)
+    if (joint.other) std::ranges::replace(group, std::size_t{group[*joint.other]}, std::size_t{group[joint.body]});
+  return group;
+}
+
+bool moves(const Body& body) {
+  if (body.motion == Motion::free) return !body.free.empty();
+  return body.motion == Motion::prescribed &&
+         (!body.path.empty() || body.velocity.squaredNorm() > 0 || body.spin_deg.squaredNorm() > 0);
+}
+
+}  // namespace
+
+Asked asked_of(const Scene& scene) {
+  Asked asked;
+  asked.contact = scene.contact.has_value();
+  asked.end = scene.time.end;
+  if (scene.gravity) asked.gravity = std::max(0., -scene.gravity->acceleration[scene.dimension - 1]);
+  const auto group = groups_of(scene);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto& body = scene.bodies[i];
+    auto& entry = asked.bodies[body.name];
+    entry.free = body.motion == Motion::free;
+    entry.moves = moves(body);
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+      if (k != i && group[k] == group[i]) entry.tied.push_back(scene.bodies[k].name);
+    if (!body.path.empty()) asked.path_ends_at = std::max(asked.path_ends_at, body.path.back().time);
+  }
+  return asked;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,11 @@
+// What a scene asks for, to be held against what its run has.
+#pragma once
+
+#include "apps/scene/scene.hpp"
+#include "apps/statistics/summary.hpp"
+
+namespace splashdown::apps {
+
+Asked asked_of(const Scene& scene);
+
+}  // namespace splashdown::apps

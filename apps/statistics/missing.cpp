@@ -1,0 +1,132 @@
+#include "apps/statistics/missing.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/report/words.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+bool is_wet(const Summary& summary, const std::string& name) {
+  const auto found = summary.bodies.find(name);
+  return found != summary.bodies.end() && found->second.landing.first_contact >= 0;
+}
+
+bool any_wet(const Summary& summary) {
+  return std::ranges::any_of(summary.bodies, [](const auto& body) { return body.second.landing.first_contact >= 0; });
+}
+
+/// Seconds until the lowest point of a dry body is at the water's level, as it moves at the end; nothing: it does not come there.
+std::optional<double> until_contact(const Summary& summary, const std::string& name) {
+  const auto& landing = summary.bodies.at(name).landing;
+  const double g = summary.asked->bodies.at(name).free ? summary.asked->gravity : 0, v = landing.sinking;
+  if (!(landing.height > 0)) return {};
+  const double squared = v * v + 2 * g * landing.height;
+  if (g > 0) return (std::sqrt(squared) - v) / g;
+  return v > 0 ? std::optional(landing.height / v) : std::nullopt;
+}
+
+std::string where(const Summary& summary, const std::string& name) {
+  const auto& landing = summary.bodies.at(name).landing;
+  if (!(landing.height > 0)) return " Mind its place, velocity and freedom.";
+  const auto wait = until_contact(summary, name);
+  const auto gap = fmt::format(" It is {} above the water", with_unit(landing.height, "m", 3));
+  return wait ? fmt::format("{} and gets there at about t = {:.3g} s: let the run last longer (time.end).", gap,
+                            summary.simulated_time + *wait)
+              : gap + " and does not come nearer: mind its place, velocity and freedom.";
+}
+
+bool is_carried(const Summary& summary, const std::string& name) {
+  const auto& tied = summary.asked->bodies.at(name).tied;
+  return (summary.asked->contact && any_wet(summary)) ||
+         std::ranges::any_of(tied, [&](const auto& other) { return is_wet(summary, other); });
+}
+
+void add_dry_bodies(const Summary& summary, std::vector<Missing>& list) {
+  for (const auto& [name, asked] : summary.asked->bodies) {
+    if (is_wet(summary, name) || !summary.bodies.contains(name)) continue;
+    const auto until = fmt::format("{} stayed dry until the run ended, at t = {:.4g} s", name, summary.simulated_time);
+    if (asked.moves && !is_carried(summary, name))
+      list.push_back({Grade::unresolved, until + ": there is no load on it to judge." + where(summary, name), name});
+    else
+      list.push_back({Grade::resolved, until + ".", name});
+  }
+}
+
+void add_rising(const Summary& summary, std::vector<Missing>& list) {
+  for (const auto& [name, body] : summary.bodies) {
+    if (!body.rising || !summary.asked->bodies.contains(name)) continue;
+    const auto rises =
+        fmt::format("The load on {} still rises when the run ends, at t = {:.4g} s", name, summary.simulated_time);
+    if (peak_is_to_come(summary, name))
+      list.push_back({Grade::unresolved, rises + ": its peak comes later. Let the run last longer (time.end).", name});
+    else
+      list.push_back({Grade::resolved, rises + ": the largest one is of that instant and no peak.", name});
+  }
+}
+
+void add_dry_records(const Summary& summary, std::vector<Missing>& list) {
+  if (summary.dry_records.empty()) return;
+  const bool nothing_else = summary.asked->bodies.empty() && summary.dry_records.size() == summary.wettable_records;
+  list.push_back(
+      {nothing_else ? Grade::unresolved : Grade::resolved,
+       fmt::format("No water met {} until t = {:.4g} s.", fmt::join(summary.dry_records, ", "), summary.simulated_time),
+       {}});
+}
+
+void add_early_end(const Summary& summary, std::vector<Missing>& list) {
+  const auto& asked = *summary.asked;
+  if (summary.status == "interrupted")
+    list.push_back({Grade::resolved,
+                    fmt::format("The run was stopped at t = {:.4g} s of {:.4g} s: what comes later is in no number. "
+                                "--resume goes on.",
+                                summary.simulated_time, asked.end),
+                    {}});
+  else if (summary.status == "done" && asked.path_ends_at > summary.simulated_time * (1 + 1e-9))
+    list.push_back({Grade::resolved,
+                    fmt::format("The prescribed path goes on until t = {:.4g} s, the run ended at {:.4g} s.",
+                                asked.path_ends_at, summary.simulated_time),
+                    {}});
+}
+
+}  // namespace
+
+bool peak_is_to_come(const Summary& summary, const std::string& name) {
+  if (!summary.asked) return false;
+  const auto asked = summary.asked->bodies.find(name);
+  const auto body = summary.bodies.find(name);
+  return asked != summary.asked->bodies.end() && body != summary.bodies.end() && asked->second.free &&
+         body->second.rising;
+}
+
+std::vector<Missing> missing(const Summary& summary) {
+  std::vector<Missing> list;
+  if (!summary.asked || !summary.ledger || summary.status == "failed") return list;
+  add_dry_bodies(summary, list);
+  add_rising(summary, list);
+  add_dry_records(summary, list);
+  add_early_end(summary, list);
+  std::ranges::stable_sort(list, std::greater(), &Missing::grade);
+  return list;
+}
+
+std::optional<double> end_to_ask_for(const Summary& summary) {
+  std::optional<double> end;
+  const auto ask = [&](double time) { end = std::max(end.value_or(0), time); };
+  for (const auto& one : missing(summary)) {
+    if (one.grade == Grade::resolved || one.body.empty()) continue;
+    const double contact = summary.bodies.at(one.body).landing.first_contact, now = summary.simulated_time;
+    if (contact >= 0)
+      ask(now + (now - contact));
+    else if (const auto wait = until_contact(summary, one.body))
+      ask(1.5 * (now + *wait));
+  }
+  return end;
+}
+
+}  // namespace splashdown::apps
