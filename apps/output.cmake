@@ -9,7 +9,7 @@ find_package(pugixml REQUIRED)
 
 set(output_sources
   record/hulls.cpp record/points.cpp record/probes.cpp record/recorder.cpp record/view.cpp
-  record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu.cpp record/frames/vtu_blocks.cpp record/frames/vtu_grid.cpp
+  record/frames/base64.cpp record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu.cpp record/frames/vtu_blocks.cpp record/frames/vtu_grid.cpp
   record/tables/csv.cpp record/tables/energy.cpp record/tables/evidence.cpp record/tables/files.cpp record/tables/rows.cpp
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
   statistics/grades.cpp statistics/landing_statistics.cpp statistics/limits.cpp statistics/missing.cpp statistics/next_step.cpp

@@ -1,9 +1,9 @@
 #include "apps/record/frames/vtu.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <fstream>
 #include <pugixml.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "apps/record/frames/vtu_blocks.hpp"
@@ -25,44 +25,32 @@ constexpr const char* type_name<int> = "Int32";
 template <>
 constexpr const char* type_name<unsigned char> = "UInt8";
 
-/// Describes arrays in the head and gathers their bytes behind it.
-class Writer {
- public:
-  template <class Value>
-  pugi::xml_node add(pugi::xml_node parent, const std::string& name, const std::vector<Value>& values, int components) {
-    auto node = parent.append_child("DataArray");
-    node.append_attribute("type") = type_name<Value>;
-    if (!name.empty()) node.append_attribute("Name") = name.c_str();
-    if (components > 1) node.append_attribute("NumberOfComponents") = components;
-    node.append_attribute("format") = "appended";
-    node.append_attribute("offset") = appended.size();
-    append_blocks(appended, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)});
-    return node;
-  }
-  void add(pugi::xml_node parent, const std::vector<VtuArray>& arrays, bool count_tuples) {
-    for (const auto& array : arrays)
-      std::visit(
-          [&](const auto& values) {
-            auto node = add(parent, array.name, values, array.components);
-            if (count_tuples)
-              node.append_attribute("NumberOfTuples") = values.size() / static_cast<std::size_t>(array.components);
-          },
-          array.values);
-  }
-
-  std::string appended;
-};
+template <class Value>
+pugi::xml_node add(pugi::xml_node parent, const std::string& name, const std::vector<Value>& values, int components) {
+  auto node = parent.append_child("DataArray");
+  node.append_attribute("type") = type_name<Value>;
+  if (!name.empty()) node.append_attribute("Name") = name.c_str();
+  if (components > 1) node.append_attribute("NumberOfComponents") = components;
+  node.append_attribute("format") = "binary";
+  node.text() = blocks_of({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)}).c_str();
+  return node;
+}
+void add(pugi::xml_node parent, const std::vector<VtuArray>& arrays, bool count_tuples) {
+  for (const auto& array : arrays)
+    std::visit(
+        [&](const auto& values) {
+          auto node = add(parent, array.name, values, array.components);
+          if (count_tuples)
+            node.append_attribute("NumberOfTuples") = values.size() / static_cast<std::size_t>(array.components);
+        },
+        array.values);
+}
 
 class Reader {
  public:
   explicit Reader(std::string_view file) {
-    const auto mark = file.find("<AppendedData");
-    const auto begin = mark == file.npos ? mark : file.find('_', mark);
-    if (begin == file.npos) throw std::runtime_error("has no appended data");
-    data_ = file.substr(begin + 1);
-    const auto head = std::string(file.substr(0, mark)) + "</VTKFile>";
-    if (const auto parsed = document_.load_buffer(head.data(), head.size()); !parsed)
-      throw std::runtime_error(std::string("its head is damaged: ") + parsed.description());
+    if (const auto parsed = document_.load_buffer(file.data(), file.size()); !parsed)
+      throw std::runtime_error(std::string("damaged XML: ") + parsed.description());
     require_attribute("type", "UnstructuredGrid");
     require_attribute("byte_order", "LittleEndian");
     require_attribute("header_type", header_type);
@@ -75,9 +63,11 @@ class Reader {
   std::vector<Value> values(pugi::xml_node array) const {
     if (array.attribute("type").value() != std::string_view(type_name<Value>))
       throw std::runtime_error(std::string("an array is not of type ") + type_name<Value>);
-    const auto offset = array.attribute("offset").as_ullong(data_.size());
-    if (offset >= data_.size()) throw std::runtime_error("ends before its arrays");
-    return read_blocks<Value>(data_.substr(offset));
+    std::string_view text = array.text().get();
+    constexpr const char* blanks = " \t\r\n";
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    text = text.substr(0, text.find_last_not_of(blanks) + 1);
+    return read_blocks<Value>(text);
   }
 
   VtuArray array(pugi::xml_node node) const {
@@ -100,7 +90,6 @@ class Reader {
   }
 
   pugi::xml_document document_;
-  std::string_view data_;
 };
 
 void require(bool holds, const char* otherwise) {
@@ -163,30 +152,21 @@ void write_vtu(const std::filesystem::path& path, const VtuGrid& grid) {
   root.append_attribute("byte_order") = "LittleEndian";
   root.append_attribute("header_type") = header_type;
   root.append_attribute("compressor") = compressor;
-  Writer writer;
   auto whole = root.append_child("UnstructuredGrid");
-  if (!grid.field_data.empty()) writer.add(whole.append_child("FieldData"), grid.field_data, true);
+  if (!grid.field_data.empty()) add(whole.append_child("FieldData"), grid.field_data, true);
   auto piece = whole.append_child("Piece");
   piece.append_attribute("NumberOfPoints") = grid.points.size() / 3;
   piece.append_attribute("NumberOfCells") = grid.types.size();
   auto point_data = piece.append_child("PointData");
   if (!grid.scalars.empty()) point_data.append_attribute("Scalars") = grid.scalars.c_str();
-  writer.add(point_data, grid.point_data, false);
-  writer.add(piece.append_child("Points"), "Points", grid.points, 3);
+  add(point_data, grid.point_data, false);
+  add(piece.append_child("Points"), "Points", grid.points, 3);
   auto cells = piece.append_child("Cells");
-  writer.add(cells, "connectivity", grid.connectivity, 1);
-  writer.add(cells, "offsets", grid.offsets, 1);
-  writer.add(cells, "types", grid.types, 1);
-  auto appended = root.append_child("AppendedData");
-  appended.append_attribute("encoding") = "raw";
-  appended.text() = "_";
-
-  std::ostringstream head;
-  document.save(head, "  ");
-  const std::string xml = head.str();
-  const auto data = xml.rfind("_</AppendedData>") + 1;
+  add(cells, "connectivity", grid.connectivity, 1);
+  add(cells, "offsets", grid.offsets, 1);
+  add(cells, "types", grid.types, 1);
   std::ofstream out(path, std::ios::binary);
-  out << std::string_view(xml).substr(0, data) << writer.appended << '\n' << std::string_view(xml).substr(data);
+  document.save(out, "  ");
   out.close();
   if (!out) throw std::runtime_error(path.string() + ": cannot write");
 }

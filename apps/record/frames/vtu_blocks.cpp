@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "apps/record/frames/base64.hpp"
 #include "core/parallel.hpp"
 
 namespace splashdown::apps {
@@ -37,7 +38,7 @@ class Front {
  public:
   explicit Front(std::string_view data) : data_(data) {}
   std::string_view take(std::uint64_t size) {
-    if (size > data_.size()) throw std::runtime_error("ends before its arrays");
+    if (size > data_.size()) throw std::runtime_error("an array is cut short");
     const auto taken = data_.substr(0, size);
     data_.remove_prefix(size);
     return taken;
@@ -54,34 +55,45 @@ class Front {
 
 }  // namespace
 
-void append_blocks(std::string& appended, std::string_view bytes) {
+std::string blocks_of(std::string_view bytes) {
   const std::size_t count = (bytes.size() + block_bytes - 1) / block_bytes;
   std::vector<std::string> blocks(count);
   in_pieces(count, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) blocks[i] = deflated(bytes.substr(i * block_bytes, block_bytes));
   });
-  append(appended, count);
-  append(appended, block_bytes);
-  append(appended, bytes.size() % block_bytes);
-  for (const auto& block : blocks) append(appended, block.size());
-  for (const auto& block : blocks) appended += block;
+  std::string header, data;
+  append(header, count);
+  append(header, block_bytes);
+  append(header, bytes.size() % block_bytes);
+  for (const auto& block : blocks) append(header, block.size());
+  for (const auto& block : blocks) data += block;
+  std::string text;
+  append_base64(text, header);
+  append_base64(text, data);
+  return text;
 }
 
-std::string read_blocks(std::string_view data) {
-  Front front(data);
-  const auto count = front.number(), whole = front.number(), rest = front.number();
+std::string read_blocks(std::string_view text) {
+  constexpr std::size_t word = sizeof(std::uint64_t);
+  const auto begin = from_base64(text.substr(0, base64_length(3 * word)));
+  Front start(begin);
+  const auto count = start.number(), whole = start.number(), rest = start.number();
   if (count == 0) return {};
-  if (whole == 0 || whole > block_bytes || rest >= whole) throw std::runtime_error("an array is damaged");
-  Front blocks(
-      data.substr(std::min<std::uint64_t>(data.size(), (3 + std::min<std::uint64_t>(count, data.size())) * 8)));
+  if (whole == 0 || whole > block_bytes || rest >= whole || count > text.size())
+    throw std::runtime_error("an array is damaged");
+  const auto characters = base64_length((3 + count) * word);
+  if (characters > text.size()) throw std::runtime_error("an array is cut short");
+  const auto header = from_base64(text.substr(0, characters)), data = from_base64(text.substr(characters));
+  Front sizes(header), blocks(data);
+  sizes.take(3 * word);
   std::string bytes;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto block = blocks.take(front.number());
+    const auto block = blocks.take(sizes.number());
     const std::uint64_t size = i + 1 == count && rest > 0 ? rest : whole;
-    const auto begin = bytes.size();
-    bytes.resize(begin + size);
+    const auto to = bytes.size();
+    bytes.resize(to + size);
     uLongf got = size;
-    if (uncompress(reinterpret_cast<Bytef*>(bytes.data() + begin), &got, reinterpret_cast<const Bytef*>(block.data()),
+    if (uncompress(reinterpret_cast<Bytef*>(bytes.data() + to), &got, reinterpret_cast<const Bytef*>(block.data()),
                    block.size()) != Z_OK ||
         got != size)
       throw std::runtime_error("an array is damaged");

@@ -1,0 +1,60 @@
+#include "apps/record/frames/base64.hpp"
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+
+namespace splashdown::apps {
+
+namespace {
+
+constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr unsigned char none = 64;
+
+constexpr std::array<unsigned char, 256> values_of_digits() {
+  std::array<unsigned char, 256> values{};
+  values.fill(none);
+  for (std::size_t i = 0; i < digits.size(); ++i)
+    values[static_cast<unsigned char>(digits[i])] = static_cast<unsigned char>(i);
+  return values;
+}
+constexpr auto value_of = values_of_digits();
+
+}  // namespace
+
+void append_base64(std::string& text, std::string_view bytes) {
+  text.reserve(text.size() + base64_length(bytes.size()));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) -> std::uint32_t {
+      return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0;
+    };
+    const std::uint32_t group = byte(0) << 16 | byte(1) << 8 | byte(2);
+    text += digits[group >> 18];
+    text += digits[group >> 12 & 63];
+    text += i + 1 < bytes.size() ? digits[group >> 6 & 63] : '=';
+    text += i + 2 < bytes.size() ? digits[group & 63] : '=';
+  }
+}
+
+std::string from_base64(std::string_view text) {
+  if (text.size() % 4 != 0) throw std::runtime_error("an array is not in base64");
+  std::size_t padding = 0;
+  while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=') ++padding;
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    std::uint32_t group = 0;
+    for (std::size_t k = i; k < i + 4; ++k) {
+      const auto value = k + padding < text.size() ? value_of[static_cast<unsigned char>(text[k])] : 0;
+      if (value == none) throw std::runtime_error("an array is not in base64");
+      group = group << 6 | value;
+    }
+    bytes += static_cast<char>(group >> 16);
+    bytes += static_cast<char>(group >> 8 & 255);
+    bytes += static_cast<char>(group & 255);
+  }
+  bytes.resize(bytes.size() - padding);
+  return bytes;
+}
+
+}  // namespace splashdown::apps
