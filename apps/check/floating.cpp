@@ -35,10 +35,7 @@ std::string attitude_text(const rigid::Isometry<3>& pose) {
   return fmt::format("heel (roll) {:.4g} deg, trim (pitch) {:.4g} deg", shown(angles[0]), shown(angles[1]));
 }
 
-std::string height_text(double height) {
-  return height < 0 ? fmt::format("{:.4g} m below the water", -height)
-                    : fmt::format("{:.4g} m above the water", height);
-}
+std::string height_text(double height) { return fmt::format("{:.4g} m above the water", height); }
 
 /// What is taken for granted about water in hollows.
 template <int d>
@@ -71,8 +68,9 @@ rigid::Slope<3> length_axis(const rigid::Floating<3>& rest) {
 template <class Value>
 std::optional<double> zero_of(const std::vector<rigid::Heeled>& curve, std::size_t from, const Value& value) {
   for (std::size_t i = from; i < curve.size(); ++i) {
-    if (value(curve[i]) > 0) continue;
-    const double before = value(curve[i - 1]), share = before / (before - value(curve[i]));
+    const double before = value(curve[i - 1]);
+    if (value(curve[i]) > 0 || !(before > 0)) continue;
+    const double share = before / (before - value(curve[i]));
     return (curve[i - 1].heel + share * (curve[i].heel - curve[i - 1].heel)) / radians;
   }
   return {};
@@ -106,12 +104,15 @@ void print_levers(const Scene& scene, const Resting<3>& resting, double level) {
   const bool ends = last < 180 - 1e-9;
   if (!ends && most->lever < facets * extent<3>(spec))
     return row("righting levers", "none to speak of: a round body keeps any heel");
+  const double round_off = 1e-9 * extent<3>(spec);
   // Positive from rest to where the lever changes its sign.
   const double range = zero_of(curve, 2, [](const rigid::Heeled& at) { return at.lever; }).value_or(last);
+  const bool rights = curve.size() < 2 || curve[1].lever > -round_off;
   row("righting levers",
       fmt::format("heel about its length, to starboard, free to sink and to trim: GZ {:.4g} m at most, near "
-                  "{:g} deg; it rights itself up to about {:.0f} deg",
-                  most->lever, std::round(most->heel / radians), range));
+                  "{:g} deg; it {}",
+                  most->lever, std::round(most->heel / radians),
+                  rights ? fmt::format("rights itself up to about {:.0f} deg", range) : "does not right itself"));
   print_trim(curve, facets * extent<3>(spec));
   if (ends)
     row("", fmt::format("at {:.1f} deg {}", last,
@@ -119,7 +120,7 @@ void print_levers(const Scene& scene, const Resting<3>& resting, double level) {
                                                                        : "it trims until it stands on end"));
   row("", "heel [deg]     GZ [m]  draft [m]");
   for (const auto& point : curve) {
-    const double lever = std::abs(point.lever) < 1e-9 * extent<3>(spec) ? 0 : point.lever;
+    const double lever = std::abs(point.lever) < round_off ? 0 : point.lever;
     row("", fmt::format("{:10.0f} {:10.4f} {:10.4f}", point.heel / radians, lever, point.floating.draft));
   }
 }

@@ -102,6 +102,22 @@ struct Descent {
   }
 };
 
+/// Where GM vanishes, what comes after it in the energy decides: a place lower by more than the facets of round bodies make it.
+template <int d, int n>
+std::optional<Floating<d>> beside(const FloatingHull<d>& hull, const Floating<d>& f, double volume, double water_level,
+                                  const Eigen::Matrix<double, d - 1, n>& allowed) {
+  const double neutral = facets_share * hull.extent, lower = 1e-6 * hull.extent, turn = 5 * std::numbers::pi / 180;
+  const Principal<n> principal(allowed.transpose() * metacentric_tensor(f) * allowed);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (std::abs(principal.values(k)) > neutral) continue;
+    Isometry<d> pose = f.pose;
+    pose.linear() = tilt<d>(allowed * (turn * principal.axes.col(k))) * f.pose.linear();
+    const auto next = afloat<d>(hull, pose, volume, water_level);
+    if (next && next->hollow == f.hollow && energy(*next) < energy(f) - lower) return next;
+  }
+  return {};
+}
+
 }  // namespace
 
 template <int d>
@@ -173,6 +189,7 @@ std::optional<Floating<d>> settled(FloatingHull<d>& hull, const Isometry<d>& pos
       const bool lower = energy(*next) < energy(*f), closer = along(*next).norm() < down.norm();
       if (lower || (closer && convex)) better = next;
     }
+    if (!better) better = beside<d, n>(hull, *f, volume, water_level, allowed);
     if (!better) break;
     f = better;
   }

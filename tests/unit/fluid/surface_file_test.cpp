@@ -168,6 +168,43 @@ TEST_F(SurfaceFileTest, an_inverted_surface_is_refused_whole_or_in_part) {
   EXPECT_TRUE(says(told(ascii(scenes::together(cube(), cube({0, 0, 0}, 1)))), "a part inside another one"));
 }
 
+// One message, and what it asks for makes the file good: whichever way the skins are turned, inner ones are to go.
+TEST_F(SurfaceFileTest, shells_are_told_once_with_the_right_cure) {
+  const auto inner = cube({0, 0, 0}, 1), core = cube({0, 0, 0}, 0.3), beside = cube({5, 0, 0});
+  const auto inverted = [](const Surface<3>& s) { return turned(s, 0, static_cast<int>(s.facets.cols())); };
+  const auto two = [](const Surface<3>& a, const Surface<3>& b) { return scenes::together(a, b); };
+  struct Row {
+    Surface<3> hull;
+    std::string rule, cure;
+  };
+  const std::vector<Row> table = {
+      {two(cube(), beside), "was accepted", ""},
+      {two(cube(), inverted(beside)), "has a part that is inside out, at (", "Flip it"},
+      {two(inverted(cube()), inverted(beside)), "is inside out: all its normals", "Flip it"},
+      {two(two(cube(), inverted(beside)), inverted(cube({10, 0, 0}))), "has 2 parts that are inside out", "Flip it"},
+      {two(cube(), inner), "has a part inside another one", "Delete it alone"},
+      {two(cube(), inverted(inner)), "has a part inside another one", "Delete it alone"},
+      {two(inner, cube()), "has a part inside another one", "Delete it alone"},
+      {two(inverted(cube()), inner), "outside is inside out", "Delete it alone"},
+      {two(inverted(cube()), inverted(inner)), "outside is inside out", "Flip it"},
+      {two(two(cube(), inverted(inner)), core), "has 2 parts inside other ones", "Delete them alone"},
+      {two(cube(), turned(inner, 3, 2)), "has a part inside another one", "Delete it alone"},
+      {two(turned(cube(), 3, 2), beside), "facets turned against their neighbours", "Flip it"},
+      {two(without(cube(), {2, 3}), without(inverted(inner), {2, 3})), "of two skins, one inside the other",
+       "Join the rims"},
+      {two(without(cube(), {2, 3}), without(beside, {2, 3})), "is not closed: 2 holes", "Close it"},
+  };
+  for (const auto& [hull, rule, cure] : table) {
+    try {
+      read_surface_file(write("hull.stl", ascii(hull)));
+      EXPECT_EQ(rule, "was accepted");
+    } catch (const SurfaceFileError& error) {
+      EXPECT_TRUE(says(error.what(), rule)) << rule << ": " << error.what();
+      EXPECT_TRUE(says(error.cure(), cure)) << rule << ": " << error.cure();
+    }
+  }
+}
+
 TEST_F(SurfaceFileTest, a_surface_that_crosses_itself_is_told_where) {
   const auto text = told(ascii(scenes::together(cube(), cube({1.5, 0.3, 0.2}))));
   EXPECT_TRUE(says(text, "crosses itself: ")) << text;

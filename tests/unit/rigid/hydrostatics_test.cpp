@@ -237,6 +237,15 @@ TEST(SpatialFloatingStable, log_of_half_density_floats_on_its_edge) {
   EXPECT_GT(f->metacentric_height, 0);
 }
 
+// On its edge GM vanishes in roll, but the energy falls beside it.
+TEST(SpatialFloatingStable, cube_of_half_density_does_not_stay_on_its_edge) {
+  Isometry<3> on_edge = Isometry<3>::Identity();
+  on_edge.linear() = Eigen::AngleAxisd(0.25 * pi, Vec<3>::UnitY()).toRotationMatrix();
+  const auto f = floating_stable<3>(brick(1, 1, 1), on_edge, 0.5 * rho, rho, 0.);
+  ASSERT_TRUE(f);
+  EXPECT_GT(f->metacentric_height, 0.01);
+}
+
 TEST(SpatialFloatingStable, box_comes_back_from_any_attitude_within_reach) {
   const Surface<3> s = brick(2, 1, 0.3);
   for (const double heel : {-0.7, 0.2, 1.2}) {

@@ -49,6 +49,50 @@ check "and nothing is written" test ! -e never
 check "a stop after the end is refused" exits 2 "$splashdown" run scene.toml --until 1 --out never
 check "check accepts the scene" exits 0 "$splashdown" check scene.toml
 check "check refuses a bad one" exits 2 "$splashdown" check scene.toml --set time.end=0
+# At rest: what holds a body counts, and hollows are dry until water comes over the rim.
+cat >harbour.toml <<'SCENE'
+[time]
+end = 1
+[gravity]
+[tank]
+min = [-8, -9]
+max = [8, 5]
+[fluid]
+density = 1000
+[[fluid.region]]
+shape = "box"
+min = [-8, -9]
+max = [8, 0]
+[[body]]
+name = "pile"
+shape = {type = "box", width = 1, height = 1}
+density = 500
+free = ["y"]
+position = [-5, 0]
+[[body]]
+name = "flap"
+shape = {type = "box", width = 1, height = 4}
+density = 300
+position = [-2, -3]
+[[body]]
+name = "trough"
+shape = {type = "polygon", points = [[-1, 0], [1, 0], [1, 1], [0.9, 1], [0.9, 0.1], [-0.9, 0.1], [-0.9, 1], [-1, 1]]}
+density = 2000
+position = [3, 0.5]
+[[joint]]
+type = "hinge"
+body = "flap"
+point = [-2, -5]
+SCENE
+check "check knows what holds bodies" exits 0 "$splashdown" check harbour.toml
+check "held upright" grep -q 'draft of 0.5 m, pitch 0 deg, .*(free in y only)' stdout
+check "on a hinge" grep -q 'draft of 5 m, pitch 0 deg, .*(hinge to the world)' stdout
+check "floating on a hollow" grep -q 'floats with a draft of 0.38 m, pitch 0 deg, GM' stdout
+check "that is dry" grep -q 'dry until water comes over its rim, 0.62 m above the water' stdout
+check "check sees liquid in a hollow" exits 0 "$splashdown" check harbour.toml --set 'body.trough.position=[3, -0.5]'
+check "and takes it as flooded" grep -q 'a region reaches into it: taken as flooded' stdout
+check "so that it sinks" grep -q 'sinks: heavier than the water it can displace' stdout
+
 check "report needs a run" exits 2 "$splashdown" report nowhere
 
 check "a run that fills the memory is refused" exits 2 run --set fluid.size.surface=1e-6 --out never

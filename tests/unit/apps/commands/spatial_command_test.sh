@@ -63,6 +63,32 @@ check "with its draft and attitude" grep -q 'draft of 0.12 m, heel (roll) 0 deg,
 check "its metacentric heights" grep -q 'GM 0.08361 m in roll, 0.6044 m in pitch' stdout
 check "and its righting levers" grep -Eq '^ +180 ' stdout
 
+# Of a sphere GZ is sin(heel) times the distance of its centre from that of mass, whatever becomes of its trim.
+cat >buoy.toml <<'SCENE'
+dimension = 3
+[time]
+end = 1
+[gravity]
+[tank]
+min = [-2, -2, -2]
+max = [2, 2, 2]
+[fluid]
+density = 1000
+[[fluid.region]]
+shape = "box"
+min = [-2, -2, -2]
+max = [2, 2, 0]
+[[body]]
+name = "buoy"
+shape = {type = "sphere", radius = 0.5}
+density = 400
+centre_of_mass = [0, 0, -0.1]
+SCENE
+check "check follows the heel of a sphere" exits 0 "$splashdown" check buoy.toml
+check "beyond 90 degrees" grep -Eq '^ +120 +0.0866 ' stdout
+check "to 180" grep -Eq '^ +180 +0.0000 ' stdout
+check "and says where its trim is not stable" grep -q 'beyond 90 deg its trim is balanced, but not stable' stdout
+
 cat >ball.toml <<'SCENE'
 dimension = 3
 [time]
