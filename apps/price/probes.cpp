@@ -9,6 +9,9 @@ namespace {
 // 1.9 times coarser than the mesh that takes the rest. A quarter for a single one is the price of knowing how time grows at
 // all, or of a mesh that uses the time up.
 constexpr double first_probe_share = 0.05, all_share = 0.3, single_share = 0.25;
+/// To the last probe, where those between would leave no room for it: twice as fine. On it hangs what may be chosen, and what it takes
+/// is not known farther.
+constexpr int longest_stride = 2;
 /// Of what is left, for a run that nothing but the guess speaks for.
 constexpr double sure_share = 0.7;
 /// What a start says of a whole run: less says nothing.
@@ -26,10 +29,9 @@ std::optional<int> next_probe(double asked, ProbeRange range, const ProbesMade& 
   const int next = made.finest + 1;
   if (next > range.finest) return {};
   const auto fits = [&](double seconds) { return made.spent + seconds <= all_share * asked; };
-  if (fits(predicted(next))) {
-    const bool last = next + 1 > range.finest || !fits(predicted(next) + predicted(next + 1));
-    return last && next + 1 <= range.finest && fits(predicted(next + 1)) ? next + 1 : next;
-  }
+  int last = std::min(made.finest + longest_stride, range.finest);
+  while (last > made.finest && !fits(predicted(last))) --last;
+  if (last > made.finest) return last == next || fits(predicted(next) + predicted(last)) ? next : last;
   if (made.count == 1 && predicted(next) <= single_share * asked && made.spent + predicted(next) <= most_share * asked)
     return next;
   return {};

@@ -1,11 +1,11 @@
 // Which coarse runs tell what mesh takes a given time: as fine ones as three tenths of it pay for.
 //
 // Meshes that may be probed are the scene's own times powers of sqrt(2), so that a later call with another time finds runs that it
-// can use. The first is guessed to take a twentieth of the time; the others follow one after the other, or two at a stride where
-// only one more fits and the farther one does. The mesh that is chosen is no more than twice as fine as the last.
+// can use. The first is guessed to take a twentieth of the time; the others follow one after the other, and at a longer stride to
+// the last one where those between would leave no room for it. The mesh that is chosen is no more than twice as fine as the last.
 //
 // Guesses may be wrong by an order of magnitude, so probes are stopped at a third of the time, all together. One that was stopped
-// tells by how much the guess is off, at least. With none that reached its end, and where even the coarsest is guessed to take
+// tells by how much the guess is off, at least, and goes on as the run where there is no other and the rest of the time seems to do. With none that reached its end, and where even the coarsest is guessed to take
 // more than a third, there are no probes: the run itself is made on the mesh that the guess, so corrected, allows.
 #pragma once
 

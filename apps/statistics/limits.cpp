@@ -182,7 +182,10 @@ std::vector<LimitAnswer> answered(std::span<const Limit> limits, std::span<const
 
 std::string value_text(double value, const std::string& unit) {
   const bool takes_prefix = unit == "Pa" || unit == "m" || unit.starts_with("N");
-  if (takes_prefix) return with_unit(value, unit, 3);
+  if (takes_prefix) {
+    const auto [scale, name] = si_unit(value, unit);
+    return fmt::format("{:.3g} {}", scale * value, name);
+  }
   return fmt::format("{:.3g}{}{}", value, unit == "-" || unit.empty() ? "" : " ", unit == "-" ? "" : unit);
 }
 

@@ -14,9 +14,12 @@ using Names = std::vector<std::string>;
 
 /// The name nearest to it, of the same body or record if there is such a one.
 std::string cure_for(const std::string& name, const Names& valid) {
-  if (const auto near = nearest(name, valid); !near.empty()) return "Did you mean '" + near + "'?";
   Names beside, owners;
   const auto owner = name.substr(0, name.find('.') + 1);
+  for (const auto& other : valid)  // a word too few
+    if (!owner.empty() && other.starts_with(owner) && other.ends_with("_" + name.substr(owner.size())))
+      return "Did you mean '" + other + "'?";
+  if (const auto near = nearest(name, valid); !near.empty()) return "Did you mean '" + near + "'?";
   for (const auto& other : valid) {
     if (other.starts_with(owner)) beside.push_back(other);
     const auto of = other.substr(0, other.find('.'));

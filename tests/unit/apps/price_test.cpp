@@ -177,14 +177,20 @@ void each_scene(const See& see) {
 }
 
 TEST(Probes, a_run_that_is_told_its_seconds_takes_them) {
+  double worst = 1;
   for (const double asked : {10., 60., 300.})
     for (const double guess : {1 / 6., 1., 6.})  // off either way
       each_scene([&](const KnownScene& scene) {
         const auto taken = taken_of(scene, asked, guess);
         EXPECT_TRUE(taken.ended);
-        EXPECT_NEAR((taken.probes + taken.run) / asked, 1, 0.3)
-            << asked << " s, nodes " << scene.nodes_power << ", steps " << scene.steps_power << ", guess " << guess;
+        const double share = (taken.probes + taken.run) / asked;
+        EXPECT_LT(share, 1.3) << asked << " s, nodes " << scene.nodes_power << ", steps " << scene.steps_power
+                              << ", guess " << guess;
+        worst = std::min(worst, share);
       });
+  // With a third for probes, and twice as fine as the last of them for the run, where time hardly grows with refinement most of it
+  // stays: never so much that probes alone would have spent more.
+  EXPECT_GT(worst, most_share);
 }
 
 TEST(Probes, take_a_third_of_the_time_at_most_whatever_the_guess) {
@@ -232,10 +238,11 @@ TEST(Probes, one_that_cannot_go_on_is_followed_by_a_finer_one) {
 TEST(Probes, that_are_too_dear_are_not_made) {
   const auto seconds = [](int k) { return std::pow(2., k); };
   EXPECT_EQ(first_probe(100, {-4, 8}, 0, seconds), 0);
-  EXPECT_EQ(first_probe(2, {-4, 8}, 0, seconds), -4);           // of a tenth of a second: a sixteenth
-  EXPECT_EQ(first_probe(0.1, {-4, 8}, 0, seconds), -4);         // there is none coarser
-  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 0, 1}, seconds), 1);   // one after the other
-  EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 5}, seconds), 4);   // 8 and 16 s together are too many: the finer one
+  EXPECT_EQ(first_probe(2, {-4, 8}, 0, seconds), -4);          // of a tenth of a second: a sixteenth
+  EXPECT_EQ(first_probe(0.1, {-4, 8}, 0, seconds), -4);        // there is none coarser
+  EXPECT_EQ(next_probe(100, {-4, 8}, {1, 0, 1}, seconds), 1);  // one after the other
+  EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 5}, seconds), 3);
+  EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 8}, seconds), 4);   // 8 and 16 s together are too many: the finer one
   EXPECT_EQ(next_probe(100, {-4, 8}, {2, 2, 15}, seconds), 3);  // 16 s are too many
   EXPECT_FALSE(next_probe(100, {-4, 8}, {3, 4, 29}, seconds));
   EXPECT_FALSE(next_probe(200, {-4, 8}, {3, 4, 29}, seconds));  // 61 s are more than three tenths, whatever is in reach

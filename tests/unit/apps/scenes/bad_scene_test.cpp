@@ -380,7 +380,7 @@ const std::vector<Mistake> limits = {
     {"a_limit_on_another_key", "point = [0, 0]\n", "point = [0, 0]\nlimit = {abvoe = 2, below = 1}\n", 33,
      "record.keel.limit.abvoe = 2: unknown key", "Did you mean 'above'?"},
     {"a_limit_of_a_curve", "kind = \"pressure\"\nname = \"keel\"\nbody = \"wedge\"\npoint = [0, 0]\n",
-     "kind = \"surface_pressure\"\nwall = \"wedge\"\nlimit = {above = 1}\n", 30, "record[0].limit",
+     "kind = \"surface_pressure\"\nwall = \"wedge\"\nlimit = {above = 1}\n", 31, "record[0].limit",
      "has no single number. Use it on a pressure"},
     {"a_limit_of_a_number_that_is_none", "[output]",
      "[[limit]]\nname = \"g\"\nquantity = \"wedge.g_cfc60\"\nabove = 12\n[output]", 28,
