@@ -39,6 +39,7 @@ std::optional<int> next_probe(double asked, ProbeRange range, const ProbesMade& 
 
 std::optional<PlannedProbe> ProbePlan::next(const ProbesMade& made, const SecondsOf& predicted) {
   if (last_.is_run || (stopped_ && made.count > 0) || guess_.range.coarsest > guess_.range.finest) return {};
+  if (made.spent >= asked_) return {};
   const double room = most_share * asked_ - made.spent;
   if (made.count == 0) return last_ = first(room, asked_ - made.spent);
   const auto mesh = next_probe(asked_, guess_.range, made, predicted);
