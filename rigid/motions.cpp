@@ -9,9 +9,6 @@ namespace splashdown::rigid {
 
 namespace {
 
-// Conditions and velocities this much smaller than others are roundoff.
-constexpr double negligible = 1e-10;
-
 Eigen::Index count(const std::vector<char>& chosen) { return std::count(chosen.begin(), chosen.end(), 1); }
 
 /// Of each contact the same for all its rows.

@@ -23,6 +23,9 @@
 
 namespace splashdown::rigid {
 
+/// Conditions and velocities this much smaller than others are roundoff.
+inline constexpr double negligible = 1e-10;
+
 class Motions {
  public:
   struct Problem {

@@ -6,6 +6,7 @@
 #include "core/dense.hpp"
 #include "rigid/bullet_world.hpp"
 #include "rigid/embedding.hpp"
+#include "rigid/motions.hpp"
 
 namespace splashdown::rigid {
 
@@ -13,7 +14,6 @@ namespace {
 
 using Joints = std::vector<std::size_t>;
 
-constexpr double negligible = 1e-10;  // of rows of length 1: that of the steps, motions.cpp
 constexpr double digits = 1e-3;       // of velocities, that people write
 
 /// Rows of one joint in the free coordinates, and what is asked of them.

@@ -4,7 +4,7 @@
 //
 // J has the rows that joints have at t = 0 (rigid/bullet_world.hpp), each of length 1; b is what bodies that are held or
 // prescribed, and held freedoms, ask for through them. Joints are taken in their order: one whose rows vanish on Z repeats
-// the others, one that no w satisfies contradicts them. Rows are nothing below 1e-10, as in the steps (motions.cpp), so that
+// the others, one that no w satisfies contradicts them. Rows are nothing below 1e-10, as in the steps (motions.hpp), so that
 // what is found here is what the run does: two hinges whose axes miss each other by more hold a body fast.
 // It is the rank at t = 0: of a linkage that is stretched straight then, motions that end at once count as motions.
 #pragma once

@@ -9,6 +9,7 @@
 
 #include "apps/run/approach.hpp"
 #include "apps/run/asked.hpp"
+#include "apps/run/held.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/scene/numbers.hpp"
 #include "apps/scene/scales.hpp"
@@ -257,6 +258,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   }
   recorder_.summarise(s);
   s.asked = asked_of(scene_);
+  mark_held<d>(scene_, s);
   judge(s);
   s.limits = answered(scene_.limits, numbers_of(scene_), s, scene_.time.end);
   return s;

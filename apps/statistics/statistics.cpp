@@ -82,6 +82,9 @@ void BodyStatistics<d>::add(const Kick& kick, const BodyReading<d>& reading) {
                  reading.velocity.template head<d>().norm(),
                  reading.symmetric});
   mass_ = reading.free ? reading.mass : 0;
+  const auto& velocity = reading.velocity;
+  fastest_ = std::max(fastest_, velocity.template head<d>().norm() +
+                                    reading.extent.reach * velocity.template tail<rotations<d>>().norm());
   landing_.add(kick.time, {reading.rotation, reading.velocity, reading.load.wetted, reading.free, -reading.submergence},
                reading.extent);
 }
@@ -98,6 +101,7 @@ BodySummary BodyStatistics<d>::summary() const {
   summary.wetted = wetted_;
   summary.landing = landing_.summary();
   if (summary.landing.first_contact >= 0) summary.rising = rising(force_.history(), summary.landing.first_contact);
+  summary.fastest = fastest_;
   summary.force_grades = evidence_of(evidence_, summary.force, force_);
   if (!moves_freely()) return summary;
   summary.acceleration_grades = evidence_of(evidence_, summary.acceleration, acceleration_);

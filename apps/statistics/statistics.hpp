@@ -67,7 +67,7 @@ class BodyStatistics {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(acceleration_, force_, submergence_, wetted_, impulse_, impulse_repair_, landing_, evidence_, mass_,
-            to_and_fro_);
+            to_and_fro_, fastest_);
   }
 
  private:
@@ -77,7 +77,8 @@ class BodyStatistics {
   double to_and_fro_ = 0;  ///< integral of the load's magnitude
   LandingStatistics<d> landing_;
   EvidenceStatistics evidence_;
-  double mass_ = 0;  ///< of a free body [kg, kg/m]
+  double mass_ = 0;     ///< of a free body [kg, kg/m]
+  double fastest_ = 0;  ///< |V| + |w| R [m/s]
 };
 
 /// Counts of the mesh and of the coupling's passes.

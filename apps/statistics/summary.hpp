@@ -164,6 +164,9 @@ struct BodySummary {
   PulseGrades acceleration_grades, force_grades;  ///< first with the evidence alone, then graded (grades.hpp)
   std::optional<NumberGrade> maximum_pressure_grade;
   Grade of_water = Grade::resolved;  ///< what the water's energy and volume leave to its numbers
+  double fastest = 0;  ///< any point of the hull, at most [m/s]
+  double held_against =
+      0;  ///< mean force that a free body did not follow though nothing showed it why; 0: none (held.hpp)
   Verdict verdict;
 };
 

@@ -120,17 +120,32 @@ std::optional<Finding> returned(const Summary& summary) {
                   100 * unphysical_above)};
 }
 
+bool is_held(const BodySummary& body) { return body.held_against > 0; }
+
+/// Joints, stops or springs that hold what was meant to move.
+std::optional<Finding> held(const Summary& summary) {
+  std::string names;
+  double most = 0;
+  for (const auto& [name, body] : summary.bodies) {
+    if (!is_held(body)) continue;
+    names += (names.empty() ? "" : ", ") + name;
+    most = std::max(most, body.held_against);
+  }
+  if (names.empty()) return {};
+  return Finding{Grade::doubtful,
+                 fmt::format("A free body never moved though {} pulled at it: {}. Its joints hold it fast: see what "
+                             "splashdown check asks about them.",
+                             with_unit(most, summary.dimension == 2 ? "N/m" : "N", 3), names)};
+}
+
 bool every_body(const BodySummary&) { return true; }
 bool touched_water(const BodySummary& body) { return body.landing.first_contact >= 0; }
 
 constexpr struct {
   Measurement measure;
   Concern concerns;
-} measurements[] = {{failure, every_body},
-                    {energy_gain, touched_water},
-                    {kinetic_deficit, touched_water},
-                    {volume, touched_water},
-                    {returned, touched_water}};
+} measurements[] = {{failure, every_body},   {energy_gain, touched_water}, {kinetic_deficit, touched_water},
+                    {volume, touched_water}, {returned, touched_water},    {held, is_held}};
 
 void add(Verdict& verdict, const Finding& finding) {
   verdict.grade = std::max(verdict.grade, finding.grade);

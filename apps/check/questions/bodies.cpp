@@ -56,7 +56,7 @@ void about_centre_of_mass(const Asked<d>&, const AskedBody<d>& of, Questions& li
       text<d>(box.contains(rigid::Vec<d>(centre / 1000)) ? rigid::Vec<d>(centre / 1000) : of.uniform.centre, 3)));
 }
 
-/// Foam has 10 to 30 kg/m^3, lead 11340.
+/// Foam has 10 to 30 kg/m^3, lead 11340. Who gives a density below foam's means air, 1.2, or nothing.
 constexpr double foam = 5, lead = 11400;
 // What ask_about_mass of questions.cpp asks about already.
 constexpr double air = 1, osmium = 22600;
@@ -66,7 +66,8 @@ void about_density_of_body(const Asked<d>&, const AskedBody<d>& of, Questions& l
   const auto& body = *of.body;
   if (body.motion != Motion::free || body.without_mass) return;
   const double density = mass_properties<d>(body).mass / of.uniform.mass;
-  if ((density >= foam && density <= lead) || density < air || density > osmium) return;
+  if (density <= lead && (density >= foam || !body.mass)) return;
+  if (density < air || density > osmium) return;
   list.push_back(
       fmt::format("body.{} has a mean density of {:.3g} kg/m^3: {} than {}: are {} and lengths in kilograms "
                   "and metres, did you mean another one?",

@@ -39,8 +39,8 @@ void about_end_before_contact(const Asked<d>& asked, Questions& list) {
     if (of.wet > 0 || at_end <= tolerance) return;
     if (of.body->motion != Motion::fixed && at_end < nearest) nearest = at_end, first = &of;
   }
-  if (!first) return;
-  double later = end;  // when it does
+  if (!first || first->body->velocity[d - 1] > 0) return;  // upward: another question
+  double later = end;                                      // when it does
   for (int i = 0; i < 40 && guessed_height<d>(asked, *first, later) > 0; ++i) later *= 1.25;
   list.push_back(fmt::format(
       "time.end = {:g} s: body.{} is {} above the water then, and nothing is wetted: did you mean {}?", end,

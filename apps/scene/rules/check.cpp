@@ -19,9 +19,11 @@ void check_tank(const Scene& scene, Problems& problems) {
     return problems.add("tank.max",
                         fmt::format("must lie {:g} m above tank.min or more, on every axis", smallest_length),
                         "Mind the units of its lengths.");
-  if (scene.fluid && tank.size > least)
-    problems.add("tank.size", fmt::format("must not exceed the tank's smallest side, {:g} m", least),
-                 "Use e.g. a tenth of it.");
+  if (scene.fluid && tank.size > least)  // what is not given is that of the liquid
+    problems.add(problems.noted("tank.size")        ? "tank.size"
+                 : problems.noted("fluid.size.far") ? "fluid.size.far"
+                                                    : "fluid.size.surface",
+                 fmt::format("must not exceed the tank's smallest side, {:g} m", least), "Use e.g. a tenth of it.");
 }
 
 void check_times(const Scene& scene, Problems& problems) {

@@ -137,9 +137,12 @@ template <int d>
 void check_size(const Scene& scene, const Body& body, const rigid::Surface<d>& shape, const std::string& label,
                 Problems& problems) {
   const double extent = extents<d>(shape).sizes().maxCoeff();
-  if (scene.fluid && body.size > extent)
-    problems.add(label + ".size", fmt::format("must not exceed the body's extent of {:g} m", extent),
-                 "Use e.g. a fiftieth of it.");
+  if (!scene.fluid || body.size <= extent) return;
+  const bool own = problems.noted(label + ".size");  // what is not given is that of the surface
+  problems.add(own ? label + ".size" : "fluid.size.surface",
+               fmt::format("must not exceed the body's extent of {:g} m{}", extent,
+                           own ? "" : fmt::format(" ({} has no size of its own)", label)),
+               "Use e.g. a fiftieth of it.");
 }
 
 }  // namespace

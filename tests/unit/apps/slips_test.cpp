@@ -15,6 +15,7 @@
 
 #include "apps/check/questions.hpp"
 #include "apps/scene/read/read.hpp"
+#include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -88,35 +89,80 @@ bool is_caught(const std::filesystem::path& file, const std::string& slip) {
   }
 }
 
-class SlipsOfExamples : public ::testing::TestWithParam<const char*> {};
-
 struct Count {
   int tried = 0, caught = 0;
 };
-Count of_physics, of_all;
 
-TEST_P(SlipsOfExamples, are_mostly_caught) {
-  const auto file = std::filesystem::path(SPLASHDOWN_EXAMPLES) / GetParam();
+Count slips_of(const char* name) {
+  const auto file = std::filesystem::path(SPLASHDOWN_EXAMPLES) / name;
   const auto table = toml::parse_file(file.string());
   const auto scene = read_scene(file).scene;
   std::vector<Key> keys;
   find_keys(table, "", keys);
-  Count physics;
+  Count count;
+  std::string missed;
   for (const auto& key : keys)
     for (const double factor : factors) {
       if (!changes_the_physics(key, factor, scene)) continue;
-      const auto slip = fmt::format("{}={}", key.path, multiplied(*key.node, factor));
-      ++physics.tried;
-      if (is_caught(file, slip))
-        ++physics.caught;
+      ++count.tried;
+      if (is_caught(file, fmt::format("{}={}", key.path, multiplied(*key.node, factor))))
+        ++count.caught;
       else
-        fmt::print("not caught  {} times {:g}: {}\n", key.path, factor, slip.substr(0, 80));
+        missed += fmt::format(", {} x {:g}", key.path, factor);
     }
-  fmt::print("{}: {} of {} slips caught\n", GetParam(), physics.caught, physics.tried);
-  of_physics.tried += physics.tried, of_physics.caught += physics.caught;
-  EXPECT_GT(physics.tried, 30);
+  fmt::print("{}: {} of {} caught; not{}\n", name, count.caught, count.tried, missed);
+  return count;
 }
-INSTANTIATE_TEST_SUITE_P(Ten, SlipsOfExamples, ::testing::ValuesIn(ten));
+
+// Left out are values that fit all others: an end 3.6 times later, a mass of some other body, a start at another height.
+TEST(SlipsOfExamples, are_caught_in_four_of_five_that_change_the_physics) {
+  Count all;
+  for (const char* name : ten) {
+    const auto count = slips_of(name);
+    EXPECT_GT(count.tried, 30) << name;
+    all.tried += count.tried;
+    all.caught += count.caught;
+  }
+  fmt::print("{} of {} slips caught, {:.1f} %\n", all.caught, all.tried, 100. * all.caught / all.tried);
+  EXPECT_GE(all.caught, 0.8 * all.tried);
+}
+
+/// One slip each in a wedge that drops on water, and how the question about it begins.
+struct AskedSlip {
+  const char *slip, *question;
+};
+TEST(Slip, of_each_kind_is_asked_about) {
+  for (const auto& [slip, question] :
+       {AskedSlip{"gravity.acceleration=[9.81, 0]",
+                  "gravity.acceleration pulls along the horizontal (9.81 m/s^2): up is y"},
+        AskedSlip{"gravity.acceleration=[0, -9810]", "gravity.acceleration = 9810 m/s^2: more than on any planet"},
+        AskedSlip{"gravity.acceleration=[0, 0]", "gravity.acceleration is zero"},
+        AskedSlip{"body.0.inertia=5e6", "body.wedge.inertia is 1"},
+        AskedSlip{"body.0.inertia=0.01", "body.wedge.inertia is 0.0"},
+        AskedSlip{"body.0.centre_of_mass=[0, 70]", "body.wedge.centre_of_mass = (0, 70) m lies outside the hull"},
+        AskedSlip{"body.0.velocity=[0, -61.5]", "body.wedge.velocity: 61.5 m/s downward is a fall from 193 m"},
+        AskedSlip{"body.0.velocity=[0, -6150]", "body.wedge.velocity: 6150 m/s downward"},
+        AskedSlip{"body.0.position=[0, -0.2]", "body.wedge starts all under water with 6.15 m/s downward"},
+        AskedSlip{"body.0.position=[0, -0.1]", "body.wedge starts by"},
+        AskedSlip{"time.end=1e-4", "time.end = 0.0001 s: body.wedge is"},
+        AskedSlip{"body.0.size=0.3", "body.wedge.size = 0.3 m: elements larger than the hull is thick"},
+        AskedSlip{"body.0.shape.deadrise_deg=0.5", "body.wedge.shape.deadrise_deg = 0.5: as good as flat"},
+        AskedSlip{"tank.min=[-2, -1.5]", "fluid.region[0] begins 0.5 m above the tank's floor"},
+        AskedSlip{"tank.max=[2.5, 1]", "fluid.region[0] ends 0.5 m before the tank's wall along x"},
+        AskedSlip{"fluid.region.0.max=[2.5, 0]", "fluid.region[0] reaches 0.5 m beyond the tank along x"},
+        AskedSlip{"fluid.density=5000", "fluid.density = 5000: between the heaviest solutions"},
+        AskedSlip{"fluid.viscosity={dynamic = 1e-6}", "fluid.viscosity.dynamic = 1e-06 Pa s: water of this density"},
+        AskedSlip{"fluid.absorber={width = 1.0, rate = 8000.0}", "fluid.absorber.rate = 8000 1/s"},
+        AskedSlip{"fluid.absorber={width = 1e-3, rate = 8.0}", "fluid.absorber.width = 0.001 m"},
+        AskedSlip{"contact={friction = 3e-4}", "contact.friction = 0.0003: as good as none"},
+        AskedSlip{"record=[{kind = \"acceleration\", name = \"seat\", body = \"wedge\", point = [50, 0]}]",
+                  "record seat: point = (50, 0) m lies 49.8 m outside the hull of 'wedge'"}}) {
+    const auto scene = read_scene_text(testing::wedge_drop, "scene.toml", std::vector<std::string>{slip}).scene;
+    const auto list = questions<2>(scene, predicted_cost<2>(scene));
+    EXPECT_TRUE(std::ranges::any_of(list, [&, q = question](const std::string& text) { return text.starts_with(q); }))
+        << slip << ": " << ::testing::PrintToString(list);
+  }
+}
 
 }  // namespace
 }  // namespace splashdown::apps

@@ -102,6 +102,21 @@ check "a negative stop is refused" exits 2 "$splashdown" run scene.toml --until 
 check "in few words" grep -q -e '--until: must be a positive number, not -1' stderr
 touch file
 check "a folder that cannot be made is refused" exits 2 run --out file/run
+check "with what is in the way" grep -q 'file/run: .*/file is a file, where a folder is needed. Use another --out' stderr
+for place in file/run /proc/run /dev/null/run; do  # where nobody may write, root included
+  for command in "run scene.toml --quiet" "run scene.toml --quiet --seconds 9" "price scene.toml --quiet"; do
+    check "$command --out $place is refused" exits 2 "$splashdown" $command --out $place
+    check "before anything is written" test "$(find . -newer file ! -name stdout ! -name stderr ! -name . ! -name file | wc -l)" = 0
+  done
+done
+if ((EUID == 0)) && command -v setpriv >/dev/null; then
+  mkdir closed && chmod 755 . closed
+  for place in closed closed/run; do
+    check "a folder without permission is refused" exits 2 setpriv --reuid=65534 --clear-groups "$splashdown" run scene.toml --quiet --out $place
+    check "with the system's reason" grep -q "$place: files cannot be written.*: Permission denied. Use another --out" stderr
+    check "and nothing is written" test -z "$(ls -A closed)"
+  done
+fi
 check "with its name, the reason and a cure" grep -q '^error: file/run: Not a directory. Use another --out' stderr
 check "a likely slip is asked about" exits 0 "$splashdown" run scene.toml --until 0.001 --set fluid.density=1 --out slip
 check "before the run, which goes on" grep -q 'question: fluid.density = 1: lighter than any liquid .* did you mean 1000?' stderr
