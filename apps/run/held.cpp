@@ -20,8 +20,7 @@ bool is_welded(const Scene& scene, std::size_t body) {
 }  // namespace
 
 template <int d>
-void mark_held(const Scene& scene, Summary& summary) {
-  const double time = summary.simulated_time;
+void mark_held(const Scene& scene, double time, Summary& summary) {
   if (scene.contact || !(time > 0)) return;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto& body = scene.bodies[b];
@@ -42,7 +41,7 @@ void mark_held(const Scene& scene, Summary& summary) {
   }
 }
 
-template void mark_held<2>(const Scene&, Summary&);
-template void mark_held<3>(const Scene&, Summary&);
+template void mark_held<2>(const Scene&, double, Summary&);
+template void mark_held<3>(const Scene&, double, Summary&);
 
 }  // namespace splashdown::apps

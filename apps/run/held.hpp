@@ -11,8 +11,8 @@
 
 namespace splashdown::apps {
 
-/// Sets `held_against`, |R|/T in free directions [N, N/m], of such bodies.
+/// Sets `held_against`, |R|/T in free directions [N, N/m], of such bodies. `time`: T, over which `impulse` was summed [s].
 template <int d>
-void mark_held(const Scene& scene, Summary& summary);
+void mark_held(const Scene& scene, double time, Summary& summary);
 
 }  // namespace splashdown::apps

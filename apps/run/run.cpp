@@ -258,7 +258,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   }
   recorder_.summarise(s);
   s.asked = asked_of(scene_);
-  mark_held<d>(scene_, s);
+  mark_held<d>(scene_, last_input_.time + 0.5 * last_input_.dt, s);
   judge(s);
   s.limits = answered(scene_.limits, numbers_of(scene_), s, scene_.time.end);
   return s;

@@ -84,26 +84,25 @@ TEST(Verdict, tells_of_a_body_that_never_moved_though_something_pulled_at_it) {
   const auto scene = scene_of(box + slider("[1.5, -1.5]") + slider("[-1.5, -1.5]"));
   Summary summary;
   summary.status = "done";
-  summary.simulated_time = 2;
   auto& body = summary.bodies["float"];
   body.landing.first_contact = 0;
   const double weight = 9810, buoyancy = 14715;
   body.impulse = {0, 2 * buoyancy};
-  mark_held<2>(scene, summary);
+  mark_held<2>(scene, 2, summary);
   EXPECT_NEAR(body.held_against, buoyancy - weight, 1e-9 * buoyancy);
   judge(summary);
   EXPECT_EQ(summary.verdict.grade, Grade::doubtful);
   ASSERT_FALSE(summary.verdict.reasons.empty());
-  EXPECT_TRUE(summary.verdict.reasons[0].starts_with("A free body never moved though 4.9 kN/m pulled at it: float."))
+  EXPECT_TRUE(summary.verdict.reasons[0].starts_with("A free body never moved though 4.91 kN/m pulled at it: float."))
       << summary.verdict.reasons[0];
 
   body.held_against = 0;
   body.impulse = {0, 2 * weight};  // in balance
-  mark_held<2>(scene, summary);
+  mark_held<2>(scene, 2, summary);
   EXPECT_EQ(body.held_against, 0);
   body.impulse = {0, 2 * buoyancy};
   body.fastest = 1e-3;  // it moves
-  mark_held<2>(scene, summary);
+  mark_held<2>(scene, 2, summary);
   EXPECT_EQ(body.held_against, 0);
 }
 

@@ -109,10 +109,12 @@ for place in file/run /proc/run /dev/null/run; do  # where nobody may write, roo
     check "before anything is written" test "$(find . -newer file ! -name stdout ! -name stderr ! -name . ! -name file | wc -l)" = 0
   done
 done
-if ((EUID == 0)) && command -v setpriv >/dev/null; then
-  mkdir closed && chmod 755 . closed
+chmod 755 .
+nobody="setpriv --reuid=65534 --clear-groups $splashdown"
+if ((EUID == 0)) && $nobody --version >/dev/null 2>&1; then
+  mkdir closed && chmod 755 closed
   for place in closed closed/run; do
-    check "a folder without permission is refused" exits 2 setpriv --reuid=65534 --clear-groups "$splashdown" run scene.toml --quiet --out $place
+    check "a folder without permission is refused" exits 2 $nobody run scene.toml --quiet --out $place
     check "with the system's reason" grep -q "$place: files cannot be written.*: Permission denied. Use another --out" stderr
     check "and nothing is written" test -z "$(ls -A closed)"
   done

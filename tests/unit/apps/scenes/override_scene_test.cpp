@@ -78,8 +78,7 @@ TEST(Override, changes_an_entry_of_a_list_counted_from_zero) {
             (std::vector<std::string>{"rotation", "y"}));
   EXPECT_EQ(refusal("body.wedge.velocity.1=fast"),
             "--set body.wedge.velocity.1=fast: body.wedge.velocity = [0, \"fast\"]: must be a number (m/s), not a "
-            "string. Use "
-            "metres per second, one number for each axis.");
+            "string. Write the number alone, in m/s.");
   EXPECT_EQ(refusal("body.wedge.centre_of_mass.1=1"),
             "--set body.wedge.centre_of_mass.1=1: body.wedge.centre_of_mass is not in the scene, so it has no entry 1. "
             "Give all of it, e.g. --set body.wedge.centre_of_mass=[0.0, 1.0].");

@@ -171,7 +171,7 @@ const std::vector<Mistake> mistakes = {
     {"box_of_the_plane", "{ type = \"sphere\", radius = 0.3 }", "{ type = \"box\", size = [1, 1] }", 25,
      "body.ball.shape.size = [1, 1]", "must be a list of 3 numbers (m), not 2"},
     {"wave_of_the_plane", "max = [2, 2, 0]", "max = [2, 2, 0]\nsurface_amplitude = 0.1", 18,
-     "fluid.region[0].surface_amplitude = 0.1: unknown key", "Valid here"},
+     "fluid.region[0].surface_amplitude = 0.1: exists in the plane only (dimension = 2)", "Valid here"},
     {"number_for_a_tensor", "mass = 40", "mass = 40\ninertia = 3", 21, "body.ball.inertia = 3",
      "must be a list of 3 numbers (kg m^2)"},
     // What no body has.
