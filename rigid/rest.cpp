@@ -62,7 +62,7 @@ Eigen::Matrix<double, freedoms<d>, freedoms<d>> buoyant_stiffness(const Submerge
 template <int d>
 class Settling {
  public:
-  Settling(const Assembly<d>& assembly, const StillWater& water);
+  Settling(const Mechanism<d>& mechanism, const StillWater& water);
   Rest<d> rest();
 
  private:
@@ -111,12 +111,12 @@ class Settling {
 };
 
 template <int d>
-Settling<d>::Settling(const Assembly<d>& assembly, const StillWater& water)
-    : bodies_(assembly.bodies), joints_(assembly.joints), water_(water), unit_(freedoms<d> * size()) {
+Settling<d>::Settling(const Mechanism<d>& mechanism, const StillWater& water)
+    : bodies_(mechanism.bodies), joints_(mechanism.joints), water_(water), unit_(freedoms<d> * size()) {
   size_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto& spec = bodies_[i];
-    hulls_.emplace_back(spec.surface, i < assembly.hollows.size() ? assembly.hollows[i] : Hollow::dry);
+    hulls_.emplace_back(spec.surface, i < mechanism.hollows.size() ? mechanism.hollows[i] : Hollow::dry);
     begin_.states.push_back({spec.motion == Motion::prescribed ? spec.path(0) : spec.pose, Twist<d>::Zero()});
     reaches_.push_back(reach(spec));
     bullet_.add(spec.motion == Motion::free);
@@ -127,7 +127,7 @@ Settling<d>::Settling(const Assembly<d>& assembly, const StillWater& water)
     size_ = std::min(size_, reaches_[i]);
     stiff_ += water.density * water.gravity * std::pow(reaches_[i], d - 1);
   }
-  auto touching = assembly.contacts;
+  auto touching = mechanism.contacts;
   for (const JointSpec& joint : joints_) {
     check(joint, bodies_.size());
     bullet_.add(joint);
@@ -384,11 +384,11 @@ Rest<d> Settling<d>::rest() {
 }  // namespace
 
 template <int d>
-Rest<d> at_rest(const Assembly<d>& assembly, const StillWater& water) {
-  return Settling<d>(assembly, water).rest();
+Rest<d> at_rest(const Mechanism<d>& mechanism, const StillWater& water) {
+  return Settling<d>(mechanism, water).rest();
 }
 
-template Rest<2> at_rest<2>(const Assembly<2>&, const StillWater&);
-template Rest<3> at_rest<3>(const Assembly<3>&, const StillWater&);
+template Rest<2> at_rest<2>(const Mechanism<2>&, const StillWater&);
+template Rest<3> at_rest<3>(const Mechanism<3>&, const StillWater&);
 
 }  // namespace splashdown::rigid

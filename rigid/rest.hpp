@@ -22,7 +22,7 @@ namespace splashdown::rigid {
 
 /// What may move together. Bodies that are held or prescribed stay where they are at t = 0.
 template <int d>
-struct Assembly {
+struct Mechanism {
   std::vector<BodySpec<d>> bodies;
   std::vector<JointSpec> joints = {};
   std::optional<ContactSpec<d>> contacts = {};  ///< absent: nothing touches
@@ -55,6 +55,6 @@ struct Rest {
 };
 
 template <int d>
-Rest<d> at_rest(const Assembly<d>& assembly, const StillWater& water);
+Rest<d> at_rest(const Mechanism<d>& mechanism, const StillWater& water);
 
 }  // namespace splashdown::rigid

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/check/questions/asked.hpp"
+#include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/walls.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/closing.hpp"
@@ -148,11 +148,11 @@ Questions questions(const Scene& scene, const Cost& cost) {
   if (list.size() == before_end)
     for (auto& question : questions_about_walls<d>(scene)) list.push_back(std::move(question));
   ask_about_frames(scene, list);
-  const auto asked = asked_of<d>(scene, cost);
-  ask_about_liquid(asked, list);
-  ask_about_bodies(asked, list);
-  ask_about_places(asked, list);
-  ask_about_times(asked, list);
+  const auto prepared = prepared_scene<d>(scene, cost);
+  ask_about_liquid(prepared, list);
+  ask_about_bodies(prepared, list);
+  ask_about_places(prepared, list);
+  ask_about_times(prepared, list);
   return list;
 }
 

@@ -68,16 +68,16 @@ std::vector<std::size_t> groups(const Scene& scene) {
 }
 
 template <int d>
-rigid::Assembly<d> assembly_of(const Scene& scene, const std::vector<rigid::BodySpec<d>>& specs, const All<d>& all,
+rigid::Mechanism<d> mechanism_of(const Scene& scene, const std::vector<rigid::BodySpec<d>>& specs, const All<d>& all,
                                const std::function<bool(std::size_t)>& belongs) {
-  rigid::Assembly<d> assembly{specs, {}, contact_spec<d>(scene), {}};
+  rigid::Mechanism<d> mechanism{specs, {}, contact_spec<d>(scene), {}};
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    assembly.hollows.push_back(all[i] ? all[i]->hollow : rigid::Hollow::dry);
-    if (!belongs(i)) assembly.bodies[i].motion = rigid::Motion::fixed;
+    mechanism.hollows.push_back(all[i] ? all[i]->hollow : rigid::Hollow::dry);
+    if (!belongs(i)) mechanism.bodies[i].motion = rigid::Motion::fixed;
   }
   for (const auto& joint : joint_specs(scene))
-    if (belongs(joint.body) || (joint.other && belongs(*joint.other))) assembly.joints.push_back(joint);
-  return assembly;
+    if (belongs(joint.body) || (joint.other && belongs(*joint.other))) mechanism.joints.push_back(joint);
+  return mechanism;
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::vector<std::optional<Resting<d>>> at_rest(const Scene& scene) {
     if (!all[i] || done[i]) continue;
     if (!together && tilts_and_heaves(specs[i]) && !is_tied(scene, i)) continue;
     const auto belongs = [&](std::size_t b) { return all[b] && (together || group[b] == group[i]); };
-    const auto rest = rigid::at_rest<d>(assembly_of<d>(scene, specs, all, belongs), water);
+    const auto rest = rigid::at_rest<d>(mechanism_of<d>(scene, specs, all, belongs), water);
     for (std::size_t b = 0; b < specs.size(); ++b) {
       if (!belongs(b)) continue;
       done[b] = true;

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "apps/run/approach.hpp"
-#include "apps/run/asked.hpp"
+#include "apps/run/expectations.hpp"
 #include "apps/run/held.hpp"
 #include "apps/run/interrupt.hpp"
 #include "apps/scene/numbers.hpp"
@@ -257,7 +257,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
     coupling.rejected_steps = s.rejected_steps;
   }
   recorder_.summarise(s);
-  s.asked = asked_of(scene_);
+  s.expected = expectations_of(scene_);
   mark_held<d>(scene_, last_input_.time + 0.5 * last_input_.dt, s);
   judge(s);
   s.limits = answered(scene_.limits, numbers_of(scene_), s, scene_.time.end);

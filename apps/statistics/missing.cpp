@@ -24,7 +24,7 @@ bool any_wet(const Summary& summary) {
 /// Seconds until the lowest point of a dry body is at the water's level, as it moves at the end; nothing: it does not come there.
 std::optional<double> until_contact(const Summary& summary, const std::string& name) {
   const auto& landing = summary.bodies.at(name).landing;
-  const double g = summary.asked->bodies.at(name).free ? summary.asked->gravity : 0, v = landing.sinking;
+  const double g = summary.expected->bodies.at(name).free ? summary.expected->gravity : 0, v = landing.sinking;
   if (!(landing.height > 0)) return {};
   const double squared = v * v + 2 * g * landing.height;
   if (g > 0) return (std::sqrt(squared) - v) / g;
@@ -42,13 +42,13 @@ std::string where(const Summary& summary, const std::string& name) {
 }
 
 bool is_carried(const Summary& summary, const std::string& name) {
-  const auto& tied = summary.asked->bodies.at(name).tied;
-  return (summary.asked->contact && any_wet(summary)) ||
+  const auto& tied = summary.expected->bodies.at(name).tied;
+  return (summary.expected->contact && any_wet(summary)) ||
          std::ranges::any_of(tied, [&](const auto& other) { return is_wet(summary, other); });
 }
 
 void add_dry_bodies(const Summary& summary, std::vector<Missing>& list) {
-  for (const auto& [name, asked] : summary.asked->bodies) {
+  for (const auto& [name, asked] : summary.expected->bodies) {
     if (is_wet(summary, name) || !summary.bodies.contains(name)) continue;
     const auto until = fmt::format("{} stayed dry until the run ended, at t = {:.4g} s", name, summary.simulated_time);
     if (asked.moves && !is_carried(summary, name))
@@ -60,7 +60,7 @@ void add_dry_bodies(const Summary& summary, std::vector<Missing>& list) {
 
 void add_rising(const Summary& summary, std::vector<Missing>& list) {
   for (const auto& [name, body] : summary.bodies) {
-    if (!body.rising || !summary.asked->bodies.contains(name)) continue;
+    if (!body.rising || !summary.expected->bodies.contains(name)) continue;
     const auto rises =
         fmt::format("The load on {} still rises when the run ends, at t = {:.4g} s", name, summary.simulated_time);
     if (peak_is_to_come(summary, name))
@@ -72,7 +72,7 @@ void add_rising(const Summary& summary, std::vector<Missing>& list) {
 
 void add_dry_records(const Summary& summary, std::vector<Missing>& list) {
   if (summary.dry_records.empty()) return;
-  const bool nothing_else = summary.asked->bodies.empty() && summary.dry_records.size() == summary.wettable_records;
+  const bool nothing_else = summary.expected->bodies.empty() && summary.dry_records.size() == summary.wettable_records;
   list.push_back(
       {nothing_else ? Grade::unresolved : Grade::resolved,
        fmt::format("No water met {} until t = {:.4g} s.", fmt::join(summary.dry_records, ", "), summary.simulated_time),
@@ -80,7 +80,7 @@ void add_dry_records(const Summary& summary, std::vector<Missing>& list) {
 }
 
 void add_early_end(const Summary& summary, std::vector<Missing>& list) {
-  const auto& asked = *summary.asked;
+  const auto& asked = *summary.expected;
   if (summary.status == "interrupted")
     list.push_back({Grade::resolved,
                     fmt::format("The run was stopped at t = {:.4g} s of {:.4g} s: what comes later is in no number. "
@@ -97,16 +97,16 @@ void add_early_end(const Summary& summary, std::vector<Missing>& list) {
 }  // namespace
 
 bool peak_is_to_come(const Summary& summary, const std::string& name) {
-  if (!summary.asked) return false;
-  const auto asked = summary.asked->bodies.find(name);
+  if (!summary.expected) return false;
+  const auto asked = summary.expected->bodies.find(name);
   const auto body = summary.bodies.find(name);
-  return asked != summary.asked->bodies.end() && body != summary.bodies.end() && asked->second.free &&
+  return asked != summary.expected->bodies.end() && body != summary.bodies.end() && asked->second.free &&
          body->second.rising;
 }
 
 std::vector<Missing> missing(const Summary& summary) {
   std::vector<Missing> list;
-  if (!summary.asked || !summary.ledger || summary.status == "failed") return list;
+  if (!summary.expected || !summary.ledger || summary.status == "failed") return list;
   add_dry_bodies(summary, list);
   add_rising(summary, list);
   add_dry_records(summary, list);

@@ -164,7 +164,7 @@ struct BodySummary {
   PulseGrades acceleration_grades, force_grades;  ///< first with the evidence alone, then graded (grades.hpp)
   std::optional<NumberGrade> maximum_pressure_grade;
   Grade of_water = Grade::resolved;  ///< what the water's energy and volume leave to its numbers
-  double fastest = 0;  ///< any point of the hull, at most [m/s]
+  double fastest = 0;                ///< any point of the hull, at most [m/s]
   double held_against =
       0;  ///< mean force that a free body did not follow though nothing showed it why; 0: none (held.hpp)
   Verdict verdict;
@@ -210,7 +210,7 @@ struct NextStep {
 };
 
 /// What a scene asks for, against which is held what happened (missing.hpp).
-struct Asked {
+struct Expectations {
   struct Body {
     bool free = true, moves = true;
     std::vector<std::string> tied;  ///< bodies that joints tie to it, whatever is between
@@ -247,8 +247,8 @@ struct Summary {
   std::map<std::string, PatchSummary> patches;
   std::map<std::string, PointSummary> probes;
   std::vector<LimitAnswer> limits;
-  std::optional<NextStep> next;  ///< absent: every headline is resolved, or nothing is known that helps
-  std::optional<Asked> asked;    ///< absent: not known
+  std::optional<NextStep> next;          ///< absent: every headline is resolved, or nothing is known that helps
+  std::optional<Expectations> expected;  ///< absent: not known
   std::size_t wettable_records = 0;
   std::vector<std::string> dry_records;  ///< of these: probes, gauges and patches that met no water
 };

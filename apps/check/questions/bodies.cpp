@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/check/questions/asked.hpp"
+#include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/words.hpp"
 #include "apps/run/closing.hpp"
 #include "rigid/shapes/hydrostatics.hpp"
@@ -13,14 +13,14 @@ namespace splashdown::apps {
 namespace {
 
 template <int d>
-using QuestionOfBody = void (*)(const Asked<d>&, const AskedBody<d>&, Questions&);
+using QuestionOfBody = void (*)(const PreparedScene<d>&, const PreparedBody<d>&, Questions&);
 
 /// A shell has at most three times the moment of a full body (two masses at the ends of a rod against the rod), a core
 /// within a light hull a tenth.
 constexpr double most_inertia = 3, least_inertia = 0.1;
 
 template <int d>
-void about_inertia(const Asked<d>&, const AskedBody<d>& of, Questions& list) {
+void about_inertia(const PreparedScene<d>&, const PreparedBody<d>& of, Questions& list) {
   const auto& body = *of.body;
   if (!body.inertia || body.without_mass || (!body.mass && !body.density)) return;
   const auto given = mass_properties<d>(body);
@@ -43,7 +43,7 @@ void about_inertia(const Asked<d>&, const AskedBody<d>& of, Questions& list) {
 }
 
 template <int d>
-void about_centre_of_mass(const Asked<d>&, const AskedBody<d>& of, Questions& list) {
+void about_centre_of_mass(const PreparedScene<d>&, const PreparedBody<d>& of, Questions& list) {
   const auto& body = *of.body;
   if (!body.centre_of_mass) return;
   const rigid::Vec<d> centre = vec<d>(*body.centre_of_mass);
@@ -62,7 +62,7 @@ constexpr double foam = 5, lead = 11400;
 constexpr double air = 1, osmium = 22600;
 
 template <int d>
-void about_density_of_body(const Asked<d>&, const AskedBody<d>& of, Questions& list) {
+void about_density_of_body(const PreparedScene<d>&, const PreparedBody<d>& of, Questions& list) {
   const auto& body = *of.body;
   if (body.motion != Motion::free || body.without_mass) return;
   const double density = mass_properties<d>(body).mass / of.uniform.mass;
@@ -77,18 +77,19 @@ void about_density_of_body(const Asked<d>&, const AskedBody<d>& of, Questions& l
 
 /// A body that starts at rest in the surface and is neither near its equilibrium nor thrown: its weight against buoyancy.
 template <int d>
-void about_weight(const Asked<d>& asked, const AskedBody<d>& of, Questions& list) {
+void about_weight(const PreparedScene<d>& prepared, const PreparedBody<d>& of, Questions& list) {
   const auto& body = *of.body;
   const double most = 3;  // a body that is lifted out to a third of its draft, or pressed under to three times
   const bool pierces = of.wet > 0.02 && of.wet < 0.98;
-  const bool tied = std::ranges::any_of(asked.scene.joints, [&](const Joint& joint) {
-    const auto index = static_cast<std::size_t>(&body - asked.scene.bodies.data());
+  const bool tied = std::ranges::any_of(prepared.scene.joints, [&](const Joint& joint) {
+    const auto index = static_cast<std::size_t>(&body - prepared.scene.bodies.data());
     return joint.body == index || joint.other == index;
   });
   const bool held_up = std::ranges::find(body.free, d == 2 ? "y" : "z") == body.free.end();
-  if (body.motion != Motion::free || body.without_mass || !pierces || tied || held_up || asked.pull <= 0) return;
+  if (body.motion != Motion::free || body.without_mass || !pierces || tied || held_up || prepared.pull <= 0) return;
   if (!body.velocity.isZero(0)) return;
-  const double displaced = asked.scene.fluid->density * of.wet * of.uniform.mass, mass = mass_properties<d>(body).mass;
+  const double displaced = prepared.scene.fluid->density * of.wet * of.uniform.mass,
+               mass = mass_properties<d>(body).mass;
   if (mass <= most * displaced && displaced <= most * mass) return;
   list.push_back(fmt::format(
       "body.{} starts at rest in the surface, weighs {} times the water that it displaces and {}: did you mean another "
@@ -99,10 +100,10 @@ void about_weight(const Asked<d>& asked, const AskedBody<d>& of, Questions& list
 
 /// Dropped from more than twenty times its length and more than seven metres, V = 12 m/s.
 template <int d>
-void about_drop_speed(const Asked<d>& asked, const AskedBody<d>& of, Questions& list) {
+void about_drop_speed(const PreparedScene<d>& prepared, const PreparedBody<d>& of, Questions& list) {
   const double g = 9.81, fast = 12, many = 20;
   const auto& body = *of.body;
-  if (body.motion == Motion::fixed || !body.path.empty() || !asked.level) return;
+  if (body.motion == Motion::fixed || !body.path.empty() || !prepared.level) return;
   const double down = -body.velocity[d - 1], height = down * down / (2 * g), length = of.box.sizes().maxCoeff();
   if (down <= fast || height <= many * length) return;
   list.push_back(
@@ -113,7 +114,7 @@ void about_drop_speed(const Asked<d>& asked, const AskedBody<d>& of, Questions& 
 
 /// At a twentieth of the speed of sound in water loads of flat parts are those of compression, which is not here.
 template <int d>
-void about_speed_of_sound(const Asked<d>&, const AskedBody<d>& of, Questions& list) {
+void about_speed_of_sound(const PreparedScene<d>&, const PreparedBody<d>& of, Questions& list) {
   const double fastest = 1480. / 20;
   const auto& body = *of.body;
   const double tip = of.box.sizes().norm() / 2 * body.spin_deg.norm() * radians, speed = body.velocity.norm();
@@ -127,12 +128,12 @@ void about_speed_of_sound(const Asked<d>&, const AskedBody<d>& of, Questions& li
 
 /// Froude number along the water of planing hulls: seldom above six.
 template <int d>
-void about_forward_speed(const Asked<d>& asked, const AskedBody<d>& of, Questions& list) {
+void about_forward_speed(const PreparedScene<d>& prepared, const PreparedBody<d>& of, Questions& list) {
   const double most = 8, fast = 30;  // [-], [m/s]
   const auto& body = *of.body;
-  if (asked.pull <= 0 || body.motion == Motion::fixed) return;
+  if (prepared.pull <= 0 || body.motion == Motion::fixed) return;
   const double speed = body.velocity.head(d - 1).norm(),
-               froude = speed / std::sqrt(asked.pull * of.box.sizes().maxCoeff());
+               froude = speed / std::sqrt(prepared.pull * of.box.sizes().maxCoeff());
   if (froude <= most || speed <= fast || speed > 1480. / 20) return;
   list.push_back(
       fmt::format("body.{}.velocity: {:.3g} m/s along the water, Fr = {:.2g}: faster than anything alights: is "
@@ -142,14 +143,14 @@ void about_forward_speed(const Asked<d>& asked, const AskedBody<d>& of, Question
 
 /// The first step would throw the water aside: a start that no experiment has.
 template <int d>
-void about_wet_start(const Asked<d>& asked, const AskedBody<d>& of, Questions& list) {
+void about_wet_start(const PreparedScene<d>& prepared, const PreparedBody<d>& of, Questions& list) {
   const double share = 0.1, slow = 0.2;  // of the volume; of sqrt(g L)
   const auto& body = *of.body;
   const double down = -body.velocity[d - 1], length = of.box.sizes().maxCoeff();
-  const double gravity = asked.pull > 0 ? asked.pull : 9.81;
+  const double gravity = prepared.pull > 0 ? prepared.pull : 9.81;
   if (body.motion == Motion::fixed || !body.path.empty() || of.wet <= share) return;
   if (down <= slow * std::sqrt(gravity * length)) return;
-  const double up = *asked.level - of.box.min()[d - 1];
+  const double up = *prepared.level - of.box.min()[d - 1];
   list.push_back(fmt::format(
       "body.{} starts {} under water with {:.3g} m/s downward, which throws the water aside in one step: did you mean "
       "to "
@@ -158,8 +159,8 @@ void about_wet_start(const Asked<d>& asked, const AskedBody<d>& of, Questions& l
 }
 
 template <int d>
-void about_thin_hull(const Asked<d>& asked, const AskedBody<d>& of, Questions& list) {
-  if (!asked.scene.fluid) return;
+void about_thin_hull(const PreparedScene<d>& prepared, const PreparedBody<d>& of, Questions& list) {
+  if (!prepared.scene.fluid) return;
   const auto& body = *of.body;
   const double thin = extents<d>(shape_of<d>(body.shape).surface).sizes().minCoeff();
   if (body.size <= thin) return;
@@ -171,7 +172,7 @@ void about_thin_hull(const Asked<d>& asked, const AskedBody<d>& of, Questions& l
 
 /// Faces of less than a degree: air decides, not the deadrise (Chuang 1967: below three). Steeper than 85: a side.
 template <int d>
-void about_faces(const Asked<d>&, const AskedBody<d>& of, Questions& list) {
+void about_faces(const PreparedScene<d>&, const PreparedBody<d>& of, Questions& list) {
   const double least = 1, most = 85;
   std::optional<double> angle;
   if (const auto* wedge = std::get_if<WedgeShape>(&of.body->shape)) angle = wedge->deadrise_deg;
@@ -185,10 +186,10 @@ void about_faces(const Asked<d>&, const AskedBody<d>& of, Questions& list) {
 
 /// A tank of five hundred hulls' lengths, or a hull that fills it.
 template <int d>
-void about_room(const Asked<d>& asked, const AskedBody<d>& of, Questions& list) {
+void about_room(const PreparedScene<d>& prepared, const PreparedBody<d>& of, Questions& list) {
   const double most = 500;
-  if (!asked.scene.tank) return;
-  const double tank = extents<d>(*asked.scene.tank).sizes().maxCoeff(), length = of.box.sizes().maxCoeff();
+  if (!prepared.scene.tank) return;
+  const double tank = extents<d>(*prepared.scene.tank).sizes().maxCoeff(), length = of.box.sizes().maxCoeff();
   if (tank <= most * length) return;
   list.push_back(
       fmt::format("body.{} is {:.3g} m long in a tank of {:.3g} m, {} times its length: are both in metres? Did "
@@ -212,12 +213,12 @@ constexpr QuestionOfBody<d> questions_of_bodies[] = {about_inertia<d>,
 }  // namespace
 
 template <int d>
-void ask_about_bodies(const Asked<d>& asked, Questions& list) {
-  for (const auto& body : asked.bodies)
-    for (const auto question : questions_of_bodies<d>) question(asked, body, list);
+void ask_about_bodies(const PreparedScene<d>& prepared, Questions& list) {
+  for (const auto& body : prepared.bodies)
+    for (const auto question : questions_of_bodies<d>) question(prepared, body, list);
 }
 
-template void ask_about_bodies<2>(const Asked<2>&, Questions&);
-template void ask_about_bodies<3>(const Asked<3>&, Questions&);
+template void ask_about_bodies<2>(const PreparedScene<2>&, Questions&);
+template void ask_about_bodies<3>(const PreparedScene<3>&, Questions&);
 
 }  // namespace splashdown::apps

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/check/questions/asked.hpp"
+#include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/words.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/scene/rules/rules.hpp"
@@ -19,10 +19,10 @@ constexpr const char* axis_names[] = {"x", "y", "z"};
 
 /// From the Moon, 1.62, to Jupiter, 24.8 m/s^2.
 template <int d>
-void about_gravity(const Asked<d>& asked, Questions& list) {
+void about_gravity(const PreparedScene<d>& prepared, Questions& list) {
   const double least = 1.5, most = 30;
-  if (!asked.scene.gravity) return;
-  const auto& pull = asked.scene.gravity->acceleration;
+  if (!prepared.scene.gravity) return;
+  const auto& pull = prepared.scene.gravity->acceleration;
   const double size = pull.norm(), aside = pull.head(d - 1).norm();
   const auto earth = axis_example(d, -9.81);
   if (size > 0 && aside > std::abs(pull[d - 1]))
@@ -39,9 +39,9 @@ void about_gravity(const Asked<d>& asked, Questions& list) {
 
 /// Between the heaviest organic liquids and salt solutions, 3300 to 3400, and mercury, 13500, there is none.
 template <int d>
-void about_density_of_liquid(const Asked<d>& asked, Questions& list) {
+void about_density_of_liquid(const PreparedScene<d>& prepared, Questions& list) {
   const double solution = 3400, mercury = 13400, heaviest = 13600;
-  const double density = asked.scene.fluid->density;
+  const double density = prepared.scene.fluid->density;
   if (density <= solution || density >= mercury || density > heaviest) return;
   list.push_back(
       fmt::format("fluid.density = {:g}: between the heaviest solutions (3400) and mercury (13500 kg/m^3) there is "
@@ -51,10 +51,10 @@ void about_density_of_liquid(const Asked<d>& asked, Questions& list) {
 
 /// Water has 1.8e-3 Pa s at 0 C and 2.8e-4 at 100 C; liquid hydrogen 1.3e-5, pitch more than anything that splashes.
 template <int d>
-void about_viscosity(const Asked<d>& asked, Questions& list) {
+void about_viscosity(const PreparedScene<d>& prepared, Questions& list) {
   const double coldest = 2.2e-3, hottest = 2.5e-4, thinnest = 1e-5, thickest = 1e3, as_water = 0.05;
-  if (!asked.scene.fluid->viscosity) return;
-  const double mu = asked.scene.fluid->viscosity->dynamic, density = asked.scene.fluid->density;
+  if (!prepared.scene.fluid->viscosity) return;
+  const double mu = prepared.scene.fluid->viscosity->dynamic, density = prepared.scene.fluid->density;
   const bool water = std::abs(density / 1000 - 1) <= as_water;
   if (mu >= (water ? hottest : thinnest) && mu <= (water ? coldest : thickest)) return;
   list.push_back(fmt::format("fluid.viscosity.dynamic = {:g} Pa s: {}: did you mean {}?", mu,
@@ -66,18 +66,18 @@ void about_viscosity(const Asked<d>& asked, Questions& list) {
 
 /// The best rate is about the angular frequency of the waves that the zone is as long as.
 template <int d>
-void about_absorber(const Asked<d>& asked, Questions& list) {
+void about_absorber(const PreparedScene<d>& prepared, Questions& list) {
   const double shortest = 0.01, slowest = 0.3, fastest = 3;  // of the tank; of sqrt(2 pi g / width)
-  const auto& zone = asked.scene.fluid->absorber;
-  if (!zone || !asked.scene.tank) return;
-  const double length = asked.scene.tank->max.x() - asked.scene.tank->min.x();
+  const auto& zone = prepared.scene.fluid->absorber;
+  if (!zone || !prepared.scene.tank) return;
+  const double length = prepared.scene.tank->max.x() - prepared.scene.tank->min.x();
   if (zone->width < shortest * length)
     list.push_back(
         fmt::format("fluid.absorber.width = {:g} m at the ends of a tank of {:g} m: too short for any wave: did "
                     "you mean {:g} m?",
                     zone->width, length, length / 8));
-  if (asked.pull <= 0 || zone->width < shortest * length) return;
-  const double wave = std::sqrt(2 * pi * asked.pull / zone->width), ratio = zone->rate / wave;
+  if (prepared.pull <= 0 || zone->width < shortest * length) return;
+  const double wave = std::sqrt(2 * pi * prepared.pull / zone->width), ratio = zone->rate / wave;
   if (ratio >= slowest && ratio <= fastest) return;
   list.push_back(
       fmt::format("fluid.absorber.rate = {:g} 1/s: waves as long as the zone, {:g} m, have {:.3g} rad/s, and {}: did "
@@ -88,13 +88,13 @@ void about_absorber(const Asked<d>& asked, Questions& list) {
 
 /// A wave that its elements show, that does not break (Michell 1893: height over length 0.142), and that fits between walls.
 template <int d>
-void about_wave(const Asked<d>& asked, Questions& list) {
+void about_wave(const PreparedScene<d>& prepared, Questions& list) {
   const double least_height = 0.01, breaking = 0.142, fewest = 8, mismatch = 0.05;
-  for (std::size_t i = 0; i < asked.scene.fluid->regions.size(); ++i) {
-    const auto* box = std::get_if<BoxRegion>(&asked.scene.fluid->regions[i].shape);
+  for (std::size_t i = 0; i < prepared.scene.fluid->regions.size(); ++i) {
+    const auto* box = std::get_if<BoxRegion>(&prepared.scene.fluid->regions[i].shape);
     if (!box || box->surface_amplitude == 0) continue;
     const double a = std::abs(box->surface_amplitude), length = box->surface_wavelength,
-                 h = asked.scene.fluid->size.surface;
+                 h = prepared.scene.fluid->size.surface;
     const std::string label = fmt::format("fluid.region[{}].", i);
     const double halves = 2 * (box->max.x() - box->min.x()) / length;
     if (a < least_height * h)
@@ -109,7 +109,7 @@ void about_wave(const Asked<d>& asked, Questions& list) {
       list.push_back(
           fmt::format("{}surface_wavelength = {:g} m: fewer than {:g} elements ({:g} m) a wave: did you mean {:g} m?",
                       label, length, fewest, h, length * 1000));
-    else if (asked.scene.tank && std::abs(halves - std::max(1., std::round(halves))) > mismatch)
+    else if (prepared.scene.tank && std::abs(halves - std::max(1., std::round(halves))) > mismatch)
       list.push_back(
           fmt::format("{}surface_wavelength = {:g} m: {:.3g} half waves between the walls, where standing waves have a "
                       "whole number: did you mean {:g} m?",
@@ -119,8 +119,8 @@ void about_wave(const Asked<d>& asked, Questions& list) {
 
 /// Something is above or in this liquid that moves.
 template <int d>
-bool is_landed_on(const Asked<d>& asked, const Extents<d>& liquid) {
-  return std::ranges::any_of(asked.bodies, [&](const AskedBody<d>& of) {
+bool is_landed_on(const PreparedScene<d>& prepared, const Extents<d>& liquid) {
+  return std::ranges::any_of(prepared.bodies, [&](const PreparedBody<d>& of) {
     if (of.body->motion == Motion::fixed) return false;
     rigid::Vec<d> below = of.box.center();
     below[d - 1] = liquid.center()[d - 1];
@@ -129,10 +129,10 @@ bool is_landed_on(const Asked<d>& asked, const Extents<d>& liquid) {
 }
 
 template <int d>
-bool rests_on_another(const Asked<d>& asked, std::size_t region, const Extents<d>& box, double near) {
-  for (std::size_t i = 0; i < asked.scene.fluid->regions.size(); ++i) {
+bool rests_on_another(const PreparedScene<d>& prepared, std::size_t region, const Extents<d>& box, double near) {
+  for (std::size_t i = 0; i < prepared.scene.fluid->regions.size(); ++i) {
     if (i == region) continue;
-    const auto other = extents<d>(outline<d>(asked.scene.fluid->regions[i]));
+    const auto other = extents<d>(outline<d>(prepared.scene.fluid->regions[i]));
     if (std::abs(other.max()[d - 1] - box.min()[d - 1]) <= near) return true;
   }
   return false;
@@ -140,15 +140,15 @@ bool rests_on_another(const Asked<d>& asked, std::size_t region, const Extents<d
 
 /// Where the water that a body lands on ends before the tank does, or reaches beyond it: one of the two has a slip.
 template <int d>
-void about_fit(const Asked<d>& asked, Questions& list) {
-  if (!asked.scene.tank) return;
-  const auto tank = extents<d>(*asked.scene.tank);
+void about_fit(const PreparedScene<d>& prepared, Questions& list) {
+  if (!prepared.scene.tank) return;
+  const auto tank = extents<d>(*prepared.scene.tank);
   const double near = 1e-6 * tank.sizes().maxCoeff();
-  for (std::size_t i = 0; i < asked.scene.fluid->regions.size(); ++i) {
-    const auto box = extents<d>(outline<d>(asked.scene.fluid->regions[i]));
-    const bool is_box = std::holds_alternative<BoxRegion>(asked.scene.fluid->regions[i].shape);
-    const bool landed_on = is_box && is_landed_on<d>(asked, box);
-    const bool fills = is_box && asked.pull > 0 && box.sizes()[0] > tank.sizes()[0] / 2;
+  for (std::size_t i = 0; i < prepared.scene.fluid->regions.size(); ++i) {
+    const auto box = extents<d>(outline<d>(prepared.scene.fluid->regions[i]));
+    const bool is_box = std::holds_alternative<BoxRegion>(prepared.scene.fluid->regions[i].shape);
+    const bool landed_on = is_box && is_landed_on<d>(prepared, box);
+    const bool fills = is_box && prepared.pull > 0 && box.sizes()[0] > tank.sizes()[0] / 2;
     for (int k = 0; k < d; ++k)
       for (const bool upper : {false, true}) {
         const double end = upper ? box.max()[k] : box.min()[k], wall = upper ? tank.max()[k] : tank.min()[k];
@@ -161,7 +161,7 @@ void about_fit(const Asked<d>& asked, Questions& list) {
               fmt::format("{} reaches {:.3g} m beyond the tank along {}, where it is cut off: did you mean tank.{} to "
                           "be {:g} there, or the region's end {:g}?",
                           key, beyond, axis_names[k], of_tank, end, wall));
-        else if (floor && beyond < -near && (landed_on || fills) && !rests_on_another<d>(asked, i, box, near))
+        else if (floor && beyond < -near && (landed_on || fills) && !rests_on_another<d>(prepared, i, box, near))
           list.push_back(
               fmt::format("{} begins {:.3g} m above the tank's floor: it falls: did you mean min = {:g} along {}?", key,
                           -beyond, wall, axis_names[k]));
@@ -175,10 +175,10 @@ void about_fit(const Asked<d>& asked, Questions& list) {
 
 /// As for bodies: at a twentieth of the speed of sound water is no longer incompressible where it hits.
 template <int d>
-void about_speed_of_liquid(const Asked<d>& asked, Questions& list) {
+void about_speed_of_liquid(const PreparedScene<d>& prepared, Questions& list) {
   const double fastest = 1480. / 20;
-  for (std::size_t i = 0; i < asked.scene.fluid->regions.size(); ++i) {
-    const auto& region = asked.scene.fluid->regions[i];
+  for (std::size_t i = 0; i < prepared.scene.fluid->regions.size(); ++i) {
+    const auto& region = prepared.scene.fluid->regions[i];
     const double reach = extents<d>(outline<d>(region)).sizes().norm() / 2;
     const double speed = region.velocity.norm(), sheared = region.velocity_gradient.norm() * reach;
     const double most = std::max(speed, sheared / std::sqrt(2.));
@@ -192,13 +192,13 @@ void about_speed_of_liquid(const Asked<d>& asked, Questions& list) {
 
 /// Full in every corner: no free surface, and air has no room.
 template <int d>
-void about_room_for_air(const Asked<d>& asked, Questions& list) {
-  if (!asked.scene.tank || !asked.level || asked.bodies.empty()) return;
-  const double high = 100, room = asked.scene.tank->max[d - 1] - *asked.level;
-  const double depth = *asked.level - asked.scene.tank->min[d - 1];
+void about_room_for_air(const PreparedScene<d>& prepared, Questions& list) {
+  if (!prepared.scene.tank || !prepared.level || prepared.bodies.empty()) return;
+  const double high = 100, room = prepared.scene.tank->max[d - 1] - *prepared.level;
+  const double depth = *prepared.level - prepared.scene.tank->min[d - 1];
   if (room > high * depth)
     list.push_back(fmt::format("tank.max: {:.3g} m of room above {:.3g} m of water: did you mean {:.3g} m?", room,
-                               depth, *asked.level + room / 1000));
+                               depth, *prepared.level + room / 1000));
 }
 
 template <int d>
@@ -209,13 +209,13 @@ constexpr Question<d> questions_of_liquid[] = {
 }  // namespace
 
 template <int d>
-void ask_about_liquid(const Asked<d>& asked, Questions& list) {
-  about_gravity<d>(asked, list);
-  if (!asked.scene.fluid) return;
-  for (const auto question : questions_of_liquid<d>) question(asked, list);
+void ask_about_liquid(const PreparedScene<d>& prepared, Questions& list) {
+  about_gravity<d>(prepared, list);
+  if (!prepared.scene.fluid) return;
+  for (const auto question : questions_of_liquid<d>) question(prepared, list);
 }
 
-template void ask_about_liquid<2>(const Asked<2>&, Questions&);
-template void ask_about_liquid<3>(const Asked<3>&, Questions&);
+template void ask_about_liquid<2>(const PreparedScene<2>&, Questions&);
+template void ask_about_liquid<3>(const PreparedScene<3>&, Questions&);
 
 }  // namespace splashdown::apps

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/check/questions/asked.hpp"
+#include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/ties.hpp"
 #include "apps/check/words.hpp"
 
@@ -18,7 +18,7 @@ constexpr double beside_hull = 0.1;
 
 template <int d>
 struct AskAboutRecord {
-  const Asked<d>& asked;
+  const PreparedScene<d>& prepared;
   Questions& list;
 
   void point(const std::string& what, const Body& body, const Point& point, double outside) const {
@@ -33,14 +33,14 @@ struct AskAboutRecord {
                     box.contains(in_mm) ? text<d>(in_mm) + " m" : "a point of the hull"));
   }
   void operator()(const AccelerationEntry& entry) const {
-    point(entry.name, asked.scene.bodies[entry.body], entry.point, beside_hull);
+    point(entry.name, prepared.scene.bodies[entry.body], entry.point, beside_hull);
   }
   void operator()(const PressureEntry& entry) const {
-    if (entry.body) point(entry.name, asked.scene.bodies[*entry.body], entry.point, far_from_hull);
+    if (entry.body) point(entry.name, prepared.scene.bodies[*entry.body], entry.point, far_from_hull);
   }
   void operator()(const PatchEntry& entry) const {
     if (!entry.radius) return;
-    const auto& body = asked.scene.bodies[entry.body];
+    const auto& body = prepared.scene.bodies[entry.body];
     const double length = extents<d>(shape_of<d>(body.shape).surface).sizes().maxCoeff();
     if (2 * *entry.radius > length)
       list.push_back(
@@ -52,7 +52,7 @@ struct AskAboutRecord {
           entry.name, *entry.radius, body.name, body.size, *entry.radius * 1000));
   }
   void operator()(const MaximumPressureEntry& entry) const {
-    const auto& body = asked.scene.bodies[entry.body];
+    const auto& body = prepared.scene.bodies[entry.body];
     const double length = extents<d>(shape_of<d>(body.shape).surface).sizes().maxCoeff();
     if (entry.size > length / 4 || entry.size < body.size / 50)
       list.push_back(
@@ -67,23 +67,23 @@ struct AskAboutRecord {
 
  private:
   void instants(const char* what, const std::optional<double>& interval) const {
-    if (interval && *interval > asked.scene.time.end)
+    if (interval && *interval > prepared.scene.time.end)
       list.push_back(fmt::format("record {}: interval = {:g} s, and the run ends at {:g} s: did you mean {:g} s?", what,
-                                 *interval, asked.scene.time.end, *interval / 1000));
+                                 *interval, prepared.scene.time.end, *interval / 1000));
   }
 };
 
 template <int d>
-void about_records(const Asked<d>& asked, Questions& list) {
-  for (const auto& record : asked.scene.records) std::visit(AskAboutRecord<d>{asked, list}, record);
+void about_records(const PreparedScene<d>& prepared, Questions& list) {
+  for (const auto& record : prepared.scene.records) std::visit(AskAboutRecord<d>{prepared, list}, record);
 }
 
 template <int d>
-void about_joints(const Asked<d>& asked, Questions& list) {
+void about_joints(const PreparedScene<d>& prepared, Questions& list) {
   const double far = 5, whole_turn = 360;
-  for (std::size_t j = 0; j < asked.scene.joints.size(); ++j) {
-    const auto& joint = asked.scene.joints[j];
-    const auto& of = asked.bodies[joint.body];
+  for (std::size_t j = 0; j < prepared.scene.joints.size(); ++j) {
+    const auto& joint = prepared.scene.joints[j];
+    const auto& of = prepared.bodies[joint.body];
     const double length = of.box.sizes().maxCoeff(), away = of.box.exteriorDistance(vec<d>(joint.point));
     if (joint.type == "hinge" && away > far * length)
       list.push_back(
@@ -96,20 +96,20 @@ void about_joints(const Asked<d>& asked, Questions& list) {
         list.push_back(fmt::format("joint[{}].limits{} = {:g}: {}: did you mean {:g}?", j, turns ? "_deg" : "", limit,
                                    turns ? "more than a turn" : "many lengths of the body", limit / 1000));
   }
-  for (auto& question : ties_questions<d>(asked.scene)) list.push_back(std::move(question));
+  for (auto& question : ties_questions<d>(prepared.scene)) list.push_back(std::move(question));
 }
 
 /// A spring that gives way by many lengths under the weight does nothing, one by less than a hundred-thousandth is a weld.
 template <int d>
-void about_springs(const Asked<d>& asked, Questions& list) {
+void about_springs(const PreparedScene<d>& prepared, Questions& list) {
   const double softest = 100, stiffest = 1e-5;
-  for (std::size_t j = 0; j < asked.scene.joints.size(); ++j) {
-    const auto& joint = asked.scene.joints[j];
-    const auto& body = asked.scene.bodies[joint.body];
-    if (joint.stiffness <= 0 || body.motion != Motion::free || asked.pull <= 0) continue;
-    const double mass = mass_properties<d>(body).mass, length = asked.bodies[joint.body].box.sizes().maxCoeff();
+  for (std::size_t j = 0; j < prepared.scene.joints.size(); ++j) {
+    const auto& joint = prepared.scene.joints[j];
+    const auto& body = prepared.scene.bodies[joint.body];
+    if (joint.stiffness <= 0 || body.motion != Motion::free || prepared.pull <= 0) continue;
+    const double mass = mass_properties<d>(body).mass, length = prepared.bodies[joint.body].box.sizes().maxCoeff();
     const double lever = joint.type == "hinge" ? length : 1;
-    const double yields = mass * asked.pull * lever / joint.stiffness / (joint.type == "hinge" ? 1 : length);
+    const double yields = mass * prepared.pull * lever / joint.stiffness / (joint.type == "hinge" ? 1 : length);
     if (mass == 0 || (yields <= softest && yields >= stiffest)) continue;
     list.push_back(
         fmt::format("joint[{}].stiffness = {:g}: under the weight of '{}' it yields by {:.2g} {}: did you mean {:g}?",
@@ -119,25 +119,25 @@ void about_springs(const Asked<d>& asked, Questions& list) {
 }
 
 template <int d>
-void about_contact(const Asked<d>& asked, Questions& list) {
+void about_contact(const PreparedScene<d>& prepared, Questions& list) {
   const double least = 0.01;
-  if (!asked.scene.contact) return;
+  if (!prepared.scene.contact) return;
   const auto ask = [&](const char* key, double value) {
     if (value > 0 && value < least)
       list.push_back(
           fmt::format("contact.{} = {:g}: as good as none: did you mean {:g}, or 0?", key, value, value * 1000));
   };
-  ask("friction", asked.scene.contact->friction);
-  ask("restitution", asked.scene.contact->restitution);
+  ask("friction", prepared.scene.contact->friction);
+  ask("restitution", prepared.scene.contact->restitution);
 }
 
 /// Beside all liquid, and nothing below but the floor.
 template <int d>
-void about_water_below(const Asked<d>& asked, Questions& list) {
-  if (!asked.scene.fluid) return;
-  for (const auto& of : asked.bodies) {
+void about_water_below(const PreparedScene<d>& prepared, Questions& list) {
+  if (!prepared.scene.fluid) return;
+  for (const auto& of : prepared.bodies) {
     if (of.body->motion == Motion::fixed) continue;
-    const bool above = std::ranges::any_of(asked.scene.fluid->regions, [&](const Region& region) {
+    const bool above = std::ranges::any_of(prepared.scene.fluid->regions, [&](const Region& region) {
       const auto box = extents<d>(outline<d>(region));
       bool meets = true;
       for (int k = 0; k < d - 1; ++k)
@@ -159,11 +159,11 @@ constexpr Question<d> questions_of_places[] = {about_records<d>, about_joints<d>
 }  // namespace
 
 template <int d>
-void ask_about_places(const Asked<d>& asked, Questions& list) {
-  for (const auto question : questions_of_places<d>) question(asked, list);
+void ask_about_places(const PreparedScene<d>& prepared, Questions& list) {
+  for (const auto question : questions_of_places<d>) question(prepared, list);
 }
 
-template void ask_about_places<2>(const Asked<2>&, Questions&);
-template void ask_about_places<3>(const Asked<3>&, Questions&);
+template void ask_about_places<2>(const PreparedScene<2>&, Questions&);
+template void ask_about_places<3>(const PreparedScene<3>&, Questions&);
 
 }  // namespace splashdown::apps

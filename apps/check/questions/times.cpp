@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/check/questions/asked.hpp"
+#include "apps/check/questions/prepared_scene.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/scene/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
@@ -15,8 +15,8 @@ namespace {
 
 /// Lowest point of a hull over still water where the guess has it at that time [m].
 template <int d>
-double guessed_height(const Asked<d>& asked, const AskedBody<d>& of, double time) {
-  double lowest = of.box.min()[d - 1] + guessed_motion<d>(asked.scene, *of.body, time)[d - 1];
+double guessed_height(const PreparedScene<d>& prepared, const PreparedBody<d>& of, double time) {
+  double lowest = of.box.min()[d - 1] + guessed_motion<d>(prepared.scene, *of.body, time)[d - 1];
   for (const auto& point : of.body->path)
     if (point.time <= time) {
       Body there = *of.body;
@@ -24,51 +24,52 @@ double guessed_height(const Asked<d>& asked, const AskedBody<d>& of, double time
       there.attitude = point.attitude;
       lowest = std::min(lowest, extents<d>(outline<d>(there)).min()[d - 1]);
     }
-  return lowest - *asked.level;
+  return lowest - *prepared.level;
 }
 
 /// Nothing is wet at any time.
 template <int d>
-void about_end_before_contact(const Asked<d>& asked, Questions& list) {
-  const double end = asked.scene.time.end;
-  if (!asked.level || asked.bodies.empty()) return;
+void about_end_before_contact(const PreparedScene<d>& prepared, Questions& list) {
+  const double end = prepared.scene.time.end;
+  if (!prepared.level || prepared.bodies.empty()) return;
   double nearest = INFINITY;
-  const AskedBody<d>* first = nullptr;
-  for (const auto& of : asked.bodies) {
-    const double at_end = guessed_height<d>(asked, of, end), tolerance = 1e-9 * of.box.sizes().maxCoeff();
+  const PreparedBody<d>* first = nullptr;
+  for (const auto& of : prepared.bodies) {
+    const double at_end = guessed_height<d>(prepared, of, end), tolerance = 1e-9 * of.box.sizes().maxCoeff();
     if (of.wet > 0 || at_end <= tolerance) return;
     if (of.body->motion != Motion::fixed && at_end < nearest) nearest = at_end, first = &of;
   }
   if (!first || first->body->velocity[d - 1] > 0) return;  // upward: another question
   double later = end;                                      // when it does
-  for (int i = 0; i < 40 && guessed_height<d>(asked, *first, later) > 0; ++i) later *= 1.25;
-  list.push_back(fmt::format(
-      "time.end = {:g} s: body.{} is {} above the water then, and nothing is wetted: did you mean {}?", end,
-      first->body->name, with_unit(nearest, "m"),
-      guessed_height<d>(asked, *first, later) <= 0 ? fmt::format("{:.2g} s or more, or a lower position", 1.5 * later)
-                                                   : "a velocity downward, or [gravity]"));
+  for (int i = 0; i < 40 && guessed_height<d>(prepared, *first, later) > 0; ++i) later *= 1.25;
+  list.push_back(
+      fmt::format("time.end = {:g} s: body.{} is {} above the water then, and nothing is wetted: did you mean {}?", end,
+                  first->body->name, with_unit(nearest, "m"),
+                  guessed_height<d>(prepared, *first, later) <= 0
+                      ? fmt::format("{:.2g} s or more, or a lower position", 1.5 * later)
+                      : "a velocity downward, or [gravity]"));
 }
 
 /// An impact of a flat bottom and a release under water are over in one step: their loads are impulses, or those of t = 0.
 template <int d>
-bool is_sudden(const Asked<d>& asked, const AskedBody<d>& of) {
+bool is_sudden(const PreparedScene<d>& prepared, const PreparedBody<d>& of) {
   constexpr double flat = 1 * radians, all = 0.999;
   const auto angle = deadrise<d>(*of.body);
-  return of.wet > all || (angle && *angle < flat && of.box.min()[d - 1] <= *asked.level);
+  return of.wet > all || (angle && *angle < flat && of.box.min()[d - 1] <= *prepared.level);
 }
 
 /// Nothing has moved by a tenth of an element.
 template <int d>
-void about_end_at_once(const Asked<d>& asked, Questions& list) {
+void about_end_at_once(const PreparedScene<d>& prepared, Questions& list) {
   const double share = 0.1;
-  if (!asked.scene.fluid) return;
-  double element = asked.scene.fluid->size.surface;
-  for (const auto& of : asked.bodies) {
-    if (is_sudden<d>(asked, of)) return;
+  if (!prepared.scene.fluid) return;
+  double element = prepared.scene.fluid->size.surface;
+  for (const auto& of : prepared.bodies) {
+    if (is_sudden<d>(prepared, of)) return;
     element = std::min(element, of.body->size);
   }
-  const auto s = scales<d>(asked.scene);
-  const double end = asked.scene.time.end;
+  const auto s = scales<d>(prepared.scene);
+  const double end = prepared.scene.time.end;
   if (s.speed == 0 || s.speed * end >= share * element) return;
   list.push_back(
       fmt::format("time.end = {:g} s: by then nothing has moved by a tenth of an element ({}): did you mean {:g} s?",
@@ -77,15 +78,15 @@ void about_end_at_once(const Asked<d>& asked, Questions& list) {
 
 /// Where all begins at rest in the surface, a fiftieth of a swing shows nothing.
 template <int d>
-void about_end_before_motion(const Asked<d>& asked, Questions& list) {
+void about_end_before_motion(const PreparedScene<d>& prepared, Questions& list) {
   const double share = 0.02;
-  if (!asked.scene.fluid || asked.pull <= 0) return;
-  const auto is_still = [&](const AskedBody<d>& of) {
-    return of.body->velocity.isZero(0) && of.body->path.empty() && of.wet > 0 && !is_sudden<d>(asked, of);
+  if (!prepared.scene.fluid || prepared.pull <= 0) return;
+  const auto is_still = [&](const PreparedBody<d>& of) {
+    return of.body->velocity.isZero(0) && of.body->path.empty() && of.wet > 0 && !is_sudden<d>(prepared, of);
   };
-  if (!std::ranges::all_of(asked.bodies, is_still)) return;
-  const double period = 2 * std::numbers::pi * std::sqrt(scales<d>(asked.scene).length / asked.pull);
-  const double end = asked.scene.time.end;
+  if (!std::ranges::all_of(prepared.bodies, is_still)) return;
+  const double period = 2 * std::numbers::pi * std::sqrt(scales<d>(prepared.scene).length / prepared.pull);
+  const double end = prepared.scene.time.end;
   if (end >= share * period) return;
   list.push_back(
       fmt::format("time.end = {:g} s: all begins at rest, and a swing of its size takes {}: did you mean {:g} s?", end,
@@ -99,11 +100,11 @@ constexpr Question<d> questions_of_times[] = {about_end_before_contact<d>, about
 }  // namespace
 
 template <int d>
-void ask_about_times(const Asked<d>& asked, Questions& list) {
-  for (const auto question : questions_of_times<d>) question(asked, list);
+void ask_about_times(const PreparedScene<d>& prepared, Questions& list) {
+  for (const auto question : questions_of_times<d>) question(prepared, list);
 }
 
-template void ask_about_times<2>(const Asked<2>&, Questions&);
-template void ask_about_times<3>(const Asked<3>&, Questions&);
+template void ask_about_times<2>(const PreparedScene<2>&, Questions&);
+template void ask_about_times<3>(const PreparedScene<3>&, Questions&);
 
 }  // namespace splashdown::apps

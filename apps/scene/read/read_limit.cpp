@@ -9,31 +9,31 @@ namespace splashdown::apps {
 namespace {
 
 /// What a record's own limit is called, and what it is about.
-struct Asked {
+struct LimitSubject {
   std::string name, quantity;
 };
-struct AskedOf {
+struct SubjectOf {
   const Scene& scene;
-  std::optional<Asked> operator()(const PatchEntry& patch) const {
+  std::optional<LimitSubject> operator()(const PatchEntry& patch) const {
     return {{patch.name, patch.name + ".peak_pressure"}};
   }
-  std::optional<Asked> operator()(const PressureEntry& point) const {
+  std::optional<LimitSubject> operator()(const PressureEntry& point) const {
     return {{point.name, point.name + ".peak_pressure"}};
   }
-  std::optional<Asked> operator()(const AccelerationEntry& point) const {
+  std::optional<LimitSubject> operator()(const AccelerationEntry& point) const {
     return {{point.name, point.name + ".peak_g"}};
   }
-  std::optional<Asked> operator()(const MaximumPressureEntry& map) const {
+  std::optional<LimitSubject> operator()(const MaximumPressureEntry& map) const {
     const auto body = map.body < scene.bodies.size() ? scene.bodies[map.body].name : "";
     return {{"hull_" + body, body + ".maximum_pressure"}};
   }
   template <class Other>
-  std::optional<Asked> operator()(const Other&) const {
+  std::optional<LimitSubject> operator()(const Other&) const {
     return {};
   }
 };
-std::optional<Asked> asked_of(const RecordEntry& record, const Scene& scene) {
-  return std::visit(AskedOf{scene}, record);
+std::optional<LimitSubject> subject_of(const RecordEntry& record, const Scene& scene) {
+  return std::visit(SubjectOf{scene}, record);
 }
 
 const char* const question_cure = "Use one of them, e.g. above = 20000: is it above that?";
@@ -76,7 +76,7 @@ void read_limit(Reader& reader, Scene& scene) {
 }
 
 void read_limit_of_record(Reader& record, Scene& scene) {
-  const auto asked = asked_of(scene.records.back(), scene);
+  const auto asked = subject_of(scene.records.back(), scene);
   if (!asked)
     return record.refuse("limit", "this kind of record has no single number",
                          "Use it on a pressure, a patch or an acceleration.");

@@ -5,7 +5,7 @@
 #include "apps/check/cost.hpp"
 #include "apps/cli/shell_word.hpp"
 #include "apps/price/advice.hpp"
-#include "apps/run/asked.hpp"
+#include "apps/run/expectations.hpp"
 #include "apps/run/next.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"

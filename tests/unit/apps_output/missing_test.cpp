@@ -21,7 +21,7 @@ Summary run_of(const std::vector<std::string>& bodies) {
   auto& ledger = summary.ledger.emplace();
   ledger.volume_initial = ledger.volume_final = 60;
   ledger.energy_scale = 80;
-  auto& asked = summary.asked.emplace();
+  auto& asked = summary.expected.emplace();
   asked.end = 0.5, asked.gravity = 9.81;
   for (const auto& name : bodies) summary.bodies[name], asked.bodies[name];
   return summary;
@@ -43,22 +43,22 @@ const Case cases[] = {
     {"one of two", {"a", "b"}, [](Summary& s) { wet(s, "a"); }, Grade::unresolved, "b stayed dry"},
     {"one that is held",
      {"deck"},
-     [](Summary& s) { s.asked->bodies["deck"].moves = false; },
+     [](Summary& s) { s.expected->bodies["deck"].moves = false; },
      Grade::resolved,
      "deck stayed dry"},
     {"one that a joint ties to a wet one",
      {"hull", "mast"},
-     [](Summary& s) { wet(s, "hull"), s.asked->bodies["mast"].tied = {"hull"}; },
+     [](Summary& s) { wet(s, "hull"), s.expected->bodies["mast"].tied = {"hull"}; },
      Grade::resolved,
      "mast stayed dry"},
     {"one that a wet one may carry",
      {"hull", "load"},
-     [](Summary& s) { wet(s, "hull"), s.asked->contact = true; },
+     [](Summary& s) { wet(s, "hull"), s.expected->contact = true; },
      Grade::resolved,
      "load stayed dry"},
     {"one that nothing wet may carry",
      {"hull", "load"},
-     [](Summary& s) { s.asked->contact = true; },
+     [](Summary& s) { s.expected->contact = true; },
      Grade::unresolved,
      "hull stayed dry"},
     {"a scene without water", {"ball"}, [](Summary& s) { s.ledger.reset(); }, Grade::resolved, ""},
@@ -69,7 +69,7 @@ const Case cases[] = {
      "its peak comes later"},
     {"the same of prescribed motion",
      {"hull"},
-     [](Summary& s) { wet(s, "hull"), s.bodies["hull"].rising = true, s.asked->bodies["hull"].free = false; },
+     [](Summary& s) { wet(s, "hull"), s.bodies["hull"].rising = true, s.expected->bodies["hull"].free = false; },
      Grade::resolved,
      "no peak"},
     {"records that met no water beside a wet body",
@@ -96,7 +96,7 @@ const Case cases[] = {
      "stopped at t = 0.3 s of 0.5 s"},
     {"a path that goes on",
      {"hull"},
-     [](Summary& s) { wet(s, "hull"), s.asked->path_ends_at = 0.7; },
+     [](Summary& s) { wet(s, "hull"), s.expected->path_ends_at = 0.7; },
      Grade::resolved,
      "path goes on until t = 0.7 s"},
 };
@@ -136,7 +136,7 @@ TEST(Missing, asks_for_a_run_that_reaches_the_contact_of_free_fall) {
   EXPECT_EQ(summary.next->cure, NextStep::Cure::longer);
   EXPECT_NEAR(summary.next->value, 1.5 * (0.5 + wait), 1e-12);
   EXPECT_NE(summary.next->effect.find("may"), std::string::npos) << "nobody knows what comes then";
-  summary.asked->gravity = 0, landing.sinking = -1;
+  summary.expected->gravity = 0, landing.sinking = -1;
   judge(summary);
   EXPECT_FALSE(summary.next) << "it flies away";
   EXPECT_NE(summary.verdict.reasons.at(0).find("does not come nearer"), std::string::npos);

@@ -40,7 +40,7 @@ JointSpec tie(JointType type, std::size_t body, Vec<2> point, Vec<2> axis = {0, 
 
 /// Something that still water may do to a hull, one to three coordinates.
 struct Drawn {
-  Assembly<2> assembly;
+  Mechanism<2> mechanism;
   std::vector<double> steps;
   std::function<double(const std::vector<double>&)> energy;
   std::function<Isometry<2>(const std::vector<double>&)> pose;
@@ -77,8 +77,8 @@ Drawn drawn(unsigned seed) {
   const double turn = pi * (2 * unit(random) - 1);
   Drawn of;
   of.size = size;
-  of.assembly.bodies = {hull_of(outline, mass, place, turn)};
-  auto& spec = of.assembly.bodies[0];
+  of.mechanism.bodies = {hull_of(outline, mass, place, turn)};
+  auto& spec = of.mechanism.bodies[0];
   const Vec<2> point = place + size * Vec<2>(unit(random) - 0.5, unit(random) - 0.5);
   const double stiffness = unit(random) < 0.5 ? 0 : mass * water.gravity * size * unit(random),
                rest = unit(random) - 0.5;
@@ -109,7 +109,7 @@ Drawn drawn(unsigned seed) {
       auto joint = tie(JointType::hinge, 0, point);
       if (stiffness > 0) joint.spring = Spring{stiffness, 0, rest};
       if (unit(random) < 0.5) joint.stops = {-0.5 * unit(random), 0.5 * unit(random)};
-      of.assembly.joints = {joint};
+      of.mechanism.joints = {joint};
       of.steps = {fine};
       of.pose = [=](const std::vector<double>& q) {
         return posed(point + Eigen::Rotation2Dd(q[0]) * (place - point), turn + q[0]);
@@ -125,7 +125,7 @@ Drawn drawn(unsigned seed) {
       const Vec<2> axis = Eigen::Rotation2Dd(0.8 * (unit(random) - 0.5)) * Vec<2>(0, 1);
       auto joint = tie(JointType::slider, 0, place, axis);
       if (stiffness > 0) joint.spring = Spring{stiffness / size / size, 0, rest * size};
-      of.assembly.joints = {joint};
+      of.mechanism.joints = {joint};
       of.steps = {fine * size};
       of.pose = [=](const std::vector<double>& q) { return posed(place + q[0] * axis, turn); };
       of.energy = [=](const std::vector<double>& q) {
@@ -139,7 +139,7 @@ Drawn drawn(unsigned seed) {
       const double floor = -size * (0.1 + 0.4 * unit(random));
       spec.pose.translation().y() = size - floor;
       spec.free = {false, true, false};
-      of.assembly.contacts = ContactSpec<2>{.planes = {{Vec<2>(0, floor), Vec<2>(0, 1)}}};
+      of.mechanism.contacts = ContactSpec<2>{.planes = {{Vec<2>(0, floor), Vec<2>(0, 1)}}};
       of.steps = {fine * size};
       const double top = spec.pose.translation().y();
       of.pose = [=](const std::vector<double>& q) { return posed(Vec<2>(0, top + q[0]), turn); };
@@ -157,7 +157,7 @@ Drawn drawn(unsigned seed) {
 
 /// How far hull points of both are apart, over the size.
 double difference(const Drawn& of, const Isometry<2>& a, const Isometry<2>& b) {
-  const auto& x = of.assembly.bodies[0].surface.vertices;
+  const auto& x = of.mechanism.bodies[0].surface.vertices;
   return ((a.linear() * x).colwise() + a.translation() - ((b.linear() * x).colwise() + b.translation()))
              .colwise()
              .norm()
@@ -169,7 +169,7 @@ double worst_of(unsigned first, unsigned count) {
   double worst = 0;
   for (unsigned seed = first; seed < first + count; ++seed) {
     const auto of = drawn(seed);
-    const auto rest = at_rest<2>(of.assembly, water);
+    const auto rest = at_rest<2>(of.mechanism, water);
     const auto q = reference::bottom(of.energy, std::vector<double>(of.steps.size(), 0), of.steps);
     EXPECT_TRUE(rest.found) << seed;
     const double apart = difference(of, rest.bodies[0].pose, of.pose(q));
@@ -210,8 +210,8 @@ TEST(AtRest, free_box_turns_as_hydrostatics_say) {
 TEST(AtRest, flap_rises_about_its_hinge) {
   const auto flap = hull_of(block(2, 11), 5769, {0, -3.5}, 0.3);
   const Vec<2> hinge = Vec<2>(0, -3.5) + Eigen::Rotation2Dd(0.3) * Vec<2>(0, -5.5);
-  Assembly<2> assembly{{flap}, {tie(JointType::hinge, 0, hinge)}};
-  const auto rest = at_rest<2>(assembly, {.density = 1020, .gravity = 9.81, .level = 0});
+  Mechanism<2> mechanism{{flap}, {tie(JointType::hinge, 0, hinge)}};
+  const auto rest = at_rest<2>(mechanism, {.density = 1020, .gravity = 9.81, .level = 0});
   EXPECT_NEAR(angle(rest.bodies[0].pose), 0, 1e-8);
   EXPECT_NEAR((rest.bodies[0].pose.translation() - hinge - Vec<2>(0, 5.5)).norm(), 0, 1e-8);
 }
@@ -219,9 +219,9 @@ TEST(AtRest, flap_rises_about_its_hinge) {
 TEST(AtRest, weight_lies_on_the_floor_and_what_it_carries_on_it) {
   auto heavy = hull_of(block(2, 1), 5000, {0, 3});
   auto second = hull_of(block(1, 0.5), 1000, {0, 5});
-  Assembly<2> assembly{{heavy, second}};
-  assembly.contacts = ContactSpec<2>{.planes = {{Vec<2>(0, -2), Vec<2>(0, 1)}}};
-  const auto rest = at_rest<2>(assembly, water);
+  Mechanism<2> mechanism{{heavy, second}};
+  mechanism.contacts = ContactSpec<2>{.planes = {{Vec<2>(0, -2), Vec<2>(0, 1)}}};
+  const auto rest = at_rest<2>(mechanism, water);
   EXPECT_NEAR(rest.bodies[0].pose.translation().y(), -1.5, 1e-6);
   EXPECT_NEAR(rest.bodies[1].pose.translation().y(), -0.75, 1e-6);
   EXPECT_TRUE(rest.bodies[0].touches && rest.bodies[1].touches);
@@ -229,13 +229,13 @@ TEST(AtRest, weight_lies_on_the_floor_and_what_it_carries_on_it) {
 }
 
 TEST(AtRest, what_is_too_heavy_sinks_and_pulls_what_is_tied_to_it) {
-  Assembly<2> assembly{{hull_of(block(1, 1), 3000, {0, 0}), hull_of(block(1, 1), 500, {2, 0})}};
+  Mechanism<2> mechanism{{hull_of(block(1, 1), 3000, {0, 0}), hull_of(block(1, 1), 500, {2, 0})}};
   auto joint = tie(JointType::hinge, 0, {1, 0});
   joint.other = 1;
-  assembly.joints = {joint};
-  EXPECT_TRUE(at_rest<2>(assembly, water).bodies[0].sinks);
-  assembly.bodies[0] = hull_of(block(1, 1), 300, {0, 0});
-  EXPECT_FALSE(at_rest<2>(assembly, water).bodies[0].sinks);
+  mechanism.joints = {joint};
+  EXPECT_TRUE(at_rest<2>(mechanism, water).bodies[0].sinks);
+  mechanism.bodies[0] = hull_of(block(1, 1), 300, {0, 0});
+  EXPECT_FALSE(at_rest<2>(mechanism, water).bodies[0].sinks);
 }
 
 // Two boxes and a hinge, coordinates: height of the hinge and both angles.
@@ -244,18 +244,18 @@ TEST(AtRest, raft_of_two_is_where_its_energy_is_least) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     std::array<reference::Hull, 2> hulls;
-    Assembly<2> assembly;
+    Mechanism<2> mechanism;
     for (int i = 0; i < 2; ++i) {
       const auto outline = block(2, 0.6);
       const double mass = 1200 * (0.2 + 0.6 * unit(random));
       hulls[static_cast<std::size_t>(i)] = {outline, {}, {}, mass};
-      assembly.bodies.push_back(hull_of(outline, mass, {i == 0 ? -1.1 : 1.1, 0.1}));
+      mechanism.bodies.push_back(hull_of(outline, mass, {i == 0 ? -1.1 : 1.1, 0.1}));
     }
     auto joint = tie(JointType::hinge, 0, {0, 0.1});
     joint.other = 1;
     const double stiffness = 2000 * unit(random);
     joint.spring = Spring{stiffness, 0, 0.2};
-    assembly.joints = {joint};
+    mechanism.joints = {joint};
     const auto energy = [&](const std::vector<double>& q) {
       double sum = 0.5 * stiffness / water.gravity * std::pow(q[1] - q[2] - 0.2, 2);
       for (const int i : {0, 1}) {
@@ -267,7 +267,7 @@ TEST(AtRest, raft_of_two_is_where_its_energy_is_least) {
       return sum;
     };
     const auto q = reference::bottom(energy, {0, 0, 0}, {0.02, 0.01, 0.01});
-    const auto rest = at_rest<2>(assembly, water);
+    const auto rest = at_rest<2>(mechanism, water);
     EXPECT_NEAR(angle(rest.bodies[0].pose), q[1], 0.003) << seed;
     EXPECT_NEAR(angle(rest.bodies[1].pose), q[2], 0.003) << seed;
     EXPECT_LE(rest.energy / water.gravity, energy(q) + 1e-3) << seed;

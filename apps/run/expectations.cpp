@@ -1,4 +1,4 @@
-#include "apps/run/asked.hpp"
+#include "apps/run/expectations.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -24,22 +24,22 @@ bool moves(const Body& body) {
 
 }  // namespace
 
-Asked asked_of(const Scene& scene) {
-  Asked asked;
-  asked.contact = scene.contact.has_value();
-  asked.end = scene.time.end;
-  if (scene.gravity) asked.gravity = std::max(0., -scene.gravity->acceleration[scene.dimension - 1]);
+Expectations expectations_of(const Scene& scene) {
+  Expectations expected;
+  expected.contact = scene.contact.has_value();
+  expected.end = scene.time.end;
+  if (scene.gravity) expected.gravity = std::max(0., -scene.gravity->acceleration[scene.dimension - 1]);
   const auto group = groups_of(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& body = scene.bodies[i];
-    auto& entry = asked.bodies[body.name];
+    auto& entry = expected.bodies[body.name];
     entry.free = body.motion == Motion::free;
     entry.moves = moves(body);
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
       if (k != i && group[k] == group[i]) entry.tied.push_back(scene.bodies[k].name);
-    if (!body.path.empty()) asked.path_ends_at = std::max(asked.path_ends_at, body.path.back().time);
+    if (!body.path.empty()) expected.path_ends_at = std::max(expected.path_ends_at, body.path.back().time);
   }
-  return asked;
+  return expected;
 }
 
 }  // namespace splashdown::apps

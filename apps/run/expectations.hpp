@@ -6,6 +6,6 @@
 
 namespace splashdown::apps {
 
-Asked asked_of(const Scene& scene);
+Expectations expectations_of(const Scene& scene);
 
 }  // namespace splashdown::apps

@@ -16,7 +16,7 @@ using Questions = std::vector<std::string>;
 
 /// A body of the scene as questions need it: world frame, at t = 0.
 template <int d>
-struct AskedBody {
+struct PreparedBody {
   const Body* body;
   rigid::Surface<d> hull;
   Extents<d> box;
@@ -25,29 +25,29 @@ struct AskedBody {
 };
 
 template <int d>
-struct Asked {
+struct PreparedScene {
   const Scene& scene;
   const Cost& cost;
   std::optional<double> level;  ///< of still water [m]
   double pull = 0;              ///< downward component of gravity [m/s^2]
-  std::vector<AskedBody<d>> bodies;
+  std::vector<PreparedBody<d>> bodies;
 };
 
 /// Adds what it asks, or nothing.
 template <int d>
-using Question = void (*)(const Asked<d>&, Questions&);
+using Question = void (*)(const PreparedScene<d>&, Questions&);
 
 template <int d>
-Asked<d> asked_of(const Scene& scene, const Cost& cost);
+PreparedScene<d> prepared_scene(const Scene& scene, const Cost& cost);
 
 // The tables, by what they are about.
 template <int d>
-void ask_about_bodies(const Asked<d>& asked, Questions& list);
+void ask_about_bodies(const PreparedScene<d>& prepared, Questions& list);
 template <int d>
-void ask_about_liquid(const Asked<d>& asked, Questions& list);
+void ask_about_liquid(const PreparedScene<d>& prepared, Questions& list);
 template <int d>
-void ask_about_places(const Asked<d>& asked, Questions& list);
+void ask_about_places(const PreparedScene<d>& prepared, Questions& list);
 template <int d>
-void ask_about_times(const Asked<d>& asked, Questions& list);
+void ask_about_times(const PreparedScene<d>& prepared, Questions& list);
 
 }  // namespace splashdown::apps

@@ -22,7 +22,7 @@ import sys
 import tomllib
 
 program, root, fresh = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-here = root / "tests/documents"
+here = root / "tests/docs/figures"
 number = r"-?\d+\.?\d*(?:e[-+]?\d+)?"
 units = (1, 1e3, 1e-3, 100)  # prefixes and per cent
 least_digits = 3
@@ -98,13 +98,13 @@ def figures():
             used.add((example, text))
             if why is None:
                 fail(f"examples/{example}/README.md promises {text} ({place}): no check has it. Write what comes out, or say in "
-                     "tests/documents/others.toml what it is")
+                     "tests/docs/figures/others.toml what it is")
             elif why.startswith("= ") and abs(eval(why[2:], vars(math).copy()) - figure) > 0.5001 * last:
                 fail(f"examples/{example}/README.md: {text} is not {why[2:]}")
     for example, entries in others.items():
         for text in entries:
             if text != "tables" and (example, text) not in used:
-                fail(f"tests/documents/others.toml: {example} does not promise {text} any more, or a check has it")
+                fail(f"tests/docs/figures/others.toml: {example} does not promise {text} any more, or a check has it")
     print(f"{count} figures")
 
 
@@ -125,7 +125,7 @@ def errors():
             said = without_place(quoted).removesuffix("…").rstrip()
             scene = next((s for s in scenes["scene"] if said.startswith(s["key"])), None)
             if scene is None:
-                fail(f"{document.name}: no scene in tests/documents/errors.toml for: {said}")
+                fail(f"{document.name}: no scene in tests/docs/figures/errors.toml for: {said}")
                 continue
             if "skipped" in scene:
                 continue
