@@ -50,7 +50,9 @@ class Reader {
  public:
   explicit Reader(std::string_view file) {
     if (const auto parsed = document_.load_buffer(file.data(), file.size()); !parsed)
-      throw std::runtime_error(std::string("damaged XML: ") + parsed.description());
+      throw std::runtime_error(file.find("<AppendedData encoding=\"raw\">") != file.npos
+                                   ? "its arrays are raw bytes, as earlier versions wrote them; ParaView reads it"
+                                   : std::string("damaged XML: ") + parsed.description());
     require_attribute("type", "UnstructuredGrid");
     require_attribute("byte_order", "LittleEndian");
     require_attribute("header_type", header_type);

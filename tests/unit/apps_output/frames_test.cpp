@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/record/frames/base64.hpp"
+#include "apps/record/frames/vtu.hpp"
 #include "apps/report/pictures/plane_picture.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -46,6 +48,52 @@ TEST(Vtu, what_is_written_can_be_read_back) {
   ASSERT_EQ(picture.outlines.size(), 1u);
   EXPECT_TRUE(picture.outlines[0].encloses_solid);
   EXPECT_EQ(picture.outlines[0].segments.size(), 3u);
+}
+
+TEST(Base64, has_the_examples_of_rfc_4648) {
+  const std::pair<const char*, const char*> examples[] = {{"", ""},        {"f", "Zg=="},        {"fo", "Zm8="},
+                                                          {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}};
+  for (const auto& [bytes, text] : examples) {
+    std::string encoded;
+    append_base64(encoded, bytes);
+    EXPECT_EQ(encoded, text);
+    EXPECT_EQ(from_base64(text), bytes);
+  }
+  for (const char* wrong : {"Zg", "Zg=", "Z===", "Zm9v\n===", "Zm*v"})
+    EXPECT_THROW(from_base64(wrong), std::runtime_error);
+}
+
+/// What reading a file with this text says; empty if it can be read.
+std::string refusal(const ScratchFolder& folder, const std::string& text) {
+  folder.write("grid.vtu", text);
+  try {
+    read_vtu(folder.path() / "grid.vtu");
+    return {};
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+std::string with(std::string text, const std::string& old_part, const std::string& new_part) {
+  return text.replace(text.find(old_part), old_part.size(), new_part);
+}
+
+TEST(Vtu, what_is_cut_short_or_changed_is_refused_with_what_is_wrong) {
+  ScratchFolder folder;
+  write_pieces(folder.path(), "state", square());
+  const std::string whole = folder.text("state.vtu");
+  EXPECT_EQ(refusal(folder, whole), "");
+  for (std::size_t length = 0; length + 2 < whole.size(); length += 7)  // behind the last bracket nothing is missed
+    EXPECT_NE(refusal(folder, whole.substr(0, length)).find("grid.vtu: is not a readable .vtu file: "),
+              std::string::npos)
+        << length;
+  for (const auto& [old_part, new_part, said] : std::initializer_list<std::array<const char*, 3>>{
+           {"vtkZLib", "vtkLZ4", "compressor is \"vtkLZ4DataCompressor\", not \"vtkZLibDataCompressor\""},
+           {"LittleEndian", "BigEndian", "byte_order is"},
+           {"NumberOfPoints=\"5\"", "NumberOfPoints=\"6\"", "has not three coordinates a point"},
+           {"Name=\"types\"", "Name=\"kinds\"", "an array is not of type UInt8"},
+           {"<Piece", "<AppendedData encoding=\"raw\">", "as earlier versions wrote them"}})
+    EXPECT_NE(refusal(folder, with(whole, old_part, new_part)).find(said), std::string::npos) << new_part;
 }
 
 TEST(Vtu, a_tank_is_told_from_a_body_by_its_sense) {
