@@ -29,32 +29,35 @@ Words without(Words overrides, const std::string& key) {
 
 /// What the step changes.
 struct Change {
-  Words set;   ///< all of the new run's, in the order in which they hold
-  Words said;  ///< these but the last, which `option` says
-  std::string option;
+  Words said;  ///< --set values that stay
+  Words set;   ///< all of the new run's
+  std::string options;
   bool resumes = false;
 };
 
+/// Values become those of the command line, where refine divides dt_max, too.
 Change change_of(NextStep& next, const RunOptions& options, const Scene& scene) {
   Change change;
-  const auto as = [&](const std::string& key, const std::string& option) {
-    change.said = change.set = without(options.overrides, key);
-    change.set.push_back(fmt::format("{}{:.3g}", key, next.value));
-    change.option = option;
-  };
+  change.said = options.overrides;
   const double refine = scene.fluid ? scene.fluid->size.refine : 1;
-  if (next.cure == NextStep::Cure::finer) {
-    next.value *= refine;
-    as(refine_key, option_of(next));
-  } else if (next.cure == NextStep::Cure::shorter_steps) {
-    next.value *= refine;
-    as("time.dt_max=", option_of(next));
-  } else if (options.until && next.value <= scene.time.end) {
-    change.said = change.set = options.overrides;
-    change.option = fmt::format("--until {:.3g}", next.value);
+  Words added;
+  const auto add = [&](double value, const std::string& key) {
+    if (!(value > 0)) return;
+    change.said = without(change.said, key);
+    added.push_back(fmt::format("{}{:.3g}", key, value));
+  };
+  if (next.dt_max > 0) next.dt_max *= refine * std::max(1., next.refine);
+  if (next.refine > 0) next.refine *= refine;
+  add(next.refine, refine_key);
+  add(next.dt_max, "time.dt_max=");
+  if (options.until && next.end > 0 && next.end <= scene.time.end) {
+    change.options = fmt::format("--until {:.3g}", next.end);
   } else {
-    as("time.end=", option_of(next));
+    add(next.end, "time.end=");
+    change.options = options_of(next);
   }
+  change.set = change.said;
+  change.set.insert(change.set.end(), added.begin(), added.end());
   return change;
 }
 
@@ -66,7 +69,7 @@ std::string command_of(const RunOptions& options, const Change& change) {
     text += word.starts_with(refine_key) ? " --refine " + shell_word(word.substr(std::string(refine_key).size()))
                                          : " --set " + shell_word(word);
   if (options.threads) text += fmt::format(" --threads {}", *options.threads);
-  text += " " + change.option;
+  text += " " + change.options;
   if (options.large) text += " --large";
   if (options.no_report) text += " --no-report";
   return text + (change.resumes ? " --resume" : "");
@@ -80,9 +83,9 @@ void complete(std::optional<NextStep>& next, const RunOptions& options, const Sc
   try {
     const auto file = read_scene(options.scene, change.set);
     // Sizes that are chosen may follow the run's length: then it is another run.
-    change.resumes = next->cure == NextStep::Cure::longer && file.chosen.empty();
+    change.resumes = next->end > 0 && file.chosen.empty();
     const double guess = guessed_seconds(scene), other = guessed_seconds(file.scene);
-    if (next->cure == NextStep::Cure::finer && guess > 0 && other > guess) next->seconds = wall_seconds * other / guess;
+    if (!(next->end > 0) && guess > 0 && other > guess) next->seconds = wall_seconds * other / guess;
     if (change.resumes) next->seconds = std::max(0., next->seconds - wall_seconds);
   } catch (const SceneError&) {
     return next.reset();

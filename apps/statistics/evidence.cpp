@@ -128,8 +128,8 @@ Evidence EvidenceStatistics::about(const Pulse& peak, const IntervalHistory& cha
     if (const auto smooth = filtered(channel, *cfc)) {
       evidence.step = step_share(*smooth, peak.time);
       const double top = magnitude(*smooth, index_at(*smooth, peak.time));
-      const double quick = top > 0 ? std::min(1., roughness(channel, *cfc, peak.time) / top) : 1;
-      evidence.sampling = quick * lost_to_steps(channel, *cfc, peak.time);
+      const double quick = top > 0 ? roughness(channel, *cfc, peak.time) / top : 1;
+      evidence.sampling = std::min(quick, lost_to_steps(channel, *cfc, peak.time));
     }
     add_shares(&loads->values[n * index_at(*loads, peak.time)], evidence);
   }

@@ -172,7 +172,7 @@ double roughness(const IntervalHistory& history, int cfc, double time) {
     if (i == 0 || i == last)  // the line goes on beyond the two beside it
       largest = std::max(largest, i == 0 ? deviation(history, i, 1, 2) : deviation(history, i, last - 2, last - 1));
     else
-      largest = std::max(largest, deviation(history, i, i - 1, i + 1));
+      largest = std::max(largest, 2 * deviation(history, i, i - 1, i + 1));
   }
   return largest;
 }

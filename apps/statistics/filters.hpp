@@ -51,9 +51,9 @@ bool fine_enough(const IntervalHistory& history, int cfc, double time);
 /// f = CFC/0.6: 1 - sin(pi f T)/(pi f T), 4.5 % with the longest steps that J211 allows; 1 from f T = 1 on.
 double lost_to_steps(const IntervalHistory& history, int cfc, double time);
 
-/// Largest deviation of an interval's mean within 1/CFC of a time from the straight line through those beside it [unit of the
-/// channels]: the part of the signal that is as quick as the intervals. What is slower is in their means. Infinite with fewer
-/// than three intervals.
+/// Largest second difference of the means over three intervals in a row within 1/CFC of a time [unit of the channels]; of uneven ones twice
+/// the deviation of the middle one from the straight line through the others. What means take from a peak is no more: of a
+/// sine it is a 24th of that, of a pulse within one interval or two all of the peak. Infinite with fewer than three.
 double roughness(const IntervalHistory& history, int cfc, double time);
 
 }  // namespace splashdown::apps

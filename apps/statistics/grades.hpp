@@ -8,7 +8,7 @@
 //             A load that mostly carries weight is wrong by as little as its inertial part: times |m a| / load. A pressure is
 //             local: times 1 + 2/(1 + n_p), with n_p elements on half of the patch, 3 at a point
 //   step      of filtered peaks in the filtered channel
-//   sampling  of filtered peaks: what means over the steps take (filters.hpp), of the part of the signal that is as quick as they are
+//   sampling  of filtered peaks: what means over the steps take, of the highest frequency or by their second differences, the less (filters.hpp)
 //   sideways  symmetric scenes
 //   repair    what pressures lack; a raw peak of a load that is impulse by half or more goes as 1/dt and has no value
 //

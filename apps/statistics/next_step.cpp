@@ -14,7 +14,7 @@ namespace splashdown::apps {
 
 namespace {
 
-constexpr double finer_by[] = {1.4, 2, 2.8, 4, 5.6, 8};
+constexpr double finer_by[] = {1, 1.4, 2, 2.8, 4, 5.6, 8};
 constexpr double usual_refine = 2;    // where none of them is known to help
 constexpr double to_spare = 0.9;      // of a band's limit
 constexpr double j211_share = 0.045;  // of means over the longest steps that J211 allows (filters.hpp)
@@ -23,12 +23,9 @@ double band_of(const BandParts& parts) {
   return std::hypot(std::hypot(parts.mesh, parts.step), std::hypot(parts.sampling, parts.rest));
 }
 
-BandParts finer(const BandParts& parts, double refine) {
-  return {parts.mesh / refine, parts.step, parts.sampling / refine, parts.rest};
-}
-
-BandParts with_short_steps(const BandParts& parts) {
-  return {parts.mesh, parts.step, std::min(parts.sampling, j211_share), parts.rest};
+BandParts changed(const BandParts& parts, double refine, bool short_steps) {
+  return {parts.mesh / refine, parts.step, short_steps ? std::min(parts.sampling, j211_share) : parts.sampling,
+          parts.rest};
 }
 
 /// Of the headlines that a mesh can do something for.
@@ -40,10 +37,9 @@ std::vector<BandParts> bands(const Summary& summary) {
   return list;
 }
 
-template <class Change>
-double widest(const std::vector<BandParts>& list, const Change& change) {
+double widest(const std::vector<BandParts>& list, double refine, bool short_steps) {
   double band = 0;
-  for (const auto& parts : list) band = std::max(band, band_of(change(parts)));
+  for (const auto& parts : list) band = std::max(band, band_of(changed(parts, refine, short_steps)));
   return band;
 }
 
@@ -57,34 +53,43 @@ Grade of_water(const Summary& summary) {
   return grade;
 }
 
+/// What neither a mesh nor shorter steps change is not what makes the band.
+bool can_be_narrowed(const BandParts& parts) {
+  return band_of(parts) <= resolved_band || std::hypot(parts.step, parts.rest) <= std::max(parts.mesh, parts.sampling);
+}
+
+/// The first way to a band below `wanted`; else the usual one, without a promise.
+NextStep way_to(double wanted, const std::vector<BandParts>& list) {
+  constexpr double j211_steps = 1. / (10 * structures_class);
+  NextStep next{.effect = {}, .command = {}};
+  for (const double refine : finer_by)
+    for (const bool short_steps : {false, true}) {
+      if (widest(list, refine, short_steps) > wanted) continue;
+      next.promises = std::ranges::all_of(list, can_be_narrowed);
+      next.refine = refine > 1 ? refine : 0;
+      next.dt_max = short_steps ? j211_steps : 0;
+      return next;
+    }
+  next.refine = usual_refine;
+  if (std::ranges::any_of(list, [](const auto& parts) { return parts.sampling > j211_share; }))
+    next.dt_max = j211_steps;
+  return next;
+}
+
 std::optional<NextStep> narrower(const Summary& summary) {
   const auto list = bands(summary);
-  const double band = widest(list, [](const auto& parts) { return parts; });
-  const auto now = grade_of_band(band);
+  const auto now = grade_of_band(widest(list, 1, false));
   if (now == Grade::resolved) return {};
-  const double wanted = to_spare * better_than(now);
-  const auto limit_text = fmt::format("{:g} %", 100 * better_than(now));
+  auto next = way_to(to_spare * better_than(now), list);
   const bool water_allows = of_water(summary) < now;
-  NextStep next{.effect = {}, .command = {}};
-  if (widest(list, with_short_steps) <= wanted) {
-    next.cure = NextStep::Cure::shorter_steps;
-    next.value = 1. / (10 * structures_class);
-    const double step = summary.steps > 0 ? summary.simulated_time / static_cast<double>(summary.steps) : next.value;
-    next.seconds = summary.wall_seconds * std::max(1., step / next.value);
-    next.promises = water_allows;
-  } else {
-    const auto* found = std::ranges::find_if(finer_by, [&](double refine) {
-      return widest(list, [=](const auto& parts) { return finer(parts, refine); }) <= wanted;
-    });
-    next.promises = found != std::end(finer_by) && water_allows && std::ranges::all_of(list, [](const auto& p) {
-                      return std::hypot(p.step, p.rest) <= std::max(p.mesh, p.sampling) || band_of(p) <= resolved_band;
-                    });
-    next.value = found == std::end(finer_by) ? usual_refine : *found;
-    next.seconds = summary.wall_seconds * std::pow(next.value, cost_exponent(summary.dimension));
-  }
-  next.effect = next.promises   ? fmt::format("brings the bands within {}", limit_text)
+  next.promises = next.promises && water_allows;
+  const double step = summary.steps > 0 ? summary.simulated_time / static_cast<double>(summary.steps) : 0;
+  next.seconds = summary.wall_seconds * std::pow(std::max(1., next.refine), cost_exponent(summary.dimension));
+  if (next.dt_max > 0) next.seconds *= std::max(1., step / std::max(1., next.refine) / next.dt_max);
+  const auto limit = fmt::format("{:g} %", 100 * better_than(now));
+  next.effect = next.promises   ? "brings the bands within " + limit
                 : !water_allows ? "may not help: the water's energy or volume is wrong, see the reasons"
-                                : fmt::format("may not bring the bands within {}", limit_text);
+                                : "may not bring the bands within " + limit;
   return next;
 }
 
@@ -94,7 +99,7 @@ std::optional<NextStep> next_step(const Summary& summary) {
   if (summary.status != "done") return {};
   if (const auto end = end_to_ask_for(summary)) {
     const double longer = *end / std::max(summary.simulated_time, 1e-300);
-    NextStep next{.cure = NextStep::Cure::longer, .value = *end, .effect = {}, .command = {}};
+    NextStep next{.end = *end, .effect = {}, .command = {}};
     next.seconds = summary.wall_seconds * std::max(1., longer);
     next.effect = "may need more still: the run then holds what it lacks if that comes by then";
     return next;
@@ -102,23 +107,22 @@ std::optional<NextStep> next_step(const Summary& summary) {
   return narrower(summary);
 }
 
-std::string option_of(const NextStep& next) {
-  switch (next.cure) {
-    case NextStep::Cure::finer:
-      return fmt::format("--refine {:.3g}", next.value);
-    case NextStep::Cure::shorter_steps:
-      return fmt::format("--set time.dt_max={:.3g}", next.value);
-    case NextStep::Cure::longer:
-      break;
-  }
-  return fmt::format("--set time.end={:.3g}", next.value);
+std::string options_of(const NextStep& next) {
+  std::string text;
+  const auto add = [&](double value, const char* option) {
+    if (value > 0) text += fmt::format("{}{}{:.3g}", text.empty() ? "" : " ", option, value);
+  };
+  add(next.refine, "--refine ");
+  add(next.dt_max, "--set time.dt_max=");
+  add(next.end, "--set time.end=");
+  return text;
 }
 
 std::string text_of(const NextStep& next) {
   const auto time = next.seconds < 90     ? fmt::format("{:.2g} s", next.seconds)
                     : next.seconds < 5400 ? fmt::format("{:.0f} min", next.seconds / 60)
                                           : fmt::format("{:.2g} h", next.seconds / 3600);
-  return fmt::format("{}, about {}: {}", next.command.empty() ? option_of(next) : next.command, time, next.effect);
+  return fmt::format("{}, about {}: {}", next.command.empty() ? options_of(next) : next.command, time, next.effect);
 }
 
 }  // namespace splashdown::apps

@@ -58,9 +58,8 @@ Json json_of(const Verdict& verdict) {
 
 Json json_of(const NextStep& next) {
   Json json;
-  if (next.cure == NextStep::Cure::finer) json["refine"] = number(next.value);
-  if (next.cure == NextStep::Cure::shorter_steps) json["dt_max"] = number(next.value);
-  if (next.cure == NextStep::Cure::longer) json["end"] = number(next.value);
+  for (const auto& [key, value] : {std::pair{"refine", next.refine}, {"dt_max", next.dt_max}, {"end", next.end}})
+    if (value > 0) json[key] = number(value);
   json["seconds"] = number(next.seconds);
   json["promises"] = next.promises;
   json["command"] = next.command;

@@ -198,15 +198,15 @@ struct CouplingSummary {
   std::map<std::string, long> rejected_causes;
 };
 
-/// What would make a verdict better (next_step.hpp): one of these, as an option of the command line.
+/// What would make a verdict better (next_step.hpp); 0: left as it is.
 struct NextStep {
-  enum class Cure { finer, shorter_steps, longer };
-  Cure cure = Cure::finer;
-  double value = 0;  ///< finer: what sizes are divided by, times that of this run; shorter: dt_max [s]; longer: end [s]
+  double refine = 0;  ///< what sizes are divided by: times that of the run, of a whole command that of the command line
+  double dt_max = 0;  ///< [s], likewise
+  double end = 0;     ///< [s]
   double seconds = 0;     ///< of wall time
-  std::string effect;     ///< what comes of it, or may not
-  std::string command;    ///< whole; empty: the option alone is told
   bool promises = false;  ///< a better grade
+  std::string effect;     ///< what comes of it, or may not
+  std::string command;    ///< whole; empty: the options alone are told
 };
 
 /// What a scene asks for, against which is held what happened (missing.hpp).

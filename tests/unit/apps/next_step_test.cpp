@@ -13,16 +13,28 @@
 namespace splashdown::apps {
 namespace {
 
+NextStep finer(double by) {
+  NextStep step;
+  step.refine = by;
+  return step;
+}
+NextStep longer(double end) {
+  NextStep step;
+  step.end = end;
+  return step;
+}
+
 class NextCommand : public ::testing::Test {
  protected:
   ScratchFolder folder_;
   RunOptions options_;
 
   /// What complete() makes of a step of the run with these options.
-  std::optional<NextStep> after(NextStep::Cure cure, double value) {
+  std::optional<NextStep> after(NextStep step) {
     options_.scene = folder_.write("scene.toml", testing::wedge_drop);
     const auto file = read_scene(options_.scene, options_.overrides);
-    std::optional<NextStep> next = NextStep{.cure = cure, .value = value, .seconds = 40, .effect = {}, .command = {}};
+    step.seconds = 40;
+    std::optional<NextStep> next = step;
     complete(next, options_, file.scene, 10);
     return next;
   }
@@ -40,9 +52,9 @@ TEST_F(NextCommand, is_finer_than_the_run_whatever_its_refine_is_and_wherever_it
                                   {"fluid.size.refine=0.4217", 0.4217}}) {
     options_.overrides = {"body.wedge.mass=200"};
     if (*word != 0) options_.overrides.emplace_back(word);
-    const auto next = after(NextStep::Cure::finer, 2);
+    const auto next = after(finer(2));
     ASSERT_TRUE(next);
-    EXPECT_DOUBLE_EQ(next->value, 2 * own);
+    EXPECT_DOUBLE_EQ(next->refine, 2 * own);
     EXPECT_EQ(next->command, fmt::format("splashdown run {} --set body.wedge.mass=200 --refine {:.3g}",
                                          options_.scene.string(), 2 * own));
     const auto refined = fmt::format("fluid.size.refine={:.3g}", 2 * own);
@@ -57,30 +69,46 @@ TEST_F(NextCommand, keeps_what_else_was_asked_for_and_drops_what_chose_the_mesh)
   options_.threads = 2;
   options_.seconds = 60;
   options_.budget = 5;
-  EXPECT_EQ(after(NextStep::Cure::finer, 1.4)->command,
+  const auto next = after(finer(1.4));
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->command,
             fmt::format("splashdown run {} --out 'my runs/a' --set 'body.wedge.free=[\"y\"]' --threads 2 --refine 0.7",
                         options_.scene.string()));
 }
 
 TEST_F(NextCommand, shorter_steps_are_those_of_this_mesh) {
   options_.overrides = {"time.dt_max=0.01", "fluid.size.refine=0.5"};
-  const auto next = after(NextStep::Cure::shorter_steps, 0.001);
+  NextStep step;
+  step.dt_max = 0.001;
+  const auto next = after(step);
   ASSERT_TRUE(next);
-  const auto again = read_scene(options_.scene, {"fluid.size.refine=0.5", fmt::format("time.dt_max={}", next->value)});
+  const std::vector<std::string> set = {"fluid.size.refine=0.5", fmt::format("time.dt_max={}", next->dt_max)};
+  const auto again = read_scene(options_.scene, set);
   EXPECT_NEAR(again.scene.time.dt_max, 0.001, 1e-12);
   EXPECT_NE(next->command.find("--refine 0.5 --set time.dt_max=0.0005"), std::string::npos) << next->command;
 }
 
+TEST_F(NextCommand, finer_and_shorter_steps_are_those_of_the_new_mesh) {
+  options_.overrides = {"fluid.size.refine=0.5"};
+  auto step = finer(4);
+  step.dt_max = 0.001;
+  const auto next = after(step);
+  ASSERT_TRUE(next);
+  EXPECT_TRUE(next->command.ends_with("--refine 2 --set time.dt_max=0.002")) << next->command;
+  const std::vector<std::string> set = {"fluid.size.refine=2", "time.dt_max=0.002"};
+  EXPECT_NEAR(read_scene(options_.scene, set).scene.time.dt_max, 0.001, 1e-12);
+}
+
 TEST_F(NextCommand, a_longer_run_goes_on_from_where_it_is) {
-  const auto next = after(NextStep::Cure::longer, 0.04);
+  const auto next = after(longer(0.04));
   ASSERT_TRUE(next);
   EXPECT_TRUE(next->command.ends_with("--set time.end=0.04 --resume")) << next->command;
   EXPECT_DOUBLE_EQ(next->seconds, 30) << "without what was spent";
   options_.until = 0.005;
-  EXPECT_TRUE(after(NextStep::Cure::longer, 0.01)->command.ends_with("--until 0.01 --resume"));
+  EXPECT_TRUE(after(longer(0.01))->command.ends_with("--until 0.01 --resume"));
 }
 
-TEST_F(NextCommand, that_the_scene_does_not_allow_is_not_told) { EXPECT_FALSE(after(NextStep::Cure::longer, -1)); }
+TEST_F(NextCommand, that_the_scene_does_not_allow_is_not_told) { EXPECT_FALSE(after(longer(-1))); }
 
 TEST(ShellWord, comes_back_as_it_was_written) {
   EXPECT_EQ(shell_word("body.a.velocity.1=-4"), "body.a.velocity.1=-4");
@@ -93,9 +121,11 @@ TEST(Asked, ties_bodies_that_joints_connect_whatever_is_between) {
   Scene scene;
   scene.time.end = 2;
   for (const char* name : {"a", "b", "c", "alone"}) scene.bodies.emplace_back().name = name;
-  scene.joints.push_back({.body = 0, .other = 1});
-  scene.joints.push_back({.body = 2, .other = 1});
-  scene.joints.push_back({.body = 3, .other = {}});
+  const auto tie = [&](std::size_t body, std::optional<std::size_t> other) {
+    auto& joint = scene.joints.emplace_back();
+    joint.body = body, joint.other = other;
+  };
+  tie(0, 1), tie(2, 1), tie(3, {});
   const auto asked = asked_of(scene);
   EXPECT_EQ(asked.bodies.at("a").tied, (std::vector<std::string>{"b", "c"}));
   EXPECT_TRUE(asked.bodies.at("alone").tied.empty());
@@ -132,7 +162,7 @@ TEST(Advice, for_an_accuracy_goes_on_from_where_the_ladder_is) {
   };
   says(4, 0, "--accuracy 1% --out list goes on");
   says(most_rungs, 0, "--set fluid.size.refine=2 --accuracy 1% --out list_finer builds one");
-  says(4, 1, "meshes of equal size differ by");
+  says(4, 1, "--accuracy 1% --out list --rungs 8 measures it there");
   says(most_rungs, 1, "no refinement gets there");
 }
 

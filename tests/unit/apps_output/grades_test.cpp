@@ -161,7 +161,7 @@ TEST(NextStep, is_the_coarsest_mesh_that_makes_the_grade_better_and_says_what_it
   for (const auto& [elements, refine] : {std::pair{20., 1.4}, {15., 2.}, {11., 1.4}, {8., 2.}, {4., 4.}}) {
     const auto summary = landing(slam(elements));
     ASSERT_TRUE(summary.next) << elements;
-    EXPECT_EQ(summary.next->value, refine) << elements;
+    EXPECT_EQ(summary.next->refine, refine) << elements;
     EXPECT_TRUE(summary.next->promises) << elements;
     EXPECT_LT(landing(slam(refine * elements)).verdict.grade, summary.verdict.grade) << "as promised";
     EXPECT_NEAR(summary.next->seconds, 100 * std::pow(refine, cost_exponent(2)), 1e-9);
@@ -171,7 +171,7 @@ TEST(NextStep, is_the_coarsest_mesh_that_makes_the_grade_better_and_says_what_it
 TEST(NextStep, that_may_not_help_says_so) {
   auto lost = slam(60);
   lost.sideways = 0.3;
-  const auto alone = landing(slam(200, 0.42)), sideways = landing(lost), few = landing(slam(2));
+  const auto alone = landing(slam(200, 0.42)), sideways = landing(lost), few = landing(slam(1));
   for (const auto* summary : {&alone, &sideways, &few}) {
     ASSERT_TRUE(summary->next);
     EXPECT_FALSE(summary->next->promises);
@@ -184,8 +184,13 @@ TEST(NextStep, of_long_steps_is_shorter_ones) {
   coarse.sampling = 0.3;
   auto summary = landing(coarse);
   ASSERT_TRUE(summary.next);
-  EXPECT_EQ(summary.next->cure, NextStep::Cure::shorter_steps);
+  EXPECT_EQ(summary.next->refine, 0);
+  EXPECT_NEAR(summary.next->dt_max, 1 / 600., 1e-9) << "as J211 asks for";
   EXPECT_TRUE(summary.next->promises);
+  coarse.elements = 8;
+  summary = landing(coarse);
+  EXPECT_GT(summary.next->refine, 1) << "and finer elements where they are coarse, too";
+  EXPECT_GT(summary.next->dt_max, 0);
 }
 
 TEST(Grades, no_mesh_gives_the_peak_of_an_impulse_a_value) {

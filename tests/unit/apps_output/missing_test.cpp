@@ -133,8 +133,8 @@ TEST(Missing, asks_for_a_run_that_reaches_the_contact_of_free_fall) {
   const double wait = (std::sqrt(1 + 2 * 9.81 * 0.2) - 1) / 9.81;
   judge(summary);
   ASSERT_TRUE(summary.next);
-  EXPECT_EQ(summary.next->cure, NextStep::Cure::longer);
-  EXPECT_NEAR(summary.next->value, 1.5 * (0.5 + wait), 1e-12);
+  EXPECT_EQ(summary.next->refine, 0);
+  EXPECT_NEAR(summary.next->end, 1.5 * (0.5 + wait), 1e-12);
   EXPECT_NE(summary.next->effect.find("may"), std::string::npos) << "nobody knows what comes then";
   summary.expected->gravity = 0, landing.sinking = -1;
   judge(summary);

@@ -21,7 +21,7 @@ Summary full() {
   summary.elements = RangeCount{12, 24, 18};
   summary.coupling = CouplingSummary{"iterated", "rigid", 1.5, 3, 2, {{"coupling diverged", 2}}};
   summary.ledger = LedgerSummary{};
-  summary.verdict = {Grade::doubtful, {"It looks odd."}};
+  summary.verdict = {Grade::doubtful, {"It looks odd."}, {}};
   summary.fluid = FluidSummary{};
   BodySummary body;
   body.acceleration.raw = {12, 0.01};
