@@ -45,7 +45,7 @@ void print_hollow(const Resting<d>& resting, double freeboard, rigid::Hollow the
                "a region reaches into it: taken as flooded, with the level of the water outside; end the "
                "region at the hull if it is to be dry");
   if (then == rigid::Hollow::flooded)
-    return row("hollow", "water comes over its rim on the way to rest: taken as flooded");
+    return row("hollow", "water is over its rim at t = 0, or comes over it on the way to rest: taken as flooded");
   if (std::isfinite(freeboard))
     row("hollow", fmt::format("dry until water comes over its rim, {:.4g} m above the water at rest", freeboard));
 }
@@ -170,7 +170,7 @@ void describe_held(const Scene& scene, std::size_t number, const Resting<d>& res
   const double height = turned.maxCoeff() - turned.minCoeff();
   const auto where = rest.draft <= 0 ? fmt::format("hangs {:.5g} m above the water", -rest.draft)
                      : rest.draft >= height
-                         ? fmt::format("lies under water, its lowest point {:.5g} m deep", rest.draft)
+                         ? fmt::format("stays under water, its lowest point {:.5g} m deep", rest.draft)
                          : fmt::format("floats with a draft of {:.5g} m", rest.draft);
   row("at rest", fmt::format("{}, {}, centre of mass {} ({})", where, attitude_text(rest.pose),
                              height_text(rest.pose.translation()(d - 1) - level), held));

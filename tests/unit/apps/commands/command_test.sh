@@ -86,7 +86,7 @@ point = [-2, -5]
 SCENE
 check "check knows what holds bodies" exits 0 "$splashdown" check harbour.toml
 check "held upright" grep -q 'draft of 0.5 m, pitch 0 deg, .*(free in y only)' stdout
-check "on a hinge" grep -q 'draft of 5 m, pitch 0 deg, .*(hinge to the world)' stdout
+check "on a hinge" grep -q 'lowest point 5 m deep, pitch 0 deg, .*(hinge to the world)' stdout
 check "floating on a hollow" grep -q 'floats with a draft of 0.38 m, pitch 0 deg, GM' stdout
 check "that is dry" grep -q 'dry until water comes over its rim, 0.62 m above the water' stdout
 check "check sees liquid in a hollow" exits 0 "$splashdown" check harbour.toml --set 'body.trough.position=[3, -0.5]'
