@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "core/dense.hpp"
@@ -16,6 +17,20 @@
 namespace splashdown::rigid {
 
 namespace {
+
+/// Of each pair of bodies the places that are nearest to touching: a round body has hundreds that are near. What is left out
+/// comes in when it is nearer.
+template <int d>
+std::vector<Condition<d>> nearest_of(const std::vector<Contact<d>>& touching) {
+  std::vector<Condition<d>> sorted(touching.begin(), touching.end()), kept;
+  std::ranges::stable_sort(sorted, std::greater<>(), &Condition<d>::rate);
+  const long most = 12;
+  for (const auto& c : sorted) {
+    const auto same = [&](const Condition<d>& k) { return k.body == c.body && k.other == c.other; };
+    if (std::ranges::count_if(kept, same) < most) kept.push_back(c);
+  }
+  return kept;
+}
 
 template <int d>
 class Settling {
@@ -118,7 +133,7 @@ typename Settling<d>::Conditions Settling<d>::conditions(Place& at, double withi
     auto reaching = at.states;
     for (auto& state : reaching) state.velocity(0) = within;
     const auto touching = contacts_->within_reach(reaching, at_once);
-    all.near.assign(touching.begin(), touching.end());
+    all.near = nearest_of<d>(touching);
   }
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     if (!joints_[j].measured()) {

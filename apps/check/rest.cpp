@@ -117,7 +117,7 @@ std::vector<std::optional<Resting<d>>> at_rest(const Scene& scene) {
       if (!belongs(b)) continue;
       done[b] = true;
       const bool unheld = tilts_and_heaves(specs[b]) && !is_tied(scene, b);
-      if (!unheld || rest.bodies[b].touches) all[b]->held = rest.bodies[b];
+      if (!unheld || rest.bodies[b].touches || !all[b]->floats) all[b]->held = rest.bodies[b];
     }
   }
   return all;
