@@ -327,4 +327,9 @@ Cost predicted_cost(const Scene& scene) {
 template Cost predicted_cost<2>(const Scene&);
 template Cost predicted_cost<3>(const Scene&);
 
+double predicted_seconds(const Scene& scene) {
+  const auto cost = scene.dimension == 2 ? predicted_cost<2>(scene) : predicted_cost<3>(scene);
+  return cost.seconds_to_start + cost.steps * cost.seconds_per_step;
+}
+
 }  // namespace splashdown::apps

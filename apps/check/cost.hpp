@@ -25,4 +25,7 @@ struct Cost {
 template <int d>
 Cost predicted_cost(const Scene& scene);
 
+/// Of the whole run on one core [s].
+double predicted_seconds(const Scene& scene);
+
 }  // namespace splashdown::apps

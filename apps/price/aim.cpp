@@ -78,11 +78,6 @@ std::optional<Source> listed_price(const RunOptions& options) {
   return Source{std::move(*price), file.string(), folder};
 }
 
-double guessed_seconds(const Scene& scene) {
-  const auto cost = scene.dimension == 2 ? predicted_cost<2>(scene) : predicted_cost<3>(scene);
-  return cost.seconds_to_start + cost.steps * cost.seconds_per_step;
-}
-
 /// Meshes that the scene allows, about its own.
 ProbeRange allowed_probes(const RunOptions& options, double own) {
   auto range = probe_range;
@@ -184,9 +179,9 @@ Source probed_price(const RunOptions& options, const Scene& scene) {
   auto from = fmt::format("coarse runs in {}", order.folder.string());
   int last = usual_first;
   if (options.seconds) {
-    ProbePlan plan(*options.seconds, {range, usual_first, [&](int k) {
-                                        return guessed_seconds(*scene_at(options.scene, options.overrides, refine(k)));
-                                      }});
+    ProbePlan plan(*options.seconds,
+                   {range, usual_first,
+                    [&](int k) { return predicted_seconds(*scene_at(options.scene, options.overrides, refine(k))); }});
     last = climb_by(plan, ladder, options, refine, from);
   } else {
     while (ladder.climb({refine(last), Role::rung}) && last < std::min(last_for_accuracy, range.finest)) ++last;

@@ -16,11 +16,6 @@ using Words = std::vector<std::string>;
 
 constexpr const char* refine_key = "fluid.size.refine=";
 
-double guessed_seconds(const Scene& scene) {
-  const auto cost = scene.dimension == 2 ? predicted_cost<2>(scene) : predicted_cost<3>(scene);
-  return cost.seconds_to_start + cost.steps * cost.seconds_per_step;
-}
-
 /// The --set values of the run without those of a key.
 Words without(Words overrides, const std::string& key) {
   std::erase_if(overrides, [&](const std::string& word) { return word.starts_with(key); });
@@ -84,7 +79,7 @@ void complete(std::optional<NextStep>& next, const RunOptions& options, const Sc
     const auto file = read_scene(options.scene, change.set);
     // Sizes that are chosen may follow the run's length: then it is another run.
     change.resumes = next->end > 0 && file.chosen.empty();
-    const double guess = guessed_seconds(scene), other = guessed_seconds(file.scene);
+    const double guess = predicted_seconds(scene), other = predicted_seconds(file.scene);
     if (!(next->end > 0) && guess > 0 && other > guess) next->seconds = wall_seconds * other / guess;
     if (change.resumes) next->seconds = std::max(0., next->seconds - wall_seconds);
   } catch (const SceneError&) {

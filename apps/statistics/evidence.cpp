@@ -10,31 +10,19 @@ namespace {
 
 constexpr double share_of_time = 0.1;  // since first contact, to each side of a peak: what a line can follow
 
-double begin_of(const IntervalHistory& history, std::size_t i) { return i == 0 ? history.begin : history.ends[i - 1]; }
-double middle_of(const IntervalHistory& history, std::size_t i) {
-  return 0.5 * (begin_of(history, i) + history.ends[i]);
-}
-
 /// Of the interval that holds a time, the nearest one outside the record.
 std::size_t index_at(const IntervalHistory& history, double time) {
   const auto found = static_cast<std::size_t>(std::ranges::lower_bound(history.ends, time) - history.ends.begin());
   return std::min(found, history.ends.size() - 1);
 }
 
-double magnitude(const IntervalHistory& history, std::size_t i) {
-  const auto n = static_cast<std::size_t>(history.channels);
-  double squared = 0;
-  for (std::size_t k = 0; k < n; ++k) squared += history.values[i * n + k] * history.values[i * n + k];
-  return std::sqrt(squared);
-}
-
 /// Value at `time` of the straight line of least squares through the middles of intervals, without the one at `top`.
 double line_at(const IntervalHistory& history, std::size_t first, std::size_t last, std::size_t top) {
-  const double time = middle_of(history, top);
+  const double time = history.middle_of(top);
   double n = 0, t = 0, tt = 0, v = 0, tv = 0;
   for (std::size_t i = first; i <= last; ++i) {
     if (i == top) continue;
-    const double at = middle_of(history, i) - time, value = magnitude(history, i);
+    const double at = history.middle_of(i) - time, value = history.magnitude(i);
     n += 1, t += at, tt += at * at, v += value, tv += at * value;
   }
   if (n == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -99,7 +87,7 @@ double EvidenceStatistics::step_share(const IntervalHistory& channel, double tim
   const auto first = std::min(index_at(channel, time - reach), top - std::min(top, before));
   const auto last = std::max(index_at(channel, time + reach), std::min(top + after, final));
   const double line = line_at(channel, first, last, top);
-  return line > 0 ? std::abs(magnitude(channel, top) / line - 1) : std::numeric_limits<double>::infinity();
+  return line > 0 ? std::abs(channel.magnitude(top) / line - 1) : std::numeric_limits<double>::infinity();
 }
 
 void EvidenceStatistics::add_shares(const double* loads, Evidence& evidence) const {
@@ -124,10 +112,10 @@ Evidence EvidenceStatistics::about(const Pulse& peak, const IntervalHistory& cha
     add_shares(&loads_.values[n * index_at(loads_, peak.time)], evidence);
   } else if (const auto loads = filtered(loads_, *cfc)) {
     for (auto i = step_at(peak.time - 1. / *cfc); i < step_at(peak.time); ++i)
-      evidence.growing = std::max(evidence.growing, growing(middle_of(wet_, i)));
+      evidence.growing = std::max(evidence.growing, growing(wet_.middle_of(i)));
     if (const auto smooth = filtered(channel, *cfc)) {
       evidence.step = step_share(*smooth, peak.time);
-      const double top = magnitude(*smooth, index_at(*smooth, peak.time));
+      const double top = smooth->magnitude(index_at(*smooth, peak.time));
       const double quick = top > 0 ? roughness(channel, *cfc, peak.time) / top : 1;
       evidence.sampling = std::min(quick, lost_to_steps(channel, *cfc, peak.time));
     }

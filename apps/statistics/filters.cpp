@@ -72,15 +72,10 @@ double longest_interval(const IntervalHistory& history, int cfc, double time) {
   return longest;
 }
 
-double middle_of(const IntervalHistory& history, std::size_t i) {
-  return 0.5 * ((i == 0 ? history.begin : history.ends[i - 1]) + history.ends[i]);
-}
-
 /// Of the mean over an interval from the line through two others.
 double deviation(const IntervalHistory& history, std::size_t i, std::size_t a, std::size_t b) {
   const auto n = static_cast<std::size_t>(history.channels);
-  const double share =
-      (middle_of(history, i) - middle_of(history, a)) / (middle_of(history, b) - middle_of(history, a));
+  const double share = (history.middle_of(i) - history.middle_of(a)) / (history.middle_of(b) - history.middle_of(a));
   double squared = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const auto value = [&](std::size_t j) { return history.values[j * n + k]; };
@@ -91,6 +86,13 @@ double deviation(const IntervalHistory& history, std::size_t i, std::size_t a, s
 }
 
 }  // namespace
+
+double IntervalHistory::magnitude(std::size_t i) const {
+  const auto n = static_cast<std::size_t>(channels);
+  double squared = 0;
+  for (std::size_t k = 0; k < n; ++k) squared += values[i * n + k] * values[i * n + k];
+  return std::sqrt(squared);
+}
 
 void IntervalHistory::append(double end, std::span<const double> sample) {
   if (sample.size() != static_cast<std::size_t>(channels) || values.size() != ends.size() * sample.size())

@@ -27,6 +27,9 @@ struct IntervalHistory {
   std::vector<double> values;
 
   void append(double end, std::span<const double> sample);
+  double begin_of(std::size_t i) const { return i == 0 ? begin : ends[i - 1]; }
+  double middle_of(std::size_t i) const { return 0.5 * (begin_of(i) + ends[i]); }
+  double magnitude(std::size_t i) const;  ///< of the vector of an interval
   template <class Archive>
   void serialize(Archive& archive) {
     archive(channels, begin, ends, values);

@@ -11,15 +11,6 @@ namespace {
 constexpr std::size_t most_windows = 20, steps_a_window = 2;
 constexpr double grows_by = 0.01;  // from window to window
 
-double begin_of(const IntervalHistory& history, std::size_t i) { return i == 0 ? history.begin : history.ends[i - 1]; }
-
-double magnitude(const IntervalHistory& history, std::size_t i) {
-  const auto n = static_cast<std::size_t>(history.channels);
-  double squared = 0;
-  for (std::size_t k = 0; k < n; ++k) squared += history.values[i * n + k] * history.values[i * n + k];
-  return std::sqrt(squared);
-}
-
 }  // namespace
 
 bool rises_at_end(const IntervalHistory& history, double from, double to) {
@@ -33,12 +24,11 @@ bool rises_at_end(const IntervalHistory& history, double from, double to) {
   std::vector<double> means(windows, 0.);
   std::size_t top = first;
   for (std::size_t i = first; i < last; ++i) {
-    const double value = magnitude(history, i);
-    if (value > magnitude(history, top)) top = i;
+    const double value = history.magnitude(i);
+    if (value > history.magnitude(top)) top = i;
     for (std::size_t w = 0; w < windows; ++w) {
       const double begin = from + static_cast<double>(w) * width;
-      means[w] +=
-          value / width * std::max(0., std::min(ends[i], begin + width) - std::max(begin_of(history, i), begin));
+      means[w] += value / width * std::max(0., std::min(ends[i], begin + width) - std::max(history.begin_of(i), begin));
     }
   }
   const double before = *std::max_element(means.begin(), means.end() - 1);

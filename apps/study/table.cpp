@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of a run's verdict, the worse the later.
-constexpr std::array<std::string_view, 4> grades = {"resolved", "doubtful", "unresolved", "unphysical"};
+constexpr std::array<std::string_view, 4> grade_names = {"resolved", "doubtful", "unresolved", "unphysical"};
 
 /// Columns from summary.json.
 const std::vector<std::pair<std::string, std::string>> from_summary = {
@@ -247,17 +247,17 @@ std::string counts_text(const std::vector<Outcome>& outcomes) {
   };
   std::map<Outcome::Status, std::map<std::size_t, int>> all;
   for (const auto& outcome : outcomes) {
-    const auto grade = std::ranges::find(grades, outcome.verdict);
-    ++all[outcome.status][static_cast<std::size_t>(grade - grades.begin())];
+    const auto grade = std::ranges::find(grade_names, outcome.verdict);
+    ++all[outcome.status][static_cast<std::size_t>(grade - grade_names.begin())];
   }
   std::string text;
   for (auto& [status, by_grade] : all) {
     int count = 0;
     for (const auto& [grade, number] : by_grade) count += number;
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ", count, word(status));
-    by_grade.erase(grades.size());  // not known
+    by_grade.erase(grade_names.size());  // not known
     if (status == Outcome::Status::converged && !by_grade.empty())
-      text += ": " + list(by_grade, [](std::size_t grade) { return grades[grade]; });
+      text += ": " + list(by_grade, [](std::size_t grade) { return grade_names[grade]; });
   }
   return text;
 }

@@ -9,16 +9,16 @@ namespace splashdown::apps {
 namespace {
 
 constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr unsigned char none = 64;
+constexpr unsigned char no_digit = 64;
 
 constexpr std::array<unsigned char, 256> values_of_digits() {
   std::array<unsigned char, 256> values{};
-  values.fill(none);
+  values.fill(no_digit);
   for (std::size_t i = 0; i < digits.size(); ++i)
     values[static_cast<unsigned char>(digits[i])] = static_cast<unsigned char>(i);
   return values;
 }
-constexpr auto value_of = values_of_digits();
+constexpr auto digit_values = values_of_digits();
 
 }  // namespace
 
@@ -45,8 +45,8 @@ std::string from_base64(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); i += 4) {
     std::uint32_t group = 0;
     for (std::size_t k = i; k < i + 4; ++k) {
-      const auto value = k + padding < text.size() ? value_of[static_cast<unsigned char>(text[k])] : 0;
-      if (value == none) throw std::runtime_error("an array is not in base64");
+      const auto value = k + padding < text.size() ? digit_values[static_cast<unsigned char>(text[k])] : 0;
+      if (value == no_digit) throw std::runtime_error("an array is not in base64");
       group = group << 6 | value;
     }
     bytes += static_cast<char>(group >> 16);

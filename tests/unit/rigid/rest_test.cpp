@@ -207,7 +207,7 @@ Drawn drawn_afloat(unsigned seed) {
   BodySpec<2> spec = free_body<2>(hull.mass, Inertia<2>(1));
   spec.surface = polygon(outline).surface;
   spec.pose.translate(Vec<2>(0, 2 * size)).rotate((open ? 0.2 : pi) * (2 * unit(random) - 1));
-  of.assembly.bodies = {spec};
+  of.mechanism.bodies = {spec};
   of.steps = {0.002};
   const double turn = angle(spec.pose), volume = hull.mass / water.density;
   of.pose = [=](const std::vector<double>& q) {
@@ -233,7 +233,7 @@ double worst_afloat(unsigned first, unsigned count) {
   double worst = 0;
   for (unsigned seed = first; seed < first + count; ++seed) {
     const auto of = drawn_afloat(seed);
-    const auto& spec = of.assembly.bodies[0];
+    const auto& spec = of.mechanism.bodies[0];
     const auto q = reference::bottom(of.energy, {0}, of.steps);
     const auto floats = floating_stable<2>(spec.surface, spec.pose, spec.mass, water.density, water.level);
     if (!floats) {
