@@ -156,7 +156,9 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
       ->check(CLI::Range(1, 1024));
   run_app->add_option("--until", run.until, "simulated time to stop at, with a checkpoint [s]")
       ->check(positive_number());
-  run_app->add_option("--budget", run.budget, "wall seconds, the start included, after which to stop with a checkpoint (exit code 130)")
+  run_app
+      ->add_option("--budget", run.budget,
+                   "wall seconds, the start included, after which to stop with a checkpoint (exit code 130)")
       ->check(positive_number());
   auto* resume = run_app->add_flag(
       "--resume", run.resume, "continue from the folder's checkpoint; refused if there is one that cannot be read");

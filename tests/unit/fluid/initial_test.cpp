@@ -238,6 +238,23 @@ TEST(InitialLiquidInSpace, gaps_that_cannot_be_filled_are_told_with_their_place)
   }
 }
 
+TEST(InitialLiquidInSpace, narrow_gaps_are_found_before_there_is_a_mesh) {
+  const double h = 0.2;
+  for (const double share : {0.05, 0.2, 0.39, 0.41, 0.8, 2.0})
+    for (const double depth : {0.0, 0.5}) {
+      const auto basin = with_gap(h, share * h, {0.4, 0.3, 0.5}, depth);
+      std::vector<Wall<3>> walls;
+      std::vector<Isometry<3>> poses;
+      for (const auto& w : basin.spec.walls) walls.emplace_back(w), poses.push_back(w.pose);
+      const auto gap = look_at_start<3>(basin.spec, {walls, poses});
+      ASSERT_EQ(gap.has_value(), share < filled_gap) << share;
+      if (!gap) continue;
+      EXPECT_NEAR(gap->width, share * h, 1e-12);
+      EXPECT_NEAR(gap->size, h, 1e-12);
+      EXPECT_EQ(gap->first + gap->second, 1u);
+    }
+}
+
 TEST(InitialLiquidInSpace, no_liquid_is_told) {
   Basin basin(0.3);
   basin.spec.liquids[0].boundary = scenes::block({3, 3, 3}, {4, 4, 4});
