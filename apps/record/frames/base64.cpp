@@ -8,14 +8,14 @@ namespace splashdown::apps {
 
 namespace {
 
-constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr unsigned char no_digit = 64;
 
 constexpr std::array<unsigned char, 256> values_of_digits() {
   std::array<unsigned char, 256> values{};
   values.fill(no_digit);
-  for (std::size_t i = 0; i < digits.size(); ++i)
-    values[static_cast<unsigned char>(digits[i])] = static_cast<unsigned char>(i);
+  for (std::size_t i = 0; i < alphabet.size(); ++i)
+    values[static_cast<unsigned char>(alphabet[i])] = static_cast<unsigned char>(i);
   return values;
 }
 constexpr auto digit_values = values_of_digits();
@@ -29,10 +29,10 @@ void append_base64(std::string& text, std::string_view bytes) {
       return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0;
     };
     const std::uint32_t group = byte(0) << 16 | byte(1) << 8 | byte(2);
-    text += digits[group >> 18];
-    text += digits[group >> 12 & 63];
-    text += i + 1 < bytes.size() ? digits[group >> 6 & 63] : '=';
-    text += i + 2 < bytes.size() ? digits[group & 63] : '=';
+    text += alphabet[group >> 18];
+    text += alphabet[group >> 12 & 63];
+    text += i + 1 < bytes.size() ? alphabet[group >> 6 & 63] : '=';
+    text += i + 2 < bytes.size() ? alphabet[group & 63] : '=';
   }
 }
 
