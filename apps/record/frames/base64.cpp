@@ -53,7 +53,7 @@ std::string from_base64(std::string_view text) {
     bytes += static_cast<char>(group >> 8 & 255);
     bytes += static_cast<char>(group & 255);
   }
-  bytes.resize(bytes.size() - padding);
+  for (; padding > 0; --padding) bytes.pop_back();
   return bytes;
 }
 
