@@ -9,14 +9,16 @@
 
 namespace splashdown {
 
+/// free: by forces, in the freedoms that are let free; fixed: not at all; prescribed: along a path.
 enum class BodyMotion { free, fixed, prescribed };
 
+/// What a body is made from. SI; per metre of depth in 2D [kg/m, kg m].
 template <int d>
 struct BodySpec {
   std::string name;
-  Surface<d> surface;  ///< in the body frame, whose origin is the centre of mass
-  double mass = 0;
-  Inertia<d> inertia = Inertia<d>::Identity();
+  Surface<d> surface;                           ///< in the body frame, whose origin is the centre of mass
+  double mass = 0;                              ///< [kg, kg/m]
+  Inertia<d> inertia = Inertia<d>::Identity();  ///< about the centre of mass, body axes [kg m^2, kg m]
   BodyMotion motion = BodyMotion::free;
   std::array<bool, freedoms<d>> free{};        ///< which of (V, w) may change, world axes; used when motion = free
   Isometry<d> pose = Isometry<d>::Identity();  ///< body frame to world at t = 0
@@ -25,12 +27,14 @@ struct BodySpec {
   std::function<Isometry<d>(double)> path;
 };
 
+/// Where a body is and how it moves, world frame, about its centre of mass.
 template <int d>
 struct BodyState {
   Isometry<d> pose;   ///< at t_n, body frame to world
   Twist<d> velocity;  ///< at t_{n-1/2} (at t_0 for the first step)
 };
 
+/// The bodies in the order of the scene; an index beyond the last throws std::out_of_range.
 template <int d>
 class BodiesView {
  public:

@@ -8,6 +8,7 @@
 
 namespace splashdown {
 
+/// a + clamp((x - a) . e / |e|^2, 0, 1) e, e = b - a: closest point of a segment [m].
 template <int d>
 Vec<d> closest_on_segment(const Vec<d>& a, const Vec<d>& b, const Vec<d>& x) {
   const Vec<d> e = b - a;

@@ -1,5 +1,5 @@
 // Nearest facet of a simplicial surface: a bounding-box tree, O(log n) a query, O(n log n) to build.
-// In space pieces and leaves have tight boxes, too, with an axis along the normal (Gottschalk, Lin, Manocha 1996): upright boxes of slanted facets overlap so much that a cone of needles was asked for two hundred of them a query.
+// In 3D pieces and leaves have tight boxes, too, with an axis along the normal (Gottschalk, Lin, Manocha 1996): upright boxes of slanted facets overlap so much that a cone of needles was asked for two hundred of them a query.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class FacetTree {
 
   bool empty() const { return pieces_.empty(); }
   /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,
-  /// relative: far from a curved surface all facets are about as near, and telling which one is takes long. In space the first of
+  /// relative: far from a curved surface all facets are about as near, and telling which one is takes long. In 3D the first of
   /// facets that are equally near.
   Hit nearest(const Vec<d>& x, double reach, double slack = 0) const;
   using Box = Eigen::AlignedBox<double, d>;
@@ -48,7 +48,7 @@ class FacetTree {
     int facet;
     Box box() const;
   };
-  /// In space branches are looked at by fours: single precision, rounded outwards.
+  /// In 3D branches are looked at by fours: single precision, rounded outwards.
   struct Four {
     std::array<Eigen::Array4f, d> low, high;
     std::array<int, 4> to;  // a four, or ~ a leaf of branches_
@@ -80,7 +80,7 @@ class FacetTree {
   std::vector<Piece> pieces_;  // needles come in several: boxes around whole ones hardly tell them apart
   std::vector<Branch> branches_;
   std::vector<Four> fours_;
-  std::vector<Leaf> leaves_;  // none in the plane
+  std::vector<Leaf> leaves_;  // none in 2D
   double roundoff_ = 0;       // of coordinates [m]
 };
 

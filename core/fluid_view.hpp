@@ -24,6 +24,7 @@ struct WallSpec {
   bool sticks = false;                         ///< no slip: the wall drags viscous fluid along (viscosity.hpp)
 };
 
+/// Load of the fluid on a wall about the wall's reference point, world frame [N, N m; 2D: N/m, N].
 template <int d>
 struct WallLoad {
   Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick: acceleration pressure, stresses of effects
@@ -48,6 +49,7 @@ struct Ledger {
   double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
 };
 
+/// World frame; of the step under way between its begin and its commit, else of t_n.
 template <int d>
 class FluidView {
  public:

@@ -27,7 +27,7 @@ using Twist = Eigen::Matrix<double, freedoms<d>, 1>;
 template <int d>
 using Wrench = Eigen::Matrix<double, freedoms<d>, 1>;
 
-/// Moments of inertia, one in the plane.
+/// Moments of inertia, one in 2D.
 template <int d>
 using Inertia = Eigen::Matrix<double, rotations<d>, rotations<d>>;
 

@@ -19,13 +19,13 @@ InterfaceSpace::InterfaceSpace(const StructurePart& structure, std::span<const I
   }
 }
 
-Eigen::VectorXd InterfaceSpace::velocities(const Motion& motion) const {
-  return motion.cwiseProduct(weight_.head(motion.size()));
+Eigen::VectorXd InterfaceSpace::scaled(const Velocities& velocities) const {
+  return velocities.cwiseProduct(weight_.head(velocities.size()));
 }
 
 Eigen::VectorXd InterfaceSpace::vector(const Interface& interface) const {
   Eigen::VectorXd out(weight_.size());
-  out << velocities(interface.motion), interface.lagged.cwiseProduct(weight_.tail(interface.lagged.size()));
+  out << scaled(interface.velocities), interface.lagged.cwiseProduct(weight_.tail(interface.lagged.size()));
   return out;
 }
 
@@ -36,7 +36,7 @@ Eigen::MatrixXd InterfaceSpace::slope(const Eigen::MatrixXd& of_interface) const
 void InterfaceSpace::add(const Eigen::VectorXd& change, Interface& interface) const {
   const Eigen::VectorXd unscaled = change.cwiseQuotient(weight_);
   for (const auto& wall : walls_)
-    if (wall.answers) interface.motion.segment(wall.first, wall.count) += unscaled.segment(wall.first, wall.count);
+    if (wall.answers) interface.velocities.segment(wall.first, wall.count) += unscaled.segment(wall.first, wall.count);
   interface.lagged += unscaled.tail(interface.lagged.size());
 }
 

@@ -1,6 +1,6 @@
 // What fluid and structure have to agree about, as one vector of velocities [m/s].
 //
-//   motion     each coordinate times its scale (of a rigid wall V, omega * radius of gyration)
+//   velocities each coordinate times its scale (of a rigid wall V, omega * radius of gyration)
 //   lagged     mean phi_I of each piece of a hull with an interface Laplacian, times
 //              sqrt(l_I |hull|) / sqrt(m (m + m_w)), l_I: measure of the piece, |hull|: of all,
 //              m_w: mass of the water in the body's place
@@ -20,7 +20,7 @@
 namespace splashdown::coupling {
 
 struct Interface {
-  Motion motion;           ///< of all walls of the structure
+  Velocities velocities;   ///< of all walls of the structure
   Eigen::VectorXd lagged;  ///< as Solution::lagged [Pa s]
 };
 
@@ -28,7 +28,8 @@ class InterfaceSpace {
  public:
   InterfaceSpace(const StructurePart& structure, std::span<const InterfacePiece> pieces, double fluid_density);
   Eigen::VectorXd vector(const Interface& interface) const;
-  Eigen::VectorXd velocities(const Motion& motion) const;
+  /// Of the walls alone.
+  Eigen::VectorXd scaled(const Velocities& velocities) const;
   /// A slope between entries of Interface, as one between vectors.
   Eigen::MatrixXd slope(const Eigen::MatrixXd& of_interface) const;
   /// Adds a change; motions of walls that do not answer stay.
@@ -36,7 +37,7 @@ class InterfaceSpace {
 
  private:
   const std::vector<WallCoordinates>& walls_;
-  Eigen::VectorXd weight_;  // of the motion, then of the lagged impulses
+  Eigen::VectorXd weight_;  // of the velocities, then of the lagged impulses
 };
 
 }  // namespace splashdown::coupling

@@ -1,12 +1,12 @@
 // The seam: what a fluid and a structure are to those who couple them. Schemes, accelerators and interface terms know
 // nothing else.
 //
-//   fluid       motion in, impulse out:    s -> I(s)
-//   structure   impulse in, motion out:    s = free + Z W w,   W^T M W w = W^T (Z^T I + known)
+//   fluid       velocities in, impulse out:    s -> I(s)
+//   structure   impulse in, velocities out:    s = free + Z W w,   W^T M W w = W^T (Z^T I + known)   (core/response.hpp)
 //
-// Walls carry general coordinates: a rigid wall its twist (3 in the plane, 6 in space), an elastic one the amplitudes of
-// its modes. A Motion s stacks the velocities of all walls' coordinates, an Impulse I what acts on them, so that
-// s . I is work; [m/s, rad/s, ...] and [N s, N m s, ...], world frame, per metre of depth in the plane. The walls of the
+// Walls carry general coordinates: a rigid wall its twist (3 in 2D, 6 in 3D), an elastic one the amplitudes of
+// its modes. Velocities s are those of all walls' coordinates, an Impulse I what acts on them, so that
+// s . I is work; [m/s, rad/s, ...] and [N s, N m s, ...], world frame, per metre of depth in 2D. The walls of the
 // structure come first among those of the fluid, in its order; others stand still.
 //
 // Three verbs, on both sides: `begin` fixes the step, `solve` starts from t_n whenever it is called and gives the same
@@ -21,74 +21,54 @@
 #include <utility>
 #include <vector>
 
+#include "core/response.hpp"
 #include "core/status.hpp"
 
 namespace splashdown::coupling {
 
-using Motion = Eigen::VectorXd;
+/// Generalised velocities of all walls of the structure, one below the other.
+using Velocities = Eigen::VectorXd;
+/// What is conjugate to them: velocities . impulse is work.
 using Impulse = Eigen::VectorXd;
 /// Where walls are, one below the other, as fluid and structure understand each other: of a rigid wall the first d rows
 /// of its pose (wall frame to world), by columns; of an elastic one besides the amplitudes of its modes.
 using Placement = Eigen::VectorXd;
 
+using splashdown::ClosedContacts;
+using splashdown::InterfaceModel;
+using splashdown::InterfaceOperator;
+using splashdown::InterfacePiece;
+using splashdown::ModalInertia;
+using splashdown::Response;
 using splashdown::Status;
 
+/// The step that `begin` fixes, from t_n to t_{n+1} = t_n + dt.
 struct Step {
   double kick = 0;  ///< how long impulses act [s]
-  double dt = 0;    ///< how long the motion that they lead to lasts [s]
+  double dt = 0;    ///< how long walls move with the velocities that they lead to [s]
 };
 
 /// A wall's coordinates among all, and what interface terms need to know of the body behind it.
 struct WallCoordinates {
   std::string name;
   Eigen::Index first = 0, count = 0;
-  bool answers = false;  ///< impulses change its motion
+  bool answers = false;  ///< impulses change its velocities
   double mass = 0;       ///< [kg, kg/m]
   double volume = 0;     ///< that it encloses [m^d]
 };
 
-/// How a structure answers to impulses in a begun step, with the contacts that are closed at the moment.
-struct Response {
-  Motion free;                 ///< without the fluid's impulse
-  Eigen::MatrixXd modes;       ///< Z: motions that what ties the structure leaves, a column each
-  Eigen::MatrixXd inertia;     ///< M of these motions; symmetric, not negative, may be singular
-  Eigen::MatrixXd directions;  ///< W: combinations of them that closed contacts leave
-  Eigen::VectorXd known;       ///< impulses on the motions that `free` does not contain
-  /// W': combinations in which impulses of these contacts do no work, as many; empty, or W, unless some slide and rub.
-  Eigen::MatrixXd workless = {};
-};
-
-/// Inverse masses of a local operator on a wall that stands in for the answer of the body behind it [1/kg]; 0: none.
-struct InterfaceOperator {
-  double laplacian = 0, robin = 0;
-};
-
-/// What the fluid's own equations know of the structure during a step.
-struct InterfaceModel {
-  Eigen::MatrixXd modes, inertia;                      ///< Z, M: the exact term M + Z^T B A^-1 B^T Z; empty: none
-  std::vector<InterfaceOperator> interface_operators;  ///< of each wall; empty: none at all
-};
-
-/// Piece of a wall with a stand-in.
-struct InterfacePiece {
-  std::size_t wall;
-  double measure;  ///< [m, m^2]
-};
-
 /// What a fluid is asked in a pass.
 struct Pass {
-  Motion motion;               ///< of the structure's walls; without the fluid's impulse in motions of the exact term
-  Eigen::VectorXd lagged;      ///< interface impulses that stand-ins lag on, one a piece [Pa s]
-  Eigen::MatrixXd directions;  ///< W of the exact term; empty: all of its motions
-  Eigen::VectorXd known;       ///< impulses on its motions besides the fluid's and what `motion` contains; empty: none
-  Eigen::MatrixXd workless = {};  ///< W' of the exact term: Newton's law is asked for in these; empty: W
+  Velocities velocities;        ///< of the structure's walls; in modes of the exact term without the fluid's impulse
+  Eigen::VectorXd lagged = {};  ///< interface impulses that local operators lag on, one a piece [Pa s]
+  ClosedContacts contacts = {};
 };
 
 /// What it answers.
 struct Solution {
-  Motion motion;           ///< of the structure's walls: as asked, and what the exact term found
+  Velocities velocities;   ///< of the structure's walls: as asked, and what the exact term found
   Impulse impulse;         ///< on them
-  Motion imbalance;        ///< velocities that impulses left unbalanced in the exact term's motions would still give
+  Velocities imbalance;    ///< that impulses left unbalanced in the exact term's modes would still give
   Eigen::VectorXd lagged;  ///< interface impulses found; equal to those asked with, the stand-ins vanish
   Eigen::VectorXd wetted;  ///< measure of each wall's wetted part [m, m^2]
 };
@@ -97,26 +77,33 @@ struct Solution {
 class Linearised {
  public:
   virtual ~Linearised() = default;
-  /// d(impulses on these walls; lagged) / d(their motions; lagged), corrections of the solve apart.
+  /// d(impulses on these walls; lagged) / d(their velocities; lagged), corrections of the solve apart.
   virtual Eigen::MatrixXd slope(std::span<const std::size_t> walls) const = 0;
-  /// Impulse on these walls by their acceleration: symmetric, positive [kg, kg m, kg m^2; per metre in the plane].
+  /// Impulse on these walls by their acceleration: symmetric, positive [kg, kg m, kg m^2; per metre in 2D].
   virtual Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const = 0;
 };
 
-/// What both sides are.
+/// What both sides are. Not copied; one scheme drives it, on one thread at a time.
 class Participant {
  public:
   virtual ~Participant() = default;
-  virtual double time() const = 0;                 ///< t_n
-  virtual double stable_dt() const = 0;            ///< largest that it allows from t_n; infinity: any
-  virtual void save(std::ostream& out) const = 0;  ///< bit-exact state at t_n
+  virtual double time() const = 0;       ///< t_n [s]
+  virtual double stable_dt() const = 0;  ///< largest that it allows from t_n [s]; infinity: any
+  /// Writes the state at t_n, bit for bit: what is loaded goes on with the same numbers.
+  virtual void save(std::ostream& out) const = 0;
+  /// Reads what `save` wrote, into a participant made of the same scene. Throws std::runtime_error for bytes that are none; the
+  /// state is then as it was or of no use.
   virtual void load(std::istream& in) = 0;
 };
 
+/// Velocities in, impulses out: I(s).
 class FluidPart : public Participant {
  public:
+  /// Fixes the step and what its equations know of the structure; meshes and factors. Refused, with the cause, where the
+  /// equations cannot be solved. Throws std::invalid_argument for walls that it does not have.
   virtual Status begin(const Step& step, const InterfaceModel& structure) = 0;
-  /// An empty motion: all walls stand still.
+  /// Impulses on the walls for their velocities: I(s), and s itself in the modes of the exact term. Starts from t_n, the same bits
+  /// for the same pass. Without velocities all walls stand still. Refused where there is no solution.
   virtual Status solve(const Pass& pass) = 0;
   /// Of the last solve.
   virtual const Solution& solution() const = 0;
@@ -137,6 +124,7 @@ class FluidPart : public Participant {
   virtual std::vector<std::pair<std::string, double>> phase_seconds() const { return {}; }
 };
 
+/// Impulses in, velocities out: s(I).
 class StructurePart : public Participant {
  public:
   virtual std::string name() const = 0;  ///< under which its time is booked
@@ -144,20 +132,22 @@ class StructurePart : public Participant {
   /// Of coordinates: lengths that make all velocities m/s.
   virtual const Eigen::VectorXd& scales() const = 0;
   virtual double length() const = 0;  ///< of its longest wall [m]
-  /// Of the fastest point of each wall, under a motion [m/s].
-  virtual Eigen::VectorXd speeds(const Motion& motion) const = 0;
-  virtual Motion motion() const = 0;  ///< that it came to t_n with
+  /// Of the fastest point of each wall [m/s].
+  virtual Eigen::VectorXd speeds(const Velocities& velocities) const = 0;
+  virtual Velocities velocities() const = 0;  ///< that it came to t_n with
 
+  /// Fixes the step: forces, joints and contacts are taken at t_n. Throws std::invalid_argument unless kick and dt are positive.
   virtual void begin(const Step& step) = 0;
-  /// Of the begun step. `motion` = `free` until contacts open or close and impulses act.
+  /// Of the begun step: the velocities are `free` until contacts open or close and impulses act.
   virtual Response response() const = 0;
-  /// The motion under an impulse, contacts included: the trial.
-  virtual const Motion& solve(const Impulse& impulse) = 0;
-  /// A trial with a motion that somebody found from `response`.
-  virtual const Motion& adopt(const Motion& motion) = 0;
+  /// The velocities under an impulse, contacts included: the trial. Starts from t_n; an impulse that is not finite gives velocities
+  /// that are not.
+  virtual const Velocities& solve(const Impulse& impulse) = 0;
+  /// A trial with velocities that somebody found from `response`.
+  virtual const Velocities& adopt(const Velocities& velocities) = 0;
   /// Opens and closes contacts as the last trial asks for if this is the impulse on it. False: they were right.
   virtual bool update_contacts(const Impulse& /*impulse*/) { return false; }
-  virtual Placement placement() const = 0;  ///< of the last trial, at t_{n+1}
+  virtual Placement placement() const = 0;  ///< of its walls at t_{n+1}, after the last trial
   /// Whether the last trial may be committed.
   virtual Status acceptable() const { return {}; }
   /// Accepts the last trial.

@@ -4,27 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include "fluid/approach_bound.hpp"
+#include "fluid/collision_bound.hpp"
 #include "fluid/contact/ventilation.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/initial/initial.hpp"
+#include "fluid/mesh/conservation/volume_correction.hpp"
 #include "fluid/mesh/parts.hpp"
-#include "fluid/mesh/volume_books.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/wave_bound.hpp"
 
 namespace splashdown::fluid {
 namespace {
-
-template <int d>
-std::vector<double> volumes_around(const Nodes<d>& nodes, const Mesh<d>& mesh, const NodeCells<d>& around) {
-  std::vector<double> volumes(nodes.size(), 0.0), share(mesh.cells.size());
-  in_parallel(share.size(), [&](std::size_t c) { share[c] = volume<d>(corners(nodes.x, mesh.cells[c])) / (d + 1); });
-  in_parallel(nodes.size(), [&](std::size_t i) {
-    for (const auto [c, k] : around.around(i)) volumes[i] += share[c];
-  });
-  return volumes;
-}
 
 // Where films turn over, cells count as less than nothing, nodes as nothing.
 template <int d>
@@ -84,7 +74,7 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effec
   now.nodes.volume = nodal_volumes(now.mesh, now.nodes.x);
   now.nodes.part = parts_of(now.mesh, now.nodes.size());
   now.chords.assign(s_->walls.size(), 0.0);
-  now.holes = holes(now.mesh, now.nodes.x, s_->walls.size());
+  now.displaced = displaced_volumes(now.mesh, now.nodes.x, s_->walls.size());
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }
@@ -118,11 +108,11 @@ double Fluid<d>::stable_dt() const {
   dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity()),
                  s_->spec.step.cfl * gap_time<d>(now.nodes, now.mesh)});
   for (const auto& effect : s_->effects) dt = std::min(dt, effect->stable_dt());
-  return approach_dt<d>(now.nodes, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
+  return collision_dt<d>(now.nodes, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
 }
 
 template <int d>
-Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) {
+Status Fluid<d>::begin(double kick, double dt, const InterfaceModel& structure) {
   State& s = *s_;
   s.kick = kick;
   s.dt = dt;
@@ -130,8 +120,9 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
   if (!s.prepared) s.prepare();
   {
     const auto scope = s.timer.scope(assemble);
-    s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses), response.answers(s.walls.size()));
-    if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), response,
+    s.wall_motion.emplace(s.work.nodes, s.work.mesh, s.walls_at(s.work.poses),
+                          walls_that_answer<d>(structure.modal, s.walls.size()));
+    if (!s.equation.build(s.work.nodes, s.work.mesh, s.spec.density, s.centres(s.work.poses), structure,
                           s.wall_motion->held()))
       return {"the pressure matrix could not be factored"};
     s.wall_motion->meet_pressure(s.equation.unknown(), s.equation.lumped_volume());
@@ -145,8 +136,8 @@ Status Fluid<d>::begin(double kick, double dt, const WallResponse<d>& response) 
 
 template <int d>
 const StepResult<d>& Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous,
-                                     const MotionDrive& drive) {
-  s_->result = s_->solve(walls, previous, drive);
+                                     const ClosedContacts& contacts) {
+  s_->result = s_->solve(walls, previous, contacts);
   s_->solved = s_->result.status.ok();
   return s_->result;
 }
@@ -192,7 +183,8 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   nodes.v = moved.u;
   nodes.tie = moved.tie;
   const WallsAt<d> arrived{s.walls, poses};
-  const std::vector<double> moved_volumes = volumes_around(nodes, s.work.mesh, s.equation.around());
+  std::vector<double> moved_volumes;
+  s.equation.around().sum(volume_shares(s.work.mesh, nodes.x), moved_volumes);
   carry<d>(nodes, moved_volumes);
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
   s.follow_hulls(poses);

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/fluid_view.hpp"
+#include "core/response.hpp"
 #include "core/status.hpp"
 #include "fluid/effects/effect.hpp"
 #include "fluid/pressure/pressure.hpp"
@@ -30,18 +31,6 @@ namespace splashdown::fluid {
 
 using splashdown::FluidView;
 
-/// How the motions of WallResponse are driven in a step.
-struct MotionDrive {
-  Eigen::MatrixXd directions;     ///< only these combinations of them may occur; without them and an impulse: all
-  Eigen::VectorXd impulse;        ///< on them, besides the fluid's and what the given velocities contain; empty: none
-  Eigen::MatrixXd workless = {};  ///< combinations in which Newton's law is asked for, as many; empty: the same
-  bool restricts() const { return directions.size() > 0 || impulse.size() > 0; }
-  /// What is left of an answer where only `directions` may occur.
-  Eigen::VectorXd allowed(const Eigen::VectorXd& answer) const {
-    return restricts() ? Eigen::VectorXd(directions * (directions.transpose() * answer)) : answer;
-  }
-};
-
 template <int d>
 class Fluid final : public FluidView<d> {
  public:
@@ -51,12 +40,12 @@ class Fluid final : public FluidView<d> {
   double time() const;       ///< t_n
   double stable_dt() const;  ///< largest dt the criterion allows from t_n
 
-  Status begin(double kick, double dt, const WallResponse<d>& response);
+  Status begin(double kick, double dt, const InterfaceModel& structure);
   /// `walls`: half-step velocities of the walls, without the fluid's load in the motions that respond, with it in all
   /// others. `previous`: the interface impulses on which the interface Laplacians lag; one that equals the result's
   /// makes them vanish. Needed with such walls only. The state at t_n stays as it is.
   const StepResult<d>& solve(std::span<const Twist<d>> walls, std::span<const double> previous = {},
-                             const MotionDrive& drive = {});
+                             const ClosedContacts& contacts = {});
   const StepResult<d>& result() const;  ///< of the last solve
   /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
   Status acceptable() const;

@@ -8,13 +8,14 @@
 #include <optional>
 #include <vector>
 
+#include "core/leapfrog.hpp"
 #include "fluid/contact/wall_motion.hpp"
 #include "fluid/fluid.hpp"
-#include "fluid/mesh/adapt.hpp"
+#include "fluid/mesh/adapt/adapt.hpp"
+#include "fluid/mesh/conservation/displaced_volume.hpp"
+#include "fluid/mesh/conservation/free_water.hpp"
 #include "fluid/mesh/delaunay/moving_delaunay.hpp"
-#include "fluid/mesh/free_water.hpp"
-#include "fluid/mesh/holes.hpp"
-#include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/recognition/recognise.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "fluid/timer.hpp"
@@ -32,8 +33,8 @@ struct Present {
   std::vector<Isometry<d>> poses;
   std::vector<Twist<d>> velocity;  // of walls, at t_{n-1/2}
   std::vector<double> wetted;
-  std::vector<double> chords;  // by which hulls hold more than when the water closed around them
-  std::vector<Hole<d>> holes;  // of walls, in this mesh; not in a checkpoint: it follows from the mesh
+  std::vector<double> chords;                 // by which hulls hold more than when the water closed around them
+  std::vector<DisplacedVolume<d>> displaced;  // of walls, in this mesh; not in a checkpoint: it follows from the mesh
   double acceleration_dt = std::numeric_limits<double>::infinity();
   Ledger ledger;
 };
@@ -113,7 +114,7 @@ struct Fluid<d>::State {
   MovingDelaunay<d> triangulation;
   FreeWater<d> free_water;                      // of the mesh of work
   typename FreeWater<d>::Moments free_carried;  // by it into the step
-  Cracks<d> cracks;                             // in the mesh of work (Recognised)
+  FlatCells<d> flat_cells;                      // in the mesh of work (Recognised)
 
   double kick = 0, dt = 0;
   PressureEquation<d> equation;
@@ -136,9 +137,9 @@ struct Fluid<d>::State {
     return out;
   }
 
-  StepView<d> view(const MotionView* motions = nullptr) const {
+  StepView<d> view(const ModalInertia* answers = nullptr) const {
     return {work.nodes,        work.mesh,  spec.density, kick,   equation.lumped_volume(),
-            equation.around(), spec.walls, work.poses,   motions};
+            equation.around(), spec.walls, work.poses,   answers};
   }
 
   // The mesh of a step (prepare.cpp).
@@ -160,11 +161,12 @@ struct Fluid<d>::State {
   double water() const { return enclosed_volume(work.mesh.boundary, work.nodes.x) + work.ledger.hull_chords; }
 
   // The motion over it (solve.cpp).
-  StepResult<d> solve(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
-  Status find_motion(std::span<const Twist<d>> given, std::span<const double> previous, const MotionDrive& drive);
+  StepResult<d> solve(std::span<const Twist<d>> given, std::span<const double> previous,
+                      const ClosedContacts& contacts);
+  Status find_motion(std::span<const Twist<d>> given, std::span<const double> previous, const ClosedContacts& contacts);
   Status repair();
-  void restrict_repair(const MotionDrive& drive);
-  Status predict(const MotionDrive& drive);
+  void restrict_repair(const ClosedContacts& contacts);
+  Status predict(const ClosedContacts& contacts);
   Status solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous);
   Status correct(std::span<const double> previous);
   void move_nodes();
@@ -179,9 +181,7 @@ struct Fluid<d>::State {
   void apply(const Correction<d>& correction, double share);
   void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further);
   /// At t_n, from velocities at t_{n-1/2} and t_{n+1/2}.
-  Vec<d> at_t_n(const Vec<d>& before, const Vec<d>& after) const {
-    return before + work.dt / (work.dt + dt) * (after - before);
-  }
+  Vec<d> at_t_n(const Vec<d>& before, const Vec<d>& after) const { return velocity_at_t_n(before, after, work.dt, dt); }
   double energy_of_drops(std::span<const Vec<d>> v) const;
   double work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0, std::span<const Twist<d>> s_1) const;
   std::vector<double> carried_impulse() const;

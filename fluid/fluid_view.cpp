@@ -23,15 +23,10 @@ double Fluid<d>::potential(const Vec<d>& point) const {
 template <int d>
 std::vector<std::pair<std::string, double>> Fluid<d>::diagnostics() const {
   const auto& at = nodes();
-  std::vector<double> lumped_mass(at.size(), 0);
-  double factorial = 1;
-  for (int k = 2; k <= d; ++k) factorial *= k;
-  for (const auto& cell : mesh().cells) {
-    Mat<d> edges;
-    for (int k = 1; k <= d; ++k) edges.col(k - 1) = at.x[cell[k]] - at.x[cell[0]];
-    const double share = s_->spec.density * edges.determinant() / factorial / (d + 1);
-    for (const int node : cell) lumped_mass[node] += share;
-  }
+  const std::vector<double> lumped_mass = nodal_sums(mesh(), at.size(), [&](std::size_t c) {
+    const Mat<d> edges = edge_matrix<d>(corners(at.x, mesh().cells[c]));
+    return s_->spec.density * edges.determinant() / factorial<d> / (d + 1);
+  });
   std::vector<std::pair<std::string, double>> all;
   for (const auto& effect : s_->effects)
     for (const auto& [name, value] : effect->diagnostics(at, lumped_mass))

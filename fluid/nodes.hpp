@@ -1,5 +1,9 @@
-// Nodes as the fluid room names them: as they are looked at.
+// The nodes of the PFEM: what is looked at (core/nodes.hpp), and what a step keeps about each of them besides.
 #pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 #include "core/nodes.hpp"
 #include "fluid/parallel.hpp"
@@ -7,8 +11,101 @@
 
 namespace splashdown::fluid {
 
-using splashdown::Nodes;
-using splashdown::VelocityMoments;
 using splashdown::WallTie;
+
+/// Volume, momentum and kinetic energy, the latter two over the density.
+template <int d>
+struct VelocityMoments {
+  double volume = 0;                 ///< [m^d]
+  Vec<d> momentum = Vec<d>::Zero();  ///< [m^d m/s]
+  double energy = 0;                 ///< [m^d m^2/s^2]
+
+  static VelocityMoments of(double volume, const Vec<d>& v) {
+    return {volume, volume * v, 0.5 * volume * v.squaredNorm()};
+  }
+  VelocityMoments& operator+=(const VelocityMoments& b) {
+    volume += b.volume, momentum += b.momentum, energy += b.energy;
+    return *this;
+  }
+  VelocityMoments& operator-=(const VelocityMoments& b) {
+    volume -= b.volume, momentum -= b.momentum, energy -= b.energy;
+    return *this;
+  }
+  Vec<d> mean_velocity() const { return volume > 0 ? Vec<d>(momentum / volume) : Vec<d>::Zero(); }
+  /// Of the motion about the centre of mass; zero where cancellation leaves less.
+  double inner_energy() const { return std::max(0.0, energy - 0.5 * momentum.dot(mean_velocity())); }
+};
+
+template <int d>
+struct Nodes : splashdown::Nodes<d> {
+  using View = splashdown::Nodes<d>;
+  using View::p;
+  using View::size;
+  using View::surface;
+  using View::tie;
+  using View::v;
+  using View::volume;
+  using View::x;
+
+  std::vector<double> h;              ///< size that elements around it are to have [m]
+  std::vector<double> wall_pressure;  ///< mean of late at a wall (fluid/contact/ventilation.hpp), elsewhere 0 [Pa]
+  std::vector<char> separates;        ///< 1: at an edge of a wall where the flow leaves it
+  std::vector<char> spray;            ///< 1: belongs to no cell, flies ballistically
+  std::vector<int> vertex;            ///< number in the last triangulation, -1: was not there
+  std::vector<double> owed;           ///< what the mesh around it has lost of its volume and has not got back yet [m^d]
+  std::vector<int> part;              ///< which water of the last mesh it belonged to (parts_of), -1: was not there
+  std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
+  std::vector<double> field_energy;           ///< over the density: what the field had around it (field_energy.hpp)
+
+  /// Appends a node without volume; `element_size`: h [m]. Returns its index.
+  int add(const Vec<d>& position, const Vec<d>& velocity, double pressure, WallTie t, bool on_surface,
+          double element_size = 0) {
+    h.push_back(element_size);
+    wall_pressure.push_back(0);
+    separates.push_back(0);
+    spray.push_back(0);
+    vertex.push_back(-1);
+    owed.push_back(0);
+    part.push_back(-1);
+    inherited.emplace_back();
+    field_energy.push_back(0);
+    return View::add(position, velocity, pressure, t, on_surface);
+  }
+
+  /// Whether nodes of a cell are tied to different walls.
+  bool are_between_walls(const std::array<int, static_cast<std::size_t>(d) + 1>& cell) const {
+    int one = -1;
+    return std::ranges::any_of(cell, [&](int n) {
+      const int wall = tie[static_cast<std::size_t>(n)].wall;
+      if (one < 0) one = wall;
+      return wall >= 0 && wall != one;
+    });
+  }
+
+  /// What node i carries.
+  VelocityMoments<d> carried(std::size_t i) const { return VelocityMoments<d>::of(volume[i], v[i]); }
+
+  /// Node `heir` gets what node `gone` has carried, inherited and been owed.
+  void bequeath(std::size_t gone, std::size_t heir) {
+    owed[heir] += volume[gone] + owed[gone];
+    inherited[heir] += carried(gone);
+    inherited[heir] += inherited[gone];
+    field_energy[heir] += field_energy[gone];
+    volume[gone] = owed[gone] = field_energy[gone] = 0;
+    inherited[gone] = {};
+  }
+
+  /// Keeps the nodes named in `order`, in that order.
+  void select(const std::vector<int>& order) {
+    auto pick = [&](auto& values) {
+      std::remove_reference_t<decltype(values)> picked(order.size());
+      in_parallel(order.size(), [&](std::size_t i) { picked[i] = values[order[i]]; });
+      values.swap(picked);
+    };
+    pick(x), pick(v), pick(p), pick(h), pick(tie), pick(wall_pressure), pick(surface), pick(separates), pick(spray),
+        pick(vertex);
+    pick(volume), pick(owed), pick(part), pick(inherited), pick(field_energy);
+  }
+};
 
 }  // namespace splashdown::fluid

@@ -29,40 +29,36 @@ std::size_t walls_in(Eigen::Index numbers, int each, std::size_t most) {
 template <int d>
 coupling::Status Participant<d>::begin(const coupling::Step& step, const coupling::InterfaceModel& structure) {
   const std::size_t walls = fluid_->spec().walls.size();
-  walls_in(structure.modes.rows(), freedoms<d>, walls);
+  walls_in(structure.modal.modes.rows(), freedoms<d>, walls);
+  if (structure.interface_operators.size() > walls)
+    throw std::invalid_argument("fluid: more interface operators than walls");
   kick_ = step.kick;
-  WallResponse<d> response;
-  if (structure.modes.cols() > 0) {
-    response.modes.setZero(index<d>(walls), structure.modes.cols());
-    response.modes.topRows(structure.modes.rows()) = structure.modes;
-    response.inertia = structure.inertia;
+  coupling::InterfaceModel all = structure;  // of all walls: those beyond the structure's do not answer
+  if (const Eigen::Index modes = structure.modal.modes.cols(); modes > 0) {
+    all.modal.modes.setZero(index<d>(walls), modes);
+    all.modal.modes.topRows(structure.modal.modes.rows()) = structure.modal.modes;
   }
-  if (!structure.interface_operators.empty()) response.interface_operators.resize(walls);
-  for (std::size_t w = 0; w < structure.interface_operators.size(); ++w)
-    response.interface_operators.at(w) = {structure.interface_operators[w].laplacian,
-                                          structure.interface_operators[w].robin};
-  if (const auto status = fluid_->begin(step.kick, step.dt, response); !status.ok()) return status;
-  pieces_.clear();
-  for (const auto& piece : fluid_->interface_pieces()) pieces_.push_back({piece.wall, piece.measure});
+  if (!all.interface_operators.empty()) all.interface_operators.resize(walls);
+  if (const auto status = fluid_->begin(step.kick, step.dt, all); !status.ok()) return status;
   return {};
 }
 
 template <int d>
 coupling::Status Participant<d>::solve(const coupling::Pass& pass) {
-  const std::size_t moved = walls_in(pass.motion.size(), freedoms<d>, fluid_->spec().walls.size());
+  const std::size_t moved = walls_in(pass.velocities.size(), freedoms<d>, fluid_->spec().walls.size());
   std::vector<Twist<d>> walls(fluid_->spec().walls.size(), Twist<d>::Zero());
-  for (std::size_t w = 0; w < moved; ++w) walls[w] = pass.motion.segment<freedoms<d>>(index<d>(w));
+  for (std::size_t w = 0; w < moved; ++w) walls[w] = pass.velocities.segment<freedoms<d>>(index<d>(w));
   const std::span<const double> lagged(pass.lagged.data(), static_cast<std::size_t>(pass.lagged.size()));
-  const StepResult<d>& found = fluid_->solve(walls, lagged, {pass.directions, pass.known, pass.workless});
+  const StepResult<d>& found = fluid_->solve(walls, lagged, pass.contacts);
   if (!found.status.ok()) return found.status;
 
-  solution_.motion.resize(index<d>(moved));
+  solution_.velocities.resize(index<d>(moved));
   solution_.impulse.resize(index<d>(moved));
   solution_.imbalance.resize(index<d>(moved));
   solution_.wetted.resize(static_cast<Eigen::Index>(moved));
   for (std::size_t w = 0; w < moved; ++w) {
     const auto of_wall = [w](Eigen::VectorXd& all) { return all.segment<freedoms<d>>(index<d>(w)); };
-    of_wall(solution_.motion) = found.wall_velocities[w];
+    of_wall(solution_.velocities) = found.wall_velocities[w];
     of_wall(solution_.impulse) = kick_ * found.loads[w].total();
     of_wall(solution_.imbalance) = found.imbalance[w];
     solution_.wetted[static_cast<Eigen::Index>(w)] = found.loads[w].wetted;

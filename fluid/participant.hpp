@@ -28,7 +28,7 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
   bool release_fragment() override { return fluid_->release_fragment(); }
   void commit(const coupling::Placement& walls) override;
 
-  std::span<const coupling::InterfacePiece> pieces() const override { return pieces_; }
+  std::span<const coupling::InterfacePiece> pieces() const override { return fluid_->interface_pieces(); }
   Eigen::VectorXd first_guess() const override;
   const coupling::Linearised* linearised() const override { return this; }
   double density() const override { return fluid_->spec().density; }
@@ -41,7 +41,6 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
 
   std::unique_ptr<Fluid<d>> fluid_;
   double kick_ = 0;
-  std::vector<coupling::InterfacePiece> pieces_;
   coupling::Solution solution_;
 };
 

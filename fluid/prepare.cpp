@@ -7,13 +7,13 @@
 #include "fluid/contact/attachment.hpp"
 #include "fluid/contact/separation.hpp"
 #include "fluid/fluid_state.hpp"
-#include "fluid/mesh/droplets.hpp"
-#include "fluid/mesh/field_energy.hpp"
-#include "fluid/mesh/hubs.hpp"
-#include "fluid/mesh/landing.hpp"
-#include "fluid/mesh/sheets.hpp"
-#include "fluid/mesh/size_field.hpp"
-#include "fluid/mesh/volume_books.hpp"
+#include "fluid/mesh/conservation/field_energy.hpp"
+#include "fluid/mesh/conservation/volume_correction.hpp"
+#include "fluid/mesh/drops/coalescence.hpp"
+#include "fluid/mesh/drops/droplets.hpp"
+#include "fluid/mesh/drops/sheets.hpp"
+#include "fluid/mesh/recognition/hubs.hpp"
+#include "fluid/mesh/sizes/size_field.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
@@ -126,7 +126,7 @@ void Fluid<d>::State::collect_drops() {
   keep(kept, nodes, work.mesh.boundary);
 }
 
-// The nodes that are corners of cells come first, in space along a space-filling curve: neighbours are near in memory, and
+// The nodes that are corners of cells come first, in 3D along a space-filling curve: neighbours are near in memory, and
 // in the same block of the smoother. How many they are.
 template <int d>
 std::size_t Fluid<d>::State::put_drops_last() {
@@ -170,9 +170,9 @@ void Fluid<d>::State::cut(std::size_t liquid) {
       found = recognised();
     }
     if (found.piercing.empty() || attempt == attempts) {
-      cracks = std::move(found.cracks);
+      flat_cells = std::move(found.flat_cells);
       work.mesh = std::move(found);
-      if (now.dt > 0) let_sheets_fly<d>(nodes, work.mesh, cracks, [&](int i) { return is_inviscid(i); });
+      if (now.dt > 0) let_sheets_fly<d>(nodes, work.mesh, flat_cells, [&](int i) { return is_inviscid(i); });
       return book_spray(spray);
     }
     nodes.spray = spray;
@@ -218,7 +218,7 @@ void Fluid<d>::State::settle(double before) {
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
   mix_joined<d>(work.mesh, free_water.part(), work.nodes);
   separate<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity, gravity().norm());
-  absorb_droplets(work.nodes, work.mesh);
+  mix_absorbed(work.nodes, work.mesh);
   follow_hulls(work.poses);
   const double after = water();
   (after > before ? work.ledger.remesh_created : work.ledger.remesh_deleted) += after - before;
@@ -240,7 +240,7 @@ void Fluid<d>::State::let_fragment_fly(int node) {
   const auto spray = work.nodes.spray;
   std::vector<char> flies(work.nodes.size(), 0);
   flies[node] = 1;
-  let_fly<d>(work.nodes, work.mesh, cracks, flies);
+  let_fly<d>(work.nodes, work.mesh, flat_cells, flies);
   book_spray(spray);
   settle(before);
   work.ledger.energy_remesh += hold_field_energy() - energy;

@@ -21,35 +21,36 @@ constexpr double roundoff = 1e-12;
 
 template <int d>
 StepResult<d> Fluid<d>::State::solve(std::span<const Twist<d>> given, std::span<const double> previous,
-                                     const MotionDrive& drive) {
+                                     const ClosedContacts& contacts) {
   StepResult<d> found;
-  found.status = find_motion(given, previous, drive);
+  found.status = find_motion(given, previous, contacts);
   if (found.status.ok()) evaluate(found);
   return found;
 }
 
 template <int d>
 Status Fluid<d>::State::find_motion(std::span<const Twist<d>> given, std::span<const double> previous,
-                                    const MotionDrive& drive) {
+                                    const ClosedContacts& contacts) {
   if (previous.size() != equation.laplacian().pieces().size())
     throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
   trial.v = work.nodes.v;
   trial.s_before = work.velocity;
   trial.x_mid.resize(trial.v.size());
   trial.on_walls.assign(walls.size(), Wrench<d>::Zero());
-  trial.known.setZero(equation.motions());
+  trial.known.setZero(equation.mode_count());
   trial.unanswered = trial.answer = trial.known;
   // Neither the repair nor effects depend on what is closed, or what closes might have to open for it.
-  if (drive.restricts()) equation.allow(Eigen::MatrixXd::Identity(equation.motions(), equation.motions()));
+  if (contacts.restrict_modes())
+    equation.allow(Eigen::MatrixXd::Identity(equation.mode_count(), equation.mode_count()));
   if (auto status = repair(); !status.ok()) return status;
-  if (drive.restricts()) restrict_repair(drive);
+  if (contacts.restrict_modes()) restrict_repair(contacts);
   // Pressure changes no momentum of free water; masses that are held up (PressureEquation) may.
   free_water.give_back(free_carried, equation.lumped_volume(), trial.v);
-  if (auto status = predict(drive); !status.ok()) return status;
+  if (auto status = predict(contacts); !status.ok()) return status;
   trial.free_water = free_water.moments(equation.lumped_volume(), trial.v);
   const auto scope = timer.scope(Phase::pressure);
   if (auto status = solve_pressure(given, previous); !status.ok()) return status;
-  apply_body_impulse(drive.impulse);
+  apply_body_impulse(contacts.known);
   if (auto status = correct(previous); !status.ok()) return status;
   trial.handed = equation.held().excess(trial.v_after, trial.s_after);
   return {};
@@ -68,9 +69,9 @@ void Fluid<d>::State::lag(std::vector<double>& residual, std::span<const double>
 
 // Closed contacts take what would open or close them of the bodies' answer to the repair: it is not a motion but an impulse.
 template <int d>
-void Fluid<d>::State::restrict_repair(const MotionDrive& drive) {
-  equation.allow(drive.directions, drive.workless);
-  const Eigen::VectorXd kept = drive.allowed(trial.answer);
+void Fluid<d>::State::restrict_repair(const ClosedContacts& contacts) {
+  equation.allow(contacts.directions, contacts.workless);
+  const Eigen::VectorXd kept = contacts.allowed(trial.answer);
   trial.unanswered = equation.inertia() * (trial.answer - kept);
   equation.move(kept - trial.answer, trial.s_before);
   trial.answer = kept;
@@ -87,7 +88,7 @@ Status Fluid<d>::State::repair() {
   const auto& held = equation.held();
   trial.repaired.assign(equation.size(), 0.0);
   trial.repair_handed.assign(walls.size(), Wrench<d>::Zero());
-  Eigen::VectorXd excess = equation.on_motions(held.excess(v, s_before));
+  Eigen::VectorXd excess = equation.on_modes(held.excess(v, s_before));
   std::vector<Vec<d>> free = v;  // as if no wall held them
   double energy = equation.kinetic_energy(v);
   const double drops = energy_of_drops(v);
@@ -136,27 +137,26 @@ Status Fluid<d>::State::repair() {
 }
 
 template <int d>
-Status Fluid<d>::State::predict(const MotionDrive& drive) {
+Status Fluid<d>::State::predict(const ClosedContacts& contacts) {
   std::vector<Vec<d>> carried;
   if (!effects.empty()) {
     const auto scope = timer.scope(momentum);
     carried = trial.v;
   }
-  const MotionView bodies{equation.modes(), equation.inertia()};
   const std::vector<Twist<d>> carried_walls = trial.s_before;
-  Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation.motions());
+  Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation.mode_count());
   for (std::size_t t = 0; t < effects.size(); ++t) {
     const auto scope = timer.scope(first_effect + t);
-    const bool answers = equation.motions() > 0;
-    if (auto status = effects[t]->predict(view(answers ? &bodies : nullptr), {carried, carried_walls},
+    const bool answers = equation.mode_count() > 0;
+    if (auto status = effects[t]->predict(view(answers ? &equation.modal() : nullptr), {carried, carried_walls},
                                           {trial.v, trial.on_walls, answers ? &answer : nullptr});
         !status.ok())
       return status;
   }
-  if (equation.motions() == 0) return {};
+  if (equation.mode_count() == 0) return {};
   // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
-  answer = drive.allowed(answer);
-  const Eigen::VectorXd impulse = equation.on_motions(trial.on_walls);
+  answer = contacts.allowed(answer);
+  const Eigen::VectorXd impulse = equation.on_modes(trial.on_walls);
   trial.known += impulse;
   trial.answer += answer;
   equation.move(answer, trial.s_before);
@@ -174,7 +174,7 @@ Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::spa
   equation.flux_residual(trial.x_mid, trial.v, trial.s_after, centres(moved_poses(trial.s_after, 0.5 * dt)), trial.phi);
   if (!previous.empty()) equation.laplacian().add(previous, trial.phi);
   if (!equation.solve(trial.phi, closely, carried_impulse())) return {"the pressure solve failed"};
-  answer_to(trial.phi, trial.s_after, equation.on_motions(equation.held().excess(trial.v, trial.s_after)));
+  answer_to(trial.phi, trial.s_after, equation.on_modes(equation.held().excess(trial.v, trial.s_after)));
   let_bodies_answer(trial.unanswered);
   return {};
 }
@@ -198,7 +198,7 @@ Status Fluid<d>::State::what_is_left(std::span<const double> previous, Correctio
   left.impulse = left.residual;
   left.walls.assign(walls.size(), Twist<d>::Zero());
   if (!equation.solve(left.impulse, roughly)) return {"the pressure solve failed"};
-  left.answer = equation.respond(left.impulse, left.walls, Eigen::VectorXd::Zero(equation.motions()));
+  left.answer = equation.respond(left.impulse, left.walls, Eigen::VectorXd::Zero(equation.mode_count()));
   return {};
 }
 
@@ -253,13 +253,13 @@ void Fluid<d>::State::evaluate_loads(StepResult<d>& found) const {
     answered.push_back(repair + physical + trial.handed[w] + trial.repair_handed[w]);
   }
   found.imbalance.assign(walls.size(), Twist<d>::Zero());
-  if (equation.motions() > 0)
-    equation.move(equation.response(equation.on_motions(answered) + trial.known - equation.inertia() * trial.answer),
+  if (equation.mode_count() > 0)
+    equation.move(equation.response(equation.on_modes(answered) + trial.known - equation.inertia() * trial.answer),
                   found.imbalance);
 }
 
 // The corrections' operator D M^-1 D^T hardly sees pressures that change their sign from node to node, so that what it makes of
-// noise has them; the Laplacian of the pressure solve allows none. What is told of a step is
+// noise has them; the Laplacian of the pressure solve allows none. What a step reports is
 //
 //   p = (phi_0 + S (phi - phi_0)) / kick,   (S q)_i = sum_c V_c mean_c(q) / sum_c V_c
 //
@@ -317,14 +317,14 @@ template <int d>
 void Fluid<d>::State::apply(const Correction<d>& correction, double share) {
   for (std::size_t i = 0; i < trial.phi.size(); ++i) trial.phi[i] += share * correction.impulse[i];
   for (std::size_t w = 0; w < walls.size(); ++w) trial.s_after[w] += share * correction.walls[w];
-  if (equation.motions() > 0) trial.answer += share * correction.answer;
+  if (equation.mode_count() > 0) trial.answer += share * correction.answer;
 }
 
 // Lets the motions answer to impulses.
 template <int d>
 void Fluid<d>::State::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s,
                                 const Eigen::VectorXd& further) {
-  if (equation.motions() > 0) trial.answer += equation.respond(impulses, s, further);
+  if (equation.mode_count() > 0) trial.answer += equation.respond(impulses, s, further);
 }
 
 // A further impulse on the motions.

@@ -9,7 +9,7 @@
 
 #include "rigid/embedding.hpp"
 #include "rigid/message.hpp"
-#include "rigid/world.hpp"
+#include "rigid/system.hpp"
 
 namespace splashdown::rigid {
 
@@ -33,20 +33,20 @@ BodyState<3> lifted_state(const BodyState<d>& state) {
 template <int d>
 Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces,
                   std::vector<JointSpec> joints, std::optional<ContactSpec<d>> contacts)
-    : world_(std::make_unique<World>()) {
-  World& w = *world_;
+    : system_(std::make_unique<System>()) {
+  System& w = *system_;
   w.specs = std::move(specs);
   w.forces = std::move(forces);
   for (const BodySpec<d>& spec : w.specs) {
     check(spec);
     w.reaches.push_back(reach(spec));
-    const bool held_still = spec.motion == Motion::fixed;
-    const Isometry<d> pose = spec.motion == Motion::prescribed ? spec.path(0) : spec.pose;
+    const bool held_still = spec.motion == BodyMotion::fixed;
+    const Isometry<d> pose = spec.motion == BodyMotion::prescribed ? spec.path(0) : spec.pose;
     w.states.push_back({pose, held_still ? Twist<d>::Zero().eval() : spec.velocity});
     w.movers.emplace_back();
-    w.bullet.add(spec.motion == Motion::free);
+    w.bullet.add(spec.motion == BodyMotion::free);
     w.bullet.place(w.states.size() - 1, lifted<d>(pose), Twist<3>::Zero());
-    if (spec.motion != Motion::free) continue;
+    if (spec.motion != BodyMotion::free) continue;
 
     FreeBody::Freedom free{};
     for (int k = 0; k < freedoms<d>; ++k) {
@@ -77,74 +77,71 @@ Bodies<d>& Bodies<d>::operator=(Bodies&&) noexcept = default;
 
 template <int d>
 std::size_t Bodies<d>::size() const {
-  return world_->specs.size();
+  return system_->specs.size();
 }
 template <int d>
 const BodySpec<d>& Bodies<d>::spec(std::size_t body) const {
-  return world_->specs.at(body);
+  return system_->specs.at(body);
 }
 template <int d>
 const BodyState<d>& Bodies<d>::state(std::size_t body) const {
-  return world_->states.at(body);
+  return system_->states.at(body);
 }
 template <int d>
 std::span<const BodyState<d>> Bodies<d>::states() const {
-  return world_->states;
+  return system_->states;
 }
 template <int d>
 std::span<const BodyState<d>> Bodies<d>::trials() const {
-  return world_->trials;
+  return system_->trials;
 }
 template <int d>
 double Bodies<d>::time() const {
-  return world_->time;
+  return system_->time;
 }
 
 template <int d>
 void Bodies<d>::begin(double kick, double dt) {
-  World& w = *world_;
+  System& w = *system_;
   if (!(kick > 0 && dt > 0 && std::isfinite(kick) && std::isfinite(dt)))
     throw std::invalid_argument(message("bodies: kick = ", kick, " s and dt = ", dt, " s must be positive"));
   w.kick = kick;
   w.dt = dt;
   for (std::size_t i = 0; i < size(); ++i) {
     if (w.movers[i]) w.movers[i]->begin(lifted_state(w.states[i]), embedding<d>() * (kick * w.known_force(i)), dt);
-    if (w.specs[i].motion == Motion::prescribed) w.trials[i] = w.prescribed(i);
+    if (w.specs[i].motion == BodyMotion::prescribed) w.trials[i] = w.prescribed(i);
   }
-  w.find_motions();
+  w.set_up_constraints();
   w.guess_contacts();
   w.impulses.resize(0);
-  w.phase = World::Phase::begun;
+  w.phase = System::Phase::begun;
 }
 
 template <int d>
-Mobility<d> Bodies<d>::mobility() const {
-  const World& w = *world_;
-  w.expect(w.phase != World::Phase::committed, "mobility needs begin first");
+Response Bodies<d>::response() const {
+  const System& w = *system_;
+  w.expect(w.phase != System::Phase::committed, "response needs begin first");
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms<d> * w.size());
-  const Eigen::VectorXd s = w.motions.velocity(none);
-  Mobility<d> all{{},
-                  w.motions.modes(),
-                  w.motions.inertia(),
-                  w.motions.directions(),
-                  w.motions.unspent(s, none),
-                  w.motions.workless()};
-  for (Eigen::Index i = 0; i < w.size(); ++i) all.velocities.push_back(s.segment<freedoms<d>>(freedoms<d> * i));
-  return all;
+  const Eigen::VectorXd s = w.constraints.velocity(none);
+  return {.free = s,
+          .modal = {.modes = w.constraints.modes(), .inertia = w.constraints.inertia()},
+          .contacts = {.directions = w.constraints.directions(),
+                       .known = w.constraints.unspent(s, none),
+                       .workless = w.constraints.workless()}};
 }
 
 template <int d>
 std::span<const BodyState<d>> Bodies<d>::solve(std::span<const Wrench<d>> loads) {
-  return solve(Eigen::VectorXd(world_->kick * world_->stacked(loads)));
+  return solve(Eigen::VectorXd(system_->kick * system_->stacked(loads)));
 }
 
 template <int d>
 std::span<const BodyState<d>> Bodies<d>::solve(const Eigen::VectorXd& impulses) {
-  World& w = *world_;
-  w.expect(w.phase != World::Phase::committed, "solve needs begin first");
+  System& w = *system_;
+  w.expect(w.phase != System::Phase::committed, "solve needs begin first");
   w.expect_all(impulses);
-  w.motions.forget_changes();
-  const auto velocity = w.motions.settled(impulses);
+  w.constraints.forget_changes();
+  const auto velocity = w.constraints.settled(impulses);
   w.impulses = impulses;
   w.drift(velocity ? *velocity : Eigen::VectorXd::Constant(impulses.size(), std::numeric_limits<double>::quiet_NaN()));
   return w.trials;
@@ -152,8 +149,8 @@ std::span<const BodyState<d>> Bodies<d>::solve(const Eigen::VectorXd& impulses) 
 
 template <int d>
 std::span<const BodyState<d>> Bodies<d>::adopt(const Eigen::VectorXd& velocities) {
-  World& w = *world_;
-  w.expect(w.phase != World::Phase::committed, "adopt needs begin first");
+  System& w = *system_;
+  w.expect(w.phase != System::Phase::committed, "adopt needs begin first");
   w.expect_all(velocities);
   w.drift(velocities);
   return w.trials;
@@ -161,20 +158,20 @@ std::span<const BodyState<d>> Bodies<d>::adopt(const Eigen::VectorXd& velocities
 
 template <int d>
 bool Bodies<d>::update_contacts(const Eigen::VectorXd& impulses) {
-  World& w = *world_;
-  w.expect(w.phase == World::Phase::solved, "update_contacts needs a trial first");
+  System& w = *system_;
+  w.expect(w.phase == System::Phase::solved, "update_contacts needs a trial first");
   w.expect_all(impulses);
   Eigen::VectorXd velocities(freedoms<d> * w.size());
   for (Eigen::Index i = 0; i < w.size(); ++i)
     velocities.segment<freedoms<d>>(freedoms<d> * i) = w.trials[static_cast<std::size_t>(i)].velocity;
   w.impulses = impulses;
-  return w.motions.update_contacts(velocities, impulses);
+  return w.constraints.update_contacts(velocities, impulses);
 }
 
 template <int d>
 Status Bodies<d>::acceptable() const {
-  const World& w = *world_;
-  w.expect(w.phase == World::Phase::solved, "acceptable needs a trial first");
+  const System& w = *system_;
+  w.expect(w.phase == System::Phase::solved, "acceptable needs a trial first");
   constexpr double most_turn = 1;  // [rad] beyond which the way there is not that of a step
   for (std::size_t i = 0; i < size(); ++i) {
     const double turn = w.dt * w.trials[i].velocity.template tail<rotations<d>>().norm();
@@ -187,20 +184,20 @@ Status Bodies<d>::acceptable() const {
 
 template <int d>
 void Bodies<d>::commit() {
-  World& w = *world_;
-  w.expect(w.phase == World::Phase::solved, "commit needs solve first");
+  System& w = *system_;
+  w.expect(w.phase == System::Phase::solved, "commit needs solve first");
   for (std::size_t i = 0; i < size(); ++i) {
     if (w.movers[i]) w.movers[i]->commit(embedding<d>() * w.trials[i].velocity);
   }
   w.states = w.trials;
   w.time += w.dt;
   if (w.impulses.size() > 0) w.loads = w.impulses / w.kick;
-  w.phase = World::Phase::committed;
+  w.phase = System::Phase::committed;
 }
 
 template <int d>
 void Bodies<d>::save(std::ostream& out) const {
-  const World& w = *world_;
+  const System& w = *system_;
   const double count = static_cast<double>(size());
   write(out, &count, 1);
   write(out, &w.time, 1);
@@ -218,7 +215,7 @@ void Bodies<d>::save(std::ostream& out) const {
 
 template <int d>
 void Bodies<d>::load(std::istream& in) {
-  World& w = *world_;
+  System& w = *system_;
   double count = 0;
   read(in, &count, 1);
   if (!in || count != static_cast<double>(size()))
@@ -247,7 +244,7 @@ void Bodies<d>::load(std::istream& in) {
   for (const auto& mover : w.movers) good = good && (!mover || mover->momentum.allFinite());
   if (!good) throw std::runtime_error("the bodies' state is damaged");
   w.trials = w.states;
-  w.phase = World::Phase::committed;
+  w.phase = System::Phase::committed;
 }
 
 template class Bodies<2>;

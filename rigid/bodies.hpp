@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "core/bodies_view.hpp"
+#include "core/response.hpp"
 #include "core/status.hpp"
 #include "rigid/body.hpp"
 #include "rigid/contact/contacts.hpp"
@@ -53,22 +54,6 @@ class Gravity final : public Force<d> {
   Vec<d> acceleration_;
 };
 
-/// How all bodies of a begun step answer to impulses on them, joints, contacts and held freedoms included.
-/// Twists and wrenches of all bodies stand one below the other.
-///
-///   s = velocities + modes W w,   W'^T inertia W w = W'^T (modes^T impulses + impulse),   W = directions, W' = workless
-///
-/// The least that the pressure equation has to know of bodies (docs/theory.md).
-template <int d>
-struct Mobility {
-  std::vector<Twist<d>> velocities;  ///< s_{n+1/2} without the fluid's load
-  Eigen::MatrixXd modes;             ///< Z: motions that joints and held freedoms leave; all in m/s
-  Eigen::MatrixXd inertia;           ///< Z^T M Z [kg]; singular for bodies without mass
-  Eigen::MatrixXd directions;        ///< W: of these motions, what closed contacts leave; orthonormal
-  Eigen::VectorXd impulse;           ///< known ones on motions without inertia, which `velocities` lacks [N s]
-  Eigen::MatrixXd workless;          ///< W': in which these contacts do no work; W where none slides and rubs
-};
-
 template <int d>
 class Bodies final : public BodiesView<d> {
  public:
@@ -88,13 +73,13 @@ class Bodies final : public BodiesView<d> {
 
   void begin(double kick, double dt);
   /// Of the begun step, with the contacts that are closed at the moment. The half-step velocities are affine in the
-  /// load until contacts open or close. (A spinning body in space is taken at its predicted midpoint.)
-  Mobility<d> mobility() const;
+  /// load until contacts open or close. (A spinning body in 3D is taken at its predicted midpoint.)
+  Response response() const;
   /// Trial state at t_{n+1} (pose) and t_{n+1/2} (velocity) under constant loads, one wrench a body.
   std::span<const BodyState<d>> solve(std::span<const Wrench<d>> loads);
   /// The same under their impulses over the kick, of all bodies one below the other.
   std::span<const BodyState<d>> solve(const Eigen::VectorXd& impulses);
-  /// Trial state with half-step velocities of all bodies that somebody found from `mobility`.
+  /// Trial state with half-step velocities of all bodies that somebody found from `response`.
   std::span<const BodyState<d>> adopt(const Eigen::VectorXd& velocities);
   /// Opens and closes contacts as the last trial asks for if the impulses on all bodies are these. False: they were right.
   bool update_contacts(const Eigen::VectorXd& impulses);
@@ -108,8 +93,8 @@ class Bodies final : public BodiesView<d> {
   void load(std::istream& in);
 
  private:
-  struct World;  // rigid/world.hpp
-  std::unique_ptr<World> world_;
+  struct System;  // rigid/system.hpp
+  std::unique_ptr<System> system_;
 };
 
 extern template class Bodies<2>;

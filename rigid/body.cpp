@@ -25,8 +25,8 @@ void check(const BodySpec<d>& spec) {
   require((rotation.transpose() * rotation).isIdentity(round_off) && rotation.determinant() > 0,
           "the initial orientation is not a rotation (determinant ", rotation.determinant(), ")");
   require(spec.velocity.allFinite(), "the initial velocity is not finite");
-  require(spec.motion != Motion::prescribed || spec.path, "prescribed motion needs a path");
-  if (spec.motion != Motion::free) return;
+  require(spec.motion != BodyMotion::prescribed || spec.path, "prescribed motion needs a path");
+  if (spec.motion != BodyMotion::free) return;
 
   require(std::isfinite(spec.mass) && spec.mass >= 0, "mass is ", spec.mass,
           "; a body that moves freely needs a positive mass, or none and the water's inertia");

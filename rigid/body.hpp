@@ -8,7 +8,6 @@ namespace splashdown::rigid {
 
 using splashdown::BodySpec;
 using splashdown::BodyState;
-using Motion = BodyMotion;
 
 /// Mass, centre of mass and inertia about it. 2D values are per metre of depth (kg/m, kg m).
 template <int d>

@@ -1,7 +1,7 @@
 // Planar bodies as three-dimensional ones. Internal to the rigid-body room.
 //
-// A body in d dimensions is a body in space whose other freedoms are held: in two dimensions z, w_x and
-// w_y. Everything that moves bodies is therefore written once, in space.
+// A body in d dimensions is a body in 3D whose other freedoms are held: in two dimensions z, w_x and
+// w_y. Everything that moves bodies is therefore written once, in 3D.
 #pragma once
 
 #include "rigid/types.hpp"

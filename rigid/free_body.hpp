@@ -1,4 +1,4 @@
-// A body that forces move, in space: its inertia and its step. Internal to the rigid-body room.
+// A body that forces move, in 3D: its inertia and its step. Internal to the rigid-body room.
 #pragma once
 
 #include "rigid/bodies.hpp"

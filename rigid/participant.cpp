@@ -10,8 +10,8 @@ namespace splashdown::rigid {
 namespace {
 
 template <int d>
-coupling::Motion stacked(std::span<const BodyState<d>> states) {
-  coupling::Motion all(freedoms<d> * static_cast<Eigen::Index>(states.size()));
+coupling::Velocities stacked(std::span<const BodyState<d>> states) {
+  coupling::Velocities all(freedoms<d> * static_cast<Eigen::Index>(states.size()));
   Eigen::Index at = 0;
   for (const auto& state : states) all.segment<freedoms<d>>(freedoms<d> * at++) = state.velocity;
   return all;
@@ -27,7 +27,7 @@ Participant<d>::Participant(std::unique_ptr<Bodies<d>> bodies) : bodies_(std::mo
   reach_.resize(count);
   for (Eigen::Index b = 0; b < count; ++b) {
     const auto& spec = bodies_->spec(static_cast<std::size_t>(b));
-    const bool free = spec.motion == Motion::free;
+    const bool free = spec.motion == BodyMotion::free;
     walls_.push_back({.name = spec.name,
                       .first = m * b,
                       .count = m,
@@ -52,36 +52,26 @@ double Participant<d>::stable_dt() const {
 }
 
 template <int d>
-Eigen::VectorXd Participant<d>::speeds(const coupling::Motion& motion) const {
+Eigen::VectorXd Participant<d>::speeds(const coupling::Velocities& velocities) const {
   Eigen::VectorXd all(reach_.size());
   for (Eigen::Index b = 0; b < all.size(); ++b)
-    all[b] = farthest_speed<d>(motion.segment<freedoms<d>>(freedoms<d> * b), reach_[b]);
+    all[b] = farthest_speed<d>(velocities.segment<freedoms<d>>(freedoms<d> * b), reach_[b]);
   return all;
 }
 
 template <int d>
-coupling::Motion Participant<d>::motion() const {
+coupling::Velocities Participant<d>::velocities() const {
   return stacked<d>(bodies_->states());
 }
 
 template <int d>
-coupling::Response Participant<d>::response() const {
-  Mobility<d> all = bodies_->mobility();
-  coupling::Motion free(freedoms<d> * static_cast<Eigen::Index>(all.velocities.size()));
-  Eigen::Index at = 0;
-  for (const auto& s : all.velocities) free.segment<freedoms<d>>(freedoms<d> * at++) = s;
-  return {std::move(free),           std::move(all.modes),   std::move(all.inertia),
-          std::move(all.directions), std::move(all.impulse), std::move(all.workless)};
-}
-
-template <int d>
-const coupling::Motion& Participant<d>::solve(const coupling::Impulse& impulse) {
+const coupling::Velocities& Participant<d>::solve(const coupling::Impulse& impulse) {
   return trial_ = stacked<d>(bodies_->solve(impulse));
 }
 
 template <int d>
-const coupling::Motion& Participant<d>::adopt(const coupling::Motion& motion) {
-  return trial_ = stacked<d>(bodies_->adopt(motion));
+const coupling::Velocities& Participant<d>::adopt(const coupling::Velocities& velocities) {
+  return trial_ = stacked<d>(bodies_->adopt(velocities));
 }
 
 template <int d>

@@ -27,13 +27,13 @@ class Participant final : public coupling::StructurePart {
   const Eigen::VectorXd& scales() const override { return scales_; }
   double length() const override { return length_; }
   /// |V| + |w| times the distance of the farthest vertex.
-  Eigen::VectorXd speeds(const coupling::Motion& motion) const override;
-  coupling::Motion motion() const override;
+  Eigen::VectorXd speeds(const coupling::Velocities& velocities) const override;
+  coupling::Velocities velocities() const override;
 
   void begin(const coupling::Step& step) override { bodies_->begin(step.kick, step.dt); }
-  coupling::Response response() const override;
-  const coupling::Motion& solve(const coupling::Impulse& impulse) override;
-  const coupling::Motion& adopt(const coupling::Motion& motion) override;
+  coupling::Response response() const override { return bodies_->response(); }
+  const coupling::Velocities& solve(const coupling::Impulse& impulse) override;
+  const coupling::Velocities& adopt(const coupling::Velocities& velocities) override;
   bool update_contacts(const coupling::Impulse& impulse) override { return bodies_->update_contacts(impulse); }
   coupling::Placement placement() const override;
   Status acceptable() const override { return bodies_->acceptable(); }
@@ -44,7 +44,7 @@ class Participant final : public coupling::StructurePart {
   std::vector<coupling::WallCoordinates> walls_;
   Eigen::VectorXd scales_, reach_;
   double length_ = 0;
-  coupling::Motion trial_;
+  coupling::Velocities trial_;
 };
 
 extern template class Participant<2>;

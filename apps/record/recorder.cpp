@@ -25,6 +25,7 @@
 #include "apps/record/view.hpp"
 #include "apps/run/folder/bounded_archive.hpp"
 #include "apps/statistics/statistics.hpp"
+#include "core/geometry.hpp"
 
 namespace splashdown::apps {
 
@@ -133,7 +134,7 @@ Vec<d> Recorder<d>::State::equipment_acceleration(const RecordInput<d>& input, s
   const auto& point = settings.equipment[i];
   const std::size_t body = body_index(*input.bodies, point.body);
   const Vec<d> arm = input.bodies->state(body).pose.linear() * point.point;
-  return acceleration_at<d>(arm, input.body_velocity_n[body], input.body_acceleration_n[body]);
+  return rigid_acceleration<d>(arm, input.body_velocity_n[body], input.body_acceleration_n[body]);
 }
 
 template <int d>

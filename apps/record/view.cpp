@@ -162,17 +162,6 @@ std::size_t body_index(const BodiesView<d>& bodies, const std::string& name) {
 }
 
 template <int d>
-Vec<d> acceleration_at(const Vec<d>& r, const Twist<d>& velocity, const Twist<d>& acceleration) {
-  if constexpr (d == 2) {
-    const double alpha = acceleration(2), w = velocity(2);
-    return Vec<2>(acceleration(0) - alpha * r.y() - w * w * r.x(), acceleration(1) + alpha * r.x() - w * w * r.y());
-  } else {
-    const Eigen::Vector3d alpha = acceleration.template tail<3>(), w = velocity.template tail<3>();
-    return acceleration.template head<3>() + alpha.cross(r) + w.cross(w.cross(r));
-  }
-}
-
-template <int d>
 double max_speed(const FluidView<d>& fluid) {
   double squared = 0;
   for (std::size_t i = 0; i < fluid.nodes().size(); ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
@@ -195,7 +184,6 @@ double water_level(const FluidView<d>& fluid) {
   template int wall_index<d>(const FluidView<d>&, const std::string&);                 \
   template int wall_called<d>(const FluidView<d>&, const std::string&);                \
   template std::size_t body_index<d>(const BodiesView<d>&, const std::string&);        \
-  template Vec<d> acceleration_at<d>(const Vec<d>&, const Twist<d>&, const Twist<d>&); \
   template double max_speed<d>(const FluidView<d>&);                                   \
   template double water_level<d>(const FluidView<d>&);
 SPLASHDOWN_INSTANTIATE(2)

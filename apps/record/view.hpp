@@ -21,10 +21,6 @@ int wall_called(const FluidView<d>& fluid, const std::string& name);
 template <int d>
 std::size_t body_index(const BodiesView<d>& bodies, const std::string& name);
 
-/// Acceleration of a point of a rigid body: a + alpha x r + w x (w x r), r from its centre of mass.
-template <int d>
-Vec<d> acceleration_at(const Vec<d>& r, const Twist<d>& velocity, const Twist<d>& acceleration);
-
 template <int d>
 double max_speed(const FluidView<d>& fluid);
 

@@ -15,6 +15,7 @@
 #include "apps/scene/scales.hpp"
 #include "apps/statistics/limits.hpp"
 #include "apps/statistics/verdict.hpp"
+#include "core/leapfrog.hpp"
 #include "core/stopwatch.hpp"
 
 namespace splashdown::apps {
@@ -111,7 +112,7 @@ RecordInput<d> Run<d>::input(const StepMade& step) const {
   in.wall_seconds = wall_seconds();
   in.last = step.last;
   if (!world_.bodies) return in;
-  const double kick = 0.5 * (step.dt_previous + step.dt);
+  const double kick = splashdown::kick(step.dt_previous, step.dt);
   for (std::size_t i = 0; i < world_.bodies->size(); ++i) {
     // Linear between the half steps: their mean for constant dt, the initial velocity at the first step.
     const rigid::Twist<d>& before = world_.bodies->state(i).velocity;

@@ -23,10 +23,10 @@ Corners<d> corners_of(const Surface<d>& surface, Eigen::Index facet) {
 }
 
 template <int d>
-fluid::InsideTest<d> inside_test(const Surface<d>& surface) {
-  std::vector<fluid::Vec<d>> points;
+InsideTest<d> inside_test(const Surface<d>& surface) {
+  std::vector<Vec<d>> points;
   for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i) points.emplace_back(surface.vertices.col(i));
-  std::vector<fluid::Facet<d>> facets(static_cast<std::size_t>(surface.facets.cols()));
+  std::vector<Facet<d>> facets(static_cast<std::size_t>(surface.facets.cols()));
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (int k = 0; k < d; ++k)
       facets[i].nodes[static_cast<std::size_t>(k)] = surface.facets(k, static_cast<Eigen::Index>(i));

@@ -6,7 +6,7 @@
 
 #include "apps/scene/geometry.hpp"
 #include "core/facet_tree.hpp"
-#include "fluid/mesh/inside.hpp"
+#include "core/surface/inside.hpp"
 
 namespace splashdown::apps {
 
@@ -28,7 +28,7 @@ class Solid {
  private:
   struct Search {
     FacetTree<d> facets;
-    fluid::InsideTest<d> inside;
+    InsideTest<d> inside;
   };
   // Made when first asked for: bodies whose boxes do not meet need none, and to make it took most of reading a scene in space.
   const Search& search() const;

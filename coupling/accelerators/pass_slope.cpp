@@ -30,14 +30,14 @@ Answering answering(const StructurePart& structure) {
 /// Velocity change of the whole structure per unit impulse on the walls that answer.
 Eigen::MatrixXd compliance(const StructurePart& structure, const Answering& some) {
   const Response all = structure.response();
-  const Eigen::MatrixXd modes = all.modes * all.directions;
+  const Eigen::MatrixXd modes = all.modal.modes * all.contacts.directions;
   Eigen::MatrixXd of_some(modes.cols(), some.count);
   Eigen::Index at = 0;
   for (const auto& wall : some.coordinates) {
     of_some.middleCols(at, wall.count) = modes.middleRows(wall.first, wall.count).transpose();
     at += wall.count;
   }
-  return modes * algebra::symmetric_solution(algebra::congruence(all.inertia, all.directions), of_some);
+  return modes * algebra::symmetric_solution(algebra::congruence(all.modal.inertia, all.contacts.directions), of_some);
 }
 
 }  // namespace

@@ -25,7 +25,9 @@ std::string no_agreement(const char* what, int passes, double residual, const st
   return text.str();
 }
 
-std::streamsize bytes(const Motion& motion) { return motion.size() * static_cast<std::streamsize>(sizeof(double)); }
+std::streamsize bytes(const Velocities& velocities) {
+  return velocities.size() * static_cast<std::streamsize>(sizeof(double));
+}
 
 }  // namespace
 
@@ -36,9 +38,9 @@ Partitioned::Partitioned(std::unique_ptr<FluidPart> fluid, std::unique_ptr<Struc
       term_(std::move(term)),
       accelerator_(std::move(accelerator)),
       limits_(limits),
-      acceleration_(Motion::Zero(structure_->scales().size())) {}
+      acceleration_(Velocities::Zero(structure_->scales().size())) {}
 
-const Motion& Partitioned::move_structure(const Impulse& impulse) {
+const Velocities& Partitioned::move_structure(const Impulse& impulse) {
   const Stopwatch watch(structure_seconds_);
   return trial_ = structure_->solve(impulse);
 }
@@ -64,17 +66,17 @@ StepReport Partitioned::attempt(double dt) {
 StepReport Partitioned::iterate(const Step& step) {
   accelerator_->begin_step();
   if (!fluid_->pieces().empty()) accelerator_->forget();  // remeshed: other nodes
-  const Motion before = structure_->motion();
+  const Velocities before = structure_->velocities();
   Interface x{move_structure(Impulse::Zero(before.size())), fluid_->first_guess()};
   const InterfaceSpace space(*structure_, fluid_->pieces(), fluid_->density());
-  double scale = space.velocities(x.motion).norm();  // of free flight
-  const Motion change = before - x.motion;
+  double scale = space.scaled(x.velocities).norm();  // of free flight
+  const Velocities change = before - x.velocities;
   for (const auto& wall : structure_->walls())
     if (wall.answers)
-      x.motion.segment(wall.first, wall.count) =
+      x.velocities.segment(wall.first, wall.count) =
           before.segment(wall.first, wall.count) + step.kick * acceleration_.segment(wall.first, wall.count);
   if (accelerator_->needs_slope()) accelerator_->set_slope(space.slope(pass_slope(*fluid_, *structure_)));
-  scale = std::max(scale, space.velocities(change).norm());
+  scale = std::max(scale, space.scaled(change).norm());
   // Where nothing moves there is nothing to agree on but the roundoff of the water's positions.
   const double roundoff = fluid_->roundoff() / step.dt;
   const bool at_rest = scale <= roundoff;
@@ -82,19 +84,18 @@ StepReport Partitioned::iterate(const Step& step) {
   StepReport report;
   double first = 0, calmest = std::numeric_limits<double>::infinity();
   for (report.passes = 1;; ++report.passes) {
-    if (const auto status = fluid_->solve({.motion = x.motion, .lagged = x.lagged, .directions = {}, .known = {}});
-        !status.ok()) {
+    if (const auto status = fluid_->solve({.velocities = x.velocities, .lagged = x.lagged}); !status.ok()) {
       // Velocities that grow from pass to pass end beyond what the fluid can follow.
       const bool grew = report.passes > 2 && report.residual > first;
       report.cause = grew ? no_agreement("diverged", report.passes, report.residual, term_->name()) : status.cause;
       return report;
     }
     const Solution& found = fluid_->solution();
-    const Motion& answer = move_structure(found.impulse);
-    const Eigen::VectorXd now = space.vector({found.motion, x.lagged});
+    const Velocities& answer = move_structure(found.impulse);
+    const Eigen::VectorXd now = space.vector({found.velocities, x.lagged});
     const Eigen::VectorXd image = space.vector({answer, found.lagged});
     // Relative to the calmest pass so far: a wild one would excuse errors of its own size.
-    calmest = std::min(calmest, space.velocities(answer).norm());
+    calmest = std::min(calmest, space.scaled(answer).norm());
     const double error = (image - now).norm();
     report.residual = error / std::max(scale, calmest);
     if (!std::isfinite(report.residual)) {
@@ -118,7 +119,7 @@ StepReport Partitioned::iterate(const Step& step) {
 }
 
 void Partitioned::commit() {
-  acceleration_ = (trial_ - structure_->motion()) / kick_;
+  acceleration_ = (trial_ - structure_->velocities()) / kick_;
   Coupled::commit();
   accelerator_->commit_step();
 }

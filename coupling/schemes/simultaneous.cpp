@@ -14,11 +14,11 @@ constexpr double roundoff = 1e-6;
 }  // namespace
 
 /// What Newton's law is short of, relative to the velocities of the step.
-double Simultaneous::relative(const Motion& unloaded, const Motion& loaded, double dt) const {
+double Simultaneous::relative(const Velocities& unloaded, const Velocities& loaded, double dt) const {
   double error = 0, scale = still(dt);
   const Eigen::VectorXd short_of = structure_->speeds(fluid_->solution().imbalance);
   const Eigen::VectorXd of[] = {structure_->speeds(unloaded), structure_->speeds(loaded),
-                                structure_->speeds(structure_->motion())};
+                                structure_->speeds(structure_->velocities())};
   for (Eigen::Index w = 0; w < short_of.size(); ++w) {
     error = std::max(error, short_of[w]);
     scale = std::max({scale, of[0][w], of[1][w], of[2][w]});
@@ -38,17 +38,13 @@ std::string Simultaneous::massless_and_dry() const {
 StepReport Simultaneous::pass_by_pass(Response response, double dt) {
   StepReport report;
   for (report.passes = 1;; ++report.passes) {
-    const auto status = fluid_->solve({.motion = response.free,
-                                       .lagged = {},
-                                       .directions = response.directions,
-                                       .known = response.known,
-                                       .workless = response.workless});
+    const auto status = fluid_->solve({.velocities = response.free, .contacts = response.contacts});
     if (!status.ok()) {
       report.cause = status.cause;
       return report;
     }
     const Stopwatch moving(structure_seconds_);
-    const Motion& found = structure_->adopt(fluid_->solution().motion);
+    const Velocities& found = structure_->adopt(fluid_->solution().velocities);
     report.residual = relative(response.free, found, dt);
     if (!structure_->update_contacts(fluid_->solution().impulse)) return report;
     if (report.passes == max_passes_) {
@@ -62,10 +58,7 @@ StepReport Simultaneous::pass_by_pass(Response response, double dt) {
 StepReport Simultaneous::attempt(double dt) {
   const Step step = begin_structure(dt);
   Response response = structure_->response();
-  if (const auto status =
-          fluid_->begin(step, {.modes = response.modes, .inertia = response.inertia, .interface_operators = {}});
-      !status.ok())
-    return {.cause = status.cause};
+  if (const auto status = fluid_->begin(step, {.modal = response.modal}); !status.ok()) return {.cause = status.cause};
 
   const double fluid_before = fluid_seconds();
   StepReport report;

@@ -42,7 +42,7 @@ void FluidOnly::load(std::istream& in) {
 StepReport StructureOnly::attempt(double dt) {
   clock_.start(dt);
   structure_->begin({.kick = clock_.kick(dt), .dt = dt});
-  const Motion& trial = structure_->solve(Impulse::Zero(structure_->scales().size()));
+  const Velocities& trial = structure_->solve(Impulse::Zero(structure_->scales().size()));
   if (!trial.allFinite()) return {.cause = "the bodies' velocities are not finite"};
   return {.cause = structure_->acceptable().cause, .passes = 1};
 }

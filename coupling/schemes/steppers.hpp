@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/leapfrog.hpp"
 #include "coupling/accelerators/accelerator.hpp"
 #include "coupling/interface_term.hpp"
 #include "coupling/participant.hpp"
@@ -16,7 +17,7 @@ namespace splashdown::coupling {
 /// Time of the last step, from which kick = (dt_{n-1} + dt_n) / 2 follows.
 class LeapfrogClock {
  public:
-  double kick(double dt) const { return 0.5 * (previous_ + dt); }
+  double kick(double dt) const { return splashdown::kick(previous_, dt); }
   void start(double dt) { current_ = dt; }
   void commit() { previous_ = current_; }
   void save(std::ostream& out) const;
@@ -108,7 +109,7 @@ class Simultaneous final : public Coupled {
 
  private:
   StepReport pass_by_pass(Response response, double dt);
-  double relative(const Motion& unloaded, const Motion& loaded, double dt) const;
+  double relative(const Velocities& unloaded, const Velocities& loaded, double dt) const;
   std::string massless_and_dry() const;
 
   int max_passes_;
@@ -129,14 +130,14 @@ class Partitioned final : public Coupled {
 
  private:
   StepReport iterate(const Step& step);
-  const Motion& move_structure(const Impulse& impulse);
+  const Velocities& move_structure(const Impulse& impulse);
 
   std::unique_ptr<InterfaceTerm> term_;
   std::unique_ptr<Accelerator> accelerator_;
   CouplingLimits limits_;
   double kick_ = 0;
-  Motion trial_;
-  Motion acceleration_;  // of the last step: predicts the next one's velocities
+  Velocities trial_;
+  Velocities acceleration_;  // of the last step: predicts the next one's velocities
 };
 
 }  // namespace splashdown::coupling

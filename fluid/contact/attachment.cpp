@@ -6,9 +6,9 @@
 
 #include "core/closest_point.hpp"
 #include "core/facet_tree.hpp"
-#include "fluid/mesh/boundary_edges.hpp"
+#include "core/surface/inside.hpp"
+#include "fluid/mesh/adapt/boundary_edges.hpp"
 #include "fluid/mesh/delaunay/delaunay.hpp"
-#include "fluid/mesh/inside.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {

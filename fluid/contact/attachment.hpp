@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/recognition/recognise.hpp"
 
 namespace splashdown::fluid {
 

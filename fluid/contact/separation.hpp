@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/recognition/recognise.hpp"
 
 namespace splashdown::fluid {
 
@@ -39,7 +39,7 @@ std::vector<Separation<d>> separations(const Nodes<d>& nodes, const Mesh<d>& mes
 template <int d>
 void share_momentum(std::span<const double> volume, std::span<Separation<d>> separations);
 
-/// v_i += taken (v_j - v_i), v_j -= given (v_j - v_i), all at once; in space along the surface alone. Keeps momentum. The
+/// v_i += taken (v_j - v_i), v_j -= given (v_j - v_i), all at once; in 3D along the surface alone. Keeps momentum. The
 /// energy does not grow: sum_j m <= V_i at every node, so that no eigenvalue of the exchange is beyond 2. `u`: of nodes, in place.
 template <int d>
 void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u);

@@ -131,7 +131,7 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::
     if (patch < 0 || at.walls[wall].is_flat(patch)) return false;
     if (mean[n] >= 0 || energy(n, wall) <= gravity * nodes.h[n]) return false;
     const int lowest = regions.lowest(n);
-    // In space the root of a jet is no thicker than that itself.
+    // In 3D the root of a jet is no thicker than that itself.
     return (d == 2 && thin[n]) || strong(mean[lowest], lowest, wall);
   };
   struct Leaving {

@@ -7,16 +7,16 @@
 
 #include <span>
 
-#include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/recognition/recognise.hpp"
 
 namespace splashdown::fluid {
 
-/// Pressure of late at nodes tied to walls, nodes.wall_pressure: in space a mean over the time in which water passes an element,
+/// Pressure of late at nodes tied to walls, nodes.wall_pressure: in 3D a mean over the time in which water passes an element,
 ///
 ///   q <- q + (p - q) / (1 + h / (|v - w| kick)),   p = nodes.p + psi / kick
 ///
 /// psi: `repair_impulse` [Pa s], `unknown`: its numbers at nodes, -1: none; nodes.p: of the step. Where water meets a wall a
-/// step's repair brings what its pressure takes back; air needs that time to get to a node. In the plane, whose films are
+/// step's repair brings what its pressure takes back; air needs that time to get to a node. In 2D, whose films are
 /// resolved less, and in cells that reach from one wall to another, which close faster: q = nodes.p. Nodes that are not tied
 /// forget.
 template <int d>

@@ -56,7 +56,7 @@ class Wall {
            tie.vertex < static_cast<int>(spec_.surface.vertices.cols()) && tie.crease >= -1 &&
            tie.crease < static_cast<int>(creases_.size());
   }
-  /// Whether the solid is surely convex: what lies between points of it lies in it, and behind the plane of each facet. In space.
+  /// Whether the solid is surely convex: what lies between points of it lies in it, and behind the plane of each facet. In 3D.
   bool is_convex() const { return is_convex_; }
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   /// Of a flat patch, out of the solid, world frame.

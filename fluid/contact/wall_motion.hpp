@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fluid/contact/separation.hpp"
-#include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/recognition/recognise.hpp"
 #include "fluid/pressure/held_mass.hpp"
 
 namespace splashdown::fluid {

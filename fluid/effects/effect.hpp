@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/response.hpp"
 #include "core/status.hpp"
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/mesh/node_cells.hpp"
@@ -18,11 +19,6 @@
 #include "fluid/types.hpp"
 
 namespace splashdown::fluid {
-
-/// Motions of walls that answer the fluid: twists of all walls = modes y, and the inertia of y.
-struct MotionView {
-  const Eigen::MatrixXd &modes, &inertia;
-};
 
 /// What an effect sees of the fluid during a step.
 template <int d>
@@ -34,8 +30,8 @@ struct StepView {
   std::span<const double> lumped_volume;  ///< of nodes [m^d]
   const NodeCells<d>& around;             ///< the cells around each node
   std::span<const WallSpec<d>> walls;
-  std::span<const Isometry<d>> poses;   ///< of walls, at t_n
-  const MotionView* motions = nullptr;  ///< nullptr: no wall answers
+  std::span<const Isometry<d>> poses;     ///< of walls, at t_n
+  const ModalInertia* answers = nullptr;  ///< modes of walls that answer the fluid; nullptr: none does
 };
 
 /// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
@@ -50,7 +46,7 @@ template <int d>
 struct Predicted {
   std::span<Vec<d>> v;            ///< of nodes [m/s]
   std::span<Wrench<d>> on_walls;  ///< impulse on each wall about its origin [N s]
-  /// Of the motions that answer: what an effect that solves for them with the fluid has changed in them, on_walls being the
+  /// Of the modes that answer: what an effect that solves for them with the fluid has changed in them, on_walls being the
   /// impulse that did it. nullptr: none answers.
   Eigen::VectorXd* answer = nullptr;
 };

@@ -240,9 +240,9 @@ bool Viscosity<d>::follow(const StepView<d>& step, std::vector<Field>& fields) {
 // The bodies' part of the implicit step: their motions take held nodes along, those the water around them.
 template <int d>
 bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<Wrench<d>>& on_walls) {
-  const MotionView& bodies = *step.motions;
+  const ModalInertia& bodies = *step.answers;
   const Eigen::Index count = bodies.modes.cols();
-  auto on_motions = [&](std::span<const Wrench<d>> impulses) {
+  auto on_modes = [&](std::span<const Wrench<d>> impulses) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
     for (std::size_t w = 0; w < impulses.size(); ++w)
       sum += bodies.modes.middleRows(static_cast<Eigen::Index>(w) * freedoms<d>, freedoms<d>).transpose() * impulses[w];
@@ -264,9 +264,9 @@ bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted
   std::vector<std::vector<Wrench<d>>> reaction(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     react(step, fields[k].v, fields[k].v, fields[k].walls, reaction[k]);
-    total.col(k) -= on_motions(reaction[k]);
+    total.col(k) -= on_modes(reaction[k]);
   }
-  const Eigen::VectorXd y = algebra::least_squares(total, on_motions(on_walls));
+  const Eigen::VectorXd y = algebra::least_squares(total, on_modes(on_walls));
   for (Eigen::Index k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k].v[i];
     for (std::size_t w = 0; w < on_walls.size(); ++w) on_walls[w] += y[k] * reaction[k][w];
@@ -286,7 +286,7 @@ Status Viscosity<d>::predict(const StepView<d>& step, const Carried<d>& carried,
   for (std::size_t i = 0; i < change_.size(); ++i) change_[i] -= carried.v[i];
   std::vector<Wrench<d>> on_walls;
   react(step, change_, moved_, carried.walls, on_walls);
-  if (step.motions && !answer(step, predicted, on_walls)) return {"the viscous solve failed"};
+  if (step.answers && !answer(step, predicted, on_walls)) return {"the viscous solve failed"};
   for (int i : node_) {
     predicted.v[i] += change_[i];
     const double mass = step.density * step.lumped_volume[i];

@@ -19,7 +19,7 @@
 //            Held to the wall instead, nodes would take half an element of water along, however little viscous it is
 //
 // Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any kick;
-// one system of d unknowns a node per step, factored or, if large and in space, solved by multigrid. Bodies that answer the
+// one system of d unknowns a node per step, factored or, if large and in 3D, solved by multigrid. Bodies that answer the
 // pressure answer the stresses in the same implicit step: with the fields u_k that unit velocities of their motions make,
 // (M + C) y = Z^T f_0, C_jk = sum of u_j over held directions . (M_L + kick K) u_k, so that no mass is too small for any viscosity.
 #pragma once

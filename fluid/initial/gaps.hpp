@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fluid/initial/initial.hpp"
-#include "fluid/mesh/size_field.hpp"
+#include "fluid/mesh/sizes/size_field.hpp"
 
 namespace splashdown::fluid {
 

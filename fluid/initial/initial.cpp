@@ -8,8 +8,8 @@
 #include "fluid/contact/attachment.hpp"
 #include "fluid/initial/gaps.hpp"
 #include "fluid/initial/parts.hpp"
-#include "fluid/mesh/adapt.hpp"
-#include "fluid/mesh/size_field.hpp"
+#include "fluid/mesh/adapt/adapt.hpp"
+#include "fluid/mesh/sizes/size_field.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
@@ -17,7 +17,7 @@ namespace {
 
 // While nodes are still few, cells are large for their size field and only the outline tells what is fluid.
 constexpr Alpha outline_decides{std::numeric_limits<double>::infinity(), 0.0, 0.0};
-// Until the node spacing no longer changes visibly; Mesh_3 has done most of it in space.
+// Until the node spacing no longer changes visibly; Mesh_3 has done most of it in 3D.
 template <int d>
 constexpr int smoothing_sweeps = d == 2 ? 30 : 4;
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/recognition/recognise.hpp"
 #include "fluid/spec.hpp"
 
 namespace splashdown::fluid {

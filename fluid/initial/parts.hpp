@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fluid/initial/initial.hpp"
-#include "fluid/mesh/size_field.hpp"
+#include "fluid/mesh/sizes/size_field.hpp"
 
 namespace splashdown::fluid {
 

@@ -1,4 +1,4 @@
-// In space: walls cut the regions exactly, and CGAL's Mesh_3 fills what is left to the size field. Here: the skin between them.
+// In 3D: walls cut the regions exactly, and CGAL's Mesh_3 fills what is left to the size field. Here: the skin between them.
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/split_graph_into_polylines.h>

@@ -1,4 +1,4 @@
-// In space: walls cut the regions exactly (corefinement).
+// In 3D: walls cut the regions exactly (corefinement).
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,4 +1,4 @@
-// In space: CGAL's Mesh_3 fills a skin to the size field.
+// In 3D: CGAL's Mesh_3 fills a skin to the size field.
 #include <CGAL/Mesh_3/C3T3_helpers.h>
 #include <CGAL/Mesh_3/Mesher_3.h>
 #include <CGAL/Mesh_3/Protect_edges_sizing_field.h>

@@ -1,4 +1,4 @@
-// The steps of the start in space: walls cut the liquid, its skin is cleaned and drawn, Mesh_3 fills it. Three sources, because each of
+// The steps of the start in 3D: walls cut the liquid, its skin is cleaned and drawn, Mesh_3 fills it. Three sources, because each of
 // the first and the last takes a gigabyte and more to compile.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fluid/initial/parts.hpp"
-#include "fluid/mesh/size_field.hpp"
+#include "fluid/mesh/sizes/size_field.hpp"
 
 namespace splashdown::fluid {
 

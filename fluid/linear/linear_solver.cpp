@@ -14,7 +14,7 @@ namespace {
 
 // CHOLMOD opens parallel regions of four threads for loops of a few rows, whatever number of threads was asked
 // for: they wait longer than they work, and on one core they double the time of a solve. OpenBLAS' threads each sum a
-// part of a product: the last bits of its results depend on their number, and after some twenty steps in space all of
+// part of a product: the last bits of its results depend on their number, and after some twenty steps in 3D all of
 // them do.
 class OneThread {
  public:

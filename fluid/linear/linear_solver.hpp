@@ -11,7 +11,7 @@
 
 namespace splashdown::fluid {
 
-/// In space the factor of 10 k unknowns costs as much as multigrid's setup and all solves of a step (docs/design-notes).
+/// In 3D the factor of 10 k unknowns costs as much as multigrid's setup and all solves of a step (docs/design-notes).
 template <int d>
 inline constexpr int most_direct = d == 2 ? std::numeric_limits<int>::max() : 8000;
 

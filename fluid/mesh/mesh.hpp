@@ -1,5 +1,8 @@
-// The mesh as the fluid room names it: as it is looked at.
+// The mesh as the fluid room names it: as it is looked at (core/mesh.hpp), and what remeshing asks of simplices and facets.
 #pragma once
+
+#include <array>
+#include <vector>
 
 #include "core/mesh.hpp"
 #include "fluid/geometry.hpp"
@@ -12,11 +15,44 @@ using splashdown::corners;
 using splashdown::corners_of;
 using splashdown::enclosed_volume;
 using splashdown::Facet;
-using splashdown::facet_nodes;
 using splashdown::Mesh;
+using splashdown::nodal_sums;
 using splashdown::nodal_volumes;
-using splashdown::nodes_of;
-using splashdown::opposite;
-using splashdown::wetted_measures;
+using splashdown::volume_shares;
+
+/// Corners of the facet opposite each corner of a positive simplex, oriented out of it.
+template <int d>
+inline constexpr std::array<std::array<int, d>, d + 1> opposite;
+template <>
+inline constexpr std::array<std::array<int, 2>, 3> opposite<2>{{{1, 2}, {2, 0}, {0, 1}}};
+template <>
+inline constexpr std::array<std::array<int, 3>, 4> opposite<3>{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+/// Nodes of the facet opposite a corner of the cell.
+template <std::size_t corners>
+auto facet_nodes(const std::array<int, corners>& cell, int corner) {
+  constexpr int d = static_cast<int>(corners) - 1;
+  std::array<int, d> nodes;
+  for (int j = 0; j < d; ++j) nodes[j] = cell[opposite<d>[corner][j]];
+  return nodes;
+}
+
+/// Marks with 1 which of `nodes` nodes facets hold, the others with 0.
+template <int d>
+std::vector<char> nodes_of(const std::vector<Facet<d>>& facets, std::size_t nodes) {
+  std::vector<char> held(nodes, 0);
+  for (const auto& f : facets)
+    for (int n : f.nodes) held[n] = 1;
+  return held;
+}
+
+/// Wetted measure of each of `walls` walls: length (2D) [m], area (3D) [m^2].
+template <int d, class Positions>
+std::vector<double> wetted_measures(const Mesh<d>& mesh, const Positions& x, std::size_t walls) {
+  std::vector<double> wetted(walls, 0.0);
+  for (const auto& f : mesh.boundary)
+    if (f.wall >= 0) wetted[f.wall] += area_vector_of<d>(f, x).norm();
+  return wetted;
+}
 
 }  // namespace splashdown::fluid

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fluid/linear/counting_sort.hpp"
+#include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
 
@@ -29,6 +30,13 @@ class NodeCells {
   /// In ascending order of the cells.
   std::span<const Corner> around(std::size_t node) const {
     return {corners_.data() + start_[node], static_cast<std::size_t>(start_[node + 1] - start_[node])};
+  }
+  /// Of each node the sum over its cells of what they give to each corner; the same as one loop over the cells, on all threads.
+  void sum(std::span<const double> of_cells, std::vector<double>& sums) const {
+    sums.assign(start_.size() - 1, 0.0);
+    in_parallel(sums.size(), [&](std::size_t i) {
+      for (const auto [cell, corner] : around(i)) sums[i] += of_cells[cell];
+    });
   }
 
  private:

@@ -33,14 +33,14 @@ Eigen::VectorXd units_of(const Eigen::VectorXd& inertias) {
 template <int d>
 bool PressureEquation<d>::add_bodies() {
   constexpr int m = freedoms<d>;
-  Y_.setZero(size(), motions());
+  Y_.setZero(size(), mode_count());
   for (std::size_t w = 0; w < modes_.size(); ++w) {
-    if (motions() == 0) break;
-    const Eigen::MatrixXd moves = response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    if (mode_count() == 0) break;
+    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
     for (const Mode& mode : modes_[w]) Y_.row(mode.unknown) += mode.row.transpose() * moves;
   }
   std::vector<int> wet;  // motions that the water feels
-  for (int k = 0; k < motions(); ++k)
+  for (int k = 0; k < mode_count(); ++k)
     if (!Y_.col(k).isZero(0)) wet.push_back(k);
   const Eigen::MatrixXd loads = Y_(Eigen::all, wet);  // B^T Z
   Eigen::MatrixXd answers = loads;
@@ -49,26 +49,26 @@ bool PressureEquation<d>::add_bodies() {
   const std::span<double> systems(answers.data(), static_cast<std::size_t>(answers.size()));
   if (!wet.empty() && !solver_.solve(systems, static_cast<int>(wet.size()), enough)) return false;
   Y_(Eigen::all, wet) = answers;
-  added_mass_.setZero(motions(), motions());
+  added_mass_.setZero(mode_count(), mode_count());
   added_mass_(wet, wet) = algebra::transposed_product(loads, answers);
-  held_inertia_.setZero(motions(), motions());
+  held_inertia_.setZero(mode_count(), mode_count());
   for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
-    if (!response_.moves(w)) continue;
-    const Eigen::MatrixXd moves = response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    if (!moves_wall<d>(structure_.modal, w)) continue;
+    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
     held_inertia_ += moves.transpose() * held_.inertia(w) * moves;
   }
   if (!held_.empty())
-    for (int k = 0; k < motions(); ++k)
+    for (int k = 0; k < mode_count(); ++k)
       held_inertia_.col(k) += of_held({Y_.col(k).data(), static_cast<std::size_t>(size())});
-  allow(Eigen::MatrixXd::Identity(motions(), motions()));
+  allow(Eigen::MatrixXd::Identity(mode_count(), mode_count()));
   return true;
 }
 
 template <int d>
 void PressureEquation<d>::allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless) {
-  elimination_.setZero(motions(), motions());
+  elimination_.setZero(mode_count(), mode_count());
   if (directions.cols() == 0) return;
-  const Eigen::MatrixXd inertia = response_.inertia + added_mass_ + held_inertia_;
+  const Eigen::MatrixXd inertia = structure_.modal.inertia + added_mass_ + held_inertia_;
   if (workless.size() > 0 && workless != directions) {
     const auto scaled = [&](const Eigen::MatrixXd& W) -> Eigen::MatrixXd {
       return W * units_of(algebra::congruence(inertia, W).diagonal()).asDiagonal();
@@ -91,9 +91,9 @@ template <int d>
 bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance, std::vector<double> guess) {
   if (size() == 0) return true;
   // Least error in the energy norm: G y = Y^T (r - A guess), and A Y = B^T Z.
-  if (!guess.empty() && motions() > 0 && !solver_.is_direct()) {
+  if (!guess.empty() && mode_count() > 0 && !solver_.is_direct()) {
     const Eigen::Map<const Eigen::VectorXd> rhs(r.data(), size());
-    const Eigen::VectorXd left = Y_.transpose() * rhs - on_motions(impulses(guess));
+    const Eigen::VectorXd left = Y_.transpose() * rhs - on_modes(impulses(guess));
     Eigen::Map<Eigen::VectorXd>(guess.data(), size()) += Y_ * algebra::least_squares(added_mass_, left);
   }
   return solver_.solve(r, 1, tolerance, guess);
@@ -102,8 +102,8 @@ bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance, std::v
 template <int d>
 Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s,
                                              const Eigen::VectorXd& further) const {
-  if (motions() == 0) return {};
-  const Eigen::VectorXd y = response(on_motions(impulses(phi)) + of_held(phi) + further);
+  if (mode_count() == 0) return {};
+  const Eigen::VectorXd y = response(on_modes(impulses(phi)) + of_held(phi) + further);
   Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * y;
   move(y, s);
   return y;
@@ -115,24 +115,24 @@ Eigen::VectorXd PressureEquation<d>::of_held(std::span<const double> phi) const 
   std::vector<Wrench<d>> loads(held_modes_.size(), Wrench<d>::Zero());
   for (std::size_t w = 0; w < loads.size(); ++w)
     for (const Mode& mode : held_modes_[w]) loads[w] += mode.row * phi[mode.unknown];
-  return on_motions(loads);
+  return on_modes(loads);
 }
 
 template <int d>
-Eigen::VectorXd PressureEquation<d>::on_motions(std::span<const Wrench<d>> impulses) const {
+Eigen::VectorXd PressureEquation<d>::on_modes(std::span<const Wrench<d>> impulses) const {
   constexpr int m = freedoms<d>;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(motions());
-  if (motions() == 0) return sum;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mode_count());
+  if (mode_count() == 0) return sum;
   for (std::size_t w = 0; w < impulses.size(); ++w)
-    sum += response_.modes.middleRows(static_cast<Eigen::Index>(w) * m, m).transpose() * impulses[w];
+    sum += structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m).transpose() * impulses[w];
   return sum;
 }
 
 template <int d>
 void PressureEquation<d>::move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const {
   constexpr int m = freedoms<d>;
-  if (motions() == 0) return;
-  const Eigen::VectorXd twists = response_.modes * y;
+  if (mode_count() == 0) return;
+  const Eigen::VectorXd twists = structure_.modal.modes * y;
   for (std::size_t w = 0; w < s.size(); ++w) s[w] += twists.segment<m>(static_cast<Eigen::Index>(w) * m);
 }
 

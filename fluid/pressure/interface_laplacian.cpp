@@ -95,7 +95,7 @@ struct Place {
   double nearest = infinite, second = infinite;
   double share() const { return next < 0 || nearest == 0 ? 1.0 : second / (nearest + second); }
 
-  void meet(int seed, double distance) {
+  void offer(int seed, double distance) {
     if (distance < nearest) {
       next = piece, second = nearest;
       piece = seed, nearest = distance;
@@ -123,7 +123,7 @@ std::vector<double> reaches(const Hull<d>& hull) {
 /// Seeds as far from each other as possible (Gonzalez 1985), at most `count`; the place of each facet. A part without a
 /// seed is as far from them as it reaches: what a jet wets beside the hull's face is not worth one.
 template <int d>
-std::vector<Place> sow(const Hull<d>& hull, int count) {
+std::vector<Place> farthest_point_seeds(const Hull<d>& hull, int count) {
   std::vector<Place> places(hull.facets.size());
   const auto reach = reaches(hull);
   const auto from_seeds = [&](std::size_t f) { return places[f].piece < 0 ? reach[f] : places[f].nearest; };
@@ -134,7 +134,7 @@ std::vector<Place> sow(const Hull<d>& hull, int count) {
     if (k > 0 && from_seeds(far) == 0) break;
     const auto distance = hull.distances(static_cast<int>(far));
     for (std::size_t f = 0; f < places.size(); ++f)
-      if (distance[f] < infinite) places[f].meet(k, distance[f]);
+      if (distance[f] < infinite) places[f].offer(k, distance[f]);
   }
   return places;
 }
@@ -145,7 +145,7 @@ template <int d>
 void InterfaceLaplacian<d>::cut_wall(const Nodes<d>& nodes, const Mesh<d>& mesh, const std::vector<int>& unknown,
                                      int wall, const InterfaceOperator& interface_operator) {
   const Hull<d> hull(mesh, nodes.x, wall);
-  auto places = sow(hull, 2 * freedoms<d>);
+  auto places = farthest_point_seeds(hull, 2 * freedoms<d>);
   const std::size_t first = pieces_.size();
   int count = 0;
   for (const auto& place : places) count = std::max(count, place.piece + 1);

@@ -21,22 +21,12 @@
 #include <span>
 #include <vector>
 
+#include "core/response.hpp"
 #include "fluid/linear/linear_solver.hpp"
 #include "fluid/mesh/mesh.hpp"
 #include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {
-
-/// Inverse masses 1/m for which the operators of a wall stand in [m/kg, 1/kg]; 0: none.
-struct InterfaceOperator {
-  double laplacian = 0, robin = 0;
-};
-
-/// Piece of a wetted hull with a stand-in.
-struct InterfacePiece {
-  std::size_t wall;
-  double measure;  ///< [m, m^2]
-};
 
 template <int d>
 class InterfaceLaplacian {

@@ -1,5 +1,5 @@
 // One sweep of the consistent mass matrix's iteration, as a sparse matrix of the nodes: half the memory traffic of sums over
-// cells in the plane, a third in space, and each step makes some forty sweeps.
+// cells in 2D, a third in 3D, and each step makes some forty sweeps.
 #pragma once
 
 #include <span>

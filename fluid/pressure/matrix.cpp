@@ -9,17 +9,17 @@ namespace splashdown::fluid {
 
 template <int d>
 bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density,
-                                std::span<const Vec<d>> centres, const WallResponse<d>& response,
+                                std::span<const Vec<d>> centres, const InterfaceModel& structure,
                                 std::vector<HeldNode<d>> held) {
   nodes_ = &nodes;
   mesh_ = &mesh;
-  response_ = response;
+  structure_ = structure;
   around_.build(mesh.cells, nodes.size());
   measure(density);
   choose_unknowns();
   wall_modes(centres);
   hold_mass(std::move(held), density);
-  laplacian_.build(nodes, mesh, unknown_, response.interface_operators);
+  laplacian_.build(nodes, mesh, unknown_, structure.interface_operators);
   assemble(matrix_);
   laplacian_.add_to(matrix_);
   return (size() == 0 || factored()) && add_bodies();
@@ -29,7 +29,6 @@ template <int d>
 void PressureEquation<d>::measure(double density) {
   const std::size_t count = nodes_->size();
   density_ = density;
-  lumped_.assign(count, 0.0);
   gradients_.resize(mesh_->cells.size());
   per_mass_.resize(mesh_->cells.size());
   share_of_mass_.resize(mesh_->cells.size());
@@ -42,10 +41,8 @@ void PressureEquation<d>::measure(double density) {
     share_of_mass_[c] = density * volume / (d + 2);
     rate_[c] = volume / (d + 1);
   });
-  in_parallel(count, [&](std::size_t i) {
-    for (const auto [c, k] : around_.around(i)) lumped_[i] += rate_[c];
-  });
-  // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour. In the plane that is
+  around_.sum(rate_, lumped_);
+  // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour. In 2D that is
   // for those beside the free surface: gaps between walls are thin on purpose, and what resists more than it weighs
   // no hydrostatic pressure carries.
   constexpr double lightest = 0.02, lightest_within = d == 2 ? 1e-4 : lightest;
@@ -149,7 +146,7 @@ void PressureEquation<d>::hold_mass(std::vector<HeldNode<d>> held, double densit
   if (held_.empty()) return;
   const AccelerationWeights<d> weights{*mesh_, nodes_->x, around_, gradients_, share_of_mass_, per_nodal_mass_};
   for (std::size_t w = 0; w < modes_.size(); ++w) {
-    if (!response_.moves(w)) continue;
+    if (!moves_wall<d>(structure_.modal, w)) continue;
     for (const auto& column : held_.load(w, weights))
       if (unknown_[column.node] >= 0) held_modes_[w].push_back({unknown_[column.node], column.wrench});
   }

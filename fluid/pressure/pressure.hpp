@@ -20,7 +20,7 @@
 //   surface(q, phi) = sum_i - q_i A_i . g_i(phi) - phi_i A_i . g_i(q) + 2 n_i q_i phi_i sum_f |A_f / d|^2 / m_i
 //
 // n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Spikes and contact
-// lines keep phi = 0; in space steep contact lines do not.
+// lines keep phi = 0; in 3D steep contact lines do not.
 // B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
 // Bodies that the equation solves for, s = s_0 + Z y with M y = Z^T B phi + e, are of low rank and eliminated on the
 // factor (Woodbury):
@@ -36,6 +36,7 @@
 #include <span>
 #include <vector>
 
+#include "core/response.hpp"
 #include "fluid/linear/assembly.hpp"
 #include "fluid/linear/linear_solver.hpp"
 #include "fluid/mesh/mesh.hpp"
@@ -46,32 +47,25 @@
 
 namespace splashdown::fluid {
 
-/// What the pressure equation knows about the bodies behind the walls.
+/// Whether the modes move this wall, and of each wall.
 template <int d>
-struct WallResponse {
-  /// Motions that are solved with the pressure: twists of all walls, one below the other, a column each. Empty: none.
-  Eigen::MatrixXd modes;
-  Eigen::MatrixXd inertia;                             ///< of these motions; symmetric, not negative
-  std::vector<InterfaceOperator> interface_operators;  ///< of each wall: local operators instead; empty: none at all
-
-  /// The motions move this wall.
-  bool moves(std::size_t wall) const {
-    constexpr int m = freedoms<d>;
-    return modes.cols() > 0 && !modes.middleRows(static_cast<Eigen::Index>(wall) * m, m).isZero(0);
-  }
-  std::vector<char> answers(std::size_t walls) const {
-    std::vector<char> out(walls);
-    for (std::size_t w = 0; w < walls; ++w) out[w] = moves(w);
-    return out;
-  }
-};
+bool moves_wall(const ModalInertia& modal, std::size_t wall) {
+  constexpr int m = freedoms<d>;
+  return modal.modes.cols() > 0 && !modal.modes.middleRows(static_cast<Eigen::Index>(wall) * m, m).isZero(0);
+}
+template <int d>
+std::vector<char> walls_that_answer(const ModalInertia& modal, std::size_t walls) {
+  std::vector<char> out(walls);
+  for (std::size_t w = 0; w < walls; ++w) out[w] = moves_wall<d>(modal, w);
+  return out;
+}
 
 /// Volume of a node over the free surface around it to the power d/(d-1) below which it is the tip of a spike and carries
 /// no pressure; 0.43 on a flat surface in 2D.
 inline constexpr double lightest_on_surface = 0.1;
 
 /// Passes that bring a solution of A to one of K, the volume that an impulse really takes out (conjugate_residual.hpp). With
-/// fewer in the plane roundoff on still water grows (docs/design-notes).
+/// fewer in 2D roundoff on still water grows (docs/design-notes).
 template <int d>
 inline constexpr int corrections = d == 2 ? 10 : 4;
 
@@ -84,18 +78,18 @@ inline constexpr double inverse_mass(double z) { return 1 + z + 2 * z * z; }
 template <int d>
 class PressureEquation {
  public:
-  /// Assembles and factors; `centres`: reference points of the walls, `held`: nodes whose mass moves with walls. False if
-  /// the factor fails.
+  /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `centres`: reference points
+  /// of the walls, world frame [m]; `structure`: of all walls; `held`: nodes whose mass moves with walls. False if the factor fails.
   bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Vec<d>> centres,
-             const WallResponse<d>& response, std::vector<HeldNode<d>> held = {});
+             const InterfaceModel& structure, std::vector<HeldNode<d>> held = {});
   /// Restricts the motions to y = directions w, w of any size, with Newton's law asked for in as many `workless` ones:
   /// workless^T (M + G) directions w = workless^T impulse. Empty ones: the same. All are allowed after build.
   void allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless = {});
 
-  /// r in flux form at positions `x`, for nodal velocities v and wall twists s about `centres`.
+  /// r in flux form at positions `x` [m], for nodal velocities v [m/s] and wall twists s about `centres`: an entry an unknown [m^d/s].
   void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const Twist<d>> s,
                      std::span<const Vec<d>> centres, std::vector<double>& r) const;
-  /// r in motion form at positions `x` for displacement velocities u.
+  /// r in motion form at positions `x` [m] for displacement velocities u [m/s].
   void motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::vector<double>& r) const;
   /// Adds what the motion form owes to boundary facets that slide along their wall; s, `centres`: as above.
   void slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
@@ -110,11 +104,12 @@ class PressureEquation {
   Eigen::VectorXd respond(std::vector<double>& phi, std::span<Twist<d>> s, const Eigen::VectorXd& further) const;
   /// (M + G)^-1 impulse, in the directions allowed: what such an impulse changes in the motions.
   Eigen::VectorXd response(const Eigen::VectorXd& impulse) const { return elimination_ * impulse; }
-  int motions() const { return static_cast<int>(response_.modes.cols()); }
-  const Eigen::MatrixXd& modes() const { return response_.modes; }      ///< Z
-  const Eigen::MatrixXd& inertia() const { return response_.inertia; }  ///< M, of the motions alone
-  /// Z^T of impulses on all walls.
-  Eigen::VectorXd on_motions(std::span<const Wrench<d>> impulses) const;
+  int mode_count() const { return static_cast<int>(structure_.modal.modes.cols()); }
+  const ModalInertia& modal() const { return structure_.modal; }
+  const Eigen::MatrixXd& modes() const { return structure_.modal.modes; }      ///< Z
+  const Eigen::MatrixXd& inertia() const { return structure_.modal.inertia; }  ///< M, of the motions alone
+  /// Z^T I of impulses on all walls, each about its reference point [N s, N m s].
+  Eigen::VectorXd on_modes(std::span<const Wrench<d>> impulses) const;
   const HeldMass<d>& held() const { return held_; }
   /// Adds Z y to the walls' twists.
   void move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const;
@@ -190,7 +185,7 @@ class PressureEquation {
   HeldMass<d> held_;
   std::vector<std::vector<Mode>> held_modes_;  // R of each wall that responds
   InterfaceLaplacian<d> laplacian_;
-  WallResponse<d> response_;
+  InterfaceModel structure_;
   Eigen::MatrixXd Y_, added_mass_, elimination_;
   Eigen::MatrixXd held_inertia_;  // Z^T (M_h + R Y): what the held mass adds to M + G
 };

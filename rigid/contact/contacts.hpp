@@ -2,7 +2,7 @@
 //
 //   n . (v_a - v_b) >= -gap / dt        gap: distance along n, n out of hull b
 //
-// for vertices of a near facets and edges of b, in space for convex edges of a that cross convex edges of b, and for all vertices
+// for vertices of a near facets and edges of b, in 3D for convex edges of a that cross convex edges of b, and for all vertices
 // near a plane. A gap closes within the step at most; one that is negative opens.
 //
 // Friction and restitution are laws of closed ones: `rubbing` are the rates along which they slide, `rebound` the least rate with

@@ -28,11 +28,11 @@ class Hull {
 
   const Surface<d>& surface() const { return *surface_; }
   const std::vector<int>& neighbours(int vertex) const { return neighbours_[static_cast<std::size_t>(vertex)]; }
-  const std::vector<Edge>& edges() const { return edges_; }  ///< in space; none in the plane
+  const std::vector<Edge>& edges() const { return edges_; }  ///< in 3D; none in 2D
 
   /// From the surface; infinity beyond `reach`.
   double distance(const Vec<d>& x, double reach) const;
-  bool is_convex() const { return convex_; }  ///< in space; false in the plane
+  bool is_convex() const { return convex_; }  ///< in 3D; false in 2D
   /// Facets nearer than `reach`, and some that are hardly farther; ascending.
   std::vector<int> facets_near(const Vec<d>& x, double reach) const;
   std::vector<int> all_facets() const;

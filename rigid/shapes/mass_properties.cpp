@@ -46,7 +46,7 @@ MassProperties<d> mass_properties(const Surface<d>& surface) {
   const Vec<d> centre = first / volume;
   second -= volume * centre * centre.transpose();
 
-  // I = tr(S) 1 - S in space; a planar body has S_zz = 0 and keeps the entry about z.
+  // I = tr(S) 1 - S in 3D; a planar body has S_zz = 0 and keeps the entry about z.
   Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   s.topLeftCorner<d, d>() = second;
   const Eigen::Matrix3d inertia = s.trace() * Eigen::Matrix3d::Identity() - s;

@@ -14,17 +14,21 @@
 
 namespace splashdown::rigid {
 
-/// Throws std::invalid_argument if the surface does not enclose a positive volume (normals outward).
+/// m = int dV, c = int x dV / m, I = int (|r|^2 1 - r r^T) dV, r = x - c, of unit density: exact for the polygon or polyhedron.
+/// In the surface's frame [m^d, m, m^(d+2)]. Throws std::invalid_argument if the surface does not enclose a positive volume
+/// (normals outward).
 template <int d>
 MassProperties<d> mass_properties(const Surface<d>& surface);
 
-/// The same body with another density [kg/m^3] or with another mass [kg, kg/m]; neither may be negative.
+/// The same body with another density [kg/m^3] or with another mass [kg, kg/m]: m and I scale with it, c stays. Throws
+/// std::invalid_argument for negative values and those that are not finite.
 template <int d>
 MassProperties<d> with_density(const MassProperties<d>& unit_density, double density);
 template <int d>
 MassProperties<d> with_mass(const MassProperties<d>& any_density, double mass);
 
-// Frames as in rigid/shapes/shapes.hpp.
+/// Of unit density; lengths [m], deadrise [rad], frames as in rigid/shapes/shapes.hpp, which checks them. I / m of the box is
+/// (width^2 + height^2) / 12, of the ellipse (a^2 + b^2) / 4.
 MassProperties<2> box_mass_properties(double width, double height);
 MassProperties<2> ellipse_mass_properties(double a, double b);
 MassProperties<2> capsule_mass_properties(double radius, double straight);

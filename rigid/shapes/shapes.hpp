@@ -11,6 +11,7 @@
 
 namespace splashdown::rigid {
 
+/// A closed surface [m] and the mass properties of the exact shape that it stands for.
 template <int d>
 struct Shape {
   Surface<d> surface;                 ///< in the shape's own frame
@@ -20,18 +21,18 @@ struct Shape {
 /// Of 360 degrees; the circle's polygon is 7.5e-5 of the radius inside the circle at most.
 inline constexpr int default_segments = 256;
 
-/// At least three points, not repeated (the outline closes by itself), no edge touching another one.
-/// Either sense of rotation.
+/// At least three points [m], not repeated (the outline closes by itself), no edge touching another one.
+/// Either sense of rotation. In the frame of the points.
 Shape<2> polygon(std::span<const Vec<2>> points);
 
 /// Keel at the origin, lowest; chines at (+-breadth/2, breadth/2 tan(deadrise)); vertical sides of height
-/// `side` >= 0 above them; flat top. Deadrise in radians, between 0 and pi/2.
+/// `side` >= 0 above them [m]; flat top. Deadrise in radians, between 0 and pi/2.
 Shape<2> wedge(double deadrise, double breadth, double side);
 
-/// Centre at the origin. A plate is a thin box.
+/// Centre at the origin, width along x [m]. A plate is a thin box.
 Shape<2> box(double width, double height);
 
-/// Centre at the origin.
+/// Centre at the origin, radius [m].
 Shape<2> circle(double radius, int segments = default_segments);
 
 /// Centre at the origin, semi-axis a along x, b along y; vertices at equal steps of the parameter.
@@ -41,7 +42,7 @@ Shape<2> ellipse(double a, double b, int segments = default_segments);
 /// at the origin. Even number of segments, counted around the two half discs.
 Shape<2> capsule(double radius, double straight, int segments = default_segments);
 
-/// The surface with its origin moved to `centre`: the body frame, if that is the centre of mass.
+/// x - centre for all vertices: the surface in the body frame, if `centre` is the centre of mass [m].
 template <int d>
 Surface<d> centred(Surface<d> surface, const Vec<d>& centre);
 

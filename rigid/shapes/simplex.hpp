@@ -11,6 +11,7 @@ namespace splashdown::rigid {
 template <int d>
 using FacetCorners = std::array<Vec<d>, static_cast<std::size_t>(d)>;
 
+/// In the surface's frame and orientation [m].
 template <int d>
 FacetCorners<d> facet_corners(const Surface<d>& surface, Eigen::Index facet) {
   FacetCorners<d> corners;

@@ -29,7 +29,7 @@ Stepper sinking_ball(int nodes) {
   const double size = std::cbrt(1.6 * 4 * half * half * half / nodes);
   auto scene = scenes::ball_in_tank(1, 0, 1, size, size);
   scene.fluid.step = {.cfl = 0.5, .dt_max = 1e-2};
-  scene.ball.motion = rigid::Motion::prescribed;
+  scene.ball.motion = BodyMotion::prescribed;
   scene.ball.path = [](double time) {
     rigid::Isometry<3> pose = rigid::Isometry<3>::Identity();
     pose.translation().z() = -time;

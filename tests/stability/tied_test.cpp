@@ -92,7 +92,7 @@ TEST(Hinged, pair_of_a_light_and_a_heavy_body_swings) {
 TEST(Hinged, to_a_fixed_body_is_hinged_to_the_world) {
   auto alone = hinged(1.0 / 3), beside = hinged(1.0 / 3);
   beside.add_body(rigid::circle(0.1, 24), 10, {1.5, -1}, 0.1);
-  beside.bodies[1].motion = rigid::Motion::fixed;
+  beside.bodies[1].motion = BodyMotion::fixed;
   alone = beside;
   beside.joints[0].other = 1;
   const auto a = scenes::coupled(alone), b = scenes::coupled(beside);

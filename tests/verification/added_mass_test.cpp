@@ -25,7 +25,7 @@ coupling::scenes::Scene ring(double h) {
 // From the response of the coupled equation to a body that would have moved with velocity s.
 double added_mass(double h, double mass, int axis) {
   fluid::Fluid<2> f(ring(h).fluid, fluid::scenes::no_effects());
-  const fluid::WallResponse<2> response{fluid::Twist<2>::Unit(axis), Eigen::MatrixXd::Constant(1, 1, mass), {}};
+  const InterfaceModel response{.modal = {fluid::Twist<2>::Unit(axis), Eigen::MatrixXd::Constant(1, 1, mass)}};
   fluid::Twist<2> s = fluid::Twist<2>::Zero();
   s[axis] = 1;
   const double instant = 1e-6;  // next to nothing moves; positions' roundoff over it is 1e-10 m/s
@@ -111,7 +111,7 @@ TEST(AddedMass, in_a_tank_tends_to_that_in_open_water) {
     scene.fluid.liquids.push_back({fluid::scenes::rectangle({-L, -L}, {L, L}), {}});
     scene.add_body(rigid::circle(a, 256), 100, {0, 0}, 0.025);
     fluid::Fluid<2> f(scene.fluid, fluid::scenes::no_effects());
-    const fluid::WallResponse<2> response{Eigen::MatrixXd::Identity(3, 2), 100 * Eigen::Matrix2d::Identity(), {}};
+    const InterfaceModel response{.modal = {Eigen::MatrixXd::Identity(3, 2), 100 * Eigen::Matrix2d::Identity()}};
     ASSERT_TRUE(f.begin(1e-6, 1e-6, response).ok());
     ASSERT_TRUE(f.solve(std::vector{fluid::Twist<2>(0, 1, 0)}).status.ok());
     const double M = 100 * (1 / f.result().wall_velocities[0][1] - 1);

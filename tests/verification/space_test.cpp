@@ -249,7 +249,7 @@ TEST(InSpace, a_disc_that_hits_the_water_flat_stops_it_by_its_added_mass) {
     spec.walls.insert(spec.walls.begin(), wall);
     Fluid<3> f(spec, effects(0));
     const double mass = ratio * exact;
-    const fluid::WallResponse<3> response{Eigen::VectorXd::Unit(12, 2), Eigen::MatrixXd::Constant(1, 1, mass), {}};
+    const InterfaceModel response{.modal = {Eigen::VectorXd::Unit(12, 2), Eigen::MatrixXd::Constant(1, 1, mass)}};
     std::vector<fluid::Twist<3>> s(2, fluid::Twist<3>::Zero());
     s[0] = wall.velocity;
     ASSERT_TRUE(f.begin(instant, instant, response).ok());

@@ -80,16 +80,16 @@ Twist<d> first_velocity(const std::vector<Waypoint>& path, const Vec<d>& centre)
   return velocity;
 }
 
-rigid::Motion motion_of(Motion motion) {
+BodyMotion motion_of(Motion motion) {
   switch (motion) {
     case Motion::fixed:
-      return rigid::Motion::fixed;
+      return BodyMotion::fixed;
     case Motion::prescribed:
-      return rigid::Motion::prescribed;
+      return BodyMotion::prescribed;
     case Motion::free:
       break;
   }
-  return rigid::Motion::free;
+  return BodyMotion::free;
 }
 
 }  // namespace

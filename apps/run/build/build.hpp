@@ -10,7 +10,7 @@
 #include "apps/scene/scene.hpp"
 #include "coupling/schemes/stepper.hpp"
 #include "fluid/fluid.hpp"
-#include "fluid/mesh/size_sources.hpp"
+#include "fluid/mesh/sizes/size_sources.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {

@@ -5,7 +5,7 @@
 #include "apps/scene/geometry.hpp"
 #include "fluid/effects/absorber.hpp"
 #include "fluid/effects/viscosity.hpp"
-#include "fluid/mesh/size_field.hpp"
+#include "fluid/mesh/sizes/size_field.hpp"
 
 namespace splashdown::apps {
 namespace {

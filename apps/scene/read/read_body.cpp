@@ -5,7 +5,7 @@
 
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/parts.hpp"
-#include "fluid/initial/surface_file.hpp"
+#include "core/surface/surface_file.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -62,7 +62,7 @@ struct ReadShape {
     auto& problems = reader.context().problems;
     if (problems.found_in(reader.path())) return;
     try {
-      const auto file = fluid::read_surface_file(surface.file);
+      const auto file = read_surface_file(surface.file);
       const rigid::Surface<3> hull{surface.scale * file.surface.vertices, file.surface.facets};
       const double longest = extents<3>(hull).sizes().maxCoeff(), farthest = hull.vertices.cwiseAbs().maxCoeff();
       if (!(longest >= smallest_length && farthest <= largest_length))
@@ -73,7 +73,7 @@ struct ReadShape {
                             "Use metres per unit of the file as scale: 0.001 if it is in millimetres.");
       surface.parts = file.parts;
       surface.read = std::make_shared<rigid::Shape<3>>(rigid::Shape<3>{hull, rigid::mass_properties<3>(hull)});
-    } catch (const fluid::SurfaceFileError& error) {
+    } catch (const SurfaceFileError& error) {
       problems.add(reader.key("file"), error.what(), error.cure());
     }
   }

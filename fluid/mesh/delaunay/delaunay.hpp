@@ -4,7 +4,7 @@
 // In 2D the facets of the fluid's boundary are kept as edges (constrained Delaunay): without that, thin
 // jets and thin bodies lose facets to nodes on their other side and their volume with them. Few facets
 // are not Delaunay anyhow, so the constraint costs next to nothing. Facets that cross are left out.
-// In space the facets are ignored: there a triangulation that holds them may not exist (Schoenhardt 1928).
+// In 3D the facets are ignored: there a triangulation that holds them may not exist (Schoenhardt 1928).
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct Delaunay {
   int first_hub = 0;
 };
 
-/// Points that coincide with an earlier one belong to no cell. In space some cells at the hull are missing: those with
+/// Points that coincide with an earlier one belong to no cell. In 3D some cells at the hull are missing: those with
 /// circumspheres many times larger than all points together.
 template <int d>
 Delaunay<d> delaunay(std::span<const Vec<d>> points, const std::vector<Facet<d>>& facets);
@@ -54,7 +54,7 @@ std::array<Vec<d>, d + 1> far_points(double extent);
 /// in memory.
 template <int d>
 void sort_cells(ClosedDelaunay<d>& mesh, std::size_t points);
-/// The cells between the points themselves, the last `hubs` of which are hubs; in the plane with the facets as edges.
+/// The cells between the points themselves, the last `hubs` of which are hubs; in 2D with the facets as edges.
 template <int d>
 Delaunay<d> near_part(const ClosedDelaunay<d>& mesh, std::span<const Vec<d>> points,
                       const std::vector<Facet<d>>& facets, std::size_t hubs = 0);

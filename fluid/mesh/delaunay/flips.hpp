@@ -1,4 +1,4 @@
-// Flips of edges in the plane, for the sources of this folder alone.
+// Flips of edges in 2D, for the sources of this folder alone.
 #pragma once
 
 #include <optional>

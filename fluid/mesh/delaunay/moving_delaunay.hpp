@@ -1,7 +1,7 @@
 // Delaunay triangulation of nodes that move a little from step to step.
 //
 // Of the triangulation that was, nearly all cells are Delaunay after a step too. Exact predicates find those that are
-// not: a cell turned over, a node in the circumsphere of the cell beyond a facet, a node gone. In the plane edges between
+// not: a cell turned over, a node in the circumsphere of the cell beyond a facet, a node gone. In 2D edges between
 // positive cells are flipped (Lawson 1977), which mends most. Patches of cells around what is left are given up, and grow until
 // the Delaunay triangulation of their nodes alone holds all facets of their rim; its cells within the rim take their place.
 // Then new nodes are located and added likewise. Points far away, one more than dimensions, are the hull, which never changes: cells that all are positive then cover it once, and with all facets locally

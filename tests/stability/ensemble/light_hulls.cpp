@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fluid/initial/surface_file.hpp"
+#include "core/surface/surface_file.hpp"
 #include "tests/stability/ensemble/classes.hpp"
 #include "tests/stability/ensemble/random.hpp"
 #include "tests/stability/ensemble/release.hpp"
@@ -124,7 +124,7 @@ Hull star(Random& random, double L) {
 /// The aircraft of examples/uav_landing, L long.
 Hull aircraft(Random&, double L) {
   static const auto surface =
-      fluid::read_surface_file(std::filesystem::path(SPLASHDOWN_SOURCE) / "examples/uav_landing/uav.stl").surface;
+      read_surface_file(std::filesystem::path(SPLASHDOWN_SOURCE) / "examples/uav_landing/uav.stl").surface;
   const Eigen::Vector3d low = surface.vertices.rowwise().minCoeff(), high = surface.vertices.rowwise().maxCoeff();
   const double scale = L / (high - low).maxCoeff();
   Hull hull{.kind = "aircraft"};

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fluid/initial/surface_file.hpp"
+#include "core/surface/surface_file.hpp"
 #include "tests/stability/ensemble/classes.hpp"
 #include "tests/stability/ensemble/random.hpp"
 #include "tests/stability/ensemble/scene_text.hpp"
@@ -41,7 +41,7 @@ Member uav_attitude(std::uint64_t seed) {
   const Attitude& a = attitudes[seed % attitudes.size()];
   const double speed = random.uniform(5, 25), size = random.pick({0.12, 0.15});
   const std::filesystem::path file = "examples/uav_landing/uav.stl";
-  static const auto surface = fluid::read_surface_file(std::filesystem::path(SPLASHDOWN_SOURCE) / file).surface;
+  static const auto surface = read_surface_file(std::filesystem::path(SPLASHDOWN_SOURCE) / file).surface;
 
   const double degree = std::numbers::pi / 180;
   const Eigen::Matrix3d R = (Eigen::AngleAxisd(a.heading * degree, Eigen::Vector3d::UnitZ()) *

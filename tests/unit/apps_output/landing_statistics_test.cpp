@@ -4,8 +4,6 @@
 
 #include <numbers>
 
-#include "apps/record/view.hpp"
-
 namespace splashdown::apps {
 namespace {
 
@@ -37,33 +35,6 @@ TEST(Attitude, tilt_is_the_angle_between_up_and_up_whatever_the_heading) {
   EXPECT_NEAR(tilt_deg<3>(turned(150, 0, -20)), 150, 1e-12);
   EXPECT_NEAR(tilt_deg<3>(turned(1e-6, 0, 0)), 1e-6, 1e-18 / 1e-6);
   EXPECT_NEAR(tilt_deg<2>(Eigen::Rotation2Dd(2).toRotationMatrix()), 2 / degree, 1e-12);
-}
-
-// A point that circles at constant rate is pulled to the axis by w^2 r; one that spins up is pushed along by alpha r.
-TEST(PointAcceleration, of_a_turning_body_is_towards_its_axis) {
-  const double w = 3, alpha = 5;
-  Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
-  velocity(5) = w;
-  acceleration(5) = alpha;
-  acceleration(2) = -9.81;
-  const Eigen::Vector3d a = acceleration_at<3>({2, 0, 0.7}, velocity, acceleration);
-  EXPECT_NEAR((a - Eigen::Vector3d(-w * w * 2, alpha * 2, -9.81)).norm(), 0, 1e-14);
-  const Eigen::Vector2d plane = acceleration_at<2>({2, 0}, {0, 0, w}, {0, -9.81, alpha});
-  EXPECT_NEAR((plane - Eigen::Vector2d(-w * w * 2, alpha * 2 - 9.81)).norm(), 0, 1e-14);
-}
-
-// The same as the second difference of the point's path: error dt^2 / 12 times its fourth derivative, w^4 r, and
-// rounding 4 eps |x| / dt^2.
-TEST(PointAcceleration, is_the_second_derivative_of_the_points_path) {
-  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3, r(0.4, -0.3, 0.9);
-  const double w = 4, alpha = 1.5, dt = 1e-4;
-  const auto at = [&](double t) -> Eigen::Vector3d { return Eigen::AngleAxisd(w * t + 0.5 * alpha * t * t, axis) * r; };
-  Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
-  velocity.tail<3>() = w * axis;
-  acceleration.tail<3>() = alpha * axis;
-  const Eigen::Vector3d differences = (at(dt) - 2 * at(0) + at(-dt)) / (dt * dt);
-  EXPECT_NEAR((acceleration_at<3>(r, velocity, acceleration) - differences).norm(), 0,
-              dt * dt / 12 * 2 * std::pow(w, 4) + 4 * 2.2e-16 / (dt * dt));
 }
 
 /// Heave that dies out, z' = v0 exp(-t / T) cos(2 pi t), from contact at t = 1 on.

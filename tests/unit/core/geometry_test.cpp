@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
+
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/mesh/node_cells.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -108,6 +113,50 @@ TYPED_TEST(Geometry, a_closed_boundary_has_no_net_area_and_encloses_the_cells) {
   EXPECT_LE(area.norm(), roundoff);
   EXPECT_NEAR(enclosed_volume(cube.mesh.boundary, cube.nodes.x), cells, roundoff);
   EXPECT_NEAR(cells, 1, roundoff);
+}
+
+// Sums over the cells around nodes are the same whether cells give or nodes take, bit for bit, and miss nothing.
+TYPED_TEST(Geometry, nodal_volumes_are_the_cells_shared_equally_whoever_sums_them) {
+  constexpr int d = TypeParam::value;
+  scenes::Lattice<d> cube(4);
+  std::mt19937 random(3);
+  for (auto& x : cube.nodes.x) x += 0.02 * scenes::random_vector<Vec<d>>(random, {});
+  const auto volumes = nodal_volumes(cube.mesh, cube.nodes.x);
+  NodeCells<d> around;
+  around.build(cube.mesh.cells, cube.nodes.size());
+  std::vector<double> taken;
+  around.sum(volume_shares(cube.mesh, cube.nodes.x), taken);
+  EXPECT_EQ(volumes, taken);
+  const double all = enclosed_volume(cube.mesh.boundary, cube.nodes.x);
+  EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0), all,
+              10 * eps * static_cast<double>(cube.mesh.cells.size()) * all);
+}
+
+// A point that circles at constant rate is pulled to the axis by w^2 r; one that spins up is pushed along by alpha r.
+TEST(PointAcceleration, of_a_turning_body_is_towards_its_axis) {
+  const double w = 3, alpha = 5;
+  Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
+  velocity(5) = w;
+  acceleration(5) = alpha;
+  acceleration(2) = -9.81;
+  const Vec<3> a = splashdown::rigid_acceleration<3>({2, 0, 0.7}, velocity, acceleration);
+  EXPECT_NEAR((a - Vec<3>(-w * w * 2, alpha * 2, -9.81)).norm(), 0, 1e-14);
+  const Vec<2> plane = splashdown::rigid_acceleration<2>({2, 0}, {0, 0, w}, {0, -9.81, alpha});
+  EXPECT_NEAR((plane - Vec<2>(-w * w * 2, alpha * 2 - 9.81)).norm(), 0, 1e-14);
+}
+
+// The same as the second difference of the point's path: error dt^2 / 12 times its fourth derivative, w^4 r, and
+// rounding 4 eps |x| / dt^2.
+TEST(PointAcceleration, is_the_second_derivative_of_the_points_path) {
+  const Vec<3> axis = Vec<3>(1, 2, -2) / 3, r(0.4, -0.3, 0.9);
+  const double w = 4, alpha = 1.5, dt = 1e-4;
+  const auto at = [&](double t) -> Vec<3> { return Eigen::AngleAxisd(w * t + 0.5 * alpha * t * t, axis) * r; };
+  Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
+  velocity.tail<3>() = w * axis;
+  acceleration.tail<3>() = alpha * axis;
+  const Vec<3> differences = (at(dt) - 2 * at(0) + at(-dt)) / (dt * dt);
+  EXPECT_NEAR((splashdown::rigid_acceleration<3>(r, velocity, acceleration) - differences).norm(), 0,
+              dt * dt / 12 * 2 * std::pow(w, 4) + 4 * 2.2e-16 / (dt * dt));
 }
 
 }  // namespace

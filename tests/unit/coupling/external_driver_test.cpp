@@ -23,17 +23,17 @@ class Elsewhere {
   bool wants_state_written() const { return !repeats_; }
   bool wants_state_read() const { return repeats_; }  ///< after `advance`: the step is not the last word
   Step step() const { return {.kick = first_ ? dt / 2 : dt, .dt = dt}; }
-  const Motion& read() const { return motion_; }
+  const Velocities& read() const { return velocities_; }
   const Placement& placement() const { return placement_; }  ///< of walls at the end of the step that was advanced
   void write(const Impulse& impulse) { impulse_ = impulse; }
 
   void advance() {
-    const Motion image = part_->solve(impulse_);
+    const Velocities image = part_->solve(impulse_);
     placement_ = part_->placement();
     most_ = std::max(most_, ++passes_);
-    repeats_ = !((image - motion_).norm() <= 1e-10 * image.norm());
+    repeats_ = !((image - velocities_).norm() <= 1e-10 * image.norm());
     if (repeats_) {
-      motion_ = scheme_.next(motion_, image);
+      velocities_ = scheme_.next(velocities_, image);
       return;
     }
     part_->commit();
@@ -48,22 +48,20 @@ class Elsewhere {
   void begin() {
     part_->begin(step());
     scheme_.begin_step();
-    motion_ = part_->solve(Impulse::Zero(part_->scales().size()));
+    velocities_ = part_->solve(Impulse::Zero(part_->scales().size()));
     passes_ = 0;
   }
 
   std::unique_ptr<StructurePart> part_;
   IqnIls scheme_{0.5};
-  Motion motion_;
+  Velocities velocities_;
   Impulse impulse_;
   Placement placement_;
   int left_, passes_ = 0, most_ = 0;
   bool first_ = true, repeats_ = false;
 };
 
-Status solve(FluidPart& fluid, const Elsewhere& other) {
-  return fluid.solve({.motion = other.read(), .lagged = {}, .directions = {}, .known = {}});
-}
+Status solve(FluidPart& fluid, const Elsewhere& other) { return fluid.solve({.velocities = other.read()}); }
 
 /// As an adapter for codes that cannot repeat a step: each pass is a whole step, and taken back.
 Status drive_by_states(FluidPart& fluid, Elsewhere& other) {
@@ -122,7 +120,7 @@ TEST(ExternalDriver, that_takes_steps_back_and_one_that_repeats_them_end_with_th
   EXPECT_EQ(state_of(one.part()), state_of(other.part()));
 }
 
-TEST(ExternalDriver, finds_the_motion_of_the_exact_term) {
+TEST(ExternalDriver, finds_the_velocities_of_the_exact_term) {
   fluid::Participant<2> water(scenes::water_of(scene()));
   Elsewhere other(bodies(), steps);
   ASSERT_TRUE(drive_by_repeats(water, other).ok());
@@ -133,7 +131,7 @@ TEST(ExternalDriver, finds_the_motion_of_the_exact_term) {
   }
   // The corrections of the pressure are cut off; what they leave depends on the term, 1e-5 a step (steppers_test.cpp).
   const auto& body = exact->bodies().state(0).velocity;
-  EXPECT_LE((other.part().motion() - Motion(body)).norm(), steps * 1e-5 * body.norm());
+  EXPECT_LE((other.part().velocities() - Velocities(body)).norm(), steps * 1e-5 * body.norm());
 }
 
 TEST(ExternalDriver, of_bodies_replays_impulses_bit_for_bit) {
@@ -163,9 +161,7 @@ TEST(ExternalDriver, of_bodies_replays_impulses_bit_for_bit) {
 TEST(ExternalDriver, that_sends_numbers_of_other_walls_is_told) {
   fluid::Participant<2> water(scenes::water_of(scene()));
   ASSERT_TRUE(water.begin({.kick = dt, .dt = dt}, {}).ok());
-  const auto asked = [&](Eigen::Index numbers) {
-    return water.solve({.motion = Motion::Zero(numbers), .lagged = {}, .directions = {}, .known = {}});
-  };
+  const auto asked = [&](Eigen::Index numbers) { return water.solve({.velocities = Velocities::Zero(numbers)}); };
   EXPECT_THROW(asked(4), std::invalid_argument) << "no wall of the plane has four coordinates";
   EXPECT_THROW(asked(9), std::invalid_argument) << "a circle and a tank";
   EXPECT_TRUE(asked(3).ok()) << "the tank stands still";

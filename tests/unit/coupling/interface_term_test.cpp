@@ -50,7 +50,7 @@ double mismatch(const InterfaceTerm& term, int segments) {
   const auto water = fluid::fill<2>(scene.fluid, placed.at());
   const std::vector<fluid::Vec<2>> centre{{0, 0}};
   const InterfaceOperator of_wall = term.interface_operator(wall(mass));
-  const fluid::WallResponse<2> response{{}, {}, {{of_wall.laplacian, of_wall.robin}}};
+  const InterfaceModel response{.interface_operators = {of_wall}};
   fluid::PressureEquation<2> equation;
   EXPECT_TRUE(equation.build(water.nodes, water.mesh, scenes::water, centre, response));
   double interface_operator = 0, exact = 0;

@@ -20,7 +20,7 @@ scenes::Scene three_bodies() {
   const auto small = rigid::circle(0.2, 48);
   scene.add_body(small, 50, {1.2, -1.5}, 0.1);
   scene.add_body(small, 20, {-0.85, -1.5}, 0.1);
-  scene.bodies[1].motion = rigid::Motion::fixed;
+  scene.bodies[1].motion = BodyMotion::fixed;
   return scene;
 }
 
@@ -80,10 +80,10 @@ TEST(PassSlope, is_that_of_passes_but_for_the_corrections_of_the_pressure) {
   Begun begun(scene);
   const Matrix J = pass_slope(begun.fluid, begun.bodies);
   const auto image = [&](int moved, double by) {
-    Motion motion = Motion::Zero(9);
-    if (moved >= 0) motion[moved] = by;
-    EXPECT_TRUE(begun.fluid.solve({.motion = motion, .lagged = {}, .directions = {}, .known = {}}).ok());
-    return Motion(begun.bodies.solve(begun.fluid.solution().impulse));
+    Velocities velocities = Velocities::Zero(9);
+    if (moved >= 0) velocities[moved] = by;
+    EXPECT_TRUE(begun.fluid.solve({.velocities = velocities}).ok());
+    return Velocities(begun.bodies.solve(begun.fluid.solution().impulse));
   };
   const double speed = 1e-3;  // next to nothing moves
   const Eigen::VectorXd at_rest = image(-1, 0);

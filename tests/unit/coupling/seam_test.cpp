@@ -232,7 +232,7 @@ TEST(Coupled, books_the_structure_under_its_name_and_restores_both_sides) {
     pair->stepper->commit();
   }
   EXPECT_EQ(whole.body->amplitude(), resumed.body->amplitude());
-  EXPECT_EQ(whole.water->state().motion, resumed.water->state().motion);
+  EXPECT_EQ(whole.water->state().rate, resumed.water->state().rate);
 }
 
 }  // namespace

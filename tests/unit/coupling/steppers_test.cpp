@@ -83,7 +83,7 @@ TEST(Partitioned, a_body_moves_as_its_load_says) {
 
 TEST(Partitioned, a_fixed_body_stays_and_carries_its_buoyancy) {
   auto scene = scenes::submerged_circle(1);
-  scene.bodies[0].motion = rigid::Motion::fixed;
+  scene.bodies[0].motion = BodyMotion::fixed;
   const auto stepper = scenes::coupled(scene, std::make_unique<NoTerm>(), std::make_unique<ConstantRelaxation>(1.0),
                                        {.fixed_passes = 1});
   for (int i = 0; i < 3; ++i) {

@@ -31,12 +31,12 @@ class Water final : public FluidPart, private Linearised {
  public:
   struct State {
     double time = 0;
-    Vector place, motion, impulse;  // impulse: phi of the last step
+    Vector place, rate, impulse;  // impulse: phi of the last step
   };
 
   Water(Matrix added_mass, Matrix damping, Matrix spring, std::vector<std::size_t> wall_of)
       : G_(std::move(added_mass)), C_(std::move(damping)), K_(std::move(spring)), wall_of_(std::move(wall_of)) {
-    now_.place = now_.motion = now_.impulse = Vector::Zero(G_.rows());
+    now_.place = now_.rate = now_.impulse = Vector::Zero(G_.rows());
   }
 
   std::string unfit;  // why what was solved last may not be committed
@@ -48,19 +48,19 @@ class Water final : public FluidPart, private Linearised {
   double stable_dt() const override { return never; }
   void save(std::ostream& out) const override {
     out.write(reinterpret_cast<const char*>(&now_.time), sizeof now_.time);
-    for (const auto* v : {&now_.place, &now_.motion, &now_.impulse})
+    for (const auto* v : {&now_.place, &now_.rate, &now_.impulse})
       out.write(reinterpret_cast<const char*>(v->data()), v->size() * static_cast<std::streamsize>(sizeof(double)));
   }
   void load(std::istream& in) override {
     in.read(reinterpret_cast<char*>(&now_.time), sizeof now_.time);
-    for (auto* v : {&now_.place, &now_.motion, &now_.impulse})
+    for (auto* v : {&now_.place, &now_.rate, &now_.impulse})
       in.read(reinterpret_cast<char*>(v->data()), v->size() * static_cast<std::streamsize>(sizeof(double)));
   }
 
   Status begin(const Step& step, const InterfaceModel& structure) override {
     step_ = step;
-    Z_ = structure.modes;
-    M_ = structure.inertia;
+    Z_ = structure.modal.modes;
+    M_ = structure.modal.inertia;
     stand_in_ = Vector::Zero(G_.rows());
     pieces_.clear();
     for (std::size_t k = 0; k < wall_of_.size() && !structure.interface_operators.empty(); ++k) {
@@ -71,23 +71,24 @@ class Water final : public FluidPart, private Linearised {
     return {};
   }
   Status solve(const Pass& pass) override {
-    const Vector s_0 = pass.motion.size() > 0 ? pass.motion : Vector::Zero(G_.rows());
-    const Vector f = -step_.kick * (C_ * now_.motion + K_ * now_.place);
+    const Vector s_0 = pass.velocities.size() > 0 ? pass.velocities : Vector::Zero(G_.rows());
+    const Vector f = -step_.kick * (C_ * now_.rate + K_ * now_.place);
     Vector lagged = Vector::Zero(G_.rows());
     if (!pieces_.empty()) lagged = pass.lagged;
     const Matrix A = G_.inverse() + Matrix(stand_in_.asDiagonal());
-    phi_ = A.ldlt().solve(now_.motion - s_0 + stand_in_.cwiseProduct(lagged));
-    solution_.motion = s_0;
+    phi_ = A.ldlt().solve(now_.rate - s_0 + stand_in_.cwiseProduct(lagged));
+    solution_.velocities = s_0;
     const auto answer = [&](const Vector& to) -> Vector {
-      const Matrix W = pass.directions.size() > 0 ? pass.directions : Matrix(Matrix::Identity(Z_.cols(), Z_.cols()));
+      const Matrix W = pass.contacts.directions.size() > 0 ? pass.contacts.directions
+                                                           : Matrix(Matrix::Identity(Z_.cols(), Z_.cols()));
       return W * (W.transpose() * (M_ + Z_.transpose() * G_ * Z_) * W).ldlt().solve(W.transpose() * to);
     };
-    const Vector known = pass.known.size() > 0 ? pass.known : Vector::Zero(Z_.cols());
+    const Vector known = pass.contacts.known.size() > 0 ? pass.contacts.known : Vector::Zero(Z_.cols());
     solution_.imbalance = Vector::Zero(G_.rows());
     if (Z_.cols() > 0) {  // without an exact term Z has no rows either
       const Vector y = answer(Z_.transpose() * (phi_ + f) + known);
       phi_ -= G_ * Z_ * y;
-      solution_.motion += Z_ * y;
+      solution_.velocities += Z_ * y;
       solution_.imbalance = Z_ * answer(Z_.transpose() * (phi_ + f) + known - M_ * y);
     }
     solution_.impulse = phi_ + f;
@@ -100,7 +101,7 @@ class Water final : public FluidPart, private Linearised {
   void commit(const Placement& walls) override {
     now_.time += step_.dt;
     now_.place = walls;
-    now_.motion = solution_.motion;
+    now_.rate = solution_.velocities;
     now_.impulse = phi_;
   }
 
@@ -176,15 +177,15 @@ class Modal : public StructurePart {
   const std::vector<WallCoordinates>& walls() const override { return made_.walls; }
   const Vector& scales() const override { return scales_; }
   double length() const override { return 1; }
-  Vector speeds(const Motion& motion) const override {
+  Vector speeds(const Velocities& velocities) const override {
     Vector all(static_cast<Eigen::Index>(made_.walls.size()));
     for (Eigen::Index w = 0; w < all.size(); ++w) {
       const auto& wall = made_.walls[static_cast<std::size_t>(w)];
-      all[w] = motion.segment(wall.first, wall.count).norm();
+      all[w] = velocities.segment(wall.first, wall.count).norm();
     }
     return all;
   }
-  Motion motion() const override { return made_.shapes * rate_; }
+  Velocities velocities() const override { return made_.shapes * rate_; }
 
   void begin(const Step& step) override {
     step_ = step;
@@ -192,12 +193,16 @@ class Modal : public StructurePart {
   }
   Response response() const override {
     const Eigen::Index count = free_.size();
-    return {made_.shapes * free_, made_.shapes, made_.inertia, Matrix::Identity(count, count), Vector::Zero(count)};
+    return {.free = made_.shapes * free_,
+            .modal = {made_.shapes, made_.inertia},
+            .contacts = {.directions = Matrix::Identity(count, count), .known = Vector::Zero(count)}};
   }
-  const Motion& solve(const Impulse& impulse) override {
+  const Velocities& solve(const Impulse& impulse) override {
     return move(free_ + made_.inertia.ldlt().solve(made_.shapes.transpose() * impulse));
   }
-  const Motion& adopt(const Motion& motion) override { return move(made_.shapes.colPivHouseholderQr().solve(motion)); }
+  const Velocities& adopt(const Velocities& velocities) override {
+    return move(made_.shapes.colPivHouseholderQr().solve(velocities));
+  }
   Placement placement() const override { return made_.shapes * next_amplitude_; }
   void commit() override {
     amplitude_ = next_amplitude_;
@@ -210,7 +215,7 @@ class Modal : public StructurePart {
   const Vector& next_amplitude() const { return next_amplitude_; }
 
  private:
-  const Motion& move(const Vector& rate) {
+  const Velocities& move(const Vector& rate) {
     next_rate_ = rate;
     next_amplitude_ = amplitude_ + step_.dt * rate;
     return trial_ = made_.shapes * rate;
@@ -218,7 +223,7 @@ class Modal : public StructurePart {
 
   Made made_;
   Vector scales_, amplitude_, rate_, next_amplitude_, next_rate_, free_;
-  Motion trial_;
+  Velocities trial_;
   Step step_;
   double time_ = 0;
 };

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "fluid/mesh/holes.hpp"
-#include "fluid/mesh/size_field.hpp"
+#include "fluid/mesh/conservation/displaced_volume.hpp"
+#include "fluid/mesh/sizes/size_field.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -180,7 +180,7 @@ TEST(InitialLiquidInSpace, cones_under_water_keep_their_rims) {
     const auto liquid = basin.fill();
     EXPECT_NEAR(area_of(liquid, -1), 4, 1e-12) << k;
     const double whole = std::numbers::pi * radius * radius * height / 3, chord = cone.size / radius;
-    EXPECT_LT(1 - holes(liquid.mesh, liquid.nodes.x, 2)[1].volume / whole, chord * chord / 2) << k;
+    EXPECT_LT(1 - displaced_volumes(liquid.mesh, liquid.nodes.x, 2)[1].volume / whole, chord * chord / 2) << k;
   }
 }
 

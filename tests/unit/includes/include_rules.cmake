@@ -39,6 +39,15 @@ rule("the linear algebra knows no water, but for the pattern that cells make" FI
   INCLUDES "^fluid/(mesh|initial|contact|pressure|effects)/" BUT_INCLUDES "^fluid/mesh/node_cells\\.hpp$")
 rule("the mesh knows walls, and nothing of what is solved on it" FILES "^fluid/mesh/"
   INCLUDES "^fluid/(initial|contact|pressure|effects)/" BUT_INCLUDES "^fluid/contact/wall\\.hpp$")
+rule("the triangulation knows points and facets, and nothing of water" FILES "^fluid/mesh/delaunay/"
+  INCLUDES "^fluid/mesh/" BUT_INCLUDES "^fluid/mesh/(delaunay/|mesh\\.hpp$)")
+rule("what is liquid is decided without what changes nodes" FILES "^fluid/mesh/recognition/"
+  INCLUDES "^fluid/mesh/(adapt|conservation|drops|sizes)/")
+rule("what the mesh keeps of volume, momentum and energy knows no drops" FILES "^fluid/mesh/conservation/"
+  INCLUDES "^fluid/mesh/(adapt|drops|sizes)/")
+rule("nodes are split and merged by the sizes that they carry" FILES "^fluid/mesh/adapt/" INCLUDES "^fluid/mesh/(conservation|drops|sizes)/")
+rule("sizes are of places, not of what becomes of nodes there" FILES "^fluid/mesh/sizes/" INCLUDES "^fluid/mesh/(adapt|conservation|drops)/")
+rule("drops know what they carry, not how the rest is adapted" FILES "^fluid/mesh/drops/" INCLUDES "^fluid/mesh/(adapt|sizes)/")
 rule("the pressure knows neither contact nor effects" FILES "^fluid/pressure/" INCLUDES "^fluid/(initial|contact|effects)/")
 rule("an effect knows neither contact nor the pressure" FILES "^fluid/effects/" INCLUDES "^fluid/(initial|contact|pressure)/")
 rule("contact hands mass to the pressure and knows nothing else of it" FILES "^fluid/contact/"
@@ -52,13 +61,13 @@ rule("what is recorded does not depend on how it is coupled" FILES "^apps/(recor
 rule("records look at views, in core, not at who solves" FILES "^apps/(record|statistics|report)/" INCLUDES "^(fluid|rigid)/")
 
 # Libraries, each with one home.
-rule("CGAL stays in fluid/mesh and fluid/initial" FILES "." BUT_FILES "^fluid/(mesh|initial)/" INCLUDES "^(CGAL|boost)/"
+rule("CGAL stays in core/surface, fluid/mesh/delaunay and fluid/initial" FILES "." BUT_FILES "^(core/surface|fluid/(mesh/delaunay|initial))/" INCLUDES "^(CGAL|boost)/"
   BUT_INCLUDES "^boost/math/")
 rule("Boost's distributions stay in apps/price" FILES "." BUT_FILES "^apps/price/.*\\.cpp$" INCLUDES "^boost/math/")
 rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/linear" FILES "." BUT_FILES "^fluid/linear/.*\\.cpp$"
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
 rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")
-rule("Bullet stays in rigid/bullet_world.cpp" FILES "." BUT_FILES "^rigid/bullet_world\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
+rule("Bullet stays in rigid/bullet_engine.cpp" FILES "." BUT_FILES "^rigid/bullet_engine\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
 rule("XML and zlib stay in apps/record/frames" FILES "." BUT_FILES "^apps/record/frames/.*\\.cpp$" INCLUDES "^(pugixml|zlib)\\.")
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
@@ -108,6 +117,20 @@ foreach(file IN LISTS files)
       string(APPEND broken "${file}:${number}: includes ${header}: ${text}\n")
     endforeach()
   endforeach()
+endforeach()
+
+# Rooms that are seen at a glance.
+set(most_files 25)
+set(folders ${files})
+list(TRANSFORM folders REPLACE "/[^/]+$" "/")
+list(REMOVE_DUPLICATES folders)
+foreach(folder IN LISTS folders)
+  set(inside ${files})
+  list(FILTER inside INCLUDE REGEX "^${folder}[^/]+$")
+  list(LENGTH inside count)
+  if(count GREATER most_files)
+    string(APPEND broken "${folder}: ${count} files, ${most_files} are the most: make rooms of their kind\n")
+  endif()
 endforeach()
 
 if(inclusions EQUAL 0)

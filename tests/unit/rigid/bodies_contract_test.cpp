@@ -87,8 +87,8 @@ TEST(Compliance, of_a_turned_body_is_the_turned_inverse_mass_matrix) {
 TEST(Compliance, of_held_fixed_and_prescribed_is_zero) {
   BodySpec<2> heaving = planar_body(), fixed = planar_body(), driven = planar_body();
   heaving.free = {false, true, false};
-  fixed.motion = Motion::fixed;
-  driven.motion = Motion::prescribed;
+  fixed.motion = BodyMotion::fixed;
+  driven.motion = BodyMotion::prescribed;
   driven.path = [](double) { return Isometry<2>::Identity(); };
   Bodies<2> bodies({heaving, fixed, driven}, {});
   bodies.begin(1e-3, 1e-3);
@@ -109,7 +109,7 @@ TEST(Compliance, with_one_free_axis_is_the_inverse_moment_about_it) {
 
 TEST(Checkpoint, continues_bit_for_bit) {
   BodySpec<3> driven = tumbling();
-  driven.motion = Motion::prescribed;
+  driven.motion = BodyMotion::prescribed;
   driven.path = [](double t) {
     Isometry<3> pose = Isometry<3>::Identity();
     pose.rotate(Eigen::AngleAxisd(t * t, Eigen::Vector3d::UnitY()));
@@ -178,9 +178,9 @@ TEST(BadBody, is_refused_with_name_rule_and_value) {
   EXPECT_EQ(body_failure(spec), "");
   spec.mass = 0;
   EXPECT_EQ(body_failure(spec), "body \"hull\": it has a moment of inertia and no mass");
-  spec.motion = Motion::fixed;
+  spec.motion = BodyMotion::fixed;
   EXPECT_EQ(body_failure(spec), "");
-  spec.motion = Motion::prescribed;
+  spec.motion = BodyMotion::prescribed;
   EXPECT_EQ(body_failure(spec), "body \"hull\": prescribed motion needs a path");
   spec = planar_body();
   spec.inertia(0, 0) = -1;

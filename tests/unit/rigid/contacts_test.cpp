@@ -66,7 +66,7 @@ std::vector<BodySpec<2>> jaws(double from, double speed, double height) {
   std::vector<BodySpec<2>> both;
   for (const double side : {-1.0, 1.0}) {
     BodySpec<2> jaw = of_shape(box(0.2, 0.2), {0, 0});
-    jaw.motion = Motion::prescribed;
+    jaw.motion = BodyMotion::prescribed;
     jaw.path = [=](double t) {
       return Isometry<2>(Eigen::Translation<double, 2>(side * (from + 0.1 - speed * t), height));
     };
@@ -198,7 +198,7 @@ TEST(Contact, of_bodies_apart_changes_no_bit) {
 TEST(Contact, a_concave_hull_takes_a_body_in) {
   const std::vector<Vec<2>> cup{{-1, 0}, {1, 0}, {1, 1}, {0.8, 1}, {0.8, 0.2}, {-0.8, 0.2}, {-0.8, 1}, {-1, 1}};
   BodySpec<2> holder = of_shape(polygon(cup), {0, 0});
-  holder.motion = Motion::fixed;
+  holder.motion = BodyMotion::fixed;
   holder.pose.translation().setZero();
   const double floor = (holder.surface.vertices.row(1).minCoeff() + 0.2);
   Bodies<2> bodies({holder, of_shape(circle(0.2), {0.55, 1})}, pull<2>({0, -g}), {}, ContactSpec<2>{});

@@ -142,7 +142,7 @@ TEST(Hinge, leaves_a_body_the_turn_about_the_point) {
 
 TEST(Hinge, to_a_body_that_moves_on_a_path_follows_it) {
   BodySpec<2> driver = free_body<2>(1, Inertia<2>(1)), hung = rod(0);
-  driver.motion = Motion::prescribed;
+  driver.motion = BodyMotion::prescribed;
   driver.path = [](double t) {
     Isometry<2> pose = Isometry<2>::Identity();
     pose.translation() = Vec<2>(0.3 * std::sin(t), 0);

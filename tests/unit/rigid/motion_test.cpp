@@ -68,7 +68,7 @@ TEST(SlowBodies, do_not_fall_asleep) {
 
 TEST(FixedBodies, stay_whatever_pushes_them) {
   BodySpec<2> spec = planar_body();
-  spec.motion = Motion::fixed;
+  spec.motion = BodyMotion::fixed;
   spec.velocity << 1, 2, 3;
   Bodies<2> bodies = alone(spec);
   for (int i = 0; i < 10; ++i) step<2>(bodies, 0.1, 0.1, Wrench<2>(1e3, 1e3, 1e3));
@@ -77,7 +77,7 @@ TEST(FixedBodies, stay_whatever_pushes_them) {
 
 TEST(PrescribedBodies, follow_their_path_with_the_velocity_that_does) {
   BodySpec<3> spec = skew_body();
-  spec.motion = Motion::prescribed;
+  spec.motion = BodyMotion::prescribed;
   const Eigen::Vector3d w(0.3, -0.8, 0.5), v(1, 2, 3);
   spec.path = [&](double t) {
     Isometry<3> pose = Isometry<3>::Identity();
@@ -97,7 +97,7 @@ TEST(PrescribedBodies, follow_their_path_with_the_velocity_that_does) {
 
 TEST(PrescribedBodies, are_fast_or_slow_at_second_order) {
   BodySpec<2> spec = planar_body();
-  spec.motion = Motion::prescribed;
+  spec.motion = BodyMotion::prescribed;
   spec.path = [](double t) { return Isometry<2>(Eigen::Rotation2Dd(std::sin(t))); };
   Bodies<2> bodies = alone(spec);
   const double dt = 1e-2;

@@ -75,9 +75,10 @@ void step(Bodies<d>& bodies, double kick, double dt, const Wrench<d>& load = Wre
 /// Velocity change of all bodies per unit impulse, Z (Z^T M Z)^-1 Z^T: of a begun step.
 template <int d>
 Eigen::MatrixXd compliance(const Bodies<d>& bodies) {
-  const auto all = bodies.mobility();
-  const Eigen::MatrixXd modes = all.modes * all.directions;
-  return modes * (all.directions.transpose() * all.inertia * all.directions).inverse() * modes.transpose();
+  const auto all = bodies.response();
+  const Eigen::MatrixXd modes = all.modal.modes * all.contacts.directions;
+  return modes * (all.contacts.directions.transpose() * all.modal.inertia * all.contacts.directions).inverse() *
+         modes.transpose();
 }
 
 /// Same bits, NaN included.

@@ -24,7 +24,7 @@ BodySpec<3> beam(int along, double height) {
 
 TEST(SpatialContact, lays_an_edge_across_an_edge) {
   BodySpec<3> below = beam(0, 0), above = beam(1, 0.25);
-  below.motion = Motion::fixed;
+  below.motion = BodyMotion::fixed;
   above.free = {false, false, true, false, false, false};
   Bodies<3> bodies({below, above}, pull<3>({0, 0, -g}), {}, ContactSpec<3>{});
   run(bodies, 600);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fluid/contact/wall.hpp"
-#include "fluid/mesh/recognise.hpp"
+#include "fluid/mesh/recognition/recognise.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid::scenes {

@@ -70,8 +70,8 @@ TYPED_TEST(BodyElimination, motions_that_are_not_allowed_do_not_happen) {
 TYPED_TEST(BodyElimination, a_motion_without_inertia_in_body_and_water_stays_as_it_is) {
   constexpr int d = TypeParam::value;
   Problem<d> p;
-  WallResponse<d> response{Eigen::MatrixXd::Zero(2 * p.m, 1), Eigen::MatrixXd::Zero(1, 1), {}};
-  response.modes(p.m, 0) = 1;  // of a second wall, which no water touches
+  InterfaceModel response{.modal = {Eigen::MatrixXd::Zero(2 * p.m, 1), Eigen::MatrixXd::Zero(1, 1)}};
+  response.modal.modes(p.m, 0) = 1;  // of a second wall, which no water touches
   p.centre.push_back(p.centre[0]);
   ASSERT_TRUE(p.build(response));
   auto r = p.any_phi();
@@ -106,9 +106,9 @@ TYPED_TEST(BodyElimination, added_mass_of_a_wall_is_one_matrix_whatever_the_wall
   const Eigen::MatrixXd exact = p.equation.added_mass_of(wall);
   EXPECT_LE((exact - limit).norm(), (p.B() * X - limit).norm());
   const double condition = A.norm() * A.inverse().norm();
-  for (const WallResponse<d>& answer :
-       {WallResponse<d>{}, p.body(p.any_inertia()), WallResponse<d>{{}, {}, {{.laplacian = 0.7}}},
-        WallResponse<d>{{}, {}, {{.laplacian = 1e3}}}}) {
+  for (const InterfaceModel& answer :
+       {InterfaceModel{}, p.body(p.any_inertia()), InterfaceModel{.interface_operators = {{.laplacian = 0.7}}},
+        InterfaceModel{.interface_operators = {{.laplacian = 1e3}}}}) {
     ASSERT_TRUE(p.build(answer));
     const Eigen::MatrixXd G = p.equation.added_mass_of(wall);
     // A Laplacian of this size makes A + K stiffer by K / A ~ 1e3 times its size, which is lost when taken out again.

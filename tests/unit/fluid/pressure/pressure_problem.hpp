@@ -20,7 +20,7 @@ struct Problem {
   PressureEquation<d> equation;
   std::mt19937 random{11};
 
-  bool build(const WallResponse<d>& response = {}) {
+  bool build(const InterfaceModel& response = {}) {
     return equation.build(cube.nodes, cube.mesh, density, centre, response);
   }
   std::vector<double> any_phi() {
@@ -39,10 +39,10 @@ struct Problem {
     return density * (R * R.transpose() + Matrix::Identity());
   }
   /// Of a body that moves freely.
-  static WallResponse<d> body(const Matrix& inertia) { return {Matrix::Identity(), inertia, {}}; }
+  static InterfaceModel body(const Matrix& inertia) { return {.modal = {Matrix::Identity(), inertia}}; }
   bool solve(std::vector<double>& r, std::vector<Twist<d>>& s) {
     if (!equation.solve(r)) return false;
-    equation.respond(r, s, Eigen::VectorXd::Zero(equation.motions()));
+    equation.respond(r, s, Eigen::VectorXd::Zero(equation.mode_count()));
     return true;
   }
   Eigen::MatrixXd dense() const {

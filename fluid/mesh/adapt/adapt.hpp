@@ -1,0 +1,34 @@
+// Keeps the node spacing near the size field: splits long edges, merges short ones, deletes inner nodes
+// that crowd a boundary. Works on the old mesh with its moved nodes; the closed boundary stays closed.
+//
+// Split at the midpoint above 1.5 h, merge below 0.45 h: a split edge is not merged again, a merged one
+// not split. Velocities are averaged, so a merge keeps momentum to second order.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fluid/mesh/recognition/recognise.hpp"
+
+namespace splashdown::fluid {
+
+inline constexpr double merge_below = 0.45;  ///< length of an edge over h
+
+template <int d>
+struct AdaptReport {
+  int inserted = 0, removed = 0;
+};
+
+/// Changes nodes and boundary (mesh.cells become stale) and renumbers.
+template <int d>
+AdaptReport<d> adapt(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls);
+
+/// Keeps these nodes alone and renumbers; all nodes of the boundary must be among them.
+template <int d>
+void keep(const std::vector<int>& kept, Nodes<d>& nodes, std::vector<Facet<d>>& boundary);
+
+/// Keeps all nodes but those that are marked; false if none is.
+template <int d>
+bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<Facet<d>>& boundary);
+
+}  // namespace splashdown::fluid

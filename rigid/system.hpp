@@ -1,0 +1,92 @@
+// What Bodies holds: the bodies, Bullet's objects for them, and the conditions and constraints of a begun step.
+// Internal to the rigid-body room; bodies.cpp has the verbs, system.cpp what a step asks of velocities.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rigid/bodies.hpp"
+#include "rigid/bullet_engine.hpp"
+#include "rigid/constraint_solver.hpp"
+#include "rigid/free_body.hpp"
+
+namespace splashdown::rigid {
+
+template <int d>
+struct Bodies<d>::System {
+  enum class Phase { committed, begun, solved };
+
+  std::vector<BodySpec<d>> specs;
+  std::vector<double> reaches;  // of the bodies (body.hpp)
+  std::vector<std::unique_ptr<Force<d>>> forces;
+  std::vector<BodyState<d>> states, trials;
+  std::optional<Contacts<d>> contacts;
+  BulletEngine bullet;
+  std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
+  std::vector<JointSpec> joints;
+  std::vector<double> moved;  // their coordinates at t_n, of those that are measured
+  Eigen::VectorXd loads;      // of the last step; empty before
+  double time = 0, kick = 0, dt = 0;
+  Phase phase = Phase::committed;
+
+  // Of the begun step
+  std::vector<Condition<d>> tied;     // what joints ask
+  std::vector<Condition<d>> near;     // contacts that may close, then stops of joints
+  std::vector<Condition<d>> rubbing;  // along what these contacts slide
+  Eigen::VectorXd rebound;            // least rates of these contacts after an impact; empty: all are plastic
+  struct Sprung {
+    Spring spring;
+    JointCoordinate<d> at;
+  };
+  std::vector<Sprung> sprung;
+  ConstraintSolver constraints;
+  Eigen::VectorXd impulses;  // the last that were tried
+  Eigen::VectorXd apart;     // velocities that only drift: how hulls that overlap part
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(specs.size()); }
+  void expect(bool fine, const char* rule) const;
+  void expect_all(const Eigen::VectorXd& values) const;
+  Eigen::VectorXd stacked(std::span<const Wrench<d>> each) const;
+
+  Wrench<d> known_force(std::size_t body) const;
+  /// A prescribed body's velocity is the finite difference that carries one pose into the next.
+  BodyState<d> prescribed(std::size_t body) const;
+  void place(Eigen::Index body, const BodyState<d>& state);
+
+  /// All that a begun step needs to answer impulses: conditions, springs, constraints.
+  void set_up_constraints();
+  /// Contacts that would be closed under the loads of the step before: most often they are.
+  void guess_contacts();
+  /// Trial states that these velocities of all bodies lead to.
+  void drift(const Eigen::VectorXd& velocities);
+  /// Contacts that cannot be had together, or only where a body leaves many times as fast as others close in on it: those that
+  /// are held, or come on a path, leave it no room.
+  Status squeezed() const;
+  /// Faster than at t_n, bodies reach more than was looked at.
+  Status passes_through() const;
+
+ private:
+  std::vector<Condition<d>> asked_by_joints();
+  /// By joints, then what is held: freedoms of free bodies, and others altogether.
+  std::vector<Condition<d>> equalities();
+  void find_contacts();
+  void find_stops_and_springs();
+  using MassMatrix = Eigen::Matrix<double, freedoms<d>, freedoms<d>>;
+  MassMatrix inertia(std::size_t body) const;  ///< of one that forces move, in the step
+  /// dq/dt that a unit impulse along it gives bodies in the void; infinite without mass.
+  double compliance(const Condition<d>& rate) const;
+  /// Whether trial velocities break a condition by more than roundoff.
+  bool crosses(const Condition<d>& condition) const;
+  /// Left sides, a row each, of the velocities of all bodies.
+  Eigen::MatrixXd rows_of(const std::vector<Condition<d>>& conditions) const;
+  void solve_conditions();
+  /// Hulls that overlap move apart as they drift, the heavy ones least, without speed: it would be energy from nowhere.
+  void part_overlaps(ConstraintSolver::Problem problem);
+  /// Springs at (q_{n-1} + 2 q_n + q_{n+1})/4 (Newmark 1959, beta = 1/4), dampers at (1 - a) dq_{n-1/2} + a dq_{n+1/2}, a from
+  /// 1/2 for weak ones to 1: no step is too long for them, and they add no energy. What depends on s_{n+1/2} is inertia.
+  void add_springs(ConstraintSolver::Problem& problem) const;
+};
+
+}  // namespace splashdown::rigid
