@@ -8,10 +8,10 @@
 
 #include "core/dense.hpp"
 #include "core/geometry.hpp"
-#include "rigid/bullet_world.hpp"
+#include "rigid/bullet_engine.hpp"
 #include "rigid/buoyancy.hpp"
 #include "rigid/condition_rows.hpp"
-#include "rigid/motions.hpp"
+#include "rigid/constraint_solver.hpp"
 #include "rigid/shapes/inclined_hull.hpp"
 
 namespace splashdown::rigid {
@@ -54,7 +54,7 @@ class Settling {
   bool is_free(std::size_t body) const { return bodies_[body].motion == Motion::free; }
   /// Meets joints and contacts at a place, whose joint coordinates it counts on from where they were.
   Conditions conditions(Place& at, double within);
-  Motions::Problem problem(const Conditions& conditions) const;
+  ConstraintSolver::Problem problem(const Conditions& conditions) const;
   Potential<d> potential(const Place& at, const Conditions& conditions) const;
   /// A displacement, and back onto joints and out of contacts.
   Place displaced(const Place& from, const Eigen::VectorXd& by);
@@ -74,7 +74,7 @@ class Settling {
   const std::vector<JointSpec>& joints_;
   StillWater water_;
   std::optional<Contacts<d>> contacts_;
-  BulletWorld bullet_;
+  BulletEngine bullet_;
   std::vector<FloatingHull<d>> hulls_;
   std::vector<double> reaches_;
   Eigen::VectorXd unit_;
@@ -152,14 +152,14 @@ typename Settling<d>::Conditions Settling<d>::conditions(Place& at, double withi
 }
 
 template <int d>
-Motions::Problem Settling<d>::problem(const Conditions& conditions) const {
+ConstraintSolver::Problem Settling<d>::problem(const Conditions& conditions) const {
   std::vector<Condition<d>> equal = conditions.tied;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (int k = 0; k < freedoms<d>; ++k)
       if (!is_free(i) || !bodies_[i].free[static_cast<std::size_t>(k)])
         equal.push_back({i, {}, Wrench<d>::Unit(k), Wrench<d>::Zero(), 0});
   const Eigen::Index n = freedoms<d> * size();
-  Motions::Problem p;
+  ConstraintSolver::Problem p;
   p.before.setZero(n);
   p.unit = unit_;
   p.equalities = rows_of<d>(equal, size());
@@ -221,7 +221,7 @@ typename Settling<d>::Place Settling<d>::displaced(const Place& from, const Eige
   const int rounds = 8;  // quadratic
   for (int i = 0; i < rounds && (!joints_.empty() || contacts_); ++i) {
     const auto p = problem(conditions(to, 0));
-    Motions back(p);
+    ConstraintSolver back(p);
     const auto found = back.settled(p.impulse);
     if (!found || farthest(*found) < 1e-13 * size_) break;
     displace(to, *found);
@@ -258,7 +258,7 @@ Eigen::MatrixXd Settling<d>::joint_stiffness(const Place& at, const Conditions& 
 template <int d>
 Eigen::VectorXd Settling<d>::step(const Place& at, const Conditions& conditions, const Potential<d>& now) {
   auto p = problem(conditions);
-  const Eigen::MatrixXd modes = Motions(p).modes();
+  const Eigen::MatrixXd modes = ConstraintSolver(p).modes();
   if (modes.cols() == 0) return Eigen::VectorXd::Zero(p.before.size());
   const double neutral = facets_share * stiff_, balance = 1e-9 * stiff_ * size_;
   const Eigen::MatrixXd stiffness =
@@ -274,7 +274,7 @@ Eigen::VectorXd Settling<d>::step(const Place& at, const Conditions& conditions,
   const Eigen::MatrixXd dual = unit_.cwiseAbs2().asDiagonal() * modes * principal.eigenvectors();
   p.inertia = dual * curvatures.asDiagonal() * dual.transpose();
   p.impulse = dual * pushes;
-  Motions motions(p);
+  ConstraintSolver motions(p);
   const auto found = motions.settled(Eigen::VectorXd::Zero(p.impulse.size()));
   Eigen::VectorXd step = found ? *found : Eigen::VectorXd::Zero(p.before.size());
   const double most = stride(at), length = farthest(step);

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "core/dense.hpp"
-#include "rigid/bullet_world.hpp"
+#include "rigid/bullet_engine.hpp"
 #include "rigid/embedding.hpp"
-#include "rigid/motions.hpp"
+#include "rigid/constraint_solver.hpp"
 
 namespace splashdown::rigid {
 
@@ -81,7 +81,7 @@ class Examined {
   };
 
   std::vector<Condition<3>> conditions_of(const JointSpec& joint) const {
-    BulletWorld world;
+    BulletEngine world;
     for (const auto& body : bodies_) {
       world.add(body.motion == Motion::free);
       world.place(static_cast<std::size_t>(&body - bodies_.data()), lifted<d>(body.pose), Twist<3>::Zero());

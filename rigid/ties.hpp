@@ -2,7 +2,7 @@
 //
 //   J u = b,   u = p + Z w      u: velocities of free coordinates at t = 0, turns times the body's reach [m/s]
 //
-// J has the rows that joints have at t = 0 (rigid/bullet_world.hpp), each of length 1; b is what bodies that are held or
+// J has the rows that joints have at t = 0 (rigid/bullet_engine.hpp), each of length 1; b is what bodies that are held or
 // prescribed, and held freedoms, ask for through them. Joints are taken in their order: one whose rows vanish on Z repeats
 // the others, one that no w satisfies contradicts them. Rows are nothing below 1e-10, as in the steps (motions.hpp), so that
 // what is found here is what the run does: two hinges whose axes miss each other by more hold a body fast.
