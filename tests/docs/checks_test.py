@@ -8,6 +8,7 @@ import changelog
 import identifiers
 import links
 import names
+import readme
 import sentences
 import theory
 
@@ -139,11 +140,33 @@ class Names(unittest.TestCase):
                 self.assertEqual(len(self.faults(text, text)), 1)
 
 
+class Readmes(unittest.TestCase):
+    GOOD = ("# A\n\nDoes it float?\n\n## Set-up\n\nA.\n\n## Run\n\n    splashdown run x\n\n## What you should see\n\n![c](p.png)\n\n"
+            "## Agreement\n\n| what | bar |\n|---|---|\n| x | 1 % |\n\n## Cost\n\n3 s.\n\n## Reference\n\nB.\n")
+
+    def faults(self, old="", new="", files=("scene.toml", "check.toml")):
+        return list(readme.faults_of("a", readme.Readme(self.GOOD.replace(old, new) if old else self.GOOD), files))
+
+    def test_of_the_pattern_are_right(self):
+        self.assertEqual(self.faults(), [])
+        self.assertEqual(self.faults("![c](p.png)", "Lines.", files=("main.cpp",)), [])
+
+    def test_faults_are_found(self):
+        for old, new in (("# A\n", "# A\n\n# B\n"), ("float?", "float."), ("## Cost", "## Price"), ("## Reference", "## Sources"),
+                         ("## Reference\n", "## Reference\n\n## Limits\n"), ("    splashdown", "splashdown"), ("![c](p.png)", "None."),
+                         ("![c](p.png)", "![c](p.png) ![c](q.png)"), ("| what | bar |\n|---|---|\n| x | 1 % |", "Good."), ("3 s.", "Little.")):
+            with self.subTest(new):
+                self.assertEqual(len(self.faults(old, new)), 1)
+
+
 class Sentences(unittest.TestCase):
     def test_are_counted_in_words(self):
         thirty = " ".join(["word"] * 30)
         self.assertEqual(list(sentences.long_sentences(f"Word {thirty[5:]}. Word {thirty[5:]}.\n", 30)), [])
         self.assertEqual([n for n, _, _ in sentences.long_sentences(f"# T\n\nShort. {thirty}\nword. Short.\n", 30)], [3])
+
+    def test_end_behind_words_that_end_like_abbreviations(self):
+        self.assertEqual([w for _, w, _ in sentences.long_sentences("It is vertical. It falls. Lamb et al. Show it.", 0)], [3, 2, 5])
 
     def test_code_and_links_count_as_read(self):
         line = "A [link of four words](a.md#b) and `some code here` and $`x + y`$."

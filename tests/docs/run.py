@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Checks documents: run.py ROOT CHECK…, each of links, changelog, theory, glossary, identifiers, names, mathematics. Exit code 1: faults, listed."""
+"""Checks documents: run.py ROOT CHECK…, each of links, changelog, theory, glossary, identifiers, names, mathematics, readmes, gallery. Exit code 1: faults, listed."""
 import sys
 
 import changelog
 import identifiers
 import links
 import names
+import readme
 import theory
 
 CHECKS = {
@@ -16,6 +17,8 @@ CHECKS = {
     "identifiers": identifiers.faults,
     "names": names.faults,
     "mathematics": theory.mathematics_faults,
+    "readmes": readme.faults,
+    "gallery": readme.gallery_faults,
 }
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import sys
 from markdown import Document, plain
 
 # A stop behind these ends no sentence.
-ABBREVIATIONS = r"(?:e\.g|i\.e|cf|Fig|No|vs|al|approx|Proc|J|Int|Comput|Mech|Numer|Math|Eng|Methods|Appl|Fluid|Phys)\.$"
+ABBREVIATIONS = r"\b(?:e\.g|i\.e|cf|Fig|No|vs|al|approx|Proc|J|Int|Comput|Mech|Numer|Math|Eng|Methods|Appl|Fluid|Phys)\.$"
 
 
 def pieces(document):

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Makes docs/gallery.md and its pictures: runs each example's scene and keeps one picture of its report.
+
+    docs/gallery.py build/release/splashdown            all cases; a run that is finished is not repeated
+    docs/gallery.py build/release/splashdown wedge_drop these cases only
+    docs/gallery.py --page                              the page alone, of the READMEs and the pictures that are there
+    docs/gallery.py --print                             the same to the terminal
+    docs/gallery.py --list                              what would be run, and its seconds
+
+Questions and captions are those of the examples' READMEs. Runs go to out/gallery/. Tools: gnuplot, rsvg-convert, pngquant
+(packages gnuplot-nox, librsvg2-bin, pngquant).
+"""
+import argparse
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "tests/docs"))
+from readme import Readme  # noqa: E402
+
+PICTURES = "docs/images/gallery"
+WIDTH, COLOURS = 800, 64  # of a picture: pixels; entries of its palette
+
+
+@dataclass
+class Case:
+    name: str  # of the example
+    arguments: str  # behind "splashdown run examples/NAME/"
+    picture: str  # "end", "peak": a field of the report; else the name of one of its curves, or lines of gnuplot
+    seconds: int  # on one core of 2.5 GHz
+
+
+# Of the run's tables, where the report has no such curve: lines of gnuplot.
+ADDED_MASS = r"""
+set xlabel 'pitch / degrees'; set xrange [0:360]; set xtics 90; set yrange [0:900]
+set ylabel 'added mass in body axes'
+plot 'added_mass.csv' using ($1*90):3 with points ls 1 title 'm_xx / (kg/m)', \
+  '' using ($1*90):6 with points ls 2 title 'm_yy / (kg/m)', \
+  '' using ($1*90):8 with points ls 3 title 'm_rr / (kg m)', \
+  125.66 with lines ls 4 title 'Lamb', 785.4 with lines ls 4 notitle, 17.318 with lines ls 4 notitle
+"""
+IMPULSE = r"""
+set xlabel 'x / m'; set ylabel 'impulse / (Pa s)'; set yrange [0:300]; set samples 1001
+stats 'fluid.csv' using 2 every ::0::0 nooutput
+kick = STATS_min/2
+plot 'surface_pressure.csv' using ($1 == 0 ? $3 : NaN):(($6 + $9)*kick) with points ls 1 title '(p + p_repair) times the kick', \
+  [-0.5:0.5] 500*sqrt(0.25 - x**2) with lines ls 4 title 'theory'
+"""
+STYLE = r"""
+set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
+set terminal svg size 640,340 noenhanced font 'Helvetica,15'
+set border 3 lc rgb '#8796a5'; set tics nomirror; set grid lt 1 lc rgb '#e3e8ed'; set key outside top center horizontal
+set style line 1 pt 7 ps 0.4 lc rgb '#0f2f4f'
+set style line 2 pt 7 ps 0.4 lc rgb '#2f7fc1'
+set style line 3 pt 7 ps 0.4 lc rgb '#7b5ea7'
+set style line 4 lt 1 lw 1.5 lc rgb '#d98e04'
+"""
+
+CASES = [
+    Case("wedge_drop", "scene.toml", "peak", 4),
+    Case("wedge_drop_yettou", "scene.toml --until 0.015", "end", 3),
+    Case("light_wedge", "scene.toml --until 0.0042", "end", 3),
+    Case("wedge_entry", "scene.toml --set body.wedge.shape.breadth=2.4", "end", 4),
+    Case("cone_entry", "scene_45.toml --refine 0.5 --set body.cone.shape.radius=1", "end", 15),
+    Case("circle_entry", "scene.toml", "end", 13),
+    Case("sphere_entry", "scene.toml --refine draft", "end", 100),
+    Case("flat_plate_impact", "scene.toml", IMPULSE, 5),
+    Case("jet_on_plate", "scene.toml --set body.plate.shape.width=1 --until 0.045", "end", 5),
+    Case("capsule_drop_2d", "scene.toml --until 0.02", "peak", 3),
+    Case("capsule_water_landing", "scene_attitude.toml", "end", 20),
+    Case("uav_landing", "scene.toml --until 0.16", "end", 30),
+    Case("floating_box", "scene_displaced.toml --until 5", "body_box_displacement", 5),
+    Case("float_stability", "scene.toml --until 5", "body_capsule_attitude", 60),
+    Case("sphere_heave", "scene.toml", "body_sphere_displacement", 60),
+    Case("two_boxes", "scene.toml --until 0.5", "end", 5),
+    Case("hinged_plate", "scene.toml", "body_plate_attitude", 5),
+    Case("hydrostatic", "scene.toml --until 0.1", "end", 2),
+    Case("added_mass", "scene_turning.toml", ADDED_MASS, 7),
+    Case("release_under_water", "scene.toml --refine 0.35", "end", 3),
+    Case("release_under_water_3d", "scene.toml --refine 0.35", "end", 5),
+    Case("dam_break", "scene.toml --until 0.17", "end", 2),
+    Case("elliptic_drop", "scene.toml", "end", 3),
+    Case("sloshing", "scene.toml", "probe_0", 5),
+]
+
+
+def command_of(case):
+    return f"splashdown run examples/{case.name}/{case.arguments} --out out/gallery/{case.name}"
+
+
+def run(program, case, budget):
+    """The run's folder; None: it takes longer than the budget. A finished run of this command is not repeated."""
+    folder = f"out/gallery/{case.name}"
+    done = folder + ".command"
+    command = command_of(case)
+    if os.path.exists(done):
+        with open(done, encoding="utf-8") as file:
+            if file.read().strip() == command:
+                print(f"{case.name}: is there")
+                return folder
+    print(f"{case.name}: {command}  (about {case.seconds} s)", flush=True)
+    words = [program] + shlex.split(command)[1:] + ["--force", "--quiet", "--budget", str(budget)]
+    code = subprocess.run(words).returncode
+    if code == 130:
+        print(f"{case.name}: more than {budget} s; left out")
+        return None
+    if code:
+        sys.exit(f"{case.name}: exit code {code}")
+    with open(done, "w", encoding="utf-8") as file:
+        file.write(command + "\n")
+    return folder
+
+
+def drawing(folder, case):
+    """The picture's SVG."""
+    report = os.path.join(folder, "report")
+    if "\n" in case.picture:
+        subprocess.run(["gnuplot"], cwd=folder, input=STYLE + case.picture, text=True, check=True)
+        return os.path.join(folder, "picture.svg")
+    fields = sorted((n for n in os.listdir(report) if re.fullmatch(r"field_\d+\.svg", n)), key=lambda n: int(n[6:-4]))
+    if case.picture == "end":
+        return os.path.join(report, fields[-1])
+    if case.picture == "peak":
+        with open(os.path.join(folder, "report.html"), encoding="utf-8") as file:
+            titles = re.findall(r"<figcaption><b>(.*?)</b>", file.read())
+        return os.path.join(report, fields[[("largest load" in t.lower()) for t in titles].index(True)])
+    return os.path.join(report, case.picture + ".svg")
+
+
+def output_of(command, text=None):
+    return subprocess.run(command, input=text, check=True, capture_output=True).stdout
+
+
+def keep_picture(folder, case):
+    """A PNG of few colours, small enough for the repository."""
+    target = f"{PICTURES}/{case.name}.png"
+    pixels = output_of(["rsvg-convert", "-w", str(WIDTH), "-b", "white", drawing(folder, case)])
+    small = output_of(["pngquant", "--speed", "1", "--strip", str(COLOURS), "-"], pixels)
+    with open(target, "wb") as file:
+        file.write(small)
+    print(f"{case.name}: {target}, {len(small) / 1000:.0f} kB")
+
+
+INTRODUCTION = """# Gallery
+
+One picture an example, with its question and the command that makes it. Most meshes are those of the examples; some are coarser, so
+that a picture takes seconds. Figures and agreement are in the examples' READMEs. This page and its pictures are made by
+
+    docs/gallery.py build/release/splashdown
+
+A run that is finished is not repeated, and a case takes its name as an argument. Times are of one core of 2.5 GHz.
+"""
+
+
+def section(name, command, cost):
+    """Heading, question, picture and command of an example."""
+    readme = Readme.of(ROOT, f"examples/{name}/README.md")
+    caption, target = readme.picture()
+    target = os.path.relpath(os.path.normpath(f"examples/{name}/{target}"), "docs")
+    question = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", readme.question())
+    return "\n".join([f"## [{readme.title()}](../examples/{name}/README.md)", "", question, "", f"![{caption}]({target})", "",
+                      f"*{caption.rstrip('.')}.* {cost}", "", f"    {command}", ""])
+
+
+def page():
+    """The text of docs/gallery.md."""
+    parts = [section(case.name, command_of(case), f"About {case.seconds} s:")
+             for case in CASES if os.path.exists(f"{PICTURES}/{case.name}.png")]
+    study = "splashdown study examples/coupling_schemes/study_capsule.toml --jobs 2"
+    parts.append(section("coupling_schemes", study, "120 runs of about a second, not made by this page's command:"))
+    return "\n".join([INTRODUCTION] + parts)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", help="splashdown")
+    parser.add_argument("cases", nargs="*")
+    parser.add_argument("--page", action="store_true")
+    parser.add_argument("--print", action="store_true", help="the page, to the terminal")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--budget", type=int, default=180, help="wall seconds; a run that needs more is left out")
+    options = parser.parse_args()
+    program = shutil.which(options.program) if options.program else None
+    if options.program and not program:
+        parser.error(f"no program {options.program}; build it: cmake --build --preset release")
+    program = program and os.path.abspath(program)
+    os.chdir(ROOT)
+    chosen = [case for case in CASES if not options.cases or case.name in options.cases]
+    if unknown := set(options.cases) - {case.name for case in CASES}:
+        sys.exit(f"no case {', '.join(sorted(unknown))}; cases: {', '.join(case.name for case in CASES)}")
+    if options.print:
+        sys.stdout.write(page())
+        sys.exit()
+    if options.list or not (options.program or options.page):
+        print("\n".join(f"{case.seconds:4} s  {command_of(case)}" for case in chosen))
+        print(f"{sum(case.seconds for case in chosen):4} s in all on one core of 2.5 GHz; finished runs are not repeated")
+        sys.exit()
+    if program:
+        if missing := [tool for tool in ("gnuplot", "rsvg-convert", "pngquant") if not shutil.which(tool)]:
+            sys.exit(f"not installed: {', '.join(missing)}; apt-get install gnuplot-nox librsvg2-bin pngquant")
+        os.makedirs("out/gallery", exist_ok=True)
+        os.makedirs(PICTURES, exist_ok=True)
+        for case in chosen:
+            if folder := run(program, case, options.budget):
+                keep_picture(folder, case)
+    with open("docs/gallery.md", "w", encoding="utf-8") as file:
+        file.write(page())
