@@ -20,6 +20,7 @@ import sys
 from dataclasses import dataclass
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.dont_write_bytecode = True  # beside the tests
 sys.path.insert(0, os.path.join(ROOT, "tests/docs"))
 from readme import Readme  # noqa: E402
 
