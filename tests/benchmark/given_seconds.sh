@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How near run --seconds comes to what it is told, by a clock of processor seconds: docs/performance.md.
-#   tests/benchmark/told_seconds.sh build/release/splashdown SCENE:SECONDS...     e.g. wedge_drop:60
+# How near run --seconds comes to the seconds that it is given, by a clock of processor seconds: docs/performance.md.
+#   tests/benchmark/given_seconds.sh build/release/splashdown SCENE:SECONDS...     e.g. wedge_drop:60
 set -euo pipefail
 program=$(realpath "$1") examples=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../../examples")
 shift
