@@ -34,6 +34,7 @@ class Case:
     arguments: str  # behind "splashdown run examples/NAME/"
     picture: str  # "end", "peak": a field of the report; else the name of one of its curves, or lines of gnuplot
     seconds: int  # on one core of 2.5 GHz
+    crop: tuple = None  # of a field: x from, x to, y from, y to [m]; not wider than the report's view
 
 
 # Of the run's tables, where the report has no such curve: lines of gnuplot.
@@ -64,21 +65,21 @@ set style line 4 lt 1 lw 1.5 lc rgb '#d98e04'
 
 CASES = [
     Case("wedge_drop", "scene.toml", "peak", 4),
-    Case("wedge_drop_yettou", "scene.toml --until 0.015", "end", 3),
-    Case("light_wedge", "scene.toml --until 0.0042", "end", 3),
+    Case("wedge_drop_yettou", "scene.toml --until 0.015", "end", 3, (-1.3, 1.3, -0.9, 0.4)),
+    Case("light_wedge", "scene.toml --until 0.0042", "end", 3, (-0.3, 0.3, -0.2, 0.3)),
     Case("wedge_entry", "scene.toml --set body.wedge.shape.breadth=2.4", "end", 4),
-    Case("cone_entry", "scene_45.toml --refine 0.5 --set body.cone.shape.radius=1", "end", 15),
+    Case("cone_entry", "scene_45.toml --refine 0.5 --set body.cone.shape.radius=1", "end", 15, (-2, 2, -1.6, 0.9)),
     Case("circle_entry", "scene.toml", "end", 13),
-    Case("sphere_entry", "scene.toml --refine draft", "end", 100),
+    Case("sphere_entry", "scene.toml --refine draft", "end", 100, (-1.8, 1.8, -1.4, 1.2)),
     Case("flat_plate_impact", "scene.toml", IMPULSE, 5),
-    Case("jet_on_plate", "scene.toml --set body.plate.shape.width=1 --until 0.045", "end", 5),
+    Case("jet_on_plate", "scene.toml --set body.plate.shape.width=1 --until 0.045", "end", 5, (-0.8, 0.8, -0.12, 0.5)),
     Case("capsule_drop_2d", "scene.toml --until 0.02", "peak", 3),
-    Case("capsule_water_landing", "scene_attitude.toml", "end", 20),
-    Case("uav_landing", "scene.toml --until 0.16", "end", 30),
+    Case("capsule_water_landing", "scene_attitude.toml", "end", 20, (-0.75, 0.85, -0.45, 0.8)),
+    Case("uav_landing", "scene.toml --until 0.16", "end", 30, (-0.4, 3.6, -0.9, 0.9)),
     Case("floating_box", "scene_displaced.toml --until 5", "body_box_displacement", 5),
     Case("float_stability", "scene.toml --until 5", "body_capsule_attitude", 60),
     Case("sphere_heave", "scene.toml", "body_sphere_displacement", 60),
-    Case("two_boxes", "scene.toml --until 0.5", "end", 5),
+    Case("two_boxes", "scene.toml --until 0.5", "end", 5, (-0.65, 0.65, -0.36, 0.26)),
     Case("hinged_plate", "scene.toml", "body_plate_attitude", 5),
     Case("hydrostatic", "scene.toml --until 0.1", "end", 2),
     Case("added_mass", "scene_turning.toml", ADDED_MASS, 7),
@@ -133,6 +134,34 @@ def drawing(folder, case):
     return os.path.join(report, case.picture + ".svg")
 
 
+def cropped(drawn, crop):
+    """The same field in a smaller view: gnuplot draws axes anew, the picture between them is enlarged."""
+    report, name = os.path.split(drawn)
+    with open(os.path.join(report, "fields.gp"), encoding="utf-8") as file:
+        script = next(part for part in file.read().split("reset\n") if f"set output '{name}'" in part)
+    (left, right), (_, top) = [map(float, re.search(rf"set {axis}range \[(.*?):(.*?)\]", script).groups()) for axis in "xy"]
+    with open(drawn, encoding="utf-8") as file:
+        content = re.search(r'<svg x="(\d+)" y="(\d+)" width="(\d+)" height="\d+"[^>]*>(.*?)</svg>', file.read(), re.S)
+    x, y, width = map(int, content.groups()[:3])
+    height, below = round(width*(crop[3] - crop[2])/(crop[1] - crop[0])), 85
+    canvas = y + height + below
+    for old, new in ((r"size (\d+),\d+", rf"size \1,{canvas}"), (r"tmargin screen \S+", f"tmargin screen {1 - y/canvas}"),
+                     (r"bmargin screen \S+", f"bmargin screen {below/canvas}"), (r"set output .*", "set output 'axes.svg'"),
+                     (r"origin ([\d.]+),\S+ size ([\d.]+),\S+", rf"origin \1,{below/canvas} size \2,{height/canvas}"),
+                     (r"xrange .*", f"xrange [{crop[0]}:{crop[1]}]"), (r"yrange .*", f"yrange [{crop[2]}:{crop[3]}]")):
+        script = re.sub(old, new, script, count=1)
+    subprocess.run(["gnuplot"], cwd=report, input=script, text=True, check=True, stderr=subprocess.DEVNULL)
+    scale = width/(right - left)
+    view = [(crop[0] - left)*scale, (top - crop[3])*scale, (crop[1] - crop[0])*scale, (crop[3] - crop[2])*scale]
+    inside = (f'<svg x="{x}" y="{y}" width="{width}" height="{height}" viewBox="{" ".join(map(str, view))}" '
+              f'preserveAspectRatio="none" stroke-linejoin="round">{content.group(4)}</svg>')
+    with open(os.path.join(report, "axes.svg"), encoding="utf-8") as file:
+        axes = file.read()
+    with open(os.path.join(report, "cropped.svg"), "w", encoding="utf-8") as file:
+        file.write(axes.replace('<g id="gnuplot_canvas">', inside + '<g id="gnuplot_canvas">', 1))
+    return file.name
+
+
 def output_of(command, text=None):
     return subprocess.run(command, input=text, check=True, capture_output=True).stdout
 
@@ -140,7 +169,8 @@ def output_of(command, text=None):
 def keep_picture(folder, case):
     """A PNG of few colours, small enough for the repository."""
     target = f"{PICTURES}/{case.name}.png"
-    pixels = output_of(["rsvg-convert", "-w", str(WIDTH), "-b", "white", drawing(folder, case)])
+    drawn = cropped(drawing(folder, case), case.crop) if case.crop else drawing(folder, case)
+    pixels = output_of(["rsvg-convert", "-w", str(WIDTH), "-b", "white", drawn])
     small = output_of(["pngquant", "--speed", "1", "--strip", str(COLOURS), "-"], pixels)
     with open(target, "wb") as file:
         file.write(small)
@@ -149,8 +179,9 @@ def keep_picture(folder, case):
 
 INTRODUCTION = """# Gallery
 
-One picture an example, with its question and the command that makes it. Most meshes are those of the examples; some are coarser, so
-that a picture takes seconds. Figures and agreement are in the examples' READMEs. This page and its pictures are made by
+One picture an example, with its question and the command that makes it. Most meshes are those of the examples; some are
+coarser, so that a picture takes seconds. Figures and agreement are in the examples' READMEs. This page and its
+pictures are made by
 
     docs/gallery.py build/release/splashdown
 
