@@ -159,6 +159,15 @@ class Readmes(unittest.TestCase):
                 self.assertEqual(len(self.faults(old, new)), 1)
 
 
+    def test_bars_are_those_of_the_check(self):
+        table = "| what | bar |\n|---|---|\n| x | 1.5 %, below 3 % |\n"
+        other = "\n| | a | b |\n|---|---|---|\n| value | 7 % | |\n| bar of it | 2 % | 0.5 % |\n"
+        good = readme.Readme(self.GOOD.replace("| what | bar |\n|---|---|\n| x | 1 % |\n", table + other))
+        self.assertEqual(list(good.bars()), ["1.5", "3", "2", "0.5"])
+        check = "[[check]]\ntolerance = 0.015\nat_most = 0.0299\n[[check]]\nexpected = 'x'\nat_least = -0.02\n"
+        self.assertEqual(readme.bars_of(check), {"1.5", "3", "2"})
+
+
 class Sentences(unittest.TestCase):
     def test_are_counted_in_words(self):
         thirty = " ".join(["word"] * 30)

@@ -5,12 +5,13 @@
     ## Set-up, ## Run, ## What you should see, ## Agreement, ## Cost, then what there is more to learn, ## Reference at the end.
 
 Run holds a command. What you should see holds one picture, where the example has a scene or a study. Agreement holds a table,
-where it has a check.
+where it has a check; percentages in its column (or row) `bar` are those of check.toml.
 """
 import os
 import re
 import subprocess
 import sys
+import tomllib
 
 from markdown import Document, read
 
@@ -59,6 +60,27 @@ class Readme:
         return any(k == kind for _, k in self.parts[part])
 
 
+    def bars(self):
+        """Percentages in the columns, or rows, `bar` of the tables of Agreement."""
+        column = None
+        for line, kind in self.parts["Agreement"]:
+            cells = [cell.strip() for cell in line.replace("\\|", "").strip().strip("|").split("|")]
+            if kind != "table":
+                column = None
+            elif column is None:
+                column = cells.index("bar") if "bar" in cells else len(cells)
+            else:
+                of_bar = cells[1:] if cells[0].startswith("bar") else cells[column:column + 1]
+                yield from re.findall(r"(\d+(?:\.\d+)?) %", " ".join(of_bar))
+
+
+def bars_of(check):
+    """Tolerances and limits of a check.toml, in per cent with two digits."""
+    keys = ("tolerance", "tolerance_absolute", "at_most", "at_least")
+    found = [each.get(key) for each in tomllib.loads(check).get("check", []) for key in keys]
+    return {f"{100*abs(value):.2g}" for value in found if isinstance(value, (int, float))}
+
+
 def faults_of(path, readme, files):
     if len(readme.titles) != 1:
         yield f"{path}: one title, not {len(readme.titles)}"
@@ -88,7 +110,13 @@ def faults(root):
         if not os.path.exists(os.path.join(root, path)):
             yield f"{path} is missing"
             continue
-        yield from faults_of(path, Readme.of(root, path), os.listdir(folder))
+        readme = Readme.of(root, path)
+        yield from faults_of(path, readme, os.listdir(folder))
+        if "check.toml" in os.listdir(folder):
+            allowed = bars_of(read(root, f"examples/{example}/check.toml"))
+            for bar in readme.bars():
+                if f"{float(bar):.2g}" not in allowed:
+                    yield f"{path}: a bar of {bar} %, which check.toml does not have"
 
 
 MOST_BYTES, MOST_BYTES_IN_ALL = 100_000, 3_000_000  # of the gallery's pictures
