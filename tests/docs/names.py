@@ -14,11 +14,9 @@ SHARED = {
     "Participant": "the same role, a participant of the coupling, of the fluid and of the bodies",
     "Gravity": "the same force, on the fluid and on bodies",
     "Kernel": "CGAL's",
-    "InterfaceOperator": "the fluid's form of what the coupling asks for",
-    "InterfacePiece": "the fluid's form of what the coupling asks for",
+    "Nodes": "the same nodes: what all rooms see, and with it what the fluid keeps of them",
     "box": "overload: outline in 2D, solid in 3D",
     "check": "overload: a body, a joint",
-    "Motion": "TWO: velocities of walls; how a body moves (free, fixed, prescribed)",
     "lifted": "TWO: a congruence; a plane quantity embedded in three dimensions",
 }
 

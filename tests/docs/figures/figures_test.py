@@ -73,11 +73,11 @@ def rows():
 
 
 def promised(readme, with_tables):
-    """Figures of the paragraph: text, place."""
-    paragraph = re.search(r"\*\*(?:What y|Y)ou should see[^*]*\*\*(.*?)(?=\n\*\*|\Z)", readme, re.S)
-    if not paragraph:
+    """Figures of the section: text, place."""
+    section = re.search(r"^## What you should see$(.*?)(?=^## |\Z)", readme, re.S | re.M)
+    if not section:
         return
-    text = paragraph[1] if with_tables else re.sub(r"^\|.*$", "", paragraph[1], flags=re.M)
+    text = section[1] if with_tables else re.sub(r"^\|.*$", "", section[1], flags=re.M)
     text = re.sub(r"`[^`]*`", "", re.sub(r"\]\([^)]*\)", "]", text))
     for match in re.finditer(r"(?<![\w.])\d+(?:\.\d+)?(?!\w)", text):
         if len(match[0].replace(".", "").lstrip("0")) >= least_digits:
