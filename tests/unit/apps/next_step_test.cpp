@@ -115,7 +115,7 @@ TEST(ShellWord, comes_back_as_it_was_written) {
   EXPECT_EQ(shell_word(""), "''");
 }
 
-TEST(Asked, ties_bodies_that_joints_connect_whatever_is_between) {
+TEST(Expectations, tie_bodies_that_joints_connect_whatever_is_between) {
   Scene scene;
   scene.time.end = 2;
   for (const char* name : {"a", "b", "c", "alone"}) scene.bodies.emplace_back().name = name;
@@ -124,13 +124,13 @@ TEST(Asked, ties_bodies_that_joints_connect_whatever_is_between) {
     joint.body = body, joint.other = other;
   };
   tie(0, 1), tie(2, 1), tie(3, {});
-  const auto asked = asked_of(scene);
-  EXPECT_EQ(asked.bodies.at("a").tied, (std::vector<std::string>{"b", "c"}));
-  EXPECT_TRUE(asked.bodies.at("alone").tied.empty());
+  const auto expected = expectations_of(scene);
+  EXPECT_EQ(expected.bodies.at("a").tied, (std::vector<std::string>{"b", "c"}));
+  EXPECT_TRUE(expected.bodies.at("alone").tied.empty());
   scene.bodies[3].motion = Motion::prescribed;
-  EXPECT_FALSE(asked_of(scene).bodies.at("alone").moves);
+  EXPECT_FALSE(expectations_of(scene).bodies.at("alone").moves);
   scene.bodies[3].velocity = {0, -1, 0};
-  EXPECT_TRUE(asked_of(scene).bodies.at("alone").moves);
+  EXPECT_TRUE(expectations_of(scene).bodies.at("alone").moves);
 }
 
 /// A list with `rungs` meshes from half the scene's own size on, of first order, with this scatter between meshes of equal size.

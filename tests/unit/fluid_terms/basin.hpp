@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "fluid/fluid.hpp"
 #include "tests/unit/coupling/watched.hpp"
@@ -37,7 +38,7 @@ struct Basin {
     s.vertices.resize(2, 4);
     s.vertices << low.x(), high.x(), high.x(), low.x(), low.y(), low.y(), high.y(), high.y();
     if (clockwise) s.vertices = s.vertices.rowwise().reverse().eval();
-    return close(s);
+    return close(std::move(s));
   }
 
   Surface<2> wavy_box() const {
@@ -50,7 +51,7 @@ struct Basin {
       const double x = length * (1 - static_cast<double>(k) / steps);
       s.vertices.col(k + 2) = Vec<2>(x, amplitude * std::cos(2 * std::numbers::pi * x / length));
     }
-    return close(s);
+    return close(std::move(s));
   }
 
  private:
