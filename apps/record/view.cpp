@@ -179,12 +179,12 @@ double water_level(const FluidView<d>& fluid) {
   return level;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                      \
-  template Frame<d> take_frame<d>(const RecordInput<d>&);                              \
-  template int wall_index<d>(const FluidView<d>&, const std::string&);                 \
-  template int wall_called<d>(const FluidView<d>&, const std::string&);                \
-  template std::size_t body_index<d>(const BodiesView<d>&, const std::string&);        \
-  template double max_speed<d>(const FluidView<d>&);                                   \
+#define SPLASHDOWN_INSTANTIATE(d)                                               \
+  template Frame<d> take_frame<d>(const RecordInput<d>&);                       \
+  template int wall_index<d>(const FluidView<d>&, const std::string&);          \
+  template int wall_called<d>(const FluidView<d>&, const std::string&);         \
+  template std::size_t body_index<d>(const BodiesView<d>&, const std::string&); \
+  template double max_speed<d>(const FluidView<d>&);                            \
   template double water_level<d>(const FluidView<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)

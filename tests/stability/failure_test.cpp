@@ -152,7 +152,7 @@ TEST(Wall, asked_about_a_point_that_is_not_finite_gives_an_answer) {
 TEST(LinearSolver, that_fails_refuses_the_step_and_the_next_attempt_is_undisturbed) {
   const auto spec = fluid::scenes::still_water(1, 0.5, 0.1);
   fluid::Fluid<2> f(spec, fluid::scenes::gravity({0, -scenes::g}));
-  EXPECT_FALSE(f.begin(1e-3, 1e-3, {{}, {}, {{.laplacian = -1e6}}}).ok());
+  EXPECT_FALSE(f.begin(1e-3, 1e-3, {.interface_operators = {{.laplacian = -1e6}}}).ok());
   ASSERT_TRUE(f.begin(1e-3, 1e-3, {}).ok());
   ASSERT_TRUE(f.solve(std::vector<fluid::Twist<2>>(1, fluid::Twist<2>::Zero())).status.ok());
   EXPECT_NEAR(f.result().loads[0].total()[1], -500 * scenes::g, 1e-6);

@@ -125,7 +125,7 @@ TYPED_TEST(BodyElimination, interface_laplacian_is_the_difference_it_makes_in_th
   Problem<d> p;
   ASSERT_TRUE(p.build());
   const Eigen::MatrixXd without = p.dense();
-  ASSERT_TRUE(p.build({{}, {}, {{.laplacian = 0.7}}}));
+  ASSERT_TRUE(p.build({.interface_operators = {{.laplacian = 0.7}}}));
   const Eigen::MatrixXd K = p.dense() - without;
   const auto phi = p.any_phi();
   std::vector<double> r(p.equation.size(), 0.0);
@@ -141,7 +141,7 @@ TYPED_TEST(BodyElimination, interface_laplacian_has_two_pieces_a_freedom) {
   Problem<d> p;
   ASSERT_TRUE(p.build());
   const Eigen::MatrixXd without = p.dense();
-  ASSERT_TRUE(p.build({{}, {}, {{.laplacian = 0.7}}}));
+  ASSERT_TRUE(p.build({.interface_operators = {{.laplacian = 0.7}}}));
   const auto pieces = p.equation.laplacian().pieces();
   EXPECT_EQ(pieces.size(), static_cast<std::size_t>(2 * freedoms<d>));
   Eigen::FullPivLU<Eigen::MatrixXd> K(p.dense() - without);
@@ -164,7 +164,7 @@ TYPED_TEST(BodyElimination, a_passed_interface_laplacian_changes_nothing) {
   auto phi = r;
   std::vector<Twist<d>> s(1, Twist<d>::Zero());
   ASSERT_TRUE(p.solve(phi, s));
-  ASSERT_TRUE(p.build({{}, {}, {{.laplacian = 0.7}}}));
+  ASSERT_TRUE(p.build({.interface_operators = {{.laplacian = 0.7}}}));
   auto again = r;
   p.equation.laplacian().add(p.equation.laplacian().means(phi), again);
   ASSERT_TRUE(p.solve(again, s));
