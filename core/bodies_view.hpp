@@ -39,8 +39,8 @@ template <int d>
 class BodiesView {
  public:
   virtual ~BodiesView() = default;
-  virtual std::size_t size() const = 0;
-  virtual const BodySpec<d>& spec(std::size_t body) const = 0;
+  virtual std::size_t size() const = 0;                           ///< how many bodies
+  virtual const BodySpec<d>& spec(std::size_t body) const = 0;    ///< as it was made
   virtual const BodyState<d>& state(std::size_t body) const = 0;  ///< at t_n
 };
 

@@ -30,6 +30,7 @@ struct Solutions {
   Eigen::MatrixXd directions;
   Eigen::MatrixXd idle;  ///< combinations of conditions that repeat each other, idle^T A = 0; orthonormal
 };
+/// By singular values: A = U S V^T, point = V S^+ U^T b. An empty A leaves all directions.
 Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible);
 
 }  // namespace splashdown::algebra

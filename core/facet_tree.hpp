@@ -19,6 +19,7 @@ class FacetTree {
   };
 
   FacetTree() = default;
+  /// Of facets given by their corners [m], one frame for all; they are copied.
   explicit FacetTree(const std::vector<std::array<Vec<d>, d>>& facets);
   FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
             const Eigen::Matrix<int, d, Eigen::Dynamic>& facets);

@@ -57,19 +57,19 @@ class FluidView {
   virtual double density() const = 0;                           ///< [kg/m^3]
   virtual std::span<const WallSpec<d>> walls() const = 0;       ///< as they were made
   virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n
-  virtual const Nodes<d>& nodes() const = 0;
-  virtual const Mesh<d>& mesh() const = 0;
+  virtual const Nodes<d>& nodes() const = 0;                    ///< of the mesh below
+  virtual const Mesh<d>& mesh() const = 0;                      ///< of t_n
   /// At the nodes at t_n [Pa]: of the step under way once it is solved, before that what the nodes carry.
   virtual std::span<const double> pressure() const = 0;
   /// What the repair impulse is as a mean over the kick of a step that is solved, at the nodes [Pa]; before that empty. Walls are
   /// loaded by the sum of both: in a true impact this is all there is.
   virtual std::span<const double> repair_pressure() const = 0;
-  virtual const Ledger& ledger() const = 0;
-  /// Velocity at t_n: mean of the half-step velocities around it.
+  virtual const Ledger& ledger() const = 0;  ///< to t_n
+  /// Velocity at t_n [m/s]: mean of the half-step velocities around it (core/leapfrog.hpp).
   virtual Vec<d> velocity_n(std::size_t node) const = 0;
-  /// Pressure at a point at t_n; nothing where there is no fluid.
+  /// Pressure at a point at t_n [Pa], linear in its cell; nothing where there is no fluid. O(cells).
   virtual std::optional<double> pressure_at(const Vec<d>& point) const = 0;
-  /// Potential energy per unit mass at a point [J/kg].
+  /// Potential energy per unit mass at a point [J/kg], the sum over all effects.
   virtual double potential(const Vec<d>& point) const = 0;
   /// What effects say about themselves at t_n: EFFECT_NAME and value, always of the same names.
   virtual std::vector<std::pair<std::string, double>> diagnostics() const = 0;

@@ -22,7 +22,7 @@ namespace splashdown {
 
 /// Threads that loops run on from here on; 0: all cores.
 void use_threads(int count);
-int threads();
+int threads();  ///< that loops run on
 
 /// A value for each thread that asks for its own with local(), made by what it is given.
 template <class Value>

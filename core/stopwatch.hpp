@@ -5,6 +5,7 @@
 
 namespace splashdown {
 
+/// Wall clock [s].
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

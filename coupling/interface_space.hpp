@@ -19,6 +19,7 @@
 
 namespace splashdown::coupling {
 
+/// What the two sides have to agree about.
 struct Interface {
   Velocities velocities;   ///< of all walls of the structure
   Eigen::VectorXd lagged;  ///< as Solution::lagged [Pa s]
@@ -26,13 +27,15 @@ struct Interface {
 
 class InterfaceSpace {
  public:
+  /// `fluid_density` [kg/m^3], for the water's mass in a body's place. Refers to the structure's walls.
   InterfaceSpace(const StructurePart& structure, std::span<const InterfacePiece> pieces, double fluid_density);
+  /// (scales * velocities, weights * lagged), as above [m/s].
   Eigen::VectorXd vector(const Interface& interface) const;
-  /// Of the walls alone.
+  /// scales * velocities [m/s]: the part of the walls.
   Eigen::VectorXd scaled(const Velocities& velocities) const;
   /// A slope between entries of Interface, as one between vectors.
   Eigen::MatrixXd slope(const Eigen::MatrixXd& of_interface) const;
-  /// Adds a change; motions of walls that do not answer stay.
+  /// Adds a change [m/s]; velocities of walls that do not answer stay.
   void add(const Eigen::VectorXd& change, Interface& interface) const;
 
  private:

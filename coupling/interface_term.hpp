@@ -20,7 +20,7 @@ namespace splashdown::coupling {
 class InterfaceTerm {
  public:
   virtual ~InterfaceTerm() = default;
-  virtual std::string name() const = 0;
+  virtual std::string name() const = 0;  ///< as scenes call it
   /// Of a wall; none for one that does not answer.
   virtual InterfaceOperator interface_operator(const WallCoordinates& wall) const = 0;
 };

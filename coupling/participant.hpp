@@ -91,8 +91,8 @@ class Participant {
   virtual double stable_dt() const = 0;  ///< largest that it allows from t_n [s]; infinity: any
   /// Writes the state at t_n, bit for bit: what is loaded goes on with the same numbers.
   virtual void save(std::ostream& out) const = 0;
-  /// Reads what `save` wrote, into a participant made of the same scene. Throws std::runtime_error for bytes that are none; the
-  /// state is then as it was or of no use.
+  /// Reads what `save` wrote, into a participant made of the same scene. Throws std::runtime_error for other bytes, after which it may
+  /// only be destroyed or loaded again.
   virtual void load(std::istream& in) = 0;
 };
 
@@ -127,8 +127,8 @@ class FluidPart : public Participant {
 /// Impulses in, velocities out: s(I).
 class StructurePart : public Participant {
  public:
-  virtual std::string name() const = 0;  ///< under which its time is booked
-  virtual const std::vector<WallCoordinates>& walls() const = 0;
+  virtual std::string name() const = 0;                           ///< under which its time is booked
+  virtual const std::vector<WallCoordinates>& walls() const = 0;  ///< in the order of their coordinates
   /// Of coordinates: lengths that make all velocities m/s.
   virtual const Eigen::VectorXd& scales() const = 0;
   virtual double length() const = 0;  ///< of its longest wall [m]

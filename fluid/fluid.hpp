@@ -34,16 +34,21 @@ using splashdown::FluidView;
 template <int d>
 class Fluid final : public FluidView<d> {
  public:
+  /// Meshes the liquid at t = 0. Throws std::invalid_argument where walls leave none or its outline is no surface.
   Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effects);
   ~Fluid() override;
 
   double time() const;       ///< t_n
   double stable_dt() const;  ///< largest dt the criterion allows from t_n
 
+  /// Fixes the step: `kick`, over which forces act [s]; `dt`, over which nodes move [s]; `structure`: how the bodies behind the walls
+  /// answer, in coordinates of all walls. Remeshes once after each commit, whatever is begun then. Refused where the pressure
+  /// matrix cannot be factored.
   Status begin(double kick, double dt, const InterfaceModel& structure);
   /// `walls`: half-step velocities of the walls, without the fluid's load in the motions that respond, with it in all
   /// others. `previous`: the interface impulses on which the interface Laplacians lag; one that equals the result's
-  /// makes them vanish. Needed with such walls only. The state at t_n stays as it is.
+  /// makes them vanish. Needed with such walls only: std::invalid_argument for another number. `contacts`: what of the modes may
+  /// occur. The state at t_n stays as it is.
   const StepResult<d>& solve(std::span<const Twist<d>> walls, std::span<const double> previous = {},
                              const ClosedContacts& contacts = {});
   const StepResult<d>& result() const;  ///< of the last solve
@@ -74,13 +79,13 @@ class Fluid final : public FluidView<d> {
   std::vector<std::pair<std::string, double>> diagnostics() const override;
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;  ///< from `begin` to `commit`
 
-  const FluidSpec<d>& spec() const;
-  const std::vector<std::unique_ptr<Effect<d>>>& effects() const;
+  const FluidSpec<d>& spec() const;                                ///< as it was made
+  const std::vector<std::unique_ptr<Effect<d>>>& effects() const;  ///< in the order of the scene
   /// Seconds spent so far per phase (mesh, assemble, momentum, pressure, move) and, by its name, per effect.
   std::vector<std::pair<std::string, double>> phase_seconds() const;
 
   void save(std::ostream& out) const;  ///< bit-exact state at t_n
-  void load(std::istream& in);
+  void load(std::istream& in);         ///< std::runtime_error for what is none of this scene: the state stays as it was
 
  private:
   struct State;

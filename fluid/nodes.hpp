@@ -20,6 +20,7 @@ struct VelocityMoments {
   Vec<d> momentum = Vec<d>::Zero();  ///< [m^d m/s]
   double energy = 0;                 ///< [m^d m^2/s^2]
 
+  /// Of a volume [m^d] that moves with v [m/s].
   static VelocityMoments of(double volume, const Vec<d>& v) {
     return {volume, volume * v, 0.5 * volume * v.squaredNorm()};
   }

@@ -11,6 +11,7 @@ namespace splashdown::fluid {
 
 class PhaseTimer {
  public:
+  /// Phases are known by their number from here on.
   explicit PhaseTimer(std::vector<std::string> phases) {
     for (auto& p : phases) seconds_.emplace_back(std::move(p), 0.0);
   }

@@ -37,7 +37,7 @@ template <int d>
 class Force {
  public:
   virtual ~Force() = default;
-  virtual std::string name() const = 0;
+  virtual std::string name() const = 0;  ///< of its table
   /// Wrench about the centre of mass, world frame, on a body at the given pose and half-step velocity.
   virtual Wrench<d> wrench(const BodySpec<d>& body, const Isometry<d>& pose, const Twist<d>& velocity,
                            double time) const = 0;
@@ -57,7 +57,8 @@ class Gravity final : public Force<d> {
 template <int d>
 class Bodies final : public BodiesView<d> {
  public:
-  /// Contacts between the bodies and with the planes only if asked for.
+  /// Contacts between the bodies and with the planes only if asked for. Throws std::invalid_argument for bodies and joints that cannot
+  /// be (body.hpp, joint.hpp).
   Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces,
          std::vector<JointSpec> joints = {}, std::optional<ContactSpec<d>> contacts = {});
   ~Bodies() override;
@@ -69,15 +70,18 @@ class Bodies final : public BodiesView<d> {
   const BodyState<d>& state(std::size_t body) const override;
   std::span<const BodyState<d>> states() const;  ///< of all, at t_n
   std::span<const BodyState<d>> trials() const;  ///< of all: the last trial
-  double time() const;                           ///< t_n
+  double time() const;                           ///< t_n [s]
 
+  /// Fixes the step: forces over `kick` [s], drift over `dt` [s]; joints, springs and contacts are taken at x_n. Throws
+  /// std::invalid_argument unless both are positive.
   void begin(double kick, double dt);
   /// Of the begun step, with the contacts that are closed at the moment. The half-step velocities are affine in the
   /// load until contacts open or close. (A spinning body in 3D is taken at its predicted midpoint.)
   Response response() const;
-  /// Trial state at t_{n+1} (pose) and t_{n+1/2} (velocity) under constant loads, one wrench a body.
+  /// Trial state at t_{n+1} (pose) and t_{n+1/2} (velocity) under constant loads, one wrench a body about its centre of mass, world
+  /// frame [N, N m; 2D: N/m, N]. Throws std::invalid_argument for another number of them, std::logic_error before `begin`.
   std::span<const BodyState<d>> solve(std::span<const Wrench<d>> loads);
-  /// The same under their impulses over the kick, of all bodies one below the other.
+  /// The same under their impulses over the kick, of all bodies one below the other [N s, N m s].
   std::span<const BodyState<d>> solve(const Eigen::VectorXd& impulses);
   /// Trial state with half-step velocities of all bodies that somebody found from `response`.
   std::span<const BodyState<d>> adopt(const Eigen::VectorXd& velocities);
@@ -90,7 +94,7 @@ class Bodies final : public BodiesView<d> {
   void commit();
 
   void save(std::ostream& out) const;  ///< bit-exact state at t_n
-  void load(std::istream& in);
+  void load(std::istream& in);         ///< std::runtime_error for what is none of these bodies
 
  private:
   struct System;  // rigid/system.hpp

@@ -1,4 +1,4 @@
-// Bullet's world, double precision: it moves bodies in 3D and knows their joints. Internal to the rigid-body
+// Bullet, double precision: it moves bodies in 3D and knows their joints. Internal to the rigid-body
 // room; bullet_engine.cpp is the only file that includes Bullet.
 //
 //   x <- x + dt V,   R <- exp(dt w) R
@@ -35,7 +35,7 @@ class BulletEngine {
   /// Where a hinge or slider is now.
   JointCoordinate<3> coordinate(std::size_t joint) const;
 
-  Isometry<3> pose(std::size_t body) const;
+  Isometry<3> pose(std::size_t body) const;  ///< world frame
 
  private:
   struct Objects;

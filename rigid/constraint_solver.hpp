@@ -1,11 +1,11 @@
-// Velocities that bodies can have together, and how they answer to impulses. Internal to the rigid-body room.
+// Velocities that bodies can have together under joints and contacts, and how they answer to impulses. Internal to the rigid-body room.
 //
 //   E s = a                       held freedoms, fixed and prescribed bodies, joints
 //   D s >= b                      contacts
 //   M (s - s_before) = impulse + E^T l + D^T r + T^T t,   r >= 0,   r (D s - b) = 0
 //   |t| <= mu r,   T s = 0 or t = -mu r T s / |T s|   at each contact that rubs (Coulomb)
 //
-// Solved in coordinates: s = s_0 + Z y with Z a basis of the motions that E leaves, and y in the directions W that
+// Solved in coordinates: s = s_0 + Z y with Z a basis of the velocities that E leaves, and y in the directions W that
 // the closed contacts leave. Which contacts are closed is found by the primal-dual active set method (Hintermueller,
 // Ito, Kunisch 2002): a closed contact that pulls opens, an open one that would be crossed closes. It may run in
 // circles; after a few changes only the first contact that is wrong changes (Murty 1974), which ends where contacts
@@ -43,15 +43,16 @@ class ConstraintSolver {
     Eigen::VectorXd impulse;  ///< known already [N s]
   };
   ConstraintSolver() = default;
+  /// Finds s_0 and Z; contacts are open. A contradiction between equalities is met in the least-squares sense.
   explicit ConstraintSolver(const Problem& problem);
 
   const Eigen::MatrixXd& modes() const { return modes_; }            ///< Z
   const Eigen::MatrixXd& inertia() const { return inertia_; }        ///< Z^T M Z
   const Eigen::MatrixXd& directions() const { return directions_; }  ///< W
   const Eigen::MatrixXd& workless() const { return workless_; }      ///< W', W unless something slides and rubs
-  /// Velocity under a further impulse; motions without inertia get none.
+  /// Velocity under a further impulse; modes without inertia get none.
   Eigen::VectorXd velocity(const Eigen::VectorXd& impulse) const;
-  /// Impulse on the motions that such a velocity does not account for: Z^T impulse - (Z^T M Z) y.
+  /// Impulse on the modes that such a velocity does not account for: Z^T impulse - (Z^T M Z) y.
   Eigen::VectorXd unspent(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse) const;
   /// Opens and closes contacts as velocity and impulse ask for. False: they were right.
   bool update_contacts(const Eigen::VectorXd& velocity, const Eigen::VectorXd& impulse);

@@ -18,6 +18,7 @@ Eigen::Matrix<double, freedoms<3>, freedoms<d>> embedding() {
   return e;
 }
 
+/// A pose in 2D as one in 3D, about z; itself in 3D.
 template <int d>
 Isometry<3> lifted(const Isometry<d>& pose) {
   Isometry<3> space = Isometry<3>::Identity();
@@ -26,6 +27,7 @@ Isometry<3> lifted(const Isometry<d>& pose) {
   return space;
 }
 
+/// Back again: what of a pose in 3D lies in the plane.
 template <int d>
 Isometry<d> lowered(const Isometry<3>& space) {
   Isometry<d> pose = Isometry<d>::Identity();

@@ -19,6 +19,7 @@ class FreeBody {
   /// M of the begun step in world axes: M (s - s_before) = impulse() + other impulses, in the free freedoms.
   const Matrix& inertia() const { return matrix_; }
   const Wrench<3>& impulse() const { return impulse_; }
+  /// Takes on the momentum of the velocity that the step ends with.
   void commit(const Twist<3>& velocity);
 
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< angular, about the centre of mass, at t_{n-1/2}

@@ -6,6 +6,7 @@
 
 namespace splashdown::rigid {
 
+/// All parts one after the other, as streams write them.
 template <class... Parts>
 std::string message(const Parts&... parts) {
   std::ostringstream text;

@@ -12,6 +12,7 @@ namespace splashdown::rigid {
 template <int d>
 class Participant final : public coupling::StructurePart {
  public:
+  /// Wall k is body k.
   explicit Participant(std::unique_ptr<Bodies<d>> bodies);
   const Bodies<d>& bodies() const { return *bodies_; }
 

@@ -21,6 +21,7 @@ namespace splashdown::rigid {
 /// The shortest rotation vector of a rotation matrix [rad].
 Eigen::Vector3d rotation_log(const Eigen::Matrix3d& rotation);
 
+/// J = R I R^T: the inertia in world axes [kg m^2].
 Eigen::Matrix3d world_inertia(const Eigen::Matrix3d& rotation, const Eigen::Matrix3d& inertia);
 
 /// Angular velocity change per unit angular impulse when only the free world axes can turn: the inverse of

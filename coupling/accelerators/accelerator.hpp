@@ -13,7 +13,7 @@ namespace splashdown::coupling {
 class Accelerator {
  public:
   virtual ~Accelerator() = default;
-  virtual std::string name() const = 0;
+  virtual std::string name() const = 0;  ///< as scenes call it
   /// Before the first pass of an attempt: forgets what attempts that were not committed have learnt.
   virtual void begin_step() = 0;
   /// Whether it wants dG/dx at the beginning of each attempt, after begin_step().

@@ -15,6 +15,7 @@ namespace splashdown::coupling {
 /// iterate after n + 1 passes is the solution, whatever w, and pass n + 2 finds that it is. Each step begins anew.
 class Anderson final : public Accelerator {
  public:
+  /// `factor`: w in (0, 1]; `depth`: m.
   explicit Anderson(double factor, std::size_t depth = 50);
   std::string name() const override { return "anderson"; }
   void begin_step() override;
@@ -34,6 +35,7 @@ class Anderson final : public Accelerator {
 /// any column is relaxed by w.
 class IqnIls final : public Accelerator {
  public:
+  /// `factor`: w in (0, 1] of a first pass without columns; `reuse`: committed steps whose columns are kept.
   explicit IqnIls(double factor, std::size_t reuse = 0);
   std::string name() const override { return "iqn_ils"; }
   void begin_step() override;

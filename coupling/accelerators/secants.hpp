@@ -27,15 +27,15 @@ class Secants {
   bool add(Secant pair);
   /// Appends older ones behind those that are there, under a stricter filter.
   void append(const Secants& older, double kept);
-  void keep_newest(std::size_t count);
+  void keep_newest(std::size_t count);  ///< drops all older ones
   void clear() { pairs_.clear(); }
   std::size_t size() const { return pairs_.size(); }
 
   /// V c and W c for c = argmin |r - V c|. Drops dependent columns for good. Nothing if no column is left.
   std::optional<Secant> explain(const Eigen::VectorXd& residual);
 
-  void save(std::ostream& out) const;
-  void load(std::istream& in);
+  void save(std::ostream& out) const;  ///< bit exact
+  void load(std::istream& in);         ///< what `save` wrote; throws std::runtime_error for lengths beyond the bytes
 
  private:
   std::deque<Secant> pairs_;

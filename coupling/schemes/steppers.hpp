@@ -17,11 +17,12 @@ namespace splashdown::coupling {
 /// Time of the last step, from which kick = (dt_{n-1} + dt_n) / 2 follows.
 class LeapfrogClock {
  public:
+  /// Of a step of dt after the last one [s].
   double kick(double dt) const { return splashdown::kick(previous_, dt); }
   void start(double dt) { current_ = dt; }
   void commit() { previous_ = current_; }
   void save(std::ostream& out) const;
-  void load(std::istream& in);
+  void load(std::istream& in);  ///< throws std::runtime_error unless it is a length
 
  private:
   double previous_ = 0, current_ = 0;

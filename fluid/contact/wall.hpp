@@ -17,6 +17,7 @@ constexpr double least_smooth_cosine = 0.5 * std::numbers::sqrt3;
 template <int d>
 class Wall {
  public:
+  /// Finds patches, creases, corners and bends of its surface; copies the spec.
   explicit Wall(const WallSpec<d>& spec);
 
   struct Near {

@@ -58,7 +58,7 @@ template <int d>
 class Effect {
  public:
   virtual ~Effect() = default;
-  virtual std::string name() const = 0;
+  virtual std::string name() const = 0;  ///< of its timer, columns and table
   /// Once a step, before any `predict` of it.
   virtual Status begin(const StepView<d>& /*step*/) { return {}; }
   /// Adds the effect of one kick; repeatable.

@@ -16,6 +16,7 @@ namespace splashdown::fluid {
 
 class Multigrid {
  public:
+  /// Builds the levels; the matrix need not outlive this.
   explicit Multigrid(const SymmetricMatrix& matrix);
   ~Multigrid();
   /// Solves in place for `columns` right-hand sides stored one after the other, to residuals of `tolerance` |rhs| each,

@@ -23,6 +23,7 @@ class SparseRow {
     entries_.clear();
     ++row_;
   }
+  /// Adds to the entry of a column, O(1).
   void add(int column, const Value& value) {
     Seen& seen = seen_[column];
     if (seen.row == row_) {

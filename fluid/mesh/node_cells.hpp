@@ -18,6 +18,7 @@ class NodeCells {
     int cell, corner;
   };
 
+  /// O(cells + nodes), on all threads.
   void build(const std::vector<std::array<int, d + 1>>& cells, std::size_t nodes) {
     counting_sort(
         cells.size(), nodes, start_,

@@ -42,11 +42,12 @@ class HeldMass {
   /// `lumped`: volumes of nodes [m^d].
   void build(std::vector<HeldNode<d>> held, std::size_t walls, double density, std::span<const double> lumped);
   bool empty() const { return held_.empty(); }
-  /// R of a wall: nodes whose pressure impulse has a part in it, and the wrench per impulse.
+  /// The wrench on a wall, about its reference point, per pressure impulse at a node [N s / Pa s].
   struct Column {
     int node;
     Wrench<d> wrench;
   };
+  /// R of a wall, by the nodes whose pressure impulse has a part in it.
   std::vector<Column> load(std::size_t wall, const AccelerationWeights<d>& weights) const;
   /// M_h of a wall [kg, kg m, kg m^2; 2D: per metre].
   Mat<freedoms<d>> inertia(std::size_t wall) const;

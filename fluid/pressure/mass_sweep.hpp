@@ -25,6 +25,7 @@ class MassSweep {
     for (int e = start_[i]; e < start_[i + 1]; ++e) sum -= weight_[e] * u[node_[e]];
     return sum;
   }
+  /// S u, on all threads.
   void operator()(std::span<const Vec<d>> u, std::vector<Vec<d>>& out) const;
 
  private:

@@ -22,6 +22,7 @@ struct Edge {
 template <int d>
 class Hull {
  public:
+  /// Refers to the surface.
   explicit Hull(const Surface<d>& surface);
   ~Hull();
   Hull(Hull&&) noexcept;
@@ -35,7 +36,7 @@ class Hull {
   bool is_convex() const { return convex_; }  ///< in 3D; false in 2D
   /// Facets nearer than `reach`, and some that are hardly farther; ascending.
   std::vector<int> facets_near(const Vec<d>& x, double reach) const;
-  std::vector<int> all_facets() const;
+  std::vector<int> all_facets() const;  ///< their numbers, ascending
   /// Edges that may pass there.
   std::vector<int> edges_within(const Eigen::AlignedBox<double, d>& place) const;
 

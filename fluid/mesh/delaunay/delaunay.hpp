@@ -44,10 +44,13 @@ struct ClosedDelaunay {
   double extent = 0;                    ///< a power of two: largest coordinate of points is below it [m]
   bool complete = false;                ///< every point is a corner
 };
+/// The closed triangulation of the points and d + 1 more that lie far away. O(n log n).
 template <int d>
 ClosedDelaunay<d> closed_delaunay(std::span<const Vec<d>> points);
+/// The power of two above all coordinates [m].
 template <int d>
 double extent_of(std::span<const Vec<d>> points);
+/// The corners far away, for points of this extent [m].
 template <int d>
 std::array<Vec<d>, d + 1> far_points(double extent);
 /// Sorts the corners of cells and the cells: where points follow a space-filling curve, cells near each other are near
