@@ -119,7 +119,6 @@ if ((EUID == 0)) && $nobody --version >/dev/null 2>&1; then
     check "and nothing is written" test -z "$(ls -A closed)"
   done
 fi
-check "with its name, the reason and a cure" grep -q '^error: file/run: Not a directory. Use another --out' stderr
 check "a likely slip is asked about" exits 0 "$splashdown" run scene.toml --until 0.001 --set fluid.density=1 --out slip
 check "before the run, which goes on" grep -q 'question: fluid.density = 1: lighter than any liquid .* did you mean 1000?' stderr
 check "and in check" exits 0 "$splashdown" check scene.toml --set fluid.density=1
