@@ -234,6 +234,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   Summary s;
   s.status = status_word(end);
   s.cause = end.cause;
+  s.cure = end.cure;
   s.simulated_time = time();
   s.steps = loop_.steps;
   s.wall_seconds = wall_seconds();

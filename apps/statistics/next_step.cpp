@@ -9,6 +9,7 @@
 #include "apps/statistics/filters.hpp"
 #include "apps/statistics/grades.hpp"
 #include "apps/statistics/missing.hpp"
+#include "apps/statistics/verdict.hpp"
 
 namespace splashdown::apps {
 
@@ -82,13 +83,16 @@ std::optional<NextStep> narrower(const Summary& summary) {
   if (now == Grade::resolved) return {};
   auto next = way_to(to_spare * better_than(now), list);
   const bool water_allows = of_water(summary) < now;
-  next.promises = next.promises && water_allows;
+  // Volume that came back at the surface on this mesh may be more on a finer one.
+  const bool holds_volume = !summary.ledger || std::abs(summary.ledger->returned_share) <= doubtful_above;
+  next.promises = next.promises && water_allows && holds_volume;
   const double step = summary.steps > 0 ? summary.simulated_time / static_cast<double>(summary.steps) : 0;
   next.seconds = summary.wall_seconds * std::pow(std::max(1., next.refine), cost_exponent(summary.dimension));
   if (next.dt_max > 0) next.seconds *= std::max(1., step / std::max(1., next.refine) / next.dt_max);
   const auto limit = fmt::format("{:g} %", 100 * better_than(now));
   next.effect = next.promises   ? "brings the bands within " + limit
                 : !water_allows ? "may not help: the water's energy or volume is wrong, see the reasons"
+                : !holds_volume ? "may not bring the bands within " + limit + ": volume came back at the free surface"
                                 : "may not bring the bands within " + limit;
   return next;
 }

@@ -226,6 +226,7 @@ struct Summary {
   std::string scene;   ///< name of the scene, for headings
   std::string status;  ///< "done", "failed" or "interrupted" (by a signal or a spent budget)
   std::string cause;   ///< why it failed; empty otherwise
+  std::string cure;    ///< what helps against that cause where smaller steps and elements do not; empty: they may
   Verdict verdict;
   int dimension = 2;
   double simulated_time = 0;  ///< [s]

@@ -43,9 +43,9 @@ std::string joule(const Summary& summary, double energy) {
 std::optional<Finding> failure(const Summary& summary) {
   if (summary.status != "failed") return {};
   return Finding{Grade::unphysical,
-                 fmt::format("The run could not go on at t = {:.6g} s: {}. Use nothing of its last steps; try smaller "
-                             "steps (time.cfl) or finer elements.",
-                             summary.simulated_time, summary.cause)};
+                 fmt::format("The run could not go on at t = {:.6g} s: {}. Use nothing of its last steps. {}",
+                             summary.simulated_time, summary.cause,
+                             summary.cure.empty() ? "Try smaller steps (time.cfl) or finer elements." : summary.cure)};
 }
 
 /// Of what there was to give; over ten times of that the number says no more.
