@@ -51,7 +51,7 @@ class Settling {
   };
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(bodies_.size()); }
-  bool is_free(std::size_t body) const { return bodies_[body].motion == Motion::free; }
+  bool is_free(std::size_t body) const { return bodies_[body].motion == BodyMotion::free; }
   /// Meets joints and contacts at a place, whose joint coordinates it counts on from where they were.
   Conditions conditions(Place& at, double within);
   ConstraintSolver::Problem problem(const Conditions& conditions) const;
@@ -90,9 +90,9 @@ Settling<d>::Settling(const Mechanism<d>& mechanism, const StillWater& water)
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto& spec = bodies_[i];
     hulls_.emplace_back(spec.surface, i < mechanism.hollows.size() ? mechanism.hollows[i] : Hollow::dry);
-    begin_.states.push_back({spec.motion == Motion::prescribed ? spec.path(0) : spec.pose, Twist<d>::Zero()});
+    begin_.states.push_back({spec.motion == BodyMotion::prescribed ? spec.path(0) : spec.pose, Twist<d>::Zero()});
     reaches_.push_back(reach(spec));
-    bullet_.add(spec.motion == Motion::free);
+    bullet_.add(spec.motion == BodyMotion::free);
     bullet_.place(i, lifted<d>(begin_.states[i].pose), Twist<3>::Zero());
     unit_.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i)) << Vec<d>::Ones(),
         Rotation<d>::Constant(reaches_[i]);

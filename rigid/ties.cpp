@@ -5,8 +5,8 @@
 
 #include "core/dense.hpp"
 #include "rigid/bullet_engine.hpp"
-#include "rigid/embedding.hpp"
 #include "rigid/constraint_solver.hpp"
+#include "rigid/embedding.hpp"
 
 namespace splashdown::rigid {
 
@@ -14,7 +14,7 @@ namespace {
 
 using Joints = std::vector<std::size_t>;
 
-constexpr double digits = 1e-3;       // of velocities, that people write
+constexpr double digits = 1e-3;  // of velocities, that people write
 
 /// Rows of one joint in the free coordinates, and what is asked of them.
 struct Rows {
@@ -59,7 +59,7 @@ class Examined {
       unit_.push_back(Twist<d>::Ones());
       unit_.back().template tail<rotations<d>>().setConstant(reach<d>(body));
       for (int k = 0; k < freedoms<d>; ++k)
-        free_.push_back(body.motion == Motion::free && body.free[static_cast<std::size_t>(k)]);
+        free_.push_back(body.motion == BodyMotion::free && body.free[static_cast<std::size_t>(k)]);
     }
     for (const auto& joint : joints) conditions_.push_back(conditions_of(joint));
     find_groups();
@@ -83,14 +83,14 @@ class Examined {
   std::vector<Condition<3>> conditions_of(const JointSpec& joint) const {
     BulletEngine world;
     for (const auto& body : bodies_) {
-      world.add(body.motion == Motion::free);
+      world.add(body.motion == BodyMotion::free);
       world.place(static_cast<std::size_t>(&body - bodies_.data()), lifted<d>(body.pose), Twist<3>::Zero());
     }
     world.add(joint);
     return world.conditions(1);
   }
 
-  bool is_free(std::size_t body) const { return bodies_[body].motion == Motion::free; }
+  bool is_free(std::size_t body) const { return bodies_[body].motion == BodyMotion::free; }
 
   void find_groups() {
     std::vector<std::size_t> of(bodies_.size());
@@ -143,7 +143,7 @@ class Examined {
     return {result.left.topRows(row), result.right.head(row)};
   }
 
-  bool moves_as_told(std::size_t body) const { return bodies_[body].motion != Motion::fixed; }
+  bool moves_as_told(std::size_t body) const { return bodies_[body].motion != BodyMotion::fixed; }
 
   Left left_by(const Group& group, const Joints& joints) const {
     Left left(group.coordinates);

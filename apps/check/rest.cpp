@@ -69,11 +69,11 @@ std::vector<std::size_t> groups(const Scene& scene) {
 
 template <int d>
 rigid::Mechanism<d> mechanism_of(const Scene& scene, const std::vector<rigid::BodySpec<d>>& specs, const All<d>& all,
-                               const std::function<bool(std::size_t)>& belongs) {
+                                 const std::function<bool(std::size_t)>& belongs) {
   rigid::Mechanism<d> mechanism{specs, {}, contact_spec<d>(scene), {}};
   for (std::size_t i = 0; i < specs.size(); ++i) {
     mechanism.hollows.push_back(all[i] ? all[i]->hollow : rigid::Hollow::dry);
-    if (!belongs(i)) mechanism.bodies[i].motion = rigid::Motion::fixed;
+    if (!belongs(i)) mechanism.bodies[i].motion = BodyMotion::fixed;
   }
   for (const auto& joint : joint_specs(scene))
     if (belongs(joint.body) || (joint.other && belongs(*joint.other))) mechanism.joints.push_back(joint);
@@ -94,7 +94,7 @@ std::vector<std::optional<Resting<d>>> at_rest(const Scene& scene) {
   bool alone = true;
   for (std::size_t i = 0; i < specs.size(); ++i) {
     const auto& spec = specs[i];
-    if (spec.motion != rigid::Motion::free || !(spec.mass > 0)) continue;
+    if (spec.motion != BodyMotion::free || !(spec.mass > 0)) continue;
     auto& body = all[i].emplace();
     body.spec = spec;
     body.filled = reaches_into_hollow<d>(scene, spec);

@@ -93,8 +93,8 @@ TEST(Ties, leave_a_chain_of_links_its_motions_until_both_ends_are_fast) {
 
 TEST(Ties, contradict_each_other_where_a_body_is_tied_to_two_that_part) {
   auto still = box_at<2>({-1, 0}), moving = box_at<2>({1, 0});
-  still.motion = Motion::fixed;
-  moving.motion = Motion::prescribed;
+  still.motion = BodyMotion::fixed;
+  moving.motion = BodyMotion::prescribed;
   for (const double speed : {0., 1e-3, 5.}) {
     moving.velocity << speed, 0, 0;
     const auto weld = [](std::size_t a, std::size_t b) {
