@@ -15,14 +15,14 @@ enum class BodyMotion { free, fixed, prescribed };
 /// What a body is made from. SI; per metre of depth in 2D [kg/m, kg m].
 template <int d>
 struct BodySpec {
-  std::string name;
+  std::string name;                             ///< of the scene
   Surface<d> surface;                           ///< in the body frame, whose origin is the centre of mass
   double mass = 0;                              ///< [kg, kg/m]
   Inertia<d> inertia = Inertia<d>::Identity();  ///< about the centre of mass, body axes [kg m^2, kg m]
-  BodyMotion motion = BodyMotion::free;
-  std::array<bool, freedoms<d>> free{};        ///< which of (V, w) may change, world axes; used when motion = free
-  Isometry<d> pose = Isometry<d>::Identity();  ///< body frame to world at t = 0
-  Twist<d> velocity = Twist<d>::Zero();        ///< at t = 0
+  BodyMotion motion = BodyMotion::free;         ///< what moves it
+  std::array<bool, freedoms<d>> free{};         ///< which of (V, w) may change, world axes; used when motion = free
+  Isometry<d> pose = Isometry<d>::Identity();   ///< body frame to world at t = 0
+  Twist<d> velocity = Twist<d>::Zero();         ///< at t = 0
   /// Pose at time t for motion = prescribed [world frame].
   std::function<Isometry<d>(double)> path;
 };

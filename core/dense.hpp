@@ -18,7 +18,7 @@ Eigen::MatrixXd lifted(const Eigen::MatrixXd& L, const Eigen::MatrixXd& M);
 
 /// The x of least norm with least |A x - b|: complete orthogonal decomposition (Golub, Van Loan, section 5.4.7).
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-/// (Moore, Penrose)
+/// A^+, the pseudo-inverse (Moore, Penrose): A^+ b is the x of least norm with least |A x - b|.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 /// A^-1 B with A symmetric and not negative: LDL^T.
 Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
@@ -26,9 +26,9 @@ Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::Matrix
 /// All x with A x = b, x = point + directions w: the point of least norm, orthonormal directions. Conditions that
 /// contradict each other are met in the least-squares sense; singular values below `negligible` of the largest are zero.
 struct Solutions {
-  Eigen::VectorXd point;
-  Eigen::MatrixXd directions;
-  Eigen::MatrixXd idle;  ///< combinations of conditions that repeat each other, idle^T A = 0; orthonormal
+  Eigen::VectorXd point;       ///< the solution of least norm
+  Eigen::MatrixXd directions;  ///< a column each, orthonormal
+  Eigen::MatrixXd idle;        ///< combinations of conditions that repeat each other, idle^T A = 0; orthonormal
 };
 /// By singular values: A = U S V^T, point = V S^+ U^T b. An empty A leaves all directions.
 Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible);

@@ -1,5 +1,6 @@
 // Nearest facet of a simplicial surface: a bounding-box tree, O(log n) a query, O(n log n) to build.
-// In 3D pieces and leaves have tight boxes, too, with an axis along the normal (Gottschalk, Lin, Manocha 1996): upright boxes of slanted facets overlap so much that a cone of needles was asked for two hundred of them a query.
+// In 3D pieces and leaves have tight boxes, too, with an axis along the normal (Gottschalk, Lin, Manocha 1996): upright boxes
+// of slanted facets overlap so much that a query at a cone of needles would look at two hundred of them.
 #pragma once
 
 #include <array>
@@ -9,26 +10,31 @@
 
 namespace splashdown {
 
+/// Facets of one surface, or any others, to be searched. Const calls may come from all threads.
 template <int d>
 class FacetTree {
  public:
+  /// What `nearest` has found.
   struct Hit {
-    int facet = -1;
+    int facet = -1;                 ///< its number; -1: none within reach
     Vec<d> point = Vec<d>::Zero();  ///< closest point on the surface
-    double squared_distance = 0;
+    double squared_distance = 0;    ///< [m^2]
   };
 
   FacetTree() = default;
   /// Of facets given by their corners [m], one frame for all; they are copied.
   explicit FacetTree(const std::vector<std::array<Vec<d>, d>>& facets);
+  /// Of the facets of a `Surface`: vertices [m], d x n, and vertex indices, d x m.
   FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
             const Eigen::Matrix<int, d, Eigen::Dynamic>& facets);
 
+  /// Whether there are no facets.
   bool empty() const { return pieces_.empty(); }
   /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,
   /// relative: far from a curved surface all facets are about as near, and telling which one is takes long. In 3D the first of
   /// facets that are equally near.
   Hit nearest(const Vec<d>& x, double reach, double slack = 0) const;
+  /// An upright box: corners `min` and `max` [m].
   using Box = Eigen::AlignedBox<double, d>;
   /// All facets that meet an upright box, and some that pass near it, in ascending order.
   std::vector<int> meeting(const Box& box) const;

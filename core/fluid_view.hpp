@@ -15,7 +15,7 @@ namespace splashdown {
 /// A rigid surface that bounds the fluid: a body's hull or the inside of a tank.
 template <int d>
 struct WallSpec {
-  std::string name;
+  std::string name;  ///< of the scene
   /// Wall frame; encloses the solid. A tank is a surface turned inside out (clockwise outline in 2D).
   Surface<d> surface;
   Isometry<d> pose = Isometry<d>::Identity();  ///< wall frame to world at t = 0
@@ -30,22 +30,25 @@ struct WallLoad {
   Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick: acceleration pressure, stresses of effects
   Wrench<d> repair = Wrench<d>::Zero();    ///< mean over the kick, from the repair impulse
   double wetted = 0;                       ///< wetted length (2D) or area (3D) [m, m^2]
+  /// physical + repair: all that acts on the wall.
   Wrench<d> total() const { return physical + repair; }
 };
 
 /// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D].
 struct Ledger {
-  double volume_initial = 0, volume = 0;
+  double volume_initial = 0;    ///< at t = 0
+  double volume = 0;            ///< at t_n: enclosed by the boundary, with `hull_chords`; spray apart
   double time_integration = 0;  ///< volume change by moving nodes
   double remesh_created = 0;    ///< volume gained when the boundary was recognised anew
   double remesh_deleted = 0;    ///< volume lost there (negative)
   double returned = 0;          ///< volume that came back at the free surface for what these three changed
   double spray = 0;             ///< volume now carried by separated drops
   double hull_chords = 0;       ///< volume that the facets of sunken hulls have taken from the mesh; part of `volume`
-  double kinetic_energy = 0, potential_energy = 0;
-  double chord_energy = 0;   ///< potential energy of the water in `hull_chords`; part of potential_energy
-  double energy_remesh = 0;  ///< kinetic energy changed by node insertion and removal
-  double energy_repair = 0;  ///< kinetic energy taken by repair impulses
+  double kinetic_energy = 0;    ///< at t_n, with velocities of t_n
+  double potential_energy = 0;  ///< at t_n, the sum over all effects
+  double chord_energy = 0;      ///< potential energy of the water in `hull_chords`; part of potential_energy
+  double energy_remesh = 0;     ///< kinetic energy changed by node insertion and removal
+  double energy_repair = 0;     ///< kinetic energy taken by repair impulses
   double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
 };
 

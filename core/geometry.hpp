@@ -15,6 +15,7 @@ inline Mat<2> cofactor(const Mat<2>& J) {
   c << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
   return c;
 }
+/// The same in 3D.
 inline Mat<3> cofactor(const Mat<3>& J) {
   Mat<3> c;
   c.col(0) = J.col(1).cross(J.col(2));
@@ -26,6 +27,7 @@ inline Mat<3> cofactor(const Mat<3>& J) {
 /// d!, the inverse volume of the unit simplex.
 template <int d>
 inline constexpr double factorial = d == 0 ? 1.0 : d* factorial<(d > 0 ? d - 1 : 0)>;
+/// Ends the recursion: 0! = 1.
 template <>
 inline constexpr double factorial<0> = 1.0;
 
@@ -42,8 +44,8 @@ Mat<d> edge_matrix(const Corner& corner) {
   return J;
 }
 
-/// Signed volume det(x_j - x_0) / d! of a simplex [m^d]; `corner(j)` gives x_j. Positive where the corners are ordered by the right
-/// hand (counter-clockwise in 2D).
+/// Signed volume det(x_j - x_0) / d! of a simplex [m^d]; `corner(j)` gives x_j. Positive where the corners are ordered by the
+/// right hand (counter-clockwise in 2D).
 template <int d, class Corner>
 double volume(const Corner& corner) {
   return edge_matrix<d>(corner).determinant() / factorial<d>;
@@ -60,14 +62,18 @@ VolumeGradients<d> volume_gradients(const Corner& corner) {
 
 /// Area vector of an oriented facet: unit normal times length [m] or area [m^2].
 inline Vec<2> area_vector(const std::array<Vec<2>, 2>& f) { return {f[1].y() - f[0].y(), f[0].x() - f[1].x()}; }
+/// The same in 3D: of a triangle, by the right hand.
 inline Vec<3> area_vector(const std::array<Vec<3>, 3>& f) { return 0.5 * (f[1] - f[0]).cross(f[2] - f[0]); }
 
-/// w x r and (moment) r x f, where w and the moment have one entry in 2D, three in 3D.
+/// w x r: velocity at r [m] from the centre of a rotation w [rad/s], which has one entry in 2D.
 inline Vec<2> cross(const Eigen::Matrix<double, 1, 1>& w, const Vec<2>& r) { return {-w[0] * r.y(), w[0] * r.x()}; }
+/// The same in 3D.
 inline Vec<3> cross(const Vec<3>& w, const Vec<3>& r) { return w.cross(r); }
+/// r x f: moment [N m; 2D: N] of a force f [N] that acts at r [m]; one entry in 2D.
 inline Eigen::Matrix<double, 1, 1> moment(const Vec<2>& r, const Vec<2>& f) {
   return Eigen::Matrix<double, 1, 1>(r.x() * f.y() - r.y() * f.x());
 }
+/// The same in 3D.
 inline Vec<3> moment(const Vec<3>& r, const Vec<3>& f) { return r.cross(f); }
 
 /// V + w x r: velocity of a rigid body's point at r from its reference point [m/s]; one frame for all.
@@ -76,8 +82,8 @@ Vec<d> rigid_velocity(const Twist<d>& s, const Vec<d>& r) {
   return s.template head<d>() + cross(Eigen::Matrix<double, rotations<d>, 1>(s.template tail<rotations<d>>()), r);
 }
 
-/// Acceleration of a rigid body's point at r from its reference point: a + alpha x r + w x (w x r) [m/s^2]. `acceleration`: of the
-/// reference point, and angular.
+/// Acceleration of a rigid body's point at r from its reference point: a + alpha x r + w x (w x r) [m/s^2]. `acceleration`:
+/// of the reference point, and angular.
 template <int d>
 Vec<d> rigid_acceleration(const Vec<d>& r, const Twist<d>& velocity, const Twist<d>& acceleration) {
   if constexpr (d == 2) {
@@ -99,7 +105,7 @@ Wrench<d> wrench_of(const Vec<d>& r, const Vec<d>& f) {
 
 /// exp(w): rotation matrix of a rotation vector w [rad] (Rodrigues).
 inline Mat<2> rotation(const Eigen::Matrix<double, 1, 1>& w) { return Eigen::Rotation2Dd(w[0]).toRotationMatrix(); }
-// By way of the quaternion: a turn about a coordinate axis leaves that axis exactly where it is.
+/// The same in 3D. By way of the quaternion: a turn about a coordinate axis leaves that axis exactly where it is.
 inline Mat<3> rotation(const Vec<3>& w) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(w.norm(), w.normalized())).toRotationMatrix();
 }

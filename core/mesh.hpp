@@ -20,7 +20,7 @@ struct Facet {
 template <int d>
 struct Mesh {
   std::vector<std::array<int, d + 1>> cells;  ///< positively oriented simplices
-  std::vector<Facet<d>> boundary;
+  std::vector<Facet<d>> boundary;             ///< closed: free surface and wetted walls, area vectors out of the fluid
 };
 
 /// Corner reader of a cell or facet for the functions of geometry.hpp.
@@ -59,8 +59,8 @@ std::vector<double> volume_shares(const Mesh<d>& mesh, const Positions& x) {
   return share;
 }
 
-/// The sum over the cells around each of `nodes` nodes of what `share(c)` gives to each corner of cell c, in ascending order of the
-/// cells. O(cells).
+/// The sum over the cells around each of `nodes` nodes of what `share(c)` gives to each corner of cell c, in ascending order
+/// of the cells. O(cells).
 template <int d, class Share>
 std::vector<double> nodal_sums(const Mesh<d>& mesh, std::size_t nodes, Share share) {
   std::vector<double> sums(nodes, 0.0);

@@ -13,11 +13,13 @@ struct WallTie {
   int patch = -1;   ///< smooth patch of its surface the node slides on
   int vertex = -1;  ///< corner of its surface the node is fixed to, -1: slides
   int crease = -1;  ///< crease of its surface the node slides along
+  /// Whether the node is at a corner or on a crease.
   bool sharp() const { return vertex >= 0 || crease >= 0; }
+  /// Equal in all four.
   bool operator==(const WallTie&) const = default;
 };
 
-/// World frame. All arrays are as long as `x`.
+/// Positions, velocities and pressures of all nodes, world frame. All arrays are as long as `x`.
 template <int d>
 struct Nodes {
   std::vector<Vec<d>> x;       ///< position at t_n [m]
@@ -27,6 +29,7 @@ struct Nodes {
   std::vector<char> surface;   ///< 1: on the free surface (p = 0)
   std::vector<double> volume;  ///< share of the cells around it after the last move; drops keep their own [m^d]
 
+  /// Number of nodes.
   std::size_t size() const { return x.size(); }
 
   /// Appends a node without volume; returns its index.

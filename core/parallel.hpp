@@ -29,7 +29,7 @@ template <class Value>
 using PerThread = tbb::enumerable_thread_specific<Value>;
 
 #ifdef __SANITIZE_THREAD__
-// The thread sanitizer does not see how TBB, compiled without it, hands work over and takes it back: it would call every loop
+// The thread sanitizer does not
 // a race. Under it threads of the standard library do the same pieces.
 template <class Visit>
 void shared_pieces(std::size_t count, std::size_t grain, Visit visit) {
@@ -44,6 +44,7 @@ void shared_pieces(std::size_t count, std::size_t grain, Visit visit) {
   for (auto& other : others) other.join();
 }
 #else
+/// visit(first, last) for pieces of [0, count) of about `grain`, on the threads of TBB.
 template <class Visit>
 void shared_pieces(std::size_t count, std::size_t grain, Visit visit) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),

@@ -26,6 +26,7 @@ struct ClosedContacts {
   /// W': Newton's law is asked for along these, as many as W has: contacts that slide and rub do no work in them. Empty: W.
   Eigen::MatrixXd workless = {};
 
+  /// Whether closed contacts leave less than all y, or add impulses of their own.
   bool restrict_modes() const { return directions.size() > 0 || known.size() > 0; }
   /// W W^T y where W is given, else y.
   Eigen::VectorXd allowed(const Eigen::VectorXd& y) const {
@@ -35,14 +36,15 @@ struct ClosedContacts {
 
 /// A structure's answer in a begun step, with the contacts that are closed at the moment.
 struct Response {
-  Eigen::VectorXd free;  ///< s_free: velocities without the fluid's impulse
-  ModalInertia modal;
-  ClosedContacts contacts;
+  Eigen::VectorXd free;     ///< s_free: velocities without the fluid's impulse
+  ModalInertia modal;       ///< Z and M
+  ClosedContacts contacts;  ///< W and the known impulses
 };
 
 /// Inverse masses of a local operator on a wall that stands in for the answer of the body behind it [1/kg; 2D: m/kg]; 0: none.
 struct InterfaceOperator {
-  double laplacian = 0, robin = 0;
+  double laplacian = 0;  ///< of the Laplacian (coupling/interface_term.hpp)
+  double robin = 0;      ///< of a mass for each piece of the wall
 };
 
 /// What the fluid's own equations know of the structure during a step.
@@ -53,8 +55,8 @@ struct InterfaceModel {
 
 /// Piece of a wetted wall with a local operator.
 struct InterfacePiece {
-  std::size_t wall;
-  double measure;  ///< length or area [m, m^2]
+  std::size_t wall;  ///< index of the wall
+  double measure;    ///< length or area [m, m^2]
 };
 
 }  // namespace splashdown

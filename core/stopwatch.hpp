@@ -5,13 +5,15 @@
 
 namespace splashdown {
 
-/// Wall clock [s].
+/// Seconds of the wall clock since `start`.
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Measures its own life by the wall clock.
 class Stopwatch {
  public:
+  /// Starts. `seconds`: the sum to which the destructor adds; it must live longer.
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
   ~Stopwatch() { seconds_ += seconds_since(start_); }
   Stopwatch(const Stopwatch&) = delete;

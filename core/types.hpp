@@ -7,23 +7,30 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
+/// Light bodies that land on water. SI units; two-dimensional quantities are per metre of depth.
 namespace splashdown {
 
+/// A point, a velocity, a force: d components, world frame unless something else is said.
 template <int d>
 using Vec = Eigen::Matrix<double, d, 1>;
+/// d x d: a rotation, a gradient, a projector.
 template <int d>
 using Mat = Eigen::Matrix<double, d, d>;
+/// A pose: rotation and translation, from a body or wall frame to the world unless something else is said.
 template <int d>
 using Isometry = Eigen::Transform<double, d, Eigen::Isometry>;
 
-/// Rotational and total degrees of freedom: 1 and 3 in two dimensions, 3 and 6 in three.
+/// Rotational degrees of freedom: 1 in two dimensions, 3 in three.
 template <int d>
 inline constexpr int rotations = d*(d - 1) / 2;
+/// All degrees of freedom of a rigid body: 3 in two dimensions, 6 in three.
 template <int d>
 inline constexpr int freedoms = d + rotations<d>;
 
+/// (V, w): velocity of a reference point [m/s] and angular velocity [rad/s], world frame.
 template <int d>
 using Twist = Eigen::Matrix<double, freedoms<d>, 1>;
+/// (F, M): force [N; 2D: N/m] and moment about a reference point [N m; 2D: N], world frame. Twist . wrench is power.
 template <int d>
 using Wrench = Eigen::Matrix<double, freedoms<d>, 1>;
 

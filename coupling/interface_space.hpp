@@ -25,6 +25,7 @@ struct Interface {
   Eigen::VectorXd lagged;  ///< as Solution::lagged [Pa s]
 };
 
+/// Maps between Interface and the vector that accelerators see.
 class InterfaceSpace {
  public:
   /// `fluid_density` [kg/m^3], for the water's mass in a body's place. Refers to the structure's walls.

@@ -25,15 +25,17 @@ class InterfaceTerm {
   virtual InterfaceOperator interface_operator(const WallCoordinates& wall) const = 0;
 };
 
+/// No stand-in: plain Dirichlet-Neumann.
 class NoTerm final : public InterfaceTerm {
  public:
   std::string name() const override { return "none"; }
   InterfaceOperator interface_operator(const WallCoordinates&) const override { return {}; }
 };
 
-/// Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
+/// A Laplacian with lambda = strength / m on the wetted hull. Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
 class LaplacianTerm final : public InterfaceTerm {
  public:
+  /// `strength` [-]: factor of lambda; with 1 the energy of a translation is exact.
   explicit LaplacianTerm(double strength = 1) : strength_(strength) {}
   std::string name() const override { return "laplacian"; }
   InterfaceOperator interface_operator(const WallCoordinates& wall) const override {

@@ -24,6 +24,7 @@
 #include "core/response.hpp"
 #include "core/status.hpp"
 
+/// Fluid and structure as each other's partners, and the schemes that make them agree.
 namespace splashdown::coupling {
 
 /// Generalised velocities of all walls of the structure, one below the other.
@@ -50,18 +51,19 @@ struct Step {
 
 /// A wall's coordinates among all, and what interface terms need to know of the body behind it.
 struct WallCoordinates {
-  std::string name;
-  Eigen::Index first = 0, count = 0;
-  bool answers = false;  ///< impulses change its velocities
-  double mass = 0;       ///< [kg, kg/m]
-  double volume = 0;     ///< that it encloses [m^d]
+  std::string name;        ///< of the body
+  Eigen::Index first = 0;  ///< index of its first coordinate among all
+  Eigen::Index count = 0;  ///< number of its coordinates
+  bool answers = false;    ///< impulses change its velocities
+  double mass = 0;         ///< [kg, kg/m]
+  double volume = 0;       ///< that it encloses [m^d]
 };
 
 /// What a fluid is asked in a pass.
 struct Pass {
-  Velocities velocities;        ///< of the structure's walls; in modes of the exact term without the fluid's impulse
-  Eigen::VectorXd lagged = {};  ///< interface impulses that local operators lag on, one a piece [Pa s]
-  ClosedContacts contacts = {};
+  Velocities velocities;         ///< of the structure's walls; in modes of the exact term without the fluid's impulse
+  Eigen::VectorXd lagged = {};   ///< interface impulses that local operators lag on, one a piece [Pa s]
+  ClosedContacts contacts = {};  ///< what of the modes may occur
 };
 
 /// What it answers.
@@ -91,8 +93,8 @@ class Participant {
   virtual double stable_dt() const = 0;  ///< largest that it allows from t_n [s]; infinity: any
   /// Writes the state at t_n, bit for bit: what is loaded goes on with the same numbers.
   virtual void save(std::ostream& out) const = 0;
-  /// Reads what `save` wrote, into a participant made of the same scene. Throws std::runtime_error for other bytes, after which it may
-  /// only be destroyed or loaded again.
+  /// Reads what `save` wrote, into a participant made of the same scene. Throws std::runtime_error for other bytes, after
+  /// which it may only be destroyed or loaded again.
   virtual void load(std::istream& in) = 0;
 };
 
@@ -102,15 +104,15 @@ class FluidPart : public Participant {
   /// Fixes the step and what its equations know of the structure; meshes and factors. Refused, with the cause, where the
   /// equations cannot be solved. Throws std::invalid_argument for walls that it does not have.
   virtual Status begin(const Step& step, const InterfaceModel& structure) = 0;
-  /// Impulses on the walls for their velocities: I(s), and s itself in the modes of the exact term. Starts from t_n, the same bits
-  /// for the same pass. Without velocities all walls stand still. Refused where there is no solution.
+  /// Impulses on the walls for their velocities: I(s), and s itself in the modes of the exact term. Starts from t_n, the same
+  /// bits for the same pass. Without velocities all walls stand still. Refused where there is no solution.
   virtual Status solve(const Pass& pass) = 0;
   /// Of the last solve.
   virtual const Solution& solution() const = 0;
   /// Whether the last solve may be committed. Passes may be wild on their way; the last may not.
   virtual Status acceptable() const = 0;
-  /// Where the last solve may not be committed for a fragment of the fluid: lets that go its own way in the next `begin` from t_n.
-  /// False: there is none.
+  /// Where the last solve may not be committed for a fragment of the fluid: lets that go its own way in the next `begin` from
+  /// t_n. False: there is none.
   virtual bool release_fragment() { return false; }
   /// Accepts the last solve. `walls`: where the structure has its walls at t_{n+1}; empty: all stay.
   virtual void commit(const Placement& walls) = 0;
@@ -140,8 +142,8 @@ class StructurePart : public Participant {
   virtual void begin(const Step& step) = 0;
   /// Of the begun step: the velocities are `free` until contacts open or close and impulses act.
   virtual Response response() const = 0;
-  /// The velocities under an impulse, contacts included: the trial. Starts from t_n; an impulse that is not finite gives velocities
-  /// that are not.
+  /// The velocities under an impulse, contacts included: the trial. Starts from t_n; an impulse that is not finite gives
+  /// velocities that are not.
   virtual const Velocities& solve(const Impulse& impulse) = 0;
   /// A trial with velocities that somebody found from `response`.
   virtual const Velocities& adopt(const Velocities& velocities) = 0;

@@ -18,8 +18,9 @@ template <int d>
 double collision_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
                     std::span<const Twist<d>> velocity, double cfl, double dt);
 
-/// Until walls that approach each other meet: the least V / (-dV/dt) of cells between two walls, V their volume and dV/dt its rate
-/// with the velocities of their nodes [s]. What is thinner than a hundredth of the element size may go at once: gaps end.
+/// Until walls that approach each other meet: the least V / (-dV/dt) of cells between two walls, V their volume and dV/dt its
+/// rate with the velocities of their nodes [s]. What is thinner than a hundredth of the element size may go at once: gaps
+/// end.
 template <int d>
 double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh);
 

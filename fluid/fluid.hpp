@@ -31,6 +31,7 @@ namespace splashdown::fluid {
 
 using splashdown::FluidView;
 
+/// The fluid and its state. One thread drives it; loops within run on all.
 template <int d>
 class Fluid final : public FluidView<d> {
  public:
@@ -41,9 +42,9 @@ class Fluid final : public FluidView<d> {
   double time() const;       ///< t_n
   double stable_dt() const;  ///< largest dt the criterion allows from t_n
 
-  /// Fixes the step: `kick`, over which forces act [s]; `dt`, over which nodes move [s]; `structure`: how the bodies behind the walls
-  /// answer, in coordinates of all walls. Remeshes once after each commit, whatever is begun then. Refused where the pressure
-  /// matrix cannot be factored.
+  /// Fixes the step: `kick`, over which forces act [s]; `dt`, over which nodes move [s]; `structure`: how the bodies behind
+  /// the walls answer, in coordinates of all walls. Remeshes once after each commit, whatever is begun then. Refused where
+  /// the pressure matrix cannot be factored.
   Status begin(double kick, double dt, const InterfaceModel& structure);
   /// `walls`: half-step velocities of the walls, without the fluid's load in the motions that respond, with it in all
   /// others. `previous`: the interface impulses on which the interface Laplacians lag; one that equals the result's
@@ -54,8 +55,8 @@ class Fluid final : public FluidView<d> {
   const StepResult<d>& result() const;  ///< of the last solve
   /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
   Status acceptable() const;
-  /// Where the last solve may not be committed for a node at the free surface: lets it fly as a drop, with its volume and momentum,
-  /// in the step that is to begin anew. False: it is for nothing of the kind.
+  /// Where the last solve may not be committed for a node at the free surface: lets it fly as a drop, with its volume and
+  /// momentum, in the step that is to begin anew. False: it is for nothing of the kind.
   bool release_fragment();
   std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
   std::vector<double> carried_interface_impulse() const;     ///< first guess of theirs: the pressure of the last step

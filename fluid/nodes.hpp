@@ -24,23 +24,29 @@ struct VelocityMoments {
   static VelocityMoments of(double volume, const Vec<d>& v) {
     return {volume, volume * v, 0.5 * volume * v.squaredNorm()};
   }
+  /// Adds all three.
   VelocityMoments& operator+=(const VelocityMoments& b) {
     volume += b.volume, momentum += b.momentum, energy += b.energy;
     return *this;
   }
+  /// Subtracts all three.
   VelocityMoments& operator-=(const VelocityMoments& b) {
     volume -= b.volume, momentum -= b.momentum, energy -= b.energy;
     return *this;
   }
+  /// momentum / volume [m/s]; zero without a volume.
   Vec<d> mean_velocity() const { return volume > 0 ? Vec<d>(momentum / volume) : Vec<d>::Zero(); }
   /// Of the motion about the centre of mass; zero where cancellation leaves less.
   double inner_energy() const { return std::max(0.0, energy - 0.5 * momentum.dot(mean_velocity())); }
 };
 
+/// What a step keeps about nodes; all arrays are as long as `x`. World frame.
 template <int d>
 struct Nodes : splashdown::Nodes<d> {
+  /// The part that others look at.
   using View = splashdown::Nodes<d>;
   using View::p;
+  /// Number of nodes.
   using View::size;
   using View::surface;
   using View::tie;

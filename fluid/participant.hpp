@@ -10,10 +10,13 @@
 
 namespace splashdown::fluid {
 
+/// Fluid<d> behind the seam: translates between stacked coordinates and twists, wrenches, poses.
 template <int d>
 class Participant final : public coupling::FluidPart, private coupling::Linearised {
  public:
+  /// Takes the fluid over; not null.
   explicit Participant(std::unique_ptr<Fluid<d>> fluid) : fluid_(std::move(fluid)) {}
+  /// The fluid, to be looked at.
   const Fluid<d>& fluid() const { return *fluid_; }
 
   double time() const override { return fluid_->time(); }

@@ -16,7 +16,7 @@ using splashdown::WallSpec;
 /// A region filled with liquid at t = 0. It is clipped by the walls; regions may not overlap.
 template <int d>
 struct LiquidSpec {
-  Surface<d> boundary;
+  Surface<d> boundary;                            ///< world frame, closed, normals outward
   std::function<Vec<d>(const Vec<d>&)> velocity;  ///< initial velocity field; empty: at rest
 };
 
@@ -38,19 +38,20 @@ struct SizeSpec {
 /// norm of the difference of the edge's end velocities, whatever its direction, and a, the acceleration of the
 /// nodes over the last step. Effects may ask for less.
 struct TimeStepSpec {
-  double cfl = 0.5;
-  double dt_max = 1e-2;
+  double cfl = 0.5;      ///< edges change by less than this share of their length
+  double dt_max = 1e-2;  ///< [s]
 };
 
+/// Everything about a fluid at t = 0 but its effects. World frame.
 template <int d>
 struct FluidSpec {
-  double density = 1000;  ///< [kg/m^3]
-  SizeSpec size;
-  TimeStepSpec step;
-  std::vector<LiquidSpec<d>> liquids;
-  std::vector<WallSpec<d>> walls;
-  /// Called all the time while the first mesh is made, which takes minutes where it is large; what it throws ends that. Empty: nobody
-  /// is asked.
+  double density = 1000;               ///< [kg/m^3]
+  SizeSpec size;                       ///< of elements
+  TimeStepSpec step;                   ///< largest step
+  std::vector<LiquidSpec<d>> liquids;  ///< regions, none of them over another
+  std::vector<WallSpec<d>> walls;      ///< those of the structure first
+  /// Called all the time while the first mesh is made, which takes minutes where it is large; what it throws ends that.
+  /// Empty: nobody is asked.
   std::function<void()> while_meshing = {};
 };
 

@@ -14,7 +14,7 @@ using splashdown::WallLoad;
 /// All of it world frame, half-step velocities at t_{n+1/2}. Empty but for the status where no solution was found.
 template <int d>
 struct StepResult {
-  Status status;
+  Status status;                          ///< why there is no solution; ok: there is one
   std::vector<WallLoad<d>> loads;         ///< on the walls, means over the kick
   std::vector<Twist<d>> wall_velocities;  ///< half-step velocities that the walls end with
   /// Velocities that impulses left unbalanced in the motions would still give to bodies and water: what the solve fell

@@ -9,6 +9,7 @@
 
 namespace splashdown::fluid {
 
+/// A sum of wall-clock seconds for each phase, by its number.
 class PhaseTimer {
  public:
   /// Phases are known by their number from here on.
@@ -19,6 +20,7 @@ class PhaseTimer {
   void add(std::string phase) { seconds_.emplace_back(std::move(phase), 0.0); }
   /// Charges the time until the scope's end to a phase.
   Stopwatch scope(std::size_t phase) { return Stopwatch(seconds_[phase].second); }
+  /// Names and seconds of all phases.
   const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
 
  private:

@@ -3,6 +3,7 @@
 
 #include "core/types.hpp"
 
+/// The incompressible fluid with a free surface: particle finite elements.
 namespace splashdown::fluid {
 
 using splashdown::freedoms;

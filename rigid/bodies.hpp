@@ -8,13 +8,11 @@
 //   x_{n+1}   = x_n + dt_n V_{n+1/2},   R_{n+1} = exp(dt_n w_{n+1/2}) R_n
 //
 // which is Bullet's semi-implicit Euler step when dt is constant. Second order, symplectic.
-//
 // Joints and contacts are conditions on the half-step velocities, taken at x_n, that remove what x_n violates of
 // them: positions stay on them to second order in dt. Stops of joints are contacts; springs and dampers of joints are part of
 // the equation above, taken so that no step is too long for them.
-// The three verbs: begin fixes kick and dt, solve may be repeated (always from t_n, same bits for the
-// same input), commit makes t_{n+1} the present.
-// A body whose load is not finite gets a trial state that is not finite either, and nothing else happens.
+// Three verbs: begin fixes kick and dt, solve may be repeated (always from t_n, same bits for the same input), commit makes
+// t_{n+1} the present. A load that is not finite gives a trial state that is not.
 #pragma once
 
 #include <iosfwd>
@@ -43,9 +41,11 @@ class Force {
                            double time) const = 0;
 };
 
+/// m g at the centre of mass.
 template <int d>
 class Gravity final : public Force<d> {
  public:
+  /// `acceleration`: g, world frame [m/s^2].
   explicit Gravity(const Vec<d>& acceleration) : acceleration_(acceleration) {}
   std::string name() const override { return "gravity"; }
   Wrench<d> wrench(const BodySpec<d>& body, const Isometry<d>&, const Twist<d>&, double) const override;
@@ -54,15 +54,18 @@ class Gravity final : public Force<d> {
   Vec<d> acceleration_;
 };
 
+/// The bodies and their state. Driven by one thread. World frame; quantities about the centres of mass.
 template <int d>
 class Bodies final : public BodiesView<d> {
  public:
-  /// Contacts between the bodies and with the planes only if asked for. Throws std::invalid_argument for bodies and joints that cannot
-  /// be (body.hpp, joint.hpp).
+  /// Contacts between the bodies and with the planes only if asked for. Throws std::invalid_argument for bodies and joints
+  /// that cannot be (body.hpp, joint.hpp).
   Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Force<d>>> forces,
          std::vector<JointSpec> joints = {}, std::optional<ContactSpec<d>> contacts = {});
   ~Bodies() override;
+  /// Takes all over; what is left may only be destroyed or assigned to.
   Bodies(Bodies&&) noexcept;
+  /// Takes all over; what is left may only be destroyed or assigned to.
   Bodies& operator=(Bodies&&) noexcept;
 
   std::size_t size() const override;
@@ -78,8 +81,9 @@ class Bodies final : public BodiesView<d> {
   /// Of the begun step, with the contacts that are closed at the moment. The half-step velocities are affine in the
   /// load until contacts open or close. (A spinning body in 3D is taken at its predicted midpoint.)
   Response response() const;
-  /// Trial state at t_{n+1} (pose) and t_{n+1/2} (velocity) under constant loads, one wrench a body about its centre of mass, world
-  /// frame [N, N m; 2D: N/m, N]. Throws std::invalid_argument for another number of them, std::logic_error before `begin`.
+  /// Trial state at t_{n+1} (pose) and t_{n+1/2} (velocity) under constant loads, one wrench a body about its centre of mass,
+  /// world frame [N, N m; 2D: N/m, N]. Throws std::invalid_argument for another number of them, std::logic_error before
+  /// `begin`.
   std::span<const BodyState<d>> solve(std::span<const Wrench<d>> loads);
   /// The same under their impulses over the kick, of all bodies one below the other [N s, N m s].
   std::span<const BodyState<d>> solve(const Eigen::VectorXd& impulses);
@@ -87,8 +91,8 @@ class Bodies final : public BodiesView<d> {
   std::span<const BodyState<d>> adopt(const Eigen::VectorXd& velocities);
   /// Opens and closes contacts as the last trial asks for if the impulses on all bodies are these. False: they were right.
   bool update_contacts(const Eigen::VectorXd& impulses);
-  /// Whether the last trial stays on its side of what it may touch: contacts are looked for as far as velocities of t_n reach, and
-  /// hulls that are held may leave others no room.
+  /// Whether the last trial stays on its side of what it may touch: contacts are looked for as far as velocities of t_n
+  /// reach, and hulls that are held may leave others no room.
   Status acceptable() const;
   /// Accepts the last trial.
   void commit();

@@ -16,6 +16,7 @@
 
 namespace splashdown::rigid {
 
+/// Bullet's world: bodies and joints by their numbers, world frame.
 class BulletEngine {
  public:
   BulletEngine();

@@ -22,6 +22,7 @@ Eigen::MatrixXd rows_of(const std::vector<Condition<d>>& conditions, Eigen::Inde
   return rows;
 }
 
+/// Right sides, one a condition [m/s, rad/s].
 template <int d>
 Eigen::VectorXd rates_of(const std::vector<Condition<d>>& conditions) {
   Eigen::VectorXd rates(static_cast<Eigen::Index>(conditions.size()));

@@ -1,4 +1,5 @@
-// Velocities that bodies can have together under joints and contacts, and how they answer to impulses. Internal to the rigid-body room.
+// Velocities that bodies can have together under joints and contacts, and how they answer to impulses. Internal to the
+// rigid-body room.
 //
 //   E s = a                       held freedoms, fixed and prescribed bodies, joints
 //   D s >= b                      contacts
@@ -10,11 +11,6 @@
 // Ito, Kunisch 2002): a closed contact that pulls opens, an open one that would be crossed closes. It may run in
 // circles; after a few changes only the first contact that is wrong changes (Murty 1974), which ends where contacts
 // are independent of each other.
-//
-// A closed contact that rubs sticks, T s = 0, while that takes no more than mu r. One that slides along n, |n| = 1, pushes along
-// D - mu n T: Newton's law is asked for in the directions W' along which that does no work, W'^T (M y - ...) = 0. It sticks if its
-// friction would drive it the other way, or if it pulls, which friction can do (Painleve 1895).
-// Nothing divides by M: bodies may lack mass where something else, the water, has inertia for them.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +22,14 @@ namespace splashdown::rigid {
 /// Conditions and velocities this much smaller than others are roundoff.
 inline constexpr double negligible = 1e-10;
 
+/// A closed contact that rubs sticks, T s = 0, while that takes no more than mu r. One that slides along n, |n| = 1, pushes along
+/// D - mu n T: Newton's law is asked for in the directions W' along which that does no work, W'^T (M y - ...) = 0. It sticks
+/// if its friction would drive it the other way, or if it pulls, which friction can do (Painleve 1895). Nothing divides by M:
+/// bodies may lack mass where something else, the water, has inertia for them.
+/// Constraints of one step on the velocities s of all bodies, one below the other.
 class ConstraintSolver {
  public:
+  /// What a step asks; matrices have a row a condition.
   struct Problem {
     Eigen::VectorXd before;      ///< s_before
     Eigen::VectorXd unit;        ///< lengths that make all velocities m/s: 1, or m/rad
@@ -60,8 +62,8 @@ class ConstraintSolver {
   std::optional<Eigen::VectorXd> settled(const Eigen::VectorXd& impulse);
   /// What closed contacts ask for beyond s_0: the slowest velocities that meet them.
   Eigen::VectorXd asked() const { return modes_ * pushed_; }
-  /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes it 1/a;
-  /// a lever, the ratio of its arms.
+  /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes
+  /// it 1/a; a lever, the ratio of its arms.
   double leverage() const { return pushed_.norm() / (fastest_asked_ + resolution_); }
   double resolution() const { return resolution_; }  ///< of D s - b [m/s]
   /// Contacts as they are now are a guess: how often they changed until here does not count.

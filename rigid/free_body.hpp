@@ -6,9 +6,12 @@
 
 namespace splashdown::rigid {
 
+/// Mass, inertia and angular momentum of one body; twists about its centre of mass, world frame.
 class FreeBody {
  public:
+  /// Which of (V, w) may change, world axes.
   using Freedom = std::array<bool, freedoms<3>>;
+  /// Of twists: 6 x 6.
   using Matrix = Eigen::Matrix<double, freedoms<3>, freedoms<3>>;
 
   /// A body without mass has no inertia either.
@@ -18,7 +21,9 @@ class FreeBody {
   void begin(const BodyState<3>& state, const Wrench<3>& impulse, double dt);
   /// M of the begun step in world axes: M (s - s_before) = impulse() + other impulses, in the free freedoms.
   const Matrix& inertia() const { return matrix_; }
-  const Wrench<3>& impulse() const { return impulse_; }
+  const Wrench<3>& impulse() const {
+    return impulse_;
+  }  ///< known impulse of the begun step, with what the spin adds [N s, N m s]
   /// Takes on the momentum of the velocity that the step ends with.
   void commit(const Twist<3>& velocity);
 

@@ -9,11 +9,13 @@
 
 namespace splashdown::rigid {
 
+/// Bodies<d> behind the seam: translates between stacked coordinates and twists, wrenches, poses.
 template <int d>
 class Participant final : public coupling::StructurePart {
  public:
   /// Wall k is body k.
   explicit Participant(std::unique_ptr<Bodies<d>> bodies);
+  /// The bodies, to be looked at.
   const Bodies<d>& bodies() const { return *bodies_; }
 
   double time() const override { return bodies_->time(); }

@@ -28,12 +28,14 @@ Eigen::Matrix3d world_inertia(const Eigen::Matrix3d& rotation, const Eigen::Matr
 /// the free block of the inertia (not the free block of the inverse), zero elsewhere.
 Eigen::Matrix3d rotational_compliance(const Eigen::Matrix3d& inertia, const std::array<bool, 3>& free);
 
+/// Rotation of a body before a step, world axes.
 struct SpinState {
   Eigen::Matrix3d rotation;  ///< R_n, body axes to world
   Eigen::Vector3d velocity;  ///< w_{n-1/2}
   Eigen::Vector3d momentum;  ///< L_{n-1/2}
 };
 
+/// What the midpoint rule makes of it.
 struct SpinStep {
   Eigen::Vector3d velocity;  ///< w_{n+1/2}; held axes keep theirs
   Eigen::Matrix3d inertia;   ///< J(R_{n+1/2})

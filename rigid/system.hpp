@@ -14,8 +14,10 @@
 
 namespace splashdown::rigid {
 
+/// The state behind Bodies.
 template <int d>
 struct Bodies<d>::System {
+  /// Where between two commits it stands.
   enum class Phase { committed, begun, solved };
 
   std::vector<BodySpec<d>> specs;
@@ -36,6 +38,7 @@ struct Bodies<d>::System {
   std::vector<Condition<d>> near;     // contacts that may close, then stops of joints
   std::vector<Condition<d>> rubbing;  // along what these contacts slide
   Eigen::VectorXd rebound;            // least rates of these contacts after an impact; empty: all are plastic
+  /// A joint with a spring, as it is at t_n.
   struct Sprung {
     Spring spring;
     JointCoordinate<d> at;
@@ -45,14 +48,20 @@ struct Bodies<d>::System {
   Eigen::VectorXd impulses;  // the last that were tried
   Eigen::VectorXd apart;     // velocities that only drift: how hulls that overlap part
 
+  /// Number of bodies.
   Eigen::Index size() const { return static_cast<Eigen::Index>(specs.size()); }
+  /// Throws std::logic_error with time and rule unless `fine`.
   void expect(bool fine, const char* rule) const;
+  /// Throws std::invalid_argument unless there is one value for each coordinate of all bodies.
   void expect_all(const Eigen::VectorXd& values) const;
+  /// Wrenches of all bodies, one below the other. Throws std::invalid_argument for another number of them.
   Eigen::VectorXd stacked(std::span<const Wrench<d>> each) const;
 
+  /// Sum of all forces but the fluid's load at t_n, about the centre of mass, world frame [N, N m].
   Wrench<d> known_force(std::size_t body) const;
   /// A prescribed body's velocity is the finite difference that carries one pose into the next.
   BodyState<d> prescribed(std::size_t body) const;
+  /// Puts Bullet's body where `state` has it.
   void place(Eigen::Index body, const BodyState<d>& state);
 
   /// All that a begun step needs to answer impulses: conditions, springs, constraints.

@@ -19,14 +19,15 @@ namespace splashdown::rigid {
 
 /// A free body without a motion of its own, and a least set of joints that take it, in their order.
 struct HeldBody {
-  std::size_t body = 0;
-  std::vector<std::size_t> joints = {};
+  std::size_t body = 0;                  ///< index
+  std::vector<std::size_t> joints = {};  ///< indices, ascending
 };
 
+/// What is odd about the joints of a scene; indices of joints and bodies.
 struct Ties {
   std::vector<std::size_t> repeated;  ///< joints that ask for nothing that others before them, or held freedoms, do not
   std::vector<std::size_t> contradicting;  ///< a least set of joints that no velocities satisfy together; empty: none
-  std::vector<HeldBody> held;
+  std::vector<HeldBody> held;              ///< free bodies that joints hold fast
   std::vector<std::size_t>
       jolted;  ///< free bodies whose velocity at t = 0 their joints change by more than a thousandth
 };

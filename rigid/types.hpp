@@ -4,6 +4,7 @@
 
 #include "core/types.hpp"
 
+/// Rigid bodies with joints and contacts, and their hydrostatics.
 namespace splashdown::rigid {
 
 using splashdown::freedoms;
@@ -15,6 +16,7 @@ using splashdown::Twist;
 using splashdown::Vec;
 using splashdown::Wrench;
 
+/// A rotation vector [rad] or an angular velocity [rad/s]: one entry in 2D.
 template <int d>
 using Rotation = Eigen::Matrix<double, rotations<d>, 1>;
 }  // namespace splashdown::rigid

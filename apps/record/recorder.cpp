@@ -87,8 +87,7 @@ struct Recorder<d>::State {
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
             max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, met_water, body_names, speed,
-            has_fluid,
-            cereal::binary_data(&ledger, sizeof ledger));
+            has_fluid, cereal::binary_data(&ledger, sizeof ledger));
   }
 
   CsvFile& file(const std::string& name, const std::string& header) {

@@ -5,11 +5,13 @@
 
 namespace splashdown {
 
+/// Formats of surface files.
 enum class SurfaceFormat { stl_ascii, stl_binary, obj };
 
+/// What a file says it is.
 struct FacetCount {
-  SurfaceFormat format;
-  long facets;  ///< triangles, polygons counted as such
+  SurfaceFormat format;  ///< found from the first bytes and the ending
+  long facets;           ///< triangles, polygons counted as such
 };
 
 /// Throws SurfaceFileError at the first line that is none of the format, and beyond `most_facets`.

@@ -14,12 +14,14 @@
 
 namespace splashdown {
 
+/// A closed boundary, prepared for many points. Const calls may come from all threads.
 template <int d>
 class InsideTest {
  public:
   /// `facets`: closed, oriented out of what they enclose, between the points `x` [m]; both are copied.
   InsideTest(std::span<const Vec<d>> x, const std::vector<Facet<d>>& facets);
-  /// Whether the winding number at x is positive. Overlapping parts of the boundary count as inside (winding number 2), gaps between them do not.
+  /// Whether the winding number at x is positive. Overlapping parts of the boundary count as inside (winding number 2), gaps
+  /// between them do not.
   bool operator()(const Vec<d>& x) const;
 
  private:

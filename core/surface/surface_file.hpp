@@ -20,15 +20,19 @@ namespace splashdown {
 /// More are refused before they are read. A hull of 10 m has facets of 2 cm with this many.
 inline constexpr long most_facets = 1'000'000;
 
+/// A file that is refused: what() says the rule that it breaks and where.
 class SurfaceFileError : public std::runtime_error {
  public:
+  /// `rule`: what is broken, and where in the file; `cure`: what the user may do.
   SurfaceFileError(const std::string& rule, std::string cure) : std::runtime_error(rule), cure_(std::move(cure)) {}
+  /// What the user may do about it.
   const std::string& cure() const { return cure_; }
 
  private:
   std::string cure_;
 };
 
+/// What a file holds: a closed surface, normals outward.
 struct SurfaceFile {
   Surface<3> surface;  ///< in the units of the file
   int parts = 1;       ///< closed surfaces beside each other

@@ -10,6 +10,7 @@
 
 namespace splashdown::coupling {
 
+/// Finds the next iterate of x = G(x) from those that have been tried. Vectors in m/s, all of one length between `forget`s.
 class Accelerator {
  public:
   virtual ~Accelerator() = default;
@@ -18,6 +19,7 @@ class Accelerator {
   virtual void begin_step() = 0;
   /// Whether it wants dG/dx at the beginning of each attempt, after begin_step().
   virtual bool needs_slope() const { return false; }
+  /// dG/dx at t_n, square [-]. Called only if needs_slope().
   virtual void set_slope(const Eigen::MatrixXd&) {}
   /// Next iterate from x and its image G(x).
   virtual Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) = 0;
@@ -27,12 +29,14 @@ class Accelerator {
   virtual void forget() {}
   /// What lives across steps, bit exact.
   virtual void save(std::ostream&) const {}
+  /// What `save` wrote. Throws std::runtime_error for other bytes.
   virtual void load(std::istream&) {}
 };
 
 /// x + w r with a constant w in (0, 1].
 class ConstantRelaxation final : public Accelerator {
  public:
+  /// `factor`: w.
   explicit ConstantRelaxation(double factor) : factor_(factor) {}
   std::string name() const override { return "constant"; }
   void begin_step() override {}
@@ -49,6 +53,7 @@ class ConstantRelaxation final : public Accelerator {
 /// Every step begins with the given first factor; equal residuals and values that are not finite keep it.
 class Aitken final : public Accelerator {
  public:
+  /// `first`: w of each step's first pass, in (0, 1].
   explicit Aitken(double first) : first_(first), factor_(first) {}
   std::string name() const override { return "aitken"; }
   void begin_step() override;

@@ -43,6 +43,7 @@ class IqnIls final : public Accelerator {
   void commit_step() override;
   void forget() override { past_.clear(); }
   void save(std::ostream& out) const override;
+  /// What `save` wrote. Throws std::runtime_error for other bytes.
   void load(std::istream& in) override;
 
  private:
@@ -59,6 +60,7 @@ class IqnIls final : public Accelerator {
 /// Morrison 1950). On an affine map of n dimensions it ends within 2 n + 1 passes (Gay 1979).
 class Broyden final : public Accelerator {
  public:
+  /// `factor`: w in (0, 1], of B_0 = -1/w.
   explicit Broyden(double factor) : factor_(factor) {}
   std::string name() const override { return "broyden"; }
   void begin_step() override;
@@ -83,10 +85,12 @@ class Broyden final : public Accelerator {
 /// `IqnIls` does with (1 - J)^-1 r in the place of r. The first pass is relaxed by w, without a slope like any other.
 class Probe final : public Accelerator {
  public:
+  /// `factor`: w in (0, 1] of a first pass.
   explicit Probe(double factor) : passes_(factor) {}
   std::string name() const override { return "probe"; }
   void begin_step() override;
   bool needs_slope() const override { return true; }
+  /// J = dG/dx, square [-]. Without it, or for vectors of another length, passes are those of `IqnIls`.
   void set_slope(const Eigen::MatrixXd& slope) override;
   Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image) override;
 

@@ -14,13 +14,16 @@
 
 namespace splashdown::coupling {
 
+/// A column of V and of W.
 struct Secant {
-  Eigen::VectorXd residual, image;  ///< differences
+  Eigen::VectorXd residual;  ///< r_j - r_{j-1} [m/s]
+  Eigen::VectorXd image;     ///< G(x_j) - G(x_{j-1}) [m/s]
   /// Share of its length that must be left of the residual, otherwise it is dependent. Below it is what truncated solves and the
   /// curvature of a pass leave.
   double kept = 1e-6;
 };
 
+/// The columns of V and W, newest first.
 class Secants {
  public:
   /// Newest first. Returns false and drops a pair that carries no information: not finite, or no change.
@@ -28,7 +31,9 @@ class Secants {
   /// Appends older ones behind those that are there, under a stricter filter.
   void append(const Secants& older, double kept);
   void keep_newest(std::size_t count);  ///< drops all older ones
+  /// Drops all.
   void clear() { pairs_.clear(); }
+  /// Number of columns.
   std::size_t size() const { return pairs_.size(); }
 
   /// V c and W c for c = argmin |r - V c|. Drops dependent columns for good. Nothing if no column is left.

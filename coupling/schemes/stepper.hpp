@@ -14,6 +14,7 @@ struct StepReport {
   int passes = 0;         ///< coupling passes
   double residual = 0;    ///< of the interface velocities, relative [-]
   bool of_fluid = false;  ///< the sides agree, and it is the fluid that may not go on like this
+  /// Whether the attempt may be committed.
   bool ok() const { return cause.empty(); }
 };
 

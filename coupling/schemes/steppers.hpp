@@ -19,17 +19,21 @@ class LeapfrogClock {
  public:
   /// Of a step of dt after the last one [s].
   double kick(double dt) const { return splashdown::kick(previous_, dt); }
+  /// A step of dt [s] is tried.
   void start(double dt) { current_ = dt; }
+  /// The step that was tried is the last one.
   void commit() { previous_ = current_; }
-  void save(std::ostream& out) const;
-  void load(std::istream& in);  ///< throws std::runtime_error unless it is a length
+  void save(std::ostream& out) const;  ///< length of the last step, bit exact
+  void load(std::istream& in);         ///< throws std::runtime_error unless it is a length
 
  private:
   double previous_ = 0, current_ = 0;
 };
 
+/// A fluid between walls that stand still.
 class FluidOnly final : public Stepper {
  public:
+  /// Takes the fluid over; not null.
   explicit FluidOnly(std::unique_ptr<FluidPart> fluid) : fluid_(std::move(fluid)) {}
   double time() const override { return fluid_->time(); }
   double stable_dt() const override { return fluid_->stable_dt(); }
@@ -39,6 +43,7 @@ class FluidOnly final : public Stepper {
   std::vector<std::pair<std::string, double>> phase_seconds() const override { return fluid_->phase_seconds(); }
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
+  /// The part that is driven.
   const FluidPart& fluid() const { return *fluid_; }
 
  private:
@@ -46,8 +51,10 @@ class FluidOnly final : public Stepper {
   LeapfrogClock clock_;
 };
 
+/// A structure without a fluid: no impulse acts on its walls.
 class StructureOnly final : public Stepper {
  public:
+  /// `dt`: the largest step [s].
   StructureOnly(std::unique_ptr<StructurePart> structure, double dt) : structure_(std::move(structure)), dt_(dt) {}
   double time() const override { return structure_->time(); }
   double stable_dt() const override { return dt_; }
@@ -56,6 +63,7 @@ class StructureOnly final : public Stepper {
   std::vector<std::pair<std::string, double>> phase_seconds() const override { return {}; }
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
+  /// The part that is driven.
   const StructurePart& structure() const { return *structure_; }
 
  private:
@@ -64,6 +72,7 @@ class StructureOnly final : public Stepper {
   LeapfrogClock clock_;
 };
 
+/// When a partitioned iteration ends.
 struct CouplingLimits {
   double tolerance = 1e-8;  ///< of the interface velocity residual, relative to the step's velocities
   int max_passes = 50;      ///< more passes mean that the step is refused
@@ -73,6 +82,7 @@ struct CouplingLimits {
 /// A fluid and a structure with their clock; schemes differ in `attempt`.
 class Coupled : public Stepper {
  public:
+  /// Drives both; the structure's walls come first among the fluid's.
   Coupled(std::unique_ptr<FluidPart> fluid, std::unique_ptr<StructurePart> structure)
       : fluid_(std::move(fluid)), structure_(std::move(structure)) {}
   double time() const override { return fluid_->time(); }
@@ -82,21 +92,26 @@ class Coupled : public Stepper {
   std::vector<std::pair<std::string, double>> phase_seconds() const override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
+  /// The fluid that is driven.
   const FluidPart& fluid() const { return *fluid_; }
+  /// The structure that is driven.
   const StructurePart& structure() const { return *structure_; }
 
  protected:
+  /// Begins a step of dt [s] on the clock and in the structure: kick and dt of it.
   Step begin_structure(double dt);
   /// Refuses what so far is no cause of refusal if the trial of a side may not be committed.
   void judge(StepReport& report) const;
+  /// Seconds that the fluid has spent so far, all phases.
   double fluid_seconds() const;
   /// Velocities below this many lengths of the structure a step are roundoff of positions: at rest [m/s].
   double still(double dt) const;
 
-  std::unique_ptr<FluidPart> fluid_;
-  std::unique_ptr<StructurePart> structure_;
-  LeapfrogClock clock_;
-  double structure_seconds_ = 0, coupling_seconds_ = 0;
+  std::unique_ptr<FluidPart> fluid_;          ///< not null
+  std::unique_ptr<StructurePart> structure_;  ///< not null
+  LeapfrogClock clock_;                       ///< of both
+  double structure_seconds_ = 0;              ///< wall clock spent in the structure so far
+  double coupling_seconds_ = 0;               ///< in the scheme, the structure included, the fluid not
 };
 
 /// The structure inside the fluid's equations: the exact interface term `rigid`, M + Z^T B A^-1 B^T Z, whatever the
@@ -104,6 +119,7 @@ class Coupled : public Stepper {
 /// take another one.
 class Simultaneous final : public Coupled {
  public:
+  /// `max_passes`: more of them, as contacts open and close, and the step is refused.
   Simultaneous(std::unique_ptr<FluidPart> fluid, std::unique_ptr<StructurePart> structure, int max_passes = 50)
       : Coupled(std::move(fluid), std::move(structure)), max_passes_(max_passes) {}
   StepReport attempt(double dt) override;
@@ -121,12 +137,14 @@ class Simultaneous final : public Coupled {
 ///   x -> fluid -> impulses -> structure -> G(x),   residual |G(x) - x| in m/s (interface_space.hpp)
 class Partitioned final : public Coupled {
  public:
+  /// `term`: stand-in for the structure in the fluid's equations; `accelerator`: of the iteration.
   Partitioned(std::unique_ptr<FluidPart> fluid, std::unique_ptr<StructurePart> structure,
               std::unique_ptr<InterfaceTerm> term, std::unique_ptr<Accelerator> accelerator, CouplingLimits limits);
   StepReport attempt(double dt) override;
   void commit() override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
+  /// The stand-in.
   const InterfaceTerm& term() const { return *term_; }
 
  private:

@@ -10,8 +10,8 @@
 
 namespace splashdown::fluid {
 
-/// Ties nodes that have reached a wall, to the side that they came from; puts nodes at wetted corners and creases, true if there were
-/// any. `velocities`: of the walls; `dt`: since nodes and walls moved with theirs [s].
+/// Ties nodes that have reached a wall, to the side that they came from; puts nodes at wetted corners and creases, true if
+/// there were any. `velocities`: of the walls; `dt`: since nodes and walls moved with theirs [s].
 template <int d>
 bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities,
                   double dt);

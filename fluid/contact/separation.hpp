@@ -40,7 +40,8 @@ template <int d>
 void share_momentum(std::span<const double> volume, std::span<Separation<d>> separations);
 
 /// v_i += taken (v_j - v_i), v_j -= given (v_j - v_i), all at once; in 3D along the surface alone. Keeps momentum. The
-/// energy does not grow: sum_j m <= V_i at every node, so that no eigenvalue of the exchange is beyond 2. `u`: of nodes, in place.
+/// energy does not grow: sum_j m <= V_i at every node, so that no eigenvalue of the exchange is beyond 2. `u`: of nodes, in
+/// place.
 template <int d>
 void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u);
 

@@ -14,12 +14,15 @@ namespace splashdown::fluid {
 /// cos 30 degrees. Facets, and lines, that turn by more meet at a crease or a corner; by less they follow a curve.
 constexpr double least_smooth_cosine = 0.5 * std::numbers::sqrt3;
 
+/// The surface of a rigid wall, searched in trees: O(log n) a query. Poses: wall frame to world. Const calls may come from
+/// all threads.
 template <int d>
 class Wall {
  public:
   /// Finds patches, creases, corners and bends of its surface; copies the spec.
   explicit Wall(const WallSpec<d>& spec);
 
+  /// The closest point of the wall, and what it lies on.
   struct Near {
     Vec<d> point;     ///< closest point of the wall, world frame
     Vec<d> normal;    ///< of the facet it lies on, out of the solid
@@ -27,6 +30,7 @@ class Wall {
     int patch;        ///< smooth patch the point lies on
     int vertex;       ///< corner that is the closest point, -1: none
     int crease = -1;  ///< crease that the closest point lies on, -1: none; corners lie on none
+    /// Whether it is a corner or lies on a crease.
     bool sharp() const { return vertex >= 0 || crease >= 0; }
   };
 
@@ -38,6 +42,7 @@ class Wall {
   Vec<d> nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
   /// Unit vector along the crease where it is nearest.
   Vec<d> crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
+  /// Where a segment passes a crease.
   struct Crossing {
     int crease = -1;
     Vec<d> point = Vec<d>::Zero();  ///< of the crease, world frame
@@ -46,8 +51,8 @@ class Wall {
   };
   /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
   Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
-  /// Whether the solid is convex along this crease, or along one that ends at this corner: water flows around it. In hollow ones it
-  /// stays.
+  /// Whether the solid is convex along this crease, or along one that ends at this corner: water flows around it. In hollow
+  /// ones it stays.
   bool is_convex(const WallTie& sharp) const {
     return sharp.vertex >= 0 ? convex_corner_[sharp.vertex] != 0 : convex_crease_[sharp.crease] != 0;
   }
@@ -59,11 +64,13 @@ class Wall {
   }
   /// Whether the solid is surely convex: what lies between points of it lies in it, and behind the plane of each facet. In 3D.
   bool is_convex() const { return is_convex_; }
+  /// Whether all facets of this smooth patch lie in one plane.
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   /// Of a flat patch, out of the solid, world frame.
   Vec<d> flat_normal(const Isometry<d>& pose, int patch) const {
     return pose.linear() * normal_.col(patch_facets_[patch].front());
   }
+  /// In 3D; false in 2D.
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
   bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
@@ -73,23 +80,28 @@ class Wall {
              return p.normal.dot(local) - p.offset <= margin + tiny_;
            });
   }
-  /// `slack`: relative error allowed.
+  /// Distance of x from the surface [m], on either side of it; `reach` where nothing is nearer. `slack`: relative error allowed.
   double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
+  /// Vertex v of the surface, world frame [m].
   Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
+  /// Vertices that are corners.
   const std::vector<int>& corners() const { return corners_; }
+  /// As it was made.
   const WallSpec<d>& spec() const { return spec_; }
   /// A vertex of a smooth patch that is curved there.
   struct Bend {
     Vec<d> at;      ///< wall frame
     double radius;  ///< of curvature, the smallest along the edges that meet there [m]
   };
+  /// All bends of its patches.
   const std::vector<Bend>& bends() const { return bends_; }
   /// Centre of the volume that the surface encloses, wall frame, and how deep in the solid it lies: negative outside of it.
   const Vec<d>& centre() const { return centre_; }
-  double depth_of_centre() const { return depth_of_centre_; }
-  bool encloses_fluid() const { return turned_inside_out_; }  ///< a tank
+  double depth_of_centre() const { return depth_of_centre_; }  ///< [m]
+  bool encloses_fluid() const { return turned_inside_out_; }   ///< a tank
   /// Box around the surface in the wall frame.
   const Eigen::AlignedBox<double, d>& box() const { return box_; }
+  /// Diagonal of the box [m].
   double diameter() const { return box_.diagonal().norm(); }
 
  private:

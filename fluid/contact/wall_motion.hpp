@@ -19,10 +19,11 @@ class WallMotion {
   WallMotion(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const char> answers);
 
   /// Nodes with a pressure of their own slip: along a wall v.n = w.n is met by facets, in the mean that the pressure can
-  /// keep, and not node by node, which would take momentum from the water that nobody gets. `unknown`: of nodes, -1: p = 0; `volume`:
-  /// of the water around nodes [m^d].
+  /// keep, and not node by node, which would take momentum from the water that nobody gets. `unknown`: of nodes, -1: p = 0;
+  /// `volume`: of the water around nodes [m^d].
   void meet_pressure(std::span<const int> unknown, std::span<const double> volume);
 
+  /// Where a motion takes nodes.
   struct Moved {
     std::vector<Vec<d>> x;     ///< at t_{n+1}
     std::vector<Vec<d>> u;     ///< motion that counts for the volume: (x_{n+1} - x_n) / dt, or the fluid's

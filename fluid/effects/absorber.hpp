@@ -12,14 +12,17 @@ namespace splashdown::fluid {
 
 /// Zones at both ends along the first axis.
 struct AbsorberSpec {
-  double from = 0, to = 0;  ///< the tank's ends [m]
-  double width = 0;         ///< of each zone [m]
-  double rate = 0;          ///< at the ends [1/s]
+  double from = 0;   ///< the tank's lower end on the first axis [m]
+  double to = 0;     ///< its upper end [m]
+  double width = 0;  ///< of each zone [m]
+  double rate = 0;   ///< at the ends [1/s]
 };
 
+/// dv = (exp(-r kick) - 1) v at each node; walls get nothing.
 template <int d>
 class Absorber final : public Effect<d> {
  public:
+  /// Takes the values as they are: readers check them.
   explicit Absorber(const AbsorberSpec& spec) : spec_(spec) {}
   std::string name() const override { return "absorber"; }
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;

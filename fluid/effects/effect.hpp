@@ -23,13 +23,13 @@ namespace splashdown::fluid {
 /// What an effect sees of the fluid during a step.
 template <int d>
 struct StepView {
-  const Nodes<d>& nodes;
-  const Mesh<d>& mesh;
+  const Nodes<d>& nodes;                  ///< at t_n
+  const Mesh<d>& mesh;                    ///< at t_n, remeshed
   double density;                         ///< [kg/m^3]
   double kick;                            ///< [s]
   std::span<const double> lumped_volume;  ///< of nodes [m^d]
   const NodeCells<d>& around;             ///< the cells around each node
-  std::span<const WallSpec<d>> walls;
+  std::span<const WallSpec<d>> walls;     ///< as they were made
   std::span<const Isometry<d>> poses;     ///< of walls, at t_n
   const ModalInertia* answers = nullptr;  ///< modes of walls that answer the fluid; nullptr: none does
 };
@@ -37,8 +37,8 @@ struct StepView {
 /// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
 template <int d>
 struct Carried {
-  std::span<const Vec<d>> v;
-  std::span<const Twist<d>> walls;
+  std::span<const Vec<d>> v;        ///< of nodes
+  std::span<const Twist<d>> walls;  ///< of walls, about their origins
 };
 
 /// What effects add to.
@@ -54,6 +54,7 @@ struct Predicted {
 /// Name and value of a number worth recording.
 using Diagnostic = std::pair<std::string, double>;
 
+/// A term of the momentum equation, rho Dv/Dt = ... + effect. World frame.
 template <int d>
 class Effect {
  public:
@@ -76,9 +77,11 @@ class Effect {
   virtual double stable_dt() const;
 };
 
+/// dv = kick g, the same everywhere; potential -g . x.
 template <int d>
 class Gravity final : public Effect<d> {
  public:
+  /// `acceleration`: g, world frame [m/s^2].
   explicit Gravity(const Vec<d>& acceleration) : g_(acceleration) {}
   std::string name() const override { return "gravity"; }
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;

@@ -3,25 +3,7 @@
 //   (M + kick K) (v + dv) = M v,   v . K w = int 2 mu eps(v) : eps(w),   eps(v) = (grad v + grad v^T) / 2
 //
 // with lumped mass M. The full strain keeps rigid rotations free of stress, and makes "no viscous traction"
-// the natural condition of the free surface. Walls (WallSpec::sticks):
-//
-//   slip     the change has no component along the wall's normal: dv . n = 0; no shear stress. Not v . n = w . n:
-//            the pressure sees to that, and mu -> 0 then leads back to the inviscid fluid exactly
-//   no slip  the tangential velocity is the wall's, weakly (Nitsche 1971), with a traction at each wetted facet f, of area A
-//            and normal n, of the cell with volume V and the stress s(v) = 2 mu eps(v):
-//
-//            w . K v  +=  sum_f sum_a A/d [ - w_a . t(v) - (v_a - g_a) . t(w) + b (v_a - g_a) . w_a ]     t(v) = P s(v) n
-//
-//            P = 1 - n n^T, g the wall's velocity, a the facet's nodes but those of the contact line: one that sticks cannot
-//            move (Huh, Scriven, J. Colloid Interface Sci. 35, 1971). b = 4 k mu A / V for k such facets of the cell makes it
-//            definite. Where elements are finer than the boundary layer the water sticks, to second order; where they are
-//            coarser it slips under the stress that the elements can know of (Bazilevs, Hughes, Comput. Fluids 36, 2007).
-//            Held to the wall instead, nodes would take half an element of water along, however little viscous it is
-//
-// Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any kick;
-// one system of d unknowns a node per step, factored or, if large and in 3D, solved by multigrid. Bodies that answer the
-// pressure answer the stresses in the same implicit step: with the fields u_k that unit velocities of their motions make,
-// (M + C) y = Z^T f_0, C_jk = sum of u_j over held directions . (M_L + kick K) u_k, so that no mass is too small for any viscosity.
+// the natural condition of the free surface.
 #pragma once
 
 #include "fluid/effects/effect.hpp"
@@ -30,6 +12,28 @@
 
 namespace splashdown::fluid {
 
+/// Newtonian viscosity with one coefficient all over the fluid.
+///
+/// Walls (WallSpec::sticks):
+///
+///   slip     the change has no component along the wall's normal: dv . n = 0; no shear stress. Not v . n = w . n:
+///            the pressure sees to that, and mu -> 0 then leads back to the inviscid fluid exactly
+///   no slip  the tangential velocity is the wall's, weakly (Nitsche 1971), with a traction at each wetted facet f, of area A
+///            and normal n, of the cell with volume V and the stress s(v) = 2 mu eps(v):
+///
+///            w . K v  +=  sum_f sum_a A/d [ - w_a . t(v) - (v_a - g_a) . t(w) + b (v_a - g_a) . w_a ]     t(v) = P s(v) n
+///
+///            P = 1 - n n^T, g the wall's velocity, a the facet's nodes but those of the contact line: one that sticks cannot
+///            move (Huh, Scriven, J. Colloid Interface Sci. 35, 1971). b = 4 k mu A / V for k such facets of the cell makes it
+///            definite. Where elements are finer than the boundary layer the water sticks, to second order; where they are
+///            coarser it slips under the stress that the elements can know of (Bazilevs, Hughes, Comput. Fluids 36, 2007).
+///            Held to the wall instead, nodes would take half an element of water along, however little viscous it is
+///
+/// Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any kick;
+/// one system of d unknowns a node per step, factored or, if large and in 3D, solved by multigrid. Bodies that answer the
+/// pressure answer the stresses in the same implicit step: with the fields u_k that unit velocities of their motions make,
+/// (M + C) y = Z^T f_0, C_jk = sum of u_j over held directions . (M_L + kick K) u_k, so that no mass is too small for any
+/// viscosity.
 template <int d>
 class Viscosity final : public Effect<d> {
  public:

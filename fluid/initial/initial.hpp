@@ -9,6 +9,7 @@
 
 namespace splashdown::fluid {
 
+/// Nodes and mesh at t = 0, world frame.
 template <int d>
 struct InitialLiquid {
   Nodes<d> nodes;
@@ -28,12 +29,13 @@ inline constexpr double filled_gap = 0.4;
 /// A gap that the first mesh does not fill.
 class GapRefused : public std::invalid_argument {
  public:
+  /// `which`: the gap; `what`: rule and cure, for the user.
   GapRefused(const Gap& which, const std::string& what) : std::invalid_argument(what), gap(which) {}
   Gap gap;  ///< width 0: not known
 };
 
-/// What `fill` tells before it makes a mesh, in a second or so: throws as `fill` does. The narrowest gap that the mesh may fail to
-/// fill; nothing if there is none. In the plane gaps of any width are filled.
+/// What `fill` tells before it makes a mesh, in a second or so: throws as `fill` does. The narrowest gap that the mesh may
+/// fail to fill; nothing if there is none. In the plane gaps of any width are filled.
 template <int d>
 std::optional<Gap> look_at_start(const FluidSpec<d>& spec, const WallsAt<d>& walls);
 

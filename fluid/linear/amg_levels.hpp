@@ -13,6 +13,7 @@ template <class Real>
 struct Rows {
   std::vector<int> start, column;
   std::vector<Real> value;
+  /// Number of rows.
   int size() const { return static_cast<int>(start.size()) - 1; }
 };
 
@@ -35,6 +36,7 @@ void sort_entries(std::size_t sources, std::size_t size, Rows<Real>& out, Each e
 /// The whole matrix from its lower triangle; columns ascend.
 Rows<double> whole(const SymmetricMatrix& matrix);
 
+/// Matrices and interpolations, in single precision.
 struct AmgLevels {
   std::vector<Rows<float>> matrix;         ///< of each level, the finest first
   std::vector<Rows<float>> interpolation;  ///< to each level from the next coarser one

@@ -14,12 +14,13 @@
 
 namespace splashdown::fluid {
 
-/// `Value`: a number, or a small matrix for several unknowns a node.
+/// The lower triangle of sum over cells of element matrices. `Value`: a number, or a small matrix for several unknowns a node.
 template <int d, class Value>
 class Assembly {
  public:
-  std::vector<int> column_start, row;  ///< as in SymmetricMatrix
-  std::vector<Value> value;
+  std::vector<int> column_start;  ///< as in SymmetricMatrix
+  std::vector<int> row;           ///< as in SymmetricMatrix
+  std::vector<Value> value;       ///< of the entries, beside `row`
 
   /// `unknown`: index of a node, ascending with the nodes, -1: none; `node`: of an unknown. `element(c, a, b)`: entry of
   /// cell c's matrix in the row of corner a and the column of corner b; called on all threads.

@@ -15,12 +15,15 @@ namespace splashdown::fluid {
 template <int d>
 inline constexpr int most_direct = d == 2 ? std::numeric_limits<int>::max() : 8000;
 
+/// A x = b with A symmetric positive definite; one factor at a time, used for any number of right-hand sides.
 class LinearSolver {
  public:
   /// Larger systems are solved by multigrid.
   explicit LinearSolver(int largest_direct = std::numeric_limits<int>::max());
   ~LinearSolver();
+  /// Takes the factor along.
   LinearSolver(LinearSolver&&) noexcept;
+  /// Takes the factor along.
   LinearSolver& operator=(LinearSolver&&) noexcept;
 
   /// The present factor solves to roundoff.

@@ -14,6 +14,7 @@
 
 namespace splashdown::fluid {
 
+/// A x = b with A symmetric positive definite, for large A.
 class Multigrid {
  public:
   /// Builds the levels; the matrix need not outlive this.

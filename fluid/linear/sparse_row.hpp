@@ -11,11 +11,13 @@ namespace splashdown::fluid {
 template <class Value>
 class SparseRow {
  public:
+  /// A sum and the column that it stands in.
   struct Entry {
-    int column;
-    Value value;
+    int column;   ///< index
+    Value value;  ///< what was added so far
   };
 
+  /// `columns`: of the matrix; memory O(columns).
   explicit SparseRow(std::size_t columns) : seen_(columns) {}
 
   /// Starts the next row.

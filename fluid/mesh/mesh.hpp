@@ -23,8 +23,10 @@ using splashdown::volume_shares;
 /// Corners of the facet opposite each corner of a positive simplex, oriented out of it.
 template <int d>
 inline constexpr std::array<std::array<int, d>, d + 1> opposite;
+/// Of a triangle.
 template <>
 inline constexpr std::array<std::array<int, 2>, 3> opposite<2>{{{1, 2}, {2, 0}, {0, 1}}};
+/// Of a tetrahedron.
 template <>
 inline constexpr std::array<std::array<int, 3>, 4> opposite<3>{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 

@@ -11,11 +11,14 @@
 
 namespace splashdown::fluid {
 
+/// Of each node the cells that it is a corner of.
 template <int d>
 class NodeCells {
  public:
+  /// A corner of a cell.
   struct Corner {
-    int cell, corner;
+    int cell;    ///< index
+    int corner;  ///< 0 to d
   };
 
   /// O(cells + nodes), on all threads.

@@ -17,10 +17,11 @@
 
 namespace splashdown::fluid {
 
+/// A node whose mass moves with a wall in some directions.
 template <int d>
 struct HeldNode {
-  int node;
-  int wall;
+  int node;           ///< index
+  int wall;           ///< index of the wall that holds it
   Vec<d> arm;         ///< from the wall's reference point, at t_n [m]
   Mat<d> directions;  ///< P: projects on those in which it moves with the wall
 };
@@ -28,24 +29,26 @@ struct HeldNode {
 /// What a pressure impulse does to the velocity of free nodes, as PressureEquation::accelerate computes it.
 template <int d>
 struct AccelerationWeights {
-  const Mesh<d>& mesh;
-  std::span<const Vec<d>> x;
-  const NodeCells<d>& around;
+  const Mesh<d>& mesh;                            ///< at t_n
+  std::span<const Vec<d>> x;                      ///< of nodes, at t_n [m]
+  const NodeCells<d>& around;                     ///< the cells around each node
   std::span<const VolumeGradients<d>> gradients;  ///< of cells
   std::span<const double> cell_mass_share;        ///< of cells: mass / (d + 2)
   std::span<const double> per_nodal_mass;         ///< of nodes: 1 / ((d + 1) mass)
 };
 
+/// Load, inertia and momentum of all held nodes, world frame, about the walls' reference points.
 template <int d>
 class HeldMass {
  public:
   /// `lumped`: volumes of nodes [m^d].
   void build(std::vector<HeldNode<d>> held, std::size_t walls, double density, std::span<const double> lumped);
+  /// Whether no node is held.
   bool empty() const { return held_.empty(); }
   /// The wrench on a wall, about its reference point, per pressure impulse at a node [N s / Pa s].
   struct Column {
-    int node;
-    Wrench<d> wrench;
+    int node;          ///< index
+    Wrench<d> wrench;  ///< of a unit of pressure impulse
   };
   /// R of a wall, by the nodes whose pressure impulse has a part in it.
   std::vector<Column> load(std::size_t wall, const AccelerationWeights<d>& weights) const;

@@ -13,9 +13,6 @@
 // alpha give phi ~ n, the pressure of a translation, the energy that the body's exact answer has:
 // sum_k phi_k^T K phi_k = sum_k |int phi_k n|^2 / m for phi_k = n_k. On a circle of radius a: lambda = pi a^3 / m,
 // alpha = pi a / m.
-//
-// Two pieces a freedom of a body, whatever the mesh: the rank of K bounds the passes (docs/design-notes, where
-// other numbers are compared). Short parts of the hull that are wetted for themselves are one more.
 #pragma once
 
 #include <span>
@@ -28,6 +25,10 @@
 
 namespace splashdown::fluid {
 
+/// K = Q^T L Q of all walls with a local operator.
+///
+/// Two pieces a freedom of a body, whatever the mesh: the rank of K bounds the passes (docs/design-notes, where
+/// other numbers are compared). Short parts of the hull that are wetted for themselves are one more.
 template <int d>
 class InterfaceLaplacian {
  public:
@@ -40,6 +41,7 @@ class InterfaceLaplacian {
   std::vector<double> means(std::span<const double> phi) const;
   /// r += Q^T L means.
   void add(std::span<const double> means, std::vector<double>& r) const;
+  /// The pieces psi_I, in the order of the rows of Q.
   std::span<const InterfacePiece> pieces() const { return pieces_; }
 
  private:

@@ -10,8 +10,8 @@
 
 namespace splashdown::fluid {
 
-/// S = 1 - M_L^-1 M_C, with M_C,ij the sum over cells of m (1 + delta_ij) / ((d + 1) (d + 2)), and M_L heavier than its sums where
-/// nodes are lighter than they may be.
+/// S = 1 - M_L^-1 M_C, with M_C,ij the sum over cells of m (1 + delta_ij) / ((d + 1) (d + 2)), and M_L heavier than its sums
+/// where nodes are lighter than they may be.
 template <int d>
 class MassSweep {
  public:

@@ -11,24 +11,6 @@
 // Facets that slide along a curved wall are chords of it, and longer ones reach deeper into it: not the water's
 // motion, and the next node on the chord takes it back. There the wall's flux counts. Both are evaluated at the
 // middle of the motion, where they are the exact change of volume in 2D.
-//
-// q and phi are linear. On the free surface p = 0 is the natural condition of the momentum equation: impulses
-// there push on the surface, and the volume around a surface node is kept like any other's. Held to zero,
-// surface nodes change their volume, hence their weight, and waves get an error of first order (docs/theory.md).
-// With A_i the free area vector of node i, m_i its lumped mass and g_i(phi) its averaged gradient:
-//
-//   surface(q, phi) = sum_i - q_i A_i . g_i(phi) - phi_i A_i . g_i(q) + 2 n_i q_i phi_i sum_f |A_f / d|^2 / m_i
-//
-// n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Spikes and contact
-// lines keep phi = 0; in 3D steep contact lines do not.
-// B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
-// Bodies that the equation solves for, s = s_0 + Z y with M y = Z^T B phi + e, are of low rank and eliminated on the
-// factor (Woodbury):
-//
-//   y = (M + G)^-1 (Z^T B phi_0 + e),   phi = phi_0 - Y y,   Y = A^-1 B^T Z,   G = Z^T B Y = added mass
-//
-// No M is inverted: the water's inertia is enough (docs/theory.md). Nodes that move with a wall add their mass to M and their
-// part of the load, R, to B on the body's side (held_mass.hpp).
 #pragma once
 
 #include <limits>
@@ -47,12 +29,13 @@
 
 namespace splashdown::fluid {
 
-/// Whether the modes move this wall, and of each wall.
+/// Whether any mode moves this wall.
 template <int d>
 bool moves_wall(const ModalInertia& modal, std::size_t wall) {
   constexpr int m = freedoms<d>;
   return modal.modes.cols() > 0 && !modal.modes.middleRows(static_cast<Eigen::Index>(wall) * m, m).isZero(0);
 }
+/// Of each of `walls` walls 1 where a mode moves it, else 0.
 template <int d>
 std::vector<char> walls_that_answer(const ModalInertia& modal, std::size_t walls) {
   std::vector<char> out(walls);
@@ -75,18 +58,39 @@ inline constexpr double shortest = (d + 1.0) / (d + 2.0);
 /// Stands for 1 / (1 - z): equal to it at z = 0 in value and slope, and at the middle, z = 1/2; within 4 % up to there.
 inline constexpr double inverse_mass(double z) { return 1 + z + 2 * z * z; }
 
+/// Matrix, factor and residuals of one step. World frame; unknowns are the nodes with a pressure of their own.
+///
+/// q and phi are linear. On the free surface p = 0 is the natural condition of the momentum equation: impulses
+/// there push on the surface, and the volume around a surface node is kept like any other's. Held to zero,
+/// surface nodes change their volume, hence their weight, and waves get an error of first order (docs/theory.md).
+/// With A_i the free area vector of node i, m_i its lumped mass and g_i(phi) its averaged gradient:
+///
+///   surface(q, phi) = sum_i - q_i A_i . g_i(phi) - phi_i A_i . g_i(q) + 2 n_i q_i phi_i sum_f |A_f / d|^2 / m_i
+///
+/// n_i facets f around node i. So the matrix bounds D M^-1 D^T, which the corrections solve, from above. Spikes and contact
+/// lines keep phi = 0; in 3D steep contact lines do not.
+/// B_kJ = int_wall N_J (rigid mode k).n dA, n out of the fluid: load on the body f = B p, flux = B^T s.
+/// Bodies that the equation solves for, s = s_0 + Z y with M y = Z^T B phi + e, are of low rank and eliminated on the
+/// factor (Woodbury):
+///
+///   y = (M + G)^-1 (Z^T B phi_0 + e),   phi = phi_0 - Y y,   Y = A^-1 B^T Z,   G = Z^T B Y = added mass
+///
+/// No M is inverted: the water's inertia is enough (docs/theory.md). Nodes that move with a wall add their mass to M and their
+/// part of the load, R, to B on the body's side (held_mass.hpp).
 template <int d>
 class PressureEquation {
  public:
-  /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `centres`: reference points
-  /// of the walls, world frame [m]; `structure`: of all walls; `held`: nodes whose mass moves with walls. False if the factor fails.
+  /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `centres`: reference
+  /// points of the walls, world frame [m]; `structure`: of all walls; `held`: nodes whose mass moves with walls. False if the
+  /// factor fails.
   bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Vec<d>> centres,
              const InterfaceModel& structure, std::vector<HeldNode<d>> held = {});
   /// Restricts the motions to y = directions w, w of any size, with Newton's law asked for in as many `workless` ones:
   /// workless^T (M + G) directions w = workless^T impulse. Empty ones: the same. All are allowed after build.
   void allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless = {});
 
-  /// r in flux form at positions `x` [m], for nodal velocities v [m/s] and wall twists s about `centres`: an entry an unknown [m^d/s].
+  /// r in flux form at positions `x` [m], for nodal velocities v [m/s] and wall twists s about `centres`: an entry an unknown
+  /// [m^d/s].
   void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const Twist<d>> s,
                      std::span<const Vec<d>> centres, std::vector<double>& r) const;
   /// r in motion form at positions `x` [m] for displacement velocities u [m/s].
@@ -104,22 +108,27 @@ class PressureEquation {
   Eigen::VectorXd respond(std::vector<double>& phi, std::span<Twist<d>> s, const Eigen::VectorXd& further) const;
   /// (M + G)^-1 impulse, in the directions allowed: what such an impulse changes in the motions.
   Eigen::VectorXd response(const Eigen::VectorXd& impulse) const { return elimination_ * impulse; }
+  /// Number of modes, columns of Z.
   int mode_count() const { return static_cast<int>(structure_.modal.modes.cols()); }
+  /// Z and M as they were given to build.
   const ModalInertia& modal() const { return structure_.modal; }
   const Eigen::MatrixXd& modes() const { return structure_.modal.modes; }      ///< Z
   const Eigen::MatrixXd& inertia() const { return structure_.modal.inertia; }  ///< M, of the motions alone
   /// Z^T I of impulses on all walls, each about its reference point [N s, N m s].
   Eigen::VectorXd on_modes(std::span<const Wrench<d>> impulses) const;
+  /// The nodes whose mass moves with walls.
   const HeldMass<d>& held() const { return held_; }
   /// Adds Z y to the walls' twists.
   void move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const;
+  /// The local operators K.
   const InterfaceLaplacian<d>& laplacian() const { return laplacian_; }
 
   /// v -= M^-1 (int N grad phi - int_surface N phi n), M^-1 = (1 + z + 2 z^2) M_L^-1, z = 1 - M_L^-1 M_C: lumped mass M_L and
   /// two sweeps towards the consistent one M_C (`inverse_mass`).
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
   /// Kinetic energy of the liquid [J; 2D: per metre] with the mass that `accelerate` moves, M = M_L (1 + z + 2 z^2)^-1: short
-  /// waves are up to `inverse_mass(shortest<d>)` times lighter than with lumping, and an impulse gives them as much more velocity.
+  /// waves are up to `inverse_mass(shortest<d>)` times lighter than with lumping, and an impulse gives them as much more
+  /// velocity.
   double kinetic_energy(std::span<const Vec<d>> v) const;
   /// B phi of a wall: impulse on the body about its reference point.
   Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
@@ -130,15 +139,16 @@ class PressureEquation {
   /// the means,  d(B phi, Q phi) / d(s, m) = (B; Q) (A + K)^-1 (-B^T, Q^T L). NaN if a solve fails.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls);
   /// G = (B + R) X + M_h [kg, kg m, kg m^2; 2D: per metre] of any walls together, about their reference points, in the world
-  /// frame, whatever answers they have in this equation. X solves A X = B^T - D w, w the motion of nodes that are held, and gets the
-  /// corrections of a step, so that this is the inertia which bodies meet in it. NaN if a solve fails.
+  /// frame, whatever answers they have in this equation. X solves A X = B^T - D w, w the motion of nodes that are held, and
+  /// gets the corrections of a step, so that this is the inertia which bodies meet in it. NaN if a solve fails.
   Eigen::MatrixXd added_mass_of(std::span<const std::size_t> walls);
 
+  /// Number of unknowns.
   int size() const { return static_cast<int>(node_.size()); }
-  const std::vector<int>& unknown() const { return unknown_; }  ///< of a node, -1: phi = 0
-  std::span<const double> lumped_volume() const { return lumped_; }
-  const NodeCells<d>& around() const { return around_; }
-  const SymmetricMatrix& matrix() const { return matrix_; }
+  const std::vector<int>& unknown() const { return unknown_; }       ///< of a node, -1: phi = 0
+  std::span<const double> lumped_volume() const { return lumped_; }  ///< of nodes [m^d]
+  const NodeCells<d>& around() const { return around_; }             ///< the cells around each node
+  const SymmetricMatrix& matrix() const { return matrix_; }          ///< the left side, without the bodies
 
  private:
   template <class Velocity>

@@ -27,12 +27,14 @@ namespace splashdown::rigid {
 /// The solid is where (x - point) . normal < 0.
 template <int d>
 struct Plane {
-  Vec<d> point, normal;
+  Vec<d> point;   ///< any of the plane, world frame [m]
+  Vec<d> normal;  ///< unit, out of the solid
 };
 
+/// What may touch, and how it rubs and rebounds.
 template <int d>
 struct ContactSpec {
-  std::vector<Plane<d>> planes;
+  std::vector<Plane<d>> planes;  ///< fixed, that all bodies may touch
   /// Pairs of bodies that do not touch: those that a joint ties, which knows better where they are.
   std::set<std::pair<std::size_t, std::size_t>> apart = {};
   double friction = 0;     ///< mu: |tangential impulse| <= mu normal impulse (Coulomb)
@@ -46,17 +48,21 @@ struct Contact : Condition<d> {
   Vec<d> normal;  ///< out of `other`
 };
 
+/// A hull and its search trees (rigid/contact/hull.hpp).
 template <int d>
 class Hull;
 
+/// Finds the contacts that a step may close.
 template <int d>
 class Contacts {
  public:
   /// Refers to the bodies.
   Contacts(ContactSpec<d> spec, std::span<const BodySpec<d>> bodies);
   ~Contacts();
+  /// Takes all over.
   Contacts(Contacts&&) noexcept;
 
+  /// As it was made.
   const ContactSpec<d>& spec() const { return spec_; }
   /// Those that may close within a step dt from these states.
   std::vector<Contact<d>> within_reach(std::span<const BodyState<d>> states, double dt) const;

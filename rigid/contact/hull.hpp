@@ -1,5 +1,5 @@
-// A hull that may touch others: what of it is near a place, in its own frame. Made once a run; a search takes O(log n) and what it
-// finds. Internal to the rigid-body room.
+// A hull that may touch others: what of it is near a place, in its own frame. Made once a run; a search takes O(log n) and
+// what it finds. Internal to the rigid-body room.
 #pragma once
 
 #include <array>
@@ -19,15 +19,19 @@ struct Edge {
   std::vector<Eigen::Vector3d> normals;  ///< unit, from one facet's to the other's
 };
 
+/// The surface of a body, searched in trees. Body frame. Const calls may come from all threads.
 template <int d>
 class Hull {
  public:
   /// Refers to the surface.
   explicit Hull(const Surface<d>& surface);
   ~Hull();
+  /// Takes all over.
   Hull(Hull&&) noexcept;
 
+  /// As it was made.
   const Surface<d>& surface() const { return *surface_; }
+  /// Vertices joined to this one by an edge.
   const std::vector<int>& neighbours(int vertex) const { return neighbours_[static_cast<std::size_t>(vertex)]; }
   const std::vector<Edge>& edges() const { return edges_; }  ///< in 3D; none in 2D
 

@@ -6,8 +6,8 @@
 // outward normals, and not necessarily convex. Everything is exact for the polygon or triangle mesh:
 // cones over the clipped facets from a point of the water plane give the volume, the clipped facets'
 // vertical projections the waterline. Two-dimensional values are per metre of depth.
-// A hollow that is open above, the inside of a boat, is dry until water comes over its rim, and displaces with the hull; then it is
-// flooded for good. Hollows that are under water in the given pose are flooded.
+// A hollow that is open above, the inside of a boat, is dry until water comes over its rim, and displaces with the hull; then
+// it is flooded for good. Hollows that are under water in the given pose are flooded.
 #pragma once
 
 #include <limits>
@@ -19,6 +19,7 @@
 
 namespace splashdown::rigid {
 
+/// What a body displaces in still water; 2D: per metre of depth.
 template <int d>
 struct Submerged {
   double volume = 0;               ///< [m^2, m^3]
@@ -33,26 +34,31 @@ struct Submerged {
 /// What is in the hollows of a hull before water comes over their rims.
 enum class Hollow { dry, flooded };
 
+/// Volume, centre of buoyancy and waterline of a body in the given pose. `water_level` [m]: the last coordinate of the
+/// water plane, world frame. Exact for the facets. O(facets).
 template <int d>
 Submerged<d> submerged(const Surface<d>& surface, const Isometry<d>& pose, double water_level,
                        Hollow hollow = Hollow::dry);
 
-/// The lowest points of all hollows of a body that open upward, world frame: whether there is liquid in them decides about Hollow.
+/// The lowest points of all hollows of a body that open upward, world frame: whether there is liquid in them decides about
+/// Hollow.
 template <int d>
 std::vector<Vec<d>> hollow_bottoms(const Surface<d>& surface, const Isometry<d>& pose);
 
+/// A body that floats.
 template <int d>
 struct Floating {
-  Isometry<d> pose = Isometry<d>::Identity();
-  Submerged<d> submerged;
-  double draft = 0;               ///< lowest point below the water level [m]
-  double metacentric_height = 0;  ///< GM, about the least stable axis; negative: unstable [m]
+  Isometry<d> pose = Isometry<d>::Identity();  ///< body frame to world
+  Submerged<d> submerged;                      ///< what it displaces
+  double draft = 0;                            ///< lowest point below the water level [m]
+  double metacentric_height = 0;               ///< GM, about the least stable axis; negative: unstable [m]
   /// Height of the lowest rim that keeps water out of a hollow, over the water [m]; infinite without such a hollow.
   double freeboard = std::numeric_limits<double>::infinity();
   Hollow hollow = Hollow::dry;  ///< flooded: water came over a rim on the way, or was inside before
 };
 
-/// Where the body floats if it keeps its orientation and comes down on the water; nothing if it sinks. pose keeps the horizontal place.
+/// Where the body floats if it keeps its orientation and comes down on the water; nothing if it sinks. pose keeps the
+/// horizontal place.
 template <int d>
 std::optional<Floating<d>> floating(const Surface<d>& surface, const Isometry<d>& pose, double mass, double density,
                                     double water_level, Hollow hollow = Hollow::dry);
@@ -80,13 +86,13 @@ struct Heeled {
   double trim = 0;         ///< tau beyond that at rest [rad], the side that the axis points to up
   double trim_height = 0;  ///< GM in trim [m]; negative: balanced in trim, but not stably
   bool jumped = false;     ///< the balance in trim that the curve followed ended before; this is the next one downhill
-  Floating<3> floating;
+  Floating<3> floating;    ///< the body in this attitude
 };
 
-/// Righting levers of a body turned from rest, R = R_trim(tau) R_heel(phi) R_rest: heeled about a horizontal axis (unit length, by the
-/// right hand) to each of the rising `heels` [rad], free to sink and to trim about the horizontal axis across. The balance in trim,
-/// dE/dtau = 0, is followed from that at rest by continuation, stable or not: a body with a symmetry keeps it. Where water comes over the
-/// rim of a hollow, or the body stands on end, the curve ends with a point there.
+/// Righting levers of a body turned from rest, R = R_trim(tau) R_heel(phi) R_rest: heeled about a horizontal axis (unit
+/// length, by the right hand) to each of the rising `heels` [rad], free to sink and to trim about the horizontal axis across.
+/// The balance in trim, dE/dtau = 0, is followed from that at rest by continuation, stable or not: a body with a symmetry
+/// keeps it. Where water comes over the rim of a hollow, or the body stands on end, the curve ends with a point there.
 std::vector<Heeled> righting_levers(const Surface<3>& surface, const Floating<3>& rest, double mass, double density,
                                     double water_level, const Slope<3>& axis, std::span<const double> heels);
 

@@ -16,10 +16,11 @@ template <int d>
 struct FloatingHull {
   const Surface<d>& surface;
   Hollows<d> hollows;
-  double volume = 0;  ///< of the solid [m^2, m^3]
-  double extent = 0;  ///< diagonal of its box [m]
-  Hollow state = Hollow::dry;
+  double volume = 0;           ///< of the solid [m^2, m^3]
+  double extent = 0;           ///< diagonal of its box [m]
+  Hollow state = Hollow::dry;  ///< of all hollows at first
 
+  /// `of`: closed, body frame, normals outward; must live longer.
   FloatingHull(const Surface<d>& of, Hollow hollow);
 };
 
@@ -35,13 +36,18 @@ inline constexpr double no_rim = std::numeric_limits<double>::lowest();
 template <int d>
 class InclinedHull {
  public:
+  /// `attitude`: body frame to world; the hull must live longer.
   InclinedHull(const FloatingHull<d>& hull, const Mat<d>& attitude);
 
+  /// Height of the lowest vertex over the centre of mass [m].
   double lowest() const { return lowest_; }
+  /// Height of the highest vertex over the centre of mass [m].
   double highest() const { return highest_; }
+  /// Of the solid [m^2, m^3].
   double volume() const { return hull_->volume; }
   /// Ascending heights of the rims of all hollows.
   const std::vector<double>& rims() const { return rims_; }
+  /// Volume below `level` [m] and waterline there, with the dry hollows.
   Displaced displaced(double level, double flooded) const;
   /// Centres are relative to the centre of mass.
   Submerged<d> submerged(double level, double flooded) const;

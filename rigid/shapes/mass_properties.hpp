@@ -24,14 +24,18 @@ MassProperties<d> mass_properties(const Surface<d>& surface);
 /// std::invalid_argument for negative values and those that are not finite.
 template <int d>
 MassProperties<d> with_density(const MassProperties<d>& unit_density, double density);
+/// The same body with another mass [kg, kg/m].
 template <int d>
 MassProperties<d> with_mass(const MassProperties<d>& any_density, double mass);
 
 /// Of unit density; lengths [m], deadrise [rad], frames as in rigid/shapes/shapes.hpp, which checks them. I / m of the box is
 /// (width^2 + height^2) / 12, of the ellipse (a^2 + b^2) / 4.
 MassProperties<2> box_mass_properties(double width, double height);
+/// Semi-axis a along x, b along y [m].
 MassProperties<2> ellipse_mass_properties(double a, double b);
+/// A rectangle of length `straight` between two half discs of `radius` [m], long axis along x.
 MassProperties<2> capsule_mass_properties(double radius, double straight);
+/// Triangle below, rectangle of height `side` above; keel at the origin.
 MassProperties<2> wedge_mass_properties(double deadrise, double breadth, double side);
 
 }  // namespace splashdown::rigid

@@ -24,6 +24,7 @@ template <int d>
 struct CornerSums {
   Vec<d> first = Vec<d>::Zero();
   Eigen::Matrix<double, d, d> second = Eigen::Matrix<double, d, d>::Zero();
+  /// Of a facet's corners [m].
   explicit CornerSums(const FacetCorners<d>& corners) {
     for (const Vec<d>& x : corners) {
       first += x;

@@ -14,6 +14,7 @@ namespace splashdown::fluid {
 
 inline constexpr double merge_below = 0.45;  ///< length of an edge over h
 
+/// How many nodes came and went.
 template <int d>
 struct AdaptReport {
   int inserted = 0, removed = 0;

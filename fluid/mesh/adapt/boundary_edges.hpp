@@ -8,9 +8,11 @@
 
 namespace splashdown::fluid {
 
+/// Of each node the boundary facets around it.
 template <int d>
 class BoundaryEdges {
  public:
+  /// `nodes`: how many there are. O(facets + nodes).
   BoundaryEdges(const std::vector<Facet<d>>& boundary, std::size_t nodes) : start_(nodes + 1, 0) {
     for (const auto& f : boundary)
       for (int n : f.nodes) ++start_[n + 1];
@@ -21,6 +23,7 @@ class BoundaryEdges {
       for (int n : boundary[f].nodes) facet_[next[n]++] = static_cast<int>(f);
   }
 
+  /// Whether the node is a corner of a boundary facet.
   bool on_boundary(int node) const { return start_[node + 1] > start_[node]; }
 
   /// Calls visit(facet index) for the facets that hold both nodes.

@@ -14,8 +14,9 @@ namespace splashdown::fluid {
 template <int d>
 struct DisplacedVolume {
   double volume = 0;
-  Vec<d> centre = Vec<d>::Zero();
+  Vec<d> centre = Vec<d>::Zero();  ///< world frame [m]
 
+  /// Whether the wall's facets enclose a volume by themselves.
   bool is_closed() const { return volume > 0; }
 };
 

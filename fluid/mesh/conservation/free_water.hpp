@@ -12,16 +12,6 @@
 // goes where that volume goes (volume_correction.hpp): to parts that have gained, as far as they have,
 //
 //   P / M <- (P + delta w) / (M + delta),   delta their share of it, w its mean velocity
-//
-// and what is left to the largest part. Of a single one P is kept. A uniform shift is the least change of velocities that does it,
-// and no strain.
-//
-// Flat walls take momentum along their normals alone. Water that touches no others keeps what it has along all of them: with the
-// projector Q on the directions that no wall of the part pushes in, none where there are edges or curved walls,
-//
-//   v_i <- v_i + Q (P / M - w')
-//
-// What energy that brings is taken out with what the new mesh has brought (field_energy.hpp).
 #pragma once
 
 #include <span>
@@ -33,6 +23,14 @@
 
 namespace splashdown::fluid {
 
+/// Flat walls take momentum along their normals alone. Water that touches no others keeps what it has along all of them: with the
+/// projector Q on the directions that no wall of the part pushes in, none where there are edges or curved walls,
+///
+///   v_i <- v_i + Q (P / M - w')
+///
+/// What energy that brings is taken out with what the new mesh has brought (field_energy.hpp).
+/// Which parts of the water keep momentum, and along what. What the exchange between parts leaves of momentum goes to the largest
+/// part; of a single one P is kept. A uniform shift is the least change of velocities that does it, and no strain.
 template <int d>
 class FreeWater {
  public:

@@ -4,10 +4,10 @@
 //   w_i = exp(a . y_i) sum r / sum r_i exp(a . y_i),   y_i = (x_i - x_0) / L,
 //   a: the minimum of  log sum r_i exp(a . y_i) + e |a|^2 / 2
 //
-// r_i is the volume by which the surface around x_i grows with a share of one, x_0 where the volume was lost, the nearest place in
-// the box around the surface, L the box's diagonal. At the minimum sum w_i r_i y_i / sum r_i = -e a: the mean place of what comes back
-// is x_0, as far as the surface reaches; e bounds a where it does not. Of all positive shares with that mean these are nearest to equal ones (Jaynes 1957,
-// Phys. Rev. 106, 620: maximum entropy). Newton's method, O(surface).
+// r_i is the volume by which the surface around x_i grows with a share of one, x_0 where the volume was lost, the nearest
+// place in the box around the surface, L the box's diagonal. At the minimum sum w_i r_i y_i / sum r_i = -e a: the mean place
+// of what comes back is x_0, as far as the surface reaches; e bounds a where it does not. Of all positive shares with that
+// mean these are nearest to equal ones (Jaynes 1957, Phys. Rev. 106, 620: maximum entropy). Newton's method, O(surface).
 #pragma once
 
 #include <span>
@@ -17,9 +17,10 @@
 
 namespace splashdown::fluid {
 
+/// A place of the free surface.
 template <int d>
 struct SurfacePlace {
-  Vec<d> x;
+  Vec<d> x;     ///< world frame [m]
   double room;  ///< r_i [m^d]
 };
 

@@ -19,6 +19,7 @@ namespace splashdown::fluid {
 template <int d>
 inline constexpr bool keeps_facets = d == 2;
 
+/// Cells of a triangulation, and which ones are beside each other.
 template <int d>
 struct Delaunay {
   std::vector<std::array<int, d + 1>> cells;       ///< positively oriented
@@ -36,6 +37,7 @@ Delaunay<d> delaunay(std::span<const Vec<d>> points, const std::vector<Facet<d>>
 /// circumspheres are many times larger than what they span together miss: none of them is fluid.
 template <int d>
 struct ClosedDelaunay {
+  /// Four numbers in 3D, three in 2D: of corners, or of cells opposite to them.
   using Cell = std::array<int, d + 1>;
   static constexpr int far = d + 1;  ///< points far away, numbered after all others; then comes the vertex at infinity
   static constexpr int gone = -1;    ///< first corner of a cell that sorting drops

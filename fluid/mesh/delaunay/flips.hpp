@@ -11,6 +11,7 @@ namespace splashdown::fluid {
 /// Flips of the edge between two positive cells: that of a quadrilateral for its other diagonal.
 class Flips {
  public:
+  /// Works in place on `cells`, which must live longer.
   explicit Flips(MovedCells<2>& cells) : cells_(cells) {}
 
   /// Flips those of the edges that lie between positive cells and are not locally Delaunay, and what that makes so, until none is

@@ -11,9 +11,11 @@
 
 namespace splashdown::fluid {
 
+/// A facet, by a cell and the corner opposite to it.
 struct FacetAt {
   static constexpr int whole_cell = -1;
   int cell, corner;  ///< the corner opposite, or `whole_cell`
+  /// By cell, then by corner.
   auto operator<=>(const FacetAt&) const = default;
 };
 
@@ -22,8 +24,10 @@ struct FacetAt {
 template <int d>
 class MovedCells {
  public:
+  /// Numbers of the corners.
   using Cell = std::array<int, d + 1>;
 
+  /// `points`: where they are now [m]; `mesh` is changed in place and must live longer.
   MovedCells(ClosedDelaunay<d>& mesh, std::span<const Vec<d>> points);
 
   ClosedDelaunay<d>& mesh;
@@ -31,9 +35,12 @@ class MovedCells {
   std::vector<typename Cgal<d>::Point> at;              ///< points
   std::unordered_map<int, std::vector<int>> to_insert;  ///< new points by the cell that they lie in
 
+  /// Whether the vertex at infinity is no corner.
   bool finite(const Cell& cell) const { return std::find(cell.begin(), cell.end(), infinity) == cell.end(); }
+  /// Whether a corner is gone (negative).
   static bool lost_a_corner(const Cell& cell);
   CGAL::Orientation orientation(const Cell& cell) const;  ///< of a finite one
+  /// Whether a finite cell is positively oriented, by exact predicates.
   bool positive(const Cell& cell) const { return orientation(cell) == CGAL::POSITIVE; }
   /// The point lies in the circumsphere of a positive cell.
   bool in_conflict(const Cell& cell, int point) const;

@@ -15,6 +15,7 @@ namespace splashdown::fluid {
 /// Cells that are given up and those that take their place.
 template <int d>
 struct Patch {
+  /// Numbers of corners.
   using Cell = typename MovedCells<d>::Cell;
   std::vector<FacetAt> seeds;    ///< what is wrong
   std::vector<int> seed_cells;   ///< with it
@@ -27,6 +28,7 @@ struct Patch {
   std::unique_ptr<std::atomic<State>> state = std::make_unique<std::atomic<State>>(waiting);
 };
 
+/// All patches of one triangulation.
 template <int d>
 struct Patches {
   std::vector<Patch<d>> list;

@@ -8,12 +8,14 @@
 
 namespace splashdown::fluid {
 
-/// Whether corners of a cell were of different parts of the last mesh, Nodes::part: it is new water then, that no node carries yet.
+/// Whether corners of a cell were of different parts of the last mesh, Nodes::part: it is new water then, that no node
+/// carries yet.
 template <int d>
 bool joins_parts(const std::array<int, d + 1>& cell, const Nodes<d>& nodes);
 
-/// Facets of the boundary, those of smaller parts of the last mesh first: where surfaces have met and facets cross, a triangulation
-/// keeps the first. So what lands keeps its shape, and the water that it lands in makes room, which has nodes enough.
+/// Facets of the boundary, those of smaller parts of the last mesh first: where surfaces have met and facets cross, a
+/// triangulation keeps the first. So what lands keeps its shape, and the water that it lands in makes room, which has nodes
+/// enough.
 template <int d>
 std::vector<Facet<d>> smaller_parts_first(const std::vector<Facet<d>>& boundary, const Nodes<d>& nodes);
 

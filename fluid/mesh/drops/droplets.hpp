@@ -6,9 +6,10 @@
 // the size of elements whose nodes hold V each where they are packed most closely:
 //
 //   drops nearer to each other than the mean of their sizes join:      V = V_1 + V_2, mean position and velocity by volume
-//   a drop in the liquid, also on a wall that the liquid wets, or nearer to its surface than s / 2, joins it: the nodes of the nearest facet of the surface give
-//     way by V / d each, along the area around them, and take the momentum, v <- (V_k v_k + V/d v) / (V_k + V/d); those on
-//     walls stay there, and their share of the volume is owed (volume_correction.hpp)
+//   a drop in the liquid, also on a wall that the liquid wets, or nearer to its surface than s / 2, joins it: the nodes of the
+//     nearest facet of the surface give way by V / d each, along the area around them, and take the momentum,
+//     v <- (V_k v_k + V/d v) / (V_k + V/d); those on walls stay there, and their share of the volume is owed
+//     (volume_correction.hpp)
 //
 // Both are plastic: volume (to first order in the shift, which is bounded) and momentum are kept, kinetic energy falls.
 #pragma once

@@ -9,11 +9,6 @@
 //     v <- (V_f v_f + s v) / (V_f + s), x likewise,  V_f <- V_f + s
 //
 // and what it has of the field's energy in the cell (field_energy.hpp).
-//
-// Water that has just closed a gap between two waters stays until nodes carry it. So does all of a part of which more than half would
-// fly, but for one that all does: its mesh is coarse rather than its water thin.
-//
-// Volume, momentum and centre of mass are kept, kinetic energy falls by what the velocities differ across a cell.
 #pragma once
 
 #include <functional>
@@ -25,8 +20,13 @@
 namespace splashdown::fluid {
 
 /// Lets nodes of sheets for which `may_fly` holds do so, and those that are left without cells: removes the cells from `mesh`,
-/// closes its boundary, sets Nodes::spray and Nodes::surface, and hands over Nodes::volume and Nodes::field_energy. `flat_cells`, which
-/// are closed as long as there is water all around (Recognised), open beside what flies.
+/// closes its boundary, sets Nodes::spray and Nodes::surface, and hands over Nodes::volume and Nodes::field_energy.
+/// `flat_cells`, which are closed as long as there is water all around (Recognised), open beside what flies.
+///
+/// Water that has just closed a gap between two waters stays until nodes carry it. So does all of a part of which more than
+/// half would fly, but for one that all does: its mesh is coarse rather than its water thin.
+///
+/// Volume, momentum and centre of mass are kept, kinetic energy falls by what the velocities differ across a cell.
 template <int d>
 void let_sheets_fly(Nodes<d>& nodes, Mesh<d>& mesh, FlatCells<d>& flat_cells, const std::function<bool(int)>& may_fly);
 

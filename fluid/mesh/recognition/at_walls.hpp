@@ -13,6 +13,7 @@
 
 namespace splashdown::fluid {
 
+/// Walls and where they are: wall frame to world. Refers to both.
 template <int d>
 struct WallsAt {
   std::span<const Wall<d>> walls;
@@ -31,9 +32,9 @@ bool lies_on(int wall, const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d
 template <int d>
 int wall_of(const Facet<d>& f, const Nodes<d>& nodes, const WallsAt<d>& at);
 
-/// Whether a cell lies in the solid of a wall that it touches: its centroid is there, deeper than a fiftieth of its size, and than the
-/// chord that it stands on, if that is one: a facet that the wall wetted before, or one that looks the way the wall does at all its
-/// nodes. `size`: element size at it [m].
+/// Whether a cell lies in the solid of a wall that it touches: its centroid is there, deeper than a fiftieth of its size, and
+/// than the chord that it stands on, if that is one: a facet that the wall wetted before, or one that looks the way the wall
+/// does at all its nodes. `size`: element size at it [m].
 template <int d>
 bool in_solid(const std::array<int, d + 1>& cell, const Vec<d>& centroid, double size, const Nodes<d>& nodes,
               const std::vector<Facet<d>>& old_boundary, const WallsAt<d>& at);

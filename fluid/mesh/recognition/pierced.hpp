@@ -16,6 +16,7 @@
 
 namespace splashdown::fluid {
 
+/// Cells that go, and those that fill the same room.
 struct Flip {
   std::vector<int> cells;                 ///< that go
   std::vector<std::array<int, 4>> fresh;  ///< that fill their place; empty: nothing positive does

@@ -37,12 +37,13 @@ struct Hub {
 template <int d>
 using FlatCells = std::vector<std::array<int, d + 1>>;
 
+/// The fluid's cells and boundary, and what was noticed on the way.
 template <int d>
 struct Recognised : Mesh<d> {
   /// Inner nodes, off walls, of cells that lie in a wall for some part, in 3D, though water should be there: without
   /// them the triangulation has the wall's facets.
   std::vector<int> piercing;
-  FlatCells<d> flat_cells;
+  FlatCells<d> flat_cells;    ///< closed in by water
   bool hub_in_water = false;  ///< cells of a hub hold some of it; nothing else has been looked at
 };
 

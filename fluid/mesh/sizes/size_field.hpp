@@ -13,10 +13,12 @@ namespace splashdown::fluid {
 /// Element size at a bend of a wall [m]: `curvature` times its radius, but no less than a quarter of the wall's own size.
 double size_at_bend(const SizeSpec& spec, double wall_size, double radius);
 
-/// Where elements are smaller than `wall_size`, that of the wall [m]: at its bends and, of hulls, at corners. In the wall's frame.
+/// Where elements are smaller than `wall_size`, that of the wall [m]: at its bends and, of hulls, at corners. In the wall's
+/// frame.
 template <int d>
 std::vector<SizeSource<d>> spots_of(const SizeSpec& spec, const Wall<d>& wall, double wall_size);
 
+/// h(x) of one mesh [m], world frame. Const calls may come from all threads.
 template <int d>
 class SizeField {
  public:
@@ -25,6 +27,7 @@ class SizeField {
             const Mesh<d>& mesh);
   /// `on_wall`: the wall that the point is known to lie on, -1: none is. In 2D it is asked all the same.
   double operator()(const Vec<d>& point, int on_wall = -1) const;
+  /// Element size on this wall away from bends and corners [m].
   double at_wall(std::size_t wall) const { return wall_size_[wall]; }
 
  private:

@@ -7,16 +7,20 @@
 
 namespace splashdown::fluid {
 
+/// A point with an element size [m].
 template <int d>
 struct SizeSource {
   Vec<d> at;
   double size;
 };
 
+/// Many of them, in a tree.
 template <int d>
 class SizeSources {
  public:
+  /// `growth`: dh/dx [-].
   explicit SizeSources(double growth) : growth_(growth) {}
+  /// One more; before `plant`.
   void add(const SizeSource<d>& source) { points_.push_back(source); }
   /// Puts them into a tree: jets of a fine mesh have hundreds, and every node asks. Without it all are looked at.
   void plant();

@@ -141,9 +141,10 @@ TEST_F(StudyTest, quantities_are_measured_and_held_against_runs_and_expressions)
   std::string header, first;
   std::getline(csv, header);
   std::getline(csv, first);
-  EXPECT_EQ(header,
-            "run,ratio,scheme,status,verdict,passes_mean,passes_max,rejected_steps,steps,simulated_time,wall_seconds,speed,"
-            "speed_error,fall,fall_error,cause");
+  EXPECT_EQ(
+      header,
+      "run,ratio,scheme,status,verdict,passes_mean,passes_max,rejected_steps,steps,simulated_time,wall_seconds,speed,"
+      "speed_error,fall,fall_error,cause");
   EXPECT_TRUE(first.starts_with("ratio-1_plain,1,plain,converged,,3.5,,,,,31,5,0.25,")) << first;
 }
 

@@ -83,7 +83,8 @@ TEST(Hollows, below_water_they_are_flooded_from_the_beginning) {
 
 TEST(Hollows, heel_brings_the_rim_to_the_water) {
   const Trough trough;
-  const double mass = rho * trough.breadth * trough.height * 0.5, rim = std::atan(0.5 * trough.height / (0.5 * trough.breadth - trough.wall));
+  const double mass = rho * trough.breadth * trough.height * 0.5,
+               rim = std::atan(0.5 * trough.height / (0.5 * trough.breadth - trough.wall));
   // Half immersed: the water stays at the middle, and comes over the inner corner of the rim.
   EXPECT_EQ(floating(trough.surface(), at(3, 0.98 * rim), mass, rho, 0.)->hollow, Hollow::dry);
   const auto over = floating(trough.surface(), at(3, 1.02 * rim), mass, rho, 0.);
