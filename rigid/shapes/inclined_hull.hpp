@@ -18,7 +18,7 @@ struct FloatingHull {
   Hollows<d> hollows;
   double volume = 0;           ///< of the solid [m^2, m^3]
   double extent = 0;           ///< diagonal of its box [m]
-  Hollow state = Hollow::dry;  ///< of all hollows at first
+  Hollow state = Hollow::dry;  ///< what is in its hollows
 
   /// `of`: closed, body frame, normals outward; must live longer.
   FloatingHull(const Surface<d>& of, Hollow hollow);
