@@ -8,12 +8,13 @@ find_package(ZLIB REQUIRED)
 find_package(pugixml REQUIRED)
 
 set(output_sources
+  text/number_text.cpp files/csv.cpp files/run_files.cpp
   record/hulls.cpp record/points.cpp record/probes.cpp record/recorder.cpp record/view.cpp
   record/frames/base64.cpp record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu.cpp record/frames/vtu_blocks.cpp record/frames/vtu_grid.cpp
-  record/tables/csv.cpp record/tables/energy.cpp record/tables/evidence.cpp record/tables/files.cpp record/tables/rows.cpp
+  record/tables/energy.cpp record/tables/evidence.cpp record/tables/rows.cpp
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
-  statistics/grades.cpp statistics/landing_statistics.cpp statistics/limits.cpp statistics/missing.cpp statistics/next_step.cpp
-  statistics/pulse.cpp statistics/rise.cpp statistics/share.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict.cpp
+  statistics/verdict/grades.cpp statistics/landing_statistics.cpp statistics/verdict/limits.cpp statistics/verdict/missing.cpp statistics/verdict/next_step.cpp
+  statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
   report/data.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp
   report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
   report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp

@@ -10,8 +10,8 @@
 #include "core/geometry.hpp"
 #include "rigid/bullet_engine.hpp"
 #include "rigid/buoyancy.hpp"
-#include "rigid/condition_rows.hpp"
-#include "rigid/constraint_solver.hpp"
+#include "rigid/constraints/condition_rows.hpp"
+#include "rigid/constraints/constraint_solver.hpp"
 #include "rigid/shapes/inclined_hull.hpp"
 
 namespace splashdown::rigid {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "rigid/condition_rows.hpp"
+#include "rigid/constraints/condition_rows.hpp"
 #include "rigid/embedding.hpp"
 #include "rigid/message.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "rigid/bodies.hpp"
 #include "rigid/bullet_engine.hpp"
-#include "rigid/constraint_solver.hpp"
+#include "rigid/constraints/constraint_solver.hpp"
 #include "rigid/free_body.hpp"
 
 namespace splashdown::rigid {

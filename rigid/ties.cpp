@@ -5,7 +5,7 @@
 
 #include "core/dense.hpp"
 #include "rigid/bullet_engine.hpp"
-#include "rigid/constraint_solver.hpp"
+#include "rigid/constraints/constraint_solver.hpp"
 #include "rigid/embedding.hpp"
 
 namespace splashdown::rigid {

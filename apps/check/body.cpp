@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/build/build.hpp"
 #include "apps/check/floating.hpp"
 #include "apps/check/words.hpp"
-#include "apps/run/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/motion_guess.hpp"
 #include "core/geometry.hpp"

@@ -1,3 +1,5 @@
+#include "apps/check/command.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,14 +11,13 @@
 #include "apps/check/start.hpp"
 #include "apps/check/ties.hpp"
 #include "apps/check/words.hpp"
-#include "apps/cli/commands.hpp"
-#include "apps/cli/plain_text.hpp"
-#include "apps/run/closing.hpp"
-#include "apps/run/progress.hpp"
+#include "apps/process/exit.hpp"
 #include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"
+#include "apps/text/number_text.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 

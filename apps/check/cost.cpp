@@ -6,7 +6,7 @@
 #include <numbers>
 #include <queue>
 
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 #include "apps/scene/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/solid.hpp"

@@ -8,11 +8,11 @@
 #include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/walls.hpp"
 #include "apps/check/words.hpp"
-#include "apps/run/closing.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/scene/rules/rules.hpp"
 #include "apps/scene/scales.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 namespace {

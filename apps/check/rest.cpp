@@ -4,7 +4,7 @@
 #include <functional>
 #include <numeric>
 
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/solid.hpp"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "apps/build/build.hpp"
 #include "apps/check/words.hpp"
-#include "apps/run/build/build.hpp"
-#include "apps/run/closing.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 namespace {

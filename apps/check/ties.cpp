@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "rigid/ties.hpp"
 

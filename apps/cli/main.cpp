@@ -6,11 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/cli/commands.hpp"
-#include "apps/cli/version.hpp"
+#include "apps/check/command.hpp"
+#include "apps/cli/schema.hpp"
+#include "apps/price/command.hpp"
+#include "apps/process/exit.hpp"
+#include "apps/process/version.hpp"
+#include "apps/report/command.hpp"
+#include "apps/run/command.hpp"
 #include "apps/scene/choose/presets.hpp"
 #include "apps/scene/rules/problems.hpp"
-#include "apps/scene/rules/schema.hpp"
+#include "apps/study/command.hpp"
 
 namespace splashdown::apps {
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "apps/cli/commands.hpp"
-#include "apps/cli/shell_word.hpp"
+#include "apps/price/command.hpp"
 #include "apps/scene/read/read.hpp"
-#include "apps/statistics/share.hpp"
+#include "apps/statistics/verdict/share.hpp"
+#include "apps/text/shell_word.hpp"
 
 namespace splashdown::apps {
 namespace {

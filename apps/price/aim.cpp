@@ -6,16 +6,18 @@
 #include <cmath>
 
 #include "apps/check/cost.hpp"
-#include "apps/cli/commands.hpp"
+#include "apps/files/folder_lock.hpp"
+#include "apps/files/run_files.hpp"
 #include "apps/price/advice.hpp"
+#include "apps/price/command.hpp"
 #include "apps/price/cost.hpp"
 #include "apps/price/probes.hpp"
 #include "apps/price/write.hpp"
-#include "apps/record/tables/files.hpp"
+#include "apps/process/exit.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/report/report.hpp"
+#include "apps/run/command.hpp"
 #include "apps/run/folder/folder.hpp"
-#include "apps/run/folder/folder_lock.hpp"
-#include "apps/run/interrupt.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/study/folder.hpp"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "apps/files/csv.hpp"
 #include "apps/price/write.hpp"
-#include "apps/record/tables/csv.hpp"
 #include "apps/report/gnuplot.hpp"
 
 namespace splashdown::apps {

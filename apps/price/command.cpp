@@ -1,14 +1,16 @@
+#include "apps/price/command.hpp"
+
 #include <fmt/format.h>
 
-#include "apps/cli/commands.hpp"
+#include "apps/files/csv.hpp"
+#include "apps/files/folder_lock.hpp"
 #include "apps/price/advice.hpp"
 #include "apps/price/cost.hpp"
 #include "apps/price/write.hpp"
-#include "apps/record/tables/csv.hpp"
+#include "apps/process/exit.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/report/report.hpp"
 #include "apps/run/folder/folder.hpp"
-#include "apps/run/folder/folder_lock.hpp"
-#include "apps/run/interrupt.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/study/folder.hpp"
 

@@ -9,18 +9,19 @@
 #include <cstdio>
 #include <thread>
 
-#include "apps/cli/child_process.hpp"
-#include "apps/cli/commands.hpp"
 #include "apps/price/cost.hpp"
+#include "apps/process/child_process.hpp"
+#include "apps/process/exit.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/quantity/names.hpp"
 #include "apps/quantity/table.hpp"
-#include "apps/run/interrupt.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/study/run.hpp"
 #include "apps/study/table.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 namespace {

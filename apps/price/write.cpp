@@ -8,9 +8,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/cli/plain_text.hpp"
-#include "apps/run/closing.hpp"
-#include "apps/statistics/share.hpp"
+#include "apps/statistics/verdict/share.hpp"
+#include "apps/text/number_text.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/record/patch_region.hpp"
+#include "apps/scene/patch_region.hpp"
 #include "core/mesh.hpp"
 #include "core/nodes.hpp"
 

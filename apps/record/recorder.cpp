@@ -12,18 +12,18 @@
 #include <limits>
 #include <stdexcept>
 
+#include "apps/files/bounded_archive.hpp"
+#include "apps/files/csv.hpp"
+#include "apps/files/run_files.hpp"
 #include "apps/record/frames/frames.hpp"
 #include "apps/record/hulls.hpp"
 #include "apps/record/points.hpp"
 #include "apps/record/probes.hpp"
 #include "apps/record/schedule.hpp"
-#include "apps/record/tables/csv.hpp"
 #include "apps/record/tables/energy.hpp"
 #include "apps/record/tables/evidence.hpp"
-#include "apps/record/tables/files.hpp"
 #include "apps/record/tables/rows.hpp"
 #include "apps/record/view.hpp"
-#include "apps/run/folder/bounded_archive.hpp"
 #include "apps/statistics/statistics.hpp"
 #include "core/geometry.hpp"
 

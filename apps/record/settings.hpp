@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/record/patch_region.hpp"
+#include "apps/scene/patch_region.hpp"
 #include "core/types.hpp"
 
 namespace splashdown::apps {

@@ -1,6 +1,8 @@
+#include "apps/report/command.hpp"
+
 #include <fmt/format.h>
 
-#include "apps/cli/commands.hpp"
+#include "apps/process/exit.hpp"
 #include "apps/report/report.hpp"
 
 namespace splashdown::apps {

@@ -10,9 +10,9 @@
 #include "apps/record/frames/frames.hpp"
 #include "apps/report/words.hpp"
 #include "apps/statistics/attitude.hpp"
-#include "apps/statistics/share.hpp"
 #include "apps/statistics/summary.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/share.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 
 namespace splashdown::apps {
 
@@ -212,7 +212,7 @@ Figure gain_figure(const RunData& run, const Values& t, const Figure& empty) {
       "The balance of the ledger over {}, the largest of what there was to give or to take. It falls by viscosity, "
       "impacts and breaking waves; what rises comes from nowhere, and nothing after it can be trusted above the red "
       "line.",
-      with_unit(scale, energy_unit(run.dimension())));
+      digits_with_unit(scale, energy_unit(run.dimension())));
   return relative;
 }
 

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "apps/cli/plain_text.hpp"
+#include "apps/text/plain_text.hpp"
 
 extern char** environ;
 

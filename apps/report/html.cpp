@@ -9,7 +9,7 @@
 
 #include "apps/report/page.hpp"
 #include "apps/statistics/attitude.hpp"
-#include "apps/statistics/limits.hpp"
+#include "apps/statistics/verdict/limits.hpp"
 
 namespace splashdown::apps {
 
@@ -53,7 +53,7 @@ std::string tiles(const RunData& run) {
   for (const auto& [name, body] : bodies.items()) {
     const std::string of = several ? ", " + html_escaped(name) : std::string();
     if (const auto f = headline(body, "peak_force", run.dimension()); f.value > 0)
-      tile(with_unit(f.value, force_unit(run.dimension())), "peak load, resultant" + f.filter + of + f.band);
+      tile(digits_with_unit(f.value, force_unit(run.dimension())), "peak load, resultant" + f.filter + of + f.band);
     if (const auto a = headline(body, "peak_acceleration_g", run.dimension()); a.value > 0)
       tile(digits(a.value, 3) + " g", "peak acceleration" + a.filter + of + a.band);
   }
@@ -155,7 +155,7 @@ std::string body_table(const RunData& run) {
                                                                      : std::string("–");
   });
   row("peak load, resultant", [&](const Body& b) {
-    return with_unit(number_at(b, {"peak_force", "value"}), force_unit(d));
+    return digits_with_unit(number_at(b, {"peak_force", "value"}), force_unit(d));
   });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"peak_force", "time"})); });
   row("its band", [](const Body& b) { return grade_text(b, {"peak_force"}); });
@@ -174,22 +174,22 @@ std::string body_table(const RunData& run) {
     return seconds_text(number_at(pulse, {"rise_time"})) + ", " + seconds_text(number_at(pulse, {"duration"}));
   });
   row("its change of velocity", [](const Body& b) {
-    return with_unit(number_at(shown_pulse(member(b, "peak_acceleration_g")), {"delta_v"}), "m/s", 3);
+    return digits_with_unit(number_at(shown_pulse(member(b, "peak_acceleration_g")), {"delta_v"}), "m/s", 3);
   });
   for (const int cfc : {600, 60})
     row(fmt::format("peak load, CFC {}", cfc), [&](const Body& b) {
       const double peak = number_at(b, {"peak_force_filtered", fmt::format("cfc{}", cfc).c_str(), "value"});
-      return std::isfinite(peak) ? with_unit(peak, force_unit(d)) : std::string("steps too long");
+      return std::isfinite(peak) ? digits_with_unit(peak, force_unit(d)) : std::string("steps too long");
     });
   row("vertical impulse of the load",
-      [&](const Body& b) { return with_unit(last_component(b, "impulse"), d == 2 ? "N s/m" : "N s"); });
+      [&](const Body& b) { return digits_with_unit(last_component(b, "impulse"), d == 2 ? "N s/m" : "N s"); });
   row("repair part of the impulse", [](const Body& b) {
     const double share = number_at(b, {"repair_share"});
     if (!b.contains("repair_share")) return std::string("–");  // of an earlier version
     return std::isfinite(share) ? percent(share) : std::string("no meaningful share");
   });
   row("greatest submergence of the lowest point", [](const Body& b) {
-    return with_unit(number_at(b, {"maximum_submergence", "value"}), "m", 3);
+    return digits_with_unit(number_at(b, {"maximum_submergence", "value"}), "m", 3);
   });
   row("at", [](const Body& b) { return seconds_text(number_at(b, {"maximum_submergence", "time"})); });
   row("first contact", [](const Body& b) { return seconds_text(number_at(b, {"first_contact_time"})); });
@@ -230,9 +230,9 @@ std::string equipment_table(const RunData& run) {
       html += "<td>" + digits(number_at(point, {cfc, "value"}), 3) + "</td>";
     html += "<td>" + grade_text(point, {"cfc60"}) + "</td>";
     const auto& pulse = shown_pulse(point);
-    html +=
-        fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", seconds_text(number_at(pulse, {"rise_time"})),
-                    seconds_text(number_at(pulse, {"duration"})), with_unit(number_at(pulse, {"delta_v"}), "m/s", 3));
+    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", seconds_text(number_at(pulse, {"rise_time"})),
+                        seconds_text(number_at(pulse, {"duration"})),
+                        digits_with_unit(number_at(pulse, {"delta_v"}), "m/s", 3));
   }
   return html + "</tbody></table></div>\n";
 }
@@ -263,8 +263,8 @@ std::string ledger_table(const RunData& run) {
                                   {"energy_repair", "kinetic energy taken by repairs"},
                                   {"energy_gain_joule", "largest gain that nothing explains"},
                                   {"energy_scale", "what there was to give or to take"}})
-    html +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td></td></tr>\n", name, with_unit(number_at(ledger, {key}), energy));
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td></td></tr>\n", name,
+                        digits_with_unit(number_at(ledger, {key}), energy));
   return html + "</tbody></table></div>\n";
 }
 

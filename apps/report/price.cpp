@@ -7,10 +7,10 @@
 #include <functional>
 #include <set>
 
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/page.hpp"
-#include "apps/statistics/share.hpp"
+#include "apps/statistics/verdict/share.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/gnuplot.hpp"

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <set>
 
-#include "apps/cli/pattern.hpp"
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/page.hpp"
+#include "apps/text/pattern.hpp"
 
 namespace splashdown::apps {
 

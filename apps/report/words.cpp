@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace splashdown::apps {
@@ -13,13 +11,6 @@ namespace splashdown::apps {
 namespace {
 
 constexpr double volume_error_good = 0.005;  // the bar of all examples (docs/validation.md)
-
-std::string superscript(int exponent) {
-  constexpr std::array raised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "⁻" : "";
-  for (const char digit : std::to_string(std::abs(exponent))) text += raised[static_cast<std::size_t>(digit - '0')];
-  return text;
-}
 
 std::string status_sentence(const nlohmann::ordered_json& summary) {
   const std::string status = summary.value("status", "");
@@ -82,7 +73,7 @@ void add_body_sentences(const RunData& run, std::vector<std::string>& sentences)
     if (!(force.value > 0)) continue;
     std::string text = fmt::format(
         "The largest load on <b>{}</b>, all directions together{}, was <b>{}</b>{} at {}", html_escaped(name),
-        force.filter, with_unit(force.value, force_unit(run.dimension())), force.band, seconds_text(force.time));
+        force.filter, digits_with_unit(force.value, force_unit(run.dimension())), force.band, seconds_text(force.time));
     if (const auto a = headline(body, "peak_acceleration_g", run.dimension()); a.value > 0) {
       text += fmt::format("; its centre of mass felt up to <b>{} g</b>{}{}", digits(a.value, 3), a.filter, a.band);
       for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"}) {
@@ -116,52 +107,6 @@ std::string grade_text(const nlohmann::ordered_json& body, std::initializer_list
   const auto text = band_text(at(at(body, {"grades"}), path));
   return text.empty() ? "–" : text.substr(2, text.size() - 3);
 }
-
-Unit si_unit(double largest, const std::string& unit) {
-  largest = std::abs(largest);
-  if (largest >= 1e9) return {1e-9, "G" + unit};
-  if (largest >= 1e6) return {1e-6, "M" + unit};
-  if (largest >= 1e3) return {1e-3, "k" + unit};
-  if (largest >= 0.1 || largest == 0 || !std::isfinite(largest)) return {1, unit};
-  return {1e3, "m" + unit};
-}
-
-Unit time_unit(double end_time) { return end_time < 0.5 ? Unit{1e3, "ms"} : Unit{1, "s"}; }
-
-std::string force_unit(int dimension) { return dimension == 2 ? "N/m" : "N"; }
-std::string moment_unit(int dimension) { return dimension == 2 ? "N m/m" : "N m"; }
-std::string energy_unit(int dimension) { return dimension == 2 ? "J/m" : "J"; }
-
-std::string digits(double value, int count) {
-  if (!std::isfinite(value)) return "–";
-  if (value == 0) return "0";
-  // Of the rounded value: 9.9996 is "10.00", not "10.000".
-  const double rounded = std::abs(value) * (1 + 0.5 * std::pow(10.0, -count));
-  const int magnitude = static_cast<int>(std::floor(std::log10(rounded)));
-  const std::string sign = value < 0 ? "−" : "";
-  if (magnitude >= -4 && magnitude <= 6)
-    return sign + fmt::format("{:.{}f}", std::abs(value), std::max(0, count - 1 - magnitude));
-  return sign +
-         fmt::format("{:.{}f}·10{}", std::abs(value) * std::pow(10.0, -magnitude), count - 1, superscript(magnitude));
-}
-
-std::string with_unit(double value, const std::string& unit, int count) {
-  const auto [scale, name] = si_unit(value, unit);
-  return digits(value * scale, count) + " " + name;
-}
-
-std::string seconds_text(double seconds) {
-  if (!std::isfinite(seconds)) return "–";
-  if (seconds < 1) return digits(seconds * 1e3, 3) + " ms";
-  if (seconds < 120) return digits(seconds, 3) + " s";
-  const auto minutes = static_cast<long>(std::lround(seconds / 60));
-  if (minutes < 60) return fmt::format("{} min", minutes);
-  return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
-}
-
-std::string count_text(double count) { return std::isfinite(count) ? fmt::format("{:.0f}", count) : "–"; }
-
-std::string percent(double share) { return digits(100 * share, 2) + " %"; }
 
 std::string html_escaped(const std::string& text) {
   std::string escaped;
@@ -242,7 +187,7 @@ Banner banner_of(const RunData& run) {
   if (std::isfinite(gain) && number_at(summary, {"ledger", "energy_scale"}) > 0)
     banner.sentences.push_back(fmt::format(
         "Its energy rose unexplained by <b>{}</b> of {}, the largest of what there was to give or to take ({}).",
-        percent(gain), with_unit(number_at(summary, {"ledger", "energy_scale"}), energy_unit(run.dimension())),
+        percent(gain), digits_with_unit(number_at(summary, {"ledger", "energy_scale"}), energy_unit(run.dimension())),
         html_escaped(text_at(summary["ledger"], "energy_scale_from"))));
   const double passes = number_at(summary, {"coupling", "passes_mean"});
   if (std::isfinite(passes)) {

@@ -1,30 +1,14 @@
-// Numbers with units and the banner over a run, in words.
+// Peaks, grades and the banner over a run, in words.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "apps/report/data.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 
-/// value * scale is in `unit`.
-struct Unit {
-  double scale = 1;
-  std::string unit;
-};
-
-/// Picks the prefix (none, k, M, G; or m for small values) that suits `largest`.
-Unit si_unit(double largest, const std::string& unit);
-Unit time_unit(double end_time);
-std::string force_unit(int dimension);   ///< N/m or N
-std::string moment_unit(int dimension);  ///< N m/m or N m
-std::string energy_unit(int dimension);  ///< J/m or J
-
-/// `count` significant digits, with a power of ten outside 1e-4 to 1e7; "–" for nan.
-std::string digits(double value, int count = 4);
-std::string with_unit(double value, const std::string& unit, int digits = 4);  ///< with an SI prefix
-std::string seconds_text(double seconds);                                      ///< "840 ms", "13.2 s", "2 h 05 min"
 /// A peak of a body that stands for all: raw in the plane, in space, where raw peaks do not converge, of CFC 60.
 struct ReportHeadline {
   double value, time;
@@ -34,9 +18,6 @@ struct ReportHeadline {
 ReportHeadline headline(const nlohmann::ordered_json& body, const std::string& key, int dimension);
 /// Grade and band of a number of a body, where its grades have it.
 std::string grade_text(const nlohmann::ordered_json& body, std::initializer_list<const char*> path);
-
-std::string percent(double share);
-std::string count_text(double count);
 
 std::string html_escaped(const std::string& text);
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/cli/plain_text.hpp"
 #include "apps/record/frames/frames.hpp"
-#include "apps/run/progress.hpp"
-#include "apps/statistics/grades.hpp"
-#include "apps/statistics/limits.hpp"
-#include "apps/statistics/next_step.hpp"
-#include "apps/statistics/share.hpp"
+#include "apps/statistics/verdict/grades.hpp"
+#include "apps/statistics/verdict/limits.hpp"
+#include "apps/statistics/verdict/next_step.hpp"
+#include "apps/statistics/verdict/share.hpp"
+#include "apps/text/number_text.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -192,19 +192,6 @@ std::string verdict_rows(const Verdict& verdict, Ink ink) {
 }
 
 }  // namespace
-
-MetricPrefix prefix_of(double value) {
-  constexpr MetricPrefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}};
-  // 0.9995 and more round to a thousand of the next smaller prefix.
-  for (const auto& prefix : prefixes)
-    if (std::isfinite(value) && std::abs(value) >= 0.9995 * prefix.factor) return prefix;
-  return {1, ""};
-}
-
-std::string with_unit(double value, const std::string& unit) {
-  const auto prefix = prefix_of(value);
-  return fmt::format("{:.4g} {}{}", value / prefix.factor, prefix.name, unit);
-}
 
 std::string closing_text(const Summary& summary, const std::filesystem::path& directory, Ink ink) {
   auto text = fmt::format(

@@ -1,3 +1,5 @@
+#include "apps/run/command.hpp"
+
 #include <fmt/format.h>
 #include <time.h>
 #include <unistd.h>
@@ -8,19 +10,20 @@
 #include "apps/check/questions.hpp"
 #include "apps/check/start.hpp"
 #include "apps/check/ties.hpp"
-#include "apps/cli/commands.hpp"
-#include "apps/cli/threads.hpp"
-#include "apps/record/tables/csv.hpp"
-#include "apps/record/tables/files.hpp"
+#include "apps/files/csv.hpp"
+#include "apps/files/folder_lock.hpp"
+#include "apps/files/run_files.hpp"
+#include "apps/process/exit.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/report/report.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/run/folder/folder.hpp"
-#include "apps/run/folder/folder_lock.hpp"
 #include "apps/run/folder/resume.hpp"
-#include "apps/run/interrupt.hpp"
 #include "apps/run/next.hpp"
 #include "apps/run/run.hpp"
+#include "apps/run/threads.hpp"
 #include "apps/scene/read/read.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "apps/check/cost.hpp"
-#include "apps/cli/shell_word.hpp"
 #include "apps/scene/read/read.hpp"
-#include "apps/statistics/next_step.hpp"
+#include "apps/statistics/verdict/next_step.hpp"
+#include "apps/text/shell_word.hpp"
 
 namespace splashdown::apps {
 namespace {

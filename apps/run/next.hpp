@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "apps/cli/commands.hpp"
+#include "apps/run/command.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/statistics/summary.hpp"
 

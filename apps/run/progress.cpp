@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "apps/text/number_text.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -14,14 +16,6 @@ constexpr double seconds_of_memory = 5;  // of the speed that the time left is j
 double seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 }  // namespace
-
-std::string clock_text(double wall) {
-  const double day = 86400;
-  if (!(wall < 100 * day)) return fmt::format("{:.2g} days", wall / day);
-  const long whole = static_cast<long>(wall + 0.5);
-  return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
-                      : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-}
 
 std::string progress_text(const ProgressPoint& point, double left) {
   auto text = fmt::format("{:3.0f} %  t = {:.4g} of {:.4g} s  step {}  dt {:.2g} s", 100 * point.time / point.stop,

@@ -14,8 +14,6 @@ struct ProgressPoint {
   std::optional<int> passes;         ///< absent without coupling
 };
 
-/// "0:07", "12:30", "3:05:00"
-std::string clock_text(double seconds);
 /// One line of progress; `left` in wall seconds, negative: not known yet.
 std::string progress_text(const ProgressPoint& point, double left);
 

@@ -7,14 +7,14 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "apps/process/interrupt.hpp"
 #include "apps/run/approach.hpp"
 #include "apps/run/expectations.hpp"
 #include "apps/run/held.hpp"
-#include "apps/run/interrupt.hpp"
 #include "apps/scene/numbers.hpp"
 #include "apps/scene/scales.hpp"
-#include "apps/statistics/limits.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/limits.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 #include "core/leapfrog.hpp"
 #include "core/stopwatch.hpp"
 

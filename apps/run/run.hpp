@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/build/build.hpp"
 #include "apps/record/recorder.hpp"
-#include "apps/run/build/build.hpp"
 #include "apps/run/folder/checkpoint.hpp"
 #include "apps/run/loop.hpp"
 #include "apps/run/progress.hpp"

@@ -2,7 +2,7 @@
 //
 // A limit is a question about a number of the run: is it above, or below, a value? Its quantity is an expression
 // (apps/quantity/expression.hpp) in such names: "seat.peak_g", "bow.peak_pressure - stern.peak_pressure".
-// What is answered: apps/statistics/limits.hpp.
+// What is answered: apps/statistics/verdict/limits.hpp.
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/statistics/filters.hpp"
+#include "apps/scene/channel_classes.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,8 +1,8 @@
 // A pressure patch of a scene as a piece of space.
 #pragma once
 
-#include "apps/record/patch_region.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/patch_region.hpp"
 
 namespace splashdown::apps {
 

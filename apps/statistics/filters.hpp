@@ -11,12 +11,9 @@
 #include <span>
 #include <vector>
 
-namespace splashdown::apps {
+#include "apps/scene/channel_classes.hpp"
 
-inline constexpr int channel_frequency_classes[] = {60, 180, 600, 1000};
-/// Loads on structures as a whole. Peaks of this class have a value however long the steps are, with what that costs in their band
-/// (grades.hpp); higher ones have none from records that J211 does not allow.
-inline constexpr int structures_class = 60;
+namespace splashdown::apps {
 
 /// Interval averages of a few channels (the components of a vector): interval i ends at ends[i] and begins
 /// where the one before ended; values holds `channels` numbers an interval.

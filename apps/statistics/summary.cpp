@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/record/tables/csv.hpp"
-#include "apps/statistics/next_step.hpp"
-#include "apps/statistics/share.hpp"
+#include "apps/files/csv.hpp"
+#include "apps/statistics/verdict/next_step.hpp"
+#include "apps/statistics/verdict/share.hpp"
 
 namespace splashdown::apps {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
 #include "apps/report/gnuplot.hpp"
 
 namespace splashdown::apps {

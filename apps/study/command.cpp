@@ -1,18 +1,20 @@
+#include "apps/study/command.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "apps/cli/child_process.hpp"
-#include "apps/cli/commands.hpp"
-#include "apps/cli/plain_text.hpp"
+#include "apps/files/folder_lock.hpp"
+#include "apps/process/child_process.hpp"
+#include "apps/process/exit.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/report/report.hpp"
 #include "apps/run/folder/folder.hpp"
-#include "apps/run/folder/folder_lock.hpp"
-#include "apps/run/interrupt.hpp"
 #include "apps/study/chart.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/study/run.hpp"
 #include "apps/study/slurm.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {

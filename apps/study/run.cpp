@@ -11,12 +11,13 @@
 #include <list>
 #include <thread>
 
-#include "apps/cli/child_process.hpp"
-#include "apps/cli/commands.hpp"
-#include "apps/run/folder/folder_lock.hpp"
-#include "apps/run/interrupt.hpp"
+#include "apps/files/folder_lock.hpp"
+#include "apps/process/child_process.hpp"
+#include "apps/process/exit.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/study/folder.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -9,10 +9,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "apps/cli/child_process.hpp"
-#include "apps/cli/plain_text.hpp"
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
+#include "apps/process/child_process.hpp"
 #include "apps/study/run.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/files/csv.hpp"
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
-#include "apps/record/tables/csv.hpp"
 
 namespace splashdown::apps {
 namespace {

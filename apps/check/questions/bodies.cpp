@@ -6,7 +6,6 @@
 
 #include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/words.hpp"
-#include "apps/run/closing.hpp"
 #include "rigid/shapes/hydrostatics.hpp"
 
 namespace splashdown::apps {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "apps/check/questions/prepared_scene.hpp"
-#include "apps/run/closing.hpp"
 #include "apps/scene/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cctype>
 
+#include "apps/files/csv.hpp"
 #include "apps/record/frames/vtu.hpp"
-#include "apps/record/tables/csv.hpp"
 
 namespace splashdown::apps {
 

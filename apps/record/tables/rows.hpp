@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
 #include "core/bodies_view.hpp"
 #include "core/fluid_view.hpp"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "apps/cli/pattern.hpp"
 #include "apps/report/pictures/picture.hpp"
 #include "apps/report/words.hpp"
+#include "apps/text/pattern.hpp"
 
 namespace splashdown::apps {
 

@@ -16,8 +16,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "apps/cli/plain_text.hpp"
-#include "apps/run/folder/bounded_archive.hpp"
+#include "apps/files/bounded_archive.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {

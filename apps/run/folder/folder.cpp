@@ -9,9 +9,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/cli/plain_text.hpp"
-#include "apps/cli/version.hpp"
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
+#include "apps/process/version.hpp"
+#include "apps/scene/read/echo.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -20,6 +21,18 @@ namespace fs = std::filesystem;
 
 /// The same for all ways that lead to a file.
 fs::path whole(const fs::path& file) { return fs::weakly_canonical(fs::absolute(file)); }
+
+/// The [provenance] table of scene.resolved.toml; `scene`: the file that was run.
+std::string provenance_toml(const std::filesystem::path& scene) {
+  auto text = fmt::format("[provenance]\nscene = {}\nversion = {}\ngit = {}\nlibraries = {{ ",
+                          toml_text(scene.string()), toml_text(version()), toml_text(git_hash()));
+  const char* separator = "";
+  for (const auto& [name, number] : library_versions()) {
+    text += fmt::format("{}{} = {}", separator, name, toml_text(number));
+    separator = ", ";
+  }
+  return text + " }\n";
+}
 
 /// What a run removes before it begins, or writes over.
 constexpr const char* replaced[] = {"checkpoint",           "bodies.csv",     "fluid.csv",    "probes.csv",

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "apps/record/tables/files.hpp"
+#include "apps/files/run_files.hpp"
 #include "apps/scene/rules/problems.hpp"
 
 namespace splashdown::apps {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "apps/cli/plain_text.hpp"
 #include "apps/scene/read/dimensions.hpp"
 #include "apps/scene/read/units.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "apps/cli/plain_text.hpp"
 #include "apps/scene/read/reader.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "apps/cli/pattern.hpp"
 #include "apps/scene/read/read.hpp"
+#include "apps/text/pattern.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,5 +1,5 @@
 // What a World is built from: poses, walls, effects that are there and effects that are not.
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 
 #include <gtest/gtest.h>
 

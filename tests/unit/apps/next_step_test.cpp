@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "apps/check/cost.hpp"
-#include "apps/cli/shell_word.hpp"
 #include "apps/price/advice.hpp"
+#include "apps/price/command.hpp"
 #include "apps/run/expectations.hpp"
 #include "apps/run/next.hpp"
+#include "apps/text/shell_word.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 

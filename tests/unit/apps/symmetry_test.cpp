@@ -1,5 +1,5 @@
 // Scenes that are their own mirror images, and what breaks the mirror.
-#include "apps/run/build/symmetry.hpp"
+#include "apps/build/symmetry.hpp"
 
 #include <gtest/gtest.h>
 

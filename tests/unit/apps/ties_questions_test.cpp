@@ -3,7 +3,7 @@
 
 #include "apps/check/ties.hpp"
 #include "apps/run/held.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {

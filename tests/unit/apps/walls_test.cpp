@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 #include "apps/run/wall_watch.hpp"
 #include "tests/unit/apps/scenes.hpp"
 

@@ -1,5 +1,5 @@
 // What steps say about peaks, and what bands and grades come of it.
-#include "apps/statistics/grades.hpp"
+#include "apps/statistics/verdict/grades.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "apps/statistics/evidence.hpp"
-#include "apps/statistics/next_step.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/next_step.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,5 +1,5 @@
 // What runs say to limits: random runs, values, bands and limits against what yes and no mean.
-#include "apps/statistics/limits.hpp"
+#include "apps/statistics/verdict/limits.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // What a scene asks for and did not happen: said first, and not resolved where nothing is left to judge.
-#include "apps/statistics/missing.hpp"
+#include "apps/statistics/verdict/missing.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "apps/statistics/next_step.hpp"
 #include "apps/statistics/rise.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/next_step.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 
 namespace splashdown::apps {
 namespace {

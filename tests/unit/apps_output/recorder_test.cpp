@@ -9,7 +9,7 @@
 #include "apps/record/tables/rows.hpp"
 #include "apps/record/view.hpp"
 #include "apps/report/data.hpp"
-#include "apps/statistics/grades.hpp"
+#include "apps/statistics/verdict/grades.hpp"
 #include "recorded_runs.hpp"
 
 namespace splashdown::apps {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "apps/cli/plain_text.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/words.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
+#include "apps/text/plain_text.hpp"
 #include "stand_ins.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -178,7 +178,7 @@ TEST(Words, numbers_have_the_digits_asked_for) {
   EXPECT_EQ(digits(-2e-6, 3), "−2.00·10⁻⁶");
   EXPECT_EQ(digits(0), "0");
   EXPECT_EQ(digits(std::nan("")), "–");
-  EXPECT_EQ(with_unit(26734.9, "N/m"), "26.73 kN/m");
+  EXPECT_EQ(digits_with_unit(26734.9, "N/m"), "26.73 kN/m");
   EXPECT_EQ(seconds_text(0.0149), "14.9 ms");
   EXPECT_EQ(seconds_text(7500), "2 h 05 min");
 }

@@ -1,5 +1,5 @@
 // Ratios say nothing where there is nothing below the line.
-#include "apps/statistics/share.hpp"
+#include "apps/statistics/verdict/share.hpp"
 
 #include <gtest/gtest.h>
 

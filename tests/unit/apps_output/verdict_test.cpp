@@ -1,4 +1,4 @@
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ rule("of coupling, a fluid and bodies know what they implement, in one file each
 rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
 rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
   BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/accelerators/")
-rule("schemes and types are chosen in apps/run/build alone" FILES "^apps/" BUT_FILES "^apps/run/build/[a-z_]*\\.cpp$"
+rule("schemes and types are chosen in apps/build alone" FILES "^apps/" BUT_FILES "^apps/build/[a-z_]*\\.cpp$"
   INCLUDES "^((fluid|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
 
 # Rooms within a room.
@@ -56,7 +56,18 @@ rule("the first mesh is made before anything is solved" FILES "^fluid/initial/" 
 rule("shapes know what a body is, not how it moves" FILES "^rigid/shapes/" INCLUDES "^rigid/"
   BUT_INCLUDES "^rigid/(shapes/|(types|body|embedding|message)\\.hpp$)")
 rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(apps|fluid|rigid|coupling)/" BUT_INCLUDES "^apps/quantity/")
-rule("a scene knows nothing of its run" FILES "^apps/scene/" INCLUDES "^apps/(run|report|check)/")
+rule("of a scene, what is recorded and told knows plain structs" FILES "^apps/(statistics|record|report)/" INCLUDES "^apps/scene/"
+  BUT_INCLUDES "^apps/scene/(channel_classes|limit|patch_region)\\.hpp$")
+
+# Layers of the program, from below: a room includes itself and what stands before it.
+set(layers quantity text files process scene statistics record report build check run study price cli)
+set(below "")
+foreach(room IN LISTS layers)
+  list(APPEND below ${room})
+  list(JOIN below "|" known)
+  rule("the layers of apps: ${room} stands below" FILES "^apps/${room}/" INCLUDES "^apps/" BUT_INCLUDES "^apps/(${known})/")
+endforeach()
+rule("each room of apps has a place among the layers" FILES "^apps/" BUT_FILES "^apps/(${known})/" INCLUDES ".")
 rule("what is recorded does not depend on how it is coupled" FILES "^apps/(record|statistics|report)/" INCLUDES "^coupling/")
 rule("records look at views, in core, not at who solves" FILES "^apps/(record|statistics|report)/" INCLUDES "^(fluid|rigid)/")
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "apps/build/build.hpp"
 #include "apps/check/cost.hpp"
-#include "apps/run/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"

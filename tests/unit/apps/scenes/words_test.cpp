@@ -5,13 +5,14 @@
 #include <tuple>
 
 #include "apps/check/cost.hpp"
-#include "apps/cli/commands.hpp"
+#include "apps/process/exit.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/run/folder/folder.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
+#include "apps/text/number_text.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/cli/threads.hpp"
+#include "apps/run/threads.hpp"
 
 #include "fluid/parallel.hpp"
 

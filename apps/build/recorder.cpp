@@ -1,5 +1,5 @@
-#include "apps/run/build/build.hpp"
-#include "apps/run/build/symmetry.hpp"
+#include "apps/build/build.hpp"
+#include "apps/build/symmetry.hpp"
 #include "apps/scene/patch.hpp"
 
 namespace splashdown::apps {

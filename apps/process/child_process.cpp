@@ -1,4 +1,4 @@
-#include "apps/cli/child_process.hpp"
+#include "apps/process/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "apps/run/interrupt.hpp"
+#include "apps/process/interrupt.hpp"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <csignal>
 #include <initializer_list>
 
-#include "apps/cli/commands.hpp"
+#include "apps/process/exit.hpp"
 
 namespace splashdown::apps {
 namespace {

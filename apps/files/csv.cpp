@@ -1,4 +1,4 @@
-#include "apps/record/tables/csv.hpp"
+#include "apps/files/csv.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "fluid/effects/absorber.hpp"
 #include "fluid/effects/viscosity.hpp"

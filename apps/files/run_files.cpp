@@ -1,4 +1,4 @@
-#include "apps/record/tables/files.hpp"
+#include "apps/files/run_files.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "apps/run/folder/folder_lock.hpp"
+#include "apps/files/folder_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

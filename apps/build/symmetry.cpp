@@ -1,4 +1,4 @@
-#include "apps/run/build/symmetry.hpp"
+#include "apps/build/symmetry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,14 @@
 namespace splashdown::apps {
 namespace {
 
-constexpr double digits = 1e-6;  // of lengths, that people write
+constexpr double written_digits = 1e-6;  // of lengths, that people write
 
 /// The plane across axis `k` at `place`.
 struct Mirror {
   int k = 0;
   double place = 0, length = 0;  ///< [m]; of the hull, what distances are compared with
 
-  bool holds(double at) const { return std::abs(at - place) <= digits * length; }
+  bool holds(double at) const { return std::abs(at - place) <= written_digits * length; }
   template <int d>
   bool holds(const Extents<d>& box) const {
     return holds(0.5 * (box.min()[k] + box.max()[k]));

@@ -1,4 +1,4 @@
-#include "apps/statistics/next_step.hpp"
+#include "apps/statistics/verdict/next_step.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/statistics/filters.hpp"
-#include "apps/statistics/grades.hpp"
-#include "apps/statistics/missing.hpp"
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/grades.hpp"
+#include "apps/statistics/verdict/missing.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 
 namespace splashdown::apps {
 

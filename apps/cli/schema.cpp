@@ -1,4 +1,4 @@
-#include "apps/scene/rules/schema.hpp"
+#include "apps/cli/schema.hpp"
 
 #include <algorithm>
 #include <cmath>

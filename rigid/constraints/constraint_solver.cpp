@@ -1,4 +1,4 @@
-#include "rigid/constraint_solver.hpp"
+#include "rigid/constraints/constraint_solver.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "apps/statistics/missing.hpp"
+#include "apps/statistics/verdict/missing.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/report/words.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 
@@ -35,7 +35,7 @@ std::string where(const Summary& summary, const std::string& name) {
   const auto& landing = summary.bodies.at(name).landing;
   if (!(landing.height > 0)) return " Mind its place, velocity and freedom.";
   const auto wait = until_contact(summary, name);
-  const auto gap = fmt::format(" It is {} above the water", with_unit(landing.height, "m", 3));
+  const auto gap = fmt::format(" It is {} above the water", digits_with_unit(landing.height, "m", 3));
   return wait ? fmt::format("{} and gets there at about t = {:.3g} s: let the run last longer (time.end).", gap,
                             summary.simulated_time + *wait)
               : gap + " and does not come nearer: mind its place, velocity and freedom.";

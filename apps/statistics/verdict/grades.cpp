@@ -1,4 +1,4 @@
-#include "apps/statistics/grades.hpp"
+#include "apps/statistics/verdict/grades.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "apps/report/words.hpp"
-#include "apps/statistics/missing.hpp"
+#include "apps/statistics/verdict/missing.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 
@@ -199,7 +199,7 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& name)
                     is_impulse(body.acceleration_grades)});
   if (const auto* f = headline_of(body.force_grades))
     list.push_back({"peak force" + class_text(body.force_grades),
-                    with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3), f,
+                    digits_with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3), f,
                     is_impulse(body.force_grades)});
   for (const auto& [point_name, point] : summary.equipment)
     if (const auto* a = point.body == name ? headline_of(point.grades) : nullptr)
@@ -207,7 +207,7 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& name)
                       fmt::format("{:.3g} g", value_of(point, point.grades)), a, is_impulse(point.grades)});
   for (const auto& [patch_name, patch] : summary.patches)
     if (patch.body == name && patch.grade)
-      list.push_back({"peak pressure on " + patch_name, with_unit(patch.pressure.value, "Pa", 3), &*patch.grade,
+      list.push_back({"peak pressure on " + patch_name, digits_with_unit(patch.pressure.value, "Pa", 3), &*patch.grade,
                       is_impulse(patch.grade->evidence)});
   return list;
 }

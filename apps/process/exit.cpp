@@ -1,10 +1,11 @@
-#include "apps/cli/commands.hpp"
+#include "apps/process/exit.hpp"
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <sstream>
 
-#include "apps/cli/plain_text.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/statistics/verdict.hpp"
+#include "apps/statistics/verdict/verdict.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/report/words.hpp"
-#include "apps/statistics/grades.hpp"
-#include "apps/statistics/missing.hpp"
-#include "apps/statistics/next_step.hpp"
-#include "apps/statistics/share.hpp"
+#include "apps/statistics/verdict/grades.hpp"
+#include "apps/statistics/verdict/missing.hpp"
+#include "apps/statistics/verdict/next_step.hpp"
+#include "apps/statistics/verdict/share.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 
@@ -37,7 +37,7 @@ std::optional<Judgement> judgement(double share) {
 }
 
 std::string joule(const Summary& summary, double energy) {
-  return with_unit(energy, energy_unit(summary.dimension), 3);
+  return digits_with_unit(energy, energy_unit(summary.dimension), 3);
 }
 
 std::optional<Finding> failure(const Summary& summary) {
@@ -135,7 +135,7 @@ std::optional<Finding> held(const Summary& summary) {
   return Finding{Grade::doubtful,
                  fmt::format("A free body never moved though {} pulled at it: {}. Its joints hold it fast: see what "
                              "splashdown check asks about them.",
-                             with_unit(most, summary.dimension == 2 ? "N/m" : "N", 3), names)};
+                             digits_with_unit(most, summary.dimension == 2 ? "N/m" : "N", 3), names)};
 }
 
 bool every_body(const BodySummary&) { return true; }

@@ -1,7 +1,6 @@
 // What this program was built from.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,8 +10,5 @@ namespace splashdown::apps {
 std::string version();   ///< of the release, e.g. "0.1.0"
 std::string git_hash();  ///< of the source, "-dirty" behind it if that was changed; "unknown" outside a checkout
 std::vector<std::pair<std::string, std::string>> library_versions();
-
-/// The [provenance] table of scene.resolved.toml; `scene`: the file that was run.
-std::string provenance_toml(const std::filesystem::path& scene);
 
 }  // namespace splashdown::apps

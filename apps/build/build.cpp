@@ -1,4 +1,4 @@
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"

@@ -1,4 +1,4 @@
-#include "apps/statistics/limits.hpp"
+#include "apps/statistics/verdict/limits.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
-#include "apps/report/words.hpp"
+#include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "apps/run/build/build.hpp"
+#include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "core/geometry.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/statistics/share.hpp"
+#include "apps/statistics/verdict/share.hpp"
 
 #include <fmt/format.h>
 
