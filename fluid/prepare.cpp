@@ -107,6 +107,19 @@ bool Fluid<d>::State::is_inviscid(int node) const {
   return diffusivity * now.dt <= spread * h * h;
 }
 
+// Whether water at a wall is so slow along it that it does not get this far within a few times sqrt(h / g), in which waves of an
+// element's size pass, and within a few steps.
+template <int d>
+bool Fluid<d>::State::rests_on_wall(int node, double length) const {
+  constexpr double few = 4;
+  const int wall = work.nodes.tie[node].wall;
+  if (wall < 0) return false;
+  const Vec<d> arm = work.nodes.x[node] - work.poses[wall].translation();
+  const double squared_speed = (work.nodes.v[node] - rigid_velocity<d>(work.velocity[wall], arm)).squaredNorm(),
+               squared = length * length / (few * few);
+  return squared_speed * now.dt * now.dt <= squared && squared_speed * work.nodes.h[node] <= squared * gravity().norm();
+}
+
 template <int d>
 void Fluid<d>::State::collect_drops() {
   Nodes<d>& nodes = work.nodes;
@@ -198,7 +211,9 @@ void Fluid<d>::State::prepare() {
   const double energy = hold_field_energy();
   size_nodes();
   attach_nodes<d>(work.nodes, work.mesh, walls_at(work.poses), work.velocity, now.dt);
-  if (now.dt > 0) adapt(work.nodes, work.mesh, walls_at(work.poses));
+  if (now.dt > 0)
+    adapt<d>(work.nodes, work.mesh, walls_at(work.poses),
+             [this](int node, double length) { return rests_on_wall(node, length); });
   collect_drops();
   const double before = water();
   const std::size_t liquid = put_drops_last();

@@ -74,7 +74,7 @@ class Filler {
       if (spec_.while_meshing) spec_.while_meshing();
       cut();
       if (settled + 1 == smoothing_sweeps<d>) break;
-      const auto report = adapt(out_.nodes, out_.mesh, walls_);
+      const auto report = adapt<d>(out_.nodes, out_.mesh, walls_, [](int, double) { return true; });
       const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
       if (quiet || sweep > 60) ++settled;
       if (report.inserted + report.removed > 0) cut();

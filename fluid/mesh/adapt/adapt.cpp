@@ -13,6 +13,7 @@ namespace {
 
 constexpr double split_above = 1.5;
 constexpr double coincide = 0.05;         // distance of nodes that are one, over h
+constexpr double indistinct = 0.1;        // ... of a contact line at rest from a corner; nearer ones do not stay still
 constexpr double crowd_below = 0.25;      // height of an inner node over a boundary facet, over h
 constexpr double surely_fits = 1 + 1e-9;  // squares of lengths: what is nearer to a limit is looked at closely
 
@@ -31,8 +32,13 @@ std::uint64_t key(int a, int b) {
 template <int d>
 class Adapter {
  public:
-  Adapter(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls)
-      : nodes_(nodes), mesh_(mesh), walls_(walls), edges_(mesh.boundary, nodes.size()), into_(nodes.size()) {
+  Adapter(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, const RestingContact& rests)
+      : nodes_(nodes),
+        mesh_(mesh),
+        walls_(walls),
+        rests_(rests),
+        edges_(mesh.boundary, nodes.size()),
+        into_(nodes.size()) {
     std::iota(into_.begin(), into_.end(), 0);
   }
 
@@ -158,6 +164,14 @@ class Adapter {
     return wet && free;
   }
 
+  // From a contact line at rest to a corner or an edge of its wall, off the contact line.
+  bool leads_off_resting_contact_line(const Edge& e, Rank rank_a, Rank rank_b) const {
+    const Rank lower = std::min(rank_a, rank_b);
+    if (rank_a == rank_b || (lower != contact_line && lower != separation_line)) return false;
+    if (e.ratio < indistinct || is_contact_edge(e)) return false;
+    return rests_(rank_a == lower ? e.a : e.b, (nodes_.x[e.a] - nodes_.x[e.b]).norm());
+  }
+
   void merge(std::span<const Edge> edges) {
     for (const Edge& e : edges) {
       if (touched_[e.a] || touched_[e.b]) continue;
@@ -167,6 +181,7 @@ class Adapter {
       const bool same_patch = d == 2 && a.wall >= 0 && a.wall == b.wall && a.patch == b.patch;
       if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
       if (a.wall >= 0 && b.wall >= 0 && a.wall != b.wall) continue;               // across a gap between walls
+      if (leads_off_resting_contact_line(e, rank_a, rank_b)) continue;
       if (rank_a == rank_b) {
         if (!may_merge_with_its_like(rank_a, e)) continue;
         nodes_.inherited[e.a] += nodes_.carried(e.a);
@@ -253,6 +268,7 @@ class Adapter {
   Nodes<d>& nodes_;
   Mesh<d>& mesh_;
   const WallsAt<d>& walls_;
+  const RestingContact& rests_;
   BoundaryEdges<d> edges_;  // of the boundary as it is now
   std::vector<char> touched_;
   std::vector<int> into_;
@@ -263,8 +279,8 @@ class Adapter {
 }  // namespace
 
 template <int d>
-AdaptReport<d> adapt(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls) {
-  return Adapter<d>(nodes, mesh, walls).run();
+AdaptReport<d> adapt(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, const RestingContact& rests) {
+  return Adapter<d>(nodes, mesh, walls, rests).run();
 }
 
 template <int d>
@@ -286,8 +302,8 @@ bool discard(const std::vector<char>& marked, Nodes<d>& nodes, std::vector<Facet
   return true;
 }
 
-template AdaptReport<2> adapt(Nodes<2>&, Mesh<2>&, const WallsAt<2>&);
-template AdaptReport<3> adapt(Nodes<3>&, Mesh<3>&, const WallsAt<3>&);
+template AdaptReport<2> adapt(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, const RestingContact&);
+template AdaptReport<3> adapt(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, const RestingContact&);
 template void keep(const std::vector<int>&, Nodes<2>&, std::vector<Facet<2>>&);
 template void keep(const std::vector<int>&, Nodes<3>&, std::vector<Facet<3>>&);
 template bool discard(const std::vector<char>&, Nodes<2>&, std::vector<Facet<2>>&);
