@@ -211,7 +211,8 @@ check "which is told" grep -q 'mine holds checkpoint, which would be replaced, b
 check "they stay" test -s mine/checkpoint/weights -a -s mine/report/figure.svg
 
 # A folder that goes away under a run
-{ "$splashdown" run scene.toml --quiet --out gone/here --set time.end=10 2>gone.said; echo $? >gone.code; } &
+long=(--set time.end=10 --set time.dt_max=1e-4)  # minutes before the wedge is at the floor
+{ "$splashdown" run scene.toml --quiet --out gone/here "${long[@]}" 2>gone.said; echo $? >gone.code; } &
 until_true under_way gone/here
 mv gone/here gone/away  # at once: removing file by file meets pictures that are written meanwhile
 rm -rf gone/away 2>/dev/null
@@ -222,13 +223,13 @@ check "and where the rest is" grep -q 'saved in .*gone/here.rescued, without fra
 rows=$(wc -l <gone/here.rescued/bodies.csv)
 check "its rows are there" test "$rows" -gt 5
 last=$(tail -n 1 gone/here.rescued/bodies.csv | cut -d, -f1)
-stop=$(awk -v t="$last" 'BEGIN {print t + 0.02}')
-check "it goes on" exits 0 run --out gone/here.rescued --resume --set time.end=10 --until "$stop"
-check "as one that was left alone" exits 0 run --out gone/alone --set time.end=10 --until "$stop"
+stop=$(awk -v t="$last" 'BEGIN {print t + 0.002}')
+check "it goes on" exits 0 run --out gone/here.rescued --resume "${long[@]}" --until "$stop"
+check "as one that was left alone" exits 0 run --out gone/alone "${long[@]}" --until "$stop"
 check "bit for bit" cmp gone/here.rescued/bodies.csv gone/alone/bodies.csv
 
 for signal in INT TERM; do
-  "$splashdown" run scene.toml --quiet --out "signal_$signal" --set time.end=10 &
+  "$splashdown" run scene.toml --quiet --out "signal_$signal" "${long[@]}" &
   pid=$!
   until_true under_way "signal_$signal"
   check "a second run in its folder is refused" exits 2 run --out "signal_$signal"
@@ -239,7 +240,7 @@ for signal in INT TERM; do
 done
 
 # A request to stop is answered at once, also while figures are drawn
-"$splashdown" run scene.toml --out answered --set time.end=10 >answer_out 2>answer &
+"$splashdown" run scene.toml --out answered "${long[@]}" >answer_out 2>answer &
 pid=$!
 until_true under_way answered
 kill -s INT $pid
