@@ -168,8 +168,8 @@ struct Fluid<d>::State {
   void let_fragment_fly(int node);
   /// Whether effects leave momentum of an element's size alone within a step.
   bool is_inviscid(int node) const;
-  /// Whether a contact line at this node stays within a quarter of `length` [m], its distance from a corner of its wall, for a step and
-  /// for sqrt(h/g).
+  /// Whether a contact line at this node stays within a quarter of `length` [m], its distance from a corner of its wall,
+  /// for a step and for sqrt(h/g).
   bool rests_on_wall(int node, double length) const;
   /// Books volume and momentum of nodes that leave the mesh or come back to it.
   void book_spray(const std::vector<char>& was_spray);

@@ -4,8 +4,8 @@
 // Split at the midpoint above 1.5 h, merge below 0.45 h: a split edge is not merged again, a merged one
 // not split. Velocities are averaged, so a merge keeps momentum to second order.
 //
-// A contact line near a corner or an edge of its wall is merged into it, or else a jet that passes it would need steps as short as the
-// edge between them. That moves the surface. Where the contact line rests it stays where it is: still water keeps its level.
+// A contact line near a corner or an edge of its wall is merged into it, or else a jet that passes it would need steps as short
+// as the edge between them. That moves the surface. Where the contact line rests it stays: still water keeps its level.
 #pragma once
 
 #include <functional>
@@ -26,6 +26,7 @@ struct AdaptReport {
 
 /// Whether the contact line rests at a node of it, this far from a corner or an edge of its wall [m].
 using RestingContact = std::function<bool(int node, double length)>;
+/// Of contact lines none of which rests.
 inline bool moves_anywhere(int, double) { return false; }
 
 /// Changes nodes and boundary (mesh.cells become stale) and renumbers.
