@@ -74,7 +74,7 @@ class Fitter {
     auto best = *std::ranges::min_element(fits, {}, &Convergence::deviation_);
     if (!best.order_) best.refusal_ = refusal;
     if (likeliest_ && likeliest_->deviation_ > 0 && an_order_is_possible())
-      best.odds_.emplace(values_, least_order, highest_order);
+      best.extrapolation_.emplace(values_, least_order, highest_order);
     best.range_ = (phi_.maxCoeff() - phi_.minCoeff()) / (rungs_ - 1);
     best.safety_ = best.order_ && !best.scattered() ? good_safety : poor_safety;
     return best;
@@ -205,13 +205,13 @@ double Convergence::of_the_model(double h) const { return order_ ? (good_safety 
 double Convergence::band(const MeshValue& measured) const {
   const auto& [h, value] = measured;
   if (range_ == 0) return 0;
-  if (odds_) return odds_->within(value, sure) + of_the_model(h);
+  if (extrapolation_) return extrapolation_->within(value, sure) + of_the_model(h);
   return usual_band(h, deviation_ + std::abs(value - fitted(h)));
 }
 
 double Convergence::band(double h) const {
   if (range_ == 0) return 0;
-  return odds_ ? odds_->within_of_one_at(h, sure) + of_the_model(h) : usual_band(h, deviation_);
+  return extrapolation_ ? extrapolation_->within_of_one_at(h, sure) + of_the_model(h) : usual_band(h, deviation_);
 }
 
 }  // namespace splashdown::apps

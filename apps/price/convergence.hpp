@@ -10,7 +10,7 @@
 // Eca and Hoekstra (2014), J. Comput. Phys. 262, 104-130, whose bands are meant for 95 % of cases. With two changes:
 // - Meshes more than eight times as coarse as the finest do not count where four others are there.
 // - With more than three values U is that distance within which the limit lies with 95 %, as long as an order in [0.5, 2] is
-//   possible: (n - 3)(S_p/S - 1) <= t^2 with S the least sum of squares of any order and t Student's (LimitOdds); where an
+//   possible: (n - 3)(S_p/S - 1) <= t^2 with S the least sum of squares of any order and t Student's (BayesianExtrapolation); where an
 //   order is found, and 0.25 eps, as their F has it for what the form itself gets wrong. Their rule for data that scatter, F = 3 sigma/Delta, gives
 //   mere noise 9 standard deviations with four meshes and 15 with twelve; fits of three coefficients follow the noise, and
 //   what they say of the limit is then taken three times; and of noisy series with an order it leaves one true value in
@@ -22,8 +22,8 @@
 #include <span>
 #include <string>
 
+#include "apps/price/bayesian_extrapolation.hpp"
 #include "apps/price/mesh_value.hpp"
-#include "apps/price/odds.hpp"
 
 namespace splashdown::apps {
 
@@ -58,7 +58,7 @@ class Convergence {
   std::string refusal_;
   double limit_ = 0, first_ = 0, second_ = 0;  // coefficients of h^exponent and, in the last form, of h^2
   bool weighted_ = false;
-  std::optional<LimitOdds> odds_;
+  std::optional<BayesianExtrapolation> extrapolation_;
   double exponent_ = 1, deviation_ = 0, range_ = 0, safety_ = 3;
 
   friend class Fitter;

@@ -186,19 +186,20 @@ TEST(Convergence, scatter_that_hides_the_order_is_a_band_of_its_own_size) {
   EXPECT_LT(found.band(values.back()), 2 * (23.7 - 22.3));
 }
 
-TEST(LimitOdds, of_one_order_are_those_of_the_straight_line) {
+TEST(BayesianExtrapolation, of_one_order_are_those_of_the_straight_line) {
   // Sizes so near each other that both laws of noise are one, to 0.2 %; a straight line's value at 0 lies within
   // t s sqrt(1/n + mean^2/sum (h - mean)^2) of its least-squares value, t Student's with two degrees of freedom.
   const std::vector<MeshValue> values = {{1, 2.1}, {1.001, 2.9}, {1.002, 4.2}, {1.003, 4.8}};
   const double at_zero = 3.5 - 940 * 1.0015, s = std::sqrt(0.082 / 2), spread = 5e-6;
   const double error = s * std::sqrt(0.25 + 1.0015 * 1.0015 / spread);
-  const LimitOdds odds(values, 1, 1);
+  const BayesianExtrapolation odds(values, 1, 1);
   EXPECT_NEAR(odds.within(at_zero, 0.95) / (4.3027 * error), 1, 0.01);
   EXPECT_NEAR(odds.within(at_zero, 0.5) / (0.8165 * error), 1, 0.01);
 }
 
-TEST(LimitOdds, of_a_value_still_to_be_measured_never_narrow_on_coarser_meshes) {
-  const LimitOdds odds(series([](double h) { return 1 + 0.1 * h + 0.02 * std::sin(40 * h); }, ladder(5)), 0.5, 2);
+TEST(BayesianExtrapolation, of_a_value_still_to_be_measured_never_narrow_on_coarser_meshes) {
+  const BayesianExtrapolation odds(series([](double h) { return 1 + 0.1 * h + 0.02 * std::sin(40 * h); }, ladder(5)),
+                                   0.5, 2);
   for (double h = 0.1; h < 4; h *= 1.1)
     EXPECT_LE(odds.within_of_one_at(h, 0.95), odds.within_of_one_at(1.1 * h, 0.95) * (1 + 1e-5));  // of the root search
 }

@@ -19,10 +19,10 @@ namespace splashdown::apps {
 /// Student's t, two-sided: |t| is not above it with this probability.
 double students_limit(double freedom, double probability);
 
-class LimitOdds {
+class BayesianExtrapolation {
  public:
   /// At least four values, of three sizes or more, not all the same. Orders from `lowest` to `highest`.
-  LimitOdds(std::span<const MeshValue> values, double lowest, double highest);
+  BayesianExtrapolation(std::span<const MeshValue> values, double lowest, double highest);
 
   /// The distance from a value of the ladder within which phi_0 lies with this probability.
   double within(double value, double probability) const;

@@ -1,4 +1,4 @@
-#include "apps/price/odds.hpp"
+#include "apps/price/bayesian_extrapolation.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -21,7 +21,7 @@ double students_limit(double freedom, double probability) {
   return boost::math::quantile(boost::math::students_t(freedom), 1 - (1 - probability) / 2);
 }
 
-LimitOdds::LimitOdds(std::span<const MeshValue> values, double lowest, double highest)
+BayesianExtrapolation::BayesianExtrapolation(std::span<const MeshValue> values, double lowest, double highest)
     : freedom_(static_cast<double>(values.size()) - 2) {
   const auto n = static_cast<Eigen::Index>(values.size());
   Eigen::VectorXd sizes(n), phi(n);
@@ -64,7 +64,7 @@ LimitOdds::LimitOdds(std::span<const MeshValue> values, double lowest, double hi
   for (auto& pair : pairs_) pair.weight /= sum;
 }
 
-double LimitOdds::quantile(const std::vector<Part>& parts, double probability) const {
+double BayesianExtrapolation::quantile(const std::vector<Part>& parts, double probability) const {
   const boost::math::students_t t(freedom_);
   const auto missing = [&](double b) {
     double inside = 0;
@@ -81,13 +81,13 @@ double LimitOdds::quantile(const std::vector<Part>& parts, double probability) c
   return boost::math::tools::toms748_solve(missing, 0., high, precise, steps).second;
 }
 
-double LimitOdds::within(double value, double probability) const {
+double BayesianExtrapolation::within(double value, double probability) const {
   std::vector<Part> parts;
   for (const auto& pair : pairs_) parts.push_back({pair.weight, pair.limit - value, pair.limit_error});
   return quantile(parts, probability);
 }
 
-double LimitOdds::within_of_one_at(double h, double probability) const {
+double BayesianExtrapolation::within_of_one_at(double h, double probability) const {
   std::vector<Part> parts;
   for (const auto& pair : pairs_) {
     const double relative = h / mean_size_, power = std::pow(relative, pair.order);
