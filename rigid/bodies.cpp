@@ -25,7 +25,7 @@ void read(std::istream& in, double* values, Eigen::Index count) {
 
 template <int d>
 BodyState<3> lifted_state(const BodyState<d>& state) {
-  return {lifted<d>(state.pose), embedding<d>() * state.velocity};
+  return {embedded<d>(state.pose), embedding<d>() * state.velocity};
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
     w.states.push_back({pose, held_still ? Twist<d>::Zero().eval() : spec.velocity});
     w.movers.emplace_back();
     w.bullet.add(spec.motion == BodyMotion::free);
-    w.bullet.place(w.states.size() - 1, lifted<d>(pose), Twist<3>::Zero());
+    w.bullet.place(w.states.size() - 1, embedded<d>(pose), Twist<3>::Zero());
     if (spec.motion != BodyMotion::free) continue;
 
     FreeBody::Freedom free{};

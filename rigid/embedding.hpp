@@ -20,7 +20,7 @@ Eigen::Matrix<double, freedoms<3>, freedoms<d>> embedding() {
 
 /// A pose in 2D as one in 3D, about z; itself in 3D.
 template <int d>
-Isometry<3> lifted(const Isometry<d>& pose) {
+Isometry<3> embedded(const Isometry<d>& pose) {
   Isometry<3> space = Isometry<3>::Identity();
   space.linear().template topLeftCorner<d, d>() = pose.linear();
   space.translation().template head<d>() = pose.translation();
@@ -29,7 +29,7 @@ Isometry<3> lifted(const Isometry<d>& pose) {
 
 /// Back again: what of a pose in 3D lies in the plane.
 template <int d>
-Isometry<d> lowered(const Isometry<3>& space) {
+Isometry<d> projected(const Isometry<3>& space) {
   Isometry<d> pose = Isometry<d>::Identity();
   pose.linear() = space.linear().topLeftCorner<d, d>();
   pose.translation() = space.translation().head<d>();

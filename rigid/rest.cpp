@@ -93,7 +93,7 @@ Settling<d>::Settling(const Mechanism<d>& mechanism, const StillWater& water)
     begin_.states.push_back({spec.motion == BodyMotion::prescribed ? spec.path(0) : spec.pose, Twist<d>::Zero()});
     reaches_.push_back(reach(spec));
     bullet_.add(spec.motion == BodyMotion::free);
-    bullet_.place(i, lifted<d>(begin_.states[i].pose), Twist<3>::Zero());
+    bullet_.place(i, embedded<d>(begin_.states[i].pose), Twist<3>::Zero());
     unit_.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i)) << Vec<d>::Ones(),
         Rotation<d>::Constant(reaches_[i]);
     if (!is_free(i)) continue;
@@ -125,10 +125,10 @@ void Settling<d>::flood(const Place& at) {
 
 template <int d>
 typename Settling<d>::Conditions Settling<d>::conditions(Place& at, double within) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bullet_.place(i, lifted<d>(at.states[i].pose), Twist<3>::Zero());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bullet_.place(i, embedded<d>(at.states[i].pose), Twist<3>::Zero());
   Conditions all;
   const double at_once = 1;  // displacements in place of velocities
-  for (const auto& c : bullet_.conditions(at_once)) all.tied.push_back(lowered_condition<d>(c));
+  for (const auto& c : bullet_.conditions(at_once)) all.tied.push_back(projected_condition<d>(c));
   if (contacts_) {
     auto reaching = at.states;
     for (auto& state : reaching) state.velocity(0) = within;
@@ -145,7 +145,7 @@ typename Settling<d>::Conditions Settling<d>::conditions(Place& at, double withi
       at.moved[j] += std::remainder(in_space.q - at.moved[j], 2 * std::numbers::pi);
     else
       at.moved[j] = in_space.q;
-    all.joints.push_back({at.moved[j], lowered_condition<d>(in_space.rate)});
+    all.joints.push_back({at.moved[j], projected_condition<d>(in_space.rate)});
     add_stops(joints_[j], all.joints.back(), at_once, all.near);
   }
   return all;

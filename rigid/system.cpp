@@ -56,7 +56,7 @@ Wrench<d> Bodies<d>::System::known_force(std::size_t i) const {
 template <int d>
 BodyState<d> Bodies<d>::System::prescribed(std::size_t i) const {
   const Isometry<d> to = specs[i].path(time + dt);
-  const Isometry<3> from_space = lifted<d>(states[i].pose), to_space = lifted<d>(to);
+  const Isometry<3> from_space = embedded<d>(states[i].pose), to_space = embedded<d>(to);
   Twist<3> displacement;
   displacement << to_space.translation() - from_space.translation(),
       rotation_log(to_space.linear() * from_space.linear().transpose());
@@ -70,13 +70,13 @@ typename Bodies<d>::System::MassMatrix Bodies<d>::System::inertia(std::size_t i)
 
 template <int d>
 void Bodies<d>::System::place(Eigen::Index i, const BodyState<d>& state) {
-  bullet.place(static_cast<std::size_t>(i), lifted<d>(state.pose), embedding<d>() * state.velocity);
+  bullet.place(static_cast<std::size_t>(i), embedded<d>(state.pose), embedding<d>() * state.velocity);
 }
 
 template <int d>
 std::vector<Condition<d>> Bodies<d>::System::asked_by_joints() {
   std::vector<Condition<d>> all;
-  for (const auto& c : bullet.conditions(dt)) all.push_back(lowered_condition<d>(c));
+  for (const auto& c : bullet.conditions(dt)) all.push_back(projected_condition<d>(c));
   return all;
 }
 
@@ -125,7 +125,7 @@ void Bodies<d>::System::find_stops_and_springs() {
       moved[j] += std::remainder(in_space.q - moved[j], 2 * std::numbers::pi);
     else
       moved[j] = in_space.q;
-    const JointCoordinate<d> at{moved[j], lowered_condition<d>(in_space.rate)};
+    const JointCoordinate<d> at{moved[j], projected_condition<d>(in_space.rate)};
     if (joint.spring) sprung.push_back({*joint.spring, at});
     add_stops(joint, at, dt, near);
   }
@@ -234,12 +234,12 @@ void Bodies<d>::System::drift(const Eigen::VectorXd& velocities) {
     if (!movers[i]) continue;
     const Twist<d> s = velocities.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
     const Twist<d> moves = s + apart.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
-    bullet.place(i, lifted<d>(states[i].pose), embedding<d>() * (s.allFinite() ? moves : Twist<d>::Zero().eval()));
+    bullet.place(i, embedded<d>(states[i].pose), embedding<d>() * (s.allFinite() ? moves : Twist<d>::Zero().eval()));
   }
   bullet.drift(dt);
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (!movers[i]) continue;
-    trials[i] = {lowered<d>(bullet.pose(i)),
+    trials[i] = {projected<d>(bullet.pose(i)),
                  velocities.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i))};
     if (!trials[i].velocity.allFinite())
       trials[i].pose.matrix().template topRows<d>().setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -84,7 +84,7 @@ class Examined {
     BulletEngine world;
     for (const auto& body : bodies_) {
       world.add(body.motion == BodyMotion::free);
-      world.place(static_cast<std::size_t>(&body - bodies_.data()), lifted<d>(body.pose), Twist<3>::Zero());
+      world.place(static_cast<std::size_t>(&body - bodies_.data()), embedded<d>(body.pose), Twist<3>::Zero());
     }
     world.add(joint);
     return world.conditions(1);

@@ -32,7 +32,7 @@ Eigen::VectorXd rates_of(const std::vector<Condition<d>>& conditions) {
 
 /// What Bullet says in space, of the bodies' own freedoms.
 template <int d>
-Condition<d> lowered_condition(const Condition<3>& c) {
+Condition<d> projected_condition(const Condition<3>& c) {
   const auto lift = embedding<d>();
   return {c.body, c.other, lift.transpose() * c.first, lift.transpose() * c.second, c.rate};
 }

@@ -17,7 +17,6 @@ SHARED = {
     "Nodes": "the same nodes: what all rooms see, and with it what the fluid keeps of them",
     "box": "overload: outline in 2D, solid in 3D",
     "check": "overload: a body, a joint",
-    "lifted": "TWO: a congruence; a plane quantity embedded in three dimensions",
 }
 
 TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?: :[^{;]*)?\s*\{|^using (\w+) = (?!.*::\2;)", re.M)
