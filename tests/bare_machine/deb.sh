@@ -1,4 +1,5 @@
 # Packages that cpack makes: the program on a machine without compilers, the libraries on root's. Sourced by run.sh.
+in_machine root sh -c 'apt-get install -y -qq --no-install-recommends file >/dev/null 2>&1'  # cpack asks it what links with what
 check "cpack makes packages" in_machine root sh -c "cd $at && cpack --config build/release/CPackConfig.cmake >/dev/null"
 debs=$work/root$at/build/release/packages
 machine deb bare
