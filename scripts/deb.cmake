@@ -12,8 +12,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME splashdown)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# The one without threads, where there is a choice: scripts/packages.txt. MPI, which hypre starts, looks for its parts in the second.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libopenblas0-serial | libopenblas0, openmpi-common")
+# The one without threads, where there is a choice: scripts/packages.txt. MPI, which hypre starts, runs its daemon (orted) from the second.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libopenblas0-serial | libopenblas0, openmpi-bin")
 # Reports are written without it, too: they lack the curves, and say so.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "paraview")
