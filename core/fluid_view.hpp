@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/diagnostic.hpp"
 #include "core/mesh.hpp"
 #include "core/nodes.hpp"
 
@@ -50,6 +51,8 @@ struct Ledger {
   double energy_remesh = 0;     ///< kinetic energy changed by node insertion and removal
   double energy_repair = 0;     ///< kinetic energy taken by repair impulses
   double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
+  /// Work of effects on the water, of those that book it (waves that are kept alive, friction of hulls): to t_{n-1/2}.
+  double work_of_effects = 0;
 };
 
 /// World frame; of the step under way between its begin and its commit, else of t_n.
@@ -75,7 +78,7 @@ class FluidView {
   /// Potential energy per unit mass at a point [J/kg], the sum over all effects.
   virtual double potential(const Vec<d>& point) const = 0;
   /// What effects say about themselves at t_n: EFFECT_NAME and value, always of the same names.
-  virtual std::vector<std::pair<std::string, double>> diagnostics() const = 0;
+  virtual std::vector<Diagnostic> diagnostics() const = 0;
   /// Instantaneous added mass G = B A^-1 B^T of some walls together at t_n [kg, kg m, kg m^2; 2D: per metre]: world
   /// frame, about the walls' reference points, d(d+1)/2 rows a wall. Of a step that is under way.
   virtual Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const = 0;

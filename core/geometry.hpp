@@ -64,6 +64,17 @@ VolumeGradients<d> volume_gradients(const Corner& corner) {
 inline Vec<2> area_vector(const std::array<Vec<2>, 2>& f) { return {f[1].y() - f[0].y(), f[0].x() - f[1].x()}; }
 /// The same in 3D: of a triangle, by the right hand.
 inline Vec<3> area_vector(const std::array<Vec<3>, 3>& f) { return 0.5 * (f[1] - f[0]).cross(f[2] - f[0]); }
+/// Length of an outline (2D) or area of a surface (3D) [m, m^2].
+template <int d>
+double measure(const Surface<d>& surface) {
+  double sum = 0;
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    std::array<Vec<d>, d> corners;
+    for (int k = 0; k < d; ++k) corners[k] = surface.vertices.col(surface.facets(k, f));
+    sum += area_vector(corners).norm();
+  }
+  return sum;
+}
 
 /// w x r: velocity at r [m] from the centre of a rotation w [rad/s], which has one entry in 2D.
 inline Vec<2> cross(const Eigen::Matrix<double, 1, 1>& w, const Vec<2>& r) { return {-w[0] * r.y(), w[0] * r.x()}; }

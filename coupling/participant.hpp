@@ -150,6 +150,8 @@ class StructurePart : public Participant {
   /// Opens and closes contacts as the last trial asks for if this is the impulse on it. False: they were right.
   virtual bool update_contacts(const Impulse& /*impulse*/) { return false; }
   virtual Placement placement() const = 0;  ///< of its walls at t_{n+1}, after the last trial
+  /// Tells it, before commit, how much of its walls the fluid of this step wets [m, m^2]: for forces of the air.
+  virtual void see_wetted(const Eigen::VectorXd& /*measures*/) {}
   /// Whether the last trial may be committed.
   virtual Status acceptable() const { return {}; }
   /// Accepts the last trial.

@@ -131,6 +131,19 @@ Status Fluid<d>::begin(double kick, double dt, const InterfaceModel& structure) 
     const auto scope = s.timer.scope(first_effect + t);
     if (auto status = s.effects[t]->begin(s.view()); !status.ok()) return status;
   }
+  return s.add_pressure_terms();
+}
+
+// The matrix stands without them: their diagonal is its own reason to factor once more.
+template <int d>
+Status Fluid<d>::State::add_pressure_terms() {
+  terms = {};
+  for (std::size_t t = 0; t < effects.size(); ++t) {
+    const auto scope = timer.scope(first_effect + t);
+    effects[t]->pressure(view(), terms);
+  }
+  const auto scope = timer.scope(Phase::pressure);
+  if (!equation.set_terms(terms.diagonal, terms.source)) return {"the pressure matrix could not be factored"};
   return {};
 }
 
@@ -199,6 +212,8 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   ledger.returned += ledger.volume - swept;
   ledger.energy_repair += s.trial.energy_repaired - s.trial.energy_before;
   ledger.work_on_walls = s.now.ledger.work_on_walls + s.kick * s.result.power_on_walls;
+  ledger.work_of_effects = s.now.ledger.work_of_effects;
+  for (const double power : s.result.power_of_effects) ledger.work_of_effects += s.kick * power;
   s.work.acceleration_dt = acceleration_dt;
   s.work.time += s.dt;
   s.work.dt = s.dt;

@@ -85,6 +85,13 @@ struct Trial {
   std::vector<Vec<d>> v_after;           ///< of nodes, with the pressure
   std::vector<Twist<d>> s_after;         ///< of walls
   typename WallMotion<d>::Moved moved;   ///< along the walls
+  /// What an effect whose work is booked has changed in a kick.
+  struct Booked {
+    std::size_t effect;
+    std::vector<Vec<d>> change;       ///< of velocities of nodes
+    std::vector<Wrench<d>> on_walls;  ///< impulse
+  };
+  std::vector<Booked> booked;
 };
 
 /// Why a step is refused, and the node that it is for: a fragment of the water that could fly on by itself; -1: none.
@@ -124,6 +131,7 @@ struct Fluid<d>::State {
   std::optional<WallMotion<d>> wall_motion;
   Trial<d> trial;
   StepResult<d> result;  ///< of the last solve
+  PressureTerms terms;   ///< of effects, in the begun step
   bool solved = false;   ///< it is of the begun step
 
   /// The walls at these poses.
@@ -145,8 +153,18 @@ struct Fluid<d>::State {
 
   /// What effects see of the begun step.
   StepView<d> view(const ModalInertia* answers = nullptr) const {
-    return {work.nodes,        work.mesh,  spec.density, kick,   equation.lumped_volume(),
-            equation.around(), spec.walls, work.poses,   answers};
+    return {.nodes = work.nodes,
+            .mesh = work.mesh,
+            .density = spec.density,
+            .kick = kick,
+            .t = work.time,
+            .dt = dt,
+            .dt_before = work.dt,
+            .lumped_volume = equation.lumped_volume(),
+            .around = equation.around(),
+            .walls = spec.walls,
+            .poses = work.poses,
+            .answers = answers};
   }
 
   // The mesh of a step (prepare.cpp).
@@ -175,7 +193,7 @@ struct Fluid<d>::State {
   void book_spray(const std::vector<char>& was_spray);
   /// What nodes that go have carried passes to a neighbour that stays.
   void hand_over(const std::vector<char>& goes, const std::vector<std::array<int, d + 1>>& cells);
-  /// Minus the gradient of all effects' potential, which is uniform [m/s^2].
+  /// What all effects give to all water alike [m/s^2].
   Vec<d> gravity() const;
 
   // Hulls in the midst of the water (sunken.cpp).
@@ -204,6 +222,10 @@ struct Fluid<d>::State {
   void move_nodes();
   /// The volume that this motion creates, and what it asks for.
   Status what_is_left(std::span<const double> previous, Correction<d>& left);
+  /// Effects' terms of the pressure equation.
+  Status add_pressure_terms();
+  /// The velocity that a pressure on the free surface gives in a kick.
+  void push_surface();
   /// Loads, pressures and energies of the solution.
   void evaluate(StepResult<d>& found);
   /// Loads on walls, means over the kick.
@@ -212,6 +234,8 @@ struct Fluid<d>::State {
   void evaluate_pressure(StepResult<d>& found) const;
   /// Energies at t_n [J].
   void evaluate_energies(StepResult<d>& found) const;
+  /// Powers of the effects that book their work, means over the kick [W].
+  void evaluate_work(StepResult<d>& found) const;
   /// The interface Laplacian on the change of impulses since the previous pass.
   void lag(std::vector<double>& residual, std::span<const double> previous, std::span<const double> present) const;
   /// A further impulse on the modes.

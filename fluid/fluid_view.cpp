@@ -28,9 +28,16 @@ std::vector<std::pair<std::string, double>> Fluid<d>::diagnostics() const {
     return s_->spec.density * edges.determinant() / factorial<d> / (d + 1);
   });
   std::vector<std::pair<std::string, double>> all;
-  for (const auto& effect : s_->effects)
+  std::size_t booked = 0;
+  for (const auto& effect : s_->effects) {
     for (const auto& [name, value] : effect->diagnostics(at, lumped_mass))
       all.emplace_back(effect->name() + "_" + name, value);
+    if (!effect->books_work()) continue;
+    const auto& powers = s_->result.power_of_effects;
+    all.emplace_back(effect->name() + "_work_rate", booked < powers.size() ? powers[booked] : 0.0);
+    ++booked;
+  }
+  if (booked > 0) all.emplace_back("work_of_effects", ledger().work_of_effects);
   return all;
 }
 

@@ -88,12 +88,10 @@ void Fluid<d>::State::hand_over(const std::vector<char>& goes, const std::vector
   }
 }
 
-// What all effects' potential energy per mass, -g.x, pulls with; effects that have one are uniform fields.
 template <int d>
 Vec<d> Fluid<d>::State::gravity() const {
   Vec<d> g = Vec<d>::Zero();
-  for (const auto& effect : effects)
-    for (int k = 0; k < d; ++k) g[k] -= effect->potential(Vec<d>::Unit(k)) - effect->potential(Vec<d>::Zero());
+  for (const auto& effect : effects) g += effect->uniform_acceleration();
   return g;
 }
 

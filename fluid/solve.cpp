@@ -145,14 +145,21 @@ Status Fluid<d>::State::predict(const ClosedContacts& contacts) {
   }
   const std::vector<Twist<d>> carried_walls = trial.s_before;
   Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation.mode_count());
+  trial.booked.clear();
   for (std::size_t t = 0; t < effects.size(); ++t) {
     const auto scope = timer.scope(first_effect + t);
-    const bool answers = equation.mode_count() > 0;
+    const bool answers = equation.mode_count() > 0, books = effects[t]->books_work();
+    if (books) trial.booked.push_back({t, trial.v, trial.on_walls});
     if (auto status = effects[t]->predict(view(answers ? &equation.modal() : nullptr), {carried, carried_walls},
                                           {trial.v, trial.on_walls, answers ? &answer : nullptr});
         !status.ok())
       return status;
+    if (!books) continue;
+    auto& booked = trial.booked.back();
+    in_parallel(trial.v.size(), [&](std::size_t i) { booked.change[i] = trial.v[i] - booked.change[i]; });
+    for (std::size_t w = 0; w < walls.size(); ++w) booked.on_walls[w] = trial.on_walls[w] - booked.on_walls[w];
   }
+  push_surface();
   if (equation.mode_count() == 0) return {};
   // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
   answer = contacts.allowed(answer);
@@ -164,6 +171,14 @@ Status Fluid<d>::State::predict(const ClosedContacts& contacts) {
   return {};
 }
 
+template <int d>
+void Fluid<d>::State::push_surface() {
+  if (terms.surface_pressure.empty()) return;
+  std::vector<double> impulse(terms.surface_pressure.size());
+  for (std::size_t i = 0; i < impulse.size(); ++i) impulse[i] = kick * terms.surface_pressure[i];
+  equation.push_surface(impulse, trial.v);
+}
+
 // The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
 template <int d>
 Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
@@ -173,6 +188,7 @@ Status Fluid<d>::State::solve_pressure(std::span<const Twist<d>> given, std::spa
   middle(trial.v, 0.5 * dt);
   equation.flux_residual(trial.x_mid, trial.v, trial.s_after, centres(moved_poses(trial.s_after, 0.5 * dt)), trial.phi);
   if (!previous.empty()) equation.laplacian().add(previous, trial.phi);
+  equation.add_sources(trial.phi);
   if (!equation.solve(trial.phi, closely, carried_impulse())) return {"the pressure solve failed"};
   answer_to(trial.phi, trial.s_after, equation.on_modes(equation.held().excess(trial.v, trial.s_after)));
   let_bodies_answer(trial.unanswered);
@@ -195,6 +211,7 @@ Status Fluid<d>::State::what_is_left(std::span<const double> previous, Correctio
   equation.slide_residual(trial.x_mid, trial.moved.u, trial.s_after, centres(moved_poses(trial.s_after, 0.5 * dt)),
                           trial.moved.slides, left.residual);
   lag(left.residual, previous, trial.phi);
+  equation.add_sources(left.residual, trial.phi);
   left.impulse = left.residual;
   left.walls.assign(walls.size(), Twist<d>::Zero());
   if (!equation.solve(left.impulse, roughly)) return {"the pressure solve failed"};
@@ -301,6 +318,8 @@ void Fluid<d>::State::evaluate_energies(StepResult<d>& found) const {
   Ledger& ledger = found.ledger;
   ledger = work.ledger;
   ledger.work_on_walls += 0.5 * work.dt * found.power_on_walls;
+  evaluate_work(found);
+  for (const double power : found.power_of_effects) ledger.work_of_effects += 0.5 * work.dt * power;
   ledger.kinetic_energy = 0;
   ledger.potential_energy = ledger.chord_energy;
   std::vector<Vec<d>> v_n(nodes.size());
@@ -311,6 +330,25 @@ void Fluid<d>::State::evaluate_energies(StepResult<d>& found) const {
     for (const auto& effect : effects) ledger.potential_energy += mass * effect->potential(nodes.x[i]);
   }
   ledger.kinetic_energy += equation.kinetic_energy(v_n);
+}
+
+// T(a + dv/2) - T(a - dv/2) with the mean a of the velocities before and after the step: what the change dv brings beside the
+// pressure, with the mass that the pressure moves. Walls give the rest.
+template <int d>
+void Fluid<d>::State::evaluate_work(StepResult<d>& found) const {
+  found.power_of_effects.clear();
+  std::vector<Vec<d>> low(trial.v.size()), high(trial.v.size());
+  for (const auto& booked : trial.booked) {
+    in_parallel(low.size(), [&](std::size_t i) {
+      const Vec<d> mean = 0.5 * (work.nodes.v[i] + found.velocity[i]), half = 0.5 * booked.change[i];
+      low[i] = mean - half, high[i] = mean + half;
+    });
+    double given = equation.kinetic_energy(high) - equation.kinetic_energy(low);
+    given += energy_of_drops(high) - energy_of_drops(low);
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      given += booked.on_walls[w].dot(0.5 * (trial.s_after[w] + work.velocity[w]));
+    found.power_of_effects.push_back(given / kick);
+  }
 }
 
 template <int d>

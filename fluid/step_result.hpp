@@ -29,6 +29,8 @@ struct StepResult {
   std::vector<Vec<d>> velocity;  ///< of the nodes, along their walls: half-step
   Ledger ledger;                 ///< at t_n, as far as it is known before the motion
   double power_on_walls = 0;     ///< over the kick [W, W/m]
+  /// Of effects that book their work, in their order: what they do to water and walls, means over the kick [W, W/m].
+  std::vector<double> power_of_effects;
 };
 
 }  // namespace splashdown::fluid

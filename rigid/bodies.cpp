@@ -7,6 +7,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "core/geometry.hpp"
 #include "rigid/embedding.hpp"
 #include "rigid/message.hpp"
 #include "rigid/system.hpp"
@@ -40,6 +41,7 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
   for (const BodySpec<d>& spec : w.specs) {
     check(spec);
     w.reaches.push_back(reach(spec));
+    w.hull_measures.push_back(splashdown::measure<d>(spec.surface));
     const bool held_still = spec.motion == BodyMotion::fixed;
     const Isometry<d> pose = spec.motion == BodyMotion::prescribed ? spec.path(0) : spec.pose;
     w.states.push_back({pose, held_still ? Twist<d>::Zero().eval() : spec.velocity});
@@ -66,6 +68,7 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
   }
   if (contacts) w.contacts.emplace(std::move(*contacts), w.specs);
   w.trials = w.states;
+  w.wetted_share.assign(w.specs.size(), 0.0);
 }
 
 template <int d>
@@ -107,8 +110,9 @@ void Bodies<d>::begin(double kick, double dt) {
     throw std::invalid_argument(message("bodies: kick = ", kick, " s and dt = ", dt, " s must be positive"));
   w.kick = kick;
   w.dt = dt;
+  const auto forces = w.known_forces();
   for (std::size_t i = 0; i < size(); ++i) {
-    if (w.movers[i]) w.movers[i]->begin(lifted_state(w.states[i]), embedding<d>() * (kick * w.known_force(i)), dt);
+    if (w.movers[i]) w.movers[i]->begin(lifted_state(w.states[i]), embedding<d>() * (kick * forces[i]), dt);
     if (w.specs[i].motion == BodyMotion::prescribed) w.trials[i] = w.prescribed(i);
   }
   w.set_up_constraints();
@@ -196,6 +200,31 @@ void Bodies<d>::commit() {
 }
 
 template <int d>
+void Bodies<d>::see_wetted(std::span<const double> measures) {
+  System& w = *system_;
+  if (measures.size() != size())
+    throw std::invalid_argument(message("bodies: wetted measures of ", measures.size(), " of ", size(), " bodies"));
+  for (std::size_t i = 0; i < size(); ++i)
+    w.wetted_share[i] = w.hull_measures[i] > 0 ? std::clamp(measures[i] / w.hull_measures[i], 0.0, 1.0) : 0.0;
+}
+
+template <int d>
+double Bodies<d>::stable_dt() const {
+  double dt = std::numeric_limits<double>::infinity();
+  for (const auto& force : system_->forces) dt = std::min(dt, force->stable_dt(system_->at(0, 0)));
+  return dt;
+}
+
+template <int d>
+std::vector<Diagnostic> Bodies<d>::diagnostics() const {
+  std::vector<Diagnostic> all;
+  for (const auto& force : system_->forces)
+    for (const auto& [name, value] : force->diagnostics(system_->at(0, 0)))
+      all.emplace_back(force->name() + "_" + name, value);
+  return all;
+}
+
+template <int d>
 void Bodies<d>::save(std::ostream& out) const {
   const System& w = *system_;
   const double count = static_cast<double>(size());
@@ -211,6 +240,7 @@ void Bodies<d>::save(std::ostream& out) const {
   const double loads = static_cast<double>(w.loads.size());
   write(out, &loads, 1);
   write(out, w.loads.data(), w.loads.size());
+  write(out, w.wetted_share.data(), w.size());
 }
 
 template <int d>
@@ -234,12 +264,14 @@ void Bodies<d>::load(std::istream& in) {
     throw std::runtime_error("the bodies' loads are damaged");
   w.loads.resize(static_cast<Eigen::Index>(loads));
   read(in, w.loads.data(), w.loads.size());
+  read(in, w.wetted_share.data(), w.size());
   if (!in) throw std::runtime_error("ends in the middle of the bodies");
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
   bool good = std::isfinite(w.time) && w.loads.allFinite();
   for (const auto& state : w.states)
     good = good && state.pose.matrix().allFinite() && state.pose.linear().isUnitary(roundoff) &&
            state.velocity.allFinite();
+  for (const double share : w.wetted_share) good = good && share >= 0 && share <= 1;
   for (const double moved : w.moved) good = good && std::isfinite(moved);
   for (const auto& mover : w.movers) good = good && (!mover || mover->momentum.allFinite());
   if (!good) throw std::runtime_error("the bodies' state is damaged");

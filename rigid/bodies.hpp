@@ -26,33 +26,10 @@
 #include "core/status.hpp"
 #include "rigid/body.hpp"
 #include "rigid/contact/contacts.hpp"
+#include "rigid/force.hpp"
 #include "rigid/joint.hpp"
 
 namespace splashdown::rigid {
-
-/// A force on the bodies besides the fluid's load. Present in a scene or absent; never switched.
-template <int d>
-class Force {
- public:
-  virtual ~Force() = default;
-  virtual std::string name() const = 0;  ///< of its table
-  /// Wrench about the centre of mass, world frame, on a body at the given pose and half-step velocity.
-  virtual Wrench<d> wrench(const BodySpec<d>& body, const Isometry<d>& pose, const Twist<d>& velocity,
-                           double time) const = 0;
-};
-
-/// m g at the centre of mass.
-template <int d>
-class Gravity final : public Force<d> {
- public:
-  /// `acceleration`: g, world frame [m/s^2].
-  explicit Gravity(const Vec<d>& acceleration) : acceleration_(acceleration) {}
-  std::string name() const override { return "gravity"; }
-  Wrench<d> wrench(const BodySpec<d>& body, const Isometry<d>&, const Twist<d>&, double) const override;
-
- private:
-  Vec<d> acceleration_;
-};
 
 /// The bodies and their state. Driven by one thread. World frame; quantities about the centres of mass.
 template <int d>
@@ -96,6 +73,12 @@ class Bodies final : public BodiesView<d> {
   Status acceptable() const;
   /// Accepts the last trial.
   void commit();
+  /// Tells forces how much of each body's hull is wet from now on: its measure [m, m^2], in the order of the bodies. Part of the
+  /// saved state. Throws std::invalid_argument for another number of them.
+  void see_wetted(std::span<const double> measures);
+  /// Largest dt that forces allow from t_n [s]; infinity: any.
+  double stable_dt() const;
+  std::vector<Diagnostic> diagnostics() const override;
 
   void save(std::ostream& out) const;  ///< bit-exact state at t_n
   void load(std::istream& in);         ///< std::runtime_error for what is none of these bodies

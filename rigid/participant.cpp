@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "rigid/shapes/mass_properties.hpp"
 
@@ -45,7 +44,7 @@ Participant<d>::Participant(std::unique_ptr<Bodies<d>> bodies) : bodies_(std::mo
 template <int d>
 double Participant<d>::stable_dt() const {
   constexpr double turn = 0.5;  // [rad]
-  double dt = std::numeric_limits<double>::infinity();
+  double dt = bodies_->stable_dt();
   for (const auto& state : bodies_->states())
     dt = std::min(dt, turn / state.velocity.template tail<rotations<d>>().norm());
   return dt;
@@ -82,6 +81,11 @@ coupling::Placement Participant<d>::placement() const {
   for (const auto& state : bodies_->trials())
     all.segment<numbers>(numbers * at++) = state.pose.matrix().template topRows<d>().reshaped();
   return all;
+}
+
+template <int d>
+void Participant<d>::see_wetted(const Eigen::VectorXd& measures) {
+  bodies_->see_wetted({measures.data(), bodies_->size()});
 }
 
 template class Participant<2>;

@@ -19,7 +19,7 @@ class Participant final : public coupling::StructurePart {
   const Bodies<d>& bodies() const { return *bodies_; }
 
   double time() const override { return bodies_->time(); }
-  /// No body turns by more than half a radian.
+  /// No body turns by more than half a radian, and what forces ask for.
   double stable_dt() const override;
   void save(std::ostream& out) const override { bodies_->save(out); }
   void load(std::istream& in) override { bodies_->load(in); }
@@ -39,6 +39,7 @@ class Participant final : public coupling::StructurePart {
   const coupling::Velocities& adopt(const coupling::Velocities& velocities) override;
   bool update_contacts(const coupling::Impulse& impulse) override { return bodies_->update_contacts(impulse); }
   coupling::Placement placement() const override;
+  void see_wetted(const Eigen::VectorXd& measures) override;
   Status acceptable() const override { return bodies_->acceptable(); }
   void commit() override { bodies_->commit(); }
 

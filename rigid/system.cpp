@@ -47,10 +47,10 @@ Eigen::VectorXd Bodies<d>::System::stacked(std::span<const Wrench<d>> each) cons
 }
 
 template <int d>
-Wrench<d> Bodies<d>::System::known_force(std::size_t i) const {
-  Wrench<d> sum = Wrench<d>::Zero();
-  for (const auto& force : forces) sum += force->wrench(specs[i], states[i].pose, states[i].velocity, time);
-  return sum;
+std::vector<Wrench<d>> Bodies<d>::System::known_forces() const {
+  std::vector<Wrench<d>> sums(specs.size(), Wrench<d>::Zero());
+  for (const auto& force : forces) force->add(at(kick, dt), sums);
+  return sums;
 }
 
 template <int d>

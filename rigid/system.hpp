@@ -57,8 +57,12 @@ struct Bodies<d>::System {
   /// Wrenches of all bodies, one below the other. Throws std::invalid_argument for another number of them.
   Eigen::VectorXd stacked(std::span<const Wrench<d>> each) const;
 
-  /// Sum of all forces but the fluid's load at t_n, about the centre of mass, world frame [N, N m].
-  Wrench<d> known_force(std::size_t body) const;
+  std::vector<double> hull_measures, wetted_share;  // of the bodies [m, m^2]; what is wet of them
+
+  /// What forces see, of the step that `kick_` and `dt_` begin.
+  BodiesAt<d> at(double kick_, double dt_) const { return {specs, states, wetted_share, time, kick_, dt_}; }
+  /// Sums of all forces but the fluid's load at t_n on each body, about its centre of mass, world frame [N, N m].
+  std::vector<Wrench<d>> known_forces() const;
   /// A prescribed body's velocity is the finite difference that carries one pose into the next.
   BodyState<d> prescribed(std::size_t body) const;
   /// Puts Bullet's body where `state` has it.

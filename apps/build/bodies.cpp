@@ -146,18 +146,9 @@ std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene) {
   return spec;
 }
 
-template <int d>
-std::vector<std::unique_ptr<rigid::Force<d>>> body_forces(const Scene& scene) {
-  std::vector<std::unique_ptr<rigid::Force<d>>> forces;
-  if (scene.gravity) forces.push_back(std::make_unique<rigid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
-  return forces;
-}
-
 template rigid::BodySpec<2> body_spec<2>(const Body&);
 template rigid::BodySpec<3> body_spec<3>(const Body&);
 template std::optional<rigid::ContactSpec<2>> contact_spec<2>(const Scene&);
 template std::optional<rigid::ContactSpec<3>> contact_spec<3>(const Scene&);
-template std::vector<std::unique_ptr<rigid::Force<2>>> body_forces<2>(const Scene&);
-template std::vector<std::unique_ptr<rigid::Force<3>>> body_forces<3>(const Scene&);
 
 }  // namespace splashdown::apps

@@ -42,7 +42,7 @@ std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene, std::functi
   auto spec = fluid_spec<d>(scene);
   spec.while_meshing = std::move(meanwhile);
   auto part = std::make_unique<fluid::Participant<d>>(
-      std::make_unique<fluid::Fluid<d>>(std::move(spec), fluid_effects<d>(scene)));
+      std::make_unique<fluid::Fluid<d>>(std::move(spec), parts_of<d>(scene).effects));
   world.fluid = &part->fluid();
   return part;
 }
@@ -68,7 +68,7 @@ template <int d>
 std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
   std::vector<rigid::BodySpec<d>> specs;
   for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
-  return std::make_unique<rigid::Bodies<d>>(std::move(specs), body_forces<d>(scene), joint_specs(scene),
+  return std::make_unique<rigid::Bodies<d>>(std::move(specs), parts_of<d>(scene).forces, joint_specs(scene),
                                             contact_spec<d>(scene));
 }
 

@@ -33,8 +33,14 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene);
 /// Walls: one a body, in their order, then the tank if there is one.
 template <int d>
 fluid::FluidSpec<d> fluid_spec(const Scene& scene);
+/// What the effects of a scene make.
 template <int d>
-std::vector<std::unique_ptr<fluid::Effect<d>>> fluid_effects(const Scene& scene);
+struct Parts {
+  std::vector<std::unique_ptr<fluid::Effect<d>>> effects;  ///< of the fluid
+  std::vector<std::unique_ptr<rigid::Force<d>>> forces;    ///< on bodies
+};
+template <int d>
+Parts<d> parts_of(const Scene& scene);
 /// A place where a body's hull is curved.
 template <int d>
 struct HullBend {
@@ -51,8 +57,6 @@ rigid::BodySpec<d> body_spec(const Body& body);
 std::vector<rigid::JointSpec> joint_specs(const Scene& scene);
 template <int d>
 std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene);
-template <int d>
-std::vector<std::unique_ptr<rigid::Force<d>>> body_forces(const Scene& scene);
 template <int d>
 RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem::path& directory);
 

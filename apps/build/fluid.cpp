@@ -2,9 +2,8 @@
 #include <limits>
 
 #include "apps/build/build.hpp"
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/geometry.hpp"
-#include "fluid/effects/absorber.hpp"
-#include "fluid/effects/viscosity.hpp"
 #include "fluid/mesh/sizes/size_field.hpp"
 
 namespace splashdown::apps {
@@ -72,22 +71,17 @@ fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
     tank.size = scene.tank->size;
     spec.walls.push_back(std::move(tank));
   }
-  const bool no_slip = liquid.viscosity && liquid.viscosity->walls == "no_slip";
-  for (auto& wall : spec.walls) wall.sticks = no_slip;
+  for (const auto* kind : effect_kinds())
+    if (kind->present(scene)) kind->prepare(scene, spec);
   return spec;
 }
 
 template <int d>
-std::vector<std::unique_ptr<fluid::Effect<d>>> fluid_effects(const Scene& scene) {
-  std::vector<std::unique_ptr<fluid::Effect<d>>> effects;
-  if (scene.gravity) effects.push_back(std::make_unique<fluid::Gravity<d>>(vec<d>(scene.gravity->acceleration)));
-  if (scene.fluid->viscosity) effects.push_back(std::make_unique<fluid::Viscosity<d>>(scene.fluid->viscosity->dynamic));
-  if (scene.fluid->absorber)
-    effects.push_back(std::make_unique<fluid::Absorber<d>>(fluid::AbsorberSpec{.from = scene.tank->min.x(),
-                                                                               .to = scene.tank->max.x(),
-                                                                               .width = scene.fluid->absorber->width,
-                                                                               .rate = scene.fluid->absorber->rate}));
-  return effects;
+Parts<d> parts_of(const Scene& scene) {
+  Parts<d> parts;
+  for (const auto* kind : effect_kinds())
+    if (kind->present(scene)) kind->build(scene, EffectParts<d>{parts.effects, parts.forces});
+  return parts;
 }
 
 template std::vector<HullBend<2>> hull_bends<2>(const Scene&, const Body&);
@@ -96,7 +90,7 @@ template std::vector<fluid::SizeSource<2>> hull_spots<2>(const Scene&, const Bod
 template std::vector<fluid::SizeSource<3>> hull_spots<3>(const Scene&, const Body&);
 template fluid::FluidSpec<2> fluid_spec<2>(const Scene&);
 template fluid::FluidSpec<3> fluid_spec<3>(const Scene&);
-template std::vector<std::unique_ptr<fluid::Effect<2>>> fluid_effects<2>(const Scene&);
-template std::vector<std::unique_ptr<fluid::Effect<3>>> fluid_effects<3>(const Scene&);
+template Parts<2> parts_of<2>(const Scene&);
+template Parts<3> parts_of<3>(const Scene&);
 
 }  // namespace splashdown::apps

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
 
 // Water at 20 C, for numbers of effects that a scene does not name.
-constexpr double water_viscosity = 1e-3;         // [Pa s]
 constexpr double water_surface_tension = 0.073;  // [N/m]
 constexpr double water_sound_speed = 1480;       // [m/s]
 constexpr double air_density = 1.2;              // [kg/m^3]
@@ -48,37 +48,6 @@ double at_the_water(const Scene& scene, const Body& body) {
 
 std::string number(double value) { return fmt::format("{:.3g}", value); }
 
-EffectNote gravity_note(const Scene& scene, const Scales& s) {
-  const double g = s.gravity > 0 ? s.gravity : 9.81, froude = s.speed / std::sqrt(g * s.length);
-  return {"gravity", scene.gravity.has_value(),
-          fmt::format("Fr = U/sqrt(g L) = {}: {}", number(froude),
-                      froude > 3 ? "inertia rules at first; waves and floating need it" : "waves and weight matter")};
-}
-
-EffectNote viscosity_note(const Scene& scene, const Scales& s) {
-  const auto& viscosity = scene.fluid->viscosity;
-  const double mu = viscosity ? viscosity->dynamic : water_viscosity, reynolds = s.density * s.speed * s.length / mu;
-  return {"viscosity", viscosity.has_value(),
-          fmt::format("Re = rho U L/mu = {}{}: laminar boundary layer of {} L, friction of {} of the dynamic pressure",
-                      number(reynolds), viscosity ? "" : " (water)", number(5 / std::sqrt(reynolds)),
-                      number(1.33 / std::sqrt(reynolds)))};  // Blasius, flat plate
-}
-
-template <int d>
-EffectNote absorber_note(const Scene& scene, const Scales& s) {
-  EffectNote note{"absorber", scene.fluid->absorber.has_value(), "no tank, no ends that reflect waves"};
-  if (!scene.tank || s.gravity == 0) {
-    if (scene.tank) note.reason = "no gravity, no waves to absorb";
-    return note;
-  }
-  const double depth = std::max(0., *still_water_level<d>(scene) - scene.tank->min[d - 1]);
-  const double there_and_back = (scene.tank->max.x() - scene.tank->min.x()) / std::sqrt(s.gravity * depth);
-  note.reason = fmt::format("the fastest waves cross the tank in {} s, the run lasts {} s: {}", number(there_and_back),
-                            number(scene.time.end),
-                            there_and_back > scene.time.end ? "no echo returns" : "echoes return from the ends");
-  return note;
-}
-
 }  // namespace
 
 template <int d>
@@ -108,6 +77,7 @@ Scales scales(const Scene& scene) {
   for (const auto& body : scene.bodies) s.speed = std::max(s.speed, at_the_water<d>(scene, body));
   if (scene.fluid)
     for (const auto& region : scene.fluid->regions) s.speed = std::max(s.speed, fastest<d>(region));
+  s.level = still_water_level<d>(scene).value_or(0);
   if (s.speed == 0) s.speed = std::sqrt(s.gravity * s.length);  // what gravity will make of rest
   return s;
 }
@@ -115,11 +85,9 @@ Scales scales(const Scene& scene) {
 template <int d>
 std::vector<EffectNote> effect_notes(const Scene& scene) {
   const auto s = scales<d>(scene);
-  std::vector<EffectNote> notes{gravity_note(scene, s)};
-  if (scene.fluid) {
-    notes.push_back(viscosity_note(scene, s));
-    notes.push_back(absorber_note<d>(scene, s));
-  }
+  std::vector<EffectNote> notes;
+  for (const auto* kind : effect_kinds())
+    if (auto note = kind->note(scene, s)) notes.push_back(std::move(*note));
   return notes;
 }
 

@@ -14,6 +14,7 @@ struct Scales {
   double speed = 0;    ///< of the fastest thing, falls towards the water included [m/s]
   double gravity = 0;  ///< |g| [m/s^2]; 0 without gravity
   double density = 0;  ///< of the liquid [kg/m^3]; 0 without
+  double level = 0;    ///< of still water [m]; 0 without
 };
 
 template <int d>
@@ -29,6 +30,7 @@ struct EffectNote {
   bool active = false;
   std::string reason;
 };
+/// Of all effects of the catalogue (effect_kind.hpp).
 template <int d>
 std::vector<EffectNote> effect_notes(const Scene& scene);
 

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/scene/effects.hpp"
 #include "apps/scene/limit.hpp"
 #include "rigid/shapes/shapes.hpp"
 
@@ -107,22 +108,10 @@ struct Sizes {
   double corner = 1;       ///< h at a hull's corners over what it is on the hull, at most
 };
 
-struct Viscosity {
-  double dynamic = 1e-3;       ///< [Pa s]; water at 20 C
-  std::string walls = "slip";  ///< "slip" | "no_slip"
-};
-
-struct Absorber {
-  double width = 0;  ///< of the zone at each end of the tank [m]
-  double rate = 0;   ///< damping rate at the wall; rises smoothly from 0 at the zone's edge [1/s]
-};
-
 struct Fluid {
   double density = 1000;  ///< [kg/m^3]
   Sizes size;
   std::vector<Region> regions;
-  std::optional<Viscosity> viscosity;
-  std::optional<Absorber> absorber;
 };
 
 struct Tank {
@@ -270,6 +259,7 @@ struct Scene {
   std::optional<Fluid> fluid;
   std::optional<Tank> tank;
   std::optional<Gravity> gravity;
+  Effects effects;  ///< tables of all others
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::optional<Contact> contact;

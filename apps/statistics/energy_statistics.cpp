@@ -39,7 +39,8 @@ void EnergyStatistics::add(double time, const Ledger& ledger, const std::vector<
   lowest_kinetic_ = std::min(lowest_kinetic_, kinetic);
   lowest_potential_ = std::min(lowest_potential_, potential);
   most_work_ = std::max(most_work_, std::abs(ledger.work_on_walls));
-  now_ = kinetic - first_kinetic_ + potential - first_potential_ + ledger.work_on_walls;
+  most_work_of_effects_ = std::max(most_work_of_effects_, std::abs(ledger.work_of_effects));
+  now_ = kinetic - first_kinetic_ + potential - first_potential_ + ledger.work_on_walls - ledger.work_of_effects;
   loss_.offer(-now_, time);
   if (gain_.offer(std::isfinite(now_) ? now_ : std::numeric_limits<double>::infinity(), time)) rise_ = loss_.time;
 }
@@ -47,6 +48,7 @@ void EnergyStatistics::add(double time, const Ledger& ledger, const std::vector<
 void EnergyStatistics::summarise(LedgerSummary& summary) const {
   const std::pair<double, const char*> scales[] = {
       {most_work_, "work of walls and bodies"},
+      {most_work_of_effects_, "work of effects"},
       {arrival_, "kinetic energy of arriving bodies"},
       {hulls_, "pressing the hulls under"},
       {first_kinetic_ + first_potential_ - lowest_potential_, "what the water brought or let go"},

@@ -1,14 +1,15 @@
 // Whether the water holds more energy than it can have. Survives a resume.
 //
-//   gain(t) = (K + P)(t) - (K + P)(0) + W(t)
+//   gain(t) = (K + P)(t) - (K + P)(0) + W(t) - E(t)
 //
 // K, P: kinetic and potential energy of the water at t_n, drops included. W: work of the water on walls, negative when
-// walls gave energy. Viscosity, absorbers and impacts lower the gain; only numerics raise it. P counts from the level
+// walls gave energy. E: work on the water of effects that book it, such as waves that are kept alive. Viscosity, absorbers and impacts lower the gain; only numerics raise it. P counts from the level
 // at rest: rho phi_rest (V - V(0)) is taken off, for water that appears there is an error of volume and brings no energy.
 //
 // The largest gain is compared with what there was to give or to take, the largest of
 //
 //   work     max |W|: what walls and bodies gave or took
+//   effects  max |E|: what effects gave or took
 //   arrival  sum over free bodies of the kinetic energy with which they first touch the water
 //   hulls    sum over free bodies that touched it of rho V (phi_top - phi_bottom)/2, V the hull's volume: what it takes
 //            to press them under (a box exactly). The scale of bodies that float, whatever little they bring
@@ -53,8 +54,8 @@ class EnergyStatistics {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(water_.level_energy, water_.depth_energy, water_.hull_volume, begun_, first_kinetic_, first_potential_,
-            lowest_potential_, lowest_kinetic_, most_work_, now_, loss_, gain_, rise_, dry_kinetic_, touched_, arrival_,
-            hulls_);
+            lowest_potential_, lowest_kinetic_, most_work_, most_work_of_effects_, now_, loss_, gain_, rise_,
+            dry_kinetic_, touched_, arrival_, hulls_);
   }
 
  private:
@@ -62,7 +63,8 @@ class EnergyStatistics {
 
   WaterAtStart water_;
   bool begun_ = false;
-  double first_kinetic_ = 0, first_potential_ = 0, lowest_potential_ = 0, lowest_kinetic_ = 0, most_work_ = 0;
+  double first_kinetic_ = 0, first_potential_ = 0, lowest_potential_ = 0, lowest_kinetic_ = 0, most_work_ = 0,
+         most_work_of_effects_ = 0;
   double now_ = 0;
   Peak loss_, gain_;                 ///< largest so far
   double rise_ = -1;                 ///< when the loss was largest before the gain was

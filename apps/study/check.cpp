@@ -134,7 +134,7 @@ std::optional<Names> columns_of(const std::string& table, const Scene& scene) {
   if (file == "probes.csv") return split(probes_header);
   if (file == "surface_pressure.csv") return split(surface_pressure_header(scene.dimension));
   if (file == "added_mass.csv") return split(added_mass_header(scene.dimension));
-  const bool effects = scene.fluid && (scene.fluid->viscosity || scene.fluid->absorber);  // have columns of their own
+  const bool effects = !scene.effects.empty();  // have columns of their own
   if (file == "fluid.csv" && !effects) return split(fluid_header({}));
   return {};
 }

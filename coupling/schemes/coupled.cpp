@@ -35,6 +35,7 @@ double Coupled::still(double dt) const {
 }
 
 void Coupled::commit() {
+  structure_->see_wetted(fluid_->solution().wetted);
   fluid_->commit(structure_->placement());
   structure_->commit();
   clock_.commit();

@@ -3,7 +3,9 @@
 #include <numbers>
 
 #include "coupling/schemes/steppers.hpp"
+#include "fluid/effects/gravity/gravity.hpp"
 #include "fluid/participant.hpp"
+#include "rigid/forces/gravity.hpp"
 #include "rigid/participant.hpp"
 #include "rigid/shapes/mass_properties.hpp"
 #include "rigid/shapes/shapes.hpp"

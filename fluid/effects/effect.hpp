@@ -27,6 +27,9 @@ struct StepView {
   const Mesh<d>& mesh;                    ///< at t_n, remeshed
   double density;                         ///< [kg/m^3]
   double kick;                            ///< [s]
+  double t;                               ///< t_n [s]
+  double dt;                              ///< of this step [s]
+  double dt_before;                       ///< of the step that led to t_n [s]; 0 at the start
   std::span<const double> lumped_volume;  ///< of nodes [m^d]
   const NodeCells<d>& around;             ///< the cells around each node
   std::span<const WallSpec<d>> walls;     ///< as they were made
@@ -51,8 +54,18 @@ struct Predicted {
   Eigen::VectorXd* answer = nullptr;
 };
 
+/// What effects add to the pressure equation of a step, an entry a node; a vector that stays empty adds nothing.
+///
+///   (A + C) phi = r + q,   C diagonal
+struct PressureTerms {
+  std::vector<double> diagonal;  ///< C, not negative: volume that an impulse there takes away for good [m^d/(Pa s^2)]
+  std::vector<double> source;    ///< q: volume that appears around a node, negative: that goes [m^d/s]
+  std::vector<double>
+      surface_pressure;  ///< on the free surface, against the air's zero [Pa]; elsewhere it means nothing
+};
+
 /// Name and value of a number worth recording.
-using Diagnostic = std::pair<std::string, double>;
+using splashdown::Diagnostic;
 
 /// A term of the momentum equation, rho Dv/Dt = ... + effect. World frame.
 template <int d>
@@ -64,8 +77,15 @@ class Effect {
   virtual Status begin(const StepView<d>& /*step*/) { return {}; }
   /// Adds the effect of one kick; repeatable.
   virtual Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) = 0;
+  /// Adds its terms of the pressure equation; once a step, after `begin`.
+  virtual void pressure(const StepView<d>& /*step*/, PressureTerms& /*terms*/) {}
   /// Potential energy per unit mass at a point [J/kg]; 0 for effects that have none.
   virtual double potential(const Vec<d>& /*x*/) const { return 0; }
+  /// What it gives to all water alike, like gravity [m/s^2]: waves, cavities behind bodies and steps are judged by it.
+  virtual Vec<d> uniform_acceleration() const { return Vec<d>::Zero(); }
+  /// Whether the work that it does on the water is booked (Ledger::work_of_effects): for effects that may bring energy and have no
+  /// potential. Others take energy or keep it.
+  virtual bool books_work() const { return false; }
   /// Kinematic viscosity [m^2/s] with which it spreads momentum through the fluid; 0 for effects that do not.
   virtual double diffusivity(double /*density*/) const { return 0; }
   /// Numbers at t_n, after `predict`; always of the same names. `lumped_mass`: of nodes [kg].
@@ -75,22 +95,6 @@ class Effect {
   }
   /// Largest stable dt [s]; infinity for effects that set none.
   virtual double stable_dt() const;
-};
-
-/// dv = kick g, the same everywhere; potential -g . x.
-template <int d>
-class Gravity final : public Effect<d> {
- public:
-  /// `acceleration`: g, world frame [m/s^2].
-  explicit Gravity(const Vec<d>& acceleration) : g_(acceleration) {}
-  std::string name() const override { return "gravity"; }
-  Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
-  double potential(const Vec<d>& x) const override { return -g_.dot(x); }
-  /// energy [J]
-  std::vector<Diagnostic> diagnostics(const Nodes<d>& nodes, std::span<const double> lumped_mass) const override;
-
- private:
-  Vec<d> g_;  ///< [m/s^2]
 };
 
 }  // namespace splashdown::fluid

@@ -22,7 +22,23 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
   laplacian_.build(nodes, mesh, unknown_, structure.interface_operators);
   assemble(matrix_);
   laplacian_.add_to(matrix_);
+  diagonal_.clear(), source_.clear();
   return (size() == 0 || factored()) && add_bodies();
+}
+
+template <int d>
+bool PressureEquation<d>::set_terms(std::span<const double> diagonal, std::span<const double> source) {
+  const auto of_unknowns = [&](std::span<const double> of_nodes) {
+    std::vector<double> values;
+    for (int n : node_)
+      if (!of_nodes.empty()) values.push_back(of_nodes[n]);
+    return values;
+  };
+  source_ = of_unknowns(source);
+  diagonal_ = of_unknowns(diagonal);
+  if (diagonal_.empty()) return true;
+  for (int k = 0; k < size(); ++k) matrix_.value[matrix_.column_start[k]] += diagonal_[k];
+  return solver_.factor(matrix_) && add_bodies();
 }
 
 template <int d>

@@ -89,6 +89,14 @@ class PressureEquation {
   /// workless^T (M + G) directions w = workless^T impulse. Empty ones: the same. All are allowed after build.
   void allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless = {});
 
+  /// Terms of effects, once after build; empty: none. `diagonal`: C, not negative; `source`: q, both an entry a node
+  /// (PressureTerms). A diagonal costs a further factor. False if that fails.
+  bool set_terms(std::span<const double> diagonal, std::span<const double> source);
+  /// r += q: the right-hand side for impulses that start from zero.
+  void add_sources(std::vector<double>& r) const;
+  /// r += q - C phi: what impulses phi leave of it.
+  void add_sources(std::vector<double>& r, std::span<const double> phi) const;
+
   /// r in flux form at positions `x` [m], for nodal velocities v [m/s] and wall twists s about `centres`: an entry an unknown
   /// [m^d/s].
   void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const Twist<d>> s,
@@ -126,6 +134,8 @@ class PressureEquation {
   /// v -= M^-1 (int N grad phi - int_surface N phi n), M^-1 = (1 + z + 2 z^2) M_L^-1, z = 1 - M_L^-1 M_C: lumped mass M_L and
   /// two sweeps towards the consistent one M_C (`inverse_mass`).
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
+  /// v -= M^-1 int_surface N f n: what impulses f = kick p of the air on the free surface do, an entry a node [Pa s].
+  void push_surface(std::span<const double> impulse, std::span<Vec<d>> v) const;
   /// Kinetic energy of the liquid [J; 2D: per metre] with the mass that `accelerate` moves, M = M_L (1 + z + 2 z^2)^-1: short
   /// waves are up to `inverse_mass(shortest<d>)` times lighter than with lumping, and an impulse gives them as much more
   /// velocity.
@@ -151,6 +161,7 @@ class PressureEquation {
   const SymmetricMatrix& matrix() const { return matrix_; }          ///< the left side, without the bodies
 
  private:
+  void spread_change(std::span<Vec<d>> v) const;
   template <class Velocity>
   void add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const;
   void measure(double density);
@@ -194,6 +205,7 @@ class PressureEquation {
   std::vector<std::vector<Mode>> modes_;  // of each wall
   HeldMass<d> held_;
   std::vector<std::vector<Mode>> held_modes_;  // R of each wall that responds
+  std::vector<double> diagonal_, source_;      // of unknowns: terms of effects; empty: none
   InterfaceLaplacian<d> laplacian_;
   InterfaceModel structure_;
   Eigen::MatrixXd Y_, added_mass_, elimination_;

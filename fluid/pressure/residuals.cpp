@@ -117,8 +117,38 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     for (int n : f.nodes) sum += impulse_at(n);
     for (int n : f.nodes) change_[n] += per_nodal_mass_[n] * (sum + impulse_at(n)) * share;
   }
+  spread_change(v);
+}
+
+// v += (1 + z + 2 z^2) of the change that lumped masses get.
+template <int d>
+void PressureEquation<d>::spread_change(std::span<Vec<d>> v) const {
   sweep_(change_, swept_);
   in_parallel(v.size(), [&](std::size_t i) { v[i] += change_[i] + swept_[i] + 2 * sweep_(i, swept_); });
+}
+
+template <int d>
+void PressureEquation<d>::push_surface(std::span<const double> impulse, std::span<Vec<d>> v) const {
+  change_.assign(v.size(), Vec<d>::Zero());
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall >= 0) continue;
+    const Vec<d> share = area_vector_of<d>(f, nodes_->x) / d;
+    double sum = 0;
+    for (int n : f.nodes) sum += impulse[n];
+    for (int n : f.nodes) change_[n] -= per_nodal_mass_[n] * (sum + impulse[n]) * share;
+  }
+  spread_change(v);
+}
+
+template <int d>
+void PressureEquation<d>::add_sources(std::vector<double>& r) const {
+  for (std::size_t k = 0; k < source_.size(); ++k) r[k] += source_[k];
+}
+
+template <int d>
+void PressureEquation<d>::add_sources(std::vector<double>& r, std::span<const double> phi) const {
+  add_sources(r);
+  for (std::size_t k = 0; k < diagonal_.size(); ++k) r[k] -= diagonal_[k] * phi[k];
 }
 
 // 1 / (1 + z + 2 z^2) as 1 - z + curvature z^2 (z - 1/2): exact in value and slope at z = 0, in value at 1/2 and at the end of

@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 
+#include "fluid/effects/gravity/gravity.hpp"
 #include "fluid/mesh/delaunay/delaunay.hpp"
 #include "fluid/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"

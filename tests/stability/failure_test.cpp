@@ -40,10 +40,9 @@ class BadForce final : public rigid::Force<2> {
  public:
   explicit BadForce(const double& value) : value_(value) {}
   std::string name() const override { return "bad"; }
-  rigid::Wrench<2> wrench(const rigid::BodySpec<2>&, const rigid::Isometry<2>&, const rigid::Twist<2>&,
-                          double) const override {
-    return value_ == 0 ? rigid::Wrench<2>(rigid::Wrench<2>::Zero())
-                       : rigid::Wrench<2>(rigid::Wrench<2>::Constant(value_));
+  void add(const rigid::BodiesAt<2>&, std::span<rigid::Wrench<2>> wrenches) const override {
+    for (auto& wrench : wrenches)
+      if (value_ != 0) wrench.array() += value_;
   }
 
  private:

@@ -133,9 +133,8 @@ class Push final : public rigid::Force<2> {
  public:
   static constexpr double force = 100;  // [N/m]
   std::string name() const override { return "push"; }
-  rigid::Wrench<2> wrench(const rigid::BodySpec<2>&, const rigid::Isometry<2>&, const rigid::Twist<2>&,
-                          double) const override {
-    return {0, force, 0};
+  void add(const rigid::BodiesAt<2>&, std::span<rigid::Wrench<2>> wrenches) const override {
+    for (auto& wrench : wrenches) wrench[1] += force;
   }
 };
 
@@ -165,9 +164,9 @@ TEST(Sprung, body_swings_with_the_mass_of_water_that_a_force_finds) {
 class Press final : public rigid::Force<2> {
  public:
   std::string name() const override { return "press"; }
-  rigid::Wrench<2> wrench(const rigid::BodySpec<2>& body, const rigid::Isometry<2>& pose, const rigid::Twist<2>&,
-                          double) const override {
-    return {pose.translation().x() < 0 ? 2 * body.mass : -2 * body.mass, 0, 0};
+  void add(const rigid::BodiesAt<2>& at, std::span<rigid::Wrench<2>> wrenches) const override {
+    for (std::size_t i = 0; i < wrenches.size(); ++i)
+      wrenches[i][0] += (at.states[i].pose.translation().x() < 0 ? 2 : -2) * at.specs[i].mass;
   }
 };
 

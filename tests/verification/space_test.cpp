@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "fluid/effects/gravity/gravity.hpp"
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/verification/order.hpp"

@@ -7,6 +7,7 @@
 
 #include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/words.hpp"
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/scene/rules/rules.hpp"
 
@@ -47,43 +48,6 @@ void about_density_of_liquid(const PreparedScene<d>& prepared, Questions& list) 
       fmt::format("fluid.density = {:g}: between the heaviest solutions (3400) and mercury (13500 kg/m^3) there is "
                   "no liquid: did you mean 1000?",
                   density));
-}
-
-/// Water has 1.8e-3 Pa s at 0 C and 2.8e-4 at 100 C; liquid hydrogen 1.3e-5, pitch more than anything that splashes.
-template <int d>
-void about_viscosity(const PreparedScene<d>& prepared, Questions& list) {
-  const double coldest = 2.2e-3, hottest = 2.5e-4, thinnest = 1e-5, thickest = 1e3, as_water = 0.05;
-  if (!prepared.scene.fluid->viscosity) return;
-  const double mu = prepared.scene.fluid->viscosity->dynamic, density = prepared.scene.fluid->density;
-  const bool water = std::abs(density / 1000 - 1) <= as_water;
-  if (mu >= (water ? hottest : thinnest) && mu <= (water ? coldest : thickest)) return;
-  list.push_back(fmt::format("fluid.viscosity.dynamic = {:g} Pa s: {}: did you mean {}?", mu,
-                             water ? "water of this density has 0.0003 to 0.002" : "no liquid has that",
-                             mu * density >= hottest && mu * density <= coldest
-                                 ? fmt::format("{:g}? That is {:g} m^2/s times the density", mu * density, mu)
-                                 : "0.001"));
-}
-
-/// The best rate is about the angular frequency of the waves that the zone is as long as.
-template <int d>
-void about_absorber(const PreparedScene<d>& prepared, Questions& list) {
-  const double shortest = 0.01, slowest = 0.3, fastest = 3;  // of the tank; of sqrt(2 pi g / width)
-  const auto& zone = prepared.scene.fluid->absorber;
-  if (!zone || !prepared.scene.tank) return;
-  const double length = prepared.scene.tank->max.x() - prepared.scene.tank->min.x();
-  if (zone->width < shortest * length)
-    list.push_back(
-        fmt::format("fluid.absorber.width = {:g} m at the ends of a tank of {:g} m: too short for any wave: did "
-                    "you mean {:g} m?",
-                    zone->width, length, length / 8));
-  if (prepared.pull <= 0 || zone->width < shortest * length) return;
-  const double wave = std::sqrt(2 * pi * prepared.pull / zone->width), ratio = zone->rate / wave;
-  if (ratio >= slowest && ratio <= fastest) return;
-  list.push_back(
-      fmt::format("fluid.absorber.rate = {:g} 1/s: waves as long as the zone, {:g} m, have {:.3g} rad/s, and {}: did "
-                  "you mean {:.2g}?",
-                  zone->rate, zone->width, wave,
-                  ratio > fastest ? "a faster one throws them back" : "a slower one lets them through", wave));
 }
 
 /// A wave that its elements show, that does not break (Michell 1893: height over length 0.142), and that fits between walls.
@@ -202,15 +166,16 @@ void about_room_for_air(const PreparedScene<d>& prepared, Questions& list) {
 }
 
 template <int d>
-constexpr Question<d> questions_of_liquid[] = {
-    about_density_of_liquid<d>, about_viscosity<d>,   about_absorber<d>, about_wave<d>, about_fit<d>,
-    about_speed_of_liquid<d>,   about_room_for_air<d>};
+constexpr Question<d> questions_of_liquid[] = {about_density_of_liquid<d>, about_wave<d>, about_fit<d>,
+                                               about_speed_of_liquid<d>, about_room_for_air<d>};
 
 }  // namespace
 
 template <int d>
 void ask_about_liquid(const PreparedScene<d>& prepared, Questions& list) {
   about_gravity<d>(prepared, list);
+  for (const auto* kind : effect_kinds())
+    if (kind->present(prepared.scene)) kind->ask({prepared.scene, prepared.level, prepared.pull}, list);
   if (!prepared.scene.fluid) return;
   for (const auto question : questions_of_liquid<d>) question(prepared, list);
 }

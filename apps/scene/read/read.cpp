@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/read/fill_sizes.hpp"
 #include "apps/scene/read/override.hpp"
 #include "apps/scene/read/parts.hpp"
@@ -45,19 +46,22 @@ void read_tank(Reader& reader, Scene& scene) {
   reader.number("size", tank.size, refined(positive("m", "Use e.g. fluid.size.far."), scene.fluid->size.refine));
 }
 
-void read_gravity(Reader& reader, Scene& scene) {
-  const double standard = -9.81;
-  auto& acceleration = scene.gravity.emplace().acceleration;
-  acceleration = standard * Point::Unit(scene.dimension - 1);
-  reader.point("acceleration", acceleration,
-               any("m/s^2", "Use e.g. " + axis_example(scene.dimension, standard) + "; leave the table out for none."));
-}
-
 void read_output(Reader& reader, Output& output) {
   reader.interval("interval", output.interval, not_negative("s", "Use 0 for a row every step."));
   reader.number("frames", output.frames,
                 not_negative("s", "Use e.g. a hundredth of time.end; leave it out for no frames."));
   reader.number("checkpoint", output.checkpoint, positive("s", "Use wall-clock seconds, e.g. 60."));
+}
+
+/// The tables of effects that stand there, each by its own kind.
+void read_effects(Reader& around, TablePlace place, Scene& scene) {
+  for (const auto* kind : effect_kinds()) {
+    if (kind->place() != place) continue;
+    if (place == TablePlace::array)
+      around.each_table(kind->name(), [&](Reader& reader) { kind->read(reader, scene); });
+    else if (auto reader = around.table(kind->name()))
+      kind->read(*reader, scene);
+  }
 }
 
 SceneLabels read_tables(Reader& root, Scene& scene) {
@@ -69,15 +73,19 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   time.number("cfl", scene.time.cfl, share("Use e.g. 0.5."));
   if (time.holds("end") && time.place("end").line == 0 && !root.context().problems.found_in("time.end"))
     root.context().clip_to = scene.time.end;
-  if (auto fluid = root.table("fluid")) read_fluid(*fluid, scene.fluid.emplace());
+  if (auto fluid = root.table("fluid")) {
+    read_fluid(*fluid, scene.fluid.emplace());
+    read_effects(*fluid, TablePlace::fluid, scene);
+  }
   if (scene.fluid)
     for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
       labels.regions.push_back(fmt::format("fluid.region[{}]", i));
   if (auto tank = root.table("tank")) read_tank(*tank, scene);
-  if (auto gravity = root.table("gravity")) read_gravity(*gravity, scene);
+  read_effects(root, TablePlace::scene, scene);
   root.each_table("body", [&](Reader& reader) {
     labels.bodies.push_back(reader.path());
     read_body(reader, scene.bodies.emplace_back(), scene);
+    read_effects(reader, TablePlace::body, scene);
   });
   root.each_table("joint", [&](Reader& reader) {
     auto joint = read_joint(reader, scene);
@@ -86,6 +94,8 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     scene.joints.push_back(*joint);
   });
   if (auto contact = root.table("contact")) read_contact(*contact, scene.contact.emplace());
+  read_effects(root, TablePlace::after_bodies, scene);
+  read_effects(root, TablePlace::array, scene);
   scene.time.dt_max = default_dt_max(scene);
   time.number("dt_max", scene.time.dt_max,
               refined(positive("s", "Leave it out for a sensible value."), refine_of(scene)));

@@ -107,18 +107,6 @@ void read_fluid(Reader& reader, Fluid& fluid) {
   if (fluid.regions.empty() && !reader.holds("region"))
     reader.context().problems.add_missing(reader.key("region"), "a fluid needs liquid to begin with",
                                           "Write [[fluid.region]] with shape = \"box\", min and max.");
-  if (auto viscosity = reader.table("viscosity")) {
-    auto& target = fluid.viscosity.emplace();
-    viscosity->number("dynamic", target.dynamic,
-                      positive("Pa s", "Use e.g. 1e-3 for water; leave the table out for none."));
-    viscosity->choice("walls", target.walls, {"slip", "no_slip"});
-  }
-  if (auto absorber = reader.table("absorber")) {
-    auto& target = fluid.absorber.emplace();
-    absorber->number("width", target.width, positive("m", "Use one to two of the longest wavelengths."),
-                     Need::required);
-    absorber->number("rate", target.rate, positive("1/s", "Use about the wave's angular frequency."), Need::required);
-  }
 }
 
 void read_coupling(Reader& reader, Coupling& coupling) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/rules/rules.hpp"
 
 namespace splashdown::apps {
@@ -46,14 +47,13 @@ void check_parts(const Scene& scene, const SceneLabels& labels, Problems& proble
 void check_scene(const Scene& read, const SceneLabels& labels, Problems& problems) {
   if (!read.fluid && read.bodies.empty() && !problems.found_in("fluid") && !problems.found_in("body"))
     problems.add("", "the scene is empty: it has neither [fluid] nor [[body]]", "Add one of them.");
-  if (read.fluid && read.fluid->absorber && !read.tank && !problems.found_in("tank"))
-    problems.add("fluid.absorber", "needs a [tank]: it acts along the tank's ends", "Add [tank] or remove the table.");
   // What could not be read must not be judged by its default.
   Scene scene = read;
   if (scene.tank && !problems.found_in("tank")) check_tank(scene, problems);
   if (problems.found_in("tank")) scene.tank.reset();
   if (problems.found_in("time.end")) scene.time.end = std::numeric_limits<double>::infinity();
   check_times(scene, problems);
+  for (const auto* kind : effect_kinds()) kind->check(read, problems);
   scene.dimension == 2 ? check_parts<2>(scene, labels, problems) : check_parts<3>(scene, labels, problems);
 }
 

@@ -90,9 +90,6 @@ void check_region(const Scene& scene, const Region& region, const std::string& l
 template <int d>
 void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& problems) {
   check_sizes(scene, problems);
-  if (scene.fluid->absorber && scene.tank &&
-      2 * scene.fluid->absorber->width > scene.tank->max.x() - scene.tank->min.x())
-    problems.add("fluid.absorber.width", "must not exceed half the tank's length", "Make the tank longer.");
   const auto& regions = scene.fluid->regions;
   Outlines<d> outlines(regions.size());
   for (std::size_t i = 0; i < regions.size(); ++i) {

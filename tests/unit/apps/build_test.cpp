@@ -105,17 +105,18 @@ TEST(FluidSpec, gives_regions_their_velocity_field) {
 
 TEST(Effects, that_a_scene_does_not_name_are_absent) {
   const auto scene = scene_of(testing::wedge_drop_with("[gravity]\nacceleration = [0, -9.81]\n", ""));
-  EXPECT_TRUE(fluid_effects<2>(scene).empty());
-  EXPECT_TRUE(body_forces<2>(scene).empty());
+  const auto parts = parts_of<2>(scene);
+  EXPECT_TRUE(parts.effects.empty());
+  EXPECT_TRUE(parts.forces.empty());
 }
 
 TEST(Effects, that_a_scene_names_are_there_once) {
   const auto scene = scene_of(testing::wedge_drop);
-  const auto effects = fluid_effects<2>(scene);
+  const auto [effects, forces] = parts_of<2>(scene);
   ASSERT_EQ(effects.size(), 1u);
   EXPECT_EQ(effects[0]->name(), "gravity");
   EXPECT_EQ(effects[0]->potential({0, 2}), 2 * 9.81);
-  ASSERT_EQ(body_forces<2>(scene).size(), 1u);
+  ASSERT_EQ(forces.size(), 1u);
 }
 
 TEST(RecorderSettings, points_move_from_the_shapes_frame_to_the_bodys) {

@@ -1,6 +1,8 @@
 // A ball and a tank of water in space, which the tests of stability and the benchmark share.
 #pragma once
 
+#include "fluid/effects/gravity/gravity.hpp"
+#include "rigid/forces/gravity.hpp"
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rigid/forces/gravity.hpp"
 #include "rigid/shapes/shapes.hpp"
 #include "tests/unit/coupling/watched.hpp"
 #include "tests/unit/fluid/scenes.hpp"

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "fluid/effects/viscosity.hpp"
+#include "fluid/effects/viscosity/viscosity.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

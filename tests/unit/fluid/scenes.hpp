@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "fluid/effects/gravity/gravity.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/initial/initial.hpp"
 #include "fluid/mesh/delaunay/delaunay.hpp"

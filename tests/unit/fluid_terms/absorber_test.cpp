@@ -1,4 +1,4 @@
-#include "fluid/effects/absorber.hpp"
+#include "fluid/effects/absorber/absorber.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fluid/effects/gravity/gravity.hpp"
 #include "fluid/fluid.hpp"
 #include "tests/unit/coupling/watched.hpp"
 

@@ -78,7 +78,17 @@ struct Block {
   std::vector<Vec<d>> predict(Effect<d>& effect, std::vector<Wrench<d>>* impulses = nullptr) const {
     NodeCells<d> around;
     around.build(mesh.cells, nodes.size());
-    const StepView<d> view{nodes, mesh, density, kick, lumped_volume, around, walls, poses};
+    const StepView<d> view{.nodes = nodes,
+                           .mesh = mesh,
+                           .density = density,
+                           .kick = kick,
+                           .t = 0,
+                           .dt = kick,
+                           .dt_before = kick,
+                           .lumped_volume = lumped_volume,
+                           .around = around,
+                           .walls = walls,
+                           .poses = poses};
     std::vector<Vec<d>> v = nodes.v;
     std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero());
     if (!effect.begin(view).ok() || !effect.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok()) return {};

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "basin.hpp"
-#include "fluid/effects/viscosity.hpp"
+#include "fluid/effects/viscosity/viscosity.hpp"
 
 namespace splashdown::fluid {
 namespace {

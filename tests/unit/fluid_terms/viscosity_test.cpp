@@ -1,5 +1,5 @@
 // Laws of the viscous predictor on a block of fluid, without pressure.
-#include "fluid/effects/viscosity.hpp"
+#include "fluid/effects/viscosity/viscosity.hpp"
 
 #include <gtest/gtest.h>
 

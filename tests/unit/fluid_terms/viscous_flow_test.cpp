@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "basin.hpp"
-#include "fluid/effects/viscosity.hpp"
+#include "fluid/effects/viscosity/viscosity.hpp"
 
 namespace splashdown::fluid {
 namespace {

@@ -30,7 +30,7 @@ rule("of coupling, a fluid and bodies know what they implement, in one file each
 rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
 rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
   BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/accelerators/")
-rule("schemes and types are chosen in apps/build alone" FILES "^apps/" BUT_FILES "^apps/build/[a-z_]*\\.cpp$"
+rule("schemes and types are chosen in apps/build and apps/effects alone" FILES "^apps/" BUT_FILES "^apps/(build|effects/[a-z_]*)/[a-z_]*\\.cpp$"
   INCLUDES "^((fluid|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
 
 # Rooms within a room.
@@ -60,7 +60,7 @@ rule("of a scene, what is recorded and told knows plain structs" FILES "^apps/(s
   BUT_INCLUDES "^apps/scene/(channel_classes|limit|patch_region)\\.hpp$")
 
 # Layers of the program, from below: a room includes itself and what stands before it.
-set(layers quantity text files process scene statistics record report build check run study price cli)
+set(layers quantity text files process scene effects statistics record report build check run study price cli)
 set(below "")
 foreach(room IN LISTS layers)
   list(APPEND below ${room})

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "rigid/forces/gravity.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
 namespace splashdown::rigid {

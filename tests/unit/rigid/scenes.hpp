@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rigid/bodies.hpp"
+#include "rigid/forces/gravity.hpp"
 #include "rigid/shapes/mass_properties.hpp"
 #include "rigid/shapes/shapes.hpp"
 

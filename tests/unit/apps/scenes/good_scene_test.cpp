@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "apps/effects/viscosity/viscosity.hpp"
 #include "apps/scene/choose/presets.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/numbers.hpp"
@@ -87,13 +88,13 @@ TEST(GoodScene, every_number_that_has_a_name_takes_a_limit) {
 TEST(GoodScene, has_only_the_effects_it_names) {
   const auto scene = scene_of(testing::wedge_drop_with("[gravity]\nacceleration = [0, -9.81]\n", ""));
   EXPECT_FALSE(scene.gravity);
-  EXPECT_FALSE(scene.fluid->viscosity);
-  EXPECT_FALSE(scene.fluid->absorber);
+  EXPECT_TRUE(scene.effects.empty());
   EXPECT_FALSE(scene.output.frames);
   const auto viscous = scene_of(testing::wedge_drop_with("[tank]", "[fluid.viscosity]\n[tank]"));
-  ASSERT_TRUE(viscous.fluid->viscosity);
-  EXPECT_EQ(viscous.fluid->viscosity->dynamic, 1e-3);
-  EXPECT_EQ(viscous.fluid->viscosity->walls, "slip");
+  const auto* viscosity = viscous.effects.find<Viscosity>();
+  ASSERT_TRUE(viscosity);
+  EXPECT_EQ(viscosity->dynamic, 1e-3);
+  EXPECT_EQ(viscosity->walls, "slip");
 }
 
 TEST(GoodScene, takes_element_sizes_from_the_next_coarser_table) {

@@ -1,6 +1,7 @@
 // --set changes any key under the same rules as the file.
 #include <gtest/gtest.h>
 
+#include "apps/effects/viscosity/viscosity.hpp"
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
@@ -36,14 +37,14 @@ TEST(Override, chooses_array_elements_by_name_or_index) {
 
 TEST(Override, adds_keys_and_tables) {
   EXPECT_EQ(with({"time.cfl=0.25"}).time.cfl, 0.25);
-  EXPECT_EQ(with({"fluid.viscosity.dynamic=2"}).fluid->viscosity->dynamic, 2);
-  EXPECT_EQ(with({"fluid.viscosity={}"}).fluid->viscosity->dynamic, 1e-3);
+  EXPECT_EQ(with({"fluid.viscosity.dynamic=2"}).effects.find<Viscosity>()->dynamic, 2);
+  EXPECT_EQ(with({"fluid.viscosity={}"}).effects.find<Viscosity>()->dynamic, 1e-3);
   EXPECT_EQ(with({"coupling.scheme=staggered"}).coupling->scheme, "staggered");
 }
 
 TEST(Override, with_an_empty_value_removes) {
   EXPECT_FALSE(with({"gravity="}).gravity);
-  EXPECT_FALSE(with({"fluid.viscosity={}", "fluid.viscosity="}).fluid->viscosity);
+  EXPECT_FALSE(with({"fluid.viscosity={}", "fluid.viscosity="}).effects.find<Viscosity>());
   EXPECT_EQ(with({"body.wedge.size="}).bodies[0].size, 0.01);
   EXPECT_EQ(refusal("fluid.viscosity="),
             "--set fluid.viscosity=: there is no such key to remove. Give a value behind the equals sign.");

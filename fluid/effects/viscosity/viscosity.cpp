@@ -1,4 +1,4 @@
-#include "fluid/effects/viscosity.hpp"
+#include "fluid/effects/viscosity/viscosity.hpp"
 
 #include <algorithm>
 

@@ -1,0 +1,28 @@
+// [fluid.absorber]: numerical beaches at the ends of the tank.
+#pragma once
+
+#include "apps/scene/effect_kind.hpp"
+
+namespace splashdown::apps {
+
+struct Absorber {
+  double width = 0;  ///< of the zone at each end of the tank [m]
+  double rate = 0;   ///< damping rate at the wall; rises smoothly from 0 at the zone's edge [1/s]
+};
+
+class AbsorberKind final : public EffectOf<AbsorberKind, Absorber> {
+ public:
+  std::string_view name() const override { return "absorber"; }
+  TablePlace place() const override { return TablePlace::fluid; }
+  void read(Reader& reader, Scene& scene) const override;
+  void check(const Scene& scene, Problems& problems) const override;
+  void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
+  std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+
+ private:
+  friend EffectOf;
+  template <int d>
+  void build_in(const Scene& scene, const EffectParts<d>& parts) const;
+};
+
+}  // namespace splashdown::apps

@@ -1,0 +1,26 @@
+// The catalogue: a row an effect.
+#include "apps/effects/absorber/absorber.hpp"
+#include "apps/effects/gravity/gravity.hpp"
+#include "apps/effects/viscosity/viscosity.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+template <class Kind>
+const EffectKind* row() {
+  static const Kind kind;
+  return &kind;
+}
+
+}  // namespace
+
+std::span<const EffectKind* const> effect_kinds() {
+  static const EffectKind* const catalogue[] = {
+      row<GravityKind>(),
+      row<ViscosityKind>(),
+      row<AbsorberKind>(),
+  };
+  return catalogue;
+}
+
+}  // namespace splashdown::apps

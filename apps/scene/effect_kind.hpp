@@ -1,0 +1,105 @@
+// What the program knows of an effect: its table, rules, parts, numbers and questions. One folder in apps/effects and one row in
+// apps/effects/registry.cpp make an effect known to reader, schema, check, build, run and report.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/scene/scales.hpp"
+#include "apps/scene/scene.hpp"
+
+namespace splashdown::fluid {
+template <int d>
+class Effect;
+template <int d>
+struct FluidSpec;
+}  // namespace splashdown::fluid
+namespace splashdown::rigid {
+template <int d>
+class Force;
+}  // namespace splashdown::rigid
+
+namespace splashdown::apps {
+
+class Problems;
+class Reader;
+
+/// What effects add to a simulation.
+template <int d>
+struct EffectParts {
+  std::vector<std::unique_ptr<fluid::Effect<d>>>& fluid;  ///< terms of the fluid's equations
+  std::vector<std::unique_ptr<rigid::Force<d>>>& forces;  ///< on bodies
+};
+
+/// What questions of `check` about an effect need to know besides its table.
+struct AskedScene {
+  const Scene& scene;
+  std::optional<double> level;  ///< of still water [m]
+  double pull = 0;              ///< downward component of gravity [m/s^2]
+};
+
+/// Where the table of an effect stands.
+enum class TablePlace {
+  scene,         ///< [NAME], read before the bodies
+  after_bodies,  ///< [NAME] that may name bodies
+  array,         ///< [[NAME]] after the bodies, read once for each element
+  fluid,         ///< [fluid.NAME]
+  body           ///< [body.NAME]; read for the last of scene.bodies
+};
+
+/// An effect of the catalogue. Made once, without state.
+class EffectKind {
+ public:
+  virtual ~EffectKind() = default;
+  virtual std::string_view name() const = 0;                                   ///< of its table
+  virtual TablePlace place() const { return TablePlace::scene; }               ///< of its table
+  virtual bool present(const Scene& scene) const = 0;                          ///< the scene has the table
+  virtual void read(Reader& reader, Scene& scene) const = 0;                   ///< its table, which is there
+  virtual void check(const Scene& /*scene*/, Problems& /*problems*/) const {}  ///< rules that join several keys
+  virtual void ask(const AskedScene& /*asked*/, std::vector<std::string>& /*questions*/) const {}
+  /// Whether it matters in this scene, present or absent, by which numbers; nothing: not a word about it.
+  virtual std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const = 0;
+  /// Changes what the fluid is made from; after its own regions and walls are in.
+  virtual void prepare(const Scene& scene, fluid::FluidSpec<2>& spec) const = 0;
+  virtual void prepare(const Scene& scene, fluid::FluidSpec<3>& spec) const = 0;
+  /// Adds its parts; called only where it is present. Without a fluid in the scene parts of the fluid are dropped.
+  virtual void build(const Scene& scene, const EffectParts<2>& parts) const = 0;
+  virtual void build(const Scene& scene, const EffectParts<3>& parts) const = 0;
+};
+
+/// An effect whose table is a `Table` in Scene::effects. `Kind` may have build_in<d>, prepare_in<d>.
+template <class Kind, class Table>
+class EffectOf : public EffectKind {
+ public:
+  bool present(const Scene& scene) const override { return scene.effects.find<Table>() != nullptr; }
+  void prepare(const Scene& scene, fluid::FluidSpec<2>& spec) const override {
+    self().template prepare_in<2>(scene, spec);
+  }
+  void prepare(const Scene& scene, fluid::FluidSpec<3>& spec) const override {
+    self().template prepare_in<3>(scene, spec);
+  }
+  void build(const Scene& scene, const EffectParts<2>& parts) const override {
+    self().template build_in<2>(scene, parts);
+  }
+  void build(const Scene& scene, const EffectParts<3>& parts) const override {
+    self().template build_in<3>(scene, parts);
+  }
+
+ protected:
+  template <int d>
+  void prepare_in(const Scene& /*scene*/, fluid::FluidSpec<d>& /*spec*/) const {}
+  template <int d>
+  void build_in(const Scene& /*scene*/, const EffectParts<d>& /*parts*/) const {}
+
+ private:
+  const Kind& self() const { return static_cast<const Kind&>(*this); }
+};
+
+/// All effects, in the order in which they are read, built and told (apps/effects/registry.cpp).
+std::span<const EffectKind* const> effect_kinds();
+
+}  // namespace splashdown::apps

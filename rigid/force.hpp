@@ -1,0 +1,40 @@
+// Forces on bodies besides the fluid's load: present in a scene or absent, never switched.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rigid/body.hpp"
+
+namespace splashdown::rigid {
+
+/// What forces see of all bodies. World frame.
+template <int d>
+struct BodiesAt {
+  std::span<const BodySpec<d>> specs;    ///< as they were made
+  std::span<const BodyState<d>> states;  ///< poses at t_n, velocities at t_{n-1/2}
+  /// Of each hull's measure, what was wet in the last step, 0 to 1.
+  std::span<const double> wetted_share;
+  double time;      ///< t_n [s]
+  double kick = 0;  ///< over which forces of this step act [s]; 0: none is begun
+  double dt = 0;    ///< of this step [s]; 0: none is begun
+};
+
+/// A force on one body or on several. It is taken at t_n, and explicit in velocities: what is stiff bounds the step or belongs
+/// to the inertia, like the springs of joints.
+template <int d>
+class Force {
+ public:
+  virtual ~Force() = default;
+  virtual std::string name() const = 0;  ///< of its table
+  /// Adds to the wrench on each body about its centre of mass, world frame [N, N m; 2D: N/m, N]. The same for the same.
+  virtual void add(const BodiesAt<d>& at, std::span<Wrench<d>> wrenches) const = 0;
+  /// Largest dt from t_n for which it is stable [s]; infinity: it sets none.
+  virtual double stable_dt(const BodiesAt<d>& /*at*/) const { return std::numeric_limits<double>::infinity(); }
+  /// Numbers at t_n, always of the same names.
+  virtual std::vector<Diagnostic> diagnostics(const BodiesAt<d>& /*at*/) const { return {}; }
+};
+
+}  // namespace splashdown::rigid
