@@ -2,6 +2,7 @@
 
 #include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/joint_kinds.hpp"
 #include "core/geometry.hpp"
 
 namespace splashdown::apps {
@@ -119,13 +120,11 @@ rigid::BodySpec<d> body_spec(const Body& body) {
 std::vector<rigid::JointSpec> joint_specs(const Scene& scene) {
   std::vector<rigid::JointSpec> specs;
   for (const auto& joint : scene.joints) {
-    const auto type = joint.type == "slider" ? rigid::JointType::slider
-                      : joint.type == "weld" ? rigid::JointType::weld
-                                             : rigid::JointType::hinge;
+    const auto& kind = kind_of(joint);
     // A weld has no place of its own; the body's reference point is as good as any.
-    const Point point = joint.type == "hinge" ? joint.point : scene.bodies[joint.body].position;
-    rigid::JointSpec spec{type, joint.body, joint.other, point, joint.axis.normalized()};
-    const double unit = joint.type == "hinge" ? radians : 1;
+    const Point point = kind.turns ? joint.point : scene.bodies[joint.body].position;
+    rigid::JointSpec spec{kind.type, joint.body, joint.other, point, joint.axis.normalized()};
+    const double unit = kind.turns ? radians : 1;
     if (!joint.limits.empty()) spec.stops = {unit * joint.limits[0], unit * joint.limits[1]};
     if (joint.stiffness > 0 || joint.damping > 0)
       spec.spring = rigid::Spring{joint.stiffness, joint.damping, unit * joint.rest};

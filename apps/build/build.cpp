@@ -1,5 +1,6 @@
 #include "apps/build/build.hpp"
 
+#include "apps/scene/coupling_kinds.hpp"
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"
 #include "fluid/participant.hpp"
@@ -10,27 +11,12 @@ namespace {
 
 using coupling::CouplingLimits;
 
-std::unique_ptr<coupling::InterfaceTerm> interface_term(const Coupling& coupling) {
-  if (coupling.interface_term == "laplacian") return std::make_unique<coupling::LaplacianTerm>();
-  if (coupling.interface_term == "robin") return std::make_unique<coupling::RobinTerm>();
-  return std::make_unique<coupling::NoTerm>();
-}
-
-std::unique_ptr<coupling::Accelerator> accelerator(const Coupling& coupling) {
-  if (coupling.accelerator == "aitken") return std::make_unique<coupling::Aitken>(coupling.relaxation);
-  if (coupling.accelerator == "anderson")
-    return std::make_unique<coupling::Anderson>(coupling.relaxation, static_cast<std::size_t>(coupling.depth));
-  if (coupling.accelerator == "broyden") return std::make_unique<coupling::Broyden>(coupling.relaxation);
-  if (coupling.accelerator == "iqn_ils")
-    return std::make_unique<coupling::IqnIls>(coupling.relaxation, static_cast<std::size_t>(coupling.reuse));
-  if (coupling.accelerator == "probe") return std::make_unique<coupling::Probe>(coupling.relaxation);
-  return std::make_unique<coupling::ConstantRelaxation>(coupling.relaxation);
-}
-
 CouplingLimits limits(const Coupling& coupling) {
   return {.tolerance = coupling.tolerance,
           .max_passes = coupling.max_passes,
-          .fixed_passes = coupling.scheme == "staggered" ? (coupling.accelerator == "probe" ? 2 : 1) : 0};
+          .fixed_passes = coupling.scheme == "staggered"
+                              ? named_kind(accelerator_kinds(), coupling.accelerator).staggered_passes
+                              : 0};
 }
 
 /// Bodies that the fluid cannot move have nothing to agree about: one pass without a term.
@@ -56,10 +42,12 @@ std::unique_ptr<coupling::StructurePart> build_bodies(const Scene& scene, World<
 
 std::unique_ptr<coupling::Stepper> coupled_stepper(const Coupling& coupling, std::unique_ptr<coupling::FluidPart> fluid,
                                                    std::unique_ptr<coupling::StructurePart> bodies) {
-  if (coupling.interface_term == "rigid")
+  const auto& term = named_kind(interface_kinds(), coupling.interface_term);
+  if (!term.make)
     return std::make_unique<coupling::Simultaneous>(std::move(fluid), std::move(bodies), coupling.max_passes);
-  return std::make_unique<coupling::Partitioned>(std::move(fluid), std::move(bodies), interface_term(coupling),
-                                                 accelerator(coupling), limits(coupling));
+  return std::make_unique<coupling::Partitioned>(std::move(fluid), std::move(bodies), term.make(),
+                                                 named_kind(accelerator_kinds(), coupling.accelerator).make(coupling),
+                                                 limits(coupling));
 }
 
 }  // namespace

@@ -13,7 +13,9 @@
 #include "apps/check/words.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/scene/choose/sizes.hpp"
+#include "apps/scene/coupling_kinds.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/joint_kinds.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/text/number_text.hpp"
@@ -33,7 +35,7 @@ namespace {
 
 /// What limits a joint and draws it back.
 std::string play_text(const Joint& joint, int dimension) {
-  const bool hinge = joint.type == "hinge";
+  const bool hinge = kind_of(joint).turns;
   const std::string way = hinge ? "deg" : "m", force = hinge ? "N m" : "N",
                     depth = dimension == 2 ? " per m of depth" : "";
   std::string text;
@@ -54,9 +56,9 @@ template <int d>
 void print_ties(const Scene& scene) {
   for (const auto& joint : scene.joints) {
     const std::string other = joint.other ? scene.bodies[*joint.other].name : "the world";
-    const std::string where = joint.type == "hinge"    ? fmt::format(" at {} m", text<d>(vec<d>(joint.point)))
-                              : joint.type == "slider" ? fmt::format(" along {}", text<d>(vec<d>(joint.axis)))
-                                                       : "";
+    const std::string where = kind_of(joint).turns    ? fmt::format(" at {} m", text<d>(vec<d>(joint.point)))
+                              : kind_of(joint).slides ? fmt::format(" along {}", text<d>(vec<d>(joint.axis)))
+                                                      : "";
     row(joint.type, fmt::format("{} to {}{}{}", scene.bodies[joint.body].name, other, where, play_text(joint, d)));
   }
   if (scene.contact)
@@ -86,8 +88,7 @@ void print_effects(const Scene& scene) {
   if (!scene.coupling) return;
   const auto& c = *scene.coupling;
   std::string accelerator = fmt::format("accelerator {} from relaxation {:g}", c.accelerator, c.relaxation);
-  if (c.accelerator == "anderson") accelerator += fmt::format(", depth {}", c.depth);
-  if (c.accelerator == "iqn_ils") accelerator += fmt::format(", reuse {}", c.reuse);
+  if (const auto details = named_kind(accelerator_kinds(), c.accelerator).details) accelerator += ", " + details(c);
   row("coupling", fmt::format("{}, interface term {}, {}, tolerance {:g}, at most {} passes", c.scheme,
                               c.interface_term, accelerator, c.tolerance, c.max_passes));
 }

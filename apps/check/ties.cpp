@@ -7,6 +7,7 @@
 
 #include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/joint_kinds.hpp"
 #include "rigid/ties.hpp"
 
 namespace splashdown::apps {
@@ -45,7 +46,7 @@ std::string named(const Scene& scene, const std::vector<std::size_t>& joints) {
 bool plays(const Joint& joint) { return joint.stiffness > 0 || joint.damping > 0 || !joint.limits.empty(); }
 
 bool all_welds(const Scene& scene, const std::vector<std::size_t>& joints) {
-  return std::ranges::all_of(joints, [&](std::size_t j) { return scene.joints[j].type == "weld"; });
+  return std::ranges::all_of(joints, [&](std::size_t j) { return !kind_of(scene.joints[j]).moves(); });
 }
 
 /// When the first body on a path sets out [s]; infinite if none does.

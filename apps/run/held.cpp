@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/joint_kinds.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -13,7 +14,7 @@ constexpr double balanced = 1e-3;  // of weight and load: what a mesh does not r
 
 bool is_welded(const Scene& scene, std::size_t body) {
   return std::ranges::any_of(scene.joints, [&](const Joint& joint) {
-    return joint.type == "weld" && (joint.body == body || joint.other == body);
+    return !kind_of(joint).moves() && (joint.body == body || joint.other == body);
   });
 }
 

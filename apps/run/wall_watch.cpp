@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "apps/scene/joint_kinds.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -21,7 +23,7 @@ Surface<d> placed(Surface<d> hull, const Isometry<d>& pose) {
 }
 
 bool turns_about_the_world(const Scene& scene, const Joint& joint) {
-  return joint.type == "hinge" && (!joint.other || scene.bodies[*joint.other].motion != Motion::free);
+  return kind_of(joint).turns && (!joint.other || scene.bodies[*joint.other].motion != Motion::free);
 }
 
 /// The place on a hinge's axis that a point turns about.

@@ -7,6 +7,7 @@
 #include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/ties.hpp"
 #include "apps/check/words.hpp"
+#include "apps/scene/joint_kinds.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -85,12 +86,12 @@ void about_joints(const PreparedScene<d>& prepared, Questions& list) {
     const auto& joint = prepared.scene.joints[j];
     const auto& of = prepared.bodies[joint.body];
     const double length = of.box.sizes().maxCoeff(), away = of.box.exteriorDistance(vec<d>(joint.point));
-    if (joint.type == "hinge" && away > far * length)
+    if (kind_of(joint).turns && away > far * length)
       list.push_back(
           fmt::format("joint[{}].point = {} m lies {:.3g} m from '{}', {} times its length: did you mean a point of it "
                       "in the world's frame, which spans {} m?",
                       j, text<d>(vec<d>(joint.point)), away, of.body->name, rough(away / length), text<d>(of.box)));
-    const bool turns = joint.type == "hinge";
+    const bool turns = kind_of(joint).turns;
     for (const double limit : joint.limits)
       if (std::abs(limit) > (turns ? whole_turn : 10 * far * length))
         list.push_back(fmt::format("joint[{}].limits{} = {:g}: {}: did you mean {:g}?", j, turns ? "_deg" : "", limit,
@@ -108,12 +109,12 @@ void about_springs(const PreparedScene<d>& prepared, Questions& list) {
     const auto& body = prepared.scene.bodies[joint.body];
     if (joint.stiffness <= 0 || body.motion != Motion::free || prepared.pull <= 0) continue;
     const double mass = mass_properties<d>(body).mass, length = prepared.bodies[joint.body].box.sizes().maxCoeff();
-    const double lever = joint.type == "hinge" ? length : 1;
-    const double yields = mass * prepared.pull * lever / joint.stiffness / (joint.type == "hinge" ? 1 : length);
+    const double lever = kind_of(joint).turns ? length : 1;
+    const double yields = mass * prepared.pull * lever / joint.stiffness / (kind_of(joint).turns ? 1 : length);
     if (mass == 0 || (yields <= softest && yields >= stiffest)) continue;
     list.push_back(
         fmt::format("joint[{}].stiffness = {:g}: under the weight of '{}' it yields by {:.2g} {}: did you mean {:g}?",
-                    j, joint.stiffness, body.name, yields, joint.type == "hinge" ? "rad" : "times its length",
+                    j, joint.stiffness, body.name, yields, kind_of(joint).turns ? "rad" : "times its length",
                     yields > softest ? joint.stiffness * 1000 : joint.stiffness / 1000));
   }
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "apps/scene/coupling_kinds.hpp"
 #include "apps/scene/read/parts.hpp"
 
 namespace splashdown::apps {
@@ -48,15 +49,30 @@ struct Centre {
   }
 };
 
+/// A shape that liquid may have, with its defaults.
+struct RegionType {
+  const char* name;
+  bool in_plane, in_space;
+  decltype(Region::shape) shape;
+  bool in(int dimension) const { return dimension == 2 ? in_plane : in_space; }
+};
+std::vector<RegionType> region_types() {
+  return {{"box", true, true, BoxRegion{}},
+          {"circle", true, false, CircleRegion{}},
+          {"ellipse", true, false, EllipseRegion{}},
+          {"polygon", true, false, PolygonRegion{}},
+          {"sphere", false, true, SphereRegion{}}};
+}
+
 void read_region(Reader& reader, Region& region) {
   const int dimension = reader.context().dimension;
   std::string shape = "box";
-  const Reader::Names planar{"box", "circle", "ellipse", "polygon"}, spatial{"box", "sphere"};
-  if (!reader.choice("shape", shape, dimension == 2 ? planar : spatial, Need::required)) return reader.skip_all();
-  if (shape == "circle") region.shape = CircleRegion{};
-  if (shape == "ellipse") region.shape = EllipseRegion{};
-  if (shape == "polygon") region.shape = PolygonRegion{};
-  if (shape == "sphere") region.shape = SphereRegion{};
+  Reader::Names names;
+  for (const auto& type : region_types())
+    if (type.in(dimension)) names.emplace_back(type.name);
+  if (!reader.choice("shape", shape, names, Need::required)) return reader.skip_all();
+  for (const auto& type : region_types())
+    if (type.in(dimension) && type.name == shape) region.shape = type.shape;
   std::visit(ReadRegionShape{reader}, region.shape);
   reader.point(
       "velocity", region.velocity,
@@ -111,8 +127,8 @@ void read_fluid(Reader& reader, Fluid& fluid) {
 
 void read_coupling(Reader& reader, Coupling& coupling) {
   reader.choice("scheme", coupling.scheme, {"iterated", "staggered"});
-  reader.choice("interface_term", coupling.interface_term, {"rigid", "laplacian", "robin", "none"});
-  reader.choice("accelerator", coupling.accelerator, {"constant", "aitken", "anderson", "broyden", "iqn_ils", "probe"});
+  reader.choice("interface_term", coupling.interface_term, names_of(interface_kinds()));
+  reader.choice("accelerator", coupling.accelerator, names_of(accelerator_kinds()));
   reader.number("relaxation", coupling.relaxation, share("Use 1 unless the coupling diverges."));
   reader.integer("depth", coupling.depth, within(1, 10000, "", "Use e.g. 50: passes that anderson remembers."));
   reader.integer("reuse", coupling.reuse, within(0, 100, "", "Use 0 to 8: past steps that iqn_ils learns from."));

@@ -1,3 +1,4 @@
+#include "apps/scene/joint_kinds.hpp"
 #include "apps/scene/read/parts.hpp"
 
 namespace splashdown::apps {
@@ -5,7 +6,7 @@ namespace {
 
 /// How far a hinge or slider may move, and what draws it back.
 void read_play(Reader& reader, Joint& joint, int dimension) {
-  const bool hinge = joint.type == "hinge", plane = dimension == 2;
+  const bool hinge = kind_of(joint).turns, plane = dimension == 2;
   const std::string unit = hinge ? "deg" : "m";
   reader.numbers(hinge ? "limits_deg" : "limits", joint.limits,
                  any(unit, std::string("Use how far it may go back and forth from its place at t = 0, e.g. ") +
@@ -23,25 +24,26 @@ void read_play(Reader& reader, Joint& joint, int dimension) {
 
 std::optional<Joint> read_joint(Reader& reader, const Scene& scene) {
   Joint joint;
-  if (!reader.choice("type", joint.type, {"hinge", "slider", "weld"}, Need::required)) {
+  if (!reader.choice("type", joint.type, joint_names(), Need::required)) {
     reader.skip_all();
     return {};
   }
   const auto body = read_body_name(reader, "body", scene, Need::required, "joint");
   joint.body = body.value_or(0);
   joint.other = read_body_name(reader, "other", scene, Need::optional, "joint");
-  if (joint.type == "hinge")
+  const auto& kind = kind_of(joint);
+  if (kind.turns)
     reader.point("point", joint.point,
                  any("m", "Use the place of the hinge at t = 0, e.g. " + axis_example(scene.dimension, 0.5) + "."),
                  Need::required);
-  const bool slides = joint.type == "slider", turns_in_space = joint.type == "hinge" && scene.dimension == 3;
-  if (slides || turns_in_space) {
+  const bool turns_in_space = kind.turns && scene.dimension == 3;
+  if (kind.slides || turns_in_space) {
     joint.axis = Point::Zero();
-    const std::string what = slides ? "direction of the motion" : "axis that it turns about";
+    const std::string what = kind.slides ? "direction of the motion" : "axis that it turns about";
     reader.point("axis", joint.axis, any("", "Use the " + what + ", e.g. " + axis_example(scene.dimension, 1) + "."),
                  Need::required);
   }
-  if (joint.type != "weld") read_play(reader, joint, scene.dimension);
+  if (kind.moves()) read_play(reader, joint, scene.dimension);
   return body ? std::optional(joint) : std::nullopt;
 }
 

@@ -49,43 +49,60 @@ void read_maximum_pressure(Reader& reader, Scene& scene) {
   scene.records.emplace_back(std::move(entry));
 }
 
+void read_pressure(Reader& reader, Scene& scene) {
+  PressureEntry entry;
+  read_name(reader, entry.name, "keel");
+  entry.body = read_body_name(reader, "body", scene, Need::optional, "record");
+  reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
+  scene.records.emplace_back(std::move(entry));
+}
+
+void read_elevation(Reader& reader, Scene& scene) {
+  ElevationEntry entry;
+  read_name(reader, entry.name, "keel");
+  const Rule place = any("m", "Use the gauge's horizontal place.");
+  reader.number("x", entry.x, place, Need::required);
+  if (reader.context().dimension == 3) reader.number("y", entry.y, place, Need::required);
+  scene.records.emplace_back(std::move(entry));
+}
+
+void read_acceleration(Reader& reader, Scene& scene) {
+  AccelerationEntry entry;
+  read_name(reader, entry.name, "keel");
+  entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
+  reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
+  scene.records.emplace_back(std::move(entry));
+}
+
+void read_added_mass(Reader& reader, Scene& scene) {
+  AddedMassEntry entry;
+  entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
+  read_instants(reader, entry);
+  scene.records.emplace_back(std::move(entry));
+}
+
+/// A kind of record and who reads its keys.
+struct RecordKind {
+  std::string_view name;
+  void (*read)(Reader& reader, Scene& scene);
+};
+constexpr RecordKind record_kinds[] = {{"pressure", read_pressure},
+                                       {"pressure_patch", read_patch},
+                                       {"maximum_pressure", read_maximum_pressure},
+                                       {"surface_pressure", read_surface_pressure},
+                                       {"surface_elevation", read_elevation},
+                                       {"acceleration", read_acceleration},
+                                       {"added_mass", read_added_mass}};
+
 }  // namespace
 
 void read_record(Reader& reader, Scene& scene) {
-  std::string kind;
-  if (!reader.choice("kind", kind,
-                     {"pressure", "pressure_patch", "maximum_pressure", "surface_pressure", "surface_elevation",
-                      "acceleration", "added_mass"},
-                     Need::required))
-    return reader.skip_all();
-  if (kind == "surface_pressure") return read_surface_pressure(reader, scene);
-  if (kind == "pressure_patch") return read_patch(reader, scene);
-  if (kind == "maximum_pressure") return read_maximum_pressure(reader, scene);
-  if (kind == "pressure") {
-    PressureEntry entry;
-    read_name(reader, entry.name, "keel");
-    entry.body = read_body_name(reader, "body", scene, Need::optional, "record");
-    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
-    scene.records.emplace_back(std::move(entry));
-  } else if (kind == "surface_elevation") {
-    ElevationEntry entry;
-    read_name(reader, entry.name, "keel");
-    const Rule place = any("m", "Use the gauge's horizontal place.");
-    reader.number("x", entry.x, place, Need::required);
-    if (reader.context().dimension == 3) reader.number("y", entry.y, place, Need::required);
-    scene.records.emplace_back(std::move(entry));
-  } else if (kind == "acceleration") {
-    AccelerationEntry entry;
-    read_name(reader, entry.name, "keel");
-    entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
-    reader.point("point", entry.point, place_rule(reader.context().dimension), Need::required);
-    scene.records.emplace_back(std::move(entry));
-  } else if (kind == "added_mass") {
-    AddedMassEntry entry;
-    entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
-    read_instants(reader, entry);
-    scene.records.emplace_back(std::move(entry));
-  }
+  std::string name;
+  Reader::Names names;
+  for (const auto& kind : record_kinds) names.emplace_back(kind.name);
+  if (!reader.choice("kind", name, names, Need::required)) return reader.skip_all();
+  for (const auto& kind : record_kinds)
+    if (kind.name == name) kind.read(reader, scene);
 }
 
 }  // namespace splashdown::apps

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "apps/scene/joint_kinds.hpp"
 #include "apps/scene/rules/check.hpp"
 #include "apps/scene/rules/rules.hpp"
 
@@ -21,11 +22,12 @@ void check_joints(const Scene& scene, const SceneLabels& labels, Problems& probl
                    "Remove the joint, or free a body.");
     if (joint.axis.isZero(0) && !problems.found_in(label + ".axis"))
       problems.add(label + ".axis", "must have a direction", "Use e.g. " + axis_example(scene.dimension, 1) + ".");
-    const std::string in_degrees = joint.type == "hinge" ? "_deg" : "";
+    const auto& kind = kind_of(joint);
+    const std::string in_degrees(kind.in_degrees());
     const auto& limits = joint.limits;
     if (!limits.empty() && !(limits.size() == 2 && limits[0] <= 0 && limits[1] >= 0))
       problems.add(label + ".limits" + in_degrees, "must be two numbers around 0, the place at t = 0",
-                   joint.type == "hinge" ? "Use e.g. [-30.0, 45.0]." : "Use e.g. [-0.1, 0.3].");
+                   kind.turns ? "Use e.g. [-30.0, 45.0]." : "Use e.g. [-0.1, 0.3].");
     if (joint.rest != 0 && joint.stiffness == 0)
       problems.add(label + ".rest" + in_degrees, "there is no spring that could be relaxed",
                    "Add a stiffness, or remove it.");
