@@ -53,6 +53,9 @@ struct Ledger {
   double work_on_walls = 0;  ///< integral of load . wall velocity: to t_n like the energies, after commit to t_{n+1/2}
   /// Work of effects on the water, of those that book it (waves that are kept alive, friction of hulls): to t_{n-1/2}.
   double work_of_effects = 0;
+  double volume_of_effects = 0;  ///< that effects have brought in, negative: taken away (PressureTerms)
+  /// Volume gained or lost against what there should be [m^d].
+  double volume_excess() const { return volume + spray - volume_initial - volume_of_effects; }
 };
 
 /// World frame; of the step under way between its begin and its commit, else of t_n.

@@ -175,6 +175,21 @@ bool Fluid<d>::release_fragment() {
   return true;
 }
 
+// What terms of effects have made of the volume is no debt of the mesh.
+template <int d>
+double Fluid<d>::State::book_sources() {
+  std::vector<double> rate(static_cast<std::size_t>(equation.size()), 0.0);
+  equation.add_sources(rate, trial.phi);
+  double sum = 0;
+  for (std::size_t i = 0; i < work.nodes.size(); ++i) {
+    const int k = equation.unknown()[i];
+    if (k < 0 || rate[k] == 0) continue;
+    work.nodes.owed[i] += dt * rate[k];
+    sum += dt * rate[k];
+  }
+  return sum;
+}
+
 template <int d>
 void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   State& s = *s_;
@@ -201,14 +216,15 @@ void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   carry<d>(nodes, moved_volumes);
   entrain(nodes, s.work.mesh, s.equation.around(), s.equation.unknown(), s.equation.lumped_volume());
   s.follow_hulls(poses);
-  const double swept = s.water();
+  const double swept = s.water(), meant = s.book_sources();
   carry<d>(nodes, return_volume(nodes, s.work.mesh, arrived, s.free_water, moved_volumes, s.equation.lumped_volume()));
   s.free_water.give_back(s.trial.free_water, nodes.volume, nodes.v);
   average_wall_pressure<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.equation.unknown(),
                            s.trial.repaired, s.kick);
   ventilate<d>(nodes, s.work.mesh, arrived, s.result.wall_velocities, s.spec.density, s.gravity().norm());
   ledger.volume = s.water();
-  ledger.time_integration += swept - before;
+  ledger.time_integration += swept - before - meant;
+  ledger.volume_of_effects += meant;
   ledger.returned += ledger.volume - swept;
   ledger.energy_repair += s.trial.energy_repaired - s.trial.energy_before;
   ledger.work_on_walls = s.now.ledger.work_on_walls + s.kick * s.result.power_on_walls;

@@ -76,6 +76,7 @@ struct Trial {
   std::vector<Vec<d>> x_mid;                     ///< where a motion is judged
   std::vector<double> r, repaired;               ///< residual, repair impulse
   std::vector<Wrench<d>> on_walls;               ///< impulses of effects
+  std::vector<double> of_surface;                ///< impulses of a pressure on the surface, of nodes; empty: none
   std::vector<Wrench<d>> handed, repair_handed;  ///< impulses of held nodes: physical, of the repair
   Eigen::VectorXd known, answer;                 ///< impulses on the motions besides the pressure's, and what they did
   Eigen::VectorXd unanswered;                    ///< impulses that the motions have yet to answer
@@ -224,8 +225,10 @@ struct Fluid<d>::State {
   Status what_is_left(std::span<const double> previous, Correction<d>& left);
   /// Effects' terms of the pressure equation.
   Status add_pressure_terms();
-  /// The velocity that a pressure on the free surface gives in a kick.
+  /// Takes in a pressure on the free surface: continued into the water, what the pressure equation finds is the rest.
   void push_surface();
+  /// Tells nodes what effects' terms make of their volume in the step; its sum [m^d].
+  double book_sources();
   /// Loads, pressures and energies of the solution.
   void evaluate(StepResult<d>& found);
   /// Loads on walls, means over the kick.

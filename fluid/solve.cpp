@@ -173,10 +173,12 @@ Status Fluid<d>::State::predict(const ClosedContacts& contacts) {
 
 template <int d>
 void Fluid<d>::State::push_surface() {
+  trial.of_surface.clear();
   if (terms.surface_pressure.empty()) return;
-  std::vector<double> impulse(terms.surface_pressure.size());
-  for (std::size_t i = 0; i < impulse.size(); ++i) impulse[i] = kick * terms.surface_pressure[i];
-  equation.push_surface(impulse, trial.v);
+  const auto scope = timer.scope(Phase::pressure);
+  for (const double p : terms.surface_pressure) trial.of_surface.push_back(kick * p);
+  trial.of_surface = equation.continued(trial.of_surface);
+  equation.push(trial.of_surface, trial.v, trial.on_walls);
 }
 
 // The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
@@ -310,6 +312,7 @@ void Fluid<d>::State::evaluate_pressure(StepResult<d>& found) const {
     const double smooth = of_all > 0 ? sum / of_all : 0.0;
     found.pressure[i] = found.carried[i] + (smooth - corrected[i]) / kick;
   });
+  for (std::size_t i = 0; i < trial.of_surface.size(); ++i) found.pressure[i] += trial.of_surface[i] / kick;
 }
 
 template <int d>

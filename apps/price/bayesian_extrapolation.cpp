@@ -1,3 +1,5 @@
+// Boost's 80-bit numbers, which it would use for doubles, are more than a band needs, and end a run under valgrind.
+#define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
 #include "apps/price/bayesian_extrapolation.hpp"
 
 #include <Eigen/Dense>

@@ -125,10 +125,11 @@ void RunStatistics::add_mesh(std::size_t node_count, std::size_t element_count) 
 LedgerSummary summary_of(const Ledger& ledger) {
   LedgerSummary summary;
   summary.volume_initial = ledger.volume_initial;
+  summary.volume_excess = ledger.volume_excess();
   summary.volume_final = ledger.volume;
   // Spray has left the mesh but not the world.
   if (ledger.volume_initial > 0)
-    summary.volume_error = (ledger.volume + ledger.spray - ledger.volume_initial) / ledger.volume_initial;
+    summary.volume_error = ledger.volume_excess() / ledger.volume_initial;
   summary.time_integration = ledger.time_integration;
   summary.remesh_created = ledger.remesh_created;
   summary.remesh_deleted = ledger.remesh_deleted;

@@ -141,6 +141,8 @@ template <int d>
 void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
   modes_.resize(centres.size());
   for (auto& m : modes_) m.clear();
+  still_modes_.resize(centres.size());
+  for (auto& m : still_modes_) m.clear();
   for (const auto& f : mesh_->boundary) {
     if (f.wall < 0) continue;
     // int N_a n dA with the arm varying linearly along the facet: consistent facet mass matrix.
@@ -148,9 +150,11 @@ void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
     Vec<d> sum = Vec<d>::Zero();
     for (int n : f.nodes) sum += nodes_->x[n] - centres[f.wall];
     for (int n : f.nodes) {
-      if (unknown_[n] < 0) continue;
-      const Vec<d> arm = (sum + nodes_->x[n] - centres[f.wall]) / (d + 1);
-      modes_[f.wall].push_back({unknown_[n], wrench_of<d>(arm, area / d)});
+      const Wrench<d> row = wrench_of<d>((sum + nodes_->x[n] - centres[f.wall]) / (d + 1), area / d);
+      if (unknown_[n] >= 0)
+        modes_[f.wall].push_back({unknown_[n], row});
+      else
+        still_modes_[f.wall].push_back({n, row});
     }
   }
 }

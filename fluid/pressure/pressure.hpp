@@ -134,8 +134,11 @@ class PressureEquation {
   /// v -= M^-1 (int N grad phi - int_surface N phi n), M^-1 = (1 + z + 2 z^2) M_L^-1, z = 1 - M_L^-1 M_C: lumped mass M_L and
   /// two sweeps towards the consistent one M_C (`inverse_mass`).
   void accelerate(std::span<const double> phi, std::span<Vec<d>> v) const;
-  /// v -= M^-1 int_surface N f n: what impulses f = kick p of the air on the free surface do, an entry a node [Pa s].
-  void push_surface(std::span<const double> impulse, std::span<Vec<d>> v) const;
+  /// Impulses f = kick p of the air on the free surface [Pa s], an entry a node, continued into the water: any continuation is
+  /// right, phi is the rest. This one is smooth near the surface.
+  std::vector<double> continued(std::span<const double> surface_impulse) const;
+  /// What impulses F with p = F on the free surface do: v -= M^-1 int N grad F; adds B F to the walls, about their reference points.
+  void push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<Wrench<d>> on_walls) const;
   /// Kinetic energy of the liquid [J; 2D: per metre] with the mass that `accelerate` moves, M = M_L (1 + z + 2 z^2)^-1: short
   /// waves are up to `inverse_mass(shortest<d>)` times lighter than with lumping, and an impulse gives them as much more
   /// velocity.
@@ -162,6 +165,10 @@ class PressureEquation {
 
  private:
   void spread_change(std::span<Vec<d>> v) const;
+  template <class Impulse>
+  void lumped_change(Impulse impulse_at, std::size_t nodes) const;
+  template <class Impulse>
+  void add_surface_change(Impulse impulse_at) const;
   template <class Velocity>
   void add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const;
   void measure(double density);
@@ -203,6 +210,11 @@ class PressureEquation {
     Wrench<d> row;  // column of B
   };
   std::vector<std::vector<Mode>> modes_;  // of each wall
+  struct Still {
+    int node;
+    Wrench<d> row;
+  };
+  std::vector<std::vector<Still>> still_modes_;  // the same, of nodes whose phi is held to 0
   HeldMass<d> held_;
   std::vector<std::vector<Mode>> held_modes_;  // R of each wall that responds
   std::vector<double> diagonal_, source_;      // of unknowns: terms of effects; empty: none

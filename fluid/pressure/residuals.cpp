@@ -94,22 +94,29 @@ Eigen::VectorXd PressureEquation<d>::taken_by(const Eigen::VectorXd& phi) const 
   return -flux_of(v);
 }
 
+// -M_L^-1 int N grad f.
 template <int d>
-void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<d>> v) const {
-  auto impulse_at = [&](int n) { return unknown_[n] < 0 ? 0.0 : phi[unknown_[n]]; };
+template <class Impulse>
+void PressureEquation<d>::lumped_change(Impulse impulse_at, std::size_t nodes) const {
   of_cell_.resize(mesh_->cells.size());
   in_parallel(mesh_->cells.size(), [&](std::size_t c) {
     Vec<d> sum = Vec<d>::Zero();
     for (int k = 0; k <= d; ++k) sum += gradients_[c].col(k) * impulse_at(mesh_->cells[c][k]);
     of_cell_[c] = sum;
   });
-  change_.resize(v.size());
-  in_parallel(v.size(), [&](std::size_t i) {
+  change_.resize(nodes);
+  in_parallel(nodes, [&](std::size_t i) {
     const double per_mass = per_nodal_mass_[i];
     Vec<d> sum = Vec<d>::Zero();
     for (const auto [c, k] : around_.around(i)) sum -= per_mass * of_cell_[c];
     change_[i] = sum;
   });
+}
+
+// M_L^-1 int_surface N f n.
+template <int d>
+template <class Impulse>
+void PressureEquation<d>::add_surface_change(Impulse impulse_at) const {
   for (const auto& f : mesh_->boundary) {
     if (f.wall >= 0) continue;
     const Vec<d> share = area_vector_of<d>(f, nodes_->x) / d;
@@ -117,6 +124,13 @@ void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<
     for (int n : f.nodes) sum += impulse_at(n);
     for (int n : f.nodes) change_[n] += per_nodal_mass_[n] * (sum + impulse_at(n)) * share;
   }
+}
+
+template <int d>
+void PressureEquation<d>::accelerate(std::span<const double> phi, std::span<Vec<d>> v) const {
+  const auto impulse_at = [&](int n) { return unknown_[n] < 0 ? 0.0 : phi[unknown_[n]]; };
+  lumped_change(impulse_at, v.size());
+  add_surface_change(impulse_at);
   spread_change(v);
 }
 
@@ -128,16 +142,39 @@ void PressureEquation<d>::spread_change(std::span<Vec<d>> v) const {
 }
 
 template <int d>
-void PressureEquation<d>::push_surface(std::span<const double> impulse, std::span<Vec<d>> v) const {
-  change_.assign(v.size(), Vec<d>::Zero());
-  for (const auto& f : mesh_->boundary) {
-    if (f.wall >= 0) continue;
-    const Vec<d> share = area_vector_of<d>(f, nodes_->x) / d;
-    double sum = 0;
-    for (int n : f.nodes) sum += impulse[n];
-    for (int n : f.nodes) change_[n] -= per_nodal_mass_[n] * (sum + impulse[n]) * share;
+std::vector<double> PressureEquation<d>::continued(std::span<const double> surface_impulse) const {
+  constexpr int sweeps = 10;  // of averaging: as many elements deep it is smooth
+  std::vector<double> all(surface_impulse.begin(), surface_impulse.end()), next;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (nodes_->surface[i]) sum += all[i], ++count;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!nodes_->surface[i]) all[i] = count > 0 ? sum / static_cast<double>(count) : 0.0;
+  for (int k = 0; k < sweeps; ++k) {
+    next = all;
+    in_parallel(all.size(), [&](std::size_t i) {
+      const auto around = around_.around(i);
+      if (nodes_->surface[i] || around.empty()) return;
+      double mean = 0;
+      for (const auto at : around)
+        for (int n : mesh_->cells[at.cell]) mean += all[n];
+      next[i] = mean / static_cast<double>((d + 1) * around.size());
+    });
+    all.swap(next);
   }
+  return all;
+}
+
+template <int d>
+void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>> v,
+                               std::span<Wrench<d>> on_walls) const {
+  lumped_change([&](int n) { return impulse[n]; }, v.size());
   spread_change(v);
+  for (std::size_t w = 0; w < on_walls.size(); ++w) {
+    for (const Mode& mode : modes_[w]) on_walls[w] += impulse[node_[mode.unknown]] * mode.row;
+    for (const Still& still : still_modes_[w]) on_walls[w] += impulse[still.node] * still.row;
+  }
 }
 
 template <int d>
