@@ -16,7 +16,7 @@ set(output_sources
   statistics/verdict/grades.cpp statistics/landing_statistics.cpp statistics/verdict/limits.cpp statistics/verdict/missing.cpp statistics/verdict/next_step.cpp
   statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
   report/data.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp
-  report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
+  report/ablation.cpp report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
   report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp
   report/pictures/png.cpp)
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)

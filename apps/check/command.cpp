@@ -11,6 +11,7 @@
 #include "apps/check/start.hpp"
 #include "apps/check/ties.hpp"
 #include "apps/check/words.hpp"
+#include "apps/effects/theory/theory.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/coupling_kinds.hpp"
@@ -80,11 +81,24 @@ void print_liquid(const Scene& scene) {
   if (scene.tank) row("tank", text<d>(extents<d>(*scene.tank)) + " m");
 }
 
+/// Of an effect that cannot be switched on: its first number, and whether it is missed.
+std::string missing_text(const Advice& advice) {
+  if (advice.numbers.empty()) return advice.reason;
+  const auto& first = advice.numbers.front();
+  return fmt::format("{} = {:.3g}{}: {}", first.name, first.value, first.unit == "-" ? "" : " " + first.unit,
+                     advice.reason);
+}
+
 template <int d>
 void print_effects(const Scene& scene) {
   fmt::print("effects\n");
   for (const auto& note : effect_notes<d>(scene)) row((note.active ? "on   " : "off  ") + note.name, note.reason);
-  for (const auto& note : neglected<d>(scene)) row("-    " + note.name, note.reason);
+  const auto look = outlook<d>(scene);
+  if (scene.fluid && look.scales.speed > 0)
+    for (const auto* missing : theory_of_what_is_missing()) {
+      const auto advice = missing->advise(look);
+      row("-    " + std::string(missing->name), missing_text(advice));
+    }
   if (!scene.coupling) return;
   const auto& c = *scene.coupling;
   std::string accelerator = fmt::format("accelerator {} from relaxation {:g}", c.accelerator, c.relaxation);

@@ -1,4 +1,4 @@
-// splashdown run | check | study | price | report | schema
+// splashdown run | check | advise | study | price | ablate | report | schema
 
 #include <fmt/format.h>
 
@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/ablate/command.hpp"
+#include "apps/advise/command.hpp"
 #include "apps/check/command.hpp"
 #include "apps/cli/schema.hpp"
 #include "apps/price/command.hpp"
@@ -119,17 +121,20 @@ void add_refine(CLI::App* command, std::vector<std::string>& set) {
       ->trigger_on_parse(false);
 }
 
+CLI::Validator percentage() {
+  return {[](const std::string& text) {
+            return percent_of(text) ? std::string()
+                                    : fmt::format("must be a positive percentage, e.g. 2%, not {}", text);
+          },
+          ""};
+}
+
 CLI::Option* add_accuracy(CLI::App* command, std::optional<double>& accuracy, const std::string& help) {
   return command
       ->add_option_function<std::string>(
           "--accuracy", [&accuracy](const std::string& text) { accuracy = percent_of(text); }, help)
       ->type_name("PERCENT")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return percent_of(text) ? std::string()
-                                    : fmt::format("must be a positive percentage, e.g. 2%, not {}", text);
-          },
-          ""));
+      ->check(percentage());
 }
 
 /// What chooses the mesh.
@@ -224,6 +229,53 @@ CLI::App* add_price(CLI::App& app, PriceOptions& price) {
   return price_app;
 }
 
+CLI::App* add_advise(CLI::App& app, AdviseOptions& advise) {
+  auto* advise_app = app.add_subcommand("advise", "Say which effects the scene calls for: numbers, changes, sources");
+  advise_app->add_option("scene", advise.scene, scene_help)->required();
+  advise_app->add_option("--set", advise.set, set_help)
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->check(key_and_value());
+  advise_app->add_flag("--json", advise.json, "print JSON for programs (docs/files.md)");
+  return advise_app;
+}
+
+CLI::App* add_ablate(CLI::App& app, AblateOptions& ablate) {
+  auto* ablate_app = app.add_subcommand("ablate", "Say what each effect and choice does to numbers and clock, by runs");
+  ablate_app->add_option("scene", ablate.scene, scene_help)->required();
+  ablate_app->add_option("--out", ablate.out,
+                         "folder for the runs and the tables (default: that of run, with _ablate)");
+  ablate_app->add_option("--set", ablate.set, set_help)
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->check(key_and_value());
+  add_refine(ablate_app, ablate.set);
+  ablate_app
+      ->add_option("--quantity", ablate.quantities,
+                   "what matters: NAME=EXPRESSION [from TABLE] [where CONDITION] (repeatable; docs/price.md)")
+      ->type_name("NAME=EXPR")
+      ->allow_extra_args(false);
+  ablate_app->add_option("--only", ablate.only, "an effect or choice, e.g. viscosity, walls, tank (repeatable)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  ablate_app->add_flag("--all", ablate.all, "add effects that are not advised, too");
+  ablate_app
+      ->add_option_function<std::string>(
+          "--matters", [&ablate](const std::string& text) { ablate.matters = *percent_of(text); },
+          "change above which an effect matters (default: 1%)")
+      ->type_name("PERCENT")
+      ->check(percentage());
+  ablate_app->add_option("--jobs", ablate.jobs, "runs at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  ablate_app
+      ->add_option("--threads", ablate.threads, "threads of each run; default: one in the plane, all cores in space")
+      ->check(CLI::Range(1, 1024));
+  ablate_app->add_flag("--collect", ablate.collect, "make no runs: tables and chart of those that are there");
+  ablate_app->add_flag("--large", ablate.large,
+                       "make runs even if they are predicted to take more than 4 GB of memory");
+  ablate_app->add_flag("--quiet", ablate.quiet, "print errors only");
+  return ablate_app;
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
   app.set_version_flag("--version", version_text);
@@ -245,10 +297,15 @@ int command_line(int argc, char** argv) {
   const auto* study_app = add_study(app, study);
   PriceOptions price;
   const auto* price_app = add_price(app, price);
+  AdviseOptions advise;
+  const auto* advise_app = add_advise(app, advise);
+  AblateOptions ablate;
+  const auto* ablate_app = add_ablate(app, ablate);
 
   std::filesystem::path directory;
-  auto* report_app = app.add_subcommand("report", "Write report.html from the files of a run, a study or a price");
-  report_app->add_option("directory", directory, "folder of the run, the study or the price")->required();
+  auto* report_app =
+      app.add_subcommand("report", "Write report.html from the files of a run, a study, a price or an ablation");
+  report_app->add_option("directory", directory, "folder of the run, the study, the price or the ablation")->required();
 
   std::string schema_of = "scene";
   auto* schema_app = app.add_subcommand("schema", "Print the JSON Schema of scenes or studies, for editors");
@@ -265,6 +322,8 @@ int command_line(int argc, char** argv) {
   if (*check_app) return check_command(scene, overrides);
   if (*study_app) return study_command(study);
   if (*price_app) return price_command(price);
+  if (*advise_app) return advise_command(advise);
+  if (*ablate_app) return ablate_command(ablate);
   if (*schema_app) {
     fmt::print("{}", schema_of == "scene" ? scene_schema() : study_schema());
     return exit_code::done;

@@ -80,6 +80,7 @@ Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
   study_.set = order_.set;
   study_.large = order_.large;
   study_.threads = order_.threads;
+  study_.reports = false;  // the price list has a page of its own
   study_.axes = {refine_axis(possible, order_.larger_tank)};
   runs_ = expand(study_);
   try {
@@ -151,9 +152,7 @@ bool Ladder::make(const StudyRun& run, const RungSpec& spec, double most) {
   auto study = study_;
   if (const double seconds = std::min(seconds_left(), most); seconds < HUGE_VAL)
     study.budget = std::max(seconds, 0.1);  // none is no budget
-  auto words = command_of(study, run, place);
-  words.emplace_back("--no-report");  // the price list has a page of its own
-  ChildProcess process(words, log);
+  ChildProcess process(command_of(study, run, place), log);
   const double begin = now();
   const auto expected = seconds_at(spec.refine);
   const bool terminal = !order_.quiet && ::isatty(STDOUT_FILENO) != 0;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/files/csv.hpp"
+#include "apps/report/ablation.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/gnuplot.hpp"
@@ -60,6 +61,7 @@ void draw(const std::filesystem::path& folder, const std::vector<Figure>& curves
 ReportResult write_report(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw std::runtime_error(directory.string() + ": is not a folder");
   if (holds_price(directory)) return write_price_report(directory);
+  if (holds_ablation(directory)) return write_ablation_report(directory);
   if (holds_study(directory)) return write_study_report(directory);
   const RunData data = read_run(directory);
   const auto folder = directory / "report";

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/scene/outlook/advice.hpp"
+#include "apps/scene/outlook/outlook.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/scene.hpp"
 
@@ -63,6 +65,8 @@ class EffectKind {
   virtual void ask(const AskedScene& /*asked*/, std::vector<std::string>& /*questions*/) const {}
   /// Whether it matters in this scene, present or absent, by which numbers; nothing: not a word about it.
   virtual std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const = 0;
+  /// The same at length: numbers, expected changes with their source, and the keys that add it. Nothing: `note` is all there is.
+  virtual std::optional<Advice> advise(const Outlook& /*look*/) const { return {}; }
   /// Changes what the fluid is made from; after its own regions and walls are in.
   virtual void prepare(const Scene& scene, fluid::FluidSpec<2>& spec) const = 0;
   virtual void prepare(const Scene& scene, fluid::FluidSpec<3>& spec) const = 0;

@@ -1,7 +1,5 @@
 #include "apps/scene/scales.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +8,6 @@
 
 namespace splashdown::apps {
 namespace {
-
-// Water at 20 C, for numbers of effects that a scene does not name.
-constexpr double water_surface_tension = 0.073;  // [N/m]
-constexpr double water_sound_speed = 1480;       // [m/s]
-constexpr double air_density = 1.2;              // [kg/m^3]
 
 /// A linear field is fastest on the region's outline.
 template <int d>
@@ -45,8 +38,6 @@ double at_the_water(const Scene& scene, const Body& body) {
   const double drop = std::max(0., extents<d>(outline<d>(body)).min()[d - 1] - *level);
   return std::sqrt(speed * speed + 2 * scene.gravity->acceleration.norm() * drop);
 }
-
-std::string number(double value) { return fmt::format("{:.3g}", value); }
 
 }  // namespace
 
@@ -91,24 +82,11 @@ std::vector<EffectNote> effect_notes(const Scene& scene) {
   return notes;
 }
 
-template <int d>
-std::vector<EffectNote> neglected(const Scene& scene) {
-  const auto s = scales<d>(scene);
-  if (!scene.fluid || s.speed == 0) return {};
-  const double weber = s.density * s.speed * s.speed * s.length / water_surface_tension;
-  return {{"surface tension", false, fmt::format("We = rho U^2 L/sigma = {} (water)", number(weber))},
-          {"compressibility", false, fmt::format("U/c = {} (water)", number(s.speed / water_sound_speed))},
-          {"air", false,
-           fmt::format("rho_air/rho = {}; cushions form under flat bottoms", number(air_density / s.density))}};
-}
-
 template std::optional<double> still_water_level<2>(const Scene&);
 template Scales scales<2>(const Scene&);
 template std::vector<EffectNote> effect_notes<2>(const Scene&);
-template std::vector<EffectNote> neglected<2>(const Scene&);
 template std::optional<double> still_water_level<3>(const Scene&);
 template Scales scales<3>(const Scene&);
 template std::vector<EffectNote> effect_notes<3>(const Scene&);
-template std::vector<EffectNote> neglected<3>(const Scene&);
 
 }  // namespace splashdown::apps

@@ -34,8 +34,4 @@ struct EffectNote {
 template <int d>
 std::vector<EffectNote> effect_notes(const Scene& scene);
 
-/// What no scene can switch on yet, with the number that says whether that matters.
-template <int d>
-std::vector<EffectNote> neglected(const Scene& scene);
-
 }  // namespace splashdown::apps

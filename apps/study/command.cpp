@@ -21,12 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Outcome> outcomes_in(const Study& study, const std::vector<StudyRun>& runs, const fs::path& folder) {
-  std::vector<Outcome> outcomes;
-  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder / run.name));
-  return outcomes;
-}
-
 /// Tables, chart and report of what the runs have left behind.
 void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
               const fs::path& folder, bool quiet) {
@@ -41,16 +35,6 @@ void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector
   fmt::print("{}: {} runs: {}\n  files       {}/: report.html study.csv study.json{}\n",
              one_line(study.title.empty() ? folder.filename().string() : study.title), runs.size(),
              counts_text(outcomes), folder.string(), fs::exists(folder / "study.svg") ? " study.svg study.png" : "");
-}
-
-int exit_code_of(const std::vector<Outcome>& outcomes, bool interrupted) {
-  const auto any = [&](Outcome::Status status) {
-    return std::ranges::any_of(outcomes, [=](const auto& o) { return o.status == status; });
-  };
-  if (interrupted) return exit_code::interrupted;
-  // A coupling that diverges or stalls is a result; anything else that stops a run is not.
-  if (any(Outcome::Status::failed) || any(Outcome::Status::interrupted)) return exit_code::cannot_go_on;
-  return exit_code::done;
 }
 
 int hand_to_slurm(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,

@@ -199,9 +199,19 @@ std::vector<std::string> command_of(const Study& study, const StudyRun& run, con
   if (study.threads) words.insert(words.end(), {"--threads", fmt::format("{}", *study.threads)});
   if (study.until) words.insert(words.end(), {"--until", fmt::format("{}", *study.until)});
   if (study.large) words.emplace_back("--large");
+  if (!study.reports) words.emplace_back("--no-report");
   if (study.budget) words.insert(words.end(), {"--budget", fmt::format("{}", *study.budget)});
   for (const auto& argument : run.set) words.insert(words.end(), {"--set", argument});
   return words;
+}
+
+int exit_code_of(const std::vector<Outcome>& outcomes, bool interrupted) {
+  const auto any = [&](Outcome::Status status) {
+    return std::ranges::any_of(outcomes, [=](const auto& o) { return o.status == status; });
+  };
+  if (interrupted) return exit_code::interrupted;
+  if (any(Outcome::Status::failed) || any(Outcome::Status::interrupted)) return exit_code::cannot_go_on;
+  return exit_code::done;
 }
 
 RunnerEnd make_runs(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,

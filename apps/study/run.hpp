@@ -26,4 +26,7 @@ struct RunnerEnd {
 RunnerEnd make_runs(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
                     const std::filesystem::path& folder, int jobs, bool quiet);
 
+/// Exit code of the program after these runs: a coupling that diverges or stalls is a result; anything else that stops a run is not.
+int exit_code_of(const std::vector<Outcome>& outcomes, bool interrupted);
+
 }  // namespace splashdown::apps

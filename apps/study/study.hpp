@@ -74,6 +74,7 @@ struct Study {
   std::optional<double> until;   ///< simulated time at which every run stops [s]
   Place until_place;
   bool large = false;              ///< runs may take whatever memory they need
+  bool reports = true;             ///< each run draws a page of its own
   std::optional<int> threads = 1;  ///< of each run; nothing: what a run takes by itself
   std::optional<Samples> samples;
   std::vector<Axis> axes;

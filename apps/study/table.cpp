@@ -316,6 +316,12 @@ Outcome outcome_of(const Study& study, const StudyRun& run, const fs::path& fold
   return outcome;
 }
 
+std::vector<Outcome> outcomes_in(const Study& study, const std::vector<StudyRun>& runs, const fs::path& folder) {
+  std::vector<Outcome> outcomes;
+  for (const auto& run : runs) outcomes.push_back(outcome_of(study, run, folder / run.name));
+  return outcomes;
+}
+
 std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>& runs, const fs::path& folder,
                                  std::vector<Outcome>& outcomes) {
   std::vector<std::string> notes;

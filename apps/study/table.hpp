@@ -46,6 +46,10 @@ std::string column_label(const Study& study, const std::string& column);
 /// Reads a run's folder. A run counts only if it was made with the very scene that the study asks for now.
 Outcome outcome_of(const Study& study, const StudyRun& run, const std::filesystem::path& folder);
 
+/// Of all runs, from their folders within that of the study.
+std::vector<Outcome> outcomes_in(const Study& study, const std::vector<StudyRun>& runs,
+                                 const std::filesystem::path& folder);
+
 /// Whether the folder was begun with the run's scene, so that --resume may continue in it.
 bool begun_with(const StudyRun& run, const std::filesystem::path& folder);
 

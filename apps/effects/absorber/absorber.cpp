@@ -62,6 +62,44 @@ std::optional<EffectNote> AbsorberKind::note(const Scene& scene, const Scales& s
   return note;
 }
 
+/// Waves go out with the speed of their group, half of sqrt(g lambda/2 pi), and come back from the ends.
+std::optional<Advice> AbsorberKind::advise(const Outlook& look) const {
+  using std::numbers::pi;
+  if (!look.scene.fluid) return {};
+  Advice advice;
+  advice.source = "group speed of deep water, fastest waves sqrt(g depth) (Lamb 1932)";
+  const bool moves = look.mover && look.mover->moves;
+  if (!look.scene.tank || look.pull <= 0 || look.depth == 0 || !moves) {
+    advice.reason = !look.scene.tank ? "without a tank there are no ends that reflect waves"
+                    : look.pull <= 0
+                        ? "without gravity there are no waves"
+                        : "nothing makes waves that would have to leave: the walls are a part of the scene";
+    return advice;
+  }
+  const double fastest = std::sqrt(look.pull * look.depth);
+  const double group = std::min(fastest, 0.5 * std::sqrt(look.pull * look.wave_length / (2 * pi)));
+  const double begins = look.entry ? look.entry->time : 0, lasts = look.scene.time.end - begins;
+  advice.numbers.push_back({"run over the time of the fastest echo", lasts * fastest / look.tank_length});
+  advice.numbers.push_back({"run over the time of its own waves' echo", lasts * group / look.tank_length});
+  if (look.has_load()) advice.change.peak = 0;
+  const bool starts_calm = !look.entry && std::ranges::all_of(look.scene.bodies, [](const Body& body) {
+    return body.velocity.isZero(0) && body.spin_deg.isZero(0) && body.path.empty();
+  });
+  advice.advised = lasts * fastest < look.tank_length                ? Advised::off
+                   : lasts * group < look.tank_length || starts_calm ? Advised::doubtful
+                                                                     : Advised::on;
+  advice.reason = advice.advised == Advised::off        ? "the run is over before an echo returns"
+                  : advice.advised == Advised::doubtful ? "an echo returns, of waves that may be small"
+                                                        : "its own waves return from the ends within the run";
+  if (advice.advised == Advised::off) advice.change.motion = 0;
+  if (!present(look.scene)) {
+    const double width = std::min(look.wave_length, look.tank_length / 4);
+    advice.set = {fmt::format("fluid.absorber.width={:.3g}", width),
+                  fmt::format("fluid.absorber.rate={:.3g}", std::sqrt(2 * pi * look.pull / width))};
+  }
+  return advice;
+}
+
 template <int d>
 void AbsorberKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
   const auto* zone = scene.effects.find<Absorber>();

@@ -18,6 +18,7 @@ class AbsorberKind final : public EffectOf<AbsorberKind, Absorber> {
   void check(const Scene& scene, Problems& problems) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+  std::optional<Advice> advise(const Outlook& look) const override;
 
  private:
   friend EffectOf;

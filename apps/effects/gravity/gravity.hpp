@@ -12,6 +12,7 @@ class GravityKind final : public EffectOf<GravityKind, Gravity> {
   bool present(const Scene& scene) const override { return scene.gravity.has_value(); }
   void read(Reader& reader, Scene& scene) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+  std::optional<Advice> advise(const Outlook& look) const override;
 
  private:
   friend EffectOf;

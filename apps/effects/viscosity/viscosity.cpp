@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "apps/effects/theory/theory.hpp"
 #include "apps/scene/read/reader.hpp"
 #include "fluid/effects/viscosity/viscosity.hpp"
 
@@ -41,6 +44,37 @@ std::optional<EffectNote> ViscosityKind::note(const Scene& scene, const Scales& 
           "Re = rho U L/mu = {:.3g}{}: laminar boundary layer of {:.3g} L, friction of {:.3g} of the dynamic pressure",
           reynolds, table ? "" : " (water)", 5 / std::sqrt(reynolds),
           1.33 / std::sqrt(reynolds))};  // Blasius, flat plate
+}
+
+/// Friction of a laminar layer beside the load, and what waves lose: 2 nu k^2 t in the bulk, and at walls that hold the water
+/// sqrt(nu omega/2)/b more.
+std::optional<Advice> ViscosityKind::advise(const Outlook& look) const {
+  using std::numbers::pi;
+  if (!look.scene.fluid) return {};
+  const auto* table = look.scene.effects.find<Viscosity>();
+  const auto& s = look.scales;
+  const double mu = table ? table->dynamic : water_viscosity, nu = mu / s.density;
+  const double reynolds = reynolds_number(look, mu), time = look.scene.time.end;
+  Advice advice;
+  advice.numbers.push_back({"Re = rho U L/mu", reynolds});
+  advice.numbers.push_back({"boundary layer over L", reynolds > 0 ? 5 / std::sqrt(reynolds) : 0});
+  if (look.has_load()) {
+    const auto& entry = *look.entry;
+    advice.change.peak =
+        laminar_friction(reynolds) * dynamic_pressure(s.density, entry.contact_speed) * entry.wetted / entry.peak_load;
+  }
+  const double wave = 2 * pi / look.wave_length, bulk = 2 * nu * wave * wave;
+  const double swing = look.pull > 0 ? std::sqrt(look.pull * wave) : 0;
+  const bool sticks = table && table->walls == "no_slip";
+  const double walls = sticks ? std::sqrt(nu * swing / 2) / s.length : 0;
+  advice.change.motion = 1 - std::exp(-(bulk + walls) * time);
+  advice.advised = judged(advice.change);
+  advice.reason = advice.advised == Advised::off
+                      ? "layers are thin and waves keep their height: an inviscid fluid does the same"
+                      : "friction is a part of the load, or waves lose height within the run";
+  advice.source = "Blasius 1908; decay of waves, Lamb 1932, articles 348 and 349";
+  if (!table) advice.set = {"fluid.viscosity.dynamic=0.001"};
+  return advice;
 }
 
 template <int d>

@@ -17,6 +17,7 @@ class ViscosityKind final : public EffectOf<ViscosityKind, Viscosity> {
   void read(Reader& reader, Scene& scene) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+  std::optional<Advice> advise(const Outlook& look) const override;
 
  private:
   friend EffectOf;

@@ -1,0 +1,167 @@
+// What the water does that the equations leave out: surface tension, compressibility, cavitation, turbulence.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "apps/effects/theory/theory.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using std::numbers::pi;
+
+/// Length of the water line round a wetted breadth or area; in the plane of both sides, for each metre of depth.
+double water_line(const Outlook& look, double wetted) { return look.dimension() == 2 ? 2 : 2 * std::sqrt(pi * wetted); }
+
+/// What of its speed a body loses to a constant coefficient of drag over an area on its way.
+double lost_speed(const Outlook& look, double coefficient, double area, double way) {
+  const double inertia = look.mover->mass + look.mover->added;
+  return 1 - std::exp(-coefficient * look.scales.density * area * way / (2 * inertia));
+}
+
+}  // namespace
+
+Advice advise_surface_tension(const Outlook& look) {
+  const auto& s = look.scales;
+  const double sigma = water_surface_tension, inertia = s.density * s.speed * s.speed * s.length,
+               weight = s.density * look.pull * s.length * s.length;
+  Advice advice;
+  advice.numbers.push_back({"We = rho U^2 L/sigma", inertia / sigma});
+  if (look.pull > 0) advice.numbers.push_back({"Bo = rho g L^2/sigma", weight / sigma});
+  if (look.has_load()) advice.change.peak = water_line(look, look.entry->wetted) * sigma / look.entry->peak_load;
+  // A wave is the slower of the two restoring forces' (Lamb 1932, article 267).
+  const double wave = 2 * pi / look.wave_length;
+  if (look.pull > 0)
+    advice.change.motion = sigma * wave * wave / (s.density * look.pull) / 2;
+  else if (inertia > 0)
+    advice.change.motion = sigma / inertia;
+  advice.advised = judged(advice.change);
+  advice.reason = advice.advised == Advised::off
+                      ? "forces at the water line are small beside the load and the weight"
+                      : "so small a scene has a skin: films and drops are not those of water";
+  advice.source = "Young and Laplace; capillary waves, Lamb 1932, article 267";
+  return advice;
+}
+
+Advice advise_compressibility(const Outlook& look) {
+  const double c = water_sound_speed;
+  Advice advice;
+  advice.numbers.push_back({"Ma = U/c", look.scales.speed / c});
+  advice.source =
+      "Prandtl and Glauert: loads change by the square of the water line's Mach number; Korobkin and Pukhnachov 1988";
+  if (!look.entry) {
+    const double mach = look.scales.speed / c;
+    advice.change.motion = mach * mach;
+    advice.advised = judged(advice.change);
+    advice.reason = "nothing enters the water: all is far below the speed of sound";
+    return advice;
+  }
+  const auto& entry = *look.entry;
+  const double hammer = look.scales.density * c * entry.speed;
+  advice.numbers.push_back({"rho c V", hammer, "Pa"});
+  if (entry.flat()) {
+    advice.advised = Advised::on;
+    advice.reason =
+        "a flat bottom meets the water all at once: the pressure is at most rho c V, here the load is an impulse";
+    advice.source = "von Karman 1929";
+    return advice;
+  }
+  const double mach = entry.contact_speed / c, peak = dynamic_pressure(look.scales.density, entry.contact_speed);
+  advice.numbers.push_back({"peak pressure over rho c V", peak / hammer});
+  advice.numbers.push_back({"water line's speed over c", mach});
+  advice.change.peak = mach * mach;
+  advice.advised = peak >= hammer ? Advised::on : judged(advice.change);
+  advice.reason = advice.advised == Advised::off ? "the water line runs along the hull far below the speed of sound"
+                                                 : "the water line runs along the hull nearly as fast as sound";
+  return advice;
+}
+
+Advice advise_cavitation(const Outlook& look) {
+  const double atmosphere = 101325, vapour = 2340;  // at 20 C [Pa]
+  const double speed = std::max(look.scales.speed, look.mover ? look.mover->forward : 0);
+  const double number = (atmosphere - vapour) / dynamic_pressure(look.scales.density, speed);
+  const double blunt = 1, plain = 0.5;  // - c_p beside blunt and slender noses
+  Advice advice;
+  advice.numbers.push_back({"cavitation number", number});
+  advice.change.peak = look.entry ? std::optional(0.) : std::nullopt;
+  advice.advised = number < plain ? Advised::on : number < 2 * blunt ? Advised::doubtful : Advised::off;
+  advice.reason =
+      advice.advised == Advised::off
+          ? "no suction reaches the pressure of vapour"
+          : "suction at edges and behind the hull boils the water; the first peak is one of pressure and stays";
+  advice.source = "- c_p of 0.5 to 1 at shoulders, Knapp, Daily and Hammitt 1970";
+  return advice;
+}
+
+Advice advise_turbulence(const Outlook& look) {
+  const double transition = 5e5, reynolds = reynolds_number(look, water_viscosity);
+  Advice advice;
+  advice.numbers.push_back({"Re over transition", reynolds / transition});
+  advice.source = "a plate's friction, Blasius 1908 and ITTC 1957; transition, Schlichting 1979";
+  const double more = std::max(0., turbulent_friction(reynolds) - laminar_friction(reynolds));
+  if (look.has_load()) advice.change.peak = 0;
+  if (reynolds < transition || !look.mover || !look.mover->moves) {
+    advice.change.motion = 0;
+    advice.reason = reynolds < transition ? "boundary layers are laminar" : "no body moves through the water";
+    return advice;
+  }
+  advice.change.motion =
+      std::isfinite(look.mover->mass) ? lost_speed(look, more, 2 * look.mover->plan, look.mover->way) : more;
+  advice.advised = judged(advice.change);
+  advice.reason = advice.advised == Advised::off
+                      ? "boundary layers are turbulent, and too thin to change the motion within the run"
+                      : "friction of turbulent boundary layers slows what slides; skin friction is the model of it";
+  return advice;
+}
+
+Advice advise_form_drag(const Outlook& look) {
+  Advice advice;
+  advice.source = "drag of a plate, 2 in the plane and 1.2 in space (Hoerner 1965)";
+  if (look.has_load()) advice.change.peak = 0;
+  if (!look.mover || !look.mover->moves) {
+    advice.change.motion = 0;
+    advice.reason = "no body moves through the water";
+    return advice;
+  }
+  const auto& mover = *look.mover;
+  const double coefficient = look.dimension() == 2 ? 2 : 1.2, diameters = mover.way / mover.length;
+  advice.numbers.push_back({"KC = way/L", diameters});
+  // A wake forms on a way of about half a diameter from rest (Sarpkaya and Isaacson 1981).
+  const double wake = std::max(0., mover.way - 0.5 * mover.length);
+  advice.change.motion = std::isfinite(mover.mass) ? lost_speed(look, coefficient, mover.plan, wake)
+                                                   : coefficient * wake / (mover.length + wake);
+  advice.advised = judged(advice.change);
+  advice.reason =
+      advice.advised == Advised::off
+          ? "the body does not go far enough in the water to shed a wake; a first impact has none"
+          : "a wake slows dive, heave and roll, which an inviscid fluid does not know; a first impact has none";
+  return advice;
+}
+
+Advice advise_skin_friction(const Outlook& look) {
+  Advice advice;
+  advice.source = "ITTC 1957; drag of planing at a trim of 4 degrees, 0.07 of the weight";
+  if (look.has_load()) advice.change.peak = 0;
+  if (!look.mover || !look.mover->moves || look.mover->forward == 0) {
+    advice.change.motion = 0;
+    advice.reason = "nothing slides along the water";
+    return advice;
+  }
+  const auto& mover = *look.mover;
+  const double reynolds = look.scales.density * mover.forward * mover.length / water_viscosity;
+  const double friction =
+      turbulent_friction(reynolds) * dynamic_pressure(look.scales.density, mover.forward) * mover.plan;
+  const double planing = 0.07 * (std::isfinite(mover.mass) ? mover.mass * look.pull : 0);
+  advice.numbers.push_back({"C_F", turbulent_friction(reynolds)});
+  advice.numbers.push_back({"friction share of drag", friction / (friction + planing)});
+  advice.change.motion = std::isfinite(mover.mass)
+                             ? std::min(1., friction * mover.time_in_water / (mover.mass * mover.forward))
+                             : friction / (friction + planing);
+  advice.advised = judged(advice.change);
+  advice.reason = "friction slows what slides, and trims the nose down";
+  return advice;
+}
+
+}  // namespace splashdown::apps
