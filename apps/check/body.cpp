@@ -10,7 +10,7 @@
 #include "apps/check/floating.hpp"
 #include "apps/check/words.hpp"
 #include "apps/scene/geometry.hpp"
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 #include "core/geometry.hpp"
 
 namespace splashdown::apps {

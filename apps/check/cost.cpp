@@ -7,7 +7,7 @@
 #include <queue>
 
 #include "apps/build/build.hpp"
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/solid.hpp"
 

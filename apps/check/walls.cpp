@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/solid.hpp"
 #include "apps/scene/tank_sides.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "apps/check/questions/prepared_scene.hpp"
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/text/number_text.hpp"
 

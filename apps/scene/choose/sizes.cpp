@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "apps/scene/geometry.hpp"
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 
 namespace splashdown::apps {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "apps/scene/geometry.hpp"
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 
 namespace splashdown::apps {
 namespace {

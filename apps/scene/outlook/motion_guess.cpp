@@ -1,4 +1,4 @@
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 
 #include <algorithm>
 #include <cmath>
