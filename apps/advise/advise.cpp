@@ -22,7 +22,7 @@ std::string entry_text(const Outlook& look) {
   const auto& entry = *look.entry;
   const auto& mover = *look.mover;
   std::string text = fmt::format("{} enters at {:.3g} m/s", look.scene.bodies[entry.body].name, entry.speed);
-  if (entry.time > 0) text += fmt::format(", {} after the start", with_unit(entry.time, "s"));
+  if (entry.time > 1e-6 * look.scene.time.end) text += fmt::format(", {} after the start", with_unit(entry.time, "s"));
   text += entry.deadrise ? fmt::format(", deadrise {:.3g} deg", *entry.deadrise * in_degrees) : ", round";
   if (!look.has_load()) return text + ": a flat bottom, whose load is an impulse";
   text += fmt::format("; peak load about {}", with_unit(entry.peak_load, force_unit(look.dimension())));

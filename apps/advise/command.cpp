@@ -35,9 +35,9 @@ std::string numbers_text(const std::vector<AdviceNumber>& numbers) {
 std::string change_text(const std::optional<double>& change) {
   if (!change) return "-";
   const double percent = 100 * std::abs(*change);
-  return percent < 0.1
-             ? "< 0.1 %"
-             : fmt::format("{} %", fmt::format("{:.1g}", percent) == "1e+02" ? "100" : fmt::format("{:.1g}", percent));
+  if (percent < 0.1) return "< 0.1 %";
+  const double digit = std::pow(10., std::floor(std::log10(percent)));
+  return fmt::format("{:g} %", std::round(percent / digit) * digit);
 }
 
 void print_effect(const AdvisedEffect& effect) {

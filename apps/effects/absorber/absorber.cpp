@@ -82,9 +82,7 @@ std::optional<Advice> AbsorberKind::advise(const Outlook& look) const {
   advice.numbers.push_back({"run over the time of the fastest echo", lasts * fastest / look.tank_length});
   advice.numbers.push_back({"run over the time of its own waves' echo", lasts * group / look.tank_length});
   if (look.has_load()) advice.change.peak = 0;
-  const bool starts_calm = !look.entry && std::ranges::all_of(look.scene.bodies, [](const Body& body) {
-    return body.velocity.isZero(0) && body.spin_deg.isZero(0) && body.path.empty();
-  });
+  const bool starts_calm = !look.entry && look.starts_at_rest();
   advice.advised = lasts * fastest < look.tank_length                ? Advised::off
                    : lasts * group < look.tank_length || starts_calm ? Advised::doubtful
                                                                      : Advised::on;

@@ -35,7 +35,7 @@ std::optional<Advice> GravityKind::advise(const Outlook& look) const {
   const double g = s.gravity > 0 ? s.gravity : 9.81;
   Advice advice;
   advice.numbers.push_back({"Fr = U/sqrt(g L)", s.speed / std::sqrt(g * s.length)});
-  advice.source = "free fall; speed gained until the peak, 2 g t/V of the load";
+  advice.source = "free fall; speed gained until the peak, 2 g t/V of the load, or buoyancy then";
   const bool is_held = look.scene.tank || std::ranges::any_of(look.scene.bodies, [](const Body& body) {
                          return body.motion != Motion::free;
                        });
@@ -48,10 +48,12 @@ std::optional<Advice> GravityKind::advise(const Outlook& look) const {
     const auto& entry = *look.entry;
     const double fall = present(look.scene) ? 1 - std::pow(entry.start_speed / entry.speed, 2)
                                             : 2 * g * entry.height / std::pow(entry.speed, 2);
-    advice.change.peak = fall + 2 * g * entry.peak_time() / entry.speed;
+    const double share = look.dimension() == 2 ? 1. / 2 : 1. / 3;  // that a wedge, a cone displaces of its box
+    const double buoyancy = s.density * g * share * entry.wetted * entry.peak_depth / entry.peak_load;
+    advice.change.peak = std::isfinite(look.mover->mass) ? fall + 2 * g * entry.peak_time() / entry.speed : buoyancy;
   }
   const double lasts = look.mover && look.entry ? look.mover->time_in_water : look.scene.time.end;
-  advice.change.motion = s.speed > 0 ? std::min(1., g * lasts / s.speed) : 1;
+  advice.change.motion = s.speed > 0 && !look.starts_at_rest() ? std::min(1., g * lasts / s.speed) : 1;
   advice.advised = judged(advice.change);
   advice.reason = advice.advised == Advised::off
                       ? "the run is over before weight changes a speed"

@@ -72,7 +72,7 @@ Advice advise_compressibility(const Outlook& look) {
   advice.numbers.push_back({"peak pressure over rho c V", peak / hammer});
   advice.numbers.push_back({"water line's speed over c", mach});
   advice.change.peak = mach * mach;
-  advice.advised = peak >= hammer ? Advised::on : judged(advice.change);
+  advice.advised = entry.deadrise && peak >= hammer ? Advised::on : judged(advice.change);
   advice.reason = advice.advised == Advised::off ? "the water line runs along the hull far below the speed of sound"
                                                  : "the water line runs along the hull nearly as fast as sound";
   return advice;
@@ -85,13 +85,17 @@ Advice advise_cavitation(const Outlook& look) {
   const double blunt = 1, plain = 0.5;  // - c_p beside blunt and slender noses
   Advice advice;
   advice.numbers.push_back({"cavitation number", number});
+  advice.source = "- c_p of 0.5 to 1 at shoulders, Knapp, Daily and Hammitt 1970";
+  if (!look.mover) {
+    advice.reason = "there is no hull whose suction could boil water";
+    return advice;
+  }
   advice.change.peak = look.entry ? std::optional(0.) : std::nullopt;
   advice.advised = number < plain ? Advised::on : number < 2 * blunt ? Advised::doubtful : Advised::off;
   advice.reason =
       advice.advised == Advised::off
           ? "no suction reaches the pressure of vapour"
           : "suction at edges and behind the hull boils the water; the first peak is one of pressure and stays";
-  advice.source = "- c_p of 0.5 to 1 at shoulders, Knapp, Daily and Hammitt 1970";
   return advice;
 }
 
@@ -130,7 +134,7 @@ Advice advise_form_drag(const Outlook& look) {
   advice.numbers.push_back({"KC = way/L", diameters});
   // A wake forms on a way of about half a diameter from rest (Sarpkaya and Isaacson 1981).
   const double wake = std::max(0., mover.way - 0.5 * mover.length);
-  advice.change.motion = std::isfinite(mover.mass) ? lost_speed(look, coefficient, mover.plan, wake)
+  advice.change.motion = std::isfinite(mover.mass) ? lost_speed(look, coefficient, mover.facing, wake)
                                                    : coefficient * wake / (mover.length + wake);
   advice.advised = judged(advice.change);
   advice.reason =

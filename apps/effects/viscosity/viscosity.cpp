@@ -60,8 +60,9 @@ std::optional<Advice> ViscosityKind::advise(const Outlook& look) const {
   advice.numbers.push_back({"boundary layer over L", reynolds > 0 ? 5 / std::sqrt(reynolds) : 0});
   if (look.has_load()) {
     const auto& entry = *look.entry;
-    advice.change.peak =
-        laminar_friction(reynolds) * dynamic_pressure(s.density, entry.contact_speed) * entry.wetted / entry.peak_load;
+    advice.change.peak = laminar_friction(reynolds) *
+                         dynamic_pressure(s.density, std::max(s.speed, look.mover->forward)) * entry.wetted /
+                         entry.peak_load;
   }
   const double wave = 2 * pi / look.wave_length, bulk = 2 * nu * wave * wave;
   const double swing = look.pull > 0 ? std::sqrt(look.pull * wave) : 0;

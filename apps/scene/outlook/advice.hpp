@@ -37,7 +37,7 @@ struct Advice {
 };
 
 inline constexpr double least_change = 0.01;  ///< a change below it is not looked for
-inline constexpr double trust = 3;       ///< factor within which an estimate is right
+inline constexpr double trust = 3;            ///< factor within which an estimate is right
 
 /// On where the change is above `least_change` even if it is overestimated, off where it is below even if it is underestimated.
 Advised judged(double change);

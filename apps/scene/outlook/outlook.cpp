@@ -1,12 +1,14 @@
 #include "apps/scene/outlook/outlook.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/outlook/motion_guess.hpp"
+#include "core/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -30,18 +32,33 @@ double plate_mass(double density, double plan) {
 template <int d>
 constexpr double raised = d == 2 ? 1.25 : 1;
 
-/// What of the hull is below a height, seen from above: breadth or area.
+/// Share of a straight facet that is below a height: exact for segments and triangles.
+double share_below(std::array<double, 2> z, double height) {
+  std::ranges::sort(z);
+  return height >= z[1] ? 1 : height <= z[0] ? 0 : (height - z[0]) / (z[1] - z[0]);
+}
+double share_below(std::array<double, 3> z, double height) {
+  std::ranges::sort(z);
+  if (height >= z[2]) return 1;
+  if (height <= z[0]) return 0;
+  if (height <= z[1]) return std::pow(height - z[0], 2) / ((z[1] - z[0]) * (z[2] - z[0]));
+  return 1 - std::pow(z[2] - height, 2) / ((z[2] - z[1]) * (z[2] - z[0]));
+}
+
+/// What of the hull is below a height, seen from below: breadth or area of facets that look down.
 template <int d>
 double plan_below(const rigid::Surface<d>& hull, double height) {
-  Extents<d> below;
-  for (Eigen::Index f = 0; f < hull.facets.cols(); ++f)
+  double plan = 0;
+  for (Eigen::Index f = 0; f < hull.facets.cols(); ++f) {
+    std::array<Vec<d>, d> corners;
+    std::array<double, d> heights;
     for (int k = 0; k < d; ++k) {
-      const Vec<d> a = hull.vertices.col(hull.facets(k, f)), b = hull.vertices.col(hull.facets((k + 1) % d, f));
-      if (a[d - 1] <= height) below.extend(a);
-      if ((a[d - 1] <= height) != (b[d - 1] <= height))
-        below.extend(Vec<d>(a + (height - a[d - 1]) / (b[d - 1] - a[d - 1]) * (b - a)));
+      corners[static_cast<std::size_t>(k)] = hull.vertices.col(hull.facets(k, f));
+      heights[static_cast<std::size_t>(k)] = corners[static_cast<std::size_t>(k)][d - 1];
     }
-  return below.isEmpty() ? 0 : seen_from_above(below);
+    plan += std::max(0., -area_vector(corners)[d - 1]) * share_below(heights, height);
+  }
+  return plan;
 }
 
 template <int d>
@@ -49,12 +66,12 @@ double lowest(const rigid::Surface<d>& hull) {
   return hull.vertices.row(d - 1).minCoeff();
 }
 
-/// When the guess has the body at the water first; nothing: not within the run, or it is in it from the start.
+/// When the guess has the body at the water first; nothing: not within the run, or more than its bottom is in it from the start.
 template <int d>
-std::optional<double> contact_time(const Scene& scene, const Body& body, double over) {
-  const double tolerance = 1e-9 * std::max(1., std::abs(over));
+std::optional<double> contact_time(const Scene& scene, const Body& body, double over, double height) {
+  const double tolerance = 1e-6 * height, bottom = 0.05 * height;
   const auto is_there = [&](double t) { return over + guessed_motion<d>(scene, body, t)[d - 1] <= tolerance; };
-  if (over < -tolerance) return {};
+  if (over < -bottom) return {};
   if (is_there(0)) return 0.;
   double late = scene.time.end;
   for (const auto& point : body.path)
@@ -78,12 +95,13 @@ double sinking(const Scene& scene, const Body& body, double time) {
   return (guessed_motion<d>(scene, body, time)[d - 1] - guessed_motion<d>(scene, body, time + dt)[d - 1]) / dt;
 }
 
-/// The highest load of von Karman's over the depths of penetration.
+/// The highest load of von Karman's over the depths of penetration that are reached in a time.
 template <int d>
-void find_peak(const rigid::Surface<d>& hull, double mass, double density, Entry& entry) {
+void find_peak(const rigid::Surface<d>& hull, double mass, double density, double time, Entry& entry) {
   const int steps = 200;
   const auto box = extents<d>(hull);
-  const double bottom = box.min()[d - 1], deepest = box.sizes()[d - 1] / raised<d>, step = deepest / steps;
+  const double bottom = box.min()[d - 1], deepest = std::min(box.sizes()[d - 1] / raised<d>, entry.speed * time),
+               step = deepest / steps;
   double before = 0, plan_before = 0;
   for (int i = 1; i <= steps; ++i) {
     const double plan = plan_below<d>(hull, bottom + raised<d> * i * step), added = plate_mass<d>(density, plan);
@@ -108,13 +126,13 @@ std::optional<Entry> entry_of(const Scene& scene, std::size_t index, const rigid
   const auto& body = scene.bodies[index];
   if (body.motion == Motion::fixed) return {};
   const double over = lowest<d>(hull) - level;
-  const auto time = contact_time<d>(scene, body, over);
+  const auto time = contact_time<d>(scene, body, over, extents<d>(hull).sizes()[d - 1]);
   if (!time) return {};
   Entry entry{.body = index, .time = *time, .speed = sinking<d>(scene, body, *time), .deadrise = deadrise<d>(body)};
   entry.start_speed = sinking<d>(scene, body, 0);
   entry.height = std::max(0., over);
   if (entry.speed <= 0) return {};
-  find_peak<d>(hull, mass, scene.fluid->density, entry);
+  find_peak<d>(hull, mass, scene.fluid->density, scene.time.end - *time, entry);
   return entry;
 }
 
@@ -140,7 +158,15 @@ Mover mover_of(const Scene& scene, std::size_t index, const std::optional<Entry>
   mover.moves = body.motion != Motion::fixed;
   const double from = entry ? entry->time : 0, end = scene.time.end;
   mover.time_in_water = std::max(0., end - from);
-  mover.way = (guessed_motion<d>(scene, body, end) - guessed_motion<d>(scene, body, from)).norm();
+  const Vec<d> way = guessed_motion<d>(scene, body, end) - guessed_motion<d>(scene, body, from);
+  mover.way = way.norm();
+  // Of a side what is under water as long as it floats.
+  const double wet =
+      scene.fluid ? std::min(1., mover.mass / (scene.fluid->density * shape_of<d>(body.shape).at_unit_density.mass))
+                  : 1;
+  const double side = wet * mover.height * (d == 2 ? 1 : mover.breadth);
+  if (mover.way > 0)
+    mover.facing = (mover.plan * std::abs(way[d - 1]) + side * way.template head<d - 1>().norm()) / mover.way;
   return mover;
 }
 
@@ -155,6 +181,15 @@ double given_wave(const Scene& scene) {
 
 bool Entry::flat() const { return deadrise && *deadrise < flattest; }
 bool Outlook::has_load() const { return entry && std::isfinite(entry->peak_load) && entry->peak_load > 0; }
+
+bool Outlook::starts_at_rest() const {
+  const auto rests = [](const auto& of) { return of.velocity.isZero(0); };
+  const bool bodies = std::ranges::all_of(
+      scene.bodies, [&](const Body& body) { return rests(body) && body.spin_deg.isZero(0) && body.path.empty(); });
+  return bodies && (!scene.fluid || std::ranges::all_of(scene.fluid->regions, [&](const Region& region) {
+           return rests(region) && region.velocity_gradient.isZero(0);
+         }));
+}
 
 template <int d>
 Outlook outlook(const Scene& scene) {

@@ -39,6 +39,7 @@ struct Mover {
   double added = 0;                            ///< mass of water on a flat plate of its plan [kg, kg/m]
   double forward = 0;                          ///< speed along the water [m/s]
   double way = 0;                              ///< that it makes in the water until the end [m]
+  double facing = 0;                           ///< what of it is seen along that way [m, m^2]
   double time_in_water = 0;                    ///< [s]
   bool moves = false;                          ///< free or prescribed
 };
@@ -54,7 +55,8 @@ struct Outlook {
   double depth = 0;            ///< of water in the tank [m]
 
   int dimension() const { return scene.dimension; }
-  bool has_load() const;  ///< there is a finite load of an impact to compare with
+  bool starts_at_rest() const;  ///< nothing moves at t = 0
+  bool has_load() const;        ///< there is a finite load of an impact to compare with
 };
 
 template <int d>
