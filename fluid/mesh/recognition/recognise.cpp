@@ -67,7 +67,13 @@ bool is_film(const std::array<int, d + 1>& cell, double fullness, const Nodes<d>
   return one_patch || of.nearest(at.poses[wall], centroid, of.diameter()).distance < 0;
 }
 
-// Volume that a cell between nodes of a wall and of the water has in the solid, from five points in it.
+// Whether the nodes lie on two patches of a wall, off the edge between them.
+bool joins_patches(const WallTie& a, const WallTie& b) {
+  return a.wall >= 0 && a.wall == b.wall && !a.sharp() && !b.sharp() && a.patch != b.patch;
+}
+
+// Volume that a cell between nodes of a wall and of the water has in the solid, from five points in it. The solid may be too thin
+// for them: where it joins two patches of the wall its edge between them tells.
 double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const WallsAt<3>& at) {
   constexpr double aside = 0.5;  // of the way from the centroid to a corner
   const auto x = corners(nodes.x, cell);
@@ -86,6 +92,10 @@ double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const Wall
     };
     inside += is_solid(centroid);
     for (int k = 0; k < 4; ++k) inside += is_solid(centroid + aside * (x(k) - centroid));
+    for (int i = 1; i < 4; ++i)
+      for (int j = 0; j < i; ++j)
+        inside += nodes.tie[cell[i]].wall == w && joins_patches(nodes.tie[cell[i]], nodes.tie[cell[j]]) &&
+                  is_solid(0.5 * (x(i) + x(j)));
   }
   return inside == 0 ? 0.0 : volume<3>(x) * std::min(inside, 5) / 5;
 }
@@ -93,15 +103,13 @@ double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const Wall
 // Whether it has nodes on two patches of a wall, off the edge between them.
 bool spans_patches(const std::array<int, 4>& cell, const Nodes<3>& nodes) {
   for (int i = 1; i < 4; ++i)
-    for (int j = 0; j < i; ++j) {
-      const WallTie &a = nodes.tie[cell[i]], &b = nodes.tie[cell[j]];
-      if (a.wall >= 0 && a.wall == b.wall && !a.sharp() && !b.sharp() && a.patch != b.patch) return true;
-    }
+    for (int j = 0; j < i; ++j)
+      if (joins_patches(nodes.tie[cell[i]], nodes.tie[cell[j]])) return true;
   return false;
 }
 
 // Gives facets back to walls that cells of the water pierce (pierced.hpp), as long as that leaves less of such cells in the
-// solid. `decide`: what a cell holds. Those that still leave a hole in the water.
+// solid. `decide`: what a cell holds. Those that still are wrong.
 template <class Decide>
 std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& on_boundary,
                                const WallsAt<3>& at, std::vector<Content>& content, const Decide& decide) {
@@ -151,7 +159,7 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
       piercing.push_back(f);
     }
   }
-  std::erase_if(piercing, [&](int c) { return all.cells[c][0] < 0 || content[c] == water || !is_wrong(c); });
+  std::erase_if(piercing, [&](int c) { return all.cells[c][0] < 0 || !is_wrong(c); });
   return piercing;
 }
 
@@ -255,6 +263,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   mesh.hub_in_water = reach_water(all, hubs, nodes, inside);
   if (mesh.hub_in_water) return mesh;
 
+  const bool outline_decides = std::isinf(limit.never);
   auto decide = [&](const std::array<int, d + 1>& cell) -> Content {
     const Shape s = shape<d>(edge_matrix<d>(corners(nodes.x, cell)));
     if (s.degenerate || is_film<d>(cell, s.fullness, nodes, walls)) return flat_cell;
@@ -266,7 +275,8 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
       centroid += nodes.x[n] / (d + 1);
       has_inner = has_inner || !on_boundary[n];
     }
-    if (!has_inner && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d)) return thin_cell;
+    if (!has_inner && (d == 2 || s.fullness < dust) && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d))
+      return thin_cell;
     const double alpha = s.radius / size;
     if (alpha > limit.never) return inside(centroid) ? thin_cell : none;
     const bool is_water =
@@ -278,7 +288,10 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   std::vector<Content> content(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });
   std::vector<int> piercing;
-  if constexpr (d == 3) piercing = recover_walls(all, nodes, on_boundary, walls, content, decide);
+  if constexpr (d == 3) {
+    piercing = recover_walls(all, nodes, on_boundary, walls, content, decide);
+    if (!outline_decides) std::erase_if(piercing, [&](int c) { return content[c] == water; });
+  }
   fill_flat_cells(all, nodes, walls, content);
   leave_out_pockets(all, nodes, walls, content);
 
