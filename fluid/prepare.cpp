@@ -13,6 +13,7 @@
 #include "fluid/mesh/drops/droplets.hpp"
 #include "fluid/mesh/drops/sheets.hpp"
 #include "fluid/mesh/recognition/hubs.hpp"
+#include "fluid/mesh/sizes/narrow_strips.hpp"
 #include "fluid/mesh/sizes/size_field.hpp"
 #include "fluid/parallel.hpp"
 
@@ -23,6 +24,9 @@ void Fluid<d>::State::size_nodes() {
   const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh);
   in_parallel(work.nodes.size(),
               [&](std::size_t i) { work.nodes.h[i] = field(work.nodes.x[i], work.nodes.tie[i].wall); });
+  if constexpr (d == 3)
+    resolve_narrow_strips(work.nodes, work.mesh,
+                          [this](int node, double length) { return rests_on_wall(node, length); });
 }
 
 // A node that leaves the mesh takes its share of volume along, as far as the mesh has lost it, with the mean velocity of what it carried

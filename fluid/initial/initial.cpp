@@ -9,6 +9,7 @@
 #include "fluid/initial/gaps.hpp"
 #include "fluid/initial/parts.hpp"
 #include "fluid/mesh/adapt/adapt.hpp"
+#include "fluid/mesh/sizes/narrow_strips.hpp"
 #include "fluid/mesh/sizes/size_field.hpp"
 #include "fluid/parallel.hpp"
 
@@ -20,6 +21,8 @@ constexpr Alpha outline_decides{std::numeric_limits<double>::infinity(), 0.0, 0.
 // Until the node spacing no longer changes visibly; Mesh_3 has done most of it in 3D.
 template <int d>
 constexpr int smoothing_sweeps = d == 2 ? 30 : 4;
+
+bool stays_anywhere(int, double) { return true; }
 
 [[noreturn]] void refuse_nothing() {
   throw std::invalid_argument("no liquid: every region lies outside the tank or inside a body");
@@ -65,6 +68,7 @@ class Filler {
     auto sizes = [&] {
       const SizeField<d> field(spec_.size, walls_, dry_, out_.nodes.x, out_.mesh);
       in_parallel(h.size(), [&](std::size_t i) { h[i] = field(out_.nodes.x[i]); });
+      if constexpr (d == 3) resolve_narrow_strips(out_.nodes, out_.mesh, stays_anywhere);
     };
     sizes();
     const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
@@ -73,8 +77,9 @@ class Filler {
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {
       if (spec_.while_meshing) spec_.while_meshing();
       cut();
+      if (d == 3 && sweep == 0) sizes();  // strips are known now
       if (settled + 1 == smoothing_sweeps<d>) break;
-      const auto report = adapt<d>(out_.nodes, out_.mesh, walls_, [](int, double) { return true; });
+      const auto report = adapt<d>(out_.nodes, out_.mesh, walls_, stays_anywhere);
       const bool quiet = report.inserted + report.removed < 1 + static_cast<int>(h.size()) / 200;
       if (quiet || sweep > 60) ++settled;
       if (report.inserted + report.removed > 0) cut();

@@ -14,7 +14,6 @@ namespace {
 constexpr double split_above = 1.5;
 constexpr double coincide = 0.05;         // distance of nodes that are one, over h
 constexpr double indistinct = 0.1;        // ... of a contact line at rest from a corner; nearer ones do not stay still
-constexpr double strip = 1.5;             // size of elements along one, over its width
 constexpr double crowd_below = 0.25;      // height of an inner node over a boundary facet, over h
 constexpr double surely_fits = 1 + 1e-9;  // squares of lengths: what is nearer to a limit is looked at closely
 
@@ -173,25 +172,6 @@ class Adapter {
     return rests_(rank_a == lower ? e.a : e.b, (nodes_.x[e.a] - nodes_.x[e.b]).norm());
   }
 
-  // An edge of a contact line at rest, or of a wall's edge beside it, that is as long as the strip between the two is wide.
-  bool resolves_narrow_strip(const Edge& e, Rank rank_a, Rank rank_b) const {
-    if (d == 2 || rank_a < contact_line || rank_b < contact_line) return false;
-    const Vec<d> along = nodes_.x[e.b] - nodes_.x[e.a];
-    bool resolves = false;
-    edges_.around(mesh_.boundary, e.a, e.b, [&](int f) {
-      if (mesh_.boundary[f].wall < 0) return;
-      for (int n : mesh_.boundary[f].nodes) {
-        if (n == e.a || n == e.b || rank(n) < contact_line) continue;
-        const Vec<d> to = nodes_.x[n] - nodes_.x[e.a];
-        const double width = (to - to.dot(along) / along.squaredNorm() * along).norm();
-        if (along.norm() <= merge_below * strip * width) continue;
-        const int line = nodes_.surface[e.a] && nodes_.surface[e.b] ? e.a : n;
-        resolves = resolves || (nodes_.surface[line] && rests_(line, width));
-      }
-    });
-    return resolves;
-  }
-
   void merge(std::span<const Edge> edges) {
     for (const Edge& e : edges) {
       if (touched_[e.a] || touched_[e.b]) continue;
@@ -202,7 +182,6 @@ class Adapter {
       if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
       if (a.wall >= 0 && b.wall >= 0 && a.wall != b.wall) continue;               // across a gap between walls
       if (leads_off_resting_contact_line(e, rank_a, rank_b)) continue;
-      if (resolves_narrow_strip(e, rank_a, rank_b)) continue;
       if (rank_a == rank_b) {
         if (!may_merge_with_its_like(rank_a, e)) continue;
         nodes_.inherited[e.a] += nodes_.carried(e.a);
