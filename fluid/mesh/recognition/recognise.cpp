@@ -112,7 +112,8 @@ bool spans_patches(const std::array<int, 4>& cell, const Nodes<3>& nodes) {
 // solid. `decide`: what a cell holds. Those that still are wrong.
 template <class Decide>
 std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const std::vector<char>& on_boundary,
-                               const WallsAt<3>& at, std::vector<Content>& content, const Decide& decide) {
+                               const WallsAt<3>& at, const InsideTest<3>& inside, std::vector<Content>& content,
+                               const Decide& decide) {
   using Cell = std::array<int, 4>;
   // A node of a wall, joined to one within the water or on another wall; most cells beyond the water have none.
   auto is_mixed = [&](const Cell& cell) {
@@ -122,10 +123,24 @@ std::vector<int> recover_walls(Delaunay<3>& all, const Nodes<3>& nodes, const st
              return !on_boundary[n] || (tied(n) && nodes.tie[n].wall != nodes.tie[*on].wall);
            });
   };
+  // A node of a wall, joined to one of the free surface: through the air, or through the wall and water before it.
+  auto spans_water = [&](const Cell& cell) {
+    const auto x = corners(nodes.x, cell);
+    const Vec<3> centroid = 0.25 * (x(0) + x(1) + x(2) + x(3));
+    const int wall = std::ranges::max(cell, {}, [&](int n) { return nodes.tie[n].wall; });
+    const int w = nodes.tie[wall].wall;
+    if (w < 0 || std::ranges::none_of(cell, [&](int n) { return nodes.tie[n].wall < 0; })) return false;
+    return std::ranges::any_of(cell, [&](int n) {
+      if (nodes.tie[n].wall >= 0) return false;
+      const Vec<3> point = 0.5 * (centroid + nodes.x[n]);
+      return inside(point) && at.walls[w].nearest(at.poses[w], point, at.walls[w].diameter()).distance > 0;
+    });
+  };
   // A hole in the water, or water on both sides of an edge of a hull that is joined through it.
   auto is_wrong = [&](int c) {
     const Cell& cell = all.cells[c];
-    return is_mixed(cell) && (content[c] != water || spans_patches(cell, nodes)) && pierced(cell, nodes, at) > 0;
+    if (!is_mixed(cell)) return content[c] == none && pierced(cell, nodes, at) > 0 && spans_water(cell);
+    return (content[c] != water || spans_patches(cell, nodes)) && pierced(cell, nodes, at) > 0;
   };
   std::vector<char> wrong(all.cells.size());
   in_parallel(all.cells.size(), [&](std::size_t c) { wrong[c] = is_wrong(static_cast<int>(c)); });
@@ -289,7 +304,7 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
   in_parallel(all.cells.size(), [&](std::size_t c) { content[c] = decide(all.cells[c]); });
   std::vector<int> piercing;
   if constexpr (d == 3) {
-    piercing = recover_walls(all, nodes, on_boundary, walls, content, decide);
+    piercing = recover_walls(all, nodes, on_boundary, walls, inside, content, decide);
     if (!outline_decides) std::erase_if(piercing, [&](int c) { return content[c] == water; });
   }
   fill_flat_cells(all, nodes, walls, content);
