@@ -290,7 +290,8 @@ Recognised<d> recognise(Delaunay<d> all, Nodes<d>& nodes, const std::vector<Face
       centroid += nodes.x[n] / (d + 1);
       has_inner = has_inner || !on_boundary[n];
     }
-    if (!has_inner && (d == 2 || s.fullness < dust) && volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d))
+    if (!has_inner && (d == 2 || (s.fullness < dust && !outline_decides)) &&
+        volume<d>(corners(nodes.x, cell)) < dust * std::pow(size, d))
       return thin_cell;
     const double alpha = s.radius / size;
     if (alpha > limit.never) return inside(centroid) ? thin_cell : none;
