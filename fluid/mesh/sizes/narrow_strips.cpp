@@ -1,9 +1,9 @@
 #include "fluid/mesh/sizes/narrow_strips.hpp"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
-#include "fluid/mesh/adapt/boundary_edges.hpp"
 #include "fluid/parallel.hpp"
 
 namespace splashdown::fluid {
@@ -19,8 +19,7 @@ struct Strip {
 
 // A facet of the wall from an edge of the contact line to a node on an edge of the wall, under water.
 std::vector<Strip> strips_of(const Nodes<3>& nodes, const Mesh<3>& mesh, const RestingContact& rests) {
-  const BoundaryEdges<3> edges(mesh.boundary, nodes.size());
-  std::vector<Strip> strips;
+  std::map<int, Strip> strips;  // by node
   auto is_contact = [&](int n, int wall) {
     return nodes.tie[n].wall == wall && nodes.surface[n] && !nodes.tie[n].sharp();
   };
@@ -36,10 +35,16 @@ std::vector<Strip> strips_of(const Nodes<3>& nodes, const Mesh<3>& mesh, const R
       const double width = along.cross(to).norm() / along.norm(), h = nodes.h[a];
       if (width >= h || !rests(a, width) || !rests(b, width)) continue;
       const double size = std::max(width, narrowest * h);
-      for (int n : f.nodes) strips.push_back({nodes.x[n], size, (h - size) / slope});
+      for (int n : f.nodes) {
+        Strip& strip = strips.try_emplace(n, Strip{nodes.x[n], size, 0}).first->second;
+        strip.size = std::min(strip.size, size);
+        strip.reach = std::max(strip.reach, (h - size) / slope);
+      }
     }
   }
-  return strips;
+  std::vector<Strip> found;
+  for (const auto& [node, strip] : strips) found.push_back(strip);
+  return found;
 }
 
 }  // namespace
