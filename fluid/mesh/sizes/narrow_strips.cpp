@@ -9,8 +9,8 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double slope = 0.45;     // of h: neighbours' volumes differ by three, which their inertia bears
-constexpr double narrowest = 0.1;  // over h: nearer contact lines merge with the edge
+constexpr double slope = 0.45;       // of h: neighbours' volumes differ by three, which their inertia bears
+constexpr double least_width = 0.1;  // over h: nearer contact lines merge with the edge
 
 struct Strip {
   Vec<3> at;
@@ -34,7 +34,7 @@ std::vector<Strip> strips_of(const Nodes<3>& nodes, const Mesh<3>& mesh, const R
       const Vec<3> along = nodes.x[b] - nodes.x[a], to = nodes.x[across] - nodes.x[a];
       const double width = along.cross(to).norm() / along.norm(), h = nodes.h[a];
       if (width >= h || !rests(a, width) || !rests(b, width)) continue;
-      const double size = std::max(width, narrowest * h);
+      const double size = std::max(width, least_width * h);
       for (int n : f.nodes) {
         Strip& strip = strips.try_emplace(n, Strip{nodes.x[n], size, 0}).first->second;
         strip.size = std::min(strip.size, size);

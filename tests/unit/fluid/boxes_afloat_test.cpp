@@ -16,13 +16,13 @@ struct Afloat {
   double draft, water;
 };
 
-/// A box of about 1 m, turned about the vertical; its draft is drawn from 0.1 to 1.5 elements.
+/// A box of about 1 m, turned about the vertical; its draft is drawn from 0.12 to 1.5 elements.
 Afloat box_afloat(unsigned seed) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  const double size = between(0.15, 0.25), draft = size * std::exp(between(std::log(0.1), std::log(1.5)));
+  const double size = between(0.15, 0.25), draft = size * std::exp(between(std::log(0.12), std::log(1.5)));
   const double length = between(0.8, 1.2), width = between(0.6, 1), freeboard = size * between(0.5, 2);
   const double far = 2.5 * size;
   Afloat box{{}, draft, 4 * half * half * depth - length * width * draft};
