@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@ namespace splashdown {
 /// free: by forces, in the freedoms that are let free; fixed: not at all; prescribed: along a path.
 enum class BodyMotion { free, fixed, prescribed };
 
+/// When a prescribed body becomes free: as soon as one of these holds at the end of a step.
+struct Release {
+  std::optional<double> time = {};  ///< it is this time, which a step ends at [s]
+  bool at_contact = false;          ///< its hull is wet
+  std::optional<double> load = {};  ///< the water's load on it is so large [N, N/m]
+};
+
 /// What a body is made from. SI; per metre of depth in 2D [kg/m, kg m].
 template <int d>
 struct BodySpec {
@@ -22,11 +30,15 @@ struct BodySpec {
   double mass = 0;                              ///< [kg, kg/m]
   Inertia<d> inertia = Inertia<d>::Identity();  ///< about the centre of mass, body axes [kg m^2, kg m]
   BodyMotion motion = BodyMotion::free;         ///< what moves it
-  std::array<bool, freedoms<d>> free{};         ///< which of (V, w) may change, world axes; used when motion = free
+  std::array<bool, freedoms<d>> free{};         ///< which of (V, w) may change, world axes; used when forces move it
   Isometry<d> pose = Isometry<d>::Identity();   ///< body frame to world at t = 0
   Twist<d> velocity = Twist<d>::Zero();         ///< at t = 0
   /// Pose at time t for motion = prescribed [world frame].
   std::function<Isometry<d>(double)> path;
+  std::optional<Release> release = {};  ///< of motion = prescribed: until then
+
+  /// Forces move it, from the start or after its release.
+  bool becomes_free() const { return motion == BodyMotion::free || release; }
 };
 
 /// Where a body is and how it moves, world frame, about its centre of mass.

@@ -55,6 +55,7 @@ struct WallCoordinates {
   Eigen::Index first = 0;  ///< index of its first coordinate among all
   Eigen::Index count = 0;  ///< number of its coordinates
   bool answers = false;    ///< impulses change its velocities
+  bool stays = false;      ///< where it is, for good
   double mass = 0;         ///< [kg, kg/m]
   double volume = 0;       ///< that it encloses [m^d]
 };
@@ -116,6 +117,12 @@ class FluidPart : public Participant {
   virtual bool release_fragment() { return false; }
   /// Accepts the last solve. `walls`: where the structure has its walls at t_{n+1}; empty: all stay.
   virtual void commit(const Placement& walls) = 0;
+
+  /// Whether the fluid is at rest and none of these walls, with the speeds of their fastest points [m/s], comes near it in the next
+  /// step. That is then a mere `wait`; walls that it does not have are no hindrance.
+  virtual bool rests(std::span<const WallCoordinates> /*walls*/, const Eigen::VectorXd& /*speeds*/) { return false; }
+  /// t_n <- t_n + dt, in place of begin, solve and commit. `walls`, `velocities`: of the structure at t_{n+1} and t_{n+1/2}.
+  virtual void wait(double /*dt*/, const Placement& /*walls*/, const Velocities& /*velocities*/) {}
 
   virtual std::span<const InterfacePiece> pieces() const { return {}; }  ///< of the begun step
   virtual Eigen::VectorXd first_guess() const { return {}; }             ///< of `lagged`, after begin

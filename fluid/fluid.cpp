@@ -90,6 +90,7 @@ double Fluid<d>::time() const {
 template <int d>
 double Fluid<d>::stable_dt() const {
   const auto& now = s_->now;
+  if (is_waiting()) return s_->spec.step.dt_max;
   constexpr double never = std::numeric_limits<double>::infinity();
   const double squared = least_in_parallel(now.mesh.cells.size(), [&](std::size_t c) {
     const auto& cell = now.mesh.cells[c];

@@ -66,6 +66,15 @@ class Fluid final : public FluidView<d> {
   /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<d>> poses);
 
+  /// Whether the water is at rest and nothing in it moves it: neither effects nor drops.
+  bool is_at_rest() const;
+  /// Water at rest from which all walls that move stay away: until it is woken, `wait` takes the place of begin, solve and commit, and
+  /// the loads of the last solve stay.
+  void set_waiting(bool waits);
+  bool is_waiting() const;  ///< says what was set
+  /// t_n <- t_n + dt. `poses`, `velocities`: of the walls at t_{n+1} and t_{n+1/2}.
+  void wait(double dt, std::span<const Isometry<d>> poses, std::span<const Twist<d>> velocities);
+
   double density() const override;
   std::span<const WallSpec<d>> walls() const override;
   std::span<const Isometry<d>> wall_poses() const override;

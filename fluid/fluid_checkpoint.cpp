@@ -50,7 +50,8 @@ void archive_present(Stream stream, Present<d>& s) {
   stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.nodes.owed), stream.list(s.nodes.h),
       stream.list(s.nodes.wall_pressure);
   stream.list(s.mesh.cells), stream.list(s.mesh.boundary);
-  stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted), stream.list(s.chords);
+  stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted), stream.list(s.chords),
+      stream.list(s.resting_loads);
 }
 
 template <class T>
@@ -74,10 +75,11 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
         nodes.spray.size(), nodes.volume.size(), nodes.owed.size(), nodes.h.size(), nodes.wall_pressure.size()})
     good = good && size == count;
   good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count &&
-         s.chords.size() == wall_count;
+         s.chords.size() == wall_count && (s.resting_loads.empty() || s.resting_loads.size() == wall_count);
   good = good && all_finite(nodes.x) && all_finite(nodes.v) && all_finite(nodes.p) && all_finite(nodes.volume) &&
          all_finite(nodes.wall_pressure) && all_finite(nodes.owed) && all_finite(s.velocity) && all_finite(s.wetted) &&
-         all_finite(s.chords) && std::ranges::all_of(nodes.h, [](double h) { return h > 0 && std::isfinite(h); });
+         all_finite(s.chords) && all_finite(s.resting_loads) &&
+         std::ranges::all_of(nodes.h, [](double h) { return h > 0 && std::isfinite(h); });
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
   for (const auto& pose : s.poses) good = good && pose.matrix().allFinite() && pose.linear().isUnitary(roundoff);
   const auto is_node = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < count; };
@@ -111,6 +113,10 @@ void Fluid<d>::load(std::istream& in) {
   s_->now.displaced = displaced_volumes(s_->now.mesh, s_->now.nodes.x, s_->walls.size());
   s_->now.nodes.part = parts_of(s_->now.mesh, s_->now.nodes.size());
   s_->prepared = s_->solved = false;
+  s_->result = {};
+  s_->result.loads.resize(s_->now.resting_loads.size());
+  for (std::size_t w = 0; w < s_->result.loads.size(); ++w)
+    s_->result.loads[w] = {.physical = s_->now.resting_loads[w], .wetted = s_->now.wetted[w]};
 }
 
 template void Fluid<2>::save(std::ostream&) const;

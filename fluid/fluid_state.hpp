@@ -37,6 +37,7 @@ struct Present {
   std::vector<double> chords;                 ///< by which hulls hold more than when the water closed around them
   std::vector<DisplacedVolume<d>> displaced;  ///< of walls, in this mesh; not in a checkpoint: it follows from the mesh
   double acceleration_dt = std::numeric_limits<double>::infinity();
+  std::vector<Wrench<d>> resting_loads;  ///< on walls, of water that waits; empty: it does not
   Ledger ledger;
 };
 

@@ -73,14 +73,48 @@ Eigen::VectorXd Participant<d>::first_guess() const {
 }
 
 template <int d>
-void Participant<d>::commit(const coupling::Placement& walls) {
+std::vector<Isometry<d>> Participant<d>::placed(const coupling::Placement& walls) const {
   constexpr int numbers = d * (d + 1);
   std::vector<Isometry<d>> poses(fluid_->wall_poses().begin(), fluid_->wall_poses().end());
   const std::size_t placed = walls_in(walls.size(), numbers, poses.size());
   for (std::size_t w = 0; w < placed; ++w)
     poses[w].matrix().template topRows<d>() =
         walls.segment<numbers>(numbers * static_cast<Eigen::Index>(w)).template reshaped<Eigen::ColMajor>(d, d + 1);
-  fluid_->commit(poses);
+  return poses;
+}
+
+template <int d>
+void Participant<d>::commit(const coupling::Placement& walls) {
+  fluid_->commit(placed(walls));
+}
+
+template <int d>
+void Participant<d>::wait(double dt, const coupling::Placement& walls, const coupling::Velocities& velocities) {
+  std::vector<Twist<d>> twists(fluid_->spec().walls.size(), Twist<d>::Zero());
+  for (std::size_t w = 0; w < walls_in(velocities.size(), freedoms<d>, twists.size()); ++w)
+    twists[w] = velocities.segment<freedoms<d>>(index<d>(w));
+  fluid_->wait(dt, placed(walls), twists);
+}
+
+template <int d>
+bool Participant<d>::rests(std::span<const coupling::WallCoordinates> walls, const Eigen::VectorXd& speeds) {
+  const auto stay_away = [&] {
+    if (fluid_->result().loads.size() < walls.size()) return false;  // no step has been solved
+    Eigen::AlignedBox<double, d> water;
+    for (const auto& x : fluid_->nodes().x) water.extend(x);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      if (walls[w].stays) continue;
+      const auto& vertices = fluid_->spec().walls[w].surface.vertices;
+      const double radius = vertices.cols() > 0 ? vertices.colwise().norm().maxCoeff() : 0.0;
+      const double moves = 2 * fluid_->spec().step.dt_max * speeds[static_cast<Eigen::Index>(w)];
+      if (fluid_->result().loads[w].wetted > 0 ||
+          water.exteriorDistance(fluid_->wall_poses()[w].translation()) <= 2 * radius + moves)
+        return false;
+    }
+    return true;
+  };
+  fluid_->set_waiting((fluid_->is_waiting() || fluid_->is_at_rest()) && stay_away());
+  return fluid_->is_waiting();
 }
 
 template <int d>

@@ -30,6 +30,9 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
   coupling::Status acceptable() const override { return fluid_->acceptable(); }
   bool release_fragment() override { return fluid_->release_fragment(); }
   void commit(const coupling::Placement& walls) override;
+  /// What is at rest waits while balls around the hulls that are not fixed stay a radius away from a box around the water.
+  bool rests(std::span<const coupling::WallCoordinates> walls, const Eigen::VectorXd& speeds) override;
+  void wait(double dt, const coupling::Placement& walls, const coupling::Velocities& velocities) override;
 
   std::span<const coupling::InterfacePiece> pieces() const override { return fluid_->interface_pieces(); }
   Eigen::VectorXd first_guess() const override;
@@ -41,6 +44,8 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
  private:
   Eigen::MatrixXd slope(std::span<const std::size_t> walls) const override { return fluid_->interface_slope(walls); }
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override { return fluid_->added_mass(walls); }
+
+  std::vector<Isometry<d>> placed(const coupling::Placement& walls) const;
 
   std::unique_ptr<Fluid<d>> fluid_;
   double kick_ = 0;

@@ -46,9 +46,10 @@ Bodies<d>::Bodies(std::vector<BodySpec<d>> specs, std::vector<std::unique_ptr<Fo
     const Isometry<d> pose = spec.motion == BodyMotion::prescribed ? spec.path(0) : spec.pose;
     w.states.push_back({pose, held_still ? Twist<d>::Zero().eval() : spec.velocity});
     w.movers.emplace_back();
-    w.bullet.add(spec.motion == BodyMotion::free);
+    w.held.push_back(spec.release.has_value());
+    w.bullet.add(spec.becomes_free());
     w.bullet.place(w.states.size() - 1, embedded<d>(pose), Twist<3>::Zero());
-    if (spec.motion != BodyMotion::free) continue;
+    if (!spec.becomes_free()) continue;
 
     FreeBody::Freedom free{};
     for (int k = 0; k < freedoms<d>; ++k) {
@@ -104,6 +105,11 @@ double Bodies<d>::time() const {
 }
 
 template <int d>
+bool Bodies<d>::answers(std::size_t body) const {
+  return system_->answers(body);
+}
+
+template <int d>
 void Bodies<d>::begin(double kick, double dt) {
   System& w = *system_;
   if (!(kick > 0 && dt > 0 && std::isfinite(kick) && std::isfinite(dt)))
@@ -113,7 +119,7 @@ void Bodies<d>::begin(double kick, double dt) {
   const auto forces = w.known_forces();
   for (std::size_t i = 0; i < size(); ++i) {
     if (w.movers[i]) w.movers[i]->begin(lifted_state(w.states[i]), embedding<d>() * (kick * forces[i]), dt);
-    if (w.specs[i].motion == BodyMotion::prescribed) w.trials[i] = w.prescribed(i);
+    if (w.specs[i].motion == BodyMotion::prescribed && !w.answers(i)) w.trials[i] = w.prescribed(i);
   }
   w.set_up_constraints();
   w.guess_contacts();
@@ -179,7 +185,7 @@ Status Bodies<d>::acceptable() const {
   constexpr double most_turn = 1;  // [rad] beyond which the way there is not that of a step
   for (std::size_t i = 0; i < size(); ++i) {
     const double turn = w.dt * w.trials[i].velocity.template tail<rotations<d>>().norm();
-    if (w.movers[i] && turn > most_turn)
+    if (w.answers(i) && turn > most_turn)
       return {message("a body turns too far within the step: \"", w.specs[i].name, "\" by ", turn, " rad")};
   }
   if (const auto status = w.squeezed(); !status.ok()) return status;
@@ -196,6 +202,7 @@ void Bodies<d>::commit() {
   w.states = w.trials;
   w.time += w.dt;
   if (w.impulses.size() > 0) w.loads = w.impulses / w.kick;
+  w.release();
   w.phase = System::Phase::committed;
 }
 
@@ -210,7 +217,7 @@ void Bodies<d>::see_wetted(std::span<const double> measures) {
 
 template <int d>
 double Bodies<d>::stable_dt() const {
-  double dt = std::numeric_limits<double>::infinity();
+  double dt = system_->until_release();
   for (const auto& force : system_->forces) dt = std::min(dt, force->stable_dt(system_->at(0, 0)));
   return dt;
 }
@@ -241,6 +248,8 @@ void Bodies<d>::save(std::ostream& out) const {
   write(out, &loads, 1);
   write(out, w.loads.data(), w.loads.size());
   write(out, w.wetted_share.data(), w.size());
+  write(out, &w.dt, 1);
+  out.write(w.held.data(), static_cast<std::streamsize>(size()));
 }
 
 template <int d>
@@ -265,6 +274,8 @@ void Bodies<d>::load(std::istream& in) {
   w.loads.resize(static_cast<Eigen::Index>(loads));
   read(in, w.loads.data(), w.loads.size());
   read(in, w.wetted_share.data(), w.size());
+  read(in, &w.dt, 1);
+  in.read(w.held.data(), static_cast<std::streamsize>(size()));
   if (!in) throw std::runtime_error("ends in the middle of the bodies");
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
   bool good = std::isfinite(w.time) && w.loads.allFinite();
@@ -272,6 +283,8 @@ void Bodies<d>::load(std::istream& in) {
     good = good && state.pose.matrix().allFinite() && state.pose.linear().isUnitary(roundoff) &&
            state.velocity.allFinite();
   for (const double share : w.wetted_share) good = good && share >= 0 && share <= 1;
+  good = good && w.dt >= 0 && std::isfinite(w.dt);
+  for (std::size_t i = 0; i < size(); ++i) good = good && (w.held[i] == 0 || (w.held[i] == 1 && w.specs[i].release));
   for (const double moved : w.moved) good = good && std::isfinite(moved);
   for (const auto& mover : w.movers) good = good && (!mover || mover->momentum.allFinite());
   if (!good) throw std::runtime_error("the bodies' state is damaged");

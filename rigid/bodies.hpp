@@ -51,6 +51,7 @@ class Bodies final : public BodiesView<d> {
   std::span<const BodyState<d>> states() const;  ///< of all, at t_n
   std::span<const BodyState<d>> trials() const;  ///< of all: the last trial
   double time() const;                           ///< t_n [s]
+  bool answers(std::size_t body) const;          ///< forces move it from t_n on: it is free, or has been released
 
   /// Fixes the step: forces over `kick` [s], drift over `dt` [s]; joints, springs and contacts are taken at x_n. Throws
   /// std::invalid_argument unless both are positive.
@@ -76,7 +77,7 @@ class Bodies final : public BodiesView<d> {
   /// Tells forces how much of each body's hull is wet from now on: its measure [m, m^2], in the order of the bodies. Part of the
   /// saved state. Throws std::invalid_argument for another number of them.
   void see_wetted(std::span<const double> measures);
-  /// Largest dt that forces allow from t_n [s]; infinity: any.
+  /// Largest dt that forces and releases at a time allow from t_n [s]; infinity: any.
   double stable_dt() const;
   std::vector<Diagnostic> diagnostics() const override;
 

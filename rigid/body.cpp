@@ -26,7 +26,8 @@ void check(const BodySpec<d>& spec) {
           "the initial orientation is not a rotation (determinant ", rotation.determinant(), ")");
   require(spec.velocity.allFinite(), "the initial velocity is not finite");
   require(spec.motion != BodyMotion::prescribed || spec.path, "prescribed motion needs a path");
-  if (spec.motion != BodyMotion::free) return;
+  require(spec.motion == BodyMotion::prescribed || !spec.release, "only prescribed motion ends with a release");
+  if (!spec.becomes_free()) return;
 
   require(std::isfinite(spec.mass) && spec.mass >= 0, "mass is ", spec.mass,
           "; a body that moves freely needs a positive mass, or none and the water's inertia");

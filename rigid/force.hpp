@@ -14,7 +14,7 @@ namespace splashdown::rigid {
 template <int d>
 struct BodiesAt {
   std::span<const BodySpec<d>> specs;    ///< as they were made
-  std::span<const BodyState<d>> states;  ///< poses at t_n, velocities at t_{n-1/2}
+  std::span<const BodyState<d>> states;  ///< poses at t_n, velocities at t_{n-1/2}, or of t_n: Force::is_of_velocity
   /// Of each hull's measure, what was wet in the last step, 0 to 1.
   std::span<const double> wetted_share;
   double time;      ///< t_n [s]
@@ -22,8 +22,8 @@ struct BodiesAt {
   double dt = 0;    ///< of this step [s]; 0: none is begun
 };
 
-/// A force on one body or on several. It is taken at t_n, and explicit in velocities: what is stiff bounds the step or belongs
-/// to the inertia, like the springs of joints.
+/// A force on one body or on several. It is taken at t_n and explicit: what is stiff bounds the step or belongs to the inertia,
+/// like the springs of joints.
 template <int d>
 class Force {
  public:
@@ -31,6 +31,9 @@ class Force {
   virtual std::string name() const = 0;  ///< of its table
   /// Adds to the wrench on each body about its centre of mass, world frame [N, N m; 2D: N/m, N]. The same for the same.
   virtual void add(const BodiesAt<d>& at, std::span<Wrench<d>> wrenches) const = 0;
+  /// Whether it depends on velocities. Such forces are taken at those of t_n, predicted from t_{n-1/2} with all forces and the last
+  /// step's loads (explicit midpoint rule): second order in time.
+  virtual bool is_of_velocity() const { return false; }
   /// Largest dt from t_n for which it is stable [s]; infinity: it sets none.
   virtual double stable_dt(const BodiesAt<d>& /*at*/) const { return std::numeric_limits<double>::infinity(); }
   /// Numbers at t_n, always of the same names.

@@ -26,11 +26,12 @@ Participant<d>::Participant(std::unique_ptr<Bodies<d>> bodies) : bodies_(std::mo
   reach_.resize(count);
   for (Eigen::Index b = 0; b < count; ++b) {
     const auto& spec = bodies_->spec(static_cast<std::size_t>(b));
-    const bool free = spec.motion == BodyMotion::free;
+    const bool free = spec.becomes_free();
     walls_.push_back({.name = spec.name,
                       .first = m * b,
                       .count = m,
-                      .answers = free,
+                      .answers = bodies_->answers(static_cast<std::size_t>(b)),
+                      .stays = spec.motion == BodyMotion::fixed,
                       .mass = spec.mass,
                       .volume = mass_properties<d>(spec.surface).mass});
     reach_[b] = reach(spec);
@@ -86,6 +87,23 @@ coupling::Placement Participant<d>::placement() const {
 template <int d>
 void Participant<d>::see_wetted(const Eigen::VectorXd& measures) {
   bodies_->see_wetted({measures.data(), bodies_->size()});
+}
+
+template <int d>
+void Participant<d>::load(std::istream& in) {
+  bodies_->load(in);
+  see_released();
+}
+
+template <int d>
+void Participant<d>::commit() {
+  bodies_->commit();
+  see_released();
+}
+
+template <int d>
+void Participant<d>::see_released() {
+  for (std::size_t b = 0; b < walls_.size(); ++b) walls_[b].answers = bodies_->answers(b);
 }
 
 template class Participant<2>;

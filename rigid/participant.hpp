@@ -22,7 +22,7 @@ class Participant final : public coupling::StructurePart {
   /// No body turns by more than half a radian, and what forces ask for.
   double stable_dt() const override;
   void save(std::ostream& out) const override { bodies_->save(out); }
-  void load(std::istream& in) override { bodies_->load(in); }
+  void load(std::istream& in) override;
 
   std::string name() const override { return "rigid"; }
   const std::vector<coupling::WallCoordinates>& walls() const override { return walls_; }
@@ -41,9 +41,11 @@ class Participant final : public coupling::StructurePart {
   coupling::Placement placement() const override;
   void see_wetted(const Eigen::VectorXd& measures) override;
   Status acceptable() const override { return bodies_->acceptable(); }
-  void commit() override { bodies_->commit(); }
+  void commit() override;
 
  private:
+  void see_released();
+
   std::unique_ptr<Bodies<d>> bodies_;
   std::vector<coupling::WallCoordinates> walls_;
   Eigen::VectorXd scales_, reach_;

@@ -10,6 +10,7 @@
 #include "rigid/constraints/condition_rows.hpp"
 #include "rigid/embedding.hpp"
 #include "rigid/message.hpp"
+#include "rigid/spin.hpp"
 
 namespace splashdown::rigid {
 
@@ -20,6 +21,16 @@ namespace {
 double weight_of_later(double z) {
   if (z < 1e-3) return 0.5 + z / 12;
   return std::isfinite(z) ? -1 / std::expm1(-z) - 1 / z : 1;
+}
+
+/// The twist that takes one pose into the other within a unit of time.
+template <int d>
+Twist<d> displacement(const Isometry<d>& from, const Isometry<d>& to) {
+  const Isometry<3> from_space = embedded<d>(from), to_space = embedded<d>(to);
+  Twist<3> twist;
+  twist << to_space.translation() - from_space.translation(),
+      rotation_log(to_space.linear() * from_space.linear().transpose());
+  return embedding<d>().transpose() * twist;
 }
 
 }  // namespace
@@ -50,17 +61,83 @@ template <int d>
 std::vector<Wrench<d>> Bodies<d>::System::known_forces() const {
   std::vector<Wrench<d>> sums(specs.size(), Wrench<d>::Zero());
   for (const auto& force : forces) force->add(at(kick, dt), sums);
+  if (std::ranges::none_of(forces, [](const auto& force) { return force->is_of_velocity(); })) return sums;
+  const auto now = predicted(sums);
+  BodiesAt<d> at_now = at(kick, dt);
+  at_now.states = now;
+  std::ranges::fill(sums, Wrench<d>::Zero());
+  for (const auto& force : forces) force->add(force->is_of_velocity() ? at_now : at(kick, dt), sums);
   return sums;
+}
+
+template <int d>
+std::vector<BodyState<d>> Bodies<d>::System::predicted(std::span<const Wrench<d>> known) const {
+  std::vector<BodyState<d>> now = states;
+  const double since = kick - 0.5 * dt;  // t_n - t_{n-1/2}
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (answers(i)) now[i].velocity += since * acceleration(i, known[i]);
+  return now;
+}
+
+template <int d>
+Twist<d> Bodies<d>::System::acceleration(std::size_t i, Wrench<d> sum) const {
+  if (!(specs[i].mass > 0)) return Twist<d>::Zero();
+  if (loads.size() > 0) sum += loads.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
+  Inertia<d> inertia_now = specs[i].inertia;
+  if constexpr (d == 3) inertia_now = world_inertia(states[i].pose.linear(), inertia_now);
+  Twist<d> change;
+  change << sum.template head<d>() / specs[i].mass, inertia_now.ldlt().solve(sum.template tail<rotations<d>>());
+  for (int k = 0; k < freedoms<d>; ++k)
+    if (!specs[i].free[static_cast<std::size_t>(k)]) change[k] = 0;
+  return change;
+}
+
+template <int d>
+void Bodies<d>::System::release() {
+  constexpr double roundoff = 1e-9;  // of a step: what sums of them miss
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (!held[i]) continue;
+    const auto& asked = *specs[i].release;
+    const bool is_loaded = loads.size() > 0 && asked.load &&
+                           loads.segment<d>(freedoms<d> * static_cast<Eigen::Index>(i)).norm() >= *asked.load;
+    if ((asked.time && time >= *asked.time - roundoff * dt) || (asked.at_contact && wetted_share[i] > 0) || is_loaded)
+      let_go(i);
+  }
+}
+
+// Its next kick begins at t_{n-1/2}, but forces move it from t_n on: it has the path's velocity there.
+template <int d>
+void Bodies<d>::System::let_go(std::size_t i) {
+  constexpr double instant = 1e-3;  // of a step: the path's slope before t_n
+  held[i] = 0;
+  std::vector<Wrench<d>> sums(specs.size(), Wrench<d>::Zero());
+  for (const auto& force : forces) force->add(at(0, 0), sums);
+  const double since = instant * dt;
+  Twist<d>& velocity = states[i].velocity;
+  velocity = displacement<d>(specs[i].path(time - since), specs[i].path(time)) / since;
+  velocity -= 0.5 * dt * acceleration(i, sums[i]);
+  trials[i] = states[i];
+  const Isometry<3> pose = embedded<d>(states[i].pose);
+  movers[i]->momentum = world_inertia(pose.linear(), lifted_inertia<d>(specs[i].inertia)) *
+                        (embedding<d>() * velocity).template tail<3>();
+}
+
+template <int d>
+double Bodies<d>::System::until_release() const {
+  constexpr double growth = 1.5, roundoff = 1e-9;  // of steps: as those who choose them grow them; of their sums
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (!held[i] || !specs[i].release->time) continue;
+    const double left = *specs[i].release->time - time;
+    least = std::min(least, dt > 0 && left > (1 + roundoff) * dt && left < 2 * growth * dt ? left / 2 : left);
+  }
+  return least;
 }
 
 template <int d>
 BodyState<d> Bodies<d>::System::prescribed(std::size_t i) const {
   const Isometry<d> to = specs[i].path(time + dt);
-  const Isometry<3> from_space = embedded<d>(states[i].pose), to_space = embedded<d>(to);
-  Twist<3> displacement;
-  displacement << to_space.translation() - from_space.translation(),
-      rotation_log(to_space.linear() * from_space.linear().transpose());
-  return {to, embedding<d>().transpose() * displacement / dt};
+  return {to, displacement<d>(states[i].pose, to) / dt};
 }
 
 template <int d>
@@ -84,9 +161,9 @@ template <int d>
 std::vector<Condition<d>> Bodies<d>::System::equalities() {
   std::vector<Condition<d>> all = tied;
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    const Twist<d>& velocity = movers[i] ? states[i].velocity : trials[i].velocity;
+    const Twist<d>& velocity = answers(i) ? states[i].velocity : trials[i].velocity;
     for (int k = 0; k < freedoms<d>; ++k)
-      if (!movers[i] || !specs[i].free[static_cast<std::size_t>(k)])
+      if (!answers(i) || !specs[i].free[static_cast<std::size_t>(k)])
         all.push_back({i, {}, Wrench<d>::Unit(k), Wrench<d>::Zero(), velocity[k]});
   }
   return all;
@@ -103,7 +180,8 @@ void Bodies<d>::System::find_contacts() {
   rubbing.clear();
   rebound.resize(0);
   if (!contacts) return;
-  const auto touching = contacts->within_reach(states, dt);
+  auto touching = contacts->within_reach(states, dt);
+  std::erase_if(touching, [&](const Contact<d>& c) { return !answers(c.body) && !(c.other && answers(*c.other)); });
   near.assign(touching.begin(), touching.end());
   if (contacts->spec().friction > 0)
     for (const auto& contact : touching)
@@ -134,7 +212,7 @@ void Bodies<d>::System::find_stops_and_springs() {
 template <int d>
 double Bodies<d>::System::compliance(const Condition<d>& rate) const {
   const auto of = [&](std::size_t body, const Wrench<d>& wrench) {
-    if (!movers[body]) return 0.;
+    if (!answers(body)) return 0.;
     if (specs[body].mass == 0) return std::numeric_limits<double>::infinity();
     return wrench.dot(inertia(body).ldlt().solve(wrench));
   };
@@ -181,7 +259,7 @@ void Bodies<d>::System::solve_conditions() {
     const auto b = static_cast<std::size_t>(i);
     p.unit.segment(freedoms<d> * i + d, rotations<d>).setConstant(reaches[b]);
     p.before.segment<freedoms<d>>(freedoms<d> * i) = states[b].velocity;
-    if (!movers[b]) continue;
+    if (!answers(b)) continue;
     p.inertia.block<freedoms<d>, freedoms<d>>(freedoms<d> * i, freedoms<d> * i) = inertia(b);
     p.impulse.segment<freedoms<d>>(freedoms<d> * i) = embedding<d>().transpose() * movers[b]->impulse();
   }
@@ -231,14 +309,14 @@ void Bodies<d>::System::add_springs(ConstraintSolver::Problem& p) const {
 template <int d>
 void Bodies<d>::System::drift(const Eigen::VectorXd& velocities) {
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (!movers[i]) continue;
+    if (!answers(i)) continue;
     const Twist<d> s = velocities.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
     const Twist<d> moves = s + apart.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i));
     bullet.place(i, embedded<d>(states[i].pose), embedding<d>() * (s.allFinite() ? moves : Twist<d>::Zero().eval()));
   }
   bullet.drift(dt);
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (!movers[i]) continue;
+    if (!answers(i)) continue;
     trials[i] = {projected<d>(bullet.pose(i)),
                  velocities.segment<freedoms<d>>(freedoms<d> * static_cast<Eigen::Index>(i))};
     if (!trials[i].velocity.allFinite())
@@ -258,6 +336,7 @@ Status Bodies<d>::System::passes_through() const {
   }
   if (!faster) return {};
   for (const Condition<d>& c : contacts->within_reach(reaching, dt)) {
+    if (!answers(c.body) && !(c.other && answers(*c.other))) continue;
     if (std::ranges::any_of(near, [&](const Condition<d>& n) { return n.body == c.body && n.first == c.first; }))
       continue;
     if (crosses(c))
@@ -281,7 +360,7 @@ Status Bodies<d>::System::squeezed() const {
     return Status{message("bodies close in on \"", body, "\", ", what)};
   };
   for (const Condition<d>& c : near)
-    if (crosses(c)) return cause(specs[c.other && !movers[c.body] ? *c.other : c.body].name, "which has no room left");
+    if (crosses(c)) return cause(specs[c.other && !answers(c.body) ? *c.other : c.body].name, "which has no room left");
   // A wedge of three degrees between two contacts; positions and hulls do not know angles better than some tenths of one.
   constexpr double most = 20;
   if (constraints.leverage() <= most) return {};

@@ -26,7 +26,8 @@ struct Bodies<d>::System {
   std::vector<BodyState<d>> states, trials;
   std::optional<Contacts<d>> contacts;
   BulletEngine bullet;
-  std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces do not move
+  std::vector<std::unique_ptr<FreeBody>> movers;  // empty for bodies that forces never move
+  std::vector<char> held;                         // 1: prescribed until it is released
   std::vector<JointSpec> joints;
   std::vector<double> moved;  // their coordinates at t_n, of those that are measured
   Eigen::VectorXd loads;      // of the last step; empty before
@@ -65,6 +66,12 @@ struct Bodies<d>::System {
   std::vector<Wrench<d>> known_forces() const;
   /// A prescribed body's velocity is the finite difference that carries one pose into the next.
   BodyState<d> prescribed(std::size_t body) const;
+  /// Whether forces move it in the step.
+  bool answers(std::size_t body) const { return movers[body] && !held[body]; }
+  /// Lets go whose time, contact or load has come.
+  void release();
+  /// Largest dt that ends at the next release at a time, not by a sliver of a step [s].
+  double until_release() const;
   /// Puts Bullet's body where `state` has it.
   void place(Eigen::Index body, const BodyState<d>& state);
 
@@ -81,6 +88,11 @@ struct Bodies<d>::System {
   Status passes_through() const;
 
  private:
+  /// The states with velocities of t_n, as far as they are known: with these forces, and the loads of the last step.
+  /// What a wrench and the load of the last step make a body's free freedoms do, joints and contacts apart [m/s^2, rad/s^2].
+  Twist<d> acceleration(std::size_t body, Wrench<d> wrench) const;
+  void let_go(std::size_t body);
+  std::vector<BodyState<d>> predicted(std::span<const Wrench<d>> forces_) const;
   std::vector<Condition<d>> asked_by_joints();
   /// By joints, then what is held: freedoms of free bodies, and others altogether.
   std::vector<Condition<d>> equalities();

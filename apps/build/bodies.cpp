@@ -104,6 +104,7 @@ rigid::BodySpec<d> body_spec(const Body& body) {
   spec.mass = properties.mass;
   spec.inertia = properties.inertia;
   spec.motion = motion_of(body.motion);
+  spec.release = body.release;
   const auto names = freedom_names(d);
   for (std::size_t i = 0; i < spec.free.size(); ++i)
     spec.free[i] = std::find(body.free.begin(), body.free.end(), names[i]) != body.free.end();

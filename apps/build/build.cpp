@@ -1,6 +1,8 @@
 #include "apps/build/build.hpp"
 
 #include "apps/scene/coupling_kinds.hpp"
+#include <algorithm>
+
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"
 #include "fluid/participant.hpp"
@@ -40,7 +42,13 @@ std::unique_ptr<coupling::StructurePart> build_bodies(const Scene& scene, World<
   return part;
 }
 
-std::unique_ptr<coupling::Stepper> coupled_stepper(const Coupling& coupling, std::unique_ptr<coupling::FluidPart> fluid,
+/// Added masses are of a step under way.
+bool may_wait(const Scene& scene) {
+  return std::ranges::none_of(scene.records,
+                              [](const auto& record) { return std::holds_alternative<AddedMassEntry>(record); });
+}
+
+std::unique_ptr<coupling::Coupled> coupled_stepper(const Coupling& coupling, std::unique_ptr<coupling::FluidPart> fluid,
                                                    std::unique_ptr<coupling::StructurePart> bodies) {
   const auto& term = named_kind(interface_kinds(), coupling.interface_term);
   if (!term.make)
@@ -69,8 +77,11 @@ World<d> build_world(const Scene& scene, std::function<void()> meanwhile) {
     world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
   else if (!bodies)
     world.stepper = std::make_unique<coupling::FluidOnly>(std::move(fluid));
-  else
-    world.stepper = coupled_stepper(scene.coupling.value_or(one_way()), std::move(fluid), std::move(bodies));
+  else {
+    auto both = coupled_stepper(scene.coupling.value_or(one_way()), std::move(fluid), std::move(bodies));
+    if (may_wait(scene)) both->let_fluid_wait();
+    world.stepper = std::move(both);
+  }
   return world;
 }
 

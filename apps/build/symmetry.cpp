@@ -69,7 +69,7 @@ std::vector<char> symmetric_axes(const Scene& scene, const Body& body) {
   for (int k = 0; k < d - 1; ++k) {
     const Mirror mirror{k, box.center()[k], box.sizes().maxCoeff()};
     axes[static_cast<std::size_t>(k)] =
-        (body.motion != Motion::free || std::abs(centre[k] - mirror.place) <= 1e-3 * mirror.length) &&
+        (!body.becomes_free() || std::abs(centre[k] - mirror.place) <= 1e-3 * mirror.length) &&
         (!scene.gravity || scene.gravity->acceleration[k] == 0) &&
         (!scene.tank || mirror.holds<d>(extents<d>(*scene.tank))) && holds_motion<d>(mirror, body) &&
         std::ranges::all_of(scene.fluid->regions,

@@ -27,6 +27,15 @@ std::string spin_text(const Body& body) {
     return text<d>(vec<d>(body.spin_deg));
 }
 
+std::string release_text(const Body& body, int dimension) {
+  if (!body.release) return {};
+  const auto& of = *body.release;
+  const auto at = of.time   ? fmt::format("at {:g} s", *of.time)
+                  : of.load ? fmt::format("at a load of {:g} {}", *of.load, dimension == 2 ? "N/m" : "N")
+                            : std::string("at contact with the water");
+  return fmt::format("; {} let go in {}", at, fmt::join(body.free, ", "));
+}
+
 template <int d>
 std::string motion_text(const Body& body) {
   const auto start = [&](const char* spin) {
@@ -36,9 +45,10 @@ std::string motion_text(const Body& body) {
     case Motion::fixed:
       return "fixed";
     case Motion::prescribed:
-      return body.path.empty()
-                 ? "prescribed: velocity " + start("spin ")
-                 : fmt::format("prescribed: path of {} points to {:g} s", body.path.size(), body.path.back().time);
+      return (body.path.empty()
+                  ? "prescribed: velocity " + start("spin ")
+                  : fmt::format("prescribed: path of {} points to {:g} s", body.path.size(), body.path.back().time)) +
+             release_text(body, d);
     case Motion::free:
       break;
   }

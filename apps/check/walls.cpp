@@ -52,7 +52,7 @@ class Traveller {
   }
 
   void advance(double time, double dt) {
-    if (body_.motion == Motion::prescribed) moved_ = guessed_motion<d>(scene_, body_, time + dt);
+    if (body_.motion == Motion::prescribed && !body_.release) moved_ = guessed_motion<d>(scene_, body_, time + dt);
     if (!is_free()) return;
     const double share = wetted_share(), inertia = mass_ + added_ * share;
     if (inertia <= 0) return;

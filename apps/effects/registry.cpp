@@ -1,7 +1,10 @@
 // The catalogue: a row an effect.
 #include "apps/effects/absorber/absorber.hpp"
+#include "apps/effects/aero/aero.hpp"
+#include "apps/effects/force/force.hpp"
 #include "apps/effects/gravity/gravity.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
+#include "apps/effects/wind/wind.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -19,6 +22,9 @@ std::span<const EffectKind* const> effect_kinds() {
       row<GravityKind>(),
       row<ViscosityKind>(),
       row<AbsorberKind>(),
+      row<WindKind>(),
+      row<AeroKind>(),
+      row<ForceKind>(),
   };
   return catalogue;
 }

@@ -51,15 +51,15 @@ class Defaults {
     if (!scene_.fluid) return;
     const std::string of = "bodies." + body.name + ".", up = scene_.dimension == 2 ? "y" : "z";
     // CFC 60, of structures as a whole (SAE J211-1), is the headline, and there on all rungs; CFC 180 on those with short steps.
-    if (body.motion == Motion::free) {
+    if (body.becomes_free()) {
       entry(body.name + ".peak_g_cfc60");
       entry(body.name + ".peak_g_cfc180", false);
       entry(body.name + ".peak_g_raw", false);
     }
-    entry(body.name + ".peak_force_cfc60", body.motion != Motion::free);
+    entry(body.name + ".peak_force_cfc60", !body.becomes_free());
     entry(body.name + ".peak_force_raw", false);
     entry(body.name + ".impulse");
-    if (body.motion != Motion::free) return;
+    if (!body.becomes_free()) return;
     expression(body.name + ".velocity_change", "m/s", "bodies.csv:" + body.name,
                fmt::format("last(v{0}) - first(v{0})", up));
     entry(body.name + ".greatest_submergence");

@@ -159,7 +159,7 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
     submergence.push_back(still_water_level - (pose * spec.surface.vertices).row(d - 1).minCoeff());
     body_names.push_back(spec.name);
     bodies[b].add(kick, {input.body_velocity_n[b], input.body_acceleration_n[b], input.body_load[b], submergence[b],
-                         pose.linear(), extents[b], spec.motion == BodyMotion::free, spec.mass, wetted_facets(input, b),
+                         pose.linear(), extents[b], spec.becomes_free(), spec.mass, wetted_facets(input, b),
                          symmetric_axes(settings, spec.name)});
     new_peak = new_peak || bodies[b].peak_force() > peak_force;
     peak_force = std::max(peak_force, bodies[b].peak_force());

@@ -25,6 +25,7 @@ std::vector<char> wet_bodies(const fluid::Fluid<d>& fluid, std::size_t count) {
 template <int d>
 double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies) {
   double dt = std::numeric_limits<double>::infinity();
+  if (fluid.is_waiting()) return dt;  // all hulls are far away
   const auto wet = wet_bodies(fluid, bodies.size());
   if (std::find(wet.begin(), wet.end(), 0) == wet.end()) return dt;
   const auto& nodes = fluid.nodes();

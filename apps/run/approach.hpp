@@ -12,7 +12,7 @@
 
 namespace splashdown::apps {
 
-/// Infinity when all hulls are wet or nothing moves. Gaps are between bounding boxes, of the hull and of a facet: never overestimated.
+/// Infinity when all hulls are wet or far from water that waits, or nothing moves. Gaps are between bounding boxes, of the hull and of a facet: never overestimated.
 template <int d>
 double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies);
 

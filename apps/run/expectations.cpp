@@ -17,7 +17,7 @@ std::vector<std::size_t> groups_of(const Scene& scene) {
 }
 
 bool moves(const Body& body) {
-  if (body.motion == Motion::free) return !body.free.empty();
+  if (body.becomes_free()) return !body.free.empty();
   return body.motion == Motion::prescribed &&
          (!body.path.empty() || body.velocity.squaredNorm() > 0 || body.spin_deg.squaredNorm() > 0);
 }
@@ -33,11 +33,12 @@ Expectations expectations_of(const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const auto& body = scene.bodies[i];
     auto& entry = expected.bodies[body.name];
-    entry.free = body.motion == Motion::free;
+    entry.free = body.becomes_free();
     entry.moves = moves(body);
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
       if (k != i && group[k] == group[i]) entry.tied.push_back(scene.bodies[k].name);
-    if (!body.path.empty()) expected.path_ends_at = std::max(expected.path_ends_at, body.path.back().time);
+    if (!body.path.empty() && !body.release)
+      expected.path_ends_at = std::max(expected.path_ends_at, body.path.back().time);
   }
   return expected;
 }

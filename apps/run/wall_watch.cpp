@@ -45,7 +45,7 @@ WallWatch<d>::WallWatch(const Scene& scene, const rigid::Bodies<d>& bodies) : sc
   sides_ = tank_sides<d>(scene);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto& spec = bodies.spec(b);
-    Watched watched{.hull = spec.surface, .is_free = spec.motion == BodyMotion::free, .allowed = {}};
+    Watched watched{.hull = spec.surface, .is_free = spec.becomes_free(), .allowed = {}};
     watched.reach = spec.surface.vertices.colwise().norm().maxCoeff();
     watched.tolerance = scene.fluid ? of_element * scene.bodies[b].size : of_extent * watched.reach;
     watched.allowed.assign(sides_.size(), watched.tolerance);

@@ -50,7 +50,8 @@ enum class TablePlace {
   after_bodies,  ///< [NAME] that may name bodies
   array,         ///< [[NAME]] after the bodies, read once for each element
   fluid,         ///< [fluid.NAME]
-  body           ///< [body.NAME]; read for the last of scene.bodies
+  body,          ///< [body.NAME]; read for the last of scene.bodies
+  body_array     ///< [[body.NAME]], the same, read once for each element
 };
 
 /// An effect of the catalogue. Made once, without state.

@@ -34,7 +34,7 @@ class Numbers {
   void add_body(const Body& body) {
     const auto& name = body.name;
     const std::string of = "bodies." + name + ".";
-    if (body.motion == Motion::free)
+    if (body.becomes_free())
       pulses(name + ".peak_g", "g", of + "peak_acceleration_g.raw", of + "peak_acceleration_g", name);
     if (!scene_.fluid) return;
     const std::string force = scene_.dimension == 2 ? "N/m" : "N", impulse = scene_.dimension == 2 ? "N s/m" : "N s";

@@ -15,6 +15,7 @@
 
 #include "apps/scene/effects.hpp"
 #include "apps/scene/limit.hpp"
+#include "core/bodies_view.hpp"
 #include "rigid/shapes/shapes.hpp"
 
 namespace splashdown::apps {
@@ -164,7 +165,11 @@ struct Body {
   Point velocity = Point::Zero();  ///< of the centre of mass at t = 0; constant if prescribed [m/s]
   Point spin_deg = Point::Zero();  ///< angular velocity at t = 0, world frame; constant if prescribed [deg/s]
   std::vector<Waypoint> path;      ///< prescribed motion; empty: constant velocity and spin
+  std::optional<Release> release;  ///< of prescribed motion; free from then on
   double size = 0;                 ///< element size at the hull [m]; default: fluid.size.surface
+
+  /// Forces move it, from the start or after its release.
+  bool becomes_free() const { return motion == Motion::free || release; }
 };
 
 /// Ties a body to another one or to the world.

@@ -1,5 +1,8 @@
 // What all couplings of a fluid with a structure share.
 #include <algorithm>
+#include <istream>
+#include <ostream>
+#include <stdexcept>
 
 #include "core/stopwatch.hpp"
 #include "coupling/schemes/steppers.hpp"
@@ -34,11 +37,30 @@ double Coupled::still(double dt) const {
   return lengths * structure_->length() / dt;
 }
 
+StepReport Coupled::attempt(double dt) {
+  dt_ = dt;
+  return waits_ ? move_structure_alone(dt) : couple(dt);
+}
+
+StepReport Coupled::move_structure_alone(double dt) {
+  begin_structure(dt);
+  const Stopwatch moving(structure_seconds_), coupling(coupling_seconds_);
+  alone_ = structure_->solve(Impulse::Zero(structure_->scales().size()));
+  if (!alone_.allFinite()) return {.cause = "the bodies' velocities are not finite"};
+  return {.cause = structure_->acceptable().cause, .passes = 1};
+}
+
 void Coupled::commit() {
-  structure_->see_wetted(fluid_->solution().wetted);
-  fluid_->commit(structure_->placement());
+  if (waits_) {
+    fluid_->wait(dt_, structure_->placement(), alone_);
+  } else {
+    remember();
+    structure_->see_wetted(fluid_->solution().wetted);
+    fluid_->commit(structure_->placement());
+  }
   structure_->commit();
   clock_.commit();
+  if (may_wait_) waits_ = fluid_->rests(structure_->walls(), structure_->speeds(structure_->velocities()));
 }
 
 std::vector<std::pair<std::string, double>> Coupled::phase_seconds() const {
@@ -49,11 +71,15 @@ std::vector<std::pair<std::string, double>> Coupled::phase_seconds() const {
 }
 
 void Coupled::save(std::ostream& out) const {
+  out.put(waits_ ? 1 : 0);
   clock_.save(out);
   fluid_->save(out);
   structure_->save(out);
 }
 void Coupled::load(std::istream& in) {
+  const int waits = in.get();
+  if (waits != 0 && waits != 1) throw std::runtime_error("does not say whether the water waits");
+  waits_ = waits == 1;
   clock_.load(in);
   fluid_->load(in);
   structure_->load(in);

@@ -45,7 +45,7 @@ const Velocities& Partitioned::move_structure(const Impulse& impulse) {
   return trial_ = structure_->solve(impulse);
 }
 
-StepReport Partitioned::attempt(double dt) {
+StepReport Partitioned::couple(double dt) {
   const Step step = begin_structure(dt);
   kick_ = step.kick;
   InterfaceModel model;
@@ -118,9 +118,8 @@ StepReport Partitioned::iterate(const Step& step) {
   return report;
 }
 
-void Partitioned::commit() {
+void Partitioned::remember() {
   acceleration_ = (trial_ - structure_->velocities()) / kick_;
-  Coupled::commit();
   accelerator_->commit_step();
 }
 

@@ -55,7 +55,7 @@ StepReport Simultaneous::pass_by_pass(Response response, double dt) {
   }
 }
 
-StepReport Simultaneous::attempt(double dt) {
+StepReport Simultaneous::couple(double dt) {
   const Step step = begin_structure(dt);
   Response response = structure_->response();
   if (const auto status = fluid_->begin(step, {.modal = response.modal}); !status.ok()) return {.cause = status.cause};

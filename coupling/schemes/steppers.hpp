@@ -2,6 +2,7 @@
 // steps, placements at whole ones.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -57,7 +58,7 @@ class StructureOnly final : public Stepper {
   /// `dt`: the largest step [s].
   StructureOnly(std::unique_ptr<StructurePart> structure, double dt) : structure_(std::move(structure)), dt_(dt) {}
   double time() const override { return structure_->time(); }
-  double stable_dt() const override { return dt_; }
+  double stable_dt() const override { return std::min(dt_, structure_->stable_dt()); }
   StepReport attempt(double dt) override;
   void commit() override;
   std::vector<std::pair<std::string, double>> phase_seconds() const override { return {}; }
@@ -79,16 +80,20 @@ struct CouplingLimits {
   int fixed_passes = 0;     ///< the last of so many is accepted as it is; 0: none is
 };
 
-/// A fluid and a structure with their clock; schemes differ in `attempt`.
+/// A fluid and a structure with their clock; schemes differ in how they make both agree. A fluid that rests while the structure is far
+/// away may wait for it: the structure then moves alone.
 class Coupled : public Stepper {
  public:
   /// Drives both; the structure's walls come first among the fluid's.
   Coupled(std::unique_ptr<FluidPart> fluid, std::unique_ptr<StructurePart> structure)
       : fluid_(std::move(fluid)), structure_(std::move(structure)) {}
+  /// From now on the fluid waits when it may (FluidPart::rests); else it is always stepped.
+  void let_fluid_wait() { may_wait_ = true; }
   double time() const override { return fluid_->time(); }
   double stable_dt() const override;
-  bool release_fragment() override { return fluid_->release_fragment(); }
-  void commit() override;
+  StepReport attempt(double dt) final;
+  bool release_fragment() override { return !waits_ && fluid_->release_fragment(); }
+  void commit() final;
   std::vector<std::pair<std::string, double>> phase_seconds() const override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
@@ -98,6 +103,10 @@ class Coupled : public Stepper {
   const StructurePart& structure() const { return *structure_; }
 
  protected:
+  /// An attempt with both.
+  virtual StepReport couple(double dt) = 0;
+  /// What a scheme keeps of a step of both that is accepted.
+  virtual void remember() {}
   /// Begins a step of dt [s] on the clock and in the structure: kick and dt of it.
   Step begin_structure(double dt);
   /// Refuses what so far is no cause of refusal if the trial of a side may not be committed.
@@ -112,6 +121,14 @@ class Coupled : public Stepper {
   LeapfrogClock clock_;                       ///< of both
   double structure_seconds_ = 0;              ///< wall clock spent in the structure so far
   double coupling_seconds_ = 0;               ///< in the scheme, the structure included, the fluid not
+
+ private:
+  StepReport move_structure_alone(double dt);
+
+  bool may_wait_ = false;
+  bool waits_ = false;  // the fluid does, in the next step
+  double dt_ = 0;       // of the attempt
+  Velocities alone_;    // that the structure ends the attempt with
 };
 
 /// The structure inside the fluid's equations: the exact interface term `rigid`, M + Z^T B A^-1 B^T Z, whatever the
@@ -122,9 +139,9 @@ class Simultaneous final : public Coupled {
   /// `max_passes`: more of them, as contacts open and close, and the step is refused.
   Simultaneous(std::unique_ptr<FluidPart> fluid, std::unique_ptr<StructurePart> structure, int max_passes = 50)
       : Coupled(std::move(fluid), std::move(structure)), max_passes_(max_passes) {}
-  StepReport attempt(double dt) override;
 
  private:
+  StepReport couple(double dt) override;
   StepReport pass_by_pass(Response response, double dt);
   double relative(const Velocities& unloaded, const Velocities& loaded, double dt) const;
   std::string massless_and_dry() const;
@@ -140,14 +157,14 @@ class Partitioned final : public Coupled {
   /// `term`: stand-in for the structure in the fluid's equations; `accelerator`: of the iteration.
   Partitioned(std::unique_ptr<FluidPart> fluid, std::unique_ptr<StructurePart> structure,
               std::unique_ptr<InterfaceTerm> term, std::unique_ptr<Accelerator> accelerator, CouplingLimits limits);
-  StepReport attempt(double dt) override;
-  void commit() override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
   /// The stand-in.
   const InterfaceTerm& term() const { return *term_; }
 
  private:
+  StepReport couple(double dt) override;
+  void remember() override;
   StepReport iterate(const Step& step);
   const Velocities& move_structure(const Impulse& impulse);
 

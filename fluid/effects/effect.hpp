@@ -83,6 +83,8 @@ class Effect {
   virtual double potential(const Vec<d>& /*x*/) const { return 0; }
   /// What it gives to all water alike, like gravity [m/s^2]: waves, cavities behind bodies and steps are judged by it.
   virtual Vec<d> uniform_acceleration() const { return Vec<d>::Zero(); }
+  /// Whether it leaves water at rest that is at rest beside gravity. Such water is not stepped as long as nothing comes near it.
+  virtual bool keeps_rest() const { return false; }
   /// Whether the work that it does on the water is booked (Ledger::work_of_effects): for effects that may bring energy and have no
   /// potential. Others take energy or keep it.
   virtual bool books_work() const { return false; }

@@ -262,7 +262,7 @@ std::vector<Contact<d>> Contacts<d>::within_reach(std::span<const BodyState<d>> 
   std::vector<Contact<d>> all;
   for (std::size_t a = 0; a < hulls.size(); ++a) {
     for (std::size_t b = 0; b < hulls.size(); ++b) {
-      if (a == b || (bodies_[a].motion != BodyMotion::free && bodies_[b].motion != BodyMotion::free)) continue;
+      if (a == b || !(bodies_[a].becomes_free() || bodies_[b].becomes_free())) continue;
       if (spec_.apart.contains(std::minmax(a, b))) continue;
       const double reach = near * std::min(hulls[a].size, hulls[b].size) + 2 * (hulls[a].moves + hulls[b].moves);
       if (!hulls[a].is_near(hulls[b], reach)) continue;
@@ -273,7 +273,7 @@ std::vector<Contact<d>> Contacts<d>::within_reach(std::span<const BodyState<d>> 
           for (const auto& touch : touches_of_edges(hulls[a], hulls[b], reach))
             all.push_back(contact<3>(a, b, centre(a), centre(b), touch, dt));
     }
-    if (bodies_[a].motion != BodyMotion::free) continue;
+    if (!bodies_[a].becomes_free()) continue;
     for (const auto& plane : spec_.planes)
       for (int v = 0; v < hulls[a].x.cols(); ++v) {
         const Vec<d> x = hulls[a].x.col(v);

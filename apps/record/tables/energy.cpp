@@ -90,7 +90,7 @@ std::vector<BodyEnergy> body_energies(const RecordInput<d>& input) {
     const auto& body = input.bodies->spec(b);
     const auto& pose = input.bodies->state(b).pose;
     auto& energy = energies.emplace_back();
-    energy.free = body.motion == BodyMotion::free;
+    energy.free = body.becomes_free();
     energy.wet = input.body_load[b].wetted > 0;
     energy.kinetic = kinetic_energy<d>(body, pose, input.body_velocity_n[b]);
     if (!energy.wet || !energy.free) continue;

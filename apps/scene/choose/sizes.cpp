@@ -100,13 +100,12 @@ Hull<d> hull_of(const Scene& scene, const Body& body) {
   hull.half = hull.breadth / 2;
   hull.why = "half of its breadth";
   if (!hull.enters) return hull;
-  double c =
-      body.motion == Motion::free ? peak_half_width<d>(scene, body) : wetted_half<d>(scene, body, scene.time.end);
+  double c = body.becomes_free() ? peak_half_width<d>(scene, body) : wetted_half<d>(scene, body, scene.time.end);
   c = std::max(c, flat_half_width<d>(surface, height));
   if (!(c > 0 && c < hull.half)) return hull;
   hull.half = c;
-  hull.why = body.motion == Motion::free ? "half of the wetted width at the largest load"
-                                         : "half of the wetted width at the end";
+  hull.why =
+      body.becomes_free() ? "half of the wetted width at the largest load" : "half of the wetted width at the end";
   return hull;
 }
 

@@ -110,6 +110,7 @@ double impact_mass(double density, const rigid::Surface<3>& hull) {
 template <int d>
 Vec<d> guessed_motion(const Scene& scene, const Body& body, double time) {
   if (body.motion == Motion::fixed || time == 0) return Vec<d>::Zero();
+  if (body.release && body.release->time) time = std::min(time, *body.release->time);
   const auto hull = outline<d>(body);
   Vec<d> moved = !body.path.empty()                  ? vec<d>(along_path(body, time))
                  : body.motion == Motion::prescribed ? Vec<d>(vec<d>(body.velocity) * time)

@@ -32,8 +32,8 @@ double default_dt_max(const Scene& scene) {
 }
 
 bool meets_fluid_freely(const Scene& scene) {
-  return scene.fluid && std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                    [](const Body& body) { return body.motion == Motion::free; });
+  return scene.fluid &&
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.becomes_free(); });
 }
 
 void read_tank(Reader& reader, Scene& scene) {
@@ -57,7 +57,7 @@ void read_output(Reader& reader, Output& output) {
 void read_effects(Reader& around, TablePlace place, Scene& scene) {
   for (const auto* kind : effect_kinds()) {
     if (kind->place() != place) continue;
-    if (place == TablePlace::array)
+    if (place == TablePlace::array || place == TablePlace::body_array)
       around.each_table(kind->name(), [&](Reader& reader) { kind->read(reader, scene); });
     else if (auto reader = around.table(kind->name()))
       kind->read(*reader, scene);
@@ -86,6 +86,7 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     labels.bodies.push_back(reader.path());
     read_body(reader, scene.bodies.emplace_back(), scene);
     read_effects(reader, TablePlace::body, scene);
+    read_effects(reader, TablePlace::body_array, scene);
   });
   root.each_table("joint", [&](Reader& reader) {
     auto joint = read_joint(reader, scene);
@@ -162,7 +163,7 @@ std::optional<Scene> read_without_sizes(const toml::table& table, const std::fil
 /// moves: a direction along the hull has no inertia there, and roundoff would be its velocity.
 void give_least_mass(Scene& scene) {
   for (auto& body : scene.bodies) {
-    if (body.motion != Motion::free || !scene.fluid || !body.without_mass) continue;
+    if (!body.becomes_free() || !scene.fluid || !body.without_mass) continue;
     body.mass.reset();
     body.density = least_density * scene.fluid->density;
   }

@@ -151,6 +151,24 @@ void read_path(Reader& reader, Body& body) {
   for (const auto& row : rows) body.path.push_back(waypoint(row, d));
 }
 
+/// When a prescribed body is let go.
+void read_release(Reader& reader, Release& release) {
+  std::string at = "contact";
+  if (!reader.choice("at", at, {"time", "contact", "load"}, Need::required)) return reader.skip_all();
+  release.at_contact = at == "contact";
+  if (at == "time")
+    reader.number("time", release.time.emplace(1), positive("s", "Use the time at which it is let go, e.g. 0.5."),
+                  Need::required);
+  else
+    reader.refuse("time", "only a release with at = \"time\" has one", "Remove it, or change at.");
+  if (at == "load")
+    reader.number("load", release.load.emplace(1),
+                  positive(reader.context().dimension == 2 ? "N/m" : "N", "Use the water's load that frees it."),
+                  Need::required);
+  else
+    reader.refuse("load", "only a release with at = \"load\" has one", "Remove it, or change at.");
+}
+
 /// The keys of an attitude; two dimensions know the pitch alone.
 struct Angle {
   const char* name;
@@ -170,10 +188,15 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
   body.motion = read_motion(reader);
   read_mass(reader, body);
   body.free = freedom_names(dimension);
-  if (body.motion == Motion::free)
+  if (body.motion == Motion::prescribed) {
+    if (auto release = reader.table("release")) read_release(*release, body.release.emplace());
+  } else {
+    reader.refuse("release", "only a body with motion = \"prescribed\" is let go", "Remove it, or change the motion.");
+  }
+  if (body.becomes_free())
     reader.choices("free", body.free, freedom_names(dimension));
   else
-    reader.refuse("free", "only a body with motion = \"free\" has freedoms", "Remove it.");
+    reader.refuse("free", "only a body with motion = \"free\" or a release has freedoms", "Remove it.");
 
   if (body.motion == Motion::prescribed)
     read_path(reader, body);

@@ -105,6 +105,10 @@ class Reader {
   void rows(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns, const Rule& rule,
             Need need = Need::optional);
 
+  /// What may be a number (of `columns` - 1 values: a list of them) or change over what the first column is: rows with ascending
+  /// first entries. A constant becomes one row that begins with 0. Nothing if the key is absent.
+  void curve(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns, const Rule& rule);
+
   /// A list of strings.
   void texts(std::string_view name, Names& target, const std::string& cure, Need need = Need::optional);
   /// The node itself, for values that only the caller can judge, `wanted` as far as a type can say it; null when absent.

@@ -99,6 +99,35 @@ void Reader::rows(std::string_view name, std::vector<std::vector<double>>& targe
   if (!target.empty()) context_->echo.add(section_, name, "[" + text + "]");
 }
 
+void Reader::curve(std::string_view name, std::vector<std::vector<double>>& target, std::size_t columns,
+                   const Rule& rule) {
+  const auto* node = table_->get(name);
+  if (!visit_ && !node) return skip(name);
+  const auto* list = node ? node->as_array() : nullptr;
+  const bool is_table = list && !list->empty() && list->front().is_array();
+  if (visit_ || is_table) {
+    rows(name, target, columns, rule);
+    for (std::size_t i = 1; i < target.size(); ++i)
+      if (!(target[i][0] > target[i - 1][0]))
+        return context_->problems.add(
+            key(name),
+            fmt::format("rows must ascend: row {} has {:g} after {:g}", i + 1, target[i][0], target[i - 1][0]),
+            "Sort the rows.");
+    if (is_table) return;
+  }
+  std::vector<double> constant(columns - 1);
+  if (columns == 2)
+    number(name, constant[0], rule);
+  else {
+    note(name, {.type = Wanted::Type::list, .rule = rule, .length = columns - 1});
+    if (const auto* found = find(name, Need::optional, {}, {}))
+      constant = list_of(*found, key(name), columns - 1, rule).value_or(constant);
+    context_->echo.add(section_, name, toml_list(constant));
+  }
+  constant.insert(constant.begin(), 0.0);
+  target = {constant};
+}
+
 void Reader::points(std::string_view name, std::vector<Point>& target, const Rule& rule) {
   std::vector<std::vector<double>> list;
   rows(name, list, static_cast<std::size_t>(context_->dimension), rule, Need::required);

@@ -21,12 +21,12 @@ void check_mass(const Scene& scene, const Body& body, const std::string& label, 
   if (problems.found_in(label + ".mass") || problems.found_in(label + ".density")) return;
   const bool mass = problems.noted(label + ".mass"), density = problems.noted(label + ".density");
   if (mass && density) problems.add(label + ".density", "mass and density exclude each other", "Remove one of them.");
-  if (body.motion == Motion::free && !mass && !density)
+  if (body.becomes_free() && !mass && !density)
     problems.add_missing(
         label + ".mass",
         fmt::format("a free body needs its mass ({}) or mean density (kg/m^3)", mass_unit(scene.dimension)),
         "Add mass or density, or motion = \"fixed\".");
-  if (body.motion == Motion::free && body.free.empty() && problems.noted(label + ".free"))
+  if (body.becomes_free() && body.free.empty() && problems.noted(label + ".free"))
     problems.add(label + ".free", "must name at least one of " + listing(freedom_names(scene.dimension)),
                  "For none of them use motion = \"fixed\".");
 }
@@ -52,7 +52,7 @@ void check_inertia(const Scene& scene, const Body& body, const std::string& labe
 
 /// A body without mass moves as the water lets it.
 void check_massless(const Scene& scene, const Body& body, const std::string& label, Problems& problems) {
-  if (body.motion != Motion::free || !body.without_mass) return;
+  if (!body.becomes_free() || !body.without_mass) return;
   const std::string key = label + (body.mass ? ".mass" : ".density");
   if (!scene.fluid)
     return problems.add(key, "a free body without mass needs a fluid that has inertia for it", "Give it a mass.");

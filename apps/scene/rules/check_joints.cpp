@@ -14,8 +14,7 @@ void check_joints(const Scene& scene, const SceneLabels& labels, Problems& probl
     if (joint.other == joint.body)
       problems.add(label + ".other", "a body cannot be tied to itself",
                    "Name another body, or leave it out for a joint to the world.");
-    const bool moves =
-        body.motion == Motion::free || (joint.other && scene.bodies[*joint.other].motion == Motion::free);
+    const bool moves = body.becomes_free() || (joint.other && scene.bodies[*joint.other].becomes_free());
     if (!moves)
       problems.add(label + ".body",
                    fmt::format("the joint moves nothing: '{}' is not free, nor is what it is tied to", body.name),

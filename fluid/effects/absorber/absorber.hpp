@@ -25,6 +25,7 @@ class Absorber final : public Effect<d> {
   /// Takes the values as they are: readers check them.
   explicit Absorber(const AbsorberSpec& spec) : spec_(spec) {}
   std::string name() const override { return "absorber"; }
+  bool keeps_rest() const override { return true; }
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
   /// power: rate of change of the kinetic energy [W]
   std::vector<Diagnostic> diagnostics(const Nodes<d>&, std::span<const double>) const override {

@@ -12,6 +12,7 @@ class Gravity final : public Effect<d> {
   /// `acceleration`: g, world frame [m/s^2].
   explicit Gravity(const Vec<d>& acceleration) : g_(acceleration) {}
   std::string name() const override { return "gravity"; }
+  bool keeps_rest() const override { return true; }
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
   double potential(const Vec<d>& x) const override { return -g_.dot(x); }
   Vec<d> uniform_acceleration() const override { return g_; }

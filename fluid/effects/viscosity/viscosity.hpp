@@ -40,6 +40,7 @@ class Viscosity final : public Effect<d> {
   /// `dynamic`: mu [Pa s].
   explicit Viscosity(double dynamic) : mu_(dynamic) {}
   std::string name() const override { return "viscosity"; }
+  bool keeps_rest() const override { return true; }
   Status begin(const StepView<d>& step) override;
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
   double diffusivity(double density) const override { return mu_ / density; }

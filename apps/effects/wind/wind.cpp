@@ -1,0 +1,69 @@
+#include "apps/effects/wind/wind.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/effects/aero/aero.hpp"
+#include "apps/scene/read/reader.hpp"
+
+namespace splashdown::apps {
+
+void WindKind::read(Reader& reader, Scene& scene) const {
+  auto& table = scene.effects.table<WindTable>();
+  const Rule velocity = any("m/s", "Use one number for each axis.");
+  reader.point("velocity", table.velocity, velocity, Need::required);
+  reader.choice("profile", table.profile, {"uniform", "log"});
+  if (table.profile == "log") {
+    table.level = (scene.dimension == 2 ? still_water_level<2>(scene) : still_water_level<3>(scene)).value_or(0);
+    reader.number("height", table.height, positive("m", "Use the height at which velocity is measured, e.g. 10."));
+    reader.number("roughness", table.roughness, positive("m", "Use 0.0002 at sea, 0.03 over grass."));
+    reader.number("level", table.level, any("m", "Leave it out for that of the water."));
+  } else {
+    for (const auto* key : {"height", "roughness", "level"})
+      reader.refuse(key, "only a wind with profile = \"log\" has one", "Remove it, or add profile = \"log\".");
+  }
+  if (auto gust = reader.table("gust")) {
+    auto& of = table.gust.emplace();
+    gust->point("velocity", of.velocity, velocity, Need::required);
+    gust->number("start", of.start, not_negative("s", "Use the time at which it begins."));
+    gust->number("duration", of.duration, positive("s", "Use how long it lasts from calm to calm."), Need::required);
+  }
+}
+
+void WindKind::check(const Scene& scene, Problems& problems) const {
+  const auto* table = scene.effects.find<WindTable>();
+  if (!table || problems.found_in("wind")) return;
+  if (table->profile == "log" && table->height <= table->roughness)
+    problems.add(
+        problems.noted("wind.roughness") ? "wind.roughness" : "wind.height",
+        fmt::format("the height, {:g} m, must be above the roughness, {:g} m", table->height, table->roughness),
+        "Use a smaller roughness.");
+  if (!scene.effects.find<AeroTables>() && !problems.found_in("body"))
+    problems.add("wind", "nothing feels it: no body has [body.aero]",
+                 "Add [body.aero] to a body, or remove the table.");
+}
+
+// The strongest winds that were measured outside of tornadoes, Barrow Island 1996, are 113 m/s.
+void WindKind::ask(const AskedScene& asked, std::vector<std::string>& questions) const {
+  constexpr double strongest = 113, knots = 0.5144;
+  const auto* table = asked.scene.effects.find<WindTable>();
+  if (!table) return;
+  const auto question = [&](const char* key, const Point& velocity) {
+    if (velocity.norm() > strongest)
+      questions.push_back(fmt::format("{}: {:.3g} m/s is more than any hurricane has: did you mean {:.3g}?", key,
+                                      velocity.norm(), knots * velocity.norm()));
+  };
+  question("wind.velocity", table->velocity);
+  if (table->gust) question("wind.gust.velocity", table->gust->velocity);
+}
+
+std::optional<EffectNote> WindKind::note(const Scene& scene, const Scales& s) const {
+  const auto* table = scene.effects.find<WindTable>();
+  if (!table) return {};
+  const double most = table->velocity.norm() + (table->gust ? table->gust->velocity.norm() : 0);
+  return EffectNote{"wind", true,
+                    fmt::format("up to {:.3g} m/s, {:.3g} of the speed of what moves", most, most / s.speed)};
+}
+
+}  // namespace splashdown::apps

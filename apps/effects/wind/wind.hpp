@@ -1,0 +1,31 @@
+// [wind]: the motion of the air. It acts on bodies with [body.aero].
+#pragma once
+
+#include "apps/scene/effect_kind.hpp"
+
+namespace splashdown::apps {
+
+struct WindTable {
+  Point velocity = Point::Zero();   ///< at `height` [m/s]
+  std::string profile = "uniform";  ///< "uniform" | "log"
+  double height = 10;               ///< over the water, where `velocity` is measured [m]
+  double roughness = 2e-4;          ///< of the surface [m]; open sea (Wieringa 1992)
+  double level = 0;                 ///< of the surface [m]; default: that of still water
+  struct Gust {
+    Point velocity = Point::Zero();  ///< at its peak, added [m/s]
+    double start = 0;                ///< [s]
+    double duration = 1;             ///< [s]
+  };
+  std::optional<Gust> gust;
+};
+
+class WindKind final : public EffectOf<WindKind, WindTable> {
+ public:
+  std::string_view name() const override { return "wind"; }
+  void read(Reader& reader, Scene& scene) const override;
+  void check(const Scene& scene, Problems& problems) const override;
+  void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
+  std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+};
+
+}  // namespace splashdown::apps
