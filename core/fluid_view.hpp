@@ -9,6 +9,7 @@
 
 #include "core/diagnostic.hpp"
 #include "core/mesh.hpp"
+#include "core/mirror.hpp"
 #include "core/nodes.hpp"
 
 namespace splashdown {
@@ -23,6 +24,8 @@ struct WallSpec {
   Twist<d> velocity = Twist<d>::Zero();        ///< of the wall frame's origin, at t = 0
   double size = 0;                             ///< element size at the wall [m]
   bool sticks = false;                         ///< no slip: the wall drags viscous fluid along (viscosity.hpp)
+  /// The plane of symmetry that ends the fluid, and that the wall reaches across or has a side in; none: nothing is mirrored.
+  std::optional<Mirror> mirror = {};
 };
 
 /// Load of the fluid on a wall about the wall's reference point, world frame [N, N m; 2D: N/m, N].

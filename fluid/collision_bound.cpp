@@ -78,12 +78,12 @@ double collision_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>
 }
 
 template <int d>
-double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh) {
+double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls) {
   constexpr double thin = 0.01;
   constexpr double never = std::numeric_limits<double>::infinity();
   return least_in_parallel(mesh.cells.size(), [&](std::size_t c) {
     const auto& cell = mesh.cells[c];
-    if (!nodes.are_between_walls(cell)) return never;
+    if (!are_between_walls<d>(cell, nodes, walls)) return never;
     const auto gradients = volume_gradients<d>(corners(nodes.x, cell));
     double closing = 0, size = 0;
     for (int k = 0; k <= d; ++k) {
@@ -94,8 +94,8 @@ double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh) {
   });
 }
 
-template double gap_time(const Nodes<2>&, const Mesh<2>&);
-template double gap_time(const Nodes<3>&, const Mesh<3>&);
+template double gap_time(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
+template double gap_time(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
 template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double,
                              double);
 template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double,

@@ -22,10 +22,10 @@ double collision_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>
 /// rate with the velocities of their nodes [s]. What is thinner than a hundredth of the element size may go at once: gaps
 /// end.
 template <int d>
-double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh);
+double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls);
 
-extern template double gap_time(const Nodes<2>&, const Mesh<2>&);
-extern template double gap_time(const Nodes<3>&, const Mesh<3>&);
+extern template double gap_time(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
+extern template double gap_time(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
 extern template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
                                     double, double);
 extern template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,

@@ -74,7 +74,7 @@ Fluid<d>::Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effec
   now.nodes.volume = nodal_volumes(now.mesh, now.nodes.x);
   now.nodes.part = parts_of(now.mesh, now.nodes.size());
   now.chords.assign(s_->walls.size(), 0.0);
-  now.displaced = displaced_volumes(now.mesh, now.nodes.x, s_->walls.size());
+  now.displaced = displaced_volumes(now.mesh, now.nodes.x, s_->walls.size(), s_->mirror());
   now.wetted = wetted_measures(now.mesh, now.nodes.x, s_->walls.size());
   now.ledger.volume = now.ledger.volume_initial = enclosed_volume(now.mesh.boundary, now.nodes.x);
 }
@@ -107,7 +107,7 @@ double Fluid<d>::stable_dt() const {
   });
   double dt = std::min(s_->spec.step.dt_max, s_->spec.step.cfl * std::sqrt(squared));
   dt = std::min({dt, now.acceleration_dt, wave_dt(now.nodes, now.mesh, s_->gravity()),
-                 s_->spec.step.cfl * gap_time<d>(now.nodes, now.mesh)});
+                 s_->spec.step.cfl * gap_time<d>(now.nodes, now.mesh, s_->walls_at(now.poses))});
   for (const auto& effect : s_->effects) dt = std::min(dt, effect->stable_dt());
   return collision_dt<d>(now.nodes, now.mesh, s_->walls_at(now.poses), now.velocity, s_->spec.step.cfl, dt);
 }

@@ -110,7 +110,7 @@ void Fluid<d>::load(std::istream& in) {
   s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
   s_->now.nodes.inherited.assign(s_->now.nodes.size(), {});
   s_->now.nodes.field_energy.assign(s_->now.nodes.size(), 0.0);
-  s_->now.displaced = displaced_volumes(s_->now.mesh, s_->now.nodes.x, s_->walls.size());
+  s_->now.displaced = displaced_volumes(s_->now.mesh, s_->now.nodes.x, s_->walls.size(), s_->mirror());
   s_->now.nodes.part = parts_of(s_->now.mesh, s_->now.nodes.size());
   s_->prepared = s_->solved = false;
   s_->result = {};

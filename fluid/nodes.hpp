@@ -79,16 +79,6 @@ struct Nodes : splashdown::Nodes<d> {
     return View::add(position, velocity, pressure, t, on_surface);
   }
 
-  /// Whether nodes of a cell are tied to different walls.
-  bool are_between_walls(const std::array<int, static_cast<std::size_t>(d) + 1>& cell) const {
-    int one = -1;
-    return std::ranges::any_of(cell, [&](int n) {
-      const int wall = tie[static_cast<std::size_t>(n)].wall;
-      if (one < 0) one = wall;
-      return wall >= 0 && wall != one;
-    });
-  }
-
   /// What node i carries.
   VelocityMoments<d> carried(std::size_t i) const { return VelocityMoments<d>::of(volume[i], v[i]); }
 

@@ -13,7 +13,7 @@ namespace splashdown::fluid {
 //   dE = -rho g . (V' c' - V c - V_0 (c* - c)),   V_0 = V - chords
 template <int d>
 void Fluid<d>::State::follow_hulls(std::span<const Isometry<d>> poses) {
-  const auto before = std::exchange(work.displaced, displaced_volumes(work.mesh, work.nodes.x, walls.size()));
+  const auto before = std::exchange(work.displaced, displaced_volumes(work.mesh, work.nodes.x, walls.size(), mirror()));
   std::vector<double> taken(walls.size(), 0.0);
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const DisplacedVolume<d>&from = before[w], &to = work.displaced[w];

@@ -3,6 +3,8 @@
 #include "apps/scene/coupling_kinds.hpp"
 #include <algorithm>
 
+#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/mirror.hpp"
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"
 #include "fluid/participant.hpp"
@@ -64,7 +66,11 @@ template <int d>
 std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
   std::vector<rigid::BodySpec<d>> specs;
   for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
-  return std::make_unique<rigid::Bodies<d>>(std::move(specs), parts_of<d>(scene).forces, joint_specs(scene),
+  auto forces = std::move(parts_of<d>(scene).forces);
+  auto joints = joint_specs(scene);
+  for (const auto* kind : effect_kinds())
+    if (kind->present(scene)) kind->prepare(scene, BodyParts<d>{specs, forces, joints});
+  return std::make_unique<rigid::Bodies<d>>(std::move(specs), std::move(forces), std::move(joints),
                                             contact_spec<d>(scene));
 }
 
@@ -82,6 +88,8 @@ World<d> build_world(const Scene& scene, std::function<void()> meanwhile) {
     if (may_wait(scene)) both->let_fluid_wait();
     world.stepper = std::move(both);
   }
+  if (const auto mirror = mirror_of(scene); mirror && world.fluid)
+    world.whole = std::make_unique<Whole<d>>(*mirror, *world.fluid, world.bodies);
   return world;
 }
 

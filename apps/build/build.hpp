@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "apps/build/whole.hpp"
 #include "apps/record/settings.hpp"
 #include "apps/scene/scene.hpp"
 #include "coupling/schemes/stepper.hpp"
@@ -21,6 +22,7 @@ struct World {
   std::unique_ptr<coupling::Stepper> stepper;  ///< owns the parts
   const fluid::Fluid<d>* fluid = nullptr;      ///< null: no liquid in the scene
   const rigid::Bodies<d>* bodies = nullptr;    ///< null: no bodies in the scene
+  std::unique_ptr<Whole<d>> whole = nullptr;   ///< how the scene is told; null: as it is simulated
 };
 
 /// Throws std::invalid_argument if the parts refuse what the scene asks for. `meanwhile`: FluidSpec::while_meshing.

@@ -1,5 +1,6 @@
 #include "apps/build/build.hpp"
 #include "apps/build/symmetry.hpp"
+#include "apps/scene/mirror.hpp"
 #include "apps/scene/patch.hpp"
 
 namespace splashdown::apps {
@@ -7,8 +8,47 @@ namespace {
 
 /// From the shape's frame to the body's, whose origin is the centre of mass.
 template <int d>
-rigid::Vec<d> in_body(const Body& body, const Point& point) {
-  return vec<d>(point) - mass_properties<d>(body).centre;
+rigid::Vec<d> in_body(const Body& body, const rigid::Vec<d>& point) {
+  return point - mass_properties<d>(body).centre;
+}
+
+template <int d>
+std::optional<ShapeMirror<d>> mirror_in(const Scene& scene, const Body& body) {
+  const auto mirror = mirror_of(scene);
+  return mirror ? std::optional(in_frame<d>(*mirror, shape_pose<d>(body))) : std::nullopt;
+}
+
+/// A point of a body, or its mirror image, whichever is simulated; shape's frame.
+template <int d>
+rigid::Vec<d> simulated(const Scene& scene, const Body& body, const Point& point) {
+  const auto mirror = mirror_in<d>(scene, body);
+  return mirror ? mirror->kept(vec<d>(point)) : vec<d>(point);
+}
+/// The same of one that stays in place.
+template <int d>
+rigid::Vec<d> simulated(const Scene& scene, const Point& point) {
+  const auto mirror = mirror_of(scene);
+  return mirror && point[mirror->axis] < mirror->at ? mirror->image<d>(vec<d>(point)) : vec<d>(point);
+}
+
+/// What a patch, or its mirror image, has before the plane, whichever is more; body frame.
+template <int d>
+PatchRegion<d> simulated(const PatchRegion<d>& region, const ShapeMirror<d>& mirror, const rigid::Vec<d>& origin,
+                         const rigid::Surface<d>& hull) {
+  const auto& m = mirror.normal;
+  const double place = mirror.offset - m.dot(origin);
+  auto image = region;
+  for (auto& side : image.sides) {
+    side.offset -= 2 * place * m.dot(side.normal);
+    side.normal -= 2 * m.dot(side.normal) * m;
+  }
+  if (image.facing) *image.facing -= 2 * m.dot(*image.facing) * m;
+  const auto before = [&](PatchRegion<d> cut) {
+    cut.sides.push_back({-m, -place});
+    return cut;
+  };
+  const auto own = before(region), other = before(image);
+  return patch_area<d>(other, hull) > (1 + 1e-9) * patch_area<d>(own, hull) ? other : own;
 }
 
 template <int d>
@@ -19,20 +59,22 @@ struct AddRecord {
   void operator()(const PressureEntry& entry) const {
     if (entry.body) {
       const auto& body = scene.bodies[*entry.body];
-      settings.pressure_probes.push_back({entry.name, in_body<d>(body, entry.point), body.name});
+      settings.pressure_probes.push_back({entry.name, in_body<d>(body, simulated<d>(scene, body, entry.point)), body.name});
     } else {
-      settings.pressure_probes.push_back({entry.name, vec<d>(entry.point), {}});
+      settings.pressure_probes.push_back({entry.name, simulated<d>(scene, entry.point), {}});
     }
   }
   void operator()(const SurfacePressureEntry& entry) const {
     settings.surface_pressure.push_back({entry.wall, entry.interval, entry.times});
   }
   void operator()(const ElevationEntry& entry) const {
-    settings.gauges.push_back({entry.name, Eigen::Vector2d(entry.x, entry.y).head<d - 1>()});
+    Point at = Point::Zero();
+    at.head<d - 1>() = Eigen::Vector2d(entry.x, entry.y).head<d - 1>();
+    settings.gauges.push_back({entry.name, simulated<d>(scene, at).template head<d - 1>()});
   }
   void operator()(const AccelerationEntry& entry) const {
     const auto& body = scene.bodies[entry.body];
-    settings.equipment.push_back({entry.name, body.name, in_body<d>(body, entry.point)});
+    settings.equipment.push_back({entry.name, body.name, in_body<d>(body, vec<d>(entry.point))});
   }
   void operator()(const AddedMassEntry& entry) const {
     settings.added_mass.push_back({scene.bodies[entry.body].name, entry.interval, entry.times});
@@ -40,12 +82,16 @@ struct AddRecord {
   void operator()(const PatchEntry& entry) const {
     const auto& body = scene.bodies[entry.body];
     const auto hull = body_spec<d>(body).surface;
-    const auto region = patch_region<d>(entry, hull, mass_properties<d>(body).centre);
+    const rigid::Vec<d> origin = mass_properties<d>(body).centre;
+    auto region = patch_region<d>(entry, hull, origin);
+    if (const auto mirror = mirror_in<d>(scene, body)) region = simulated(region, *mirror, origin, hull);
     settings.patches.push_back({entry.name, body.name, region, patch_area<d>(region, hull)});
   }
   void operator()(const MaximumPressureEntry& entry) const {
     const auto spec = body_spec<d>(scene.bodies[entry.body]);
-    settings.hull_maps.push_back({spec.name, {spec.surface.vertices, spec.surface.facets}, spec.pose, entry.size});
+    auto surface = spec.surface;
+    if (const auto mirror = mirror_of(scene)) surface = kept_part<d>(in_frame<d>(*mirror, spec.pose), surface);
+    settings.hull_maps.push_back({spec.name, {surface.vertices, surface.facets}, spec.pose, entry.size});
   }
 };
 

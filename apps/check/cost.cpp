@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "apps/build/build.hpp"
+#include "apps/scene/mirror.hpp"
 #include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/solid.hpp"
@@ -284,6 +285,7 @@ Count nodes_at(const Scene& scene, double time) {
   Extents<d> all;
   for (const auto& region : estimate.regions()) all.extend(region.extents());
   if (scene.tank) all = all.intersection(extents<d>(*scene.tank));
+  if (const auto mirror = mirror_of(scene)) all.min()[mirror->axis] = std::max(all.min()[mirror->axis], mirror->at);
   return nodes_in<d>(estimate, all);
 }
 

@@ -3,6 +3,7 @@
 #include "apps/effects/aero/aero.hpp"
 #include "apps/effects/force/force.hpp"
 #include "apps/effects/gravity/gravity.hpp"
+#include "apps/effects/symmetry/symmetry.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
 #include "apps/effects/wind/wind.hpp"
 
@@ -25,6 +26,7 @@ std::span<const EffectKind* const> effect_kinds() {
       row<WindKind>(),
       row<AeroKind>(),
       row<ForceKind>(),
+      row<SymmetryKind>(),  // the last: it cuts what the others have made
   };
   return catalogue;
 }

@@ -123,7 +123,12 @@ Frame<d> take_frame(const RecordInput<d>& input) {
     auto& outline = frame.outlines[w];
     const WettedWall<d> wetted(*input.fluid, static_cast<int>(w));
     const auto& vertices = outline.surface.vertices;
-    for (Eigen::Index i = 0; i < vertices.cols(); ++i) outline.p.push_back(wetted.pressure(vertices.col(i)));
+    const auto& mirror = input.fluid->walls()[w].mirror;
+    for (Eigen::Index i = 0; i < vertices.cols(); ++i) {
+      const Vec<d> x = vertices.col(i);
+      const bool beyond = mirror && mirror->template distance<d>(x) < 0;
+      outline.p.push_back(wetted.pressure(beyond ? mirror->template image<d>(x) : x));
+    }
     outline.v.assign(outline.p.size(), Vec<d>::Zero());
   }
   for (std::size_t b = 0; input.bodies && b < input.bodies->size(); ++b) {

@@ -111,7 +111,7 @@ RecordInput<d> Run<d>::input(const StepMade& step) const {
   in.residual = step.report.residual;
   in.wall_seconds = wall_seconds();
   in.last = step.last;
-  if (!world_.bodies) return in;
+  if (!world_.bodies) return told(std::move(in));
   const double kick = splashdown::kick(step.dt_previous, step.dt);
   for (std::size_t i = 0; i < world_.bodies->size(); ++i) {
     // Linear between the half steps: their mean for constant dt, the initial velocity at the first step.
@@ -121,7 +121,7 @@ RecordInput<d> Run<d>::input(const StepMade& step) const {
     in.body_velocity_n.push_back(before + 0.5 * step.dt_previous * acceleration);
     in.body_load.push_back(world_.fluid ? world_.fluid->result().loads[i] : fluid::WallLoad<d>{});
   }
-  return in;
+  return told(std::move(in));
 }
 
 template <int d>

@@ -59,6 +59,9 @@ class Run final : private LoopHost {
   std::optional<std::string> interruption() override;
 
   RecordInput<d> input(const StepMade& step) const;
+  RecordInput<d> told(RecordInput<d> simulated) const {
+    return world_.whole ? world_.whole->tell(std::move(simulated)) : simulated;
+  }
   double wall_seconds() const;
   std::map<std::string, double> phases() const;
 

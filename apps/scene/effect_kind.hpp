@@ -13,6 +13,8 @@
 #include "apps/scene/outlook/outlook.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/scene.hpp"
+#include "core/bodies_view.hpp"
+#include "core/mirror.hpp"
 
 namespace splashdown::fluid {
 template <int d>
@@ -23,6 +25,7 @@ struct FluidSpec;
 namespace splashdown::rigid {
 template <int d>
 class Force;
+struct JointSpec;
 }  // namespace splashdown::rigid
 
 namespace splashdown::apps {
@@ -35,6 +38,14 @@ template <int d>
 struct EffectParts {
   std::vector<std::unique_ptr<fluid::Effect<d>>>& fluid;  ///< terms of the fluid's equations
   std::vector<std::unique_ptr<rigid::Force<d>>>& forces;  ///< on bodies
+};
+
+/// What bodies are made from.
+template <int d>
+struct BodyParts {
+  std::vector<BodySpec<d>>& specs;
+  std::vector<std::unique_ptr<rigid::Force<d>>>& forces;  ///< of all effects
+  std::vector<rigid::JointSpec>& joints;
 };
 
 /// What questions of `check` about an effect need to know besides its table.
@@ -71,6 +82,15 @@ class EffectKind {
   /// Changes what the fluid is made from; after its own regions and walls are in.
   virtual void prepare(const Scene& scene, fluid::FluidSpec<2>& spec) const = 0;
   virtual void prepare(const Scene& scene, fluid::FluidSpec<3>& spec) const = 0;
+  /// Changes what the bodies are made from; called only where it is present, after `build` of all.
+  virtual void prepare(const Scene& /*scene*/, const BodyParts<2>& /*parts*/) const {}
+  virtual void prepare(const Scene& /*scene*/, const BodyParts<3>& /*parts*/) const {}
+  /// The plane that ends what is simulated, if the effect is present and there is one.
+  virtual std::optional<Mirror> mirror(const Scene& /*scene*/) const { return {}; }
+  /// Why the effect, which is present, is not its own mirror image, as the end of a sentence about its table; nothing: it is.
+  virtual std::optional<std::string> asymmetry(const Scene& /*scene*/, const Mirror& /*mirror*/) const {
+    return "is not known to be its own mirror image";
+  }
   /// Adds its parts; called only where it is present. Without a fluid in the scene parts of the fluid are dropped.
   virtual void build(const Scene& scene, const EffectParts<2>& parts) const = 0;
   virtual void build(const Scene& scene, const EffectParts<3>& parts) const = 0;

@@ -41,6 +41,40 @@ std::optional<Vec<d>> on_own_side(const Wall<d>& wall, const Isometry<d>& pose, 
   return depth > 0 ? std::optional<Vec<d>>(x + depth * normal) : std::nullopt;
 }
 
+// Nodes of the water in the plane of symmetry are tied to the tank's side there. For hulls they are like others within the
+// water: those that a hull has met belong to its line in the plane, and what leaves that line belongs to the tank again.
+template <int d>
+void tie_in_mirror(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d>> velocities) {
+  constexpr double in_plane = 1e-5;  // over h: more than ventilation lifts a node off its wall
+  const auto tank = std::ranges::find_if(at.walls, [](const Wall<d>& wall) { return wall.ends_at_mirror(); });
+  if (tank == at.walls.end()) return;
+  const auto t = static_cast<int>(tank - at.walls.begin());
+  const Mirror mirror = *tank->spec().mirror;
+  in_parallel(nodes.size(), [&](std::size_t i) {
+    WallTie& tie = nodes.tie[i];
+    if ((tie.wall >= 0 && tie.wall != t) || tie.sharp() || nodes.spray[i]) return;
+    if (mirror.distance<d>(nodes.x[i]) > in_plane * nodes.h[i]) return;
+    const Vec<d> x = mirror.onto<d>(nodes.x[i]);
+    if (tie.wall < 0) {
+      nodes.x[i] = x;
+      tie = {t, tank->nearest(at.poses[t], x, tank->diameter()).patch, -1};
+    }
+    for (int w = 0; w < t && d == 3; ++w) {
+      const Wall<d>& hull = at.walls[w];
+      if (!hull.spec().mirror || !hull.may_touch(at.poses[w], x, 0)) continue;
+      const auto near = hull.nearest(at.poses[w], x, hull.diameter());
+      if (near.distance > 0) continue;
+      const Vec<d> v = nodes.v[i] - rigid_velocity<d>(velocities[w], x - at.poses[w].translation());
+      if (v.dot(near.normal) > 0 && near.distance > -deep * nodes.h[i]) continue;
+      const auto line = hull.nearest_in_mirror(at.poses[w], x);
+      if (line.crease < 0) continue;
+      nodes.x[i] = line.point;
+      tie = {w, -1, -1, line.crease};
+      return;
+    }
+  });
+}
+
 template <int d>
 void tie_arrivals(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d>> velocities, double dt) {
   in_parallel(nodes.size(), [&](std::size_t i) {
@@ -267,6 +301,7 @@ bool occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
 template <int d>
 bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities,
                   double dt) {
+  tie_in_mirror<d>(nodes, walls, velocities);
   tie_arrivals<d>(nodes, walls, velocities, dt);
   const bool corners = occupy_corners(nodes, mesh, walls), creases = occupy_creases(nodes, mesh, walls);
   return corners || creases;

@@ -84,11 +84,11 @@ std::vector<char> thin_places(const Nodes<d>& nodes, const Mesh<d>& mesh) {
 // Nodes at which air needs no time: all of the plane's, whose films are resolved less, and those of gaps between walls, which
 // close faster than water passes an element.
 template <int d>
-std::vector<char> without_memory(const Nodes<d>& nodes, const Mesh<d>& mesh) {
+std::vector<char> without_memory(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at) {
   if constexpr (d == 2) return std::vector<char>(nodes.size(), 1);
   std::vector<char> forget(nodes.size(), 0);
   for (const auto& cell : mesh.cells)
-    if (nodes.are_between_walls(cell))
+    if (are_between_walls<d>(cell, nodes, at))
       for (int n : cell) forget[n] = 1;
   return forget;
 }
@@ -99,7 +99,7 @@ template <int d>
 void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
                            std::span<const Twist<d>> velocities, std::span<const int> unknown,
                            std::span<const double> repair_impulse, double kick) {
-  const std::vector<char> forget = without_memory(nodes, mesh);
+  const std::vector<char> forget = without_memory(nodes, mesh, at);
   in_parallel(nodes.size(), [&](std::size_t n) {
     double& mean = nodes.wall_pressure[n];
     const int wall = nodes.tie[n].wall;

@@ -30,6 +30,7 @@ Wall<d>::Wall(const WallSpec<d>& spec)
   for (int v = 0; v < spec_.surface.vertices.cols(); ++v) box_.extend(spec_.surface.vertices.col(v));
   tiny_ = 1e-9 * box_.diagonal().norm();
   find_normals();
+  find_sides_of_mirror();
   find_creases();
   find_corners();
   find_patches();
@@ -55,6 +56,38 @@ void Wall<d>::find_normals() {
     }
   }
   turned_inside_out_ = enclosed < 0;
+}
+
+// A hull that reaches across the plane of symmetry has its facets on one side of it or on the other.
+template <int d>
+void Wall<d>::find_sides_of_mirror() {
+  const auto& [vertices, facets] = spec_.surface;
+  side_.assign(facets.cols(), 0);
+  in_mirror_.assign(vertices.cols(), 0);
+  if (!spec_.mirror) return;
+  std::vector<double> distance(vertices.cols());
+  for (int v = 0; v < vertices.cols(); ++v) {
+    distance[v] = spec_.mirror->template distance<d>(spec_.pose * Vec<d>(vertices.col(v)));
+    in_mirror_[v] = std::abs(distance[v]) <= tiny_;
+  }
+  if (turned_inside_out_) {
+    std::vector<int> solid;
+    for (int f = 0; f < facets.cols(); ++f)
+      if (!lies_in_mirror(f)) solid.push_back(f);
+    solid_tree_ = FacetTree<d>(vertices, facets(Eigen::all, solid));
+    return;
+  }
+  for (int f = 0; f < facets.cols(); ++f) {
+    double sum = 0;
+    for (int k = 0; k < d; ++k) sum += distance[facets(k, f)];
+    side_[f] = sum < 0 ? -1 : 1;
+  }
+}
+
+template <int d>
+bool Wall<d>::lies_in_mirror(int f) const {
+  const auto corners = spec_.surface.facets.col(f);
+  return std::all_of(corners.begin(), corners.end(), [&](int v) { return in_mirror_[v] != 0; });
 }
 
 template <int d>
@@ -86,7 +119,7 @@ void Wall<d>::find_creases() {
         for (int g : facets_of_[a])
           for (int j = 0; j < d; ++j)
             if (facets(j, g) == b && facets((j + 1) % d, g) == a) across_(k, f) = g;
-        if (across_(k, f) >= 0 && is_crease(f, across_(k, f))) of_vertex[a].push_back({f, k});
+        if (across_(k, f) >= 0 && ends_patch(f, across_(k, f))) of_vertex[a].push_back({f, k});
       }
     // A crease ends where it branches or turns sharply, and where a hollow one becomes convex.
     auto other_end = [&](const std::array<int, 2>& e) { return facets((e[1] + 1) % d, e[0]); };
@@ -133,13 +166,18 @@ void Wall<d>::find_creases() {
 // Besides the ends of creases: vertices around which the normal turns, as at the tip of a cone.
 template <int d>
 void Wall<d>::find_corners() {
+  smooth_corner_.assign(spec_.surface.vertices.cols(), 0);
   for (int v = 0; v < spec_.surface.vertices.cols(); ++v) {
     if (!is_sharp_[v])
       for (int f : facets_of_[v])
         for (int g : facets_of_[v])
-          if (is_crease(f, g)) is_corner_[v] = 1;
+          if (ends_patch(f, g)) is_corner_[v] = 1;
     is_sharp_[v] = is_sharp_[v] || is_corner_[v];
-    if (is_corner_[v]) corners_.push_back(v);
+    if (!is_corner_[v]) continue;
+    corners_.push_back(v);
+    smooth_corner_[v] = std::ranges::none_of(facets_of_[v], [&](int f) {
+      return std::ranges::any_of(facets_of_[v], [&](int g) { return is_crease(f, g); });
+    });
   }
 }
 
@@ -151,12 +189,13 @@ void Wall<d>::find_patches() {
     int shared = 0;
     for (int a = 0; a < d; ++a)
       for (int b = 0; b < d; ++b) shared += facets(a, f) == facets(b, g);
-    return shared == d - 1 && !is_crease(f, g);
+    return shared == d - 1 && !ends_patch(f, g);
   };
   patch_of_.assign(facets.cols(), -1);
   for (int seed = 0; seed < facets.cols(); ++seed) {
     if (patch_of_[seed] >= 0) continue;
     const int patch = static_cast<int>(patch_facets_.size());
+    if (turned_inside_out_ && lies_in_mirror(seed)) mirror_patch_ = patch;
     std::vector<int> members{seed};
     patch_of_[seed] = patch;
     for (std::size_t i = 0; i < members.size(); ++i)
@@ -195,19 +234,24 @@ void Wall<d>::find_bends() {
 }
 
 // Where a convex crease ends water flows around the corner, whatever else meets there. Without creases: where the neighbours lie
-// behind it.
+// behind it. Across a plane of symmetry no water flows: along such a crease it goes with the hull, and in the plane such a
+// vertex is a point where it stands.
 template <int d>
 void Wall<d>::find_convexity() {
   const auto& vertices = spec_.surface.vertices;
   const auto& facets = spec_.surface.facets;
   convex_crease_.assign(creases_.size(), 1);
+  mirrored_crease_.assign(creases_.size(), 0);
   // One surface that is convex along all of its edges is convex as a whole (Tietze 1928, Nakajima 1928).
   is_convex_ = d == 3 && !turned_inside_out_ && is_in_one_piece();
   for (int f = 0; f < facets.cols() && d == 3; ++f)
     for (int k = 0; k < d; ++k) {
-      if (across_(k, f) < 0 || !is_hollow(f, across_(k, f))) continue;
-      if (crease_of_(k, f) >= 0) convex_crease_[crease_of_(k, f)] = 0;
-      is_convex_ = false;
+      if (across_(k, f) < 0) continue;
+      const int crease = crease_of_(k, f);
+      const bool divided = side_[f] * side_[across_(k, f)] < 0, hollow = is_hollow(f, across_(k, f));
+      if (divided) mirrored_crease_[crease] = 1;
+      if (crease >= 0 && (divided || hollow)) convex_crease_[crease] = 0;
+      is_convex_ = is_convex_ && !hollow;
     }
   convex_corner_.assign(vertices.cols(), 1);
   for (int v : corners_) {
@@ -217,11 +261,12 @@ void Wall<d>::find_convexity() {
       for (int k = 0; k < d; ++k) {
         in_front += (vertices.col(facets(k, f)) - vertices.col(v)).dot(vertex_normal_.col(v));
         const int crease = crease_of_(k, f);
-        if (crease < 0 || (facets(k, f) != v && facets((k + 1) % d, f) != v)) continue;
+        if (crease < 0 || mirrored_crease_[crease] || (facets(k, f) != v && facets((k + 1) % d, f) != v)) continue;
         ends = true;
         ends_convex = ends_convex || convex_crease_[crease] != 0;
       }
     convex_corner_[v] = ends ? ends_convex : in_front < 0;
+    if (d == 2 && in_mirror_[v] && !turned_inside_out_) convex_corner_[v] = 0;
   }
 }
 
@@ -334,7 +379,21 @@ typename Wall<d>::OnCrease Wall<d>::on_crease(const Vec<d>& local, int crease) c
 
 template <int d>
 Vec<d> Wall<d>::nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
-  return pose * on_crease(pose.inverse() * x, crease).point;
+  const Vec<d> point = pose * on_crease(pose.inverse() * x, crease).point;
+  return mirrored_crease_[crease] ? spec_.mirror->template onto<d>(point) : point;
+}
+
+template <int d>
+typename Wall<d>::Crossing Wall<d>::nearest_in_mirror(const Isometry<d>& pose, const Vec<d>& x) const {
+  Crossing best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < creases_.size(); ++c) {
+    if (!mirrored_crease_[c]) continue;
+    const Vec<d> point = nearest_on_crease(pose, x, static_cast<int>(c));
+    if (const double distance = (point - x).norm(); distance < best.distance)
+      best = {static_cast<int>(c), point, distance, 0};
+  }
+  return best;
 }
 
 template <int d>
@@ -370,6 +429,12 @@ typename Wall<d>::Crossing Wall<d>::nearest_crease(const Isometry<d>& pose, cons
 template <int d>
 double Wall<d>::distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack) const {
   return std::sqrt(tree_.nearest(pose.inverse() * x, reach, slack).squared_distance);
+}
+
+template <int d>
+double Wall<d>::distance_of_solid(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack) const {
+  const auto& tree = solid_tree_.empty() ? tree_ : solid_tree_;
+  return std::sqrt(tree.nearest(pose.inverse() * x, reach, slack).squared_distance);
 }
 
 template class Wall<2>;

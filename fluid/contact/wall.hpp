@@ -34,6 +34,13 @@ class Wall {
     bool sharp() const { return vertex >= 0 || crease >= 0; }
   };
 
+  /// Where a segment passes a crease.
+  struct Crossing {
+    int crease = -1;
+    Vec<d> point = Vec<d>::Zero();  ///< of the crease, world frame
+    double distance = 0;            ///< from there to the segment
+    double share = 0;               ///< of the segment, from `from` to its point nearest to the crease
+  };
   /// Closest point of the wall in the given pose; distance = +reach where nothing is nearer.
   Near nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
   /// The same on one smooth patch alone, wherever x is.
@@ -42,13 +49,6 @@ class Wall {
   Vec<d> nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
   /// Unit vector along the crease where it is nearest.
   Vec<d> crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
-  /// Where a segment passes a crease.
-  struct Crossing {
-    int crease = -1;
-    Vec<d> point = Vec<d>::Zero();  ///< of the crease, world frame
-    double distance = 0;            ///< from there to the segment
-    double share = 0;               ///< of the segment, from `from` to its point nearest to the crease
-  };
   /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
   Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
   /// Whether the solid is convex along this crease, or along one that ends at this corner: water flows around it. In hollow
@@ -64,6 +64,12 @@ class Wall {
   }
   /// Whether the solid is surely convex: what lies between points of it lies in it, and behind the plane of each facet. In 3D.
   bool is_convex() const { return is_convex_; }
+  /// Whether a corner or a crease lies in the plane of symmetry, where it is none or turns to its own mirror image.
+  bool is_in_mirror(int vertex, int crease) const {
+    return vertex >= 0 ? in_mirror_[vertex] != 0 : crease >= 0 && mirrored_crease_[crease] != 0;
+  }
+  /// The crease in the plane of symmetry that is nearest to x; crease = -1 without any. In 3D.
+  Crossing nearest_in_mirror(const Isometry<d>& pose, const Vec<d>& x) const;
   /// Whether all facets of this smooth patch lie in one plane.
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   /// Of a flat patch, out of the solid, world frame.
@@ -82,10 +88,20 @@ class Wall {
   }
   /// Distance of x from the surface [m], on either side of it; `reach` where nothing is nearer. `slack`: relative error allowed.
   double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
+  /// The same, of a tank without its side in the plane of symmetry, which is no solid.
+  double distance_of_solid(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
+  /// Whether a smooth patch is that side.
+  bool is_mirror(int patch) const { return patch >= 0 && patch == mirror_patch_; }
+  /// A tank that has a side there.
+  bool ends_at_mirror() const { return turned_inside_out_ && spec_.mirror; }
   /// Vertex v of the surface, world frame [m].
-  Vec<d> vertex(const Isometry<d>& pose, int v) const { return pose * Vec<d>(spec_.surface.vertices.col(v)); }
-  /// Vertices that are corners.
+  Vec<d> vertex(const Isometry<d>& pose, int v) const {
+    const Vec<d> x = pose * Vec<d>(spec_.surface.vertices.col(v));
+    return in_mirror_[v] && !turned_inside_out_ ? spec_.mirror->template onto<d>(x) : x;
+  }
+  /// Vertices that are corners, those included at which nothing but the plane of symmetry ends a patch: `is_smooth`.
   const std::vector<int>& corners() const { return corners_; }
+  bool is_smooth(int corner) const { return smooth_corner_[corner] != 0; }
   /// As it was made.
   const WallSpec<d>& spec() const { return spec_; }
   /// A vertex of a smooth patch that is curved there.
@@ -97,6 +113,11 @@ class Wall {
   const std::vector<Bend>& bends() const { return bends_; }
   /// Centre of the volume that the surface encloses, wall frame, and how deep in the solid it lies: negative outside of it.
   const Vec<d>& centre() const { return centre_; }
+  /// The same in the world; in the plane of symmetry, if there is one.
+  Vec<d> centre_at(const Isometry<d>& pose) const {
+    const Vec<d> x = pose * centre_;
+    return spec_.mirror ? spec_.mirror->template onto<d>(x) : x;
+  }
   double depth_of_centre() const { return depth_of_centre_; }  ///< [m]
   bool encloses_fluid() const { return turned_inside_out_; }   ///< a tank
   /// Box around the surface in the wall frame.
@@ -106,6 +127,8 @@ class Wall {
 
  private:
   void find_normals();
+  void find_sides_of_mirror();
+  bool lies_in_mirror(int f) const;
   void find_centre();
   void find_creases();
   void find_corners();
@@ -116,6 +139,7 @@ class Wall {
   void find_basin();
   bool is_crease(int f, int g) const;
   bool is_hollow(int f, int g) const;
+  bool ends_patch(int f, int g) const { return is_crease(f, g) || side_[f] * side_[g] < 0; }
   struct OnCrease {
     Vec<d> point, along;  // in the wall's frame
   };
@@ -127,7 +151,7 @@ class Wall {
   Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
 
   WallSpec<d> spec_;
-  FacetTree<d> tree_;
+  FacetTree<d> tree_, solid_tree_;  // solid: only for tanks that end at a mirror
   std::vector<FacetTree<d>> patch_tree_;
   std::vector<std::vector<int>> patch_facets_;
   std::vector<int> patch_of_;
@@ -142,6 +166,9 @@ class Wall {
   std::vector<Bend> bends_;
   std::vector<char> is_corner_, is_sharp_;           // of vertices; sharp: a corner or on a crease
   std::vector<char> convex_corner_, convex_crease_;  // of vertices, of creases
+  int mirror_patch_ = -1;          // of a tank that ends at a plane of symmetry
+  std::vector<signed char> side_;  // of the plane of symmetry, of facets; 0: there is none
+  std::vector<char> in_mirror_, mirrored_crease_, smooth_corner_;  // of vertices, of creases, of vertices
   Eigen::AlignedBox<double, d> box_;
   bool turned_inside_out_;  // the solid is outside
   bool is_convex_ = false;

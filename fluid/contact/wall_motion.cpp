@@ -164,7 +164,7 @@ void WallMotion<d>::move_tied(int i, const Isometry<d>& pose, double dt, Moved& 
   const Wall<d>& wall = walls_[tie.wall];
   auto near = tie.sharp() || tie.patch < 0 ? wall.nearest(pose, out.x[i], wall.diameter())
                                            : wall.nearest_on_patch(pose, out.x[i], tie.patch);
-  const bool passes_edge = !tie.sharp() && near.sharp();
+  const bool passes_edge = !tie.sharp() && near.sharp() && !wall.is_in_mirror(near.vertex, near.crease);
   if (passes_edge) {
     // The wall guides the node up to its edge: what flies off does not turn into the wall behind it.
     const Vec<d> guided = out.x[i] - (out.x[i] - near.point).dot(near.normal) * near.normal;

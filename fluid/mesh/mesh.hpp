@@ -1,10 +1,13 @@
 // The mesh as the fluid room names it: as it is looked at (core/mesh.hpp), and what remeshing asks of simplices and facets.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "core/mesh.hpp"
+#include "core/mirror.hpp"
 #include "fluid/geometry.hpp"
 #include "fluid/parallel.hpp"
 
@@ -46,6 +49,15 @@ std::vector<char> nodes_of(const std::vector<Facet<d>>& facets, std::size_t node
   for (const auto& f : facets)
     for (int n : f.nodes) held[n] = 1;
   return held;
+}
+
+/// Whether a facet lies in a plane of symmetry.
+template <int corners, class Positions>
+bool lies_in(const Mirror& mirror, const Facet<corners>& facet, const Positions& x) {
+  constexpr double roundoff = 1e-9;  // of the facet's length
+  const double length = (x[facet.nodes[0]] - x[facet.nodes[1]]).norm();
+  return std::ranges::all_of(facet.nodes,
+                             [&](int n) { return std::abs(x[n][mirror.axis] - mirror.at) <= roundoff * length; });
 }
 
 /// Wetted measure of each of `walls` walls: length (2D) [m], area (3D) [m^2].

@@ -17,6 +17,7 @@ class AbsorberKind final : public EffectOf<AbsorberKind, Absorber> {
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
+  std::optional<std::string> asymmetry(const Scene&, const Mirror&) const override { return {}; }
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
   std::optional<Advice> advise(const Outlook& look) const override;
 

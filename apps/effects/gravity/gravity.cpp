@@ -64,6 +64,12 @@ std::optional<Advice> GravityKind::advise(const Outlook& look) const {
   return advice;
 }
 
+std::optional<std::string> GravityKind::asymmetry(const Scene& scene, const Mirror& mirror) const {
+  const double across = scene.gravity->acceleration[mirror.axis];
+  if (across == 0) return {};
+  return fmt::format("has a component of {:g} m/s^2 across the plane", across);
+}
+
 template <int d>
 void GravityKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
   const auto acceleration = vec<d>(scene.gravity->acceleration);

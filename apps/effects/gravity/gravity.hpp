@@ -11,6 +11,7 @@ class GravityKind final : public EffectOf<GravityKind, Gravity> {
   std::string_view name() const override { return "gravity"; }
   bool present(const Scene& scene) const override { return scene.gravity.has_value(); }
   void read(Reader& reader, Scene& scene) const override;
+  std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
   std::optional<Advice> advise(const Outlook& look) const override;
 

@@ -16,6 +16,7 @@ class ViscosityKind final : public EffectOf<ViscosityKind, Viscosity> {
   TablePlace place() const override { return TablePlace::fluid; }
   void read(Reader& reader, Scene& scene) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
+  std::optional<std::string> asymmetry(const Scene&, const Mirror&) const override { return {}; }
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
   std::optional<Advice> advise(const Outlook& look) const override;
 

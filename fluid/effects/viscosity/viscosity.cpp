@@ -11,6 +11,13 @@ namespace {
 // mean normal at a node.
 constexpr double same_normal = 0.26;
 
+// Past its mirror image water slips.
+template <int d>
+bool sticks(const StepView<d>& step, const Facet<d>& f) {
+  const auto& wall = step.walls[f.wall];
+  return wall.sticks && !(wall.mirror && lies_in(*wall.mirror, f, step.nodes.x));
+}
+
 template <int d>
 void hold(Mat<d>& free, const Vec<d>& direction) {
   const Vec<d> rest = free * direction;
@@ -61,7 +68,7 @@ void Viscosity<d>::find_held(const StepView<d>& step) {
   for (std::size_t k = 0; k < held_.size(); ++k) hold<d>(held_[k].free, normal[k]);
   // In corners and along edges a second and a third normal remain, unless the wall binds the water there.
   for (const auto& f : step.mesh.boundary) {
-    if (f.wall < 0 || step.walls[f.wall].sticks) continue;
+    if (f.wall < 0 || sticks<d>(step, f)) continue;
     for (int n : f.nodes) hold<d>(held_[held_at_[n]].free, area_vector_of<d>(f, step.nodes.x));
   }
 }
@@ -83,7 +90,7 @@ void Viscosity<d>::find_bonds(const StepView<d>& step) {
   bonds_.clear();
   bonds_at_.clear();
   for (const auto& f : step.mesh.boundary) {
-    if (f.wall < 0 || !step.walls[f.wall].sticks) continue;
+    if (f.wall < 0 || !sticks<d>(step, f)) continue;
     for (const auto [c, k] : step.around.around(f.nodes[0])) {
       const auto& cell = step.mesh.cells[c];
       auto of_facet = [&](int n) { return std::find(f.nodes.begin(), f.nodes.end(), n) != f.nodes.end(); };

@@ -180,7 +180,7 @@ class Adapter {
       const WallTie &a = nodes_.tie[e.a], &b = nodes_.tie[e.b];
       const bool same_patch = d == 2 && a.wall >= 0 && a.wall == b.wall && a.patch == b.patch;
       if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
-      if (a.wall >= 0 && b.wall >= 0 && a.wall != b.wall) continue;               // across a gap between walls
+      if (a.wall >= 0 && b.wall >= 0 && a.wall != b.wall && !lies_in_mirror(e)) continue;  // across a gap between walls
       if (leads_off_resting_contact_line(e, rank_a, rank_b)) continue;
       if (rank_a == rank_b) {
         if (!may_merge_with_its_like(rank_a, e)) continue;
@@ -197,6 +197,18 @@ class Adapter {
         remove(e.a, e.b);
       }
     }
+  }
+
+  // Along a plane of symmetry, in which the side of the tank is none.
+  int tank_in_mirror(const Edge& e) const {
+    for (int n : {e.a, e.b})
+      if (const WallTie& tie = nodes_.tie[n]; tie.wall >= 0 && walls_.walls[tie.wall].is_mirror(tie.patch))
+        return tie.wall;
+    return -1;
+  }
+  bool lies_in_mirror(const Edge& e) const {
+    const int tank = tank_in_mirror(e);
+    return tank >= 0 && lies_in(*walls_.walls[tank].spec().mirror, Facet<2>{{e.a, e.b}}, nodes_.x);
   }
 
   void renumber_boundary() {
@@ -249,6 +261,7 @@ class Adapter {
       if (wall < 0) surface = true;
       if (wall >= 0 && a.wall == wall && b.wall == wall) tie.wall = wall;
     });
+    if (tie.wall < 0 && lies_in_mirror(e)) tie.wall = tank_in_mirror(e);
     if (tie.wall >= 0 && a.sharp() && b.sharp()) {
       constexpr double along = 0.1;  // distance of the edge's middle from a crease that it follows, over its length
       const Vec<d> middle = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);

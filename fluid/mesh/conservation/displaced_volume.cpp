@@ -4,10 +4,11 @@ namespace splashdown::fluid {
 
 template <int d>
 std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std::vector<Vec<d>>& x,
-                                                  std::size_t walls) {
+                                                  std::size_t walls, const std::optional<Mirror>& mirror) {
   constexpr int none = -2, several = -3;
   std::vector<int> wall_at(x.size(), none);
-  for (const auto& facet : mesh.boundary)
+  for (const auto& facet : mesh.boundary) {
+    if (mirror && lies_in(*mirror, facet, x)) continue;
     for (const int n : facet.nodes) {
       int& wall = wall_at[n];
       if (wall == none)
@@ -15,6 +16,7 @@ std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std
       else if (wall != facet.wall)
         wall = several;
     }
+  }
   std::vector<char> is_closed(walls, 1);
   std::vector<DisplacedVolume<d>> found(walls);
   std::vector<Vec<d>> origin(walls);  // one of the nodes: little is lost to roundoff
@@ -25,6 +27,7 @@ std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std
     for (const int n : facet.nodes) is_closed[w] &= wall_at[n] == facet.wall;
     if (!is_closed[w]) continue;
     if (!is_met[w]) origin[w] = x[facet.nodes[0]], is_met[w] = 1;
+    if (mirror) origin[w] = mirror->onto<d>(origin[w]);  // what closes it there adds nothing
     Vec<d> sum = Vec<d>::Zero();
     for (const int n : facet.nodes) sum += x[n] - origin[w];
     // The water's facets look into the hull.
@@ -41,7 +44,9 @@ std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std
   return found;
 }
 
-template std::vector<DisplacedVolume<2>> displaced_volumes(const Mesh<2>&, const std::vector<Vec<2>>&, std::size_t);
-template std::vector<DisplacedVolume<3>> displaced_volumes(const Mesh<3>&, const std::vector<Vec<3>>&, std::size_t);
+template std::vector<DisplacedVolume<2>> displaced_volumes(const Mesh<2>&, const std::vector<Vec<2>>&, std::size_t,
+                                                           const std::optional<Mirror>&);
+template std::vector<DisplacedVolume<3>> displaced_volumes(const Mesh<3>&, const std::vector<Vec<3>>&, std::size_t,
+                                                           const std::optional<Mirror>&);
 
 }  // namespace splashdown::fluid

@@ -4,8 +4,10 @@
 // changes as nodes slide over it and are triangulated anew. The water around is no more or less for it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "core/mirror.hpp"
 #include "fluid/mesh/mesh.hpp"
 
 namespace splashdown::fluid {
@@ -20,13 +22,14 @@ struct DisplacedVolume {
   bool is_closed() const { return volume > 0; }
 };
 
-/// Of each of the first `walls` walls.
+/// Of each of the first `walls` walls. With a plane of symmetry: what is before it, of hulls that are closed with what is beyond.
 template <int d>
-std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::size_t walls);
+std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::size_t walls,
+                                                  const std::optional<Mirror>& mirror = {});
 
 extern template std::vector<DisplacedVolume<2>> displaced_volumes(const Mesh<2>&, const std::vector<Vec<2>>&,
-                                                                  std::size_t);
+                                                                  std::size_t, const std::optional<Mirror>&);
 extern template std::vector<DisplacedVolume<3>> displaced_volumes(const Mesh<3>&, const std::vector<Vec<3>>&,
-                                                                  std::size_t);
+                                                                  std::size_t, const std::optional<Mirror>&);
 
 }  // namespace splashdown::fluid

@@ -3,6 +3,7 @@
 // Facets between nodes of a curved wall are chords of it, so that cells which stand on them reach into the solid of a convex one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -19,6 +20,19 @@ struct WallsAt {
   std::span<const Wall<d>> walls;
   std::span<const Isometry<d>> poses;
 };
+
+/// Whether nodes of a cell are tied to different walls. A tank's side in a plane of symmetry is none.
+template <int d>
+bool are_between_walls(const std::array<int, static_cast<std::size_t>(d) + 1>& cell, const Nodes<d>& nodes,
+                       const WallsAt<d>& at) {
+  int one = -1;
+  return std::ranges::any_of(cell, [&](int n) {
+    const WallTie& tie = nodes.tie[static_cast<std::size_t>(n)];
+    const int wall = tie.wall >= 0 && at.walls[tie.wall].is_mirror(tie.patch) ? -1 : tie.wall;
+    if (one < 0) one = wall;
+    return wall >= 0 && wall != one;
+  });
+}
 
 /// Nodes of another wall this close to a wall, over a facet's length, sit on both.
 inline constexpr double facet_meet = 0.001;

@@ -14,7 +14,7 @@ std::vector<Hub<d>> hubs_of(const Nodes<d>& nodes, const WallsAt<d>& walls, cons
   for (std::size_t w = 0; w < size.size(); ++w) {
     const Wall<d>& wall = walls.walls[w];
     if (size[w] > 0 && !wall.encloses_fluid() && wall.depth_of_centre() > 2 * limit.never * size[w])
-      hubs.push_back({static_cast<int>(w), walls.poses[w] * wall.centre()});
+      hubs.push_back({static_cast<int>(w), wall.centre_at(walls.poses[w])});
   }
   return hubs;
 }

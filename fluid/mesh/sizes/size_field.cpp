@@ -23,7 +23,8 @@ std::vector<SizeSource<d>> spots_of(const SizeSpec& spec, const Wall<d>& wall, d
     if (size < wall_size) spots.push_back({bend.at, size});
   }
   if (spec.corner < 1 && !wall.encloses_fluid())
-    for (int v : wall.corners()) spots.push_back({wall.spec().surface.vertices.col(v), spec.corner * wall_size});
+    for (int v : wall.corners())
+      if (!wall.is_smooth(v)) spots.push_back({wall.spec().surface.vertices.col(v), spec.corner * wall_size});
   return spots;
 }
 
@@ -32,8 +33,9 @@ SizeField<d>::SizeField(const SizeSpec& spec, const WallsAt<d>& walls, std::span
                         std::span<const Vec<d>> x, const Mesh<d>& mesh)
     : spec_(spec), walls_(walls), wall_size_(walls.walls.size()), points_(spec.growth) {
   for (std::size_t w = 0; w < wall_size_.size(); ++w) {
-    // Half the wetted measure as a length: the half width of a wetted bottom.
-    const double length = 0.5 * std::pow(wetted[w], 1.0 / (d - 1));
+    // Half the wetted measure as a length: the half width of a wetted bottom, its mirror image included.
+    const double images = walls.walls[w].spec().mirror ? 2 : 1;
+    const double length = 0.5 * std::pow(images * wetted[w], 1.0 / (d - 1));
     wall_size_[w] = std::max(walls.walls[w].spec().size, spec.wetted_fraction * length);
   }
   find_spots();
@@ -103,9 +105,10 @@ double SizeField<d>::operator()(const Vec<d>& point, int on_wall) const {
   for (std::size_t w = 0; w < wall_size_.size(); ++w) {
     const double reach = (h - wall_size_[w]) / spec_.growth;
     if (reach <= 0) continue;
-    const double distance = d == 3 && static_cast<int>(w) == on_wall
+    const Wall<d>& wall = walls_.walls[w];
+    const double distance = d == 3 && static_cast<int>(w) == on_wall && !wall.ends_at_mirror()
                                 ? 0.0
-                                : walls_.walls[w].distance_unsigned(walls_.poses[w], point, reach, slack<d>);
+                                : wall.distance_of_solid(walls_.poses[w], point, reach, slack<d>);
     h = wall_size_[w] + spec_.growth * distance;
   }
   h = points_.least(point, h);

@@ -92,7 +92,16 @@ struct Gap {
       water.nodes.v[i] = below ? Vec<d>::Zero() : Vec<d>(-speed * Vec<d>::Unit(d - 1));
     }
   }
-  double time() const { return gap_time<d>(water.nodes, water.mesh); }
+  double time() const {
+    WallSpec<d> any;
+    if constexpr (d == 2)
+      any.surface = scenes::rectangle({0, 0}, {1, 1});
+    else
+      any.surface = scenes::block({0, 0, 0}, {1, 1, 1});
+    const std::vector<Wall<d>> walls{Wall<d>(any), Wall<d>(any)};
+    const std::vector<Isometry<d>> poses(2, Isometry<d>::Identity());
+    return gap_time<d>(water.nodes, water.mesh, {walls, poses});
+  }
 };
 
 TYPED_TEST(CollisionBound, a_gap_between_walls_has_the_time_until_it_is_closed) {

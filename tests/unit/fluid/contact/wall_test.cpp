@@ -253,5 +253,45 @@ TEST(WallCentre, is_that_of_the_volume_and_as_deep_as_the_nearest_facet) {
   EXPECT_LE((triangle.centre() - Vec<2>(1, 1)).norm(), 100 * eps);
 }
 
+// A plane of symmetry ends the patches of hulls that reach across it, and makes no edge that water flows around.
+TEST(WallInMirror, the_line_of_a_smooth_hull_in_the_plane_is_a_crease_that_water_does_not_pass) {
+  const WallSpec<3> spec{.surface = scenes::cone(1, 0.3, 32), .mirror = Mirror{1, 0}};
+  const Wall<3> wall(spec), whole({.surface = spec.surface});
+  const Isometry<3> pose = Isometry<3>::Identity();
+  const auto below = wall.nearest_in_mirror(pose, Vec<3>(0.4, 0, -0.1));
+  ASSERT_GE(below.crease, 0);
+  EXPECT_EQ(below.point.y(), 0) << "to the bit";
+  EXPECT_TRUE(wall.is_in_mirror(-1, below.crease));
+  EXPECT_FALSE(wall.is_convex({0, -1, -1, below.crease}));
+  EXPECT_EQ(whole.nearest_in_mirror(pose, Vec<3>(0.4, 0, -0.1)).crease, -1);
+  // On either side it looks the same, and as it does without the plane.
+  for (const Vec<3> x : {Vec<3>(0.3, 0.2, -0.1), Vec<3>(-0.5, 0.01, 0.1), Vec<3>(0.1, 0.6, 0.2)}) {
+    const auto near = wall.nearest(pose, x, 2), image = wall.nearest(pose, Mirror{1, 0}.image<3>(x), 2);
+    EXPECT_NEAR(near.distance, whole.nearest(pose, x, 2).distance, eps);
+    EXPECT_NEAR(near.distance, image.distance, eps);
+    EXPECT_NE(near.patch, image.patch);
+  }
+}
+
+TEST(WallInMirror, in_the_plane_the_water_stands_where_a_hull_meets_the_mirror) {
+  const Wall<2> circle({.surface = scenes::ellipse(1, 1, 64), .mirror = Mirror{0, 0}});
+  ASSERT_EQ(circle.corners().size(), 2u) << "nothing else ends its patches";
+  for (int v : circle.corners()) {
+    EXPECT_TRUE(circle.is_smooth(v));
+    EXPECT_FALSE(circle.is_convex({0, -1, v}));
+    EXPECT_EQ(circle.vertex(at_home, v).x(), 0);
+  }
+}
+
+TEST(WallInMirror, the_side_of_a_tank_there_is_no_solid) {
+  const auto box = scenes::turned_inside_out<2>(scenes::rectangle({0, -1}, {3, 1}));
+  const Wall<2> tank({.surface = box, .mirror = Mirror{0, 0}});
+  const Vec<2> x(0.1, 0.2);
+  EXPECT_NEAR(tank.distance_unsigned(at_home, x, 5), 0.1, eps);
+  EXPECT_NEAR(tank.distance_of_solid(at_home, x, 5), 0.8, eps);
+  EXPECT_TRUE(tank.is_mirror(tank.nearest(at_home, x, 5).patch));
+  EXPECT_FALSE(tank.is_mirror(tank.nearest(at_home, Vec<2>(1, 0.9), 5).patch));
+}
+
 }  // namespace
 }  // namespace splashdown::fluid

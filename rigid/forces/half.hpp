@@ -1,0 +1,54 @@
+// What acts on one of two halves that a plane of symmetry makes of bodies.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "rigid/force.hpp"
+
+namespace splashdown::rigid {
+
+/// Half of another force, which sees the whole bodies: twice the mass, inertia and wetted share of these.
+template <int d>
+class HalfForce final : public Force<d> {
+ public:
+  explicit HalfForce(std::unique_ptr<Force<d>> of_whole) : of_whole_(std::move(of_whole)) {}
+  std::string name() const override { return of_whole_->name(); }
+  void add(const BodiesAt<d>& at, std::span<Wrench<d>> wrenches) const override {
+    std::vector<Wrench<d>> whole(wrenches.size(), Wrench<d>::Zero());
+    look(at, [&](const BodiesAt<d>& seen) { of_whole_->add(seen, whole); });
+    for (std::size_t b = 0; b < whole.size(); ++b) wrenches[b] += 0.5 * whole[b];
+  }
+  double stable_dt(const BodiesAt<d>& at) const override {
+    double dt = 0;
+    look(at, [&](const BodiesAt<d>& seen) { dt = of_whole_->stable_dt(seen); });
+    return dt;
+  }
+  std::vector<Diagnostic> diagnostics(const BodiesAt<d>& at) const override {
+    std::vector<Diagnostic> found;
+    look(at, [&](const BodiesAt<d>& seen) { found = of_whole_->diagnostics(seen); });
+    return found;
+  }
+
+ private:
+  template <class Use>
+  void look(const BodiesAt<d>& at, const Use& use) const {
+    if (specs_.empty()) {
+      specs_.assign(at.specs.begin(), at.specs.end());
+      for (auto& spec : specs_) spec.mass *= 2, spec.inertia *= 2;
+    }
+    std::vector<double> wetted(at.wetted_share.begin(), at.wetted_share.end());
+    for (double& share : wetted) share = std::min(1.0, 2 * share);
+    BodiesAt<d> seen = at;
+    seen.specs = specs_;
+    seen.wetted_share = wetted;
+    use(seen);
+  }
+
+  std::unique_ptr<Force<d>> of_whole_;
+  mutable std::vector<BodySpec<d>> specs_;  // of whole bodies, which stay as they were made
+};
+
+}  // namespace splashdown::rigid
