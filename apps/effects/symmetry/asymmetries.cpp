@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "apps/effects/symmetry/symmetry.hpp"
+#include "apps/scene/joint_kinds.hpp"
 #include "apps/scene/mirror.hpp"
 #include "apps/scene/rules/rules.hpp"
 
@@ -136,14 +137,16 @@ class Judge {
   }
 
   void joint(const Joint& joint, const std::string& key) {
+    const auto& kind = kind_of(joint);
     const double across = std::abs(joint.axis.normalized()[mirror_.axis]);
-    if (joint.type == "hinge" && (d == 2 || std::abs(across - 1) > written_digits))
-      add(key + ".type", d == 2 ? "a hinge turns, which its mirror image does the other way round"
-                                : "a hinge turns about an axis that does not stand on the plane",
-          d == 2 ? "Use \"weld\", or remove [symmetry]."
-                 : fmt::format("Turn its axis to {}, or remove [symmetry].", axis_));
-    if (joint.type == "slider" && across > written_digits)
-      add(key + ".axis", "a slider moves across the plane", "Turn its axis into the plane, or remove [symmetry].");
+    if (kind.turns && d == 2)
+      add(key + ".type", "it turns, which its mirror image does the other way round",
+          "Use \"weld\", or remove [symmetry].");
+    else if (kind.turns && std::abs(across - 1) > written_digits)
+      add(key + ".axis", "it turns about an axis that does not stand on the plane",
+          fmt::format("Turn the axis to {}, or remove [symmetry].", axis_));
+    if (kind.slides && across > written_digits)
+      add(key + ".axis", "it moves across the plane", "Turn the axis into the plane, or remove [symmetry].");
   }
 
   void effects() {
