@@ -195,6 +195,7 @@ template <int d>
 void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
   State& s = *s_;
   const auto scope = s.timer.scope(motion);
+  for (const auto& effect : s.effects) effect->commit(s.view());
   s.work.ledger = s.result.ledger;
   s.work.nodes.p = s.result.carried;
   Ledger& ledger = s.work.ledger;

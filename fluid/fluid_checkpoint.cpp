@@ -99,13 +99,22 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
 template <int d>
 void Fluid<d>::save(std::ostream& out) const {
   archive_present(Saver{out}, s_->now);
+  for (const auto& effect : s_->effects)
+    for (const double number : effect->memory()) Saver{out}.value(number);
 }
 template <int d>
 void Fluid<d>::load(std::istream& in) {
   Present<d> loaded;
   archive_present(Loader{in}, loaded);
+  std::vector<double> remembered;  // of all effects
+  for (const auto& effect : s_->effects)
+    for (std::size_t k = effect->memory().size(); k > 0; --k) Loader{in}.value(remembered.emplace_back());
   if (!in) throw std::runtime_error("ends in the middle of the water's state");
   check(loaded, s_->walls);
+  if (!all_finite(remembered)) throw std::runtime_error("the water's state is damaged or of another scene");
+  auto next = remembered.begin();
+  for (const auto& effect : s_->effects)
+    for (double& number : effect->memory()) number = *next++;
   s_->now = std::move(loaded);
   s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
   s_->now.nodes.inherited.assign(s_->now.nodes.size(), {});

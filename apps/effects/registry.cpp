@@ -2,7 +2,9 @@
 #include "apps/effects/absorber/absorber.hpp"
 #include "apps/effects/aero/aero.hpp"
 #include "apps/effects/force/force.hpp"
+#include "apps/effects/form_drag/form_drag.hpp"
 #include "apps/effects/gravity/gravity.hpp"
+#include "apps/effects/skin_friction/skin_friction.hpp"
 #include "apps/effects/symmetry/symmetry.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
 #include "apps/effects/wind/wind.hpp"
@@ -23,6 +25,8 @@ std::span<const EffectKind* const> effect_kinds() {
       row<GravityKind>(),
       row<ViscosityKind>(),
       row<AbsorberKind>(),
+      row<SkinFrictionKind>(),
+      row<FormDragKind>(),
       row<WindKind>(),
       row<AeroKind>(),
       row<ForceKind>(),

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "apps/scene/geometry.hpp"
+
 namespace splashdown::apps {
 namespace {
 
@@ -22,6 +24,11 @@ bool moves(const Body& body) {
          (!body.path.empty() || body.velocity.squaredNorm() > 0 || body.spin_deg.squaredNorm() > 0);
 }
 
+double length_of(const Scene& scene, const Body& body) {
+  return scene.dimension == 2 ? extents<2>(outline<2>(body)).sizes().maxCoeff()
+                              : extents<3>(outline<3>(body)).sizes().maxCoeff();
+}
+
 }  // namespace
 
 Expectations expectations_of(const Scene& scene) {
@@ -35,6 +42,7 @@ Expectations expectations_of(const Scene& scene) {
     auto& entry = expected.bodies[body.name];
     entry.free = body.becomes_free();
     entry.moves = moves(body);
+    entry.length = length_of(scene, body);
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
       if (k != i && group[k] == group[i]) entry.tied.push_back(scene.bodies[k].name);
     if (!body.path.empty() && !body.release)

@@ -214,6 +214,7 @@ struct NextStep {
 struct Expectations {
   struct Body {
     bool free = true, moves = true;
+    double length = 0;              ///< largest extent of the hull [m]; 0: not known
     std::vector<std::string> tied;  ///< bodies that joints tie to it, whatever is between
   };
   std::map<std::string, Body> bodies;

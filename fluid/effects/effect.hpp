@@ -77,6 +77,10 @@ class Effect {
   virtual Status begin(const StepView<d>& /*step*/) { return {}; }
   /// Adds the effect of one kick; repeatable.
   virtual Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) = 0;
+  /// The step is taken; once, after the last `predict` of it.
+  virtual void commit(const StepView<d>& /*step*/) {}
+  /// What it remembers from step to step, moved on by `commit` alone and kept in checkpoints; always as many. Empty: nothing.
+  virtual std::span<double> memory() { return {}; }
   /// Adds its terms of the pressure equation; once a step, after `begin`.
   virtual void pressure(const StepView<d>& /*step*/, PressureTerms& /*terms*/) {}
   /// Potential energy per unit mass at a point [J/kg]; 0 for effects that have none.

@@ -35,6 +35,8 @@ void Reader::numbers_by_name(std::string_view name, std::map<std::string, double
                              "Write it with a point, e.g. 1e16.");
     target.emplace(entry.str(), value.value<double>().value_or(0));
   }
+  const auto section = context_->echo.open("[" + header_of(name) + "]");
+  for (const auto& [entry, value] : target) context_->echo.add(section, entry, toml_text(value));
 }
 
 std::optional<Reader> Reader::table(std::string_view name, Need need, std::string cure) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "apps/text/number_text.hpp"
 
@@ -94,6 +95,36 @@ void add_early_end(const Summary& summary, std::vector<Missing>& list) {
                     {}});
 }
 
+/// Behind a hull that has gone a length under water the flow is separated; one that swings afloat loses energy to its edges in each
+/// of its periods, about 2 pi (L/g)^(1/2).
+void add_form_drag(const Summary& summary, std::vector<Missing>& list) {
+  constexpr double deep = 1.25, periods = 3, tilted = 10;  // lengths to the lowest point; deg
+  if (std::ranges::none_of(summary.inactive_effects, [](const auto& e) { return e.name == "form_drag"; })) return;
+  for (const auto& [name, body] : summary.bodies) {
+    const auto asked = summary.expected->bodies.find(name);
+    if (asked == summary.expected->bodies.end() || !asked->second.free || !is_wet(summary, name)) continue;
+    const double length = asked->second.length, g = summary.expected->gravity;
+    if (!(length > 0)) continue;
+    const char* cure = "Without the drag of separated flow";
+    const double afloat = summary.simulated_time - body.landing.first_contact;
+    if (body.submergence.value > deep * length)
+      list.push_back(
+          {Grade::resolved,
+           fmt::format("{} went {:.2g} of its lengths under water. {} it goes too deep and leaps too far: add "
+                       "[fluid.form_drag] where that counts.",
+                       name, body.submergence.value / length, cure),
+           name});
+    else if (g > 0 && afloat > periods * 2 * std::numbers::pi * std::sqrt(length / g) &&
+             body.landing.maximum_tilt.value > tilted)
+      list.push_back(
+          {Grade::resolved,
+           fmt::format("{} swung afloat for {:.3g} s. {} its motion decays too slowly: add [fluid.form_drag] "
+                       "where that counts.",
+                       name, afloat, cure),
+           name});
+  }
+}
+
 }  // namespace
 
 bool peak_is_to_come(const Summary& summary, const std::string& name) {
@@ -111,6 +142,7 @@ std::vector<Missing> missing(const Summary& summary) {
   add_rising(summary, list);
   add_dry_records(summary, list);
   add_early_end(summary, list);
+  add_form_drag(summary, list);
   std::ranges::stable_sort(list, std::greater(), &Missing::grade);
   return list;
 }

@@ -5,6 +5,7 @@
 //   the same of a body that moves as prescribed, or is held                          told: the load is that of this instant
 //   a body that is held, one that others may carry, a record: never met the water   told, and unresolved if nothing else did
 //   the run was interrupted, or ends before a path does                              told
+//   a free body dived by more than its length, or swung afloat for long, and no form drag took part   told
 //
 // Told: a sentence among the reasons that leaves the grade as it is. In a scene without water nothing of this is asked for.
 #pragma once

@@ -94,6 +94,29 @@ const Case cases[] = {
      [](Summary& s) { wet(s, "hull"), s.status = "interrupted", s.simulated_time = 0.3; },
      Grade::resolved,
      "stopped at t = 0.3 s of 0.5 s"},
+    {"a dive without form drag",
+     {"buoy"},
+     [](Summary& s) {
+       wet(s, "buoy"), s.inactive_effects = {{"form_drag", ""}};
+       s.expected->bodies["buoy"].length = 0.2, s.bodies["buoy"].submergence = {0.5, 0.3};
+     },
+     Grade::resolved,
+     "buoy went 2.5 of its lengths under water"},
+    {"a dive with it",
+     {"buoy"},
+     [](Summary& s) {
+       wet(s, "buoy"), s.expected->bodies["buoy"].length = 0.2, s.bodies["buoy"].submergence = {0.5, 0.3};
+     },
+     Grade::resolved,
+     ""},
+    {"rolling for long without form drag",
+     {"buoy"},
+     [](Summary& s) {
+       wet(s, "buoy"), s.inactive_effects = {{"form_drag", ""}}, s.simulated_time = s.expected->end = 5;
+       s.expected->bodies["buoy"].length = 0.2, s.bodies["buoy"].landing.maximum_tilt = {20, 0.3};
+     },
+     Grade::resolved,
+     "buoy swung afloat for 4.9 s"},
     {"a path that goes on",
      {"hull"},
      [](Summary& s) { wet(s, "hull"), s.expected->path_ends_at = 0.7; },

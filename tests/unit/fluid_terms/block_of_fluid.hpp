@@ -19,6 +19,7 @@ struct Block {
   std::vector<Isometry<d>> poses;
   std::vector<Twist<d>> wall_velocities;
   double density = 1000, kick = 1e-3;
+  const ModalInertia* answers = nullptr;
 
   using Lattice = Eigen::Matrix<int, d, 1>;
   Lattice count;
@@ -70,6 +71,22 @@ struct Block {
     return w;
   }
 
+  /// The low side of an axis becomes a wall that slips, in two dimensions and in three.
+  int add_floor(int axis, const Twist<d>& velocity = Twist<d>::Zero()) {
+    const int w = static_cast<int>(walls.size());
+    walls.emplace_back();
+    poses.push_back(Isometry<d>::Identity());
+    wall_velocities.push_back(velocity);
+    for (const auto& cell : mesh.cells)
+      for (int k = 0; k <= d; ++k) {
+        const auto corners_of_facet = facet_nodes(cell, k);
+        if (!std::ranges::all_of(corners_of_facet, [&](int n) { return place(n)[axis] == 0; })) continue;
+        mesh.boundary.push_back({corners_of_facet, w});
+        for (int n : corners_of_facet) nodes.tie[n].wall = w;
+      }
+    return w;
+  }
+
   void set_velocity(const std::function<Vec<d>(const Vec<d>&)>& field) {
     for (std::size_t i = 0; i < nodes.size(); ++i) nodes.v[i] = field(nodes.x[i]);
   }
@@ -88,7 +105,8 @@ struct Block {
                            .lumped_volume = lumped_volume,
                            .around = around,
                            .walls = walls,
-                           .poses = poses};
+                           .poses = poses,
+                           .answers = answers};
     std::vector<Vec<d>> v = nodes.v;
     std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero());
     if (!effect.begin(view).ok() || !effect.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok()) return {};

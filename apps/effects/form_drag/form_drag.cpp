@@ -1,0 +1,71 @@
+#include "apps/effects/form_drag/form_drag.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/effects/form_drag/shape_classes.hpp"
+#include "apps/scene/read/reader.hpp"
+#include "fluid/effects/form_drag/form_drag.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+constexpr double round_hulls_take =
+    1.8;  // diameters until the flow behind a circle is separated (fluid/effects/form_drag)
+
+double coefficient_of(const FormDrag& table, const Body& body) {
+  const auto given = table.coefficients.find(body.name);
+  return given == table.coefficients.end() ? shape_drag(body.shape).coefficient : given->second;
+}
+
+}  // namespace
+
+void FormDragKind::read(Reader& reader, Scene& scene) const {
+  auto& table = scene.effects.table<FormDrag>();
+  reader.numbers_by_name("coefficients", table.coefficients, "float = 1.2");
+}
+
+void FormDragKind::check(const Scene& scene, Problems& problems) const {
+  const auto* table = scene.effects.find<FormDrag>();
+  if (!table) return;
+  if (scene.bodies.empty())
+    problems.add("fluid.form_drag", "needs a [[body]]: it acts on hulls", "Add a body or remove the table.");
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies) names.push_back(body.name);
+  constexpr double largest = 20;  // cups, and plates that swing (KC below 5), reach 4 to 10
+  for (const auto& [name, value] : table->coefficients) {
+    const auto key = "fluid.form_drag.coefficients." + name;
+    if (problems.found_in(key)) continue;
+    if (std::ranges::find(names, name) == names.end())
+      problems.add_unknown(key, names);
+    else if (!(value >= 0 && value <= largest))
+      problems.add(key, fmt::format("must be from 0 to {:g}", largest),
+                   "Use e.g. 1.2 for a circle, 2 for a plate across the flow; 0 for none.");
+  }
+}
+
+std::optional<EffectNote> FormDragKind::note(const Scene& scene, const Scales& s) const {
+  if (!scene.fluid || scene.bodies.empty() || s.length == 0) return {};
+  const double ways = s.speed * scene.time.end / s.length;
+  return EffectNote{"form_drag", present(scene),
+                    fmt::format("U T/L = {:.3g} lengths in the run: drag of separated flow {}", ways,
+                                ways < 1 ? "has no way to develop"
+                                         : "counts for hulls under water or afloat so far, not in their first impact")};
+}
+
+template <int d>
+void FormDragKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
+  const auto* table = scene.effects.find<FormDrag>();
+  std::vector<fluid::FormDragSpec> hulls;
+  for (const auto& body : scene.bodies)
+    hulls.push_back(
+        {.coefficient = coefficient_of(*table, body), .develops = shape_drag(body.shape).round ? round_hulls_take : 0});
+  parts.fluid.push_back(std::make_unique<fluid::FormDrag<d>>(std::move(hulls)));
+}
+
+template void FormDragKind::build_in<2>(const Scene&, const EffectParts<2>&) const;
+template void FormDragKind::build_in<3>(const Scene&, const EffectParts<3>&) const;
+
+}  // namespace splashdown::apps
