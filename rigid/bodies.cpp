@@ -199,6 +199,7 @@ void Bodies<d>::commit() {
   for (std::size_t i = 0; i < size(); ++i) {
     if (w.movers[i]) w.movers[i]->commit(embedding<d>() * w.trials[i].velocity);
   }
+  for (const auto& force : w.forces) force->commit(w.tried());
   w.states = w.trials;
   w.time += w.dt;
   if (w.impulses.size() > 0) w.loads = w.impulses / w.kick;
@@ -226,7 +227,7 @@ template <int d>
 std::vector<Diagnostic> Bodies<d>::diagnostics() const {
   std::vector<Diagnostic> all;
   for (const auto& force : system_->forces)
-    for (const auto& [name, value] : force->diagnostics(system_->at(0, 0)))
+    for (const auto& [name, value] : force->diagnostics(system_->tried()))
       all.emplace_back(force->name() + "_" + name, value);
   return all;
 }
@@ -250,6 +251,7 @@ void Bodies<d>::save(std::ostream& out) const {
   write(out, w.wetted_share.data(), w.size());
   write(out, &w.dt, 1);
   out.write(w.held.data(), static_cast<std::streamsize>(size()));
+  for (const auto& force : w.forces) force->save(out);
 }
 
 template <int d>
@@ -276,6 +278,7 @@ void Bodies<d>::load(std::istream& in) {
   read(in, w.wetted_share.data(), w.size());
   read(in, &w.dt, 1);
   in.read(w.held.data(), static_cast<std::streamsize>(size()));
+  for (const auto& force : w.forces) force->load(in);
   if (!in) throw std::runtime_error("ends in the middle of the bodies");
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
   bool good = std::isfinite(w.time) && w.loads.allFinite();

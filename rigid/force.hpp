@@ -1,12 +1,14 @@
 // Forces on bodies besides the fluid's load: present in a scene or absent, never switched.
 #pragma once
 
+#include <iosfwd>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "rigid/body.hpp"
+#include "rigid/pull.hpp"
 
 namespace splashdown::rigid {
 
@@ -20,10 +22,15 @@ struct BodiesAt {
   double time;      ///< t_n [s]
   double kick = 0;  ///< over which forces of this step act [s]; 0: none is begun
   double dt = 0;    ///< of this step [s]; 0: none is begun
+  /// Poses at t_{n+1} and velocities at t_{n+1/2} that were tried last; empty: none.
+  std::span<const BodyState<d>> next = {};
+
+  /// Of the step that led to t_n [s]; 0 at the start.
+  double dt_before() const { return 2 * kick - dt; }
 };
 
-/// A force on one body or on several. It is taken at t_n and explicit: what is stiff bounds the step or belongs to the inertia,
-/// like the springs of joints.
+/// A force on one body or on several. `add` is taken at t_n and explicit: what is stiff bounds the step, or is a `pull`, which no
+/// step is too long for.
 template <int d>
 class Force {
  public:
@@ -34,9 +41,15 @@ class Force {
   /// Whether it depends on velocities. Such forces are taken at those of t_n, predicted from t_{n-1/2} with all forces and the last
   /// step's loads (explicit midpoint rule): second order in time.
   virtual bool is_of_velocity() const { return false; }
+  /// Adds pulls of a begun step. The same for the same.
+  virtual void pull(const BodiesAt<d>& /*at*/, std::vector<Pull<d>>& /*pulls*/) const {}
+  /// The step to `at.next` is accepted: what has a state of its own goes on to t_{n+1}.
+  virtual void commit(const BodiesAt<d>& /*at*/) {}
+  virtual void save(std::ostream& /*out*/) const {}  ///< that state, bit-exact
+  virtual void load(std::istream& /*in*/) {}         ///< std::runtime_error for what is none
   /// Largest dt from t_n for which it is stable [s]; infinity: it sets none.
   virtual double stable_dt(const BodiesAt<d>& /*at*/) const { return std::numeric_limits<double>::infinity(); }
-  /// Numbers at t_n, always of the same names.
+  /// Numbers at t_n, always of the same names; forces are means over the kick of the step that was tried.
   virtual std::vector<Diagnostic> diagnostics(const BodiesAt<d>& /*at*/) const { return {}; }
 };
 

@@ -16,13 +16,6 @@ namespace splashdown::rigid {
 
 namespace {
 
-/// Weight of the later one of two velocities for which the step's damping of a mass, exp(-z) after z = c dt/m, is exact
-/// (exponential fitting, Liniger and Willoughby 1970): 1/2 + z/12 + ... to 1.
-double weight_of_later(double z) {
-  if (z < 1e-3) return 0.5 + z / 12;
-  return std::isfinite(z) ? -1 / std::expm1(-z) - 1 / z : 1;
-}
-
 /// The twist that takes one pose into the other within a unit of time.
 template <int d>
 Twist<d> displacement(const Isometry<d>& from, const Isometry<d>& to) {
@@ -210,21 +203,13 @@ void Bodies<d>::System::find_stops_and_springs() {
 }
 
 template <int d>
-double Bodies<d>::System::compliance(const Condition<d>& rate) const {
-  const auto of = [&](std::size_t body, const Wrench<d>& wrench) {
-    if (!answers(body)) return 0.;
-    if (specs[body].mass == 0) return std::numeric_limits<double>::infinity();
-    return wrench.dot(inertia(body).ldlt().solve(wrench));
-  };
-  return of(rate.body, rate.first) + (rate.other ? of(*rate.other, rate.second) : 0.);
-}
-
-template <int d>
 void Bodies<d>::System::set_up_constraints() {
   for (Eigen::Index i = 0; i < size(); ++i) place(i, states[static_cast<std::size_t>(i)]);
   tied = asked_by_joints();
   find_contacts();
   find_stops_and_springs();
+  pulls.clear();
+  for (const auto& force : forces) force->pull(at(kick, dt), pulls);
   solve_conditions();
   if (tied.empty()) return;
   // Joints are met at x_{n+1}, but for what the fluid's load adds to the curvature of the way there (SHAKE, Ryckaert,
@@ -241,7 +226,7 @@ void Bodies<d>::System::set_up_constraints() {
 
 template <int d>
 void Bodies<d>::System::guess_contacts() {
-  if (near.empty() || loads.size() == 0) return;
+  if ((near.empty() && pulls.empty()) || loads.size() == 0) return;
   ConstraintSolver guess = constraints;
   if (!guess.settled(kick * loads)) return;
   constraints = std::move(guess);
@@ -277,6 +262,7 @@ void Bodies<d>::System::solve_conditions() {
   p.least.head(rebound.size()) = p.least.head(rebound.size()).cwiseMax(rebound);
   if (contacts) p.friction = contacts->spec().friction;
   add_springs(p);
+  add_pulls(p);
   constraints = ConstraintSolver(p);
 }
 
@@ -300,10 +286,34 @@ void Bodies<d>::System::add_springs(ConstraintSolver::Problem& p) const {
     const Eigen::MatrixXd row = rows_of({at.rate});
     const double q_rate = (row * p.before)[0];
     const double lag = at.q - spring.rest + (dt - dt_before) / 4 * q_rate;
-    const double later = weight_of_later(kick * spring.damping * compliance(at.rate));
+    const double later = weight_of_later(kick * spring.damping * compliance<d>(at.rate, specs, states));
     p.impulse -= kick * (spring.stiffness * lag + spring.damping * q_rate) * row.transpose();
     p.inertia += kick * (spring.stiffness * dt / 4 + later * spring.damping) * row.transpose() * row;
   }
+}
+
+template <int d>
+void Bodies<d>::System::add_pulls(ConstraintSolver::Problem& p) const {
+  std::vector<Condition<d>> against;
+  std::vector<double> inertias;
+  for (const Pull<d>& pull : pulls) {
+    if (pull.one_sided) {
+      const auto& q = pull.rate;
+      against.push_back({q.body, q.other, -q.first, -q.second, pull.impulse / pull.inertia});
+      inertias.push_back(pull.inertia);
+      continue;
+    }
+    const Eigen::MatrixXd row = rows_of({pull.rate});
+    p.impulse -= (pull.impulse + pull.inertia * (row * p.before)[0]) * row.transpose();
+    p.inertia += pull.inertia * row.transpose() * row;
+  }
+  if (against.empty()) return;
+  const Eigen::Index hard = p.contacts.rows(), all = hard + static_cast<Eigen::Index>(against.size());
+  p.contacts.conservativeResize(all, freedoms<d> * size());
+  p.contacts.bottomRows(all - hard) = rows_of(against);
+  p.least.conservativeResize(all);
+  p.least.tail(all - hard) = rates_of(against);
+  p.yielding = Eigen::Map<const Eigen::VectorXd>(inertias.data(), all - hard);
 }
 
 template <int d>

@@ -45,6 +45,7 @@ struct Bodies<d>::System {
     JointCoordinate<d> at;
   };
   std::vector<Sprung> sprung;
+  std::vector<Pull<d>> pulls;  // of forces
   ConstraintSolver constraints;
   Eigen::VectorXd impulses;  // the last that were tried
   Eigen::VectorXd apart;     // velocities that only drift: how hulls that overlap part
@@ -62,6 +63,11 @@ struct Bodies<d>::System {
 
   /// What forces see, of the step that `kick_` and `dt_` begin.
   BodiesAt<d> at(double kick_, double dt_) const { return {specs, states, wetted_share, time, kick_, dt_}; }
+  /// The same with the step's last trial, if there is one.
+  BodiesAt<d> tried() const {
+    if (phase != Phase::solved) return at(0, 0);
+    return {specs, states, wetted_share, time, kick, dt, trials};
+  }
   /// Sums of all forces but the fluid's load at t_n on each body, about its centre of mass, world frame [N, N m].
   std::vector<Wrench<d>> known_forces() const;
   /// A prescribed body's velocity is the finite difference that carries one pose into the next.
@@ -100,8 +106,6 @@ struct Bodies<d>::System {
   void find_stops_and_springs();
   using MassMatrix = Eigen::Matrix<double, freedoms<d>, freedoms<d>>;
   MassMatrix inertia(std::size_t body) const;  ///< of one that forces move, in the step
-  /// dq/dt that a unit impulse along it gives bodies in the void; infinite without mass.
-  double compliance(const Condition<d>& rate) const;
   /// Whether trial velocities break a condition by more than roundoff.
   bool crosses(const Condition<d>& condition) const;
   /// Left sides, a row each, of the velocities of all bodies.
@@ -112,6 +116,8 @@ struct Bodies<d>::System {
   /// Springs at (q_{n-1} + 2 q_n + q_{n+1})/4 (Newmark 1959, beta = 1/4), dampers at (1 - a) dq_{n-1/2} + a dq_{n+1/2}, a from
   /// 1/2 for weak ones to 1: no step is too long for them, and they add no energy. What depends on s_{n+1/2} is inertia.
   void add_springs(ConstraintSolver::Problem& problem) const;
+  /// Pulls of forces: two-sided ones are inertia, one-sided ones contacts that yield.
+  void add_pulls(ConstraintSolver::Problem& problem) const;
 };
 
 }  // namespace splashdown::rigid

@@ -40,10 +40,14 @@ ConstraintSolver::ConstraintSolver(const Problem& p) : unit_(p.unit), resolution
       algebra::solutions_of(p.equalities * scaled, p.equal - p.equalities * p.before, negligible);
   origin_ = p.before + scaled * free.point;
   basis_ = free.directions;
-  modes_ = scaled * basis_;
+  const Eigen::Index free_modes = basis_.cols(), yielding = p.yielding.size();
+  modes_.setZero(p.unit.size(), free_modes + yielding);
+  modes_.leftCols(free_modes) = scaled * basis_;
   inertia_ = algebra::congruence(p.inertia, modes_);
+  inertia_.diagonal().tail(yielding) = p.yielding;
   known_ = modes_.transpose() * (p.impulse - p.inertia * (origin_ - p.before));
   contacts_ = p.contacts * modes_;
+  contacts_.bottomRightCorner(yielding, yielding).setIdentity();
   least_ = p.least - p.contacts * origin_;
   closed_.assign(static_cast<std::size_t>(contacts_.rows()), 0);
   sticks_.assign(static_cast<std::size_t>(p.rubbing), 0);
@@ -76,10 +80,10 @@ void ConstraintSolver::restrict() {
   const std::vector<char> stuck = each(sticks_, tangents_.rows());
   Eigen::VectorXd rates(count(closed_) + count(stuck));
   rates << rows_of(least_, closed_), rows_of(along_, stuck);
-  fastest_asked_ = rates.size() > 0 ? rates.cwiseAbs().maxCoeff() : 0;
   pushing_ = held();
   const algebra::Solutions left = algebra::solutions_of(pushing_, rates, negligible);
   pushed_ = left.point;
+  find_leverage(rates);
   workless_ = directions_ = left.directions;
   if (ways_.isZero(0)) return;
   Eigen::MatrixXd rows = rubbed(pushing_);
@@ -91,8 +95,33 @@ void ConstraintSolver::restrict() {
   workless_ = std::move(workless);
 }
 
+void ConstraintSolver::find_leverage(const Eigen::VectorXd& rates) {
+  Eigen::MatrixXd rows = pushing_;
+  Eigen::VectorXd rigid = rates;
+  rigid_pushed_ = pushed_;
+  if (yielding() > 0) {
+    Eigen::Index next = 0;
+    for (std::size_t i = 0; i < closed_.size(); ++i) {
+      if (!closed_[i]) continue;
+      if (static_cast<Eigen::Index>(i) >= contacts_.rows() - yielding()) {
+        rows.row(next).setZero();
+        rigid[next] = 0;
+      }
+      ++next;
+    }
+    rigid_pushed_ = algebra::solutions_of(rows, rigid, negligible).point;
+  }
+  fastest_asked_ = rigid.size() > 0 ? rigid.cwiseAbs().maxCoeff() : 0;
+}
+
 Eigen::VectorXd ConstraintSolver::amplitudes(const Eigen::VectorXd& velocity) const {
-  return basis_.transpose() * unit_.cwiseProduct(velocity - origin_);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(modes_.cols());
+  y.head(basis_.cols()) = basis_.transpose() * unit_.cwiseProduct(velocity - origin_);
+  const Eigen::Index first = contacts_.rows() - yielding();
+  for (Eigen::Index i = 0; i < yielding(); ++i)
+    if (closed_[static_cast<std::size_t>(first + i)])
+      y[basis_.cols() + i] = least_[first + i] - contacts_.row(first + i).dot(y);  // y of it is still 0
+  return y;
 }
 
 Eigen::VectorXd ConstraintSolver::velocity(const Eigen::VectorXd& impulse) const {
@@ -115,7 +144,8 @@ bool ConstraintSolver::update_contacts(const Eigen::VectorXd& velocity, const Ei
   if (pushing_.rows() > 0) pushes = algebra::least_squares(pushing_.transpose(), left);
   const Found found{.pushes = pushes,
                     .weak = negligible * pushes.cwiseAbs().sum(),
-                    .slow = resolution_ + negligible * contacts_.rowwise().norm().maxCoeff() * y.norm()};
+                    .slow = resolution_ + negligible * contacts_.leftCols(basis_.cols()).rowwise().norm().maxCoeff() *
+                                              y.head(basis_.cols()).norm()};
   const Eigen::MatrixXd slide = (tangents_ * y - along_).reshaped(ways_.rows(), ways_.cols());
   bool changes = open_and_close(contacts_ * y - least_, slide, found);
   if (!changes) changes = stick_and_slide(slide, found);  // else the impulses are those of other contacts

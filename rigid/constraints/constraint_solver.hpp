@@ -4,13 +4,15 @@
 //   E s = a                       held freedoms, fixed and prescribed bodies, joints
 //   D s >= b                      contacts
 //   M (s - s_before) = impulse + E^T l + D^T r + T^T t,   r >= 0,   r (D s - b) = 0
+//   D s + e >= b,  K e = r        contacts that yield: e is their rate of yielding
 //   |t| <= mu r,   T s = 0 or t = -mu r T s / |T s|   at each contact that rubs (Coulomb)
 //
 // Solved in coordinates: s = s_0 + Z y with Z a basis of the velocities that E leaves, and y in the directions W that
 // the closed contacts leave. Which contacts are closed is found by the primal-dual active set method (Hintermueller,
 // Ito, Kunisch 2002): a closed contact that pulls opens, an open one that would be crossed closes. It may run in
 // circles; after a few changes only the first contact that is wrong changes (Murty 1974), which ends where contacts
-// are independent of each other.
+// are independent of each other. Rates of yielding are further coordinates y without velocities of their own, so that M stays what
+// it is whatever is closed.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,9 +42,10 @@ class ConstraintSolver {
     double resolution = 0;       ///< of D s - b: smaller violations are roundoff [m/s]
     Eigen::MatrixXd tangents;    ///< T: as many rows for each of the first `rubbing` contacts
     int rubbing = 0;
-    double friction = 0;      ///< mu
-    Eigen::MatrixXd inertia;  ///< M
-    Eigen::VectorXd impulse;  ///< known already [N s]
+    Eigen::VectorXd yielding;  ///< K > 0 of the last contacts, which yield [kg]; empty: none does
+    double friction = 0;       ///< mu
+    Eigen::MatrixXd inertia;   ///< M
+    Eigen::VectorXd impulse;   ///< known already [N s]
   };
   ConstraintSolver() = default;
   /// Finds s_0 and Z; contacts are open. A contradiction between equalities is met in the least-squares sense.
@@ -61,16 +64,18 @@ class ConstraintSolver {
   /// Velocity under a further impulse, contacts opening and closing as they ask for; none if that does not end.
   std::optional<Eigen::VectorXd> settled(const Eigen::VectorXd& impulse);
   /// What closed contacts ask for beyond s_0: the slowest velocities that meet them.
-  Eigen::VectorXd asked() const { return modes_ * pushed_; }
+  Eigen::VectorXd asked() const { return modes_ * rigid_pushed_; }
   /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes
-  /// it 1/a; a lever, the ratio of its arms.
-  double leverage() const { return pushed_.norm() / (fastest_asked_ + resolution_); }
+  /// it 1/a; a lever, the ratio of its arms. Contacts that yield ask for nothing.
+  double leverage() const { return rigid_pushed_.norm() / (fastest_asked_ + resolution_); }
   double resolution() const { return resolution_; }  ///< of D s - b [m/s]
   /// Contacts as they are now are a guess: how often they changed until here does not count.
   void forget_changes() { changes_ = 0, smooth_ = false; }
 
  private:
   void restrict();
+  void find_leverage(const Eigen::VectorXd& rates);
+  Eigen::Index yielding() const { return modes_.cols() - basis_.cols(); }  // how many yield
   Eigen::MatrixXd held() const;                        // rows of closed contacts, then of those that stick
   Eigen::MatrixXd rubbed(Eigen::MatrixXd held) const;  // with the friction of those that slide
   /// Impulses on what was held, and below which impulses and velocities are roundoff.
@@ -89,11 +94,12 @@ class ConstraintSolver {
   Eigen::MatrixXd tangents_;  // T Z
   Eigen::VectorXd along_;     // -T s_0
   double friction_ = 0;
-  std::vector<char> sticks_;  // of the contacts that rub, while closed
-  Eigen::MatrixXd ways_;      // n of those that slide, a column each; 0 of others
-  bool smooth_ = false;       // no end was found with friction
-  Eigen::VectorXd pushed_;    // amplitudes that closed contacts ask for
-  double fastest_asked_ = 0;  // of their rates, and of those that stick
+  std::vector<char> sticks_;      // of the contacts that rub, while closed
+  Eigen::MatrixXd ways_;          // n of those that slide, a column each; 0 of others
+  bool smooth_ = false;           // no end was found with friction
+  Eigen::VectorXd pushed_;        // amplitudes that closed contacts ask for
+  Eigen::VectorXd rigid_pushed_;  // those that do not yield alone
+  double fastest_asked_ = 0;      // of their rates, and of those that stick
   Eigen::MatrixXd directions_, workless_;
   Eigen::MatrixXd pushing_;  // rows along which closed contacts push, then those that stick
 };
