@@ -229,6 +229,7 @@ std::vector<Diagnostic> Bodies<d>::diagnostics() const {
   for (const auto& force : system_->forces)
     for (const auto& [name, value] : force->diagnostics(system_->tried()))
       all.emplace_back(force->name() + "_" + name, value);
+  for (auto& reaction : system_->reactions()) all.push_back(std::move(reaction));
   return all;
 }
 

@@ -128,6 +128,7 @@ std::vector<Condition<3>> BulletEngine::conditions(double dt) {
   // Rows of a joint; numbers in one: linear and angular, of both bodies, then what stands on the right.
   constexpr int most = 6, row = 3 * 4 + 4;
   std::vector<Condition<3>> all;
+  joint_of_condition_.clear();
   for (const Joint& joint : objects_->joints) {
     std::array<double, most * row> rows{};
     btTypedConstraint::btConstraintInfo1 count{};
@@ -154,6 +155,7 @@ std::vector<Condition<3>> BulletEngine::conditions(double dt) {
         second.tail<3>() -= arm.cross(first.head<3>());
       }
       all.push_back({joint.body, joint.other, first, second, first.data()[12]});
+      joint_of_condition_.push_back(static_cast<std::size_t>(&joint - objects_->joints.data()));
     }
     const auto* slider = dynamic_cast<const btSliderConstraint*>(joint.bullet.get());
     constexpr int with_turn = 5;
@@ -162,6 +164,7 @@ std::vector<Condition<3>> BulletEngine::conditions(double dt) {
     Wrench<3> turn = Wrench<3>::Zero();
     turn.tail<3>() = from_bullet(slider->getCalculatedTransformA().getBasis().getColumn(0));
     all.push_back({joint.body, joint.other, turn, -turn, 0});
+    joint_of_condition_.push_back(static_cast<std::size_t>(&joint - objects_->joints.data()));
   }
   return all;
 }

@@ -33,6 +33,8 @@ class BulletEngine {
   void drift(double dt);
   /// What the joints ask of the velocities with which bodies leave their places for a time dt.
   std::vector<Condition<3>> conditions(double dt);
+  /// The joint of each of these conditions: the same in every step.
+  const std::vector<std::size_t>& joint_of_condition() const { return joint_of_condition_; }
   /// Where a hinge or slider is now.
   JointCoordinate<3> coordinate(std::size_t joint) const;
 
@@ -41,6 +43,7 @@ class BulletEngine {
  private:
   struct Objects;
   std::unique_ptr<Objects> objects_;
+  std::vector<std::size_t> joint_of_condition_;
 };
 
 }  // namespace splashdown::rigid

@@ -188,6 +188,7 @@ void Bodies<d>::System::find_contacts() {
 template <int d>
 void Bodies<d>::System::find_stops_and_springs() {
   sprung.clear();
+  stopped.clear();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const JointSpec& joint = joints[j];
     if (!joint.measured()) continue;
@@ -197,8 +198,10 @@ void Bodies<d>::System::find_stops_and_springs() {
     else
       moved[j] = in_space.q;
     const JointCoordinate<d> at{moved[j], projected_condition<d>(in_space.rate)};
-    if (joint.spring) sprung.push_back({*joint.spring, at});
+    if (joint.spring) sprung.push_back({j, *joint.spring, at});
+    const std::size_t before = near.size();
     add_stops(joint, at, dt, near);
+    stopped.insert(stopped.end(), near.size() - before, j);
   }
 }
 
@@ -264,6 +267,7 @@ void Bodies<d>::System::solve_conditions() {
   add_springs(p);
   add_pulls(p);
   constraints = ConstraintSolver(p);
+  problem = std::move(p);
 }
 
 template <int d>
@@ -282,7 +286,7 @@ void Bodies<d>::System::part_overlaps(ConstraintSolver::Problem p) {
 template <int d>
 void Bodies<d>::System::add_springs(ConstraintSolver::Problem& p) const {
   const double dt_before = 2 * kick - dt;
-  for (const auto& [spring, at] : sprung) {
+  for (const auto& [joint, spring, at] : sprung) {
     const Eigen::MatrixXd row = rows_of({at.rate});
     const double q_rate = (row * p.before)[0];
     const double lag = at.q - spring.rest + (dt - dt_before) / 4 * q_rate;

@@ -41,11 +41,14 @@ struct Bodies<d>::System {
   Eigen::VectorXd rebound;            // least rates of these contacts after an impact; empty: all are plastic
   /// A joint with a spring, as it is at t_n.
   struct Sprung {
+    std::size_t joint;
     Spring spring;
     JointCoordinate<d> at;
   };
   std::vector<Sprung> sprung;
-  std::vector<Pull<d>> pulls;  // of forces
+  std::vector<Pull<d>> pulls;         // of forces
+  std::vector<std::size_t> stopped;   // the joints of the stops in `near`
+  ConstraintSolver::Problem problem;  // that `constraints` solves
   ConstraintSolver constraints;
   Eigen::VectorXd impulses;  // the last that were tried
   Eigen::VectorXd apart;     // velocities that only drift: how hulls that overlap part
@@ -90,6 +93,9 @@ struct Bodies<d>::System {
   /// Contacts that cannot be had together, or only where a body leaves many times as fast as others close in on it: those that
   /// are held, or come on a path, leave it no room.
   Status squeezed() const;
+  /// What joints and contacts do to bodies, means over the kick of the last trial: JOINT_fx ... on the first body of each joint,
+  /// BODY_contact_fx ... on each body that forces move, about its centre of mass, world frame [N, N m; 2D: N/m, N].
+  std::vector<Diagnostic> reactions() const;
   /// Faster than at t_n, bodies reach more than was looked at.
   Status passes_through() const;
 
@@ -104,6 +110,10 @@ struct Bodies<d>::System {
   std::vector<Condition<d>> equalities();
   void find_contacts();
   void find_stops_and_springs();
+  /// Impulses along the rows of `tied`, then of `near`, then of `rubbing`, that the last trial's velocities take.
+  Eigen::VectorXd reaction_impulses() const;
+  /// What the spring of a joint does to its first body, mean over the kick.
+  Wrench<d> spring_force(const Sprung& sprung) const;
   using MassMatrix = Eigen::Matrix<double, freedoms<d>, freedoms<d>>;
   MassMatrix inertia(std::size_t body) const;  ///< of one that forces move, in the step
   /// Whether trial velocities break a condition by more than roundoff.

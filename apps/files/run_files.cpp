@@ -9,7 +9,8 @@ namespace splashdown::apps {
 
 namespace {
 
-constexpr const char* tables[] = {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv"};
+constexpr const char* tables[] = {"bodies.csv",           "fluid.csv",     "forces.csv", "probes.csv",
+                                  "surface_pressure.csv", "added_mass.csv"};
 
 }  // namespace
 

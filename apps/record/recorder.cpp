@@ -107,6 +107,7 @@ struct Recorder<d>::State {
   void start(const RecordInput<d>& input);
   void add_statistics(const RecordInput<d>& input);
   void write_rows(const RecordInput<d>& input);
+  void write_forces(const RecordInput<d>& input);
   void write_probes(const RecordInput<d>& input);
   void write_surface_pressure(const RecordInput<d>& input, std::size_t record);
   void write_added_mass(const RecordInput<d>& input, const std::string& body);
@@ -184,6 +185,7 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
     write_row(file("bodies.csv", bodies_header),
               BodyRow<d>{input.time, input.bodies->spec(b).name, input.bodies->state(b).pose, input.body_velocity_n[b],
                          input.body_acceleration_n[b], input.body_load[b], submergence[b]});
+  if (input.bodies) write_forces(input);
   if (input.fluid) {
     const auto& fluid = *input.fluid;
     std::vector<std::string> names;
@@ -194,6 +196,18 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
                        input.passes, input.residual, input.wall_seconds, speed, energy.gain(), std::move(values)});
   }
   write_probes(input);
+}
+
+template <int d>
+void Recorder<d>::State::write_forces(const RecordInput<d>& input) {
+  const std::vector<Diagnostic> forces = input.bodies->diagnostics();
+  if (forces.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : forces) names.push_back(name);
+  auto& csv = file("forces.csv", forces_header(names));
+  csv << input.time;
+  for (const auto& [name, value] : forces) csv << value;
+  csv.end_row();
 }
 
 template <int d>

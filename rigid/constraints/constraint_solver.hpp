@@ -68,6 +68,9 @@ class ConstraintSolver {
   /// Its size over the largest rate of these contacts, and of those that stick. A wedge of angle a between two of them makes
   /// it 1/a; a lever, the ratio of its arms. Contacts that yield ask for nothing.
   double leverage() const { return rigid_pushed_.norm() / (fastest_asked_ + resolution_); }
+  bool closed(Eigen::Index contact) const {
+    return closed_[static_cast<std::size_t>(contact)] != 0;
+  }                                                  ///< at the moment
   double resolution() const { return resolution_; }  ///< of D s - b [m/s]
   /// Contacts as they are now are a guess: how often they changed until here does not count.
   void forget_changes() { changes_ = 0, smooth_ = false; }

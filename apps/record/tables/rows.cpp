@@ -45,6 +45,12 @@ std::string fluid_header(const std::vector<std::string>& effect_columns) {
   return header;
 }
 
+std::string forces_header(const std::vector<std::string>& columns) {
+  std::string header = "time";
+  for (const auto& column : columns) header += "," + column;
+  return header;
+}
+
 std::string surface_pressure_header(int dimension) {
   return dimension == 2 ? "time,body,x,y,s,p,x_body,y_body,p_repair"
                         : "time,body,x,y,z,s,p,x_body,y_body,z_body,p_repair";

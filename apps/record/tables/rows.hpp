@@ -20,6 +20,8 @@ inline constexpr const char* probes_header = "time,probe,value";
 /// `effect_columns`: behind all others.
 std::string fluid_header(const std::vector<std::string>& effect_columns);
 /// x, y, z: world frame; x_body, ...: frame of the body's shape.
+/// Of lines, joints and contacts: their columns behind the time.
+std::string forces_header(const std::vector<std::string>& columns);
 std::string surface_pressure_header(int dimension);
 /// The upper triangle by rows. Indices: x, y, z for translations, p, q, r for rotations about them (2D: x, y, r).
 std::string added_mass_header(int dimension);
