@@ -1,6 +1,7 @@
 #include "apps/build/build.hpp"
 #include "apps/build/symmetry.hpp"
 #include "apps/scene/mirror.hpp"
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/patch.hpp"
 
 namespace splashdown::apps {
@@ -108,6 +109,10 @@ RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem:
     settings.symmetric[body.name] = symmetric_axes<d>(scene, body);
   }
   for (const auto& record : scene.records) std::visit(AddRecord<d>{scene, settings}, record);
+  for (const auto* kind : effect_kinds()) {
+    if (!kind->present(scene)) continue;
+    for (auto& [name, value] : kind->signals(scene)) settings.signals.push_back({name, value});
+  }
   return settings;
 }
 

@@ -4,13 +4,11 @@
 #include "apps/effects/force/force.hpp"
 #include "apps/effects/form_drag/form_drag.hpp"
 #include "apps/effects/gravity/gravity.hpp"
-<<<<<<< HEAD
+#include "apps/effects/lines/lines.hpp"
 #include "apps/effects/skin_friction/skin_friction.hpp"
 #include "apps/effects/symmetry/symmetry.hpp"
-=======
-#include "apps/effects/lines/lines.hpp"
->>>>>>> 6c7d666 (WIP wt3)
 #include "apps/effects/viscosity/viscosity.hpp"
+#include "apps/effects/waves/waves.hpp"
 #include "apps/effects/wind/wind.hpp"
 
 namespace splashdown::apps {
@@ -29,16 +27,14 @@ std::span<const EffectKind* const> effect_kinds() {
       row<GravityKind>(),
       row<ViscosityKind>(),
       row<AbsorberKind>(),
-<<<<<<< HEAD
       row<SkinFrictionKind>(),
       row<FormDragKind>(),
       row<WindKind>(),
       row<AeroKind>(),
       row<ForceKind>(),
-      row<SymmetryKind>(),  // the last: it cuts what the others have made
-=======
       row<LinesKind>(),
->>>>>>> 6c7d666 (WIP wt3)
+      row<WavesKind>(),
+      row<SymmetryKind>(),  // the last: it cuts what the others have made
   };
   return catalogue;
 }

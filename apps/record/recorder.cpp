@@ -238,6 +238,7 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
       met_water[k++] |= elevation.has_value();
       put(gauge.name, elevation.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
+    for (const auto& [name, value] : settings.signals) put(name, value(input.time));
     for (std::size_t i = 0; i < settings.patches.size(); ++i) put(settings.patches[i].name, hulls.pressures()[i]);
   }
   for (std::size_t i = 0; i < equipment.size(); ++i) {

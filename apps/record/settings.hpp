@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,6 +26,12 @@ template <int d>
 struct ElevationGauge {
   std::string name;
   Eigen::Matrix<double, d - 1, 1> at;  ///< horizontal position, world frame [m]
+};
+
+/// A number that is known without the run, written beside what is measured.
+struct Signal {
+  std::string name;
+  std::function<double(double)> value;  ///< at a time [s]
 };
 
 /// A point of a body whose acceleration is wanted: an instrument, a seat.
@@ -74,6 +81,7 @@ struct RecorderSettings {
   std::optional<double> frames;  ///< interval of frames [s], 0: each step; absent: no frames
   std::vector<PressureProbe<d>> pressure_probes;
   std::vector<ElevationGauge<d>> gauges;
+  std::vector<Signal> signals;
   std::vector<EquipmentPoint<d>> equipment;
   std::vector<PressurePatch<d>> patches;
   std::vector<HullMapRecord<d>> hull_maps;

@@ -2,6 +2,7 @@
 // apps/effects/registry.cpp make an effect known to reader, schema, check, build, run and report.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,6 +56,18 @@ struct AskedScene {
   double pull = 0;              ///< downward component of gravity [m/s^2]
 };
 
+/// An element size at the free surface that an effect asks for.
+struct WantedSize {
+  double size;      ///< [m]
+  std::string why;  ///< such as "40 elements on waves of 2 m"
+};
+
+/// A number that is known without the run, for probes.csv.
+struct KnownSignal {
+  std::string name;
+  std::function<double(double)> value;  ///< at a time [s]
+};
+
 /// Where the table of an effect stands.
 enum class TablePlace {
   scene,         ///< [NAME], read before the bodies
@@ -79,6 +92,10 @@ class EffectKind {
   virtual std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const = 0;
   /// The same at length: numbers, expected changes with their source, and the keys that add it. Nothing: `note` is all there is.
   virtual std::optional<Advice> advise(const Outlook& /*look*/) const { return {}; }
+  /// Elements at the free surface, where the scene leaves them to the program; nothing: no wish.
+  virtual std::optional<WantedSize> surface_size(const Scene& /*scene*/) const { return {}; }
+  /// Rows of probes.csv beside what is measured, such as the sea without bodies.
+  virtual std::vector<KnownSignal> signals(const Scene& /*scene*/) const { return {}; }
   /// Changes what the fluid is made from; after its own regions and walls are in.
   virtual void prepare(const Scene& scene, fluid::FluidSpec<2>& spec) const = 0;
   virtual void prepare(const Scene& scene, fluid::FluidSpec<3>& spec) const = 0;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
@@ -166,8 +167,19 @@ void choose_for_liquid(const Scene& scene, double least, Choice<d>& choice) {
   choice.far_why = "that of the surface";
 }
 
+/// What effects ask for, where it is finer.
 template <int d>
-Choice<d> choose(const Scene& scene) {
+void choose_for_effects(const Scene& scene, Choice<d>& choice) {
+  for (const auto* kind : effect_kinds()) {
+    const auto wanted = kind->surface_size(scene);
+    if (!wanted || wanted->size >= choice.surface) continue;
+    choice.surface = wanted->size;
+    choice.surface_why = wanted->why;
+  }
+}
+
+template <int d>
+Choice<d> choose_for_bodies(const Scene& scene) {
   Choice<d> choice;
   const double least = least_liquid_extent<d>(scene), g = scene.gravity ? scene.gravity->acceleration.norm() : 0;
   double breadth = 0;
@@ -191,6 +203,13 @@ Choice<d> choose(const Scene& scene) {
                   waves ? ", forty elements on a wave of two breadths" : "; near the hull the hull's size decides");
   choice.far = std::max(choice.surface, std::min(breadth, least / far_of_liquid));
   choice.far_why = fmt::format("the hull's breadth, at most an eighth of the liquid's least extent of {:.3g} m", least);
+  return choice;
+}
+
+template <int d>
+Choice<d> choose(const Scene& scene) {
+  auto choice = choose_for_bodies<d>(scene);
+  choose_for_effects<d>(scene, choice);
   return choice;
 }
 

@@ -7,6 +7,9 @@
 
 namespace splashdown::fluid {
 
+/// k d from which on the bed is not felt: exp(-2 k d) = exp(-60).
+inline constexpr double deep_water = 30;
+
 /// w [rad/s] of the wave number k [1/m] without a current, at `depth` [m] under `gravity` [m/s^2].
 double angular_frequency(double wave_number, double depth, double gravity);
 

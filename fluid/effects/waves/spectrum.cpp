@@ -8,7 +8,7 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Over w / w_p.
 double shape(double relative, double gamma) {
@@ -87,7 +87,7 @@ double spectral_density(double angular_frequency, double peak_period, double gam
   constexpr double widest = 20;  // w_p: 1e-5 of the energy is above
   const double peak = 2 * pi / peak_period;
   const auto density = [&](double relative) { return shape(relative, gamma); };
-  const double all = integral(density, 0, 2, 2000) + integral(density, 2, widest, 2000) + 0.25 * std::pow(widest, -4);
+  const double all = integral(density, 0, 2, 200) + integral(density, 2, widest, 100) + 0.25 * std::pow(widest, -4);
   return density(angular_frequency / peak) / (all * peak);
 }
 

@@ -10,9 +10,7 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-// Water of 30 / k is infinitely deep: exp(-60).
-constexpr double deep = 30;
+using std::numbers::pi;
 
 }  // namespace
 
@@ -21,7 +19,7 @@ double SteadyWave::period() const { return length() / celerity_; }
 double SteadyWave::trough() const { return elevation(pi); }
 
 void SteadyWave::set_depth(double depth) {
-  depth_ = std::min(depth, deep / wave_number_);
+  depth_ = std::min(depth, deep_water / wave_number_);
   for (std::size_t j = 0; j < speed_.size(); ++j)
     speed_[j] /= 1 + std::exp(-2 * static_cast<double>(j + 1) * wave_number_ * depth_);
   highest_ = crest();

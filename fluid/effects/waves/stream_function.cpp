@@ -14,8 +14,7 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double deep = 30;  // exp(-60) is nothing
+using std::numbers::pi;
 
 // sinh and cosh of j k (d + z), over cosh(j k d), and their slopes with k.
 struct Profile {
@@ -111,7 +110,7 @@ class StreamFunction {
   // The equations' residuals and their slopes.
   void equations(Eigen::VectorXd& f, Eigen::MatrixXd& slope) const {
     const int n = order_, at_k = 2 * n + 1, at_mean = at_k + 1, at_flux = at_k + 2, at_head = at_k + 3;
-    const double k = this->k(), d = std::min(depth_, deep / k);
+    const double k = this->k(), d = std::min(depth_, deep_water / k);
     f.setZero(2 * n + 5);
     slope.setZero(2 * n + 5, 2 * n + 5);
     for (int m = 0; m <= n; ++m) {
@@ -184,9 +183,9 @@ SteadyWave stream_function_wave(const SteadyWaveSpec& spec) {
     if (wave.tail() < tail) best = wave, tail = wave.tail();
   }
   if (tail > least || spec.height > breaking_height(best.length(), spec.depth))
-    throw std::invalid_argument(
-        fmt::format("a wave of {:.4g} m, {:.4g} m long in water of {:.4g} m, breaks: at {:.4g} m at most", spec.height,
-                    best.length(), spec.depth, breaking_height(best.length(), spec.depth)));
+    throw std::invalid_argument(fmt::format(
+        "waves {:.4g} m long in water of {:.4g} m break at {:.4g} m or a little below; {:.4g} m is too high",
+        best.length(), spec.depth, breaking_height(best.length(), spec.depth), spec.height));
   return best;
 }
 

@@ -9,7 +9,7 @@
 namespace splashdown::fluid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double from_crest(double theta) {
   const double turns = -theta / (2 * pi);
@@ -50,11 +50,16 @@ double RegularWave<d>::phase(const Vec<d>& x, double t) const {
 }
 
 template <int d>
-LinearSea<d>::LinearSea(const std::vector<SeaWave>& waves, const SeaFrame<d>& frame, double peak_period, double highest)
-    : frame_(frame), period_(peak_period), highest_(highest) {
-  length_ = 2 * pi / wave_number(2 * pi / peak_period, frame.depth, frame.gravity);
+LinearSea<d>::LinearSea(const std::vector<SeaWave>& waves, const SeaFrame<d>& frame, double peak_period, double current,
+                        double highest)
+    : frame_(frame), highest_(highest) {
+  const double peak = wave_number(2 * pi / peak_period, frame.depth, frame.gravity, current);
+  length_ = 2 * pi / peak;
+  period_ = 2 * pi / angular_frequency(peak, frame.depth, frame.gravity);
   for (const SeaWave& wave : waves) {
-    const double w = wave.angular_frequency, k = wave_number(w, frame.depth, frame.gravity);
+    const double k =
+        wave_number(wave.angular_frequency, frame.depth, frame.gravity, current * std::cos(wave.direction));
+    const double w = angular_frequency(k, frame.depth, frame.gravity);
     const Vec<d> along = turned<d>(frame.direction, wave.direction);
     waves_.push_back({along, k, w, wave.phase, wave.amplitude, wave.amplitude * w / -std::expm1(-2 * k * frame.depth)});
     current_ -= 0.5 * frame.gravity * wave.amplitude * wave.amplitude * k / (w * frame.depth) * along;

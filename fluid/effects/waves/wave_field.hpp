@@ -70,8 +70,11 @@ class RegularWave final : public WaveField<d> {
 template <int d>
 class LinearSea final : public WaveField<d> {
  public:
-  /// `peak_period` [s]; `highest`: crest above the still level that is to be expected [m].
-  LinearSea(const std::vector<SeaWave>& waves, const SeaFrame<d>& frame, double peak_period, double highest);
+  /// Frequencies of `waves` and `peak_period` [s] are those of an observer over whom the water has the speed `current` [m/s] along the
+  /// waves; the field is that in the water, which stands still in its tank. `highest`: crest above the still level that is to be
+  /// expected [m]. std::invalid_argument where the current stops waves.
+  LinearSea(const std::vector<SeaWave>& waves, const SeaFrame<d>& frame, double peak_period, double current,
+            double highest);
   double elevation(const Vec<d>& x, double t) const override;
   Vec<d> velocity(const Vec<d>& x, double t) const override;
   double length() const override { return length_; }
