@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/mirror.hpp"
+#include "apps/scene/solid.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -60,6 +62,9 @@ std::vector<char> symmetric_axes(const Scene& scene, const Body& body) {
         (!scene.tank || plane.halves<d>(extents<d>(*scene.tank))) && holds_motion<d>(plane, body) &&
         std::ranges::all_of(scene.fluid->regions,
                             [&](const Region& region) { return holds_region<d>(plane, scene, region); }) &&
+        std::ranges::all_of(
+            effect_kinds(),
+            [&](const EffectKind* kind) { return !kind->present(scene) || !kind->asymmetry(scene, plane); }) &&
         asymmetry_of<d>(plane, hull).distance <= facets * plane.length;
   }
   return axes;

@@ -180,6 +180,14 @@ std::optional<EffectNote> WavesKind::note(const Scene& scene, const Scales& s) c
   return EffectNote{"waves", true, scene.dimension == 2 ? words<2>(scene, s) : words<3>(scene, s)};
 }
 
+// Waves look the same from both sides of a line that they run along.
+bool WavesKind::is_symmetric(const Scene& scene, int axis) const {
+  constexpr double roundoff = 1e-9;
+  const auto& table = *scene.effects.find<Waves>();
+  const double turn = table.direction_deg * radians, along = axis == 0 ? std::cos(turn) : std::sin(turn);
+  return table.spreading == 0 && std::abs(along) < roundoff;
+}
+
 std::optional<WantedSize> WavesKind::surface_size(const Scene& scene) const {
   constexpr double a_wave = 40;  // heights within 1 to 2 %: docs/waves.md
   if (!present(scene) || !scene.tank || !scene.gravity || wavy_region(scene) < 0) return {};
