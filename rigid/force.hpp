@@ -22,6 +22,7 @@ struct BodiesAt {
   double time;      ///< t_n [s]
   double kick = 0;  ///< over which forces of this step act [s]; 0: none is begun
   double dt = 0;    ///< of this step [s]; 0: none is begun
+  std::span<const char> held = {};  ///< of each body, 1: it is on its path still
   /// Poses at t_{n+1} and velocities at t_{n+1/2} that were tried last; empty: none.
   std::span<const BodyState<d>> next = {};
 

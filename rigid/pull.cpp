@@ -35,10 +35,12 @@ Pull<d> tension_only(const Stretch& spring, const StretchAt& at) {
 }
 
 template <int d>
-double compliance(const Condition<d>& rate, std::span<const BodySpec<d>> specs, std::span<const BodyState<d>> states) {
+double compliance(const Condition<d>& rate, std::span<const BodySpec<d>> specs, std::span<const BodyState<d>> states,
+                  std::span<const char> held) {
   const auto of = [&](std::size_t body, const Wrench<d>& wrench) {
     const BodySpec<d>& spec = specs[body];
-    if (spec.motion != BodyMotion::free) return 0.0;
+    const bool on_path = spec.motion == BodyMotion::prescribed && (!spec.release || held[body]);
+    if (spec.motion == BodyMotion::fixed || on_path) return 0.0;
     if (spec.mass == 0) return std::numeric_limits<double>::infinity();
     const Vec<d> force = wrench.template head<d>();
     Rotation<d> moment = wrench.template tail<rotations<d>>();
@@ -52,7 +54,9 @@ template struct Pull<2>;
 template struct Pull<3>;
 template Pull<2> tension_only<2>(const Stretch&, const StretchAt&);
 template Pull<3> tension_only<3>(const Stretch&, const StretchAt&);
-template double compliance<2>(const Condition<2>&, std::span<const BodySpec<2>>, std::span<const BodyState<2>>);
-template double compliance<3>(const Condition<3>&, std::span<const BodySpec<3>>, std::span<const BodyState<3>>);
+template double compliance<2>(const Condition<2>&, std::span<const BodySpec<2>>, std::span<const BodyState<2>>,
+                               std::span<const char>);
+template double compliance<3>(const Condition<3>&, std::span<const BodySpec<3>>, std::span<const BodyState<3>>,
+                               std::span<const char>);
 
 }  // namespace splashdown::rigid

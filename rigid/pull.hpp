@@ -52,7 +52,8 @@ Pull<d> tension_only(const Stretch& spring, const StretchAt& at);
 /// dq/dt that a unit impulse along it gives bodies in the void that forces move [1/kg]; infinite without mass. Held freedoms count as
 /// free.
 template <int d>
-double compliance(const Condition<d>& rate, std::span<const BodySpec<d>> specs, std::span<const BodyState<d>> states);
+double compliance(const Condition<d>& rate, std::span<const BodySpec<d>> specs, std::span<const BodyState<d>> states,
+                  std::span<const char> held);
 
 /// Weight of the later one of two velocities for which the step's damping of a mass, exp(-z) after z = c dt/m, is exact
 /// (exponential fitting, Liniger and Willoughby 1970): 1/2 + z/12 + ... to 1.

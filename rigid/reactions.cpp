@@ -54,7 +54,7 @@ template <int d>
 Wrench<d> Bodies<d>::System::spring_force(const Sprung& of) const {
   const auto& [joint, spring, at] = of;
   const double dt_before = 2 * kick - dt, before = rate_of<d>(at.rate, states), after = rate_of<d>(at.rate, trials);
-  const double later = weight_of_later(kick * spring.damping * compliance<d>(at.rate, specs, states));
+  const double later = weight_of_later(kick * spring.damping * compliance<d>(at.rate, specs, states, held));
   const double q = at.q - spring.rest + (dt * after - dt_before * before) / 4;
   return -(spring.stiffness * q + spring.damping * (before + later * (after - before))) * at.rate.first;
 }

@@ -290,7 +290,7 @@ void Bodies<d>::System::add_springs(ConstraintSolver::Problem& p) const {
     const Eigen::MatrixXd row = rows_of({at.rate});
     const double q_rate = (row * p.before)[0];
     const double lag = at.q - spring.rest + (dt - dt_before) / 4 * q_rate;
-    const double later = weight_of_later(kick * spring.damping * compliance<d>(at.rate, specs, states));
+    const double later = weight_of_later(kick * spring.damping * compliance<d>(at.rate, specs, states, held));
     p.impulse -= kick * (spring.stiffness * lag + spring.damping * q_rate) * row.transpose();
     p.inertia += kick * (spring.stiffness * dt / 4 + later * spring.damping) * row.transpose() * row;
   }

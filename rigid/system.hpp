@@ -65,11 +65,11 @@ struct Bodies<d>::System {
   std::vector<double> hull_measures, wetted_share;  // of the bodies [m, m^2]; what is wet of them
 
   /// What forces see, of the step that `kick_` and `dt_` begin.
-  BodiesAt<d> at(double kick_, double dt_) const { return {specs, states, wetted_share, time, kick_, dt_}; }
+  BodiesAt<d> at(double kick_, double dt_) const { return {specs, states, wetted_share, time, kick_, dt_, held}; }
   /// The same with the step's last trial, if there is one.
   BodiesAt<d> tried() const {
     if (phase != Phase::solved) return at(0, 0);
-    return {specs, states, wetted_share, time, kick, dt, trials};
+    return {specs, states, wetted_share, time, kick, dt, held, trials};
   }
   /// Sums of all forces but the fluid's load at t_n on each body, about its centre of mass, world frame [N, N m].
   std::vector<Wrench<d>> known_forces() const;

@@ -29,7 +29,7 @@ Axis mesh_axis(const Scene& scene) {
   for (const double sign : {0., -1., 1.}) {
     const double refine = scene.fluid->size.refine * (1 + sign * replicate_offset);
     const auto text = digits_of(refine);
-    axis.values.push_back({text, refine, {std::string(refine_key) + "=" + text}, {}});
+    axis.values.push_back({text, refine, {fmt::format("{}={}", refine_key, text)}, {}});
   }
   return axis;
 }

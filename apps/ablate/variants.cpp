@@ -25,6 +25,7 @@ std::vector<std::string> removal(const EffectKind& kind, const toml::table& scen
     case TablePlace::fluid:
       return {"fluid." + name + "="};
     case TablePlace::body:
+    case TablePlace::body_array:
       break;
   }
   std::vector<std::string> set;

@@ -94,8 +94,6 @@ class EffectKind {
   virtual std::optional<Advice> advise(const Outlook& /*look*/) const { return {}; }
   /// Elements at the free surface, where the scene leaves them to the program; nothing: no wish.
   virtual std::optional<WantedSize> surface_size(const Scene& /*scene*/) const { return {}; }
-  /// Whether a scene with it may be its own mirror image along a horizontal axis.
-  virtual bool is_symmetric(const Scene& /*scene*/, int /*axis*/) const { return true; }
   /// Rows of probes.csv beside what is measured, such as the sea without bodies.
   virtual std::vector<KnownSignal> signals(const Scene& /*scene*/) const { return {}; }
   /// Changes what the fluid is made from; after its own regions and walls are in.

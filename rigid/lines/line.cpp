@@ -106,7 +106,7 @@ std::vector<Pull<d>> Line<d>::pulls(const BodiesAt<d>& at) const {
                     .rate = n.dot(now.from_velocity - now.to_velocity),
                     .kick = at.kick,
                     .dt = at.dt,
-                    .compliance = compliance<d>(rate, at.specs, at.states)};
+                    .compliance = compliance<d>(rate, at.specs, at.states, at.held)};
   if (!spec_.canopy) {
     Pull<d> pull = tension_only<d>(spec_.spring, stretch);
     pull.rate = rate;

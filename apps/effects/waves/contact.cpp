@@ -5,7 +5,7 @@
 
 #include "apps/effects/waves/sea.hpp"
 #include "apps/scene/geometry.hpp"
-#include "apps/scene/motion_guess.hpp"
+#include "apps/scene/outlook/motion_guess.hpp"
 #include "fluid/effects/waves/wave_field.hpp"
 
 namespace splashdown::apps {

@@ -181,11 +181,12 @@ std::optional<EffectNote> WavesKind::note(const Scene& scene, const Scales& s) c
 }
 
 // Waves look the same from both sides of a line that they run along.
-bool WavesKind::is_symmetric(const Scene& scene, int axis) const {
+std::optional<std::string> WavesKind::asymmetry(const Scene& scene, const Mirror& mirror) const {
   constexpr double roundoff = 1e-9;
   const auto& table = *scene.effects.find<Waves>();
-  const double turn = table.direction_deg * radians, along = axis == 0 ? std::cos(turn) : std::sin(turn);
-  return table.spreading == 0 && std::abs(along) < roundoff;
+  const double turn = table.direction_deg * radians, along = mirror.axis == 0 ? std::cos(turn) : std::sin(turn);
+  if (table.spreading == 0 && std::abs(along) < roundoff) return {};
+  return "has waves that cross the plane";
 }
 
 std::optional<WantedSize> WavesKind::surface_size(const Scene& scene) const {

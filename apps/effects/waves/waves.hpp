@@ -15,7 +15,7 @@ class WavesKind final : public EffectOf<WavesKind, Waves> {
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
   std::optional<WantedSize> surface_size(const Scene& scene) const override;
-  bool is_symmetric(const Scene& scene, int axis) const override;
+  std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;
   std::vector<KnownSignal> signals(const Scene& scene) const override;
 
  private:

@@ -29,7 +29,7 @@ Status Waves<d>::begin(const StepView<d>& step) {
   const Nodes<d>& nodes = step.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double rate = nodes.spray[i] ? 0.0 : zones_.rate_at(nodes.x[i]);
-    if (rate > 0) pulls_.push_back({i, -std::expm1(-rate * step.kick), {}});
+    if (rate > 0) pulls_.push_back({i, -std::expm1(-rate * step.kick), Vec<d>::Zero()});
   }
   const double back = 0.5 * step.dt_before, t = step.t - back, share = zones_.share_at(t);
   in_parallel(pulls_.size(), [&](std::size_t k) {

@@ -44,7 +44,7 @@ class Waves final : public Effect<d> {
   struct Pull {
     std::size_t node;
     double share;  // 1 - exp(-r kick)
-    Vec<d> towards;
+    Vec<d> towards = Vec<d>::Zero();
   };
   std::unique_ptr<const WaveField<d>> sea_;
   WaveZones<d> zones_;
