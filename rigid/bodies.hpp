@@ -26,7 +26,7 @@
 #include "core/status.hpp"
 #include "rigid/body.hpp"
 #include "rigid/contact/contacts.hpp"
-#include "rigid/force.hpp"
+#include "rigid/forces/force.hpp"
 #include "rigid/joint.hpp"
 
 namespace splashdown::rigid {

@@ -36,6 +36,7 @@ Eigen::VectorXd Bodies<d>::System::reaction_impulses() const {
     if (constraints.closed(hard + i)) left -= p.yielding[i] * (p.least[hard + i] - row.dot(after)) * row.transpose();
   }
   const Eigen::Index ties = p.equalities.rows();
+  if (ties + hard + p.tangents.rows() == 0) return {};
   Eigen::MatrixXd rows(ties + hard + p.tangents.rows(), after.size());
   rows.topRows(ties) = p.equalities;
   rows.middleRows(ties, hard) = p.contacts.topRows(hard);

@@ -8,7 +8,7 @@
 
 #include "apps/advise/advise.hpp"
 #include "apps/price/ladder.hpp"
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/read/echo.hpp"
 
 namespace splashdown::apps {

@@ -8,7 +8,7 @@
 
 #include "apps/check/rest.hpp"
 #include "apps/effects/theory/theory.hpp"
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {

@@ -1,9 +1,9 @@
 #include "apps/build/build.hpp"
 
-#include "apps/scene/coupling_kinds.hpp"
 #include <algorithm>
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/coupling_kinds.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/mirror.hpp"
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"

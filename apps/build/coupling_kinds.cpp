@@ -1,4 +1,4 @@
-#include "apps/scene/coupling_kinds.hpp"
+#include "apps/scene/kinds/coupling_kinds.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "apps/build/build.hpp"
-#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "fluid/mesh/sizes/size_field.hpp"
 
 namespace splashdown::apps {

@@ -1,7 +1,7 @@
 #include "apps/build/build.hpp"
 #include "apps/build/symmetry.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/mirror.hpp"
-#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/patch.hpp"
 
 namespace splashdown::apps {
@@ -60,7 +60,8 @@ struct AddRecord {
   void operator()(const PressureEntry& entry) const {
     if (entry.body) {
       const auto& body = scene.bodies[*entry.body];
-      settings.pressure_probes.push_back({entry.name, in_body<d>(body, simulated<d>(scene, body, entry.point)), body.name});
+      settings.pressure_probes.push_back(
+          {entry.name, in_body<d>(body, simulated<d>(scene, body, entry.point)), body.name});
     } else {
       settings.pressure_probes.push_back({entry.name, simulated<d>(scene, entry.point), {}});
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/mirror.hpp"
 #include "apps/scene/solid.hpp"
 

@@ -19,8 +19,7 @@ Ledger twice(Ledger ledger) {
   for (double* sum : {&ledger.volume_initial, &ledger.volume, &ledger.time_integration, &ledger.remesh_created,
                       &ledger.remesh_deleted, &ledger.returned, &ledger.spray, &ledger.hull_chords,
                       &ledger.kinetic_energy, &ledger.potential_energy, &ledger.chord_energy, &ledger.energy_remesh,
-                      &ledger.energy_repair, &ledger.work_on_walls, &ledger.work_of_effects,
-                      &ledger.volume_of_effects})
+                      &ledger.energy_repair, &ledger.work_on_walls, &ledger.work_of_effects, &ledger.volume_of_effects})
     *sum *= 2;
   return ledger;
 }

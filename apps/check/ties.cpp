@@ -7,7 +7,7 @@
 
 #include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
-#include "apps/scene/joint_kinds.hpp"
+#include "apps/scene/kinds/joint_kinds.hpp"
 #include "rigid/ties.hpp"
 
 namespace splashdown::apps {

@@ -24,16 +24,8 @@ const EffectKind* row() {
 
 std::span<const EffectKind* const> effect_kinds() {
   static const EffectKind* const catalogue[] = {
-      row<GravityKind>(),
-      row<ViscosityKind>(),
-      row<AbsorberKind>(),
-      row<SkinFrictionKind>(),
-      row<FormDragKind>(),
-      row<WindKind>(),
-      row<AeroKind>(),
-      row<ForceKind>(),
-      row<LinesKind>(),
-      row<WavesKind>(),
+      row<GravityKind>(),  row<ViscosityKind>(), row<AbsorberKind>(), row<SkinFrictionKind>(), row<FormDragKind>(),
+      row<WindKind>(),     row<AeroKind>(),      row<ForceKind>(),    row<LinesKind>(),        row<WavesKind>(),
       row<SymmetryKind>(),  // the last: it cuts what the others have made
   };
   return catalogue;

@@ -102,8 +102,8 @@ ReportResult write_ablation_report(const fs::path& directory) {
                           "Effects: with against without. Changes in the shaded strip do not matter.");
     write_file_atomically(
         result.page,
-        html_page(title, html_header(title, directory, ablation_banner(variants), {}) + verdicts_table(variants) + chart +
-                             changes_table(variants) +
+        html_page(title, html_header(title, directory, ablation_banner(variants), {}) + verdicts_table(variants) +
+                             chart + changes_table(variants) +
                              "<footer>Made by Splashdown from <code>ablation.json</code> in this folder.</footer>\n"));
   } catch (const Json::exception& error) {
     throw std::runtime_error(

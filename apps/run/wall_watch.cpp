@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/scene/joint_kinds.hpp"
+#include "apps/scene/kinds/joint_kinds.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/solid.hpp"
 
 namespace splashdown::apps {
@@ -142,10 +142,10 @@ Surface<d> symmetrised(const ShapeMirror<d>& mirror, const Surface<d>& surface) 
   return whole;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                             \
-  template ShapeMirror<d> in_frame<d>(const Mirror&, const rigid::Isometry<d>&);              \
-  template Asymmetry<d> asymmetry_of<d>(const Mirror&, const Surface<d>&);                    \
-  template Surface<d> kept_part<d>(const ShapeMirror<d>&, const Surface<d>&);                 \
+#define SPLASHDOWN_INSTANTIATE(d)                                                \
+  template ShapeMirror<d> in_frame<d>(const Mirror&, const rigid::Isometry<d>&); \
+  template Asymmetry<d> asymmetry_of<d>(const Mirror&, const Surface<d>&);       \
+  template Surface<d> kept_part<d>(const ShapeMirror<d>&, const Surface<d>&);    \
   template Surface<d> symmetrised<d>(const ShapeMirror<d>&, const Surface<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/scene/effects.hpp"
+#include "apps/scene/kinds/effects.hpp"
 #include "apps/scene/limit.hpp"
 #include "core/bodies_view.hpp"
 #include "rigid/shapes/shapes.hpp"

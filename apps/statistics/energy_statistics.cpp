@@ -26,8 +26,7 @@ void EnergyStatistics::add_body(std::size_t b, const BodyEnergy& body) {
 
 void EnergyStatistics::add(double time, const Ledger& ledger, const std::vector<BodyEnergy>& bodies) {
   const double kinetic = ledger.kinetic_energy;
-  const double potential =
-      ledger.potential_energy - water_.level_energy * ledger.volume_excess();
+  const double potential = ledger.potential_energy - water_.level_energy * ledger.volume_excess();
   if (!begun_) {
     first_kinetic_ = lowest_kinetic_ = kinetic;
     first_potential_ = lowest_potential_ = potential;
@@ -62,8 +61,7 @@ void EnergyStatistics::summarise(LedgerSummary& summary) const {
   summary.energy_gain_since = rise_;
   summary.energy_gain = relative(gain_.value);
   summary.kinetic_deficit = relative(-lowest_kinetic_);
-  if (water_.hull_volume > 0)
-    summary.volume_error_bodies = summary.volume_excess / water_.hull_volume;
+  if (water_.hull_volume > 0) summary.volume_error_bodies = summary.volume_excess / water_.hull_volume;
   const double least =
       water_.hull_volume > 0 ? std::min(water_.hull_volume, summary.volume_initial) : summary.volume_initial;
   summary.returned_share = least > 0 ? summary.returned / least : 0;

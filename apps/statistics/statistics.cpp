@@ -128,8 +128,7 @@ LedgerSummary summary_of(const Ledger& ledger) {
   summary.volume_excess = ledger.volume_excess();
   summary.volume_final = ledger.volume;
   // Spray has left the mesh but not the world.
-  if (ledger.volume_initial > 0)
-    summary.volume_error = ledger.volume_excess() / ledger.volume_initial;
+  if (ledger.volume_initial > 0) summary.volume_error = ledger.volume_excess() / ledger.volume_initial;
   summary.time_integration = ledger.time_integration;
   summary.remesh_created = ledger.remesh_created;
   summary.remesh_deleted = ledger.remesh_deleted;

@@ -166,8 +166,8 @@ class Wall {
   std::vector<Bend> bends_;
   std::vector<char> is_corner_, is_sharp_;           // of vertices; sharp: a corner or on a crease
   std::vector<char> convex_corner_, convex_crease_;  // of vertices, of creases
-  int mirror_patch_ = -1;          // of a tank that ends at a plane of symmetry
-  std::vector<signed char> side_;  // of the plane of symmetry, of facets; 0: there is none
+  int mirror_patch_ = -1;                            // of a tank that ends at a plane of symmetry
+  std::vector<signed char> side_;                    // of the plane of symmetry, of facets; 0: there is none
   std::vector<char> in_mirror_, mirrored_crease_, smooth_corner_;  // of vertices, of creases, of vertices
   Eigen::AlignedBox<double, d> box_;
   bool turned_inside_out_;  // the solid is outside

@@ -1,7 +1,7 @@
 // Weight of bodies.
 #pragma once
 
-#include "rigid/force.hpp"
+#include "rigid/forces/force.hpp"
 
 namespace splashdown::rigid {
 

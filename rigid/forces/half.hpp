@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "rigid/force.hpp"
+#include "rigid/forces/force.hpp"
 
 namespace splashdown::rigid {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "rigid/constraints/pull.hpp"
 #include "rigid/lines/catenary.hpp"
-#include "rigid/pull.hpp"
 
 namespace splashdown::rigid {
 

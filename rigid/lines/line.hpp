@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "rigid/force.hpp"
+#include "rigid/forces/force.hpp"
 #include "rigid/lines/catenary.hpp"
 
 namespace splashdown::rigid {

@@ -7,7 +7,7 @@
 
 #include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/words.hpp"
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/scene/rules/rules.hpp"
 

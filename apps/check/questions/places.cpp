@@ -7,7 +7,7 @@
 #include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/ties.hpp"
 #include "apps/check/words.hpp"
-#include "apps/scene/joint_kinds.hpp"
+#include "apps/scene/kinds/joint_kinds.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -1,7 +1,7 @@
 // [fluid.absorber]: numerical beaches at the ends of the tank.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

@@ -1,7 +1,7 @@
 // [body.aero]: loads of the air on a body, by coefficients.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

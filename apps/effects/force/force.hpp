@@ -1,7 +1,7 @@
 // [[body.force]]: thrust, a push, a crane: forces and moments that the scene gives.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

@@ -1,7 +1,7 @@
 // [gravity]: a uniform acceleration of water and bodies.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

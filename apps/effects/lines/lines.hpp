@@ -1,7 +1,7 @@
 // [[line]]: ropes, risers of parachutes and mooring lines: they pull and never push.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

@@ -1,7 +1,7 @@
 // [fluid.skin_friction]: friction of the water on hulls, by a friction line.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

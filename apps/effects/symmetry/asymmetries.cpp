@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "apps/effects/symmetry/symmetry.hpp"
-#include "apps/scene/joint_kinds.hpp"
+#include "apps/scene/kinds/joint_kinds.hpp"
 #include "apps/scene/mirror.hpp"
 #include "apps/scene/rules/rules.hpp"
 
@@ -22,7 +22,10 @@ template <int d>
 class Judge {
  public:
   Judge(const Scene& scene, const Mirror& mirror)
-      : scene_(scene), mirror_(mirror), axis_("xyz"[mirror.axis]), plane_(fmt::format("{} = {:g} m", axis_, mirror.at)) {}
+      : scene_(scene),
+        mirror_(mirror),
+        axis_("xyz"[mirror.axis]),
+        plane_(fmt::format("{} = {:g} m", axis_, mirror.at)) {}
 
   std::vector<Asymmetric> found() {
     tank();
@@ -82,13 +85,12 @@ class Judge {
     const double length = extents<d>(hull).sizes().maxCoeff();
     if (const auto off = asymmetry_of<d>(mirror_, hull); off.distance > facets * length) {
       const double middle = extents<d>(hull).center()[mirror_.axis] - mirror_.at;
-      return add(key + ".shape",
-                 fmt::format("the mirror image of its vertex at {} m is {:.3g} m off the hull", text<d>(off.at),
-                             off.distance),
-                 std::abs(middle) > facets * length
-                     ? fmt::format("The hull's middle lies {:g} m off the plane: move the body, or remove [symmetry].",
-                                   middle)
-                     : "Turn the body or mend its shape, or remove [symmetry].");
+      return add(
+          key + ".shape",
+          fmt::format("the mirror image of its vertex at {} m is {:.3g} m off the hull", text<d>(off.at), off.distance),
+          std::abs(middle) > facets * length
+              ? fmt::format("The hull's middle lies {:g} m off the plane: move the body, or remove [symmetry].", middle)
+              : "Turn the body or mend its shape, or remove [symmetry].");
     }
     weight(body, key, length);
     motion(body, key, length);
@@ -101,8 +103,7 @@ class Judge {
       add(key + ".centre_of_mass", fmt::format("the centre of mass lies {:g} m off the plane", off),
           "Put it into the plane, or remove [symmetry].");
     if constexpr (d == 3) {
-      const Eigen::Matrix3d turn = rotation<3>(body.attitude),
-                            inertia = turn * properties.inertia * turn.transpose();
+      const Eigen::Matrix3d turn = rotation<3>(body.attitude), inertia = turn * properties.inertia * turn.transpose();
       double product = 0;
       for (int k = 0; k < 3; ++k)
         if (k != mirror_.axis) product = std::max(product, std::abs(inertia(mirror_.axis, k)));
@@ -121,8 +122,9 @@ class Judge {
         add(key + ".spin_deg",
             fmt::format("the body turns at {:g} deg/s, which its mirror image does the other way round",
                         body.spin_deg[axis]),
-            d == 2 ? "Use 0, or remove [symmetry]."
-                   : fmt::format("Only a turn about {} is symmetric: use 0 for the others, or remove [symmetry].", axis_));
+            d == 2
+                ? "Use 0, or remove [symmetry]."
+                : fmt::format("Only a turn about {} is symmetric: use 0 for the others, or remove [symmetry].", axis_));
         break;
       }
     const auto at_start = in_frame<d>(mirror_, shape_pose<d>(body));

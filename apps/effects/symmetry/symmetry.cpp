@@ -91,9 +91,9 @@ std::optional<EffectNote> SymmetryKind::note(const Scene& scene, const Scales&) 
   for (int axis = 0; axis < scene.dimension - 1; ++axis) {
     const Mirror mirror{axis, 0.5 * (scene.tank->min[axis] + scene.tank->max[axis])};
     if (judge(mirror).empty())
-      return EffectNote{"symmetry", false,
-                        fmt::format("the scene is its own mirror image about {}: [symmetry] halves the nodes",
-                                    plane_of(mirror))};
+      return EffectNote{
+          "symmetry", false,
+          fmt::format("the scene is its own mirror image about {}: [symmetry] halves the nodes", plane_of(mirror))};
   }
   return EffectNote{"symmetry", false, "the scene is not its own mirror image"};
 }

@@ -1,7 +1,7 @@
 // [symmetry]: a scene that is its own mirror image is simulated on one side of the mirror.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

@@ -1,7 +1,7 @@
 // [fluid.viscosity]: Newtonian viscosity of the water.
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

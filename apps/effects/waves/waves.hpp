@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/effects/waves/table.hpp"
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

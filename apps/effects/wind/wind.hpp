@@ -1,7 +1,7 @@
 // [wind]: the motion of the air. It acts on bodies with [body.aero].
 #pragma once
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "apps/scene/effect_kind.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/read/fill_sizes.hpp"
 #include "apps/scene/read/override.hpp"
 #include "apps/scene/read/parts.hpp"

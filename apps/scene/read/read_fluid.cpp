@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "apps/scene/coupling_kinds.hpp"
+#include "apps/scene/kinds/coupling_kinds.hpp"
 #include "apps/scene/read/parts.hpp"
 
 namespace splashdown::apps {

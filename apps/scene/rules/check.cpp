@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/rules/rules.hpp"
 
 namespace splashdown::apps {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "apps/scene/joint_kinds.hpp"
+#include "apps/scene/kinds/joint_kinds.hpp"
 #include "apps/scene/rules/check.hpp"
 #include "apps/scene/rules/rules.hpp"
 

@@ -179,7 +179,7 @@ class Adapter {
       const bool both_boundary = rank_a != within && rank_b != within;
       const WallTie &a = nodes_.tie[e.a], &b = nodes_.tie[e.b];
       const bool same_patch = d == 2 && a.wall >= 0 && a.wall == b.wall && a.patch == b.patch;
-      if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;  // across a thin jet
+      if (both_boundary && !same_patch && !is_boundary_edge(e.a, e.b)) continue;           // across a thin jet
       if (a.wall >= 0 && b.wall >= 0 && a.wall != b.wall && !lies_in_mirror(e)) continue;  // across a gap between walls
       if (leads_off_resting_contact_line(e, rank_a, rank_b)) continue;
       if (rank_a == rank_b) {

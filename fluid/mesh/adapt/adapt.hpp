@@ -8,11 +8,11 @@
 // as the edge between them. That moves the surface. Where the contact line rests it stays: still water keeps its level.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "fluid/mesh/recognition/recognise.hpp"
+#include "fluid/mesh/resting_contact.hpp"
 
 namespace splashdown::fluid {
 
@@ -23,11 +23,6 @@ template <int d>
 struct AdaptReport {
   int inserted = 0, removed = 0;
 };
-
-/// Whether the contact line rests at a node of it, this far from a corner or an edge of its wall [m].
-using RestingContact = std::function<bool(int node, double length)>;
-/// Of contact lines none of which rests.
-inline bool moves_anywhere(int, double) { return false; }
 
 /// Changes nodes and boundary (mesh.cells become stale) and renumbers.
 template <int d>

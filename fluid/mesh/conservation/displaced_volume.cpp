@@ -3,8 +3,8 @@
 namespace splashdown::fluid {
 
 template <int d>
-std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std::vector<Vec<d>>& x,
-                                                  std::size_t walls, const std::optional<Mirror>& mirror) {
+std::vector<DisplacedVolume<d>> displaced_volumes(const Mesh<d>& mesh, const std::vector<Vec<d>>& x, std::size_t walls,
+                                                  const std::optional<Mirror>& mirror) {
   constexpr int none = -2, several = -3;
   std::vector<int> wall_at(x.size(), none);
   for (const auto& facet : mesh.boundary) {

@@ -8,7 +8,9 @@
 // are most, about 20 for each h_0 of it.
 #pragma once
 
-#include "fluid/mesh/adapt/adapt.hpp"
+#include "fluid/mesh/mesh.hpp"
+#include "fluid/mesh/resting_contact.hpp"
+#include "fluid/nodes.hpp"
 
 namespace splashdown::fluid {
 

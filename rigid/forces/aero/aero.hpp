@@ -11,8 +11,8 @@
 
 #include <optional>
 
-#include "rigid/force.hpp"
 #include "rigid/forces/curve.hpp"
+#include "rigid/forces/force.hpp"
 #include "rigid/forces/wind/wind.hpp"
 
 namespace splashdown::rigid {

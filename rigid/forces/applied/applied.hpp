@@ -3,8 +3,8 @@
 //   F(t), M(t) + r x F(t),   in the world's axes or turned with the body
 #pragma once
 
-#include "rigid/force.hpp"
 #include "rigid/forces/curve.hpp"
+#include "rigid/forces/force.hpp"
 
 namespace splashdown::rigid {
 

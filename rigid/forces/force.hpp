@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rigid/body.hpp"
-#include "rigid/pull.hpp"
+#include "rigid/constraints/pull.hpp"
 
 namespace splashdown::rigid {
 
@@ -19,9 +19,9 @@ struct BodiesAt {
   std::span<const BodyState<d>> states;  ///< poses at t_n, velocities at t_{n-1/2}, or of t_n: Force::is_of_velocity
   /// Of each hull's measure, what was wet in the last step, 0 to 1.
   std::span<const double> wetted_share;
-  double time;      ///< t_n [s]
-  double kick = 0;  ///< over which forces of this step act [s]; 0: none is begun
-  double dt = 0;    ///< of this step [s]; 0: none is begun
+  double time;                      ///< t_n [s]
+  double kick = 0;                  ///< over which forces of this step act [s]; 0: none is begun
+  double dt = 0;                    ///< of this step [s]; 0: none is begun
   std::span<const char> held = {};  ///< of each body, 1: it is on its path still
   /// Poses at t_{n+1} and velocities at t_{n+1/2} that were tried last; empty: none.
   std::span<const BodyState<d>> next = {};

@@ -1,4 +1,4 @@
-#include "apps/scene/joint_kinds.hpp"
+#include "apps/scene/kinds/joint_kinds.hpp"
 
 #include <algorithm>
 #include <stdexcept>

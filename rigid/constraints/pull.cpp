@@ -1,4 +1,4 @@
-#include "rigid/pull.hpp"
+#include "rigid/constraints/pull.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -55,8 +55,8 @@ template struct Pull<3>;
 template Pull<2> tension_only<2>(const Stretch&, const StretchAt&);
 template Pull<3> tension_only<3>(const Stretch&, const StretchAt&);
 template double compliance<2>(const Condition<2>&, std::span<const BodySpec<2>>, std::span<const BodyState<2>>,
-                               std::span<const char>);
+                              std::span<const char>);
 template double compliance<3>(const Condition<3>&, std::span<const BodySpec<3>>, std::span<const BodyState<3>>,
-                               std::span<const char>);
+                              std::span<const char>);
 
 }  // namespace splashdown::rigid
