@@ -53,6 +53,10 @@ kick = STATS_min/2
 plot 'surface_pressure.csv' using ($1 == 0 ? $3 : NaN):(($6 + $9)*kick) with points ls 1 title '(p + p_repair) times the kick', \
   [-0.5:0.5] 500*sqrt(0.25 - x**2) with lines ls 4 title 'theory'
 """
+TENSION = r"""
+set xlabel 'time / s'; set ylabel 'tension of the riser / (N/m)'; set yrange [0:700]
+plot 'forces.csv' using 1:2 with points ls 1 notitle, 588.6 with lines ls 4 title 'weight'
+"""
 STYLE = r"""
 set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
 set terminal svg size 640,340 noenhanced font 'Helvetica,15'
@@ -80,6 +84,8 @@ CASES = [
     Case("float_stability", "scene.toml --until 5", "body_capsule_attitude", 60),
     Case("sphere_heave", "scene.toml", "body_sphere_displacement", 60),
     Case("two_boxes", "scene.toml --until 0.5", "end", 5, (-0.65, 0.65, -0.36, 0.26)),
+    Case("moored_float", "scene.toml --until 0.5", "end", 4, (-1.9, 1.9, -1.1, 0.5)),
+    Case("parachute_landing", "scene.toml", TENSION, 4),
     Case("hinged_plate", "scene.toml", "body_plate_attitude", 5),
     Case("hydrostatic", "scene.toml --until 0.1", "end", 2),
     Case("added_mass", "scene_turning.toml", ADDED_MASS, 7),
