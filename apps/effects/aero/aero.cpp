@@ -53,12 +53,12 @@ rigid::Curve<values> curve(const Coefficient& rows, double unit) {
 }
 
 template <int d>
-rigid::Wind<d> wind_of(const WindTable& table) {
+rigid::Wind<d> wind_of(const WindTable& table, const Scene& scene) {
   rigid::Wind<d> wind;
   wind.velocity = vec<d>(table.velocity);
   wind.roughness = table.profile == "log" ? table.roughness : 0;
   wind.height = table.height;
-  wind.level = table.level;
+  wind.level = table.level ? *table.level : still_water_level<d>(scene).value_or(0);
   if (!table.gust) return wind;
   wind.gust = vec<d>(table.gust->velocity);
   wind.gust_start = table.gust->start;
@@ -172,7 +172,7 @@ void AeroKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
   for (const auto& table : scene.effects.find<AeroTables>()->of_bodies)
     specs.push_back(aero_of<d>(table, scene.bodies[table.body]));
   std::optional<rigid::Wind<d>> wind;
-  if (const auto* table = scene.effects.find<WindTable>()) wind = wind_of<d>(*table);
+  if (const auto* table = scene.effects.find<WindTable>()) wind = wind_of<d>(*table, scene);
   parts.forces.push_back(std::make_unique<rigid::Aero<d>>(std::move(specs), std::move(wind)));
 }
 

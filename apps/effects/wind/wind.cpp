@@ -15,7 +15,6 @@ void WindKind::read(Reader& reader, Scene& scene) const {
   reader.point("velocity", table.velocity, velocity, Need::required);
   reader.choice("profile", table.profile, {"uniform", "log"});
   if (table.profile == "log") {
-    table.level = (scene.dimension == 2 ? still_water_level<2>(scene) : still_water_level<3>(scene)).value_or(0);
     reader.number("height", table.height, positive("m", "Use the height at which velocity is measured, e.g. 10."));
     reader.number("roughness", table.roughness, positive("m", "Use 0.0002 at sea, 0.03 over grass."));
     reader.number("level", table.level, any("m", "Leave it out for that of the water."));

@@ -10,7 +10,7 @@ struct WindTable {
   std::string profile = "uniform";  ///< "uniform" | "log"
   double height = 10;               ///< over the water, where `velocity` is measured [m]
   double roughness = 2e-4;          ///< of the surface [m]; open sea (Wieringa 1992)
-  double level = 0;                 ///< of the surface [m]; default: that of still water
+  std::optional<double> level;      ///< of the surface [m]; default: that of still water
   struct Gust {
     Point velocity = Point::Zero();  ///< at its peak, added [m/s]
     double start = 0;                ///< [s]

@@ -107,12 +107,30 @@ double impact_mass(double density, const rigid::Surface<3>& hull) {
   return density * 4. / 3 * radius * radius * radius;
 }
 
+bool is_let_go(const Body& body, double time) {
+  return body.release && body.release->time && time > *body.release->time;
+}
+
+/// On its path until it is released at a time, and free from there.
+template <int d>
+Vec<d> carried_and_let_go(const Scene& scene, const Body& body, double time) {
+  const double carried = *body.release->time, instant = 1e-6 * carried;
+  Body free = body;
+  free.motion = Motion::free;
+  free.path.clear();
+  free.release.reset();
+  const Point moved = body.path.empty() ? Point(body.velocity * carried) : along_path(body, carried);
+  if (!body.path.empty()) free.velocity = (moved - along_path(body, carried - instant)) / instant;
+  free.position += moved;
+  return vec<d>(moved) + free_motion<d>(scene, free, outline<d>(free), time - carried);
+}
+
 template <int d>
 Vec<d> guessed_motion(const Scene& scene, const Body& body, double time) {
   if (body.motion == Motion::fixed || time == 0) return Vec<d>::Zero();
-  if (body.release && body.release->time) time = std::min(time, *body.release->time);
   const auto hull = outline<d>(body);
-  Vec<d> moved = !body.path.empty()                  ? vec<d>(along_path(body, time))
+  Vec<d> moved = is_let_go(body, time)               ? carried_and_let_go<d>(scene, body, time)
+                 : !body.path.empty()                ? vec<d>(along_path(body, time))
                  : body.motion == Motion::prescribed ? Vec<d>(vec<d>(body.velocity) * time)
                                                      : free_motion<d>(scene, body, hull, time);
   if (!scene.tank) return moved;

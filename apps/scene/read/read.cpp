@@ -10,6 +10,7 @@
 #include "apps/scene/read/override.hpp"
 #include "apps/scene/read/parts.hpp"
 #include "apps/scene/rules/check.hpp"
+#include "apps/scene/terrain.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -146,7 +147,9 @@ SceneLabels read_all(ReadContext& context, const toml::table& table, Scene& scen
     scene.dimension = 3;
   }
   context.dimension = scene.dimension;
-  return read_tables(root, scene);
+  auto labels = read_tables(root, scene);
+  if (!context.sketch) cut_terrain(scene, labels, context.problems);
+  return labels;
 }
 
 /// The scene without the sizes that it leaves open; nothing if anything is wrong with it.
