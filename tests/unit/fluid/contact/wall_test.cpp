@@ -253,10 +253,18 @@ TEST(WallCentre, is_that_of_the_volume_and_as_deep_as_the_nearest_facet) {
   EXPECT_LE((triangle.centre() - Vec<2>(1, 1)).norm(), 100 * eps);
 }
 
+template <int d>
+Wall<d> mirrored(const Surface<d>& surface, const std::optional<Mirror>& mirror) {
+  WallSpec<d> spec;
+  spec.surface = surface;
+  spec.mirror = mirror;
+  return Wall<d>(spec);
+}
+
 // A plane of symmetry ends the patches of hulls that reach across it, and makes no edge that water flows around.
 TEST(WallInMirror, the_line_of_a_smooth_hull_in_the_plane_is_a_crease_that_water_does_not_pass) {
-  const WallSpec<3> spec{.surface = scenes::cone(1, 0.3, 32), .mirror = Mirror{1, 0}};
-  const Wall<3> wall(spec), whole({.surface = spec.surface});
+  const auto cone = scenes::cone(1, 0.3, 32);
+  const auto wall = mirrored<3>(cone, Mirror{1, 0}), whole = mirrored<3>(cone, {});
   const Isometry<3> pose = Isometry<3>::Identity();
   const auto below = wall.nearest_in_mirror(pose, Vec<3>(0.4, 0, -0.1));
   ASSERT_GE(below.crease, 0);
@@ -265,7 +273,7 @@ TEST(WallInMirror, the_line_of_a_smooth_hull_in_the_plane_is_a_crease_that_water
   EXPECT_FALSE(wall.is_convex({0, -1, -1, below.crease}));
   EXPECT_EQ(whole.nearest_in_mirror(pose, Vec<3>(0.4, 0, -0.1)).crease, -1);
   // On either side it looks the same, and as it does without the plane.
-  for (const Vec<3> x : {Vec<3>(0.3, 0.2, -0.1), Vec<3>(-0.5, 0.01, 0.1), Vec<3>(0.1, 0.6, 0.2)}) {
+  for (const Vec<3>& x : {Vec<3>(0.3, 0.2, -0.1), Vec<3>(-0.5, 0.01, 0.1), Vec<3>(0.1, 0.6, 0.2)}) {
     const auto near = wall.nearest(pose, x, 2), image = wall.nearest(pose, Mirror{1, 0}.image<3>(x), 2);
     EXPECT_NEAR(near.distance, whole.nearest(pose, x, 2).distance, eps);
     EXPECT_NEAR(near.distance, image.distance, eps);
@@ -274,7 +282,7 @@ TEST(WallInMirror, the_line_of_a_smooth_hull_in_the_plane_is_a_crease_that_water
 }
 
 TEST(WallInMirror, in_the_plane_the_water_stands_where_a_hull_meets_the_mirror) {
-  const Wall<2> circle({.surface = scenes::ellipse(1, 1, 64), .mirror = Mirror{0, 0}});
+  const auto circle = mirrored<2>(scenes::ellipse(1, 1, 64), Mirror{0, 0});
   ASSERT_EQ(circle.corners().size(), 2u) << "nothing else ends its patches";
   for (int v : circle.corners()) {
     EXPECT_TRUE(circle.is_smooth(v));
@@ -285,7 +293,7 @@ TEST(WallInMirror, in_the_plane_the_water_stands_where_a_hull_meets_the_mirror) 
 
 TEST(WallInMirror, the_side_of_a_tank_there_is_no_solid) {
   const auto box = scenes::turned_inside_out<2>(scenes::rectangle({0, -1}, {3, 1}));
-  const Wall<2> tank({.surface = box, .mirror = Mirror{0, 0}});
+  const auto tank = mirrored<2>(box, Mirror{0, 0});
   const Vec<2> x(0.1, 0.2);
   EXPECT_NEAR(tank.distance_unsigned(at_home, x, 5), 0.1, eps);
   EXPECT_NEAR(tank.distance_of_solid(at_home, x, 5), 0.8, eps);
