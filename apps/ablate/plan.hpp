@@ -26,11 +26,11 @@ struct Variant {
 };
 
 struct AblationOrder {
-  std::filesystem::path scene;
-  std::vector<std::string> set;
-  std::vector<std::string> quantities;  ///< as of `splashdown price`
-  bool all = false;                     ///< adds what is not advised, too
-  std::vector<std::string> only;        ///< names of effects and choices; empty: all
+  std::filesystem::path scene = {};
+  std::vector<std::string> set = {};
+  std::vector<std::string> quantities = {};  ///< as of `splashdown price`
+  bool all = false;                          ///< adds what is not advised, too
+  std::vector<std::string> only = {};        ///< names of effects and choices; empty: all
 };
 
 struct AblationPlan {

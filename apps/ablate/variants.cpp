@@ -39,10 +39,13 @@ std::vector<std::string> removal(const EffectKind& kind, const toml::table& scen
 void add_effects(const SceneToAblate& of, std::vector<Variant>& variants) {
   const auto tables = toml::parse(of.resolved);
   const auto advice = advice_of(of.scene);
-  for (const auto& effect : advice.effects)
-    if (effect.present)
-      variants.push_back({"without_" + effect.name, VariantKind::without, effect.name, removal(*effect.kind, tables),
-                          effect.advice.advised});
+  for (const auto& effect : advice.effects) {
+    if (!effect.present) continue;
+    auto set = removal(*effect.kind, tables);
+    if (!set.empty())
+      variants.push_back(
+          {"without_" + effect.name, VariantKind::without, effect.name, std::move(set), effect.advice.advised});
+  }
   for (const auto& effect : advice.effects) {
     if (!effect.available || effect.present || effect.advice.set.empty()) continue;
     if (!of.all && effect.advice.advised != Advised::on) continue;
