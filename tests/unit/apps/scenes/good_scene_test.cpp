@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "apps/effects/form_drag/form_drag.hpp"
+#include "apps/effects/skin_friction/skin_friction.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
 #include "apps/scene/choose/presets.hpp"
 #include "apps/scene/geometry.hpp"
@@ -51,6 +53,26 @@ TEST(GoodScene, a_free_body_without_mass_has_the_least_that_one_in_this_fluid_ha
   const auto held = scene_of(testing::replaced(testing::wedge_drop_with("mass = 241", "mass = 0"), "free = [\"y\"]",
                                                "motion = \"prescribed\""));
   EXPECT_EQ(held.bodies.at(0).mass, 0.);
+}
+
+TEST(GoodScene, friction_and_drag_of_hulls_are_read_and_echoed) {
+  const auto with = [](const std::string& tables) {
+    return read_scene_text(testing::wedge_drop_with("[tank]", tables + "[tank]"), "scene.toml");
+  };
+  EXPECT_FALSE(scene_of(testing::wedge_drop).effects.find<FormDrag>());
+  EXPECT_FALSE(scene_of(testing::wedge_drop).effects.find<SkinFriction>());
+  const auto plain = with("[fluid.skin_friction]\n[fluid.form_drag]\n").scene;
+  EXPECT_EQ(plain.effects.find<SkinFriction>()->line, "ittc1957");
+  EXPECT_EQ(plain.effects.find<SkinFriction>()->dynamic_viscosity, 1e-3);
+  EXPECT_TRUE(plain.effects.find<FormDrag>()->coefficients.empty());
+  const auto file = with(
+      "[fluid.viscosity]\ndynamic = 2e-3\n[fluid.skin_friction]\nline = \"flat_plate\"\n[fluid.form_drag]\n"
+      "coefficients = {wedge = 1.25}\n");
+  for (const auto& scene : {file.scene, scene_of(file.resolved)}) {
+    EXPECT_EQ(scene.effects.find<SkinFriction>()->line, "flat_plate");
+    EXPECT_EQ(scene.effects.find<SkinFriction>()->dynamic_viscosity, 2e-3);  // of the water, unless given
+    EXPECT_EQ(scene.effects.find<FormDrag>()->coefficients, (std::map<std::string, double>{{"wedge", 1.25}}));
+  }
 }
 
 TEST(GoodScene, a_limit_of_a_record_is_one_that_stands_alone) {
