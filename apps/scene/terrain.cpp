@@ -33,7 +33,7 @@ void cut(const Tank& tank, Body& body) {
   const double roundoff = 1e-9 * inside.diagonal().norm();
   const Extents<d> wide(inside.min().array() - roundoff, inside.max().array() + roundoff);
   if (wide.contains(extents<d>(hull)) || !inside.intersects(extents<d>(hull))) return;
-  auto part = clipped<d>(hull, inside);
+  auto part = clipped_to_box<d>(hull, inside);
   if (part.facets.cols() == 0) return;
   part.vertices = shape_pose<d>(body).inverse() * part.vertices;
   Body taken = body;

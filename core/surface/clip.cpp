@@ -47,7 +47,7 @@ std::vector<Vec<2>> below(const std::vector<Vec<2>>& polygon, int k, double sign
 }  // namespace
 
 template <>
-Surface<2> clipped(const Surface<2>& surface, const Eigen::AlignedBox2d& box) {
+Surface<2> clipped_to_box(const Surface<2>& surface, const Eigen::AlignedBox2d& box) {
   std::vector<Vec<2>> polygon;  // outlines are closed polylines in order
   for (Eigen::Index f = 0; f < surface.facets.cols(); ++f)
     polygon.emplace_back(surface.vertices.col(surface.facets(0, f)));
@@ -75,7 +75,7 @@ Surface<2> clipped(const Surface<2>& surface, const Eigen::AlignedBox2d& box) {
 }
 
 template <>
-Surface<3> clipped(const Surface<3>& surface, const Eigen::AlignedBox3d& box) {
+Surface<3> clipped_to_box(const Surface<3>& surface, const Eigen::AlignedBox3d& box) {
   Polyhedron mesh;
   std::vector<Polyhedron::Vertex_index> vertices;
   for (Eigen::Index v = 0; v < surface.vertices.cols(); ++v) {

@@ -165,7 +165,7 @@ void Line<d>::commit(const BodiesAt<d>& at) {
     velocity_ = velocity;
     flies_ = true;
   }
-  const Release& release = spec_.release;
+  const LineRelease& release = spec_.release;
   const bool due = release.time && at.time + at.dt >= *release.time;
   const bool broken = release.load && tension(at) > *release.load;
   const bool wet = release.wets && at.wetted_share[*release.wets] > 0;

@@ -38,7 +38,7 @@ struct Canopy {
 };
 
 /// When a line lets go for good; the first of these.
-struct Release {
+struct LineRelease {
   std::optional<double> time = {};       ///< [s]
   std::optional<double> load = {};       ///< mean tension over a kick above this [N; 2D: N/m]
   std::optional<std::size_t> wets = {};  ///< this body's hull touches water
@@ -54,7 +54,7 @@ struct LineSpec {
   Stretch spring = {};  ///< of a straight line
   std::optional<CatenarySpec> catenary = {};  ///< instead of the spring; `to` is its anchor
   std::optional<Canopy<d>> canopy = {};       ///< at its far end
-  Release release = {};
+  LineRelease release = {};
 };
 
 /// Throws std::invalid_argument naming line, rule and value for a line that cannot be, among so many bodies.
