@@ -1,65 +1,88 @@
 #include "apps/scene/terrain.hpp"
 
+#include <cmath>
+#include <vector>
+
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/rules/check.hpp"
 #include "apps/scene/rules/problems.hpp"
-#include "core/surface/clip.hpp"
 
 namespace splashdown::apps {
 namespace {
 
-const char* const in_one_piece = "Give each part a body of its own, or a tank that holds it.";
+using Outline = std::vector<rigid::Vec<2>>;
 
-void take(Body& body, const rigid::Surface<2>& part) {
-  PolygonShape polygon;
-  for (Eigen::Index v = 0; v < part.vertices.cols(); ++v) {
-    polygon.points.emplace_back(Point::Zero());
-    polygon.points.back().head<2>() = part.vertices.col(v);
+/// What of a polygon lies where sign x_k <= sign side (Sutherland and Hodgman 1974).
+Outline below(const Outline& polygon, int k, double sign, double side) {
+  Outline kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double over_a = sign * (a[k] - side), over_b = sign * (b[k] - side);
+    if (over_a <= 0) kept.push_back(a);
+    if ((over_a < 0 && over_b > 0) || (over_a > 0 && over_b < 0)) {
+      rigid::Vec<2> cut = a + over_a / (over_a - over_b) * (b - a);
+      cut[k] = side;
+      kept.push_back(cut);
+    }
   }
-  body.shape = polygon;
+  return kept;
 }
 
-void take(Body& body, const rigid::Surface<3>& part) {
-  SurfaceShape surface;
-  if (const auto* file = std::get_if<SurfaceShape>(&body.shape)) surface = *file;
-  surface.read = std::make_shared<rigid::Shape<3>>(rigid::Shape<3>{part, rigid::mass_properties<3>(part)});
-  body.shape = surface;
+/// The part in the box; corners that coincide once.
+Outline clipped(const rigid::Surface<2>& hull, const Extents<2>& box) {
+  Outline polygon, distinct;
+  for (Eigen::Index f = 0; f < hull.facets.cols(); ++f) polygon.emplace_back(hull.vertices.col(hull.facets(0, f)));
+  for (int k = 0; k < 2; ++k) {
+    polygon = below(polygon, k, -1, box.min()[k]);
+    polygon = below(polygon, k, 1, box.max()[k]);
+  }
+  const double near = 1e-9 * box.diagonal().norm();
+  for (const auto& x : polygon)
+    if (distinct.empty() || (x - distinct.back()).norm() > near) distinct.push_back(x);
+  while (distinct.size() > 1 && (distinct.back() - distinct.front()).norm() <= near) distinct.pop_back();
+  return distinct;
 }
 
-template <int d>
 void cut(const Tank& tank, Body& body) {
-  const auto inside = extents<d>(tank);
-  auto hull = outline<d>(body);
+  const auto inside = extents<2>(tank);
+  const auto hull = outline<2>(body);
   const double roundoff = 1e-9 * inside.diagonal().norm();
-  const Extents<d> wide(inside.min().array() - roundoff, inside.max().array() + roundoff);
-  if (wide.contains(extents<d>(hull)) || !inside.intersects(extents<d>(hull))) return;
-  auto part = clipped_to_box<d>(hull, inside);
-  if (part.facets.cols() == 0) return;
-  part.vertices = shape_pose<d>(body).inverse() * part.vertices;
-  Body taken = body;
-  take(taken, part);
-  shape_of<d>(taken.shape);  // throws for what is no outline
-  body.shape = std::move(taken.shape);
+  const Extents<2> wide(inside.min().array() - roundoff, inside.max().array() + roundoff);
+  if (wide.contains(extents<2>(hull)) || !inside.intersects(extents<2>(hull))) return;
+  const auto part = clipped(hull, inside);
+  if (part.size() < 3) return;
+  PolygonShape shape;
+  for (const auto& x : part) {
+    shape.points.emplace_back(Point::Zero());
+    shape.points.back().head<2>() = shape_pose<2>(body).inverse() * x;
+  }
+  shape_of<2>(shape);  // throws for what is no outline
+  body.shape = std::move(shape);
+}
+
+bool is_good(const Shape& shape) {
+  try {
+    shape_of<2>(shape);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
 }
 
 }  // namespace
 
 void cut_terrain(Scene& scene, const SceneLabels& labels, Problems& problems) {
-  if (!scene.tank || problems.found_in("tank")) return;
-  if (!((scene.tank->max - scene.tank->min).head(scene.dimension).minCoeff() > 0)) return;
+  if (!scene.tank || scene.dimension != 2 || problems.found_in("tank")) return;
+  if (!((scene.tank->max - scene.tank->min).head<2>().minCoeff() > 0)) return;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     auto& body = scene.bodies[i];
-    if (body.motion != Motion::fixed || problems.found_in(labels.bodies[i])) continue;
+    if (body.motion != Motion::fixed || problems.found_in(labels.bodies[i]) || !is_good(body.shape)) continue;
     try {
-      scene.dimension == 2 ? void(shape_of<2>(body.shape)) : void(shape_of<3>(body.shape));
-    } catch (const std::invalid_argument&) {
-      continue;  // the rules of shapes say so
-    }
-    try {
-      scene.dimension == 2 ? cut<2>(*scene.tank, body) : cut<3>(*scene.tank, body);
+      cut(*scene.tank, body);
     } catch (const std::invalid_argument& error) {
-      problems.add(labels.bodies[i] + ".shape", std::string("what lies in the tank is no single body: ") + error.what(),
-                   in_one_piece);
+      problems.add(labels.bodies[i] + ".shape",
+                   std::string("what of it lies in the tank is no single body: ") + error.what(),
+                   "Give each part a body of its own, or enlarge the tank.");
     }
   }
 }
