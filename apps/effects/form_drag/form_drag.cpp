@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/effects/form_drag/shape_classes.hpp"
+#include "apps/effects/theory/theory.hpp"
 #include "apps/scene/read/reader.hpp"
 #include "fluid/effects/form_drag/form_drag.hpp"
 
@@ -53,6 +54,13 @@ std::optional<EffectNote> FormDragKind::note(const Scene& scene, const Scales& s
                     fmt::format("U T/L = {:.3g} lengths in the run: drag of separated flow {}", ways,
                                 ways < 1 ? "has no way to develop"
                                          : "counts for hulls under water or afloat so far, not in their first impact")};
+}
+
+std::optional<Advice> FormDragKind::advise(const Outlook& look) const {
+  if (!look.scene.fluid) return {};
+  auto advice = advise_form_drag(look);
+  if (!present(look.scene) && !look.scene.bodies.empty()) advice.set = {"fluid.form_drag={}"};
+  return advice;
 }
 
 template <int d>

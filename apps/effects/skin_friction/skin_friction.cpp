@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/effects/theory/theory.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
 #include "apps/scene/read/reader.hpp"
 #include "fluid/effects/skin_friction/skin_friction.hpp"
@@ -45,6 +46,16 @@ std::optional<EffectNote> SkinFrictionKind::note(const Scene& scene, const Scale
       fmt::format("C_F = {:.3g} at Re = {:.3g}: it counts beside pressures of that share of rho U^2/2, as on "
                   "hulls that plane, slide or are towed; momentum thickness {:.2g} L",
                   coefficient, reynolds, coefficient / 2)};
+}
+
+std::optional<Advice> SkinFrictionKind::advise(const Outlook& look) const {
+  if (!look.scene.fluid) return {};
+  auto advice = advise_skin_friction(look);
+  const auto* viscosity = look.scene.effects.find<Viscosity>();
+  const bool counted = viscosity && viscosity->walls == "no_slip";
+  if (!present(look.scene) && !look.scene.bodies.empty() && !counted)
+    advice.set = {"fluid.skin_friction.line=ittc1957"};
+  return advice;
 }
 
 template <int d>

@@ -17,6 +17,7 @@ class SkinFrictionKind final : public EffectOf<SkinFrictionKind, SkinFriction> {
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+  std::optional<Advice> advise(const Outlook& look) const override;
 
  private:
   friend EffectOf;
