@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "apps/ablate/changes.hpp"
-#include "apps/scene/effect_kind.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/study/table.hpp"
 #include "tests/scratch_folder.hpp"
