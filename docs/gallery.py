@@ -57,6 +57,10 @@ TENSION = r"""
 set xlabel 'time / s'; set ylabel 'tension of the riser / (N/m)'; set yrange [0:700]
 plot 'forces.csv' using 1:2 with points ls 1 notitle, 588.6 with lines ls 4 title 'weight'
 """
+SPEED = r"""
+set xlabel 'time / s'; set ylabel 'speed / (m/s)'
+plot 'bodies.csv' using 1:(-$10) with lines ls 1 title 'with form drag', 1.13 with lines ls 4 title 'drag = weight in water'
+"""
 STYLE = r"""
 set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
 set terminal svg size 640,340 noenhanced font 'Helvetica,15'
@@ -94,6 +98,11 @@ CASES = [
     Case("dam_break", "scene.toml --until 0.17", "end", 2),
     Case("elliptic_drop", "scene.toml", "end", 3),
     Case("sloshing", "scene.toml", "probe_0", 5),
+    Case("regular_waves", "scene.toml", "probe_0", 5),
+    Case("box_in_waves", "scene.toml", "body_box_displacement", 40),
+    Case("wave_landing", "scene.toml --until 0.33", "end", 3, (-0.6, 1.6, -0.5, 0.9)),
+    Case("terminal_speed", "scene.toml", SPEED, 20),
+    Case("glider_ditching", "scene.toml", "end", 30, (-1.5, 3.5, -0.8, 1.2)),
 ]
 
 

@@ -32,7 +32,7 @@ TEST(Reactions, of_a_hinge_carry_the_weight_and_turn_the_body) {
 
 TEST(Reactions, of_a_weld_carry_force_and_moment_in_space) {
   BodySpec<3> body = skew_body();
-  body.pose.translation() = {0.3, -0.2, 0.1};
+  body.pose.translation() = Vec<3>(0.3, -0.2, 0.1);
   Bodies<3> bodies({body}, pull<3>({0, 0, -g}), {{.type = JointType::weld, .point = {0.3, -0.2, 0.1}}});
   const auto at = told(bodies);
   EXPECT_NEAR(at.at("joint0_fz"), body.mass * g, 1e-9);

@@ -103,7 +103,7 @@ const std::vector<Mistake> bad_lines = {
      "line.riser.name = \"riser\"", "another line has this name"},
 };
 INSTANTIATE_TEST_SUITE_P(Lines, BadLineIsRefused, ::testing::ValuesIn(bad_lines),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& line) { return std::string(line.param.name); });
 
 TEST(Lines, that_may_not_be_meant_are_asked_about) {
   const auto asked = [](const std::string& text) {
