@@ -56,8 +56,8 @@ class BodiesView {
   virtual std::size_t size() const = 0;                           ///< how many bodies
   virtual const BodySpec<d>& spec(std::size_t body) const = 0;    ///< as it was made
   virtual const BodyState<d>& state(std::size_t body) const = 0;  ///< at t_n
-  /// What forces, joints and contacts say about themselves in the step from t_n that was tried: FORCE_NAME and value, always of the
-  /// same names.
+  /// What forces, joints and contacts say about themselves in the step from t_n that was tried: FORCE_NAME and value, always of
+  /// the same names.
   virtual std::vector<Diagnostic> diagnostics() const { return {}; }
 };
 

@@ -118,8 +118,8 @@ class FluidPart : public Participant {
   /// Accepts the last solve. `walls`: where the structure has its walls at t_{n+1}; empty: all stay.
   virtual void commit(const Placement& walls) = 0;
 
-  /// Whether the fluid is at rest and none of these walls, with the speeds of their fastest points [m/s], comes near it in the next
-  /// step. That is then a mere `wait`; walls that it does not have are no hindrance.
+  /// Whether the fluid is at rest and none of these walls, with the speeds of their fastest points [m/s], comes near it in the
+  /// next step. That is then a mere `wait`; walls that it does not have are no hindrance.
   virtual bool rests(std::span<const WallCoordinates> /*walls*/, const Eigen::VectorXd& /*speeds*/) { return false; }
   /// t_n <- t_n + dt, in place of begin, solve and commit. `walls`, `velocities`: of the structure at t_{n+1} and t_{n+1/2}.
   virtual void wait(double /*dt*/, const Placement& /*walls*/, const Velocities& /*velocities*/) {}

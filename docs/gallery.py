@@ -59,7 +59,7 @@ plot 'forces.csv' using 1:2 with points ls 1 notitle, 588.6 with lines ls 4 titl
 """
 SPEED = r"""
 set xlabel 'time / s'; set ylabel 'speed / (m/s)'
-plot 'bodies.csv' using 1:(-$10) with lines ls 1 title 'with form drag', 1.13 with lines ls 4 title 'drag = weight in water'
+plot 'bodies.csv' using 1:(-$11) with lines ls 1 title 'with form drag', 1.13 with lines ls 4 title 'drag = weight in water'
 """
 STYLE = r"""
 set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
@@ -100,9 +100,9 @@ CASES = [
     Case("sloshing", "scene.toml", "probe_0", 5),
     Case("regular_waves", "scene.toml", "probe_0", 5),
     Case("box_in_waves", "scene.toml", "body_box_displacement", 40),
-    Case("wave_landing", "scene.toml --until 0.33", "end", 3, (-0.6, 1.6, -0.5, 0.9)),
+    Case("wave_landing", "scene.toml --until 0.33", "end", 3, (-0.6, 1.15, -0.4, 0.7)),
     Case("terminal_speed", "scene.toml", SPEED, 20),
-    Case("glider_ditching", "scene.toml", "end", 30, (-1.5, 3.5, -0.8, 1.2)),
+    Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),
 ]
 
 

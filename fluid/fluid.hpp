@@ -68,8 +68,8 @@ class Fluid final : public FluidView<d> {
 
   /// Whether the water is at rest and nothing in it moves it: neither effects nor drops.
   bool is_at_rest() const;
-  /// Water at rest from which all walls that move stay away: until it is woken, `wait` takes the place of begin, solve and commit, and
-  /// the loads of the last solve stay.
+  /// Water at rest from which all walls that move stay away: until it is woken, `wait` takes the place of begin, solve and
+  /// commit, and the loads of the last solve stay.
   void set_waiting(bool waits);
   bool is_waiting() const;  ///< says what was set
   /// t_n <- t_n + dt. `poses`, `velocities`: of the walls at t_{n+1} and t_{n+1/2}.

@@ -202,6 +202,7 @@ void Bodies<d>::commit() {
   for (const auto& force : w.forces) force->commit(w.tried());
   w.states = w.trials;
   w.time += w.dt;
+  w.committed_dt = w.dt;
   if (w.impulses.size() > 0) w.loads = w.impulses / w.kick;
   w.release();
   w.phase = System::Phase::committed;
@@ -250,7 +251,7 @@ void Bodies<d>::save(std::ostream& out) const {
   write(out, &loads, 1);
   write(out, w.loads.data(), w.loads.size());
   write(out, w.wetted_share.data(), w.size());
-  write(out, &w.dt, 1);
+  write(out, &w.committed_dt, 1);
   out.write(w.held.data(), static_cast<std::streamsize>(size()));
   for (const auto& force : w.forces) force->save(out);
 }
@@ -277,7 +278,8 @@ void Bodies<d>::load(std::istream& in) {
   w.loads.resize(static_cast<Eigen::Index>(loads));
   read(in, w.loads.data(), w.loads.size());
   read(in, w.wetted_share.data(), w.size());
-  read(in, &w.dt, 1);
+  read(in, &w.committed_dt, 1);
+  w.dt = w.committed_dt;
   in.read(w.held.data(), static_cast<std::streamsize>(size()));
   for (const auto& force : w.forces) force->load(in);
   if (!in) throw std::runtime_error("ends in the middle of the bodies");
@@ -287,7 +289,7 @@ void Bodies<d>::load(std::istream& in) {
     good = good && state.pose.matrix().allFinite() && state.pose.linear().isUnitary(roundoff) &&
            state.velocity.allFinite();
   for (const double share : w.wetted_share) good = good && share >= 0 && share <= 1;
-  good = good && w.dt >= 0 && std::isfinite(w.dt);
+  good = good && w.committed_dt >= 0 && std::isfinite(w.committed_dt);
   for (std::size_t i = 0; i < size(); ++i) good = good && (w.held[i] == 0 || (w.held[i] == 1 && w.specs[i].release));
   for (const double moved : w.moved) good = good && std::isfinite(moved);
   for (const auto& mover : w.movers) good = good && (!mover || mover->momentum.allFinite());

@@ -32,6 +32,7 @@ struct Bodies<d>::System {
   std::vector<double> moved;  // their coordinates at t_n, of those that are measured
   Eigen::VectorXd loads;      // of the last step; empty before
   double time = 0, kick = 0, dt = 0;
+  double committed_dt = 0;  // of the step that led to t_n
   Phase phase = Phase::committed;
 
   // Of the begun step

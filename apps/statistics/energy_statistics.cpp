@@ -61,7 +61,7 @@ void EnergyStatistics::summarise(LedgerSummary& summary) const {
   summary.energy_gain_since = rise_;
   summary.energy_gain = relative(gain_.value);
   summary.kinetic_deficit = relative(-lowest_kinetic_);
-  if (water_.hull_volume > 0) summary.volume_error_bodies = summary.volume_excess / water_.hull_volume;
+  if (water_.hull_volume > 0) summary.volume_error_bodies = summary.volume_excess() / water_.hull_volume;
   const double least =
       water_.hull_volume > 0 ? std::min(water_.hull_volume, summary.volume_initial) : summary.volume_initial;
   summary.returned_share = least > 0 ? summary.returned / least : 0;

@@ -125,7 +125,7 @@ void RunStatistics::add_mesh(std::size_t node_count, std::size_t element_count) 
 LedgerSummary summary_of(const Ledger& ledger) {
   LedgerSummary summary;
   summary.volume_initial = ledger.volume_initial;
-  summary.volume_excess = ledger.volume_excess();
+  summary.volume_of_effects = ledger.volume_of_effects;
   summary.volume_final = ledger.volume;
   // Spray has left the mesh but not the world.
   if (ledger.volume_initial > 0) summary.volume_error = ledger.volume_excess() / ledger.volume_initial;

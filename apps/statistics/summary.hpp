@@ -172,7 +172,9 @@ struct BodySummary {
 
 struct LedgerSummary {
   double volume_initial = 0, volume_final = 0, volume_error = 0;  ///< the last one relative
-  double volume_excess = 0;  ///< the same absolute, spray included, without what effects brought; not written
+  double volume_of_effects = 0;  ///< that effects brought in on purpose; not written
+  /// Gained or lost, spray included [m^2, m^3].
+  double volume_excess() const { return volume_final + spray - volume_initial - volume_of_effects; }
   std::optional<double> volume_error_bodies;  ///< the same change over the volume of the hulls; absent without bodies
   double returned_share = 0;  ///< `returned` over the volume of the hulls, or over the water if that is less
   double time_integration = 0, remesh_created = 0, remesh_deleted = 0, returned = 0, spray = 0;

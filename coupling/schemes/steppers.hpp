@@ -80,8 +80,8 @@ struct CouplingLimits {
   int fixed_passes = 0;     ///< the last of so many is accepted as it is; 0: none is
 };
 
-/// A fluid and a structure with their clock; schemes differ in how they make both agree. A fluid that rests while the structure is far
-/// away may wait for it: the structure then moves alone.
+/// A fluid and a structure with their clock; schemes differ in how they make both agree. A fluid that rests while the structure
+/// is far away may wait for it: the structure then moves alone.
 class Coupled : public Stepper {
  public:
   /// Drives both; the structure's walls come first among the fluid's.

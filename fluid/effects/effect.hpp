@@ -89,8 +89,8 @@ class Effect {
   virtual Vec<d> uniform_acceleration() const { return Vec<d>::Zero(); }
   /// Whether it leaves water at rest that is at rest beside gravity. Such water is not stepped as long as nothing comes near it.
   virtual bool keeps_rest() const { return false; }
-  /// Whether the work that it does on the water is booked (Ledger::work_of_effects): for effects that may bring energy and have no
-  /// potential. Others take energy or keep it.
+  /// Whether the work that it does on the water is booked (Ledger::work_of_effects): for effects that may bring energy and have
+  /// no potential. Others take energy or keep it.
   virtual bool books_work() const { return false; }
   /// Kinematic viscosity [m^2/s] with which it spreads momentum through the fluid; 0 for effects that do not.
   virtual double diffusivity(double /*density*/) const { return 0; }

@@ -137,7 +137,8 @@ class PressureEquation {
   /// Impulses f = kick p of the air on the free surface [Pa s], an entry a node, continued into the water: any continuation is
   /// right, phi is the rest. This one is smooth near the surface.
   std::vector<double> continued(std::span<const double> surface_impulse) const;
-  /// What impulses F with p = F on the free surface do: v -= M^-1 int N grad F; adds B F to the walls, about their reference points.
+  /// What impulses F with p = F on the free surface do: v -= M^-1 int N grad F; adds B F to the walls, about their reference
+  /// points.
   void push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<Wrench<d>> on_walls) const;
   /// Kinetic energy of the liquid [J; 2D: per metre] with the mass that `accelerate` moves, M = M_L (1 + z + 2 z^2)^-1: short
   /// waves are up to `inverse_mass(shortest<d>)` times lighter than with lumping, and an impulse gives them as much more

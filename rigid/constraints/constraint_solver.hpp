@@ -11,8 +11,8 @@
 // the closed contacts leave. Which contacts are closed is found by the primal-dual active set method (Hintermueller,
 // Ito, Kunisch 2002): a closed contact that pulls opens, an open one that would be crossed closes. It may run in
 // circles; after a few changes only the first contact that is wrong changes (Murty 1974), which ends where contacts
-// are independent of each other. Rates of yielding are further coordinates y without velocities of their own, so that M stays what
-// it is whatever is closed.
+// are independent of each other. Rates of yielding are further coordinates y without velocities of their own, so that M stays
+// what it is whatever is closed.
 #pragma once
 
 #include <Eigen/Core>

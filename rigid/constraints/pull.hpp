@@ -49,8 +49,8 @@ struct StretchAt {
 template <int d>
 Pull<d> tension_only(const Stretch& spring, const StretchAt& at);
 
-/// dq/dt that a unit impulse along it gives bodies in the void that forces move [1/kg]; infinite without mass. Held freedoms count as
-/// free.
+/// dq/dt that a unit impulse along it gives bodies in the void that forces move [1/kg]; infinite without mass. Held freedoms
+/// count as free.
 template <int d>
 double compliance(const Condition<d>& rate, std::span<const BodySpec<d>> specs, std::span<const BodyState<d>> states,
                   std::span<const char> held);

@@ -39,8 +39,8 @@ class Force {
   virtual std::string name() const = 0;  ///< of its table
   /// Adds to the wrench on each body about its centre of mass, world frame [N, N m; 2D: N/m, N]. The same for the same.
   virtual void add(const BodiesAt<d>& at, std::span<Wrench<d>> wrenches) const = 0;
-  /// Whether it depends on velocities. Such forces are taken at those of t_n, predicted from t_{n-1/2} with all forces and the last
-  /// step's loads (explicit midpoint rule): second order in time.
+  /// Whether it depends on velocities. Such forces are taken at those of t_n, predicted from t_{n-1/2} with all forces and the
+  /// last step's loads (explicit midpoint rule): second order in time.
   virtual bool is_of_velocity() const { return false; }
   /// Adds pulls of a begun step. The same for the same.
   virtual void pull(const BodiesAt<d>& /*at*/, std::vector<Pull<d>>& /*pulls*/) const {}

@@ -28,14 +28,14 @@ struct FairleadStep {
   double kick, dt;          ///< [s]
 };
 
-/// Pulls along directions of the world; `along(n)` is the condition whose rate is the fairlead's velocity along n. With p_- and p_+ at
-/// the middles of the steps before and after t_n,
+/// Pulls along directions of the world; `along(n)` is the condition whose rate is the fairlead's velocity along n. With p_- and
+/// p_+ at the middles of the steps before and after t_n,
 ///
 ///   J = kick [F(p_-) + S (p_+ - p_-)/2]
 ///
 /// S is the slope at p_-, or where the line stiffens that with the secant to the place to which the velocity carries the fairlead
-/// (the symmetric update of Broyden, Fletcher, Goldfarb, Shanno 1970): a line that comes taut within a step takes at least what it
-/// stores. Along the stiffest direction it only pulls.
+/// (the symmetric update of Broyden, Fletcher, Goldfarb, Shanno 1970): a line that comes taut within a step takes at least what
+/// it stores. Along the stiffest direction it only pulls.
 template <int d, class Along>
 std::vector<Pull<d>> catenary_pulls(const CatenarySpec& line, const FairleadStep<d>& step, const Along& along);
 

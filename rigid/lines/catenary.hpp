@@ -40,8 +40,8 @@ struct CatenaryEnd {
 /// x, z of a line whose end is pulled with H > 0 and V [m].
 Eigen::Vector2d catenary_span(const CatenarySpec& line, double horizontal_force, double vertical_force);
 
-/// The end of a line whose fairlead is `span` = (x, z) from its anchor, x >= 0. A line that hangs straight down onto its floor has
-/// H = 0; a fairlead below the floor counts as on it.
+/// The end of a line whose fairlead is `span` = (x, z) from its anchor, x >= 0. A line that hangs straight down onto its floor
+/// has H = 0; a fairlead below the floor counts as on it.
 CatenaryEnd catenary_end(const CatenarySpec& line, const Eigen::Vector2d& span);
 
 /// Throws std::invalid_argument unless length, axial stiffness and weight are positive and friction is not negative.

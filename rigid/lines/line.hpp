@@ -4,10 +4,11 @@
 //   T from H, V of lines/catenary.hpp                 a catenary, quasi-static
 //   m_c du/dt = m_c g - (rho/2) C_dA(t) |u| u + T n   a canopy at the far end, air at rest
 //
-// All are implicit (pull.hpp): no step is too long, however stiff a line is. A catenary's force is linearised at the middle of the
-// step before and, where it stiffens, by its secant to where the body is carried. The canopy is a point; its velocity at the end of
-// a step is eliminated from the line's equation, its drag linear in that with the speed that it had: first order in time. Drag area
-// grows as the square of time while a canopy opens (Knacke, Parachute Recovery Systems Design Manual, 1992, section 5.4).
+// All are implicit (pull.hpp): no step is too long, however stiff a line is. A catenary's force is linearised at the middle of
+// the step before and, where it stiffens, by its secant to where the body is carried. The canopy is a point; its velocity at the
+// end of a step is eliminated from the line's equation, its drag linear in that with the speed that it had: first order in time.
+// Drag area grows as the square of time while a canopy opens (Knacke, Parachute Recovery Systems Design Manual, 1992, section
+// 5.4).
 #pragma once
 
 #include <optional>
@@ -71,8 +72,8 @@ class Line final : public Force<d> {
   void add(const BodiesAt<d>& at, std::span<Wrench<d>> wrenches) const override;
   void pull(const BodiesAt<d>& at, std::vector<Pull<d>>& pulls) const override;
   void commit(const BodiesAt<d>& at) override;
-  /// tension: mean over the kick [N; 2D: N/m]; length between its ends [m]; of a catenary on_floor [m] and anchor_tension at t_n; of a
-  /// canopy its place [m] and drag area.
+  /// tension: mean over the kick [N; 2D: N/m]; length between its ends [m]; of a catenary on_floor [m] and anchor_tension at t_n;
+  /// of a canopy its place [m] and drag area.
   std::vector<Diagnostic> diagnostics(const BodiesAt<d>& at) const override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;

@@ -102,7 +102,7 @@ std::optional<Finding> volume(const Summary& summary) {
       found->grade,
       fmt::format("The volume of the water changed by {:.3g} {}, {:.3g} % of {}, drops included: {}. See in the ledger "
                   "where it went; try finer elements at the surface (fluid.size.surface) and at the bodies (size).",
-                  ledger.volume_excess, summary.dimension == 2 ? "m^2" : "m^3", 100 * error,
+                  ledger.volume_excess(), summary.dimension == 2 ? "m^2" : "m^3", 100 * error,
                   less_water_than_hulls ? "all water" : "the bodies' hulls", found->words)};
 }
 

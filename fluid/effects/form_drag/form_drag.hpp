@@ -2,14 +2,15 @@
 //
 //   f = - 1/2 rho C g(s / b) e(q) (v . a) v    on each wetted facet that moves away from the water, v . a > 0
 //
-// a is the facet's area vector, out of the water, v its own velocity through the water around the hull (`Surroundings`), C the drag
-// coefficient of the shape. v . a / |v| sums to the projected area of the rear: under water F = rho C A v^2 / 2. A rear that is dry
-// has the pressure of the air, which the fluid knows: in the first impact and in open cavities nothing is added. Facets beside the
-// flow have none, those of a body that turns have their own velocities (strips).
+// a is the facet's area vector, out of the water, v its own velocity through the water around the hull (`Surroundings`), C the
+// drag coefficient of the shape. v . a / |v| sums to the projected area of the rear: under water F = rho C A v^2 / 2. A rear that
+// is dry has the pressure of the air, which the fluid knows: in the first impact and in open cavities nothing is added. Facets
+// beside the flow have none, those of a body that turns have their own velocities (strips).
 //
 // q, from 0 to 1, says how far the flow of the fluid closes behind the hull: the mean over the rear of u . t / |v|, u the water's
-// velocity past the hull, t along it towards the rear's centre. It is 1 on a circle and on a sphere: all of the drag is missing, e = 1.
-// Off edges the fluid separates by itself: the water behind stands or turns back, q = 0, its pressure is low already, and e = 0.13.
+// velocity past the hull, t along it towards the rear's centre. It is 1 on a circle and on a sphere: all of the drag is missing,
+// e = 1. Off edges the fluid separates by itself: the water behind stands or turns back, q = 0, its pressure is low already, and
+// e = 0.13.
 //
 // Round hulls separate after a way s through the water since the last turn of the motion,
 //

@@ -1,9 +1,9 @@
 // The water around a hull: with what velocity it would pass if the hull were not there, and where the hull's wake goes.
 //
-// Nodes in the shell R < |x - c| < 2 R around the centre c of a hull that a sphere of radius R holds. The components of the velocity
-// that a body makes in water at rest are harmonic beyond it and vanish far away: their means over spheres are zero, and of a dipole's
-// those over the front half and the rear half, too. By reciprocity (Green) a force on the water with such a density puts no pressure
-// on the hull: what is taken from the hull does not come back to it.
+// Nodes in the shell R < |x - c| < 2 R around the centre c of a hull that a sphere of radius R holds. The components of the
+// velocity that a body makes in water at rest are harmonic beyond it and vanish far away: their means over spheres are zero, and
+// of a dipole's those over the front half and the rear half, too. By reciprocity (Green) a force on the water with such a density
+// puts no pressure on the hull: what is taken from the hull does not come back to it.
 #pragma once
 
 #include <vector>

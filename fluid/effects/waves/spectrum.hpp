@@ -3,8 +3,8 @@
 //   S(w) ~ w^-5 exp(-5/4 (w_p / w)^4) gamma^r,   r = exp(-(w / w_p - 1)^2 / (2 s^2)),   s = 0.07 below w_p, 0.09 above
 //
 // gamma = 1: Pierson, Moskowitz, J. Geophys. Res. 69 (1964); 3.3 in the mean of JONSWAP, Hasselmann et al. (1973). Directions are
-// distributed as cos^2s of half the angle to the mean one (Longuet-Higgins, Cartwright, Smith 1963), one for each frequency: two of
-// one frequency would make a pattern that stands (Jefferys, Appl. Ocean Res. 9, 1987).
+// distributed as cos^2s of half the angle to the mean one (Longuet-Higgins, Cartwright, Smith 1963), one for each frequency: two
+// of one frequency would make a pattern that stands (Jefferys, Appl. Ocean Res. 9, 1987).
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,8 @@
 
 namespace splashdown::fluid {
 
-/// Where a sea's still level and origin are, when its phases are zero there, and where its waves run. World frame, the last axis is up.
+/// Where a sea's still level and origin are, when its phases are zero there, and where its waves run. World frame, the last axis
+/// is up.
 template <int d>
 struct SeaFrame {
   Vec<d> origin = Vec<d>::Zero();      ///< where phases count from, on the still level [m]
@@ -38,8 +39,8 @@ class WaveField {
   virtual double shortest() const = 0;  ///< wave that the field is made of [m]; higher harmonics of a steady wave apart
   virtual double highest() const = 0;   ///< crest above the still level that is to be expected [m]
   virtual double lowest() const = 0;    ///< trough that is to be expected [m], negative
-  /// How long ago the last crest of a steady wave passed, in radians of its period: 0 crest, pi trough, in [0, 2 pi). For other seas
-  /// that of a wave of the peak's period alone, whose crest passes the origin at the frame's time.
+  /// How long ago the last crest of a steady wave passed, in radians of its period: 0 crest, pi trough, in [0, 2 pi). For other
+  /// seas that of a wave of the peak's period alone, whose crest passes the origin at the frame's time.
   virtual double phase(const Vec<d>& x, double t) const = 0;
 };
 
@@ -70,9 +71,9 @@ class RegularWave final : public WaveField<d> {
 template <int d>
 class LinearSea final : public WaveField<d> {
  public:
-  /// Frequencies of `waves` and `peak_period` [s] are those of an observer over whom the water has the speed `current` [m/s] along the
-  /// waves; the field is that in the water, which stands still in its tank. `highest`: crest above the still level that is to be
-  /// expected [m]. std::invalid_argument where the current stops waves.
+  /// Frequencies of `waves` and `peak_period` [s] are those of an observer over whom the water has the speed `current` [m/s]
+  /// along the waves; the field is that in the water, which stands still in its tank. `highest`: crest above the still level that
+  /// is to be expected [m]. std::invalid_argument where the current stops waves.
   LinearSea(const std::vector<SeaWave>& waves, const SeaFrame<d>& frame, double peak_period, double current,
             double highest);
   double elevation(const Vec<d>& x, double t) const override;

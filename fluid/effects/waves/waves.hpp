@@ -2,10 +2,10 @@
 //
 //   dv/dt = r(x) (u(x, t) - v),   r = rate s^2,   s from 0 at a zone's inner edge to 1 at the wall
 //
-// u is the speed of the undisturbed sea. Other waves, from bodies, die out in the zones, the sea's own does not (Jacobsen, Fuhrman,
-// Fredsoe, Int. J. Numer. Meth. Fluids 70, 2012; here speeds alone: positions follow). Integrated exactly over a kick, with u at
-// t_{n-1/2}, to which the velocities belong, and where the nodes were then. Zones of 1.5 wavelengths with rate = 4 w throw back less
-// than 2 % of the sea's waves. Drops in flight are left alone.
+// u is the speed of the undisturbed sea. Other waves, from bodies, die out in the zones, the sea's own does not (Jacobsen,
+// Fuhrman, Fredsoe, Int. J. Numer. Meth. Fluids 70, 2012; here speeds alone: positions follow). Integrated exactly over a kick,
+// with u at t_{n-1/2}, to which the velocities belong, and where the nodes were then. Zones of 1.5 wavelengths with rate = 4 w
+// throw back less than 2 % of the sea's waves. Drops in flight are left alone.
 #pragma once
 
 #include <memory>

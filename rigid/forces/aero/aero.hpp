@@ -4,9 +4,10 @@
 //
 // V e: velocity of a point of the body against the air; l, s: across it, lift in the plane of nose and up, side force to the
 // right. e_x to the nose, e_y to the right, e_z down; r from the centre of mass to the point. Angle of attack
-// atan2(V_z, V_x), sideslip asin(V_y/V); C_D, C_L, C_m are curves over the first, C_Y, C_l, C_n and an addition to C_D over the second.
-// Damping: C_m += C_mq (q c/2V) and so on, with the body's rates p, q, r (Etkin and Reid 1996, chapter 4). The share of
-// the hull that is dry scales all. In 2D S is per metre of depth, and there is no sideslip. Taken at the velocity of t_n: second order.
+// atan2(V_z, V_x), sideslip asin(V_y/V); C_D, C_L, C_m are curves over the first, C_Y, C_l, C_n and an addition to C_D over the
+// second. Damping: C_m += C_mq (q c/2V) and so on, with the body's rates p, q, r (Etkin and Reid 1996, chapter 4). The share of
+// the hull that is dry scales all. In 2D S is per metre of depth, and there is no sideslip. Taken at the velocity of t_n: second
+// order.
 #pragma once
 
 #include <optional>

@@ -27,7 +27,7 @@ end = 3
 [gravity]
 [tank]
 min = [-6, -0.4]
-max = [6, 0.3]
+max = [6, 1.0]
 [fluid]
 density = 1000
 [fluid.size]
