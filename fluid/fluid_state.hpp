@@ -136,12 +136,12 @@ struct Fluid<d>::State {
   PressureTerms terms;   ///< of effects, in the begun step
   bool solved = false;   ///< it is of the begun step
 
-  /// The walls at these poses.
   /// The plane of symmetry that ends the fluid, if there is one.
   std::optional<Mirror> mirror() const {
     const auto with = std::ranges::find_if(spec.walls, [](const WallSpec<d>& wall) { return wall.mirror.has_value(); });
     return with == spec.walls.end() ? std::nullopt : with->mirror;
   }
+  /// The walls at these poses.
   WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
 
   /// Reference points of the walls, world frame [m].

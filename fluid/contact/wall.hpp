@@ -101,6 +101,7 @@ class Wall {
   }
   /// Vertices that are corners, those included at which nothing but the plane of symmetry ends a patch: `is_smooth`.
   const std::vector<int>& corners() const { return corners_; }
+  /// Whether nothing but the plane of symmetry makes this vertex a corner.
   bool is_smooth(int corner) const { return smooth_corner_[corner] != 0; }
   /// As it was made.
   const WallSpec<d>& spec() const { return spec_; }

@@ -14,6 +14,7 @@ namespace splashdown::rigid {
 template <int d>
 class HalfForce final : public Force<d> {
  public:
+  /// The force on whole bodies; not null.
   explicit HalfForce(std::unique_ptr<Force<d>> of_whole) : of_whole_(std::move(of_whole)) {}
   std::string name() const override { return of_whole_->name(); }
   void add(const BodiesAt<d>& at, std::span<Wrench<d>> wrenches) const override {

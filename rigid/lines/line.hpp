@@ -80,6 +80,7 @@ class Line final : public Force<d> {
 
   /// Mean over the kick of the step that was tried; 0 without one [N; 2D: N/m].
   double tension(const BodiesAt<d>& at) const;
+  /// Whether it has been let go.
   bool released() const { return released_; }
   const Vec<d>& canopy_place() const { return place_; }        ///< at t_n, world frame [m]
   const Vec<d>& canopy_velocity() const { return velocity_; }  ///< at t_{n-1/2} [m/s]

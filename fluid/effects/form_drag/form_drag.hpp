@@ -11,13 +11,6 @@
 // velocity past the hull, t along it towards the rear's centre. It is 1 on a circle and on a sphere: all of the drag is missing,
 // e = 1. Off edges the fluid separates by itself: the water behind stands or turns back, q = 0, its pressure is low already, and
 // e = 0.13.
-//
-// Round hulls separate after a way s through the water since the last turn of the motion,
-//
-//   g(x) = y^2 (3 - 2 y),  y = min(1, x / x_1)
-//
-// b the diameter of the circle or sphere that holds as much. With x_1 = 1.8 this is the drag of an impulsively started circle
-// beside its friction (Koumoutsakos, Leonard, J. Fluid Mech. 296, 1995, Re 3000; Sarpkaya, J. Appl. Mech. 33, 1966).
 #pragma once
 
 #include "fluid/effects/form_drag/surroundings.hpp"
@@ -32,6 +25,13 @@ struct FormDragSpec {
 
 /// Explicit; the reaction goes to the water around the hull, most of it behind: momentum is kept, moments included. Acts in
 /// directions that carry added mass alone, of rho b^d: C |v| kick / b of a body's velocity at most is lost in a kick.
+///
+/// Round hulls separate after a way s through the water since the last turn of the motion,
+///
+///   g(x) = y^2 (3 - 2 y),  y = min(1, x / x_1)
+///
+/// b the diameter of the circle or sphere that holds as much. With x_1 = 1.8 this is the drag of an impulsively started circle
+/// beside its friction (Koumoutsakos, Leonard, J. Fluid Mech. 296, 1995, Re 3000; Sarpkaya, J. Appl. Mech. 33, 1966).
 template <int d>
 class FormDrag final : public Effect<d> {
  public:

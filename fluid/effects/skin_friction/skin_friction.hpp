@@ -16,6 +16,7 @@
 
 namespace splashdown::fluid {
 
+/// What the friction of hulls is made from.
 struct SkinFrictionSpec {
   FrictionLine line = FrictionLine::ittc1957;
   double dynamic_viscosity = 1e-3;  ///< [Pa s]

@@ -42,6 +42,7 @@ class SteadyWave {
   struct Speed {
     double along, up;
   };
+  /// Of the water at a phase [rad] and a height above the still level [m].
   Speed speed(double theta, double z) const;
 
  private:

@@ -20,6 +20,7 @@ struct SeaFrame {
   double depth = 0;                    ///< of still water [m]
   double gravity = 9.81;               ///< [m/s^2]
 
+  /// Height of the still level [m].
   double level() const { return origin[d - 1]; }
   /// Along the waves from the origin [m].
   double along(const Vec<d>& x) const { return (x - origin).dot(direction); }
@@ -48,6 +49,7 @@ class WaveField {
 template <int d>
 class RegularWave final : public WaveField<d> {
  public:
+  /// The wave, and where it begins and goes to.
   RegularWave(SteadyWave wave, const SeaFrame<d>& frame) : wave_(std::move(wave)), frame_(frame) {}
   double elevation(const Vec<d>& x, double t) const override;
   Vec<d> velocity(const Vec<d>& x, double t) const override;
@@ -57,6 +59,7 @@ class RegularWave final : public WaveField<d> {
   double highest() const override { return wave_.crest(); }
   double lowest() const override { return wave_.trough(); }
   double phase(const Vec<d>& x, double t) const override;
+  /// As it was made.
   const SteadyWave& wave() const { return wave_; }
 
  private:

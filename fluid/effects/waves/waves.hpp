@@ -34,6 +34,7 @@ struct WaveZones {
 template <int d>
 class Waves final : public Effect<d> {
  public:
+  /// The sea that zones pull towards; not null.
   Waves(std::unique_ptr<const WaveField<d>> sea, const WaveZones<d>& zones) : sea_(std::move(sea)), zones_(zones) {}
   std::string name() const override { return "waves"; }
   Status begin(const StepView<d>& step) override;

@@ -39,6 +39,7 @@ struct AeroSpec {
 template <int d>
 class Aero final : public Force<d> {
  public:
+  /// One spec for each body that the air acts on; without a wind the air is at rest.
   Aero(std::vector<AeroSpec<d>> specs, std::optional<Wind<d>> wind)
       : specs_(std::move(specs)), wind_(std::move(wind)) {}
   std::string name() const override { return "aero"; }

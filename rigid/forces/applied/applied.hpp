@@ -22,6 +22,7 @@ struct AppliedForceSpec {
 template <int d>
 class AppliedForces final : public Force<d> {
  public:
+  /// Forces in the order of the scene.
   explicit AppliedForces(std::vector<AppliedForceSpec<d>> specs) : specs_(std::move(specs)) {}
   std::string name() const override { return "force"; }
   void add(const BodiesAt<d>& at, std::span<Wrench<d>> wrenches) const override;
