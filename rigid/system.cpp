@@ -122,7 +122,9 @@ double Bodies<d>::System::until_release() const {
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (!held[i] || !specs[i].release->time) continue;
     const double left = *specs[i].release->time - time;
-    least = std::min(least, committed_dt > 0 && left > (1 + roundoff) * committed_dt && left < 2 * growth * committed_dt ? left / 2 : left);
+    least = std::min(least, committed_dt > 0 && left > (1 + roundoff) * committed_dt && left < 2 * growth * committed_dt
+                                ? left / 2
+                                : left);
   }
   return least;
 }

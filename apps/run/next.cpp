@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/check/cost.hpp"
+#include "apps/scene/read/override.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/statistics/verdict/next_step.hpp"
 #include "apps/text/shell_word.hpp"
@@ -15,6 +16,13 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr const char* refine_key = "fluid.size.refine=";
+
+/// What all of them set.
+Words said_values(const Words& overrides) {
+  Words said;
+  for (const auto& word : overrides) said.push_back(override_of(word).argument);
+  return said;
+}
 
 /// The --set values of the run without those of a key.
 Words without(Words overrides, const std::string& key) {
@@ -33,7 +41,7 @@ struct Change {
 /// Values become those of the command line, where refine divides dt_max, too.
 Change change_of(NextStep& next, const RunOptions& options, const Scene& scene) {
   Change change;
-  change.said = options.overrides;
+  change.said = said_values(options.overrides);
   const double refine = scene.fluid ? scene.fluid->size.refine : 1;
   Words added;
   const auto add = [&](double value, const std::string& key) {

@@ -172,7 +172,7 @@ struct BodySummary {
 
 struct LedgerSummary {
   double volume_initial = 0, volume_final = 0, volume_error = 0;  ///< the last one relative
-  double volume_of_effects = 0;  ///< that effects brought in on purpose; not written
+  double volume_of_effects = 0;                                   ///< that effects brought in on purpose; not written
   /// Gained or lost, spray included [m^2, m^3].
   double volume_excess() const { return volume_final + spray - volume_initial - volume_of_effects; }
   std::optional<double> volume_error_bodies;  ///< the same change over the volume of the hulls; absent without bodies

@@ -41,7 +41,7 @@ void read_release(Reader& reader, LineEntry& line, const Scene& scene) {
   reader.number("load", release.load,
                 positive(scene.dimension == 2 ? "N/m" : "N", "Use the tension at which the line breaks."));
   release.wets = read_body_name(reader, "wets", scene, Need::optional, "release");
-  if (!release.time && !release.load && !reader.holds("wets"))
+  if (!reader.holds("time") && !reader.holds("load") && !reader.holds("wets"))
     reader.context().problems.add(reader.path(), "nothing is said that releases the line",
                                   "Add time, load or wets, or remove the table.");
 }

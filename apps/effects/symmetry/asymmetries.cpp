@@ -85,10 +85,13 @@ class Judge {
     const double length = extents<d>(hull).sizes().maxCoeff();
     if (const auto off = asymmetry_of<d>(mirror_, hull); off.distance > facets * length) {
       const double middle = extents<d>(hull).center()[mirror_.axis] - mirror_.at;
+      auto moved = hull;
+      moved.vertices.row(mirror_.axis).array() -= middle;
+      const bool is_aside = asymmetry_of<d>(mirror_, moved).distance <= facets * length;
       return add(
           key + ".shape",
           fmt::format("the mirror image of its vertex at {} m is {:.3g} m off the hull", text<d>(off.at), off.distance),
-          std::abs(middle) > facets * length
+          is_aside
               ? fmt::format("The hull's middle lies {:g} m off the plane: move the body, or remove [symmetry].", middle)
               : "Turn the body or mend its shape, or remove [symmetry].");
     }

@@ -112,16 +112,6 @@ bool remove_element(toml::table& table, const std::string& key, toml::array& arr
   return true;
 }
 
-/// What the user wrote, and key.path=value.
-struct Origin {
-  std::string source, argument;
-};
-Origin origin_of(const std::string& given) {
-  const auto end = given.find(": ");
-  if (!given.starts_with("--") || end == std::string::npos) return {"--set " + given, given};
-  return {given.substr(0, end), given.substr(end + 2)};
-}
-
 void put(toml::table& table, const std::string& key, toml::table value) {
   // Moving keeps the place a node carries; copying would drop it.
   value.get("value")->visit([&](auto& node) { table.insert_or_assign(key, std::move(node)); });
@@ -129,8 +119,14 @@ void put(toml::table& table, const std::string& key, toml::table value) {
 
 }  // namespace
 
+Override override_of(const std::string& given) {
+  const auto end = given.find(": ");
+  if (!given.starts_with("--") || end == std::string::npos) return {"--set " + given, given};
+  return {given.substr(0, end), given.substr(end + 2)};
+}
+
 void apply_override(toml::table& root, const std::string& given_argument, Problems& problems) {
-  const auto [source, argument] = origin_of(given_argument);
+  const auto [source, argument] = override_of(given_argument);
   const auto refuse = [&, source = source](const std::string& message) { problems.add_at({source, 0}, message); };
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double tiny = 1e-9;  // of the hull: no direction
 // Of the coefficient: what the fluid has off the edges of plates and boxes that sink, on elements of a seventh and a fourteenth of their
-// breadth: 1.72 to 1.82 of 2 and 2.05 (examples/terminal_speed).
+// breadth. Read off their speeds, which still swing: 1.6 to 1.9 of 2 and 2.05; the middle.
 constexpr double by_itself = 0.87;
 constexpr double closed =
     2. / 3;  // q from which on the flow counts as closed: that of a circle on elements as coarse as 0.3 R

@@ -18,7 +18,7 @@ double WaveZones<d>::rate_at(const Vec<d>& x) const {
 
 template <int d>
 double WaveZones<d>::share_at(double t) const {
-  if (t >= ramp) return 1;
+  if (ramp <= 0 || t >= ramp) return 1;
   const double s = std::max(t, 0.0) / ramp;
   return s * s * (3 - 2 * s);
 }

@@ -63,7 +63,7 @@ Advised advised_of(const std::string& name, const std::vector<std::string>& set)
 
 TEST(Outlook, load_of_a_wedge_at_constant_speed_is_that_of_its_growing_added_mass) {
   // F = dM_a/dt V with M_a = pi/2 rho c^2 and c = 1.25 V t cot(beta): largest where the sides end.
-  const auto scene = scene_with({"body.wedge.motion=prescribed", "body.wedge.mass=", "body.wedge.free="});
+  const auto scene = scene_with({"body.wedge.motion=prescribed", "body.wedge.mass=", "body.wedge.free=", "time.end=1"});
   const auto look = outlook<2>(scene);
   ASSERT_TRUE(look.has_load());
   const double raised = 1.25, c = 0.25, V = 6.15, slope = raised / std::tan(pi / 6);
@@ -83,7 +83,7 @@ TEST(Outlook, peak_of_a_free_wedge_is_where_the_added_mass_is_a_fifth_of_its_own
 
 TEST(Outlook, loads_go_with_the_square_of_the_speed_and_with_the_density) {
   const auto load = [](const std::vector<std::string>& set) {
-    return outlook<2>(scene_with(with(set, "gravity="))).entry->peak_load;
+    return outlook<2>(scene_with(with(with(set, "gravity="), "time.end=1"))).entry->peak_load;
   };
   const double own = load({});
   EXPECT_NEAR(load({"body.wedge.velocity=[0.0, -12.3]"}) / own, 4, 1e-12);
@@ -194,7 +194,7 @@ TEST(Advice, does_not_depend_on_whether_viscosity_is_there_already) {
 
 TEST(Advice, of_a_flat_bottom_names_air_and_compressibility) {
   const std::vector<std::string> flat = {"body.wedge.shape={type = \"box\", width = 0.5, height = 0.1}",
-                                         "body.wedge.position=[0.0, 0.06]"};
+                                         "body.wedge.position=[0.0, 0.06]", "record="};
   EXPECT_EQ(advised_of("trapped air", flat), Advised::on);
   EXPECT_EQ(advised_of("compressibility", flat), Advised::on);
   EXPECT_EQ(advised_of("trapped air", {}), Advised::off);

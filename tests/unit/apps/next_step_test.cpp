@@ -119,7 +119,10 @@ TEST(ShellWord, comes_back_as_it_was_written) {
 TEST(Expectations, tie_bodies_that_joints_connect_whatever_is_between) {
   Scene scene;
   scene.time.end = 2;
-  for (const char* name : {"a", "b", "c", "alone"}) scene.bodies.emplace_back().name = name;
+  for (const char* name : {"a", "b", "c", "alone"}) {
+    scene.bodies.emplace_back().name = name;
+    scene.bodies.back().shape = CircleShape{};
+  }
   const auto tie = [&](std::size_t body, std::optional<std::size_t> other) {
     auto& joint = scene.joints.emplace_back();
     joint.body = body, joint.other = other;

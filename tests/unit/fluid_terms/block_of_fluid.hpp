@@ -101,7 +101,7 @@ struct Block {
                            .kick = kick,
                            .t = 0,
                            .dt = kick,
-                           .dt_before = kick,
+                           .dt_before = 0,
                            .lumped_volume = lumped_volume,
                            .around = around,
                            .walls = walls,

@@ -100,7 +100,7 @@ const std::vector<Mistake> bad_lines = {
      "line.riser.canopy.mass is missing", "mass of cloth"},
     {"twice", "[output]",
      "[[line]]\nname = \"riser\"\nbody = \"wedge\"\nanchor = [0, 1]\nlength = 1\nstiffness = 1\n[output]", 33,
-     "line.riser.name = \"riser\"", "another line has this name"},
+     "line[1].name = \"riser\"", "another line has this name"},
 };
 INSTANTIATE_TEST_SUITE_P(Lines, BadLineIsRefused, ::testing::ValuesIn(bad_lines),
                          [](const auto& line) { return std::string(line.param.name); });

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/effects/viscosity/viscosity.hpp"
+#include "apps/scene/read/override.hpp"
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
@@ -135,6 +136,12 @@ TEST(Override, that_names_nothing_is_refused) {
   EXPECT_TRUE(refusal("fluid..density=1").find("a word of the key is empty") != std::string::npos);
   EXPECT_TRUE(refusal("fluid.density=[1").find("not TOML") != std::string::npos);
   EXPECT_TRUE(refusal("fluid.density=1\nx = 2").find("not TOML") != std::string::npos);
+}
+
+TEST(Override, of_an_option_of_its_own_is_told_apart_from_what_it_sets) {
+  EXPECT_EQ(override_of("--refine 2: fluid.size.refine=2").argument, "fluid.size.refine=2");
+  EXPECT_EQ(override_of("--refine 2: fluid.size.refine=2").source, "--refine 2");
+  EXPECT_EQ(override_of("title=a: b").argument, "title=a: b");
 }
 
 }  // namespace

@@ -144,12 +144,12 @@ TEST(Scales, follow_the_fastest_thing_in_the_scene) {
 
 TEST(Scales, every_effect_is_on_or_off_with_a_number) {
   const auto notes = effect_notes<2>(scene_of(testing::wedge_drop));
-  ASSERT_EQ(notes.size(), 3u);
+  ASSERT_GE(notes.size(), 3u);
   EXPECT_TRUE(notes[0].active);
   EXPECT_NE(notes[0].reason.find("Fr = U/sqrt(g L) = 2.78"), std::string::npos) << notes[0].reason;
   EXPECT_FALSE(notes[1].active);
   EXPECT_NE(notes[1].reason.find("Re = rho U L/mu = 3.08e+06"), std::string::npos) << notes[1].reason;
-  EXPECT_FALSE(notes[2].active);
+  for (std::size_t i = 2; i < notes.size(); ++i) EXPECT_FALSE(notes[i].active) << notes[i].name;
 }
 
 TEST(Cost, counts_the_nodes_of_a_uniform_box) {
