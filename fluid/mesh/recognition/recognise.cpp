@@ -72,8 +72,7 @@ bool joins_patches(const WallTie& a, const WallTie& b) {
   return a.wall >= 0 && a.wall == b.wall && !a.sharp() && !b.sharp() && a.patch != b.patch;
 }
 
-// Volume that a cell between nodes of a wall and of the water has in the solid, from five points in it. The solid may be too thin
-// for them: where it joins two patches of the wall its edge between them tells.
+// Volume that a cell between nodes of a wall and of the water has in the solid, from five points in it.
 double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const WallsAt<3>& at) {
   constexpr double aside = 0.5;  // of the way from the centroid to a corner
   const auto x = corners(nodes.x, cell);
@@ -92,10 +91,6 @@ double pierced(const std::array<int, 4>& cell, const Nodes<3>& nodes, const Wall
     };
     inside += is_solid(centroid);
     for (int k = 0; k < 4; ++k) inside += is_solid(centroid + aside * (x(k) - centroid));
-    for (int i = 1; i < 4; ++i)
-      for (int j = 0; j < i; ++j)
-        inside += nodes.tie[cell[i]].wall == w && joins_patches(nodes.tie[cell[i]], nodes.tie[cell[j]]) &&
-                  is_solid(0.5 * (x(i) + x(j)));
   }
   return inside == 0 ? 0.0 : volume<3>(x) * std::min(inside, 5) / 5;
 }
