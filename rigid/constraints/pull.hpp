@@ -39,10 +39,11 @@ struct Stretch {
 
 /// Where q and its rate are when a step begins.
 struct StretchAt {
-  double q = 0;             ///< at t_n; positive: taut [m]
-  double rate = 0;          ///< dq/dt at t_{n-1/2} [m/s]
-  double kick = 0, dt = 0;  ///< of the step [s]
-  double compliance = 0;    ///< of bodies along q: dq/dt that a unit impulse gives [1/kg]
+  double q = 0;           ///< at t_n; positive: taut [m]
+  double rate = 0;        ///< dq/dt at t_{n-1/2} [m/s]
+  double kick = 0;        ///< of the step [s]
+  double dt = 0;          ///< the same [s]
+  double compliance = 0;  ///< of bodies along q: dq/dt that a unit impulse gives [1/kg]
 };
 
 /// J_0 and K of a one-sided spring and damper; `rate` is left to the caller.

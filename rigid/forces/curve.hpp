@@ -13,8 +13,8 @@ class Curve {
  public:
   /// A point of it.
   struct Row {
-    double at = 0;  ///< angle [rad] or time [s]
-    Eigen::Matrix<double, values, 1> value = Eigen::Matrix<double, values, 1>::Zero();
+    double at = 0;                                                                      ///< angle [rad] or time [s]
+    Eigen::Matrix<double, values, 1> value = Eigen::Matrix<double, values, 1>::Zero();  ///< there
   };
   Curve() = default;
   /// Rows in ascending x.

@@ -48,14 +48,14 @@ struct LineRelease {
 /// What a line is made from.
 template <int d>
 struct LineSpec {
-  std::string name;
+  std::string name;     ///< of the scene
   LineEnd<d> from;      ///< of a body
   LineEnd<d> to;        ///< of another one or the world; of a canopy where it is at t = 0, world frame
   double length = 0;    ///< slack, L [m]
   Stretch spring = {};  ///< of a straight line
   std::optional<CatenarySpec> catenary = {};  ///< instead of the spring; `to` is its anchor
   std::optional<Canopy<d>> canopy = {};       ///< at its far end
-  LineRelease release = {};
+  LineRelease release = {};                   ///< when it lets go
 };
 
 /// Throws std::invalid_argument naming line, rule and value for a line that cannot be, among so many bodies.

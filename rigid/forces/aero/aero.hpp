@@ -21,18 +21,24 @@ namespace splashdown::rigid {
 /// Of one body.
 template <int d>
 struct AeroSpec {
-  std::size_t body = 0;
+  std::size_t body = 0;             ///< among all
   double density = 1.225;           ///< of the air [kg/m^3]
   double area = 0;                  ///< S [m^2; 2D: m]
-  double length = 1, span = 1;      ///< c, b [m]
+  double length = 1;                ///< c [m]
+  double span = 1;                  ///< b [m]
   Vec<d> nose = Vec<d>::Unit(0);    ///< forward, body frame, unit
   Vec<d> up = Vec<d>::Unit(d - 1);  ///< across the nose, body frame, unit
   Vec<d> point = Vec<d>::Zero();    ///< r, body frame [m]
-  // Over the angle of attack [rad]
-  Curve<1> drag = {}, lift = {}, moment = {};
-  // Over sideslip [rad]
-  Curve<1> side = {}, roll = {}, yaw = {}, sideslip_drag = {};
-  double roll_damping = 0, pitch_damping = 0, yaw_damping = 0;  ///< C_lp, C_mq, C_nr
+  Curve<1> drag = {};               ///< C_D over the angle of attack [rad]
+  Curve<1> lift = {};               ///< C_L, the same
+  Curve<1> moment = {};             ///< C_m, the same
+  Curve<1> side = {};               ///< C_Y over sideslip [rad]
+  Curve<1> roll = {};               ///< C_l, the same
+  Curve<1> yaw = {};                ///< C_n, the same
+  Curve<1> sideslip_drag = {};      ///< added to C_D, the same
+  double roll_damping = 0;          ///< C_lp
+  double pitch_damping = 0;         ///< C_mq
+  double yaw_damping = 0;           ///< C_nr
 };
 
 /// Lift, drag and moments of the air that moves as the wind does.

@@ -11,7 +11,7 @@ namespace splashdown::rigid {
 /// One of them.
 template <int d>
 struct AppliedForceSpec {
-  std::size_t body = 0;
+  std::size_t body = 0;             ///< among all
   Curve<d> force = {};              ///< over time [N, N/m]
   Curve<rotations<d>> moment = {};  ///< over time, about the centre of mass [N m, N]
   bool turns_with_body = false;     ///< components are along the body's axes

@@ -45,7 +45,7 @@ check "its page can be written anew" exits 0 "$splashdown" report one
 check "what is there can be collected" exits 0 ablate --out one "${only[@]}" --collect
 
 # Stopped as soon as a run is under way, resumed with two at a time: the same numbers.
-ablate --out two "${only[@]}" >/dev/null 2>&1 &
+"$splashdown" ablate scene.toml --quiet --out two "${only[@]}" >/dev/null 2>&1 &
 pid=$!
 until_true test -e two/scene_refine-1/scene.resolved.toml
 kill -s TERM $pid
