@@ -27,7 +27,7 @@ end = 3
 [gravity]
 [tank]
 min = [-6, -0.4]
-max = [6, 1.0]
+max = [6, 1.5]
 [fluid]
 density = 1000
 [fluid.size]
@@ -148,6 +148,15 @@ TEST(Touchdown, is_where_it_is_wanted) {
         text = testing::replaced(text, "{type = \"circle\", radius = 0.05}",
                                  "{type = \"box\", width = 0.2, height = 0.1}");
       const double wanted = at[0] == 'c' ? 0 : at[0] == 'b' ? 0.25 : at[0] == 't' ? 0.5 : 0.75;
+      // A flat bottom may meet any slope with a corner that is not there: that is said.
+      if (k == 1) {
+        try {
+          scene_of(text);
+        } catch (const SceneError& error) {
+          EXPECT_NE(std::string(error.what()).find("too wide for this wave"), std::string::npos) << error.what();
+          continue;
+        }
+      }
       const auto scene = scene_of(text);
       const auto sea = sea_of<2>(scene);
       const auto contact = first_contact<2>(scene, scene.bodies[0], *sea, 0, scene.time.end);
