@@ -179,6 +179,7 @@ bool Fluid<d>::release_fragment() {
 // What terms of effects have made of the volume is no debt of the mesh.
 template <int d>
 double Fluid<d>::State::book_sources() {
+  if (terms.source.empty() && terms.diagonal.empty()) return 0;
   std::vector<double> rate(static_cast<std::size_t>(equation.size()), 0.0);
   equation.add_sources(rate, trial.phi);
   double sum = 0;

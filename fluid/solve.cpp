@@ -178,7 +178,7 @@ void Fluid<d>::State::push_surface() {
   const auto scope = timer.scope(Phase::pressure);
   for (const double p : terms.surface_pressure) trial.of_surface.push_back(kick * p);
   trial.of_surface = equation.continued(trial.of_surface);
-  equation.push(trial.of_surface, trial.v, trial.on_walls);
+  equation.push(trial.of_surface, trial.v, centres(work.poses), trial.on_walls);
 }
 
 // The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
@@ -340,6 +340,7 @@ void Fluid<d>::State::evaluate_energies(StepResult<d>& found) const {
 template <int d>
 void Fluid<d>::State::evaluate_work(StepResult<d>& found) const {
   found.power_of_effects.clear();
+  if (trial.booked.empty()) return;
   std::vector<Vec<d>> low(trial.v.size()), high(trial.v.size());
   for (const auto& booked : trial.booked) {
     in_parallel(low.size(), [&](std::size_t i) {

@@ -85,16 +85,7 @@ std::optional<std::string> draw_ablation(const AblationPlan& plan, const Ablatio
   const auto script = script_of(plan, ablation, least);
   if (script.empty()) return "no chart: no number that counts has a value";
   write_file_atomically(folder / "ablation.gnuplot", script);
-  switch (run_gnuplot(folder, {"ablation.gnuplot"}).front()) {
-    case GnuplotResult::drawn:
-      std::filesystem::remove(folder / "ablation.gnuplot.log");
-      return {};
-    case GnuplotResult::missing:
-      return "no chart: gnuplot is missing. Install gnuplot-nox; the same command draws it";
-    case GnuplotResult::failed:
-      break;
-  }
-  return "no chart: see " + (folder / "ablation.gnuplot.log").string();
+  return draw_chart(folder, "ablation", "the same command");
 }
 
 }  // namespace splashdown::apps

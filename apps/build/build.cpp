@@ -18,9 +18,8 @@ using coupling::CouplingLimits;
 CouplingLimits limits(const Coupling& coupling) {
   return {.tolerance = coupling.tolerance,
           .max_passes = coupling.max_passes,
-          .fixed_passes = coupling.scheme == "staggered"
-                              ? named_kind(accelerator_kinds(), coupling.accelerator).staggered_passes
-                              : 0};
+          .fixed_passes =
+              coupling.scheme == "staggered" ? named(accelerator_kinds(), coupling.accelerator).staggered_passes : 0};
 }
 
 /// Bodies that the fluid cannot move have nothing to agree about: one pass without a term.
@@ -28,18 +27,32 @@ Coupling one_way() { return {.scheme = "staggered", .interface_term = "none"}; }
 
 /// A part for the stepper, and the fluid in it for who looks at it.
 template <int d>
-std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene, std::function<void()> meanwhile, World<d>& world) {
+std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene,
+                                                 std::vector<std::unique_ptr<fluid::Effect<d>>> effects,
+                                                 std::function<void()> meanwhile, World<d>& world) {
   auto spec = fluid_spec<d>(scene);
   spec.while_meshing = std::move(meanwhile);
-  auto part = std::make_unique<fluid::Participant<d>>(
-      std::make_unique<fluid::Fluid<d>>(std::move(spec), parts_of<d>(scene).effects));
+  auto part =
+      std::make_unique<fluid::Participant<d>>(std::make_unique<fluid::Fluid<d>>(std::move(spec), std::move(effects)));
   world.fluid = &part->fluid();
   return part;
 }
 
 template <int d>
-std::unique_ptr<coupling::StructurePart> build_bodies(const Scene& scene, World<d>& world) {
-  auto part = std::make_unique<rigid::Participant<d>>(bodies_of<d>(scene));
+std::unique_ptr<rigid::Bodies<d>> bodies_with(const Scene& scene,
+                                              std::vector<std::unique_ptr<rigid::Force<d>>> forces) {
+  std::vector<rigid::BodySpec<d>> specs;
+  for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
+  auto joints = joint_specs(scene);
+  for (const auto* kind : effect_kinds())
+    if (kind->present(scene)) kind->prepare(scene, BodyParts<d>{specs, forces, joints});
+  return std::make_unique<rigid::Bodies<d>>(std::move(specs), std::move(forces), std::move(joints),
+                                            contact_spec<d>(scene));
+}
+
+template <int d>
+std::unique_ptr<coupling::StructurePart> build_bodies(std::unique_ptr<rigid::Bodies<d>> bodies, World<d>& world) {
+  auto part = std::make_unique<rigid::Participant<d>>(std::move(bodies));
   world.bodies = &part->bodies();
   return part;
 }
@@ -52,11 +65,11 @@ bool may_wait(const Scene& scene) {
 
 std::unique_ptr<coupling::Coupled> coupled_stepper(const Coupling& coupling, std::unique_ptr<coupling::FluidPart> fluid,
                                                    std::unique_ptr<coupling::StructurePart> bodies) {
-  const auto& term = named_kind(interface_kinds(), coupling.interface_term);
+  const auto& term = named(interface_kinds(), coupling.interface_term);
   if (!term.make)
     return std::make_unique<coupling::Simultaneous>(std::move(fluid), std::move(bodies), coupling.max_passes);
   return std::make_unique<coupling::Partitioned>(std::move(fluid), std::move(bodies), term.make(),
-                                                 named_kind(accelerator_kinds(), coupling.accelerator).make(coupling),
+                                                 named(accelerator_kinds(), coupling.accelerator).make(coupling),
                                                  limits(coupling));
 }
 
@@ -64,21 +77,17 @@ std::unique_ptr<coupling::Coupled> coupled_stepper(const Coupling& coupling, std
 
 template <int d>
 std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
-  std::vector<rigid::BodySpec<d>> specs;
-  for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
-  auto forces = std::move(parts_of<d>(scene).forces);
-  auto joints = joint_specs(scene);
-  for (const auto* kind : effect_kinds())
-    if (kind->present(scene)) kind->prepare(scene, BodyParts<d>{specs, forces, joints});
-  return std::make_unique<rigid::Bodies<d>>(std::move(specs), std::move(forces), std::move(joints),
-                                            contact_spec<d>(scene));
+  return bodies_with<d>(scene, std::move(parts_of<d>(scene).forces));
 }
 
 template <int d>
 World<d> build_world(const Scene& scene, std::function<void()> meanwhile) {
   World<d> world;
-  auto fluid = scene.fluid ? build_fluid<d>(scene, std::move(meanwhile), world) : nullptr;
-  auto bodies = scene.fluid && scene.bodies.empty() ? nullptr : build_bodies<d>(scene, world);
+  auto parts = parts_of<d>(scene);
+  auto fluid = scene.fluid ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world) : nullptr;
+  auto bodies = scene.fluid && scene.bodies.empty()
+                    ? nullptr
+                    : build_bodies<d>(bodies_with<d>(scene, std::move(parts.forces)), world);
   if (!fluid)
     world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
   else if (!bodies)

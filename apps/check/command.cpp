@@ -102,7 +102,7 @@ void print_effects(const Scene& scene) {
   if (!scene.coupling) return;
   const auto& c = *scene.coupling;
   std::string accelerator = fmt::format("accelerator {} from relaxation {:g}", c.accelerator, c.relaxation);
-  if (const auto details = named_kind(accelerator_kinds(), c.accelerator).details) accelerator += ", " + details(c);
+  if (const auto details = named(accelerator_kinds(), c.accelerator).details) accelerator += ", " + details(c);
   row("coupling", fmt::format("{}, interface term {}, {}, tolerance {:g}, at most {} passes", c.scheme,
                               c.interface_term, accelerator, c.tolerance, c.max_passes));
 }

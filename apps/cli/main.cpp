@@ -105,6 +105,34 @@ CLI::Validator number_or_preset() {
           ""};
 }
 
+// Options that several commands share.
+
+void add_set(CLI::App* command, std::vector<std::string>& set) {
+  command->add_option("--set", set, set_help)->type_name("KEY=VALUE")->allow_extra_args(false)->check(key_and_value());
+}
+
+void add_quantity(CLI::App* command, std::vector<std::string>& quantities) {
+  command
+      ->add_option("--quantity", quantities,
+                   "what matters: NAME=EXPRESSION [from TABLE] [where CONDITION] (repeatable; docs/price.md)")
+      ->type_name("NAME=EXPR")
+      ->allow_extra_args(false);
+}
+
+void add_jobs(CLI::App* command, int& jobs) {
+  command->add_option("--jobs", jobs, "runs at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+}
+
+void add_collect(CLI::App* command, bool& collect) {
+  command->add_flag("--collect", collect, "make no runs: tables and chart of those that are there");
+}
+
+/// Of commands that make several runs.
+void add_runs(CLI::App* command, bool& large, bool& quiet) {
+  command->add_flag("--large", large, "make runs even if they are predicted to take more than 4 GB of memory");
+  command->add_flag("--quiet", quiet, "print errors only");
+}
+
 /// The last word on it: behind all of --set.
 void add_refine(CLI::App* command, std::vector<std::string>& set) {
   command
@@ -157,10 +185,7 @@ CLI::App* add_run(CLI::App& app, RunOptions& run) {
   run_app->add_option("scene", run.scene, scene_help)->required();
   run_app->add_option("--out", run.out,
                       "folder for the files (default: out/<folder of the scene>, or out/<folder>_<file>)");
-  run_app->add_option("--set", run.overrides, set_help)
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->check(key_and_value());
+  add_set(run_app, run.overrides);
   add_refine(run_app, run.overrides);
   run_app->add_option("--threads", run.threads, "threads; default: one in the plane, all cores in space")
       ->check(CLI::Range(1, 1024));
@@ -187,13 +212,12 @@ CLI::App* add_study(CLI::App& app, StudyOptions& study) {
   study_app->add_option("study", study.study, "study file (TOML; docs/study.md)")->required();
   study_app->add_option("--out", study.out,
                         "folder for the runs and tables (default: out/<folder of the study>, or out/<folder>_<file>)");
-  study_app->add_option("--jobs", study.jobs, "runs at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  add_jobs(study_app, study.jobs);
   study_app->add_option("--on", study.on, "where the runs are made")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
-  study_app->add_flag("--collect", study.collect, "make no runs: tables and chart of those that are there");
-  study_app->add_flag("--large", study.large, "make runs even if they are predicted to take more than 4 GB of memory");
-  study_app->add_flag("--quiet", study.quiet, "print errors only");
+  add_collect(study_app, study.collect);
+  add_runs(study_app, study.large, study.quiet);
   return study_app;
 }
 
@@ -202,15 +226,8 @@ CLI::App* add_price(CLI::App& app, PriceOptions& price) {
   price_app->add_option("scene", price.scene, scene_help)->required();
   price_app->add_option("--out", price.out,
                         "folder for the runs and the price list (default: that of run, with _price)");
-  price_app->add_option("--set", price.set, set_help)
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->check(key_and_value());
-  price_app
-      ->add_option("--quantity", price.quantities,
-                   "what matters: NAME=EXPRESSION [from TABLE] [where CONDITION] (repeatable; docs/price.md)")
-      ->type_name("NAME=EXPR")
-      ->allow_extra_args(false);
+  add_set(price_app, price.set);
+  add_quantity(price_app, price.quantities);
   price_app->add_option("--rungs", price.rungs, "meshes, each 1.41 times finer than the one before, from half on")
       ->check(CLI::Range(fewest_rungs, most_rungs))
       ->capture_default_str();
@@ -224,18 +241,14 @@ CLI::App* add_price(CLI::App& app, PriceOptions& price) {
       ->check(positive_number());
   price_app->add_option("--threads", price.threads, "threads of each run; default: that of run")
       ->check(CLI::Range(1, 1024));
-  price_app->add_flag("--large", price.large, "make runs even if they are predicted to take more than 4 GB of memory");
-  price_app->add_flag("--quiet", price.quiet, "print errors only");
+  add_runs(price_app, price.large, price.quiet);
   return price_app;
 }
 
 CLI::App* add_advise(CLI::App& app, AdviseOptions& advise) {
   auto* advise_app = app.add_subcommand("advise", "Say which effects the scene calls for: numbers, changes, sources");
   advise_app->add_option("scene", advise.scene, scene_help)->required();
-  advise_app->add_option("--set", advise.set, set_help)
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->check(key_and_value());
+  add_set(advise_app, advise.set);
   advise_app->add_flag("--json", advise.json, "print JSON for programs (docs/files.md)");
   return advise_app;
 }
@@ -245,16 +258,9 @@ CLI::App* add_ablate(CLI::App& app, AblateOptions& ablate) {
   ablate_app->add_option("scene", ablate.scene, scene_help)->required();
   ablate_app->add_option("--out", ablate.out,
                          "folder for the runs and the tables (default: that of run, with _ablate)");
-  ablate_app->add_option("--set", ablate.set, set_help)
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->check(key_and_value());
+  add_set(ablate_app, ablate.set);
   add_refine(ablate_app, ablate.set);
-  ablate_app
-      ->add_option("--quantity", ablate.quantities,
-                   "what matters: NAME=EXPRESSION [from TABLE] [where CONDITION] (repeatable; docs/price.md)")
-      ->type_name("NAME=EXPR")
-      ->allow_extra_args(false);
+  add_quantity(ablate_app, ablate.quantities);
   ablate_app->add_option("--only", ablate.only, "an effect or choice, e.g. viscosity, walls, tank (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false);
@@ -265,14 +271,12 @@ CLI::App* add_ablate(CLI::App& app, AblateOptions& ablate) {
           "change above which an effect matters (default: 1%)")
       ->type_name("PERCENT")
       ->check(percentage());
-  ablate_app->add_option("--jobs", ablate.jobs, "runs at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  add_jobs(ablate_app, ablate.jobs);
   ablate_app
       ->add_option("--threads", ablate.threads, "threads of each run; default: one in the plane, all cores in space")
       ->check(CLI::Range(1, 1024));
-  ablate_app->add_flag("--collect", ablate.collect, "make no runs: tables and chart of those that are there");
-  ablate_app->add_flag("--large", ablate.large,
-                       "make runs even if they are predicted to take more than 4 GB of memory");
-  ablate_app->add_flag("--quiet", ablate.quiet, "print errors only");
+  add_collect(ablate_app, ablate.collect);
+  add_runs(ablate_app, ablate.large, ablate.quiet);
   return ablate_app;
 }
 
@@ -287,10 +291,7 @@ int command_line(int argc, char** argv) {
   std::vector<std::string> overrides;
   auto* check_app = app.add_subcommand("check", "Say what would run: masses, numbers, effects, cost");
   check_app->add_option("scene", scene, scene_help)->required();
-  check_app->add_option("--set", overrides, set_help)
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->check(key_and_value());
+  add_set(check_app, overrides);
   add_refine(check_app, overrides);
 
   StudyOptions study;

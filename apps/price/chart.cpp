@@ -97,16 +97,7 @@ std::optional<std::string> draw_price(const Price& price, const std::filesystem:
   const auto script = script_of(price);
   if (script.empty()) return "no chart: too few meshes for a band";
   write_file_atomically(folder / "price.gnuplot", script);
-  switch (run_gnuplot(folder, {"price.gnuplot"}).front()) {
-    case GnuplotResult::drawn:
-      std::filesystem::remove(folder / "price.gnuplot.log");
-      return {};
-    case GnuplotResult::missing:
-      return "no chart: gnuplot is missing. Install gnuplot-nox; the same command draws it";
-    case GnuplotResult::failed:
-      break;
-  }
-  return "no chart: see " + (folder / "price.gnuplot.log").string();
+  return draw_chart(folder, "price", "the same command");
 }
 
 }  // namespace splashdown::apps

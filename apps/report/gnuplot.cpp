@@ -142,6 +142,21 @@ void thin(std::vector<double>& x, std::vector<double>& y, std::size_t limit) {
   y = std::move(thin_y);
 }
 
+std::optional<std::string> draw_chart(const std::filesystem::path& folder, const std::string& name,
+                                      const std::string& again) {
+  const auto script = name + ".gnuplot", log = script + ".log";
+  switch (run_gnuplot(folder, {script}).front()) {
+    case GnuplotResult::drawn:
+      std::filesystem::remove(folder / log);
+      return {};
+    case GnuplotResult::missing:
+      return "no chart: gnuplot is missing. Install gnuplot-nox; " + again + " draws it";
+    case GnuplotResult::failed:
+      break;
+  }
+  return "no chart: see " + (folder / log).string();
+}
+
 std::string gnuplot_text(const std::string& text) {
   std::string quoted(1, '\'');
   for (const char c : one_line(text)) quoted.append(c == '\'' ? 2 : 1, c);

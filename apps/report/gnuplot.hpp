@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,11 @@ enum class GnuplotResult { drawn, missing, failed };
 /// Runs gnuplot on each script (file names in `folder`) with the folder as working directory, output to
 /// SCRIPT.log; as many at a time as there are cores.
 std::vector<GnuplotResult> run_gnuplot(const std::filesystem::path& folder, const std::vector<std::string>& scripts);
+
+/// Runs the script NAME.gnuplot in `folder`: why there is no chart; nothing: it is drawn. `again`: what draws it once gnuplot is there,
+/// as in "the same command".
+std::optional<std::string> draw_chart(const std::filesystem::path& folder, const std::string& name,
+                                      const std::string& again);
 
 /// A gnuplot string with its quotes: single ones, between which gnuplot expands nothing. (Between double quotes it runs
 /// what stands in backquotes.) Markup is off wherever such a text is shown.

@@ -278,16 +278,7 @@ std::optional<std::string> draw_chart(const Study& study, const std::vector<Stud
                                       const std::vector<Outcome>& outcomes, const fs::path& folder) {
   write_file_atomically(folder / "study.gnuplot", chart_script(study, runs, outcomes));
   for (const char* picture : {"study.svg", "study.png"}) fs::remove(folder / picture);  // those of other runs
-  switch (run_gnuplot(folder, {"study.gnuplot"}).front()) {
-    case GnuplotResult::drawn:
-      fs::remove(folder / "study.gnuplot.log");
-      return {};
-    case GnuplotResult::missing:
-      return "no chart: gnuplot is missing. Install gnuplot-nox; --collect draws it";
-    case GnuplotResult::failed:
-      break;
-  }
-  return "no chart: see " + (folder / "study.gnuplot.log").string();
+  return draw_chart(folder, "study", "--collect");
 }
 
 }  // namespace splashdown::apps

@@ -45,9 +45,7 @@ StepReport Coupled::attempt(double dt) {
 StepReport Coupled::move_structure_alone(double dt) {
   begin_structure(dt);
   const Stopwatch moving(structure_seconds_), coupling(coupling_seconds_);
-  alone_ = structure_->solve(Impulse::Zero(structure_->scales().size()));
-  if (!alone_.allFinite()) return {.cause = "the bodies' velocities are not finite"};
-  return {.cause = structure_->acceptable().cause, .passes = 1};
+  return step_alone(*structure_, alone_);
 }
 
 void Coupled::commit() {

@@ -39,12 +39,17 @@ void FluidOnly::load(std::istream& in) {
   fluid_->load(in);
 }
 
+StepReport step_alone(StructurePart& structure, Velocities& trial) {
+  trial = structure.solve(Impulse::Zero(structure.scales().size()));
+  if (!trial.allFinite()) return {.cause = "the bodies' velocities are not finite"};
+  return {.cause = structure.acceptable().cause, .passes = 1};
+}
+
 StepReport StructureOnly::attempt(double dt) {
   clock_.start(dt);
   structure_->begin({.kick = clock_.kick(dt), .dt = dt});
-  const Velocities& trial = structure_->solve(Impulse::Zero(structure_->scales().size()));
-  if (!trial.allFinite()) return {.cause = "the bodies' velocities are not finite"};
-  return {.cause = structure_->acceptable().cause, .passes = 1};
+  Velocities trial;
+  return step_alone(*structure_, trial);
 }
 
 void StructureOnly::commit() {

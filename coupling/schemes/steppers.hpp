@@ -52,6 +52,9 @@ class FluidOnly final : public Stepper {
   LeapfrogClock clock_;
 };
 
+/// A begun step of a structure on whose walls no impulse acts. `trial`: the velocities that it ends with.
+StepReport step_alone(StructurePart& structure, Velocities& trial);
+
 /// A structure without a fluid: no impulse acts on its walls.
 class StructureOnly final : public Stepper {
  public:

@@ -141,22 +141,9 @@ template <int d>
 void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
   modes_.resize(centres.size());
   for (auto& m : modes_) m.clear();
-  still_modes_.resize(centres.size());
-  for (auto& m : still_modes_) m.clear();
-  for (const auto& f : mesh_->boundary) {
-    if (f.wall < 0) continue;
-    // int N_a n dA with the arm varying linearly along the facet: consistent facet mass matrix.
-    const Vec<d> area = area_vector_of<d>(f, nodes_->x);
-    Vec<d> sum = Vec<d>::Zero();
-    for (int n : f.nodes) sum += nodes_->x[n] - centres[f.wall];
-    for (int n : f.nodes) {
-      const Wrench<d> row = wrench_of<d>((sum + nodes_->x[n] - centres[f.wall]) / (d + 1), area / d);
-      if (unknown_[n] >= 0)
-        modes_[f.wall].push_back({unknown_[n], row});
-      else
-        still_modes_[f.wall].push_back({n, row});
-    }
-  }
+  each_wall_row(centres, [&](int wall, int n, const auto& row) {
+    if (unknown_[n] >= 0) modes_[wall].push_back({unknown_[n], row()});
+  });
 }
 
 template <int d>

@@ -138,8 +138,9 @@ class PressureEquation {
   /// right, phi is the rest. This one is smooth near the surface.
   std::vector<double> continued(std::span<const double> surface_impulse) const;
   /// What impulses F with p = F on the free surface do: v -= M^-1 int N grad F; adds B F to the walls, about their reference
-  /// points.
-  void push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<Wrench<d>> on_walls) const;
+  /// points `centres` [m].
+  void push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<const Vec<d>> centres,
+            std::span<Wrench<d>> on_walls) const;
   /// Kinetic energy of the liquid [J; 2D: per metre] with the mass that `accelerate` moves, M = M_L (1 + z + 2 z^2)^-1: short
   /// waves are up to `inverse_mass(shortest<d>)` times lighter than with lumping, and an impulse gives them as much more
   /// velocity.
@@ -165,6 +166,8 @@ class PressureEquation {
   const SymmetricMatrix& matrix() const { return matrix_; }          ///< the left side, without the bodies
 
  private:
+  template <class Act>
+  void each_wall_row(std::span<const Vec<d>> centres, Act act) const;
   void spread_change(std::span<Vec<d>> v) const;
   template <class Impulse>
   void lumped_change(Impulse impulse_at, std::size_t nodes) const;
@@ -211,11 +214,6 @@ class PressureEquation {
     Wrench<d> row;  // column of B
   };
   std::vector<std::vector<Mode>> modes_;  // of each wall
-  struct Still {
-    int node;
-    Wrench<d> row;
-  };
-  std::vector<std::vector<Still>> still_modes_;  // the same, of nodes whose phi is held to 0
   HeldMass<d> held_;
   std::vector<std::vector<Mode>> held_modes_;  // R of each wall that responds
   std::vector<double> diagonal_, source_;      // of unknowns: terms of effects; empty: none
@@ -224,6 +222,21 @@ class PressureEquation {
   Eigen::MatrixXd Y_, added_mass_, elimination_;
   Eigen::MatrixXd held_inertia_;  // Z^T (M_h + R Y): what the held mass adds to M + G
 };
+
+// B_kJ of all nodes on walls: act(wall, node, row of the facet). int N_a n dA with the arm varying linearly along the facet:
+// consistent facet mass matrix.
+template <int d>
+template <class Act>
+void PressureEquation<d>::each_wall_row(std::span<const Vec<d>> centres, Act act) const {
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall < 0) continue;
+    const Vec<d> area = area_vector_of<d>(f, nodes_->x);
+    Vec<d> sum = Vec<d>::Zero();
+    for (int n : f.nodes) sum += nodes_->x[n] - centres[f.wall];
+    for (int n : f.nodes)
+      act(f.wall, n, [&] { return wrench_of<d>((sum + nodes_->x[n] - centres[f.wall]) / (d + 1), area / d); });
+  }
+}
 
 extern template class PressureEquation<2>;
 extern template class PressureEquation<3>;

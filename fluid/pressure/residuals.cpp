@@ -167,14 +167,11 @@ std::vector<double> PressureEquation<d>::continued(std::span<const double> surfa
 }
 
 template <int d>
-void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>> v,
+void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<const Vec<d>> centres,
                                std::span<Wrench<d>> on_walls) const {
   lumped_change([&](int n) { return impulse[n]; }, v.size());
   spread_change(v);
-  for (std::size_t w = 0; w < on_walls.size(); ++w) {
-    for (const Mode& mode : modes_[w]) on_walls[w] += impulse[node_[mode.unknown]] * mode.row;
-    for (const Still& still : still_modes_[w]) on_walls[w] += impulse[still.node] * still.row;
-  }
+  each_wall_row(centres, [&](int wall, int n, const auto& row) { on_walls[wall] += impulse[n] * row(); });
 }
 
 template <int d>

@@ -51,6 +51,8 @@ def main():
     for row in rows:
         now = count(options.binary, row["scene"], row["arguments"])
         before = int(row["instructions"])
+        if before == 0 and not options.write:
+            sys.exit(f"{row['scene']}: counts.csv has no count; --write makes it")
         change = now / before - 1 if before else 0
         print(f"{row['scene']} {row['arguments']}: {now} instructions, {100 * change:+.3f} %")
         failed |= change > BAR

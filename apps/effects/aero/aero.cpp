@@ -96,7 +96,7 @@ template <int d>
 std::optional<double> load_over_weight(const Scene& scene, const Scales& s) {
   for (const auto& body : scene.bodies) {
     if (!body.becomes_free() || !(s.gravity > 0)) continue;
-    const auto sizes = extents<d>(outline<d>(body)).sizes();
+    const rigid::Vec<d> sizes = extents<d>(outline<d>(body)).sizes();
     const double mass = mass_properties<d>(body).mass, side = sizes.maxCoeff();
     const double area = d == 2 ? side : sizes.prod() / sizes.minCoeff();
     return 0.5 * standard_air * s.speed * s.speed * area / (mass * s.gravity);

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "apps/scene/kinds/named.hpp"
 #include "apps/scene/scene.hpp"
 
 namespace splashdown::coupling {
@@ -33,19 +33,5 @@ struct InterfaceKind {
   std::unique_ptr<coupling::InterfaceTerm> (*make)();
 };
 std::span<const InterfaceKind> interface_kinds();
-
-/// The row of that name, which is one of them.
-template <class Kind>
-const Kind& named_kind(std::span<const Kind> kinds, std::string_view name) {
-  for (const auto& kind : kinds)
-    if (kind.name == name) return kind;
-  return kinds.front();
-}
-template <class Kind>
-std::vector<std::string> names_of(std::span<const Kind> kinds) {
-  std::vector<std::string> names;
-  for (const auto& kind : kinds) names.emplace_back(kind.name);
-  return names;
-}
 
 }  // namespace splashdown::apps

@@ -1,7 +1,6 @@
 #include "apps/scene/kinds/joint_kinds.hpp"
 
-#include <algorithm>
-#include <stdexcept>
+#include "apps/scene/kinds/named.hpp"
 
 namespace splashdown::apps {
 
@@ -12,17 +11,6 @@ std::span<const JointKind> joint_kinds() {
   return kinds;
 }
 
-const JointKind& kind_of(const Joint& joint) {
-  const auto kinds = joint_kinds();
-  const auto found = std::ranges::find(kinds, joint.type, &JointKind::name);
-  if (found == kinds.end()) throw std::logic_error("no joint is called '" + joint.type + "'");
-  return *found;
-}
-
-std::vector<std::string> joint_names() {
-  std::vector<std::string> names;
-  for (const auto& kind : joint_kinds()) names.emplace_back(kind.name);
-  return names;
-}
+const JointKind& kind_of(const Joint& joint) { return named(joint_kinds(), joint.type); }
 
 }  // namespace splashdown::apps

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "apps/scene/scene.hpp"
 #include "rigid/joint.hpp"
@@ -25,6 +23,5 @@ struct JointKind {
 std::span<const JointKind> joint_kinds();
 /// Of a joint that was read.
 const JointKind& kind_of(const Joint& joint);
-std::vector<std::string> joint_names();
 
 }  // namespace splashdown::apps

@@ -1,4 +1,5 @@
 #include "apps/scene/kinds/joint_kinds.hpp"
+#include "apps/scene/kinds/named.hpp"
 #include "apps/scene/read/parts.hpp"
 
 namespace splashdown::apps {
@@ -24,7 +25,7 @@ void read_play(Reader& reader, Joint& joint, int dimension) {
 
 std::optional<Joint> read_joint(Reader& reader, const Scene& scene) {
   Joint joint;
-  if (!reader.choice("type", joint.type, joint_names(), Need::required)) {
+  if (!reader.choice("type", joint.type, names_of(joint_kinds()), Need::required)) {
     reader.skip_all();
     return {};
   }

@@ -1,3 +1,4 @@
+#include "apps/scene/kinds/named.hpp"
 #include "apps/scene/read/parts.hpp"
 
 namespace splashdown::apps {
@@ -98,11 +99,8 @@ constexpr RecordKind record_kinds[] = {{"pressure", read_pressure},
 
 void read_record(Reader& reader, Scene& scene) {
   std::string name;
-  Reader::Names names;
-  for (const auto& kind : record_kinds) names.emplace_back(kind.name);
-  if (!reader.choice("kind", name, names, Need::required)) return reader.skip_all();
-  for (const auto& kind : record_kinds)
-    if (kind.name == name) kind.read(reader, scene);
+  if (!reader.choice("kind", name, names_of(record_kinds), Need::required)) return reader.skip_all();
+  named(record_kinds, name).read(reader, scene);
 }
 
 }  // namespace splashdown::apps

@@ -95,4 +95,11 @@ inline void expect_told(const std::vector<std::string>& messages, const std::str
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
+/// A scene with one mistake is refused with this message alone.
+inline void expect_refused(const std::string& scene, const Mistake& mistake) {
+  const auto messages = messages_of(scene);
+  EXPECT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
+  expect_told(messages, "scene.toml", mistake);
+}
+
 }  // namespace splashdown::apps::testing

@@ -3,23 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "fluid/effects/effect.hpp"
+#include "tests/unit/fluid_terms/still_mesh.hpp"
 
 namespace splashdown::fluid::testing {
 
 /// Cells of a lattice: two triangles a square, six tetrahedra (Kuhn) a cube.
 template <int d>
-struct Block {
-  Nodes<d> nodes;
-  Mesh<d> mesh;
-  std::vector<double> lumped_volume;
-  std::vector<WallSpec<d>> walls;
-  std::vector<Isometry<d>> poses;
+struct Block : StillMesh<d> {
+  using StillMesh<d>::nodes;
+  using StillMesh<d>::mesh;
+  using StillMesh<d>::lumped_volume;
+  using StillMesh<d>::walls;
+  using StillMesh<d>::poses;
   std::vector<Twist<d>> wall_velocities;
-  double density = 1000, kick = 1e-3;
-  const ModalInertia* answers = nullptr;
 
   using Lattice = Eigen::Matrix<int, d, 1>;
   Lattice count;
@@ -87,43 +84,16 @@ struct Block {
     return w;
   }
 
-  void set_velocity(const std::function<Vec<d>(const Vec<d>&)>& field) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes.v[i] = field(nodes.x[i]);
-  }
-
   /// One kick: returns the new velocities, and the impulses on walls.
   std::vector<Vec<d>> predict(Effect<d>& effect, std::vector<Wrench<d>>* impulses = nullptr) const {
-    NodeCells<d> around;
-    around.build(mesh.cells, nodes.size());
-    const StepView<d> view{.nodes = nodes,
-                           .mesh = mesh,
-                           .density = density,
-                           .kick = kick,
-                           .t = 0,
-                           .dt = kick,
-                           .dt_before = 0,
-                           .lumped_volume = lumped_volume,
-                           .around = around,
-                           .walls = walls,
-                           .poses = poses,
-                           .answers = answers};
     std::vector<Vec<d>> v = nodes.v;
     std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero());
-    if (!effect.begin(view).ok() || !effect.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok()) return {};
+    const bool is_done = this->with_view([&](const StepView<d>& view) {
+      return effect.begin(view).ok() && effect.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok();
+    });
+    if (!is_done) return {};
     if (impulses) *impulses = on_walls;
     return v;
-  }
-
-  Wrench<d> momentum(std::span<const Vec<d>> v) const {
-    Wrench<d> sum = Wrench<d>::Zero();
-    for (std::size_t i = 0; i < v.size(); ++i)
-      sum += wrench_of<d>(nodes.x[i], Vec<d>(density * lumped_volume[i] * v[i]));
-    return sum;
-  }
-  double kinetic_energy(std::span<const Vec<d>> v) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) sum += 0.5 * density * lumped_volume[i] * v[i].squaredNorm();
-    return sum;
   }
 
  private:

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fluid/mesh/node_cells.hpp"
+#include "tests/unit/fluid_terms/still_mesh.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -17,18 +17,19 @@ constexpr double roundoff = 1e-12;
 /// A cube or a square with sides of 1.6, or a plate that is thin along the last axis, in the midst of nodes on a lattice. Facets of
 /// a hull are its own, finely cut along the first axis.
 template <int d>
-struct Cloud {
-  Nodes<d> nodes;
-  Mesh<d> mesh;
-  std::vector<double> lumped_volume;
-  std::vector<WallSpec<d>> walls{1};
-  std::vector<Isometry<d>> poses{Isometry<d>::Identity()};
+struct Cloud : testing::StillMesh<d> {
+  using testing::StillMesh<d>::nodes;
+  using testing::StillMesh<d>::mesh;
+  using testing::StillMesh<d>::lumped_volume;
+  using testing::StillMesh<d>::walls;
+  using testing::StillMesh<d>::poses;
   std::vector<Twist<d>> motion{Twist<d>::Zero()};
-  double kick = 1e-3, density = 1000;
   bool closes = true;  ///< the flow behind the hull
   double spacing = d == 2 ? 0.05 : 0.2;
 
   explicit Cloud(double thickness = 1.6, int cuts = 8) {
+    walls.resize(1);
+    poses.assign(1, Isometry<d>::Identity());
     Vec<d> half = Vec<d>::Constant(0.8);
     half[d - 1] = thickness / 2;
     const int count = static_cast<int>(std::ceil(2 * half.norm() / spacing));
@@ -53,9 +54,6 @@ struct Cloud {
       }
   }
 
-  void set_velocity(const std::function<Vec<d>(const Vec<d>&)>& field) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes.v[i] = field(nodes.x[i]);
-  }
   /// The water past the hull runs towards its middle faster than the hull moves: a flow that closes.
   void close_behind() {
     for (const auto& f : mesh.boundary) {
@@ -79,26 +77,10 @@ struct Cloud {
     }
     return sum / all;
   }
-  template <class Act>
-  auto with_view(Act act) const {
-    NodeCells<d> around;
-    around.build(mesh.cells, nodes.size());
-    return act(StepView<d>{.nodes = nodes,
-                           .mesh = mesh,
-                           .density = density,
-                           .kick = kick,
-                           .t = 0,
-                           .dt = kick,
-                           .dt_before = kick,
-                           .lumped_volume = lumped_volume,
-                           .around = around,
-                           .walls = walls,
-                           .poses = poses});
-  }
   /// Velocities after a kick; `impulse`: on the hull about its centre.
   std::vector<Vec<d>> predict(FormDrag<d>& effect, Wrench<d>& impulse) {
     if (closes) close_behind();
-    return with_view([&](const StepView<d>& view) {
+    return this->with_view([&](const StepView<d>& view) {
       std::vector<Vec<d>> v = nodes.v;
       std::vector<Wrench<d>> on_walls(1, Wrench<d>::Zero());
       EXPECT_TRUE(effect.begin(view).ok());
@@ -108,18 +90,7 @@ struct Cloud {
     });
   }
   void commit(FormDrag<d>& effect) const {
-    with_view([&](const StepView<d>& view) { effect.commit(view); });
-  }
-  Wrench<d> momentum(std::span<const Vec<d>> v) const {
-    Wrench<d> sum = Wrench<d>::Zero();
-    for (std::size_t i = 0; i < v.size(); ++i)
-      sum += wrench_of<d>(nodes.x[i], Vec<d>(density * lumped_volume[i] * v[i]));
-    return sum;
-  }
-  double kinetic_energy(std::span<const Vec<d>> v) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) sum += 0.5 * density * lumped_volume[i] * v[i].squaredNorm();
-    return sum;
+    this->with_view([&](const StepView<d>& view) { effect.commit(view); });
   }
 
  private:

@@ -14,14 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-template <int d>
-BodySpec<d> lump(double mass, const Vec<d>& centre) {
-  BodySpec<d> spec = free_body<d>(mass, Inertia<d>::Identity() * 0.1 * mass);
-  spec.surface.vertices = 0.5 * Eigen::Matrix<double, d, d>::Identity();
-  spec.pose.translation() = centre;
-  return spec;
-}
-
 /// To a place of the world, or `other`.
 template <int d>
 LineSpec<d> straight(double length, double stiffness, const Vec<d>& to, std::optional<std::size_t> other = {}) {

@@ -48,6 +48,15 @@ BodySpec<d> of_shape(const Shape<d>& shape, const Vec<d>& centre, double mass = 
   return spec;
 }
 
+/// A sphere of 0.5 m without forces on it.
+template <int d>
+BodySpec<d> lump(double mass, const Vec<d>& centre) {
+  BodySpec<d> spec = free_body<d>(mass, Inertia<d>::Identity() * 0.1 * mass);
+  spec.surface.vertices = 0.5 * Eigen::Matrix<double, d, d>::Identity();
+  spec.pose.translation() = centre;
+  return spec;
+}
+
 template <int d>
 std::vector<std::unique_ptr<Force<d>>> pull(const Vec<d>& acceleration) {
   std::vector<std::unique_ptr<Force<d>>> forces;

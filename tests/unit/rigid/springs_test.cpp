@@ -12,15 +12,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// A sphere of 0.5 m without forces on it.
-template <int d>
-BodySpec<d> lump(double mass, const Vec<d>& centre) {
-  BodySpec<d> spec = free_body<d>(mass, Inertia<d>::Identity() * 0.1 * mass);
-  spec.surface.vertices = 0.5 * Eigen::Matrix<double, d, d>::Identity();
-  spec.pose.translation() = centre;
-  return spec;
-}
-
 const Eigen::Vector3d along_x = Eigen::Vector3d::UnitX();
 
 TEST(Spring, swings_with_its_period_to_second_order) {

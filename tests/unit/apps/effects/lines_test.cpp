@@ -69,9 +69,7 @@ class BadLineIsRefused : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(BadLineIsRefused, with_place_key_and_rule) {
   const auto& bad = GetParam();
-  const auto messages = testing::messages_of(with(bad.from, bad.to));
-  EXPECT_EQ(messages.size(), 1u) << ::testing::PrintToString(messages);
-  testing::expect_told(messages, "scene.toml", bad);
+  testing::expect_refused(with(bad.from, bad.to), bad);
 }
 
 const std::vector<Mistake> bad_lines = {
