@@ -18,5 +18,9 @@ struct WavySurface {
 /// The box with its top raised by the elevation less its mean, so that it holds as much water as below a flat one.
 template <int d>
 Surface<d> wavy_box(const BoxRegion& box, const WavySurface<d>& top);
+template <>
+Surface<2> wavy_box(const BoxRegion& box, const WavySurface<2>& top);
+template <>
+Surface<3> wavy_box(const BoxRegion& box, const WavySurface<3>& top);
 
 }  // namespace splashdown::apps

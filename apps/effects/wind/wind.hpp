@@ -5,18 +5,19 @@
 
 namespace splashdown::apps {
 
+struct GustTable {
+  Point velocity = Point::Zero();  ///< at its peak, added [m/s]
+  double start = 0;                ///< [s]
+  double duration = 1;             ///< [s]
+};
+
 struct WindTable {
   Point velocity = Point::Zero();   ///< at `height` [m/s]
   std::string profile = "uniform";  ///< "uniform" | "log"
   double height = 10;               ///< over the water, where `velocity` is measured [m]
   double roughness = 2e-4;          ///< of the surface [m]; open sea (Wieringa 1992)
   std::optional<double> level;      ///< of the surface [m]; default: that of still water
-  struct Gust {
-    Point velocity = Point::Zero();  ///< at its peak, added [m/s]
-    double start = 0;                ///< [s]
-    double duration = 1;             ///< [s]
-  };
-  std::optional<Gust> gust;
+  std::optional<GustTable> gust;
 };
 
 class WindKind final : public EffectOf<WindKind, WindTable> {

@@ -114,7 +114,7 @@ class HullMap<d>::Locator {
     for (const int facet : tree_.meeting({x - reach, x + reach}))
       found_.insert(found_.end(), surface_.facets.col(facet).begin(), surface_.facets.col(facet).end());
     std::ranges::sort(found_);
-    found_.erase(std::ranges::unique(found_).begin(), found_.end());
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
     std::erase_if(found_, [&](int vertex) { return !((surface_.vertices.col(vertex) - x).norm() <= radius); });
     return found_;
   }
