@@ -102,6 +102,7 @@ CASES = [
     Case("box_in_waves", "scene.toml", "body_box_displacement", 40),
     Case("wave_landing", "scene.toml --until 0.33", "end", 3, (-0.6, 1.15, -0.4, 0.7)),
     Case("terminal_speed", "scene.toml", SPEED, 20),
+    Case("planing_plate", "scene.toml", "end", 20, (9.2, 12.2, -0.8, 1.0)),
     Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),
 ]
 

@@ -15,6 +15,13 @@ bool is_sum(std::string_view name) {
   return std::ranges::any_of(sums, [&](std::string_view sum) { return name.ends_with(sum); });
 }
 
+/// The axis of a force of an effect, by the name of its column; -1: it is none.
+int force_axis(std::string_view name) {
+  constexpr std::array<std::string_view, 3> forces{"_fx", "_fy", "_fz"};
+  const auto found = std::ranges::find_if(forces, [&](std::string_view force) { return name.ends_with(force); });
+  return found == forces.end() ? -1 : static_cast<int>(found - forces.begin());
+}
+
 Ledger twice(Ledger ledger) {
   for (double* sum : {&ledger.volume_initial, &ledger.volume, &ledger.time_integration, &ledger.remesh_created,
                       &ledger.remesh_deleted, &ledger.returned, &ledger.spray, &ledger.hull_chords,
@@ -54,7 +61,10 @@ class Whole<d>::Fluid final : public FluidView<d> {
   std::vector<Diagnostic> diagnostics() const override {
     auto all = half_.diagnostics();
     for (auto& [name, value] : all)
-      if (is_sum(name)) value *= 2;
+      if (const int axis = force_axis(name); axis >= 0)
+        value *= axis == mirror_.axis ? 0 : 2;
+      else if (is_sum(name))
+        value *= 2;
     return all;
   }
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override { return 2 * half_.added_mass(walls); }

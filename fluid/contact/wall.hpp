@@ -103,6 +103,10 @@ class Wall {
   const std::vector<int>& corners() const { return corners_; }
   /// Whether nothing but the plane of symmetry makes this vertex a corner.
   bool is_smooth(int corner) const { return smooth_corner_[corner] != 0; }
+  /// Whether water flows past the node as it does past a smooth face.
+  bool is_smooth(const WallTie& tie) const {
+    return !tie.sharp() || (d == 2 && tie.vertex >= 0 && is_smooth(tie.vertex));
+  }
   /// As it was made.
   const WallSpec<d>& spec() const { return spec_; }
   /// A vertex of a smooth patch that is curved there.

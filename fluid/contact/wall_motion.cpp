@@ -53,6 +53,7 @@ void WallMotion<d>::find_edges(const WallsAt<d>& walls, std::span<const char> an
     const bool first_touch = dry[tie.wall];
     if (!first_touch && (!wetted_[i] || nodes_.separates[i])) continue;
     const Wall<d>& wall = walls_[tie.wall];
+    if (!first_touch && wall.is_smooth(tie)) continue;
     if (!first_touch && wall.is_convex(tie)) {
       slips_[i] = 1;
       edges_.push_back(i);
@@ -71,7 +72,7 @@ template <int d>
 void WallMotion<d>::meet_pressure(std::span<const int> unknown, std::span<const double> volume) {
   share_momentum<d>(volume, separations_);
   for (int i : tied_)
-    if (!nodes_.tie[i].sharp() && wetted_[i] && unknown[i] >= 0) slips_[i] = 1;
+    if (walls_[nodes_.tie[i].wall].is_smooth(nodes_.tie[i]) && wetted_[i] && unknown[i] >= 0) slips_[i] = 1;
   for (int f = 0; f < static_cast<int>(mesh_.boundary.size()); ++f) {
     const Facet<d>& facet = mesh_.boundary[f];
     if (facet.wall < 0) continue;

@@ -166,6 +166,38 @@ std::optional<EffectNote> AeroKind::note(const Scene& scene, const Scales& s) co
            : std::string("loads of the air on bodies")};
 }
 
+// In space a body that flies in the plane has an angle of attack and no sideslip. In the plane its nose has a mirror image of its own.
+template <int d>
+std::optional<std::string> AeroKind::asymmetry_in(const Scene& scene, const Mirror& mirror) const {
+  constexpr double written_digits = 1e-6;  // of lengths and directions, that people write
+  for (const auto& table : scene.effects.find<AeroTables>()->of_bodies) {
+    const auto& body = scene.bodies[table.body];
+    const auto spec = aero_of<d>(table, body);
+    const auto pose = shape_pose<d>(body);
+    const double off = mirror.distance<d>(pose * rigid::Vec<d>(mass_properties<d>(body).centre + spec.point));
+    if (std::abs(off) > written_digits * extents<d>(outline<d>(body)).sizes().maxCoeff())
+      return fmt::format("acts on '{}' {:g} m off the plane", body.name, off);
+    const auto acts = [](const rigid::Curve<1>& curve, double at) { return !curve.empty() && curve.at(at)[0] != 0; };
+    if constexpr (d == 3) {
+      if (std::abs((pose.linear() * spec.nose)[mirror.axis]) > written_digits ||
+          std::abs((pose.linear() * spec.up)[mirror.axis]) > written_digits)
+        return fmt::format("has nose or up of '{}' off the plane", body.name);
+      if (acts(spec.side, 0) || acts(spec.roll, 0) || acts(spec.yaw, 0))
+        return fmt::format("pushes '{}' aside without sideslip", body.name);
+    } else {
+      const auto any = [](const Coefficient& rows) {
+        return std::ranges::any_of(rows, [](const std::vector<double>& row) { return row.back() != 0; });
+      };
+      if (any(table.lift) || any(table.moment)) return fmt::format("lifts or turns '{}' to one side", body.name);
+    }
+  }
+  return {};
+}
+
+std::optional<std::string> AeroKind::asymmetry(const Scene& scene, const Mirror& mirror) const {
+  return scene.dimension == 2 ? asymmetry_in<2>(scene, mirror) : asymmetry_in<3>(scene, mirror);
+}
+
 template <int d>
 void AeroKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
   std::vector<rigid::AeroSpec<d>> specs;

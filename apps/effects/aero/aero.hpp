@@ -32,10 +32,13 @@ class AeroKind final : public EffectOf<AeroKind, AeroTables> {
   TablePlace place() const override { return TablePlace::body; }
   void read(Reader& reader, Scene& scene) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
+  std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
 
  private:
   friend EffectOf;
+  template <int d>
+  std::optional<std::string> asymmetry_in(const Scene& scene, const Mirror& mirror) const;
   template <int d>
   void build_in(const Scene& scene, const EffectParts<d>& parts) const;
 };

@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/parts.hpp"
+#include "core/mirror.hpp"
 #include "rigid/forces/applied/applied.hpp"
 
 namespace splashdown::apps {
 namespace {
+
+constexpr double roundoff = 1e-9;        // of a force
+constexpr double written_digits = 1e-6;  // of lengths, that people write
 
 template <int values>
 rigid::Curve<values> over_time(const std::vector<std::vector<double>>& rows) {
@@ -52,6 +59,38 @@ std::optional<EffectNote> ForceKind::note(const Scene& scene, const Scales& s) c
   return EffectNote{"force", true,
                     fmt::format("up to {:.3g} {}{}", most, scene.dimension == 2 ? "N/m" : "N",
                                 s.gravity > 0 ? "" : "; there is no gravity beside it")};
+}
+
+template <int d>
+std::optional<std::string> ForceKind::asymmetry_in(const Scene& scene, const Mirror& mirror) const {
+  const auto kept = mirror.kept<d>();
+  for (const auto& table : scene.effects.find<ForceTables>()->all) {
+    const auto& body = scene.bodies[table.body];
+    const auto pose = shape_pose<d>(body);
+    const auto leaves = [&](const auto& rows, auto turn, auto stays) {
+      return std::ranges::any_of(rows, [&](const std::vector<double>& row) {
+        const Eigen::VectorXd there = turn * Eigen::Map<const Eigen::VectorXd>(row.data() + 1, stays.size());
+        return there.cwiseProduct(Eigen::VectorXd::Ones(stays.size()) - stays).norm() > roundoff * there.norm();
+      });
+    };
+    const Eigen::MatrixXd turn =
+        table.axes == "body" ? Eigen::MatrixXd(pose.linear()) : Eigen::MatrixXd::Identity(d, d);
+    if (leaves(table.force, turn, Eigen::VectorXd(kept.template head<d>())))
+      return fmt::format("pushes '{}' across the plane", body.name);
+    constexpr int turns = rigid::rotations<d>;
+    if (leaves(table.moment, d == 3 ? turn : Eigen::MatrixXd::Identity(turns, turns),
+               Eigen::VectorXd(kept.template tail<turns>())))
+      return fmt::format("turns '{}' out of the plane", body.name);
+    if (!table.point) continue;
+    if (const double off = mirror.distance<d>(pose * vec<d>(*table.point));
+        std::abs(off) > written_digits * extents<d>(outline<d>(body)).sizes().maxCoeff())
+      return fmt::format("acts on '{}' {:g} m off the plane", body.name, off);
+  }
+  return {};
+}
+
+std::optional<std::string> ForceKind::asymmetry(const Scene& scene, const Mirror& mirror) const {
+  return scene.dimension == 2 ? asymmetry_in<2>(scene, mirror) : asymmetry_in<3>(scene, mirror);
 }
 
 template <int d>

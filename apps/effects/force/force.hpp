@@ -22,10 +22,13 @@ class ForceKind final : public EffectOf<ForceKind, ForceTables> {
   std::string_view name() const override { return "force"; }
   TablePlace place() const override { return TablePlace::body_array; }
   void read(Reader& reader, Scene& scene) const override;
+  std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
 
  private:
   friend EffectOf;
+  template <int d>
+  std::optional<std::string> asymmetry_in(const Scene& scene, const Mirror& mirror) const;
   template <int d>
   void build_in(const Scene& scene, const EffectParts<d>& parts) const;
 };

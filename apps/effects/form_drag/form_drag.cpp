@@ -7,6 +7,7 @@
 
 #include "apps/effects/form_drag/shape_classes.hpp"
 #include "apps/effects/theory/theory.hpp"
+#include "apps/scene/mirror.hpp"
 #include "apps/scene/read/reader.hpp"
 #include "fluid/effects/form_drag/form_drag.hpp"
 
@@ -70,7 +71,7 @@ void FormDragKind::build_in(const Scene& scene, const EffectParts<d>& parts) con
   for (const auto& body : scene.bodies)
     hulls.push_back(
         {.coefficient = coefficient_of(*table, body), .develops = shape_drag(body.shape).round ? round_hulls_take : 0});
-  parts.fluid.push_back(std::make_unique<fluid::FormDrag<d>>(std::move(hulls)));
+  parts.fluid.push_back(std::make_unique<fluid::FormDrag<d>>(std::move(hulls), mirror_of(scene)));
 }
 
 template void FormDragKind::build_in<2>(const Scene&, const EffectParts<2>&) const;

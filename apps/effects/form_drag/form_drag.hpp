@@ -14,6 +14,7 @@ struct FormDrag {
 class FormDragKind final : public EffectOf<FormDragKind, FormDrag> {
  public:
   std::string_view name() const override { return "form_drag"; }
+  std::optional<std::string> asymmetry(const Scene&, const Mirror&) const override { return {}; }
   TablePlace place() const override { return TablePlace::fluid; }
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;

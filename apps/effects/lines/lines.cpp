@@ -54,7 +54,7 @@ void check_line(const Scene& scene, const LineEntry& line, Problems& problems) {
   const auto wrong = [&](const std::string& key, const std::string& rule, const std::string& cure) {
     problems.add(line.path + key, rule, cure);
   };
-  const auto moves = [&](std::size_t body) { return scene.bodies[body].motion == Motion::free; };
+  const auto moves = [&](std::size_t body) { return scene.bodies[body].becomes_free(); };
   if (line.other == line.body) wrong(".other", "a body cannot be tied to itself", "Name another body, or use anchor.");
   if (!moves(line.body) && !(line.other && moves(*line.other)))
     wrong(".body",

@@ -4,6 +4,7 @@
 
 #include "apps/effects/theory/theory.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
+#include "apps/scene/mirror.hpp"
 #include "apps/scene/read/reader.hpp"
 #include "fluid/effects/skin_friction/skin_friction.hpp"
 
@@ -61,8 +62,11 @@ std::optional<Advice> SkinFrictionKind::advise(const Outlook& look) const {
 template <int d>
 void SkinFrictionKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
   const auto* table = scene.effects.find<SkinFriction>();
-  parts.fluid.push_back(std::make_unique<fluid::SkinFriction<d>>(fluid::SkinFrictionSpec{
-      .line = line_of(*table), .dynamic_viscosity = table->dynamic_viscosity, .hulls = scene.bodies.size()}));
+  parts.fluid.push_back(
+      std::make_unique<fluid::SkinFriction<d>>(fluid::SkinFrictionSpec{.line = line_of(*table),
+                                                                       .dynamic_viscosity = table->dynamic_viscosity,
+                                                                       .hulls = scene.bodies.size(),
+                                                                       .mirror = mirror_of(scene)}));
 }
 
 template void SkinFrictionKind::build_in<2>(const Scene&, const EffectParts<2>&) const;

@@ -13,6 +13,7 @@ struct SkinFriction {
 class SkinFrictionKind final : public EffectOf<SkinFrictionKind, SkinFriction> {
  public:
   std::string_view name() const override { return "skin_friction"; }
+  std::optional<std::string> asymmetry(const Scene&, const Mirror&) const override { return {}; }
   TablePlace place() const override { return TablePlace::fluid; }
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;

@@ -55,7 +55,8 @@ Surface<2> wavy_box(const BoxRegion& box, const WavySurface<2>& top) {
   return surface_of<2>(points, facets);
 }
 
-// Sides are strips between the top's rim and the same points on the floor, whose fan of a corner is flat like the box's.
+// Below each piece of the top's rim a strip of a side goes down to the floor, whose triangles meet in its middle: fans of corners would
+// overlap where a wave is steeper than the line of sight to the far end.
 template <>
 Surface<3> wavy_box(const BoxRegion& box, const WavySurface<3>& top) {
   auto points = top_of<3>(box, top);
@@ -72,21 +73,19 @@ Surface<3> wavy_box(const BoxRegion& box, const WavySurface<3>& top) {
   for (int j = 0; j < ny; ++j) rim.push_back(at(nx, j));
   for (int i = nx; i > 0; --i) rim.push_back(at(i, ny));
   for (int j = ny; j > 0; --j) rim.push_back(at(0, j));
-  const int floor = static_cast<int>(points.size());
-  const std::array<int, 4> corner{0, nx, nx + ny, 2 * nx + ny};  // in the rim
-  for (int c = 0; c < 4; ++c) {
-    Vec<3> below = points[static_cast<std::size_t>(rim[static_cast<std::size_t>(corner[c])])];
+  const int around = static_cast<int>(rim.size()), floor = static_cast<int>(points.size()), middle = floor + around;
+  for (const int k : rim) {
+    Vec<3> below = points[static_cast<std::size_t>(k)];
     below.z() = box.min.z();
     points.push_back(below);
   }
-  const int around = static_cast<int>(rim.size());
-  for (int c = 0; c < 4; ++c) {  // a side: a fan of its first corner on the floor, and the last triangle
-    const int from = corner[c], to = c < 3 ? corner[c + 1] : around, next = floor + (c + 1) % 4;
-    for (int k = from; k < to; ++k) facets.push_back({floor + c, rim[(k + 1) % around], rim[k]});
-    facets.push_back({floor + c, next, rim[to % around]});
+  points.emplace_back(0.5 * (box.min.x() + box.max.x()), 0.5 * (box.min.y() + box.max.y()), box.min.z());
+  for (int k = 0; k < around; ++k) {
+    const int next = (k + 1) % around;
+    facets.push_back({floor + k, floor + next, rim[next]});
+    facets.push_back({floor + k, rim[next], rim[k]});
+    facets.push_back({middle, floor + next, floor + k});
   }
-  facets.push_back({floor, floor + 2, floor + 1});
-  facets.push_back({floor, floor + 3, floor + 2});
   return surface_of<3>(points, facets);
 }
 

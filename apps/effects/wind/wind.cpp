@@ -43,6 +43,15 @@ void WindKind::check(const Scene& scene, Problems& problems) const {
                  "Add [body.aero] to a body, or remove the table.");
 }
 
+std::optional<std::string> WindKind::asymmetry(const Scene& scene, const Mirror& mirror) const {
+  const auto& table = *scene.effects.find<WindTable>();
+  if (const double across = table.velocity[mirror.axis]; across != 0)
+    return fmt::format("blows across the plane at {:g} m/s", across);
+  if (table.gust && table.gust->velocity[mirror.axis] != 0)
+    return fmt::format("has a gust of {:g} m/s across the plane", table.gust->velocity[mirror.axis]);
+  return {};
+}
+
 // The strongest winds that were measured outside of tornadoes, Barrow Island 1996, are 113 m/s.
 void WindKind::ask(const AskedScene& asked, std::vector<std::string>& questions) const {
   constexpr double strongest = 113, knots = 0.5144;

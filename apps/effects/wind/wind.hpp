@@ -26,6 +26,7 @@ class WindKind final : public EffectOf<WindKind, WindTable> {
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
+  std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
 };
 

@@ -60,8 +60,8 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
   list.push_back(
       {mesh,
-       fmt::format("{} elements on half of the wetted width{}{}: {}", rounded(e.elements),
-                   e.growing > mostly ? ", which grows" : "",
+       fmt::format("{} elements on half of the wetted width{}{}: {}",
+                   std::isnan(e.elements) ? "no" : rounded(e.elements), e.growing > mostly ? ", which grows" : "",
                    std::isfinite(e.pressed) ? fmt::format(", {} on half of the patch", rounded(e.pressed)) : "",
                    percent_text(mesh)),
        &BandParts::mesh});

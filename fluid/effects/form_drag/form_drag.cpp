@@ -23,7 +23,8 @@ double developed(double way, double length) {
 template <int d>
 Status FormDrag<d>::begin(const StepView<d>& step) {
   if (spheres_.empty())
-    for (std::size_t w = 0; w < hulls_.size(); ++w) spheres_.push_back(sphere_around<d>(step.walls[w].surface));
+    for (std::size_t w = 0; w < hulls_.size(); ++w)
+      spheres_.push_back(sphere_around<d>(step.walls[w].surface, step.poses[w], mirror_));
   now_.assign(hulls_.size(), {});
   for (std::size_t w = 0; w < hulls_.size(); ++w) now_[w].centre = step.poses[w] * spheres_[w].centre;
   for (const auto& f : step.mesh.boundary) {
@@ -60,6 +61,7 @@ double FormDrag<d>::closing(std::size_t hull, const Twist<d>& through, const Twi
   for (const Wetted& f : now_[hull].wetted) all += rear(f), centre += rear(f) * f.arm;
   if (all == 0) return 0;
   centre /= all;
+  if (mirror_) centre[mirror_->axis] = 0;  // with the rear's other half
   for (const Wetted& f : now_[hull].wetted) {
     if (rear(f) == 0) continue;
     const Vec<d> normal = f.area.normalized(), inward = centre - f.arm - normal * normal.dot(centre - f.arm);
@@ -77,7 +79,7 @@ void FormDrag<d>::act(std::size_t w, const StepView<d>& step, const Carried<d>& 
   const Hull& hull = now_[w];
   Eigen::Map<Vec<d>> next(&next_[d * w]);
   next.setZero();
-  Surroundings<d> water(step, hull.centre, spheres_[w].radius, static_cast<int>(w));
+  Surroundings<d> water(step, hull.centre, spheres_[w].radius, static_cast<int>(w), mirror_);
   if (hull.wetted.empty() || water.empty()) return;
   const Vec<d> arm = hull.centre - step.poses[w].translation();
   Twist<d> through = carried.walls[w];
@@ -94,6 +96,7 @@ void FormDrag<d>::act(std::size_t w, const StepView<d>& step, const Carried<d>& 
   closing_ = closing(w, through, own, carried.v);
   const double missing = 1 - by_itself * (1 - std::min(1.0, closing_ / closed));
   Wrench<d> impulse = step.kick * missing * drag(w, through, step.density);
+  if (mirror_) impulse = mirror_->kept<d>().cwiseProduct(impulse);
   if (impulse.isZero(0)) return;
   double fastest = 0;
   auto changes = water.behind(-impulse, fastest);

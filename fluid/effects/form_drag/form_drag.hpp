@@ -35,9 +35,10 @@ struct FormDragSpec {
 template <int d>
 class FormDrag final : public Effect<d> {
  public:
-  /// `hulls`: of the first walls, in their order. Takes the values as they are: readers check them.
-  explicit FormDrag(std::vector<FormDragSpec> hulls)
-      : hulls_(std::move(hulls)), ways_(d * hulls_.size(), 0.0), next_(ways_) {}
+  /// `hulls`: of the first walls, in their order. Takes the values as they are: readers check them. With a mirror fluid, hulls,
+  /// loads and work are those of the half before it.
+  explicit FormDrag(std::vector<FormDragSpec> hulls, std::optional<Mirror> mirror = {})
+      : hulls_(std::move(hulls)), mirror_(mirror), ways_(d * hulls_.size(), 0.0), next_(ways_) {}
   std::string name() const override { return "form_drag"; }
   Status begin(const StepView<d>& step) override;
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
@@ -65,6 +66,7 @@ class FormDrag final : public Effect<d> {
   void act(std::size_t hull, const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted);
 
   std::vector<FormDragSpec> hulls_;
+  std::optional<Mirror> mirror_;
   std::vector<HullSphere<d>> spheres_;
   std::vector<Hull> now_;
   std::vector<double> ways_, next_;  // next: by the end of the step

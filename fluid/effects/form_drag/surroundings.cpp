@@ -9,11 +9,6 @@
 namespace splashdown::fluid {
 namespace {
 
-template <int d>
-Twist<d> motion_of(const Eigen::Matrix<double, freedoms<d>, freedoms<d>>& inertia, const Wrench<d>& momentum) {
-  return algebra::least_squares(inertia, momentum);
-}
-
 // From -1 behind to 1 ahead, odd, level at both ends.
 double side(double cosine) {
   const double squared = cosine * cosine;
@@ -23,9 +18,10 @@ double side(double cosine) {
 }  // namespace
 
 template <int d>
-HullSphere<d> sphere_around(const Surface<d>& surface) {
+HullSphere<d> sphere_around(const Surface<d>& surface, const Isometry<d>& pose, const std::optional<Mirror>& mirror) {
   HullSphere<d> sphere;
   sphere.centre = 0.5 * (surface.vertices.rowwise().minCoeff() + surface.vertices.rowwise().maxCoeff());
+  if (mirror) sphere.centre = pose.inverse() * mirror->onto<d>(pose * sphere.centre);
   sphere.radius = (surface.vertices.colwise() - sphere.centre).colwise().norm().maxCoeff();
   double volume_sum = 0;
   for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
@@ -33,13 +29,16 @@ HullSphere<d> sphere_around(const Surface<d>& surface) {
     for (int k = 0; k < d; ++k) corner[k] = surface.vertices.col(surface.facets(k, f));
     volume_sum += (corner[0] - sphere.centre).dot(area_vector(corner)) / d;
   }
+  if (mirror) volume_sum *= 2;  // the cut lies in the plane, as the centre does
   const double of_unit = d == 2 ? std::numbers::pi / 4 : std::numbers::pi / 6;
   sphere.breadth = std::pow(std::abs(volume_sum) / of_unit, 1.0 / d);
   return sphere;
 }
 
 template <int d>
-Surroundings<d>::Surroundings(const StepView<d>& step, const Vec<d>& centre, double radius, int wall) {
+Surroundings<d>::Surroundings(const StepView<d>& step, const Vec<d>& centre, double radius, int wall,
+                              const std::optional<Mirror>& mirror) {
+  if (mirror) kept_ = mirror->kept<d>();
   for (std::size_t i = 0; i < step.nodes.size(); ++i) {
     if (step.nodes.spray[i] || step.nodes.tie[i].wall == wall) continue;
     const Vec<d> arm = step.nodes.x[i] - centre;
@@ -66,17 +65,23 @@ Eigen::Matrix<double, freedoms<d>, freedoms<d>> Surroundings<d>::inertia(Weight 
 }
 
 template <int d>
+Twist<d> Surroundings<d>::motion_of(const Eigen::Matrix<double, freedoms<d>, freedoms<d>>& inertia,
+                                    const Wrench<d>& momentum) const {
+  return algebra::least_squares(kept_.asDiagonal() * inertia * kept_.asDiagonal(), kept_.cwiseProduct(momentum));
+}
+
+template <int d>
 Twist<d> Surroundings<d>::ahead(std::span<const Vec<d>> v) const {
   const auto weight = [](const Around& one) { return one.mass * (1 + one.side); };
   Wrench<d> momentum = Wrench<d>::Zero();
   for (const Around& one : around_) momentum += weight(one) * wrench_of<d>(one.arm, v[one.node]);
-  return motion_of<d>(inertia(weight), momentum);
+  return motion_of(inertia(weight), momentum);
 }
 
 template <int d>
 std::vector<std::pair<int, Vec<d>>> Surroundings<d>::behind(const Wrench<d>& impulse, double& fastest) const {
   const auto weight = [](const Around& one) { return one.mass * (1 - one.side); };
-  const Twist<d> change = motion_of<d>(inertia(weight), impulse);
+  const Twist<d> change = motion_of(inertia(weight), impulse);
   std::vector<std::pair<int, Vec<d>>> changes;
   fastest = 0;
   for (const Around& one : around_) {
@@ -86,8 +91,8 @@ std::vector<std::pair<int, Vec<d>>> Surroundings<d>::behind(const Wrench<d>& imp
   return changes;
 }
 
-template HullSphere<2> sphere_around(const Surface<2>&);
-template HullSphere<3> sphere_around(const Surface<3>&);
+template HullSphere<2> sphere_around(const Surface<2>&, const Isometry<2>&, const std::optional<Mirror>&);
+template HullSphere<3> sphere_around(const Surface<3>&, const Isometry<3>&, const std::optional<Mirror>&);
 template class Surroundings<2>;
 template class Surroundings<3>;
 

@@ -6,8 +6,10 @@
 // puts no pressure on the hull: what is taken from the hull does not come back to it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "core/mirror.hpp"
 #include "fluid/effects/effect.hpp"
 
 namespace splashdown::fluid {
@@ -19,16 +21,17 @@ struct HullSphere {
   double radius = 0;               ///< [m]
   double breadth = 0;              ///< diameter of the circle or sphere that holds as much [m]
 };
-/// Centre: of the surface's extents.
+/// Centre: of the surface's extents; with a mirror, which `surface` is one half before, moved onto the plane.
 template <int d>
-HullSphere<d> sphere_around(const Surface<d>& surface);
+HullSphere<d> sphere_around(const Surface<d>& surface, const Isometry<d>& pose, const std::optional<Mirror>& mirror);
 
 /// Made for one step and one hull.
 template <int d>
 class Surroundings {
  public:
-  /// `centre` world frame [m].
-  Surroundings(const StepView<d>& step, const Vec<d>& centre, double radius, int wall);
+  /// `centre` world frame [m]. With a mirror, on its plane, motions are their own mirror images, and impulses act on one half.
+  Surroundings(const StepView<d>& step, const Vec<d>& centre, double radius, int wall,
+               const std::optional<Mirror>& mirror);
   /// Turns the weights towards `direction`, of the hull through the water, any length; zero: both are even.
   void face(const Vec<d>& direction);
   /// Motion of the water ahead, about the centre [m/s, rad/s]: the rigid one that is nearest to it.
@@ -47,12 +50,15 @@ class Surroundings {
   };
   template <class Weight>
   Eigen::Matrix<double, freedoms<d>, freedoms<d>> inertia(Weight weight) const;
+  /// The rigid motion of that inertia with that momentum.
+  Twist<d> motion_of(const Eigen::Matrix<double, freedoms<d>, freedoms<d>>& inertia, const Wrench<d>& momentum) const;
 
   std::vector<Around> around_;
+  Twist<d> kept_ = Twist<d>::Ones();  // 0: entries that a mirror takes away
 };
 
-extern template HullSphere<2> sphere_around(const Surface<2>&);
-extern template HullSphere<3> sphere_around(const Surface<3>&);
+extern template HullSphere<2> sphere_around(const Surface<2>&, const Isometry<2>&, const std::optional<Mirror>&);
+extern template HullSphere<3> sphere_around(const Surface<3>&, const Isometry<3>&, const std::optional<Mirror>&);
 extern template class Surroundings<2>;
 extern template class Surroundings<3>;
 

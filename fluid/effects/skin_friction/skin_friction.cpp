@@ -52,6 +52,9 @@ double SkinFriction<d>::length(const StepView<d>& step, int wall, const Vec<d>& 
   for (int n : nodes_of_[wall]) {
     const double s = direction.dot(step.nodes.x[n]);
     low = std::min(low, s), high = std::max(high, s);
+    if (!spec_.mirror) continue;
+    const double image = direction.dot(spec_.mirror->template image<d>(step.nodes.x[n]));
+    low = std::min(low, image), high = std::max(high, image);
   }
   return high - low;
 }

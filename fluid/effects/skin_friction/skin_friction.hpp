@@ -11,6 +11,9 @@
 // nodes behind them. u is therefore read where it is larger, on the hull (curved hulls) or one element away from it (layers).
 #pragma once
 
+#include <optional>
+
+#include "core/mirror.hpp"
 #include "fluid/effects/effect.hpp"
 #include "fluid/effects/skin_friction/friction_line.hpp"
 
@@ -19,8 +22,9 @@ namespace splashdown::fluid {
 /// What the friction of hulls is made from.
 struct SkinFrictionSpec {
   FrictionLine line = FrictionLine::ittc1957;
-  double dynamic_viscosity = 1e-3;  ///< [Pa s]
-  std::size_t hulls = 0;            ///< the first so many walls have friction
+  double dynamic_viscosity = 1e-3;    ///< [Pa s]
+  std::size_t hulls = 0;              ///< the first so many walls have friction
+  std::optional<Mirror> mirror = {};  ///< which hulls are one half before: their lengths are of the whole
 };
 
 /// Explicit, momentum is kept. A kick brings no node and no body beyond the velocity of what rubs it.

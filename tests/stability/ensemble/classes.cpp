@@ -26,6 +26,8 @@ const std::vector<Class>& classes() {
       {"still_tanks", "water at rest", still_tank},
       {"slots", "gaps below the element size, squeezed bodies, drops of a few nodes, enclosed liquid", slot},
       {"uav_attitudes", "the aircraft of the example at eight attitudes", uav_attitude},
+      {"effect_mixes", "three to six effects at a time: the sea, air, lines, drag, beach, symmetry, stages",
+       effect_mix},
   };
   return all;
 }

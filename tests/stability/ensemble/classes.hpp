@@ -28,5 +28,6 @@ Member drop_or_jet(std::uint64_t seed);
 Member still_tank(std::uint64_t seed);
 Member slot(std::uint64_t seed);
 Member uav_attitude(std::uint64_t seed);
+Member effect_mix(std::uint64_t seed);
 
 }  // namespace splashdown::ensemble

@@ -29,14 +29,16 @@ const std::vector<double>& column(const quantity::Table& table, const std::strin
   return *values;
 }
 
-/// Over all rows: what the water holds beyond its first energy and what walls gave, over what they gave.
+/// Over all rows: what the water holds beyond its first energy and what walls and effects gave, over what walls gave.
 double energy_gain(const quantity::Table& fluid, double scale) {
   const auto &kinetic = column(fluid, "kinetic_energy"), &potential = column(fluid, "potential_energy"),
              &work = column(fluid, "work_on_walls");
+  const auto* const effects = fluid.find("work_of_effects");
   double gain = 0, given = scale;
   for (std::size_t i = 0; i < work.size(); ++i) {
     if (kinetic[i] < 0) return infinite;
-    gain = most(gain, kinetic[i] + potential[i] - kinetic[0] - potential[0] + work[i]);
+    const double by_effects = effects != nullptr ? (*effects)[i] : 0;
+    gain = most(gain, kinetic[i] + potential[i] - kinetic[0] - potential[0] + work[i] - by_effects);
     given = most(given, -work[i]);
   }
   return given > 0 || gain > 0 ? gain / given : 0;

@@ -43,10 +43,14 @@ SceneText& SceneText::toml(std::string_view key, std::string_view value) {
   return *this;
 }
 
-double Basin::water() const { return std::pow(2 * rounded(half_width), dimension - 1) * rounded(depth); }
+double Basin::water() const {
+  const double breadth = dimension == 3 ? 2 * rounded(half_breadth > 0 ? half_breadth : half_width) : 1;
+  return 2 * rounded(half_width) * breadth * rounded(depth);
+}
 
 SceneText Basin::scene() const {
   Point low(static_cast<std::size_t>(dimension), -half_width), high(low.size(), half_width), top = high;
+  if (dimension == 3 && half_breadth > 0) low[1] = -half_breadth, high[1] = top[1] = half_breadth;
   low.back() = -depth, high.back() = 0, top.back() = air;
   SceneText s;
   s.word("title", title);

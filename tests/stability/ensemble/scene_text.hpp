@@ -33,7 +33,9 @@ struct Basin {
   std::string title;
   double end = 1;
   double cfl = 0;  ///< 0: the default
-  double half_width = 1, depth = 1, air = 1;
+  double half_width = 1;
+  double half_breadth = 0;  ///< in space, along y; 0: half_width
+  double depth = 1, air = 1;
   double surface = 0.1, far = 0.1, growth = 0.2, wetted_fraction = 0;
   int dimension = 2;
 

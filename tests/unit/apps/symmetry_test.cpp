@@ -41,5 +41,23 @@ TEST(Symmetry, in_space_holds_for_each_horizontal_axis_by_itself) {
   EXPECT_EQ(axes_of<3>(capsule, {"body.capsule.spin_deg=[0, 20, 0]"}), (Axes{0, 1})) << "pitching keeps left and right";
 }
 
+// Along the plane effects push to both sides alike.
+TEST(Symmetry, of_effects_is_broken_by_what_they_have_across_the_plane) {
+  const auto with = [](const std::string& effects) {
+    return testing::wedge_drop_with("[output]", effects + "\n[output]");
+  };
+  for (const char* kept :
+       {"[fluid.skin_friction]", "[fluid.form_drag]", "[[body.force]]\nforce = [0, -50]",
+        "[body.aero]\narea = 0.5\ndrag = 1", "[body.aero]\narea = 0.5\ndrag = 1\n[wind]\nvelocity = [0, -3]"})
+    EXPECT_EQ(axes_of<2>(with(kept)), Axes{1}) << kept;
+  for (const char* broken :
+       {"[[body.force]]\nforce = [1, -50]", "[[body.force]]\nforce = [0, -50]\npoint = [0.1, 0]",
+        "[[body.force]]\nmoment = 3", "[body.aero]\narea = 0.5\nlift = 1",
+        "[body.aero]\narea = 0.5\ndrag = 1\npoint = [0.1, 0.1]",
+        "[body.aero]\narea = 0.5\ndrag = 1\n[wind]\nvelocity = [2, 0]",
+        "[body.aero]\narea = 0.5\ndrag = 1\n[wind]\nvelocity = [0, 0]\n[wind.gust]\nvelocity = [1, 0]\nduration = 1"})
+    EXPECT_EQ(axes_of<2>(with(broken)), Axes{0}) << broken;
+}
+
 }  // namespace
 }  // namespace splashdown::apps

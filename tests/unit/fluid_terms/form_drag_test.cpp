@@ -26,8 +26,10 @@ struct Cloud : testing::StillMesh<d> {
   std::vector<Twist<d>> motion{Twist<d>::Zero()};
   bool closes = true;  ///< the flow behind the hull
   double spacing = d == 2 ? 0.05 : 0.2;
+  bool half_only = false;
 
-  explicit Cloud(double thickness = 1.6, int cuts = 8) {
+  /// `only_half`: what lies at x > 0.
+  explicit Cloud(double thickness = 1.6, int cuts = 8, bool only_half = false) : half_only(only_half) {
     walls.resize(1);
     poses.assign(1, Isometry<d>::Identity());
     Vec<d> half = Vec<d>::Constant(0.8);
@@ -36,7 +38,7 @@ struct Cloud : testing::StillMesh<d> {
     Eigen::Matrix<int, d, 1> at = Eigen::Matrix<int, d, 1>::Constant(-count);
     while (at[d - 1] <= count) {
       const Vec<d> x = spacing * (at.template cast<double>().array() + 0.5);
-      if ((x.array().abs() > half.array()).any()) {
+      if ((x.array().abs() > half.array()).any() && (x[0] > 0 || !half_only)) {
         nodes.add(x, Vec<d>::Zero(), 0, {}, false);
         lumped_volume.push_back(std::pow(spacing, d));
       }
@@ -75,6 +77,7 @@ struct Cloud : testing::StillMesh<d> {
       const double rear = std::max(0.0, area_vector_of<d>(f, nodes.x).dot(rigid_velocity<d>(motion[0], centre)));
       sum += rear * centre, all += rear;
     }
+    if (half_only) sum[0] = 0;
     return sum / all;
   }
   /// Velocities after a kick; `impulse`: on the hull about its centre.
@@ -106,6 +109,7 @@ struct Cloud : testing::StillMesh<d> {
       a[axis] = b[axis] = side * half[axis];
       a[along] = -half[along] + 2 * half[along] * c / cuts;
       b[along] = -half[along] + 2 * half[along] * (c + 1) / cuts;
+      if (half_only && a[0] + b[0] <= 0) continue;
       std::vector<std::array<Vec<d>, d>> facets;
       if constexpr (d == 2) {
         facets = {{a, b}};
@@ -154,6 +158,34 @@ TYPED_TEST(FormDragIn, is_that_of_the_coefficient_in_water_at_rest_and_in_a_curr
 
 // The velocity that a circle or sphere as large as the hull's makes: a dipole, whose mean over spheres is zero. The lattice knows
 // spheres to its spacing over their radius.
+// The mirror stands across the first axis, the hull moves along the last one.
+TYPED_TEST(FormDragIn, of_one_half_before_a_mirror_is_half_of_that_of_the_whole) {
+  constexpr int d = TypeParam::value;
+  for (const bool closes : {true, false}) {
+    Cloud<d> whole, half(1.6, 8, true);
+    Wrench<d> on_whole, on_half;
+    std::vector<Vec<d>> v_whole, v_half;
+    for (auto* cloud : {&whole, &half}) {
+      cloud->motion[0][d - 1] = -3;
+      cloud->closes = closes;
+      cloud->set_velocity([&](const Vec<d>& x) -> Vec<d> { return 0.2 * x[0] * x[0] * Vec<d>::Unit(d - 1); });
+    }
+    auto effect = drag<d>();
+    FormDrag<d> mirrored({{.coefficient = 1.3}}, Mirror{0, 0});
+    v_whole = whole.predict(effect, on_whole), v_half = half.predict(mirrored, on_half);
+    EXPECT_GT(on_whole.norm(), 0);
+    EXPECT_LT((on_half - 0.5 * on_whole).norm(), 1e3 * roundoff * on_whole.norm());
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < v_half.size(); ++i)
+      for (std::size_t k = 0; k < v_whole.size(); ++k)
+        if (half.nodes.x[i] == whole.nodes.x[k] && half.nodes.tie[i].wall < 0) {
+          EXPECT_LT((v_half[i] - v_whole[k]).norm(), 1e3 * roundoff) << i;
+          ++same;
+        }
+    EXPECT_GT(same, 50U);
+  }
+}
+
 TYPED_TEST(FormDragIn, takes_no_notice_of_the_flow_that_the_hull_makes) {
   constexpr int d = TypeParam::value;
   Cloud<d> cloud;

@@ -50,6 +50,11 @@ TEST(Lines, are_forces_that_are_there_or_not) {
   EXPECT_EQ(lines_scene(testing::wedge_drop).effects.find<Lines>(), nullptr);
 }
 
+TEST(Lines, hold_bodies_that_a_path_lets_go) {
+  const auto prescribed = with("free = [\"y\"]", "motion = \"prescribed\"");
+  EXPECT_NO_THROW(lines_scene(testing::replaced(prescribed, "[output]", "[body.release]\nat = \"contact\"\n[output]")));
+}
+
 TEST(Lines, have_columns_of_their_names) {
   const auto names = [](const std::string& text) {
     std::vector<std::string> all;

@@ -130,6 +130,25 @@ TEST(WavesTable, water_is_as_much_as_below_a_flat_surface) {
   }
 }
 
+// Facets that overlap are more than what they cover: a long tank's sides seen from a corner, and a wave steeper than the line of sight.
+TEST(WavesTable, sides_of_a_long_tank_do_not_overlap) {
+  const BoxRegion box{.min = Point(-20, -3, -4), .max = Point(20, 3, 0)};
+  const int pieces = 200;
+  const auto surface = wavy_box<3>(box, {{pieces, 2}, [](const Vec<3>& x) { return 0.3 * std::sin(0.7 * x.x()); }});
+  double sides = 0, floor = 0,
+         exact = 6 * 2 * 4.0;  // at both ends the wave's height is that of its odd part, and cancels
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    const Vec<3> a = surface.vertices.col(surface.facets(0, f)), b = surface.vertices.col(surface.facets(1, f)),
+                 c = surface.vertices.col(surface.facets(2, f));
+    const Vec<3> area = 0.5 * (b - a).cross(c - a);
+    if (std::abs(area.z()) < 1e-12) sides += area.norm();
+    if (a.z() == -4 && b.z() == -4 && c.z() == -4) floor += area.norm();
+  }
+  exact += 2 * 40 * 4.0;  // under a line whose mean is the still level
+  EXPECT_NEAR(sides, exact, 1e-9 * exact);
+  EXPECT_NEAR(floor, 240, 1e-9 * 240);
+}
+
 // Wherever it starts, however fast it falls, and whatever wave it is.
 TEST(Touchdown, is_where_it_is_wanted) {
   std::mt19937 draw(3);
