@@ -13,9 +13,6 @@
 namespace splashdown::apps {
 namespace {
 
-constexpr double roundoff = 1e-9;        // of a force
-constexpr double written_digits = 1e-6;  // of lengths, that people write
-
 template <int values>
 rigid::Curve<values> over_time(const std::vector<std::vector<double>>& rows) {
   std::vector<typename rigid::Curve<values>::Row> all;
@@ -63,6 +60,8 @@ std::optional<EffectNote> ForceKind::note(const Scene& scene, const Scales& s) c
 
 template <int d>
 std::optional<std::string> ForceKind::asymmetry_in(const Scene& scene, const Mirror& mirror) const {
+  constexpr double roundoff = 1e-9;        // of a force
+  constexpr double written_digits = 1e-6;  // of lengths, that people write
   const auto kept = mirror.kept<d>();
   for (const auto& table : scene.effects.find<ForceTables>()->all) {
     const auto& body = scene.bodies[table.body];
