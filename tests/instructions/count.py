@@ -5,7 +5,8 @@
     count.py SPLASHDOWN --write    writes what it counts
 
 Instructions of a whole run under valgrind, one thread, which are the same each time on one system (a new compiler or library is
-a reason to write them anew, with the change that brought it in). A rise by more than 0.5 % fails.
+a reason to write them anew, with the change that brought it in). A rise by more than 0.5 % fails. Scenes are plane: valgrind does not
+round as CGAL's intervals ask for, and the first mesh in space ends in its stack.
 """
 
 import argparse

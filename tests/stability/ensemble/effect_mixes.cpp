@@ -125,7 +125,9 @@ Member effect_mix(std::uint64_t seed) {
   if (has("waves")) {
     s.table("waves").word("type", "regular").set("height", rounded(wave)).set("length", lambda);
     const double phase = random.uniform(0, 360);
-    if (dropped && !has("release") && body.name != std::string("box"))  // a wide bottom has no first point
+    const std::string shape = body.name;
+    const bool has_flat_bottom = shape == "box" || shape == "capsule";  // which has no point that is first
+    if (dropped && !has("release") && !has_flat_bottom)
       s.table("waves.touchdown").word("body", "hull").set("phase_deg", phase);
     else
       s.set("phase_deg", phase);
