@@ -34,7 +34,9 @@ SCENES = {
 }
 
 # (scene, effect): why advice and runs differ. A line each in the page.
-EXPLAINED = {}
+EXPLAINED = {
+    ("flat_plate_impact/scene", "gravity"): "the impact is an impulse; what the panel has afterwards is the weight of the water alone",
+}
 
 
 def say(program, arguments):

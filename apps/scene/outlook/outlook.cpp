@@ -142,6 +142,19 @@ double mass_of(const Body& body) {
   return mass_properties<d>(body).mass;
 }
 
+/// The way that a free body under water sinks or rises in a time, without drag: what is left of its weight moves it and the water
+/// around it, to the floor or to the surface. Nothing for others [m].
+template <int d>
+Vec<d> sunk(const Scene& scene, const Body& body, const Extents<d>& box, double added, double time) {
+  const auto level = still_water_level<d>(scene);
+  if (body.motion != Motion::free || !scene.gravity || !scene.tank || !level || box.max()[d - 1] > *level)
+    return Vec<d>::Zero();
+  const double mass = mass_of<d>(body), displaced = scene.fluid->density * shape_of<d>(body.shape).at_unit_density.mass,
+               up = (mass - displaced) / (mass + added) * scene.gravity->acceleration[d - 1];
+  const double room = up > 0 ? *level - box.max()[d - 1] : box.min()[d - 1] - scene.tank->min[d - 1];
+  return std::copysign(std::min(0.5 * std::abs(up) * time * time, std::max(0., room)), up) * Vec<d>::Unit(d - 1);
+}
+
 template <int d>
 Mover mover_of(const Scene& scene, std::size_t index, const std::optional<Entry>& entry) {
   const auto& body = scene.bodies[index];
@@ -158,7 +171,8 @@ Mover mover_of(const Scene& scene, std::size_t index, const std::optional<Entry>
   mover.moves = body.motion != Motion::fixed;
   const double from = entry ? entry->time : 0, end = scene.time.end;
   mover.time_in_water = std::max(0., end - from);
-  const Vec<d> way = guessed_motion<d>(scene, body, end) - guessed_motion<d>(scene, body, from);
+  Vec<d> way = guessed_motion<d>(scene, body, end) - guessed_motion<d>(scene, body, from);
+  if (way.isZero(0) && scene.fluid) way = sunk<d>(scene, body, box, mover.added, mover.time_in_water);
   mover.way = way.norm();
   // Of a side what is under water as long as it floats.
   const double wet =

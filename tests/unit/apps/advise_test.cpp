@@ -192,6 +192,20 @@ TEST(Advice, does_not_depend_on_whether_viscosity_is_there_already) {
   }
 }
 
+// From rest under water: half a second is not a diameter of way, five are twenty.
+TEST(Advice, form_drag_holds_up_what_sinks_from_rest) {
+  const std::vector<std::string> sinks = {"body.wedge.shape={type = \"circle\", radius = 0.05}",
+                                          "body.wedge.mass=",
+                                          "body.wedge.density=1500",
+                                          "body.wedge.velocity=",
+                                          "body.wedge.position=[0.0, -0.2]",
+                                          "record=",
+                                          "time.end=5"};
+  EXPECT_EQ(advised_of("form_drag", sinks), Advised::on);
+  EXPECT_EQ(advised_of("form_drag", with(sinks, "time.end=0.05")), Advised::off);
+  EXPECT_EQ(advised_of("form_drag", with(sinks, "body.wedge.density=1000")), Advised::off) << "it stays where it is";
+}
+
 TEST(Advice, of_a_flat_bottom_names_air_and_compressibility) {
   const std::vector<std::string> flat = {"body.wedge.shape={type = \"box\", width = 0.5, height = 0.1}",
                                          "body.wedge.position=[0.0, 0.06]", "record="};
