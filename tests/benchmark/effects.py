@@ -82,10 +82,12 @@ def rows_of(scene, advice, ablation):
 
 def table_of(scene, advice, ablation):
     rows, wrong = rows_of(scene, advice, ablation)
-    absent = [f"{e['name']} **{e['advice']}** ({numbers(e)})" for e in advice["effects"] if not e["available"]]
+    absent = [f"| {e['name']} | {e['advice']} | {numbers(e)} |" for e in advice["effects"] if not e["available"]]
+    if absent:
+        absent = ["", "| not to be had yet | advice | numbers |", "|---|---|---|", *absent]
     text = [f"### {scene.removesuffix('/scene').replace('/scene_', ', ')}", "", advice["entry"] or "No body enters the water.", "",
             "| effect or choice | there | advice | peak load, expected | motion, expected | runs | agree |", "|---|---|---|---|---|---|---|",
-            *rows, "", "Not to be had yet: " + "; ".join(absent) + "." if absent else "", ""]
+            *rows, *absent, ""]
     return "\n".join(text), wrong
 
 
