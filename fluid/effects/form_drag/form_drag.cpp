@@ -23,8 +23,7 @@ double developed(double way, double length) {
 template <int d>
 Status FormDrag<d>::begin(const StepView<d>& step) {
   if (spheres_.empty())
-    for (std::size_t w = 0; w < hulls_.size(); ++w)
-      spheres_.push_back(sphere_around<d>(step.walls[w].surface, step.poses[w], mirror_));
+    for (std::size_t w = 0; w < hulls_.size(); ++w) spheres_.push_back(sphere_around<d>(step.walls[w].surface));
   now_.assign(hulls_.size(), {});
   for (std::size_t w = 0; w < hulls_.size(); ++w) now_[w].centre = step.poses[w] * spheres_[w].centre;
   for (const auto& f : step.mesh.boundary) {

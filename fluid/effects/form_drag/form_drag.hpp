@@ -35,8 +35,8 @@ struct FormDragSpec {
 template <int d>
 class FormDrag final : public Effect<d> {
  public:
-  /// `hulls`: of the first walls, in their order. Takes the values as they are: readers check them. With a mirror fluid, hulls,
-  /// loads and work are those of the half before it.
+  /// `hulls`: of the first walls, in their order. Takes the values as they are: readers check them. With a mirror fluid,
+  /// wetted facets, loads and work are those of the half before it.
   explicit FormDrag(std::vector<FormDragSpec> hulls, std::optional<Mirror> mirror = {})
       : hulls_(std::move(hulls)), mirror_(mirror), ways_(d * hulls_.size(), 0.0), next_(ways_) {}
   std::string name() const override { return "form_drag"; }

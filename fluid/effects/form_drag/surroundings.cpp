@@ -18,10 +18,9 @@ double side(double cosine) {
 }  // namespace
 
 template <int d>
-HullSphere<d> sphere_around(const Surface<d>& surface, const Isometry<d>& pose, const std::optional<Mirror>& mirror) {
+HullSphere<d> sphere_around(const Surface<d>& surface) {
   HullSphere<d> sphere;
   sphere.centre = 0.5 * (surface.vertices.rowwise().minCoeff() + surface.vertices.rowwise().maxCoeff());
-  if (mirror) sphere.centre = pose.inverse() * mirror->onto<d>(pose * sphere.centre);
   sphere.radius = (surface.vertices.colwise() - sphere.centre).colwise().norm().maxCoeff();
   double volume_sum = 0;
   for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
@@ -29,7 +28,6 @@ HullSphere<d> sphere_around(const Surface<d>& surface, const Isometry<d>& pose, 
     for (int k = 0; k < d; ++k) corner[k] = surface.vertices.col(surface.facets(k, f));
     volume_sum += (corner[0] - sphere.centre).dot(area_vector(corner)) / d;
   }
-  if (mirror) volume_sum *= 2;  // the cut lies in the plane, as the centre does
   const double of_unit = d == 2 ? std::numbers::pi / 4 : std::numbers::pi / 6;
   sphere.breadth = std::pow(std::abs(volume_sum) / of_unit, 1.0 / d);
   return sphere;
@@ -91,8 +89,8 @@ std::vector<std::pair<int, Vec<d>>> Surroundings<d>::behind(const Wrench<d>& imp
   return changes;
 }
 
-template HullSphere<2> sphere_around(const Surface<2>&, const Isometry<2>&, const std::optional<Mirror>&);
-template HullSphere<3> sphere_around(const Surface<3>&, const Isometry<3>&, const std::optional<Mirror>&);
+template HullSphere<2> sphere_around(const Surface<2>&);
+template HullSphere<3> sphere_around(const Surface<3>&);
 template class Surroundings<2>;
 template class Surroundings<3>;
 

@@ -21,9 +21,9 @@ struct HullSphere {
   double radius = 0;               ///< [m]
   double breadth = 0;              ///< diameter of the circle or sphere that holds as much [m]
 };
-/// Centre: of the surface's extents; with a mirror, which `surface` is one half before, moved onto the plane.
+/// Centre: of the surface's extents. Hulls reach across a plane of symmetry whole.
 template <int d>
-HullSphere<d> sphere_around(const Surface<d>& surface, const Isometry<d>& pose, const std::optional<Mirror>& mirror);
+HullSphere<d> sphere_around(const Surface<d>& surface);
 
 /// Made for one step and one hull.
 template <int d>
@@ -57,8 +57,8 @@ class Surroundings {
   Twist<d> kept_ = Twist<d>::Ones();  // 0: entries that a mirror takes away
 };
 
-extern template HullSphere<2> sphere_around(const Surface<2>&, const Isometry<2>&, const std::optional<Mirror>&);
-extern template HullSphere<3> sphere_around(const Surface<3>&, const Isometry<3>&, const std::optional<Mirror>&);
+extern template HullSphere<2> sphere_around(const Surface<2>&);
+extern template HullSphere<3> sphere_around(const Surface<3>&);
 extern template class Surroundings<2>;
 extern template class Surroundings<3>;
 
