@@ -10,8 +10,7 @@
 namespace splashdown::apps {
 namespace {
 
-constexpr double written_digits = 1e-6;  // of lengths, that people write
-constexpr double facets = 1e-3;          // of a hull: round hulls are as symmetric as their facets
+constexpr double facets = 1e-3;  // of a hull: round hulls are as symmetric as their facets
 
 struct Plane : Mirror {
   double length = 0;  ///< of the hull, what distances are compared with [m]

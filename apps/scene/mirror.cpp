@@ -1,6 +1,7 @@
 #include "apps/scene/mirror.hpp"
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -102,6 +103,13 @@ ShapeMirror<d> in_frame(const Mirror& mirror, const rigid::Isometry<d>& pose) {
 }
 
 template <int d>
+std::optional<double> off_plane(const Mirror& mirror, const Body& body, const Vec<d>& point) {
+  const double off = mirror.distance<d>(shape_pose<d>(body) * point);
+  if (std::abs(off) <= written_digits * extents<d>(outline<d>(body)).sizes().maxCoeff()) return {};
+  return off;
+}
+
+template <int d>
 Asymmetry<d> asymmetry_of(const Mirror& mirror, const Surface<d>& surface) {
   const Solid<d> solid(surface);
   Asymmetry<d> most;
@@ -142,10 +150,11 @@ Surface<d> symmetrised(const ShapeMirror<d>& mirror, const Surface<d>& surface) 
   return whole;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                \
-  template ShapeMirror<d> in_frame<d>(const Mirror&, const rigid::Isometry<d>&); \
-  template Asymmetry<d> asymmetry_of<d>(const Mirror&, const Surface<d>&);       \
-  template Surface<d> kept_part<d>(const ShapeMirror<d>&, const Surface<d>&);    \
+#define SPLASHDOWN_INSTANTIATE(d)                                                         \
+  template ShapeMirror<d> in_frame<d>(const Mirror&, const rigid::Isometry<d>&);          \
+  template Asymmetry<d> asymmetry_of<d>(const Mirror&, const Surface<d>&);                \
+  template std::optional<double> off_plane<d>(const Mirror&, const Body&, const Vec<d>&); \
+  template Surface<d> kept_part<d>(const ShapeMirror<d>&, const Surface<d>&);             \
   template Surface<d> symmetrised<d>(const ShapeMirror<d>&, const Surface<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)

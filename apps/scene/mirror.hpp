@@ -8,6 +8,9 @@
 
 namespace splashdown::apps {
 
+/// Lengths and directions that people write are equal within this share.
+inline constexpr double written_digits = 1e-6;
+
 /// The plane that ends what is simulated; nothing: all of the scene is.
 std::optional<Mirror> mirror_of(const Scene& scene);
 
@@ -26,6 +29,10 @@ struct ShapeMirror {
 /// At t = 0, `pose` from the shape's frame to the world.
 template <int d>
 ShapeMirror<d> in_frame(const Mirror& mirror, const rigid::Isometry<d>& pose);
+
+/// How far a point of a body, at t = 0 and in the frame of its shape, is off the plane, if by more than written digits of its size [m].
+template <int d>
+std::optional<double> off_plane(const Mirror& mirror, const Body& body, const rigid::Vec<d>& point);
 
 /// How far the mirror image of a surface is off the surface.
 template <int d>

@@ -103,7 +103,7 @@ class Wall {
   const std::vector<int>& corners() const { return corners_; }
   /// Whether nothing but the plane of symmetry makes this vertex a corner.
   bool is_smooth(int corner) const { return smooth_corner_[corner] != 0; }
-  /// Whether water flows past the node as it does past a smooth face.
+  /// Whether water flows past the node as it does past a smooth face. In space such nodes move along the crease in the plane.
   bool is_smooth(const WallTie& tie) const {
     return !tie.sharp() || (d == 2 && tie.vertex >= 0 && is_smooth(tie.vertex));
   }

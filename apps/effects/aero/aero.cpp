@@ -6,6 +6,7 @@
 
 #include "apps/effects/wind/wind.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/mirror.hpp"
 #include "apps/scene/read/parts.hpp"
 #include "rigid/forces/aero/aero.hpp"
 
@@ -169,14 +170,12 @@ std::optional<EffectNote> AeroKind::note(const Scene& scene, const Scales& s) co
 // In space a body that flies in the plane has an angle of attack and no sideslip. In the plane its nose has a mirror image of its own.
 template <int d>
 std::optional<std::string> AeroKind::asymmetry_in(const Scene& scene, const Mirror& mirror) const {
-  constexpr double written_digits = 1e-6;  // of lengths and directions, that people write
   for (const auto& table : scene.effects.find<AeroTables>()->of_bodies) {
     const auto& body = scene.bodies[table.body];
     const auto spec = aero_of<d>(table, body);
     const auto pose = shape_pose<d>(body);
-    const double off = mirror.distance<d>(pose * rigid::Vec<d>(mass_properties<d>(body).centre + spec.point));
-    if (std::abs(off) > written_digits * extents<d>(outline<d>(body)).sizes().maxCoeff())
-      return fmt::format("acts on '{}' {:g} m off the plane", body.name, off);
+    if (const auto off = off_plane<d>(mirror, body, mass_properties<d>(body).centre + spec.point))
+      return fmt::format("acts on '{}' {:g} m off the plane", body.name, *off);
     const auto acts = [](const rigid::Curve<1>& curve, double at) { return !curve.empty() && curve.at(at)[0] != 0; };
     if constexpr (d == 3) {
       if (std::abs((pose.linear() * spec.nose)[mirror.axis]) > written_digits ||

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/mirror.hpp"
 #include "apps/scene/read/parts.hpp"
-#include "core/mirror.hpp"
 #include "rigid/forces/applied/applied.hpp"
 
 namespace splashdown::apps {
@@ -60,8 +60,7 @@ std::optional<EffectNote> ForceKind::note(const Scene& scene, const Scales& s) c
 
 template <int d>
 std::optional<std::string> ForceKind::asymmetry_in(const Scene& scene, const Mirror& mirror) const {
-  constexpr double roundoff = 1e-9;        // of a force
-  constexpr double written_digits = 1e-6;  // of lengths, that people write
+  constexpr double roundoff = 1e-9;  // of a force
   const auto kept = mirror.kept<d>();
   for (const auto& table : scene.effects.find<ForceTables>()->all) {
     const auto& body = scene.bodies[table.body];
@@ -81,9 +80,8 @@ std::optional<std::string> ForceKind::asymmetry_in(const Scene& scene, const Mir
                Eigen::VectorXd(kept.template tail<turns>())))
       return fmt::format("turns '{}' out of the plane", body.name);
     if (!table.point) continue;
-    if (const double off = mirror.distance<d>(pose * vec<d>(*table.point));
-        std::abs(off) > written_digits * extents<d>(outline<d>(body)).sizes().maxCoeff())
-      return fmt::format("acts on '{}' {:g} m off the plane", body.name, off);
+    if (const auto off = off_plane<d>(mirror, body, vec<d>(*table.point)))
+      return fmt::format("acts on '{}' {:g} m off the plane", body.name, *off);
   }
   return {};
 }

@@ -15,8 +15,7 @@ namespace {
 
 using rigid::Vec;
 
-constexpr double written_digits = 1e-6;  // of lengths, that people write
-constexpr double facets = 1e-3;          // of a body: round hulls are as symmetric as their facets
+constexpr double facets = 1e-3;  // of a body: round hulls are as symmetric as their facets
 
 template <int d>
 class Judge {

@@ -142,15 +142,15 @@ double mass_of(const Body& body) {
   return mass_properties<d>(body).mass;
 }
 
-/// The way that a free body under water sinks or rises in a time, without drag: what is left of its weight moves it and the water
+/// The way that a free body under water sinks or rises until the end, without drag: what is left of its weight moves it and the water
 /// around it, to the floor or to the surface. Nothing for others [m].
 template <int d>
-Vec<d> sunk(const Scene& scene, const Body& body, const Extents<d>& box, double added, double time) {
+Vec<d> sunk(const Scene& scene, const Body& body, const Extents<d>& box, const Mover& mover, double displaced) {
   const auto level = still_water_level<d>(scene);
   if (body.motion != Motion::free || !scene.gravity || !scene.tank || !level || box.max()[d - 1] > *level)
     return Vec<d>::Zero();
-  const double mass = mass_of<d>(body), displaced = scene.fluid->density * shape_of<d>(body.shape).at_unit_density.mass,
-               up = (mass - displaced) / (mass + added) * scene.gravity->acceleration[d - 1];
+  const double up = (mover.mass - displaced) / (mover.mass + mover.added) * scene.gravity->acceleration[d - 1],
+               time = mover.time_in_water;
   const double room = up > 0 ? *level - box.max()[d - 1] : box.min()[d - 1] - scene.tank->min[d - 1];
   return std::copysign(std::min(0.5 * std::abs(up) * time * time, std::max(0., room)), up) * Vec<d>::Unit(d - 1);
 }
@@ -172,12 +172,11 @@ Mover mover_of(const Scene& scene, std::size_t index, const std::optional<Entry>
   const double from = entry ? entry->time : 0, end = scene.time.end;
   mover.time_in_water = std::max(0., end - from);
   Vec<d> way = guessed_motion<d>(scene, body, end) - guessed_motion<d>(scene, body, from);
-  if (way.isZero(0) && scene.fluid) way = sunk<d>(scene, body, box, mover.added, mover.time_in_water);
+  const double displaced = scene.fluid ? scene.fluid->density * shape_of<d>(body.shape).at_unit_density.mass : 0;
+  if (way.isZero(0) && scene.fluid) way = sunk<d>(scene, body, box, mover, displaced);
   mover.way = way.norm();
   // Of a side what is under water as long as it floats.
-  const double wet =
-      scene.fluid ? std::min(1., mover.mass / (scene.fluid->density * shape_of<d>(body.shape).at_unit_density.mass))
-                  : 1;
+  const double wet = scene.fluid ? std::min(1., mover.mass / displaced) : 1;
   const double side = wet * mover.height * (d == 2 ? 1 : mover.breadth);
   if (mover.way > 0)
     mover.facing = (mover.plan * std::abs(way[d - 1]) + side * way.template head<d - 1>().norm()) / mover.way;

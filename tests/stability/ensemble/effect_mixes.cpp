@@ -147,7 +147,7 @@ Member effect_mix(std::uint64_t seed) {
     s.word("motion", "prescribed").table("body.release");
     const int cause = random.integer(0, 2);
     s.word("at", cause == 0 ? "time" : cause == 1 ? "contact" : "load");
-    // Before it is half way down to the floor; when it is under water its load is more than its weight by far.
+    // Before it is half way down to the floor; at a part of its buoyancy, which it has when it is under water.
     if (cause == 0) s.set("time", rounded(random.uniform(0.05, 1) * (height - body.below + 0.5 * depth) / V));
     if (cause == 2) s.set("load", rounded(random.uniform(0.2, 0.8) * weight / ratio));
   }
