@@ -99,6 +99,7 @@ CASES = [
     Case("elliptic_drop", "scene.toml", "end", 3),
     Case("sloshing", "scene.toml", "probe_0", 5),
     Case("regular_waves", "scene.toml", "probe_0", 5),
+    Case("wave_flume", "scene.toml", "probe_1", 4),
     Case("box_in_waves", "scene.toml", "body_box_displacement", 40),
     Case("wave_landing", "scene.toml --until 0.33", "end", 3, (-0.6, 1.15, -0.4, 0.7)),
     Case("terminal_speed", "scene.toml", SPEED, 20),

@@ -40,7 +40,7 @@ Waypoint between(const Waypoint& a, const Waypoint& b, double time) {
 
 /// Piecewise linear between the waypoints, at rest after the last.
 Waypoint on_path(const std::vector<Waypoint>& path, double time) {
-  const auto next = std::find_if(path.begin(), path.end(), [&](const Waypoint& point) { return point.time > time; });
+  const auto next = std::ranges::upper_bound(path, time, {}, &Waypoint::time);
   if (next == path.begin()) return path.front();
   return next == path.end() ? path.back() : between(*(next - 1), *next, time);
 }

@@ -8,6 +8,7 @@
 #include "apps/effects/skin_friction/skin_friction.hpp"
 #include "apps/effects/symmetry/symmetry.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
+#include "apps/effects/wavemaker/wavemaker.hpp"
 #include "apps/effects/waves/waves.hpp"
 #include "apps/effects/wind/wind.hpp"
 
@@ -24,8 +25,9 @@ const EffectKind* row() {
 
 std::span<const EffectKind* const> effect_kinds() {
   static const EffectKind* const catalogue[] = {
-      row<GravityKind>(),  row<ViscosityKind>(), row<AbsorberKind>(), row<SkinFrictionKind>(), row<FormDragKind>(),
-      row<WindKind>(),     row<AeroKind>(),      row<ForceKind>(),    row<LinesKind>(),        row<WavesKind>(),
+      row<GravityKind>(),  row<ViscosityKind>(), row<AbsorberKind>(),  row<SkinFrictionKind>(),
+      row<FormDragKind>(), row<WindKind>(),      row<AeroKind>(),      row<ForceKind>(),
+      row<LinesKind>(),    row<WavesKind>(),     row<WavemakerKind>(),
       row<SymmetryKind>(),  // the last: it cuts what the others have made
   };
   return catalogue;

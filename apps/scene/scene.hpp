@@ -167,6 +167,7 @@ struct Body {
   std::vector<Waypoint> path;      ///< prescribed motion; empty: constant velocity and spin
   std::optional<Release> release;  ///< of prescribed motion; free from then on
   double size = 0;                 ///< element size at the hull [m]; default: fluid.size.surface
+  bool makes_waves = false;        ///< the paddle of [wavemaker]: a part of the tank, whose loads nobody asks about
 
   /// Forces move it, from the start or after its release.
   bool becomes_free() const { return motion == Motion::free || release; }

@@ -15,6 +15,7 @@ void AbsorberKind::read(Reader& reader, Scene& scene) const {
   auto& table = scene.effects.table<Absorber>();
   reader.number("width", table.width, positive("m", "Use one to two of the longest wavelengths."), Need::required);
   reader.number("rate", table.rate, positive("1/s", "Use about the wave's angular frequency."), Need::required);
+  reader.choice("ends", table.ends, {"both", "lower", "upper"});
 }
 
 void AbsorberKind::check(const Scene& scene, Problems& problems) const {
@@ -22,8 +23,10 @@ void AbsorberKind::check(const Scene& scene, Problems& problems) const {
   if (!table || problems.found_in("tank")) return;
   if (!scene.tank)
     problems.add("fluid.absorber", "needs a [tank]: it acts along the tank's ends", "Add [tank] or remove the table.");
-  else if (2 * table->width > scene.tank->max.x() - scene.tank->min.x())
-    problems.add("fluid.absorber.width", "must not exceed half the tank's length", "Make the tank longer.");
+  else if ((table->ends == "both" ? 2 : 1) * table->width > scene.tank->max.x() - scene.tank->min.x())
+    problems.add("fluid.absorber.width",
+                 fmt::format("must not exceed {}the tank's length", table->ends == "both" ? "half " : ""),
+                 "Make the tank longer.");
 }
 
 // The best rate is about the angular frequency of the waves that the zone is as long as.
@@ -101,8 +104,12 @@ std::optional<Advice> AbsorberKind::advise(const Outlook& look) const {
 template <int d>
 void AbsorberKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
   const auto* zone = scene.effects.find<Absorber>();
-  parts.fluid.push_back(std::make_unique<fluid::Absorber<d>>(fluid::AbsorberSpec{
-      .from = scene.tank->min.x(), .to = scene.tank->max.x(), .width = zone->width, .rate = zone->rate}));
+  parts.fluid.push_back(std::make_unique<fluid::Absorber<d>>(fluid::AbsorberSpec{.from = scene.tank->min.x(),
+                                                                                 .to = scene.tank->max.x(),
+                                                                                 .width = zone->width,
+                                                                                 .rate = zone->rate,
+                                                                                 .lower = zone->ends != "upper",
+                                                                                 .upper = zone->ends != "lower"}));
 }
 
 template void AbsorberKind::build_in<2>(const Scene&, const EffectParts<2>&) const;

@@ -1,4 +1,4 @@
-// [fluid.absorber]: numerical beaches at the ends of the tank.
+// [fluid.absorber]: numerical beaches at one end of the tank or both.
 #pragma once
 
 #include "apps/scene/kinds/effect_kind.hpp"
@@ -6,8 +6,9 @@
 namespace splashdown::apps {
 
 struct Absorber {
-  double width = 0;  ///< of the zone at each end of the tank [m]
-  double rate = 0;   ///< damping rate at the wall; rises smoothly from 0 at the zone's edge [1/s]
+  double width = 0;           ///< of each zone [m]
+  std::string ends = "both";  ///< of the tank on the first axis: "both" | "lower" | "upper"
+  double rate = 0;            ///< damping rate at the wall; rises smoothly from 0 at the zone's edge [1/s]
 };
 
 class AbsorberKind final : public EffectOf<AbsorberKind, Absorber> {

@@ -153,7 +153,14 @@ struct Choice {
   bool enters = false;
 };
 
-/// Of a scene without hulls.
+std::optional<WantedSize> finest_wish(const Scene& scene) {
+  std::optional<WantedSize> finest;
+  for (const auto* kind : effect_kinds())
+    if (auto wish = kind->surface_size(scene); wish && (!finest || wish->size < finest->size)) finest = std::move(wish);
+  return finest;
+}
+
+/// Of a scene without hulls: what its effects ask for, if any does.
 template <int d>
 void choose_for_liquid(const Scene& scene, double least, Choice<d>& choice) {
   choice.surface = least / of_liquid;
@@ -163,6 +170,12 @@ void choose_for_liquid(const Scene& scene, double least, Choice<d>& choice) {
       choice.surface = std::min(choice.surface, box->surface_wavelength / a_wave);
       choice.surface_why = fmt::format("{:g} elements on a wave of {:.3g} m", a_wave, box->surface_wavelength);
     }
+  if (const auto wish = finest_wish(scene)) {
+    choice.surface = std::min(wish->size, least / far_of_liquid);
+    choice.surface_why = choice.surface < wish->size
+                             ? fmt::format("{:g} elements on the depth or length of {:.3g} m", far_of_liquid, least)
+                             : wish->why;
+  }
   choice.far = choice.surface;
   choice.far_why = "that of the surface";
 }
@@ -170,12 +183,10 @@ void choose_for_liquid(const Scene& scene, double least, Choice<d>& choice) {
 /// What effects ask for, where it is finer.
 template <int d>
 void choose_for_effects(const Scene& scene, Choice<d>& choice) {
-  for (const auto* kind : effect_kinds()) {
-    const auto wanted = kind->surface_size(scene);
-    if (!wanted || wanted->size >= choice.surface) continue;
-    choice.surface = wanted->size;
-    choice.surface_why = wanted->why;
-  }
+  const auto wish = finest_wish(scene);
+  if (!wish || wish->size >= choice.surface) return;
+  choice.surface = wish->size;
+  choice.surface_why = wish->why;
 }
 
 template <int d>
@@ -185,6 +196,10 @@ Choice<d> choose_for_bodies(const Scene& scene) {
   double breadth = 0;
   bool waves = false;
   for (const auto& body : scene.bodies) {
+    if (body.makes_waves) {
+      choice.hulls.emplace_back();
+      continue;
+    }
     const auto& hull = choice.hulls.emplace_back(hull_of<d>(scene, body));
     choice.enters = choice.enters || hull.enters;
     breadth = breadth == 0 ? hull.breadth : std::min(breadth, hull.breadth);
@@ -193,7 +208,7 @@ Choice<d> choose_for_bodies(const Scene& scene) {
     const bool pierces = box.min()[d - 1] < level && box.max()[d - 1] > level;
     waves = waves || (g > 0 && ((!hull.enters && pierces) || scene.time.end > pi * std::sqrt(hull.breadth / g)));
   }
-  if (choice.hulls.empty()) {
+  if (breadth == 0) {
     choose_for_liquid<d>(scene, least, choice);
     return choice;
   }
@@ -260,6 +275,7 @@ std::vector<ChosenSize> size_rules(const Scene& scene) {
   }
   for (std::size_t b = 0; b < choice.hulls.size(); ++b) {
     const auto& hull = choice.hulls[b];
+    if (scene.bodies[b].makes_waves) continue;
     const double size = two_digits(hull.size());
     list.push_back({"body", b, "size", std::min(size, surface), " m",
                     size < surface
@@ -277,6 +293,7 @@ std::vector<std::string> sizes_against_rules(const Scene& scene) {
   for (std::size_t b = 0; b < choice.hulls.size(); ++b) {
     const auto& hull = choice.hulls[b];
     const auto& body = scene.bodies[b];
+    if (body.makes_waves) continue;
     const double most = allowance<d>(size, hull);
     if (body.size > most * hull.size())
       list.push_back(fmt::format(

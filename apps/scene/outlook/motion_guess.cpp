@@ -14,7 +14,7 @@ using std::numbers::pi;
 
 Point along_path(const Body& body, double time) {
   const auto& path = body.path;
-  const auto next = std::find_if(path.begin(), path.end(), [&](const Waypoint& point) { return point.time > time; });
+  const auto next = std::ranges::upper_bound(path, time, {}, &Waypoint::time);
   if (next == path.end()) return path.back().position - path.front().position;
   if (next == path.begin()) return Point::Zero();
   const auto& from = *(next - 1);

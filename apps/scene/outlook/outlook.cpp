@@ -211,10 +211,14 @@ Outlook outlook(const Scene& scene) {
   const auto level = still_water_level<d>(scene);
   if (level)
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      if (scene.bodies[i].makes_waves) continue;
       const auto entry = entry_of<d>(scene, i, outline<d>(scene.bodies[i]), mass_of<d>(scene.bodies[i]), *level);
       if (entry && (!look.entry || entry->speed > look.entry->speed)) look.entry = entry;
     }
-  if (!scene.bodies.empty()) look.mover = mover_of<d>(scene, look.entry ? look.entry->body : 0, look.entry);
+  const auto first = std::ranges::find(scene.bodies, false, &Body::makes_waves);
+  if (first != scene.bodies.end())
+    look.mover = mover_of<d>(
+        scene, look.entry ? look.entry->body : static_cast<std::size_t>(first - scene.bodies.begin()), look.entry);
   if (scene.tank) {
     look.tank_length = scene.tank->max.x() - scene.tank->min.x();
     if (level) look.depth = std::max(0., *level - scene.tank->min[d - 1]);

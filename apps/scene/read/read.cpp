@@ -97,6 +97,7 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   });
   if (auto contact = root.table("contact")) read_contact(*contact, scene.contact.emplace());
   read_effects(root, TablePlace::after_bodies, scene);
+  labels.bodies.resize(scene.bodies.size(), "wavemaker");  // the one effect that makes a body
   read_effects(root, TablePlace::array, scene);
   scene.time.dt_max = default_dt_max(scene);
   time.number("dt_max", scene.time.dt_max,

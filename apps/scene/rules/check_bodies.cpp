@@ -168,7 +168,7 @@ void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& probl
     if (misplaced(".position") || misplaced(".heading_deg") || misplaced(".pitch_deg") || misplaced(".roll_deg") ||
         misplaced(".path"))
       continue;
-    check_inside_tank<d>(scene, body, *shape, label, problems);
+    if (!body.makes_waves) check_inside_tank<d>(scene, body, *shape, label, problems);  // its table has a rule for that
     check_size<d>(scene, body, *shape, label, problems);
     if (!problems.found_in("fluid")) check_massless(scene, body, label, problems);
     shape->vertices = shape_pose<d>(body) * shape->vertices;

@@ -144,6 +144,11 @@ double value_of(const PulseSummary& pulses, const PulseGrades& grades) {
   return grades.cfc.contains(structures_class) ? pulses.cfc.at(structures_class).value : pulses.raw.value;
 }
 
+/// Not a wavemaker, which is a part of the tank.
+bool is_asked_for(const Summary& summary, const std::string& body) {
+  return !summary.expected || summary.expected->bodies.contains(body);
+}
+
 }  // namespace
 
 double mesh_band(int dimension, const Evidence& evidence) {
@@ -162,7 +167,7 @@ void grade_numbers(Summary& summary) {
   const int d = summary.dimension;
   for (auto& [name, body] : summary.bodies) {
     const bool rises = peak_is_to_come(summary, name);
-    const bool touched = body.landing.first_contact >= 0;
+    const bool touched = body.landing.first_contact >= 0 && is_asked_for(summary, name);
     if (!touched) body.acceleration_grades = body.force_grades = {};
     grade(body.acceleration_grades, body.acceleration, at_rest_g, {d, Kind::acceleration}, body);
     grade(body.force_grades, body.force, 0, {d, Kind::force}, body);
@@ -192,6 +197,7 @@ void grade_numbers(Summary& summary) {
 
 std::vector<Headline> headlines(const Summary& summary, const std::string& name) {
   std::vector<Headline> list;
+  if (!is_asked_for(summary, name)) return list;
   const auto& body = summary.bodies.at(name);
   if (const auto* a = headline_of(body.acceleration_grades))
     list.push_back({"peak acceleration" + class_text(body.acceleration_grades),

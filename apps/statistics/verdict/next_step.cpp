@@ -29,12 +29,31 @@ BandParts changed(const BandParts& parts, double refine, bool short_steps) {
           parts.rest};
 }
 
-/// Of the headlines that a mesh can do something for.
-std::vector<BandParts> bands(const Summary& summary) {
-  std::vector<BandParts> list;
+/// As a finer mesh may find it: this one knows the growth of the wetted width, twice a difference of widths, no better than to
+/// half of a facet at either end.
+BandParts at_most(const NumberGrade& grade, int dimension) {
+  BandParts parts = grade.parts;
+  Evidence known = grade.evidence;
+  if (!std::isfinite(known.growing) || !(known.elements > 0)) return parts;
+  const double mesh = mesh_band(dimension, known);
+  known.growing = std::min(1., known.growing + 1 / known.elements);
+  if (mesh > 0) parts.mesh *= mesh_band(dimension, known) / mesh;
+  return parts;
+}
+
+/// Of the headlines that a mesh can do something for: as they are, and as finer meshes may find them.
+struct Bands {
+  std::vector<BandParts> now, at_most;
+};
+
+Bands bands(const Summary& summary) {
+  Bands list;
   for (const auto& [name, body] : summary.bodies)
     for (const auto& headline : headlines(summary, name))
-      if (!headline.is_impulse && !body.rising) list.push_back(headline.grade->parts);
+      if (!headline.is_impulse && !body.rising) {
+        list.now.push_back(headline.grade->parts);
+        list.at_most.push_back(at_most(*headline.grade, summary.dimension));
+      }
   return list;
 }
 
@@ -79,9 +98,9 @@ NextStep way_to(double wanted, const std::vector<BandParts>& list) {
 
 std::optional<NextStep> narrower(const Summary& summary) {
   const auto list = bands(summary);
-  const auto now = grade_of_band(widest(list, 1, false));
+  const auto now = grade_of_band(widest(list.now, 1, false));
   if (now == Grade::resolved) return {};
-  auto next = way_to(to_spare * better_than(now), list);
+  auto next = way_to(to_spare * better_than(now), list.at_most);
   const bool water_allows = of_water(summary) < now;
   // Volume that came back at the surface on this mesh may be more on a finer one.
   const bool holds_volume = !summary.ledger || std::abs(summary.ledger->returned_share) <= doubtful_above;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace splashdown::fluid {
 
 template <int d>
 double Absorber<d>::rate_at(const Vec<d>& x) const {
-  const double into = 1 - std::min(x[0] - spec_.from, spec_.to - x[0]) / spec_.width;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const double into =
+      1 - std::min(spec_.lower ? x[0] - spec_.from : far, spec_.upper ? spec_.to - x[0] : far) / spec_.width;
   const double ramp = std::clamp(into, 0.0, 1.0);
   return spec_.rate * ramp * ramp;
 }

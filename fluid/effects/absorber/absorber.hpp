@@ -1,4 +1,4 @@
-// A numerical beach: waves that enter a zone at either end of the tank die out in it.
+// A numerical beach: waves that enter a zone at an end of the tank die out in it.
 //
 //   dv/dt = - r(x) v,   r = rate (1 - s / width)^2 at the distance s < width from an end
 //
@@ -10,12 +10,13 @@
 
 namespace splashdown::fluid {
 
-/// Zones at both ends along the first axis.
+/// Zones at the ends along the first axis.
 struct AbsorberSpec {
-  double from = 0;   ///< the tank's lower end on the first axis [m]
-  double to = 0;     ///< its upper end [m]
-  double width = 0;  ///< of each zone [m]
-  double rate = 0;   ///< at the ends [1/s]
+  double from = 0;                  ///< the tank's lower end on the first axis [m]
+  double to = 0;                    ///< its upper end [m]
+  double width = 0;                 ///< of each zone [m]
+  double rate = 0;                  ///< at the ends [1/s]
+  bool lower = true, upper = true;  ///< there is a zone at this end
 };
 
 /// dv = (exp(-r kick) - 1) v at each node; walls get nothing.

@@ -1,0 +1,273 @@
+#!/usr/bin/env python3
+"""Random seas in the plane, and what their theories say of the runs.
+
+    seas.py BINARY regular|paddle|irregular [--members 4] [--first SEED] [--elements 40] [--periods N] [--keep DIR]
+
+regular    [waves] of any depth and steepness: over the second half of the run the wave has the length, the height and the level of the
+           stream function
+paddle     [wavemaker], piston or flap, in a flume with a beach: the height of linear wavemaker theory, nothing behind the paddle
+irregular  JONSWAP and Pierson-Moskowitz: significant height and peak period of what was asked for, in the middle of the tank
+
+One line a member. Exit code 1 if a member breaks a law. Standard library only.
+
+Waves that run either way are told apart by their phases at all gauges, by least squares (Mansard and Funke 1980)."""
+import argparse
+import cmath
+import csv
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import time
+from collections import defaultdict
+
+G = 9.81
+
+
+def wave_number(omega, depth):
+    """Of small waves on water of constant depth [1/m]."""
+    k = omega * omega / G
+    for _ in range(200):
+        k = 0.5 * (k + omega * omega / (G * math.tanh(k * depth)))
+    return k
+
+
+def group_speed(omega, k, depth):
+    """Speed of the energy [m/s]."""
+    return 0.5 * omega / k * (1 + 2 * k * depth / math.sinh(2 * k * depth) if k * depth < 300 else 1)
+
+
+def tank(low, high, depth, top, face=None):
+    """The text of gravity, tank and water; its region begins at `face`."""
+    return f"""[gravity]
+[tank]
+min = [{low:.9g}, {-depth:.9g}]
+max = [{high:.9g}, {top:.9g}]
+[fluid]
+density = 1000
+[[fluid.region]]
+shape = "box"
+min = [{low if face is None else face:.9g}, {-depth:.9g}]
+max = [{high:.9g}, 0]
+"""
+
+
+def gauges(places):
+    """Records of the surface at these x, g0, g1 ..."""
+    return "".join(f'[[record]]\nkind = "surface_elevation"\nname = "g{i}"\nx = {x:.9g}\n' for i, x in enumerate(places))
+
+
+def run(binary, text, folder):
+    """Signals by gauge as lists of (time, value), summary, last row of fluid.csv."""
+    os.makedirs(folder, exist_ok=True)
+    scene = os.path.join(folder, "scene.toml")
+    with open(scene, "w") as f:
+        f.write(text)
+    out = os.path.join(folder, "out")
+    done = subprocess.run([binary, "run", scene, "--out", out, "--threads", "1", "--quiet", "--no-report"], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"exit {done.returncode}: {done.stderr.strip()[-300:]}")
+    signals = defaultdict(list)
+    for row in csv.DictReader(open(os.path.join(out, "probes.csv"))):
+        signals[row["probe"]].append((float(row["time"]), float(row["value"])))
+    return signals, json.load(open(os.path.join(out, "summary.json"))), list(csv.DictReader(open(os.path.join(out, "fluid.csv"))))
+
+
+def between(signal, start, end):
+    """The signal from `start` to `end`, both interpolated."""
+    out = []
+    for (t0, y0), (t1, y1) in zip(signal, signal[1:]):
+        for edge in (start, end):
+            if t0 < edge <= t1:
+                out.append((edge, y0 + (y1 - y0) * (edge - t0) / (t1 - t0)))
+        if start < t1 < end:
+            out.append((t1, y1))
+    return sorted(set(out))
+
+
+def mean(signal, of=lambda t, y: y):
+    """Over time, by trapezoids."""
+    total = sum(0.5 * (of(*a) + of(*b)) * (b[0] - a[0]) for a, b in zip(signal, signal[1:]))
+    return total / (signal[-1][0] - signal[0][0])
+
+
+def fundamental(signal, omega):
+    """Complex amplitude A of Re(A exp(-i omega t)), over whole periods."""
+    return 2 * mean(signal, lambda t, y: y * cmath.exp(1j * omega * t))
+
+
+def two_ways(amplitudes, places, k):
+    """Waves along and against x at x = 0 that fit the gauges best."""
+    s = [[0j, 0j], [0j, 0j]]
+    r = [0j, 0j]
+    for a, x in zip(amplitudes, places):
+        row = (cmath.exp(1j * k * x), cmath.exp(-1j * k * x))
+        for i in range(2):
+            r[i] += row[i].conjugate() * a
+            for j in range(2):
+                s[i][j] += row[i].conjugate() * row[j]
+    det = s[0][0] * s[1][1] - s[0][1] * s[1][0]
+    return (r[0] * s[1][1] - r[1] * s[0][1]) / det, (s[0][0] * r[1] - s[1][0] * r[0]) / det
+
+
+def regular(binary, seed, options, folder):
+    """Phase speed within 0.2 %, height within 1.5 % (0.7 % with 80 elements), level within 0.005 H, volume within 1e-8."""
+    r = random.Random(seed)
+    length, kd = 10 ** r.uniform(-0.5, 1.5), r.choice([r.uniform(0.7, 1.5), r.uniform(1.5, 6)])
+    depth = kd * length / (2 * math.pi)
+    steep = min(10 ** r.uniform(-2, -1), 0.8 * 0.142 * math.tanh(kd))
+    height, omega = steep * length, math.sqrt(G * 2 * math.pi / length * math.tanh(kd))
+    periods = options.periods or r.randint(10, 40)
+    places = [length * x for x in (-0.75, -0.4, -0.05, 0.3, 0.65)]
+    text = f"""[time]
+end = {periods * 2 * math.pi / omega:.9g}
+[waves]
+type = "regular"
+height = {height:.9g}
+length = {length:.9g}
+""" + tank(-2.5 * length, 2.5 * length, depth, 2.5 * height + 0.05 * length) + f"[fluid.size]\nsurface = {length / options.elements:.6g}\nfar = {length / 10:.6g}\n" + gauges(places)
+    signals, _, rows = run(binary, text, folder)
+    end = signals["g0"][-1][0]
+    period = period_of(signals["g2.undisturbed"])
+    omega = 2 * math.pi / period
+    start = end - period * max(4, periods // 2)
+    ratios, shifts, crests, troughs, levels = [], [], [], [], []
+    for i in range(len(places)):
+        seen, sea = (between(signals[n], start, end) for n in (f"g{i}", f"g{i}.undisturbed"))
+        ratio = fundamental(seen, omega) / fundamental(sea, omega)
+        ratios.append(abs(ratio))
+        shifts.append(cmath.phase(ratio))
+        levels.append((mean(seen) - mean(sea)) / height)
+        first = [between(signals[n], 0.6 * period, 1.7 * period) for n in (f"g{i}", f"g{i}.undisturbed")]
+        crests.append((max(y for _, y in first[0]) - max(y for _, y in first[1])) / height)
+        troughs.append((min(y for _, y in first[0]) - min(y for _, y in first[1])) / height)
+    middle = sum(places) / len(places)
+    slope = sum((x - middle) * s for x, s in zip(places, shifts)) / sum((x - middle) ** 2 for x in places)
+    speed = -slope * length / (2 * math.pi)
+    volume = max(abs(float(x["volume"]) + float(x["volume_spray"]) - float(rows[0]["volume"])) for x in rows) / float(rows[0]["volume"])
+    amplitude = sum(ratios) / len(ratios) - 1
+    level = sum(levels) / len(levels)
+    worst = max(crests + troughs, key=abs)
+    laws = [abs(speed) <= 0.002, abs(amplitude) <= (0.007 if options.elements >= 80 else 0.015), abs(level) <= 0.005, volume <= 1e-8, abs(worst) <= 0.01]
+    return all(laws), (f"H/L {steep:.3f} kd {kd:4.2f} {periods:2d} periods: speed {100 * speed:+.2f} %, height {100 * amplitude:+.2f} % "
+                       f"({100 * (min(ratios) - 1):+.1f} to {100 * (max(ratios) - 1):+.1f}), level {100 * level:+.2f} % of H, volume {volume:.0e}, "
+                       f"first crest or trough {100 * worst:+.2f} % of H")
+
+
+def period_of(signal):
+    """Mean distance of upward crossings."""
+    middle = mean(signal)
+    ups = [t0 + (t1 - t0) * (middle - y0) / (y1 - y0) for (t0, y0), (t1, y1) in zip(signal, signal[1:]) if y0 < middle <= y1]
+    return (ups[-1] - ups[0]) / (len(ups) - 1)
+
+
+def paddle(binary, seed, options, folder):
+    """Height within 3 % of the theory; no water behind the paddle; volume within 1e-8."""
+    r = random.Random(seed)
+    depth, kd = 10 ** r.uniform(-0.7, 0.6), r.uniform(0.6, 3.5)
+    kind, end = r.choice(["piston", "flap"]), r.choice(["lower", "upper"])
+    k = kd / depth
+    length, omega = 2 * math.pi / k, math.sqrt(G * k * math.tanh(kd))
+    period, height = 2 * math.pi / omega, length * min(10 ** r.uniform(-2, -1.3), 0.5 * 0.142 * math.tanh(kd))
+    speed = group_speed(omega, k, depth)
+    back, far = 1.0 * length + depth, 7 * length
+    sign = 1 if end == "lower" else -1
+    places = [length * x for x in (2.5, 2.8, 3.1, 3.4, 3.7)]
+    seen = 5 * period
+    last = 2 * period + places[-1] / speed + 2 * period + seen
+    low, high = (-back, far) if sign > 0 else (-far, back)
+    text = f"""[time]
+end = {last:.9g}
+[wavemaker]
+type = "{kind}"
+end = "{end}"
+height = {height:.9g}
+period = {period:.9g}
+""" + tank(low, high, depth, 2.5 * height + 0.05 * length, 0 if sign > 0 else None).replace(f"max = [{high:.9g}, 0]", "max = [0, 0]" if sign < 0 else f"max = [{high:.9g}, 0]")
+    text += f"""[fluid.absorber]
+ends = "{'upper' if sign > 0 else 'lower'}"
+width = {2.5 * length:.6g}
+rate = {omega:.6g}
+[fluid.size]
+surface = {length / options.elements:.6g}
+far = {length / 10:.6g}
+""" + gauges([sign * x for x in places])
+    signals, summary, rows = run(binary, text, folder)
+    stop = signals["g0"][-1][0]
+    amplitudes = [fundamental(between(signals[f"g{i}"], stop - seen, stop), omega) for i in range(len(places))]
+    out, back_wave = two_ways(amplitudes, places, k)
+    ratio, echo = 2 * abs(out) / height - 1, abs(back_wave) / abs(out)
+    volume = max(abs(float(x["volume"]) + float(x["volume_spray"]) - float(rows[0]["volume"])) for x in rows) / float(rows[0]["volume"])
+    spray = max(float(x["volume_spray"]) for x in rows) / float(rows[0]["volume"])
+    gone = max(abs(float(rows[-1]["volume_remesh_deleted"])), float(rows[-1]["volume_remesh_created"])) / float(rows[0]["volume"])
+    return abs(ratio) <= 0.03 and volume <= 1e-8 and spray <= 1e-4, (f"{kind:6s} {end} H/L {height / length:.3f} kd {kd:4.2f}: height {100 * ratio:+.2f} % of the theory, "
+                                                   f"echo {100 * echo:.1f} %, volume {volume:.0e}, remeshed {gone:.0e}, spray {spray:.0e}")
+
+
+def irregular(binary, seed, options, folder):
+    """Significant height and peak period within 3 %."""
+    r = random.Random(seed)
+    peak, gamma = 10 ** r.uniform(-0.2, 0.9), r.choice([1, 1, 3.3, 5])
+    omega = 2 * math.pi / peak
+    deep = G * peak * peak / (2 * math.pi)
+    depth = deep * r.uniform(0.15, 0.6)
+    k = wave_number(omega, depth)
+    length = 2 * math.pi / k
+    height = length * r.uniform(0.005, 0.03)
+    repeat = options.periods or 100
+    text = f"""[time]
+end = {repeat * peak:.9g}
+[waves]
+type = "irregular"
+significant_height = {height:.9g}
+peak_period = {peak:.9g}
+gamma = {gamma}
+repeat = {repeat}
+seed = {seed}
+""" + tank(-2.5 * length, 2.5 * length, depth, 2.5 * height + 0.05 * length) + f"[fluid.size]\nsurface = {length / options.elements:.6g}\nfar = {length / 8:.6g}\n" + gauges([0, 0.3 * length])
+    signals, _, _ = run(binary, text, folder)
+    stop = signals["g0"][-1][0]
+    numbers = []
+    for name in ("g0", "g0.undisturbed"):
+        seen = between(signals[name], 0, stop)
+        level = mean(seen)
+        rough = 4 * math.sqrt(mean(seen, lambda t, y: (y - level) ** 2))
+        # Peak period as that of the spectrum's centre around its peak: sum S^4 over sum S^4 f (Young 1995), on the sea's own frequencies.
+        s = [(n / (repeat * peak), abs(fundamental(seen, 2 * math.pi * n / (repeat * peak))) ** 2) for n in range(int(0.6 * repeat), int(2 * repeat))]
+        numbers.append((rough, sum(a ** 4 for _, a in s) / sum(f * a ** 4 for f, a in s)))
+    (h, t), (h0, t0) = numbers
+    return abs(h / height - 1) <= 0.03 and abs(t / t0 - 1) <= 0.03, (f"Hs/L {height / length:.3f} kd {k * depth:4.2f} gamma {gamma}: Hs {100 * (h / height - 1):+.2f} % "
+                                                   f"(the sea's own {100 * (h0 / height - 1):+.2f} %), Tp {100 * (t / t0 - 1):+.2f} %")
+
+
+def main():
+    """Runs the members."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binary")
+    parser.add_argument("kind", choices=["regular", "paddle", "irregular"])
+    parser.add_argument("--members", type=int, default=4)
+    parser.add_argument("--first", type=int, default=1)
+    parser.add_argument("--elements", type=int, default=40, help="on a wave")
+    parser.add_argument("--periods", type=int, default=0)
+    parser.add_argument("--keep")
+    options = parser.parse_args()
+    folder = options.keep or tempfile.mkdtemp(prefix="seas-")
+    law, broken = globals()[options.kind], 0
+    print(law.__doc__)
+    for seed in range(options.first, options.first + options.members):
+        begin = time.time()
+        try:
+            holds, words = law(options.binary, seed, options, os.path.join(folder, f"{options.kind}-{seed}"))
+        except RuntimeError as error:
+            holds, words = False, str(error)
+        broken += not holds
+        print(f"{seed:5d} {'holds ' if holds else 'BROKEN'} {words}; {time.time() - begin:.0f} s", flush=True)
+    print(f"{options.members - broken} of {options.members} hold")
+    sys.exit(broken > 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,115 @@
+// [wavemaker]: what is read and refused, and the paddle that it becomes.
+#include "apps/effects/wavemaker/wavemaker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/build/build.hpp"
+#include "apps/scene/geometry.hpp"
+#include "apps/scene/read/read.hpp"
+#include "tests/unit/apps/scenes.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using testing::Mistake;
+
+const std::string flume = R"([time]
+end = 6
+[gravity]
+[tank]
+min = [-0.5, -0.4]
+max = [9, 0.3]
+[fluid]
+density = 1000
+[[fluid.region]]
+shape = "box"
+min = [0, -0.4]
+max = [9, 0]
+[fluid.absorber]
+ends = "upper"
+width = 3
+rate = 5
+[wavemaker]
+type = "piston"
+period = 1.2
+height = 0.05
+)";
+
+Scene scene_of(const std::string& text) { return read_scene_text(text, "scene.toml").scene; }
+
+class BadWavemaker : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(BadWavemaker, is_refused_with_place_key_rule_and_cure) {
+  const auto& bad = GetParam();
+  testing::expect_refused(testing::replaced(flume, bad.from, bad.to), bad);
+}
+
+const Mistake mistakes[] = {
+    {"two_sizes", "height = 0.05", "height = 0.05\nstroke = 0.1", 21, "wavemaker.stroke = 0.1", "Remove one of them."},
+    {"no_size", "height = 0.05\n", "", 17, "wavemaker.height", "Give one of them."},
+    {"breaks", "height = 0.05", "height = 0.3", 20, "wavemaker.height = 0.3",
+     "Use at most 0.19 m, or a longer period."},
+    {"no_room", "min = [-0.5, -0.4]", "min = [-0.05, -0.4]", 5, "tank.min", "Let the tank begin at x = -0.1"},
+    {"runs_over", "max = [9, 0.3]", "max = [9, 0.04]", 6, "tank.max", "Let it reach 0.1 m above."},
+    {"damped", "ends = \"upper\"", "ends = \"both\"", 14, "fluid.absorber.ends = \"both\"", "Use ends = \"upper\"."},
+    {"above_floor", "min = [0, -0.4]", "min = [0, -0.3]", 17, "wavemaker: needs", "from the tank's floor up"},
+    {"no_gravity", "[gravity]\n", "", 16, "wavemaker: needs", "[gravity] straight down"}};
+
+INSTANTIATE_TEST_SUITE_P(All, BadWavemaker, ::testing::ValuesIn(mistakes),
+                         [](const auto& of) { return of.param.name; });
+
+TEST(Wavemaker, is_a_paddle_on_the_path_of_its_stroke) {
+  const Scene scene = scene_of(flume);
+  ASSERT_EQ(scene.bodies.size(), 1U);
+  const auto& paddle = scene.bodies.front();
+  EXPECT_EQ(paddle.name, "wavemaker");
+  double least = 0, most = 0;
+  for (const auto& point : paddle.path) {
+    least = std::min(least, point.position.x());
+    most = std::max(most, point.position.x());
+  }
+  // H/S = 1.2397 at kd = 1.298, 100 rows a period: none needs to lie on the turning point.
+  const double stroke = 0.05 / 1.2397, missed = 1 - std::cos(std::numbers::pi / 100);
+  EXPECT_NEAR(most - least, stroke, stroke * (missed + 1e-4));
+  EXPECT_GE(paddle.path.back().time, scene.time.end);
+  EXPECT_EQ(paddle.path.front().position.x(), 0);
+}
+
+TEST(Wavemaker, turns_about_its_foot_as_a_flap_at_either_end) {
+  for (const bool upper : {false, true}) {
+    std::string text = testing::replaced(flume, "\"piston\"", upper ? "\"flap\"\nend = \"upper\"" : "\"flap\"");
+    if (upper) {
+      text = testing::replaced(text, "min = [-0.5, -0.4]\nmax = [9, 0.3]", "min = [-9, -0.4]\nmax = [0.5, 0.3]");
+      text = testing::replaced(text, "min = [0, -0.4]\nmax = [9, 0]", "min = [-9, -0.4]\nmax = [0, 0]");
+      text = testing::replaced(text, "ends = \"upper\"", "ends = \"lower\"");
+    }
+    const Scene scene = scene_of(text);
+    ASSERT_EQ(scene.bodies.size(), 1U);
+    const auto& body = scene.bodies.front();
+    const auto hull = shape_of<2>(body.shape).surface;
+    bool towards_water = false;
+    for (const auto& point : body.path) {
+      const auto pose = shape_pose<2>(point.position, point.attitude);
+      const double lowest = (pose * hull.vertices).row(1).minCoeff();
+      EXPECT_NEAR(lowest, -0.4, 1e-12);
+      EXPECT_LE((pose * hull.vertices).row(1).maxCoeff(), 0.3);
+      // The face at the still level: the first swing is towards the water.
+      const double x = 0.4 * std::tan(-point.attitude.pitch_deg * radians);
+      if (std::abs(x) > 1e-3 && !towards_water) {
+        EXPECT_EQ(x > 0, !upper);
+        towards_water = true;
+      }
+    }
+    EXPECT_TRUE(towards_water);
+  }
+}
+
+TEST(Wavemaker, gives_its_waves_forty_elements_where_sizes_are_left_open) {
+  const Scene scene = scene_of(flume);
+  EXPECT_NEAR(scene.fluid->size.surface, 1.936 / 40, 0.001);  // told in two digits
+}
+
+}  // namespace
+}  // namespace splashdown::apps
