@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Random seas in the plane, and what their theories say of the runs.
 
-    seas.py BINARY regular|paddle|irregular [--members 4] [--first SEED] [--elements 40] [--periods N] [--keep DIR]
+    seas.py BINARY regular|paddle|irregular|zones|touchdown [--members 4] [--first SEED] [--elements 40] [--periods N] [--keep DIR]
 
 regular    [waves] of any depth and steepness: over the second half of the run the wave has the length, the height and the level of the
            stream function
 paddle     [wavemaker], piston or flap, in a flume with a beach: the height of linear wavemaker theory, nothing behind the paddle
 irregular  JONSWAP and Pierson-Moskowitz: significant height and peak period of what was asked for, in the middle of the tank
+zones      a box heaves in the middle of a sea that is almost calm: what the zones throw back of its waves, half to twice as long as theirs
+touchdown  [waves.touchdown]: where on the wave a falling body touches the water first
 
 One line a member. Exit code 1 if a member breaks a law. Standard library only.
 
@@ -74,6 +76,14 @@ def run(binary, text, folder):
     for row in csv.DictReader(open(os.path.join(out, "probes.csv"))):
         signals[row["probe"]].append((float(row["time"]), float(row["value"])))
     return signals, json.load(open(os.path.join(out, "summary.json"))), list(csv.DictReader(open(os.path.join(out, "fluid.csv"))))
+
+
+def at_time(signal, t):
+    """The signal at `t`, between its neighbours."""
+    for (t0, y0), (t1, y1) in zip(signal, signal[1:]):
+        if t0 <= t <= t1:
+            return y0 + (y1 - y0) * (t - t0) / (t1 - t0)
+    return signal[-1][1]
 
 
 def between(signal, start, end):
@@ -243,11 +253,123 @@ seed = {seed}
                                                    f"(the sea's own {100 * (h0 / height - 1):+.2f} %), Tp {100 * (t / t0 - 1):+.2f} %")
 
 
+def zones(binary, seed, options, folder):
+    """Echo of a foreign wave within 5 %; of one near the zones' own length, 0.8 to 1.25 of it, within 3 %."""
+    r = random.Random(seed)
+    own, kd = 10 ** r.uniform(-0.3, 1), r.uniform(1, 5)
+    depth = kd * own / (2 * math.pi)
+    ratio = 2 ** r.uniform(-1, 1) if seed % 2 else 1.25 ** r.uniform(-1, 1)
+    length = ratio * own
+    k = 2 * math.pi / length
+    omega = math.sqrt(G * k * math.tanh(k * depth))
+    period, speed = 2 * math.pi / omega, group_speed(omega, k, depth)
+    breadth, draft = 0.25 * length, 0.1 * length
+    heave = 0.015 * length
+    first = 0.5 * breadth + 1.2 * min(depth, 0.5 * length)  # the box's own modes have died out
+    places = [first + length * x for x in (0, 0.15, 0.3, 0.45, 0.6)]
+    half = places[-1] + 0.2 * length + 1.5 * own
+    seen = 4 * period
+    last = 2 * period + 2 * (half - places[0]) / speed + 2 * period + seen
+    rows = []
+    for i in range(int(60 * last / period) + 2):
+        t = i * period / 60
+        s = min(t / (2 * period), 1)
+        rows.append(f"[{t:.7g}, 0, {s * s * (3 - 2 * s) * heave * math.sin(omega * t):.7g}, 0]")
+    text = f"""[time]
+end = {last:.9g}
+[waves]
+type = "regular"
+height = {1e-5 * own:.6g}
+length = {own:.9g}
+""" + tank(-half, half, depth, 0.3 * length) + f"""[fluid.size]
+surface = {min(length, own) / options.elements:.6g}
+far = {length / 10:.6g}
+[[body]]
+name = "box"
+shape = {{type = "box", width = {breadth:.6g}, height = {2 * draft:.6g}}}
+motion = "prescribed"
+path = [{", ".join(rows)}]
+size = {length / options.elements:.6g}
+""" + gauges(places)
+    signals, _, _ = run(binary, text, folder)
+    stop = signals["g0"][-1][0]
+    amplitudes = [fundamental(between(signals[f"g{i}"], stop - seen, stop), omega) for i in range(len(places))]
+    out, back = two_ways(amplitudes, places, k)
+    echo, near = abs(back) / abs(out), 0.8 <= ratio <= 1.25
+    return echo <= (0.03 if near else 0.05), f"wave {ratio:.2f} of the zones' own, kd {k * depth:.2f}, H/L {2 * abs(out) / length:.4f}: echo {100 * echo:.2f} %"
+
+
+def touchdown(binary, seed, options, folder):
+    """Within 2 % of a wavelength of the place that is asked for."""
+    r = random.Random(seed)
+    size = 10 ** r.uniform(-1, 0)
+    length = size * r.uniform(5, 20)
+    depth = length * r.uniform(0.15, 0.7)
+    height = length * min(10 ** r.uniform(-1.9, -1.2), 0.5 * 0.142 * math.tanh(2 * math.pi * depth / length))
+    kind, phase, pitch = r.choice(["circle", "box", "capsule"]), r.uniform(0, 360), r.uniform(5, 30)
+    half = 0.5 * size
+    shape, hull = {
+        "circle": (f'{{type = "circle", radius = {half:.9g}}}', [(half * math.cos(a * math.pi / 360), half * math.sin(a * math.pi / 360)) for a in range(720)]),
+        "box": (f'{{type = "box", width = {size:.9g}, height = {half:.9g}}}', [(x * half, y * half / 2) for x in (-1, 1) for y in (-1, 1)]),
+        "capsule": (f'{{type = "capsule", radius = {half / 2:.9g}, length = {half:.9g}}}',
+                    [(c * half / 2 + half / 2 * math.cos(a * math.pi / 360), half / 2 * math.sin(a * math.pi / 360)) for c in (-1, 1) for a in range(720)]),
+    }[kind]
+    up = height + 0.8 * size + r.uniform(0.1, 1) * size
+    vx, vy = r.uniform(-1, 1) * math.sqrt(G * size), -r.uniform(0, 2) * math.sqrt(G * size)
+    fall = (vy + math.sqrt(vy * vy + 2 * G * (up + height))) / G
+    text = f"""[time]
+end = {1.1 * fall + 0.02 * math.sqrt(size / G):.9g}
+[waves]
+type = "regular"
+height = {height:.9g}
+length = {length:.9g}
+[waves.touchdown]
+body = "hull"
+phase_deg = {phase:.6g}
+""" + tank(-2.5 * length, 2.5 * length, depth, up + 2 * size) + f"""[fluid.size]
+surface = {length / options.elements:.6g}
+far = {length / 8:.6g}
+[[body]]
+name = "hull"
+shape = {shape}
+density = {r.uniform(200, 900):.4g}
+position = [0, {up:.9g}]
+pitch_deg = {pitch:.6g}
+velocity = [{vx:.6g}, {vy:.6g}]
+size = {size / 20:.6g}
+""" + gauges([length * (i / 40 - 0.5) for i in range(40)])
+    signals, summary, _ = run(binary, text, folder)
+    contact = summary["bodies"]["hull"]["first_contact_time"]
+    if not contact or contact < 0:
+        return False, f"{kind}: stays dry"
+    state = {}
+    rows = list(csv.DictReader(open(os.path.join(folder, "out", "bodies.csv"))))
+    for name in ("x", "y", "pitch_deg"):
+        state[name] = at_time([(float(q["time"]), float(q[name])) for q in rows], contact)
+    c, s = math.cos(math.radians(state["pitch_deg"])), math.sin(math.radians(state["pitch_deg"]))
+    # The sea without the body at that instant, at forty places on a wavelength: around the crest a parabola.
+    sea = [at_time(signals[f"g{i}.undisturbed"], contact) for i in range(40)]
+    top = max(range(40), key=lambda i: sea[i])
+    before, after = sea[top - 1], sea[(top + 1) % 40]
+    crest = length * ((top + 0.5 * (before - after) / (before - 2 * sea[top] + after)) / 40 - 0.5)
+
+    def elevation(x):
+        i = (x / length + 0.5) * 40
+        low = math.floor(i)
+        return sea[low % 40] + (i - low) * (sea[(low + 1) % 40] - sea[low % 40])
+
+    points = [(state["x"] + c * a - s * b, state["y"] + s * a + c * b) for a, b in hull]
+    lowest = min(points, key=lambda p: p[1] - elevation(p[0]))
+    found = 360 * ((crest - lowest[0]) / length % 1)
+    miss = (found - phase + 180) % 360 - 180
+    return abs(miss) <= 7.2, f"{kind} of {size / length:.3f} L, H/L {height / length:.3f}, asked for {phase:.0f} deg: {miss / 3.6:+.2f} % of a wavelength off"
+
+
 def main():
     """Runs the members."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary")
-    parser.add_argument("kind", choices=["regular", "paddle", "irregular"])
+    parser.add_argument("kind", choices=["regular", "paddle", "irregular", "zones", "touchdown"])
     parser.add_argument("--members", type=int, default=4)
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--elements", type=int, default=40, help="on a wave")

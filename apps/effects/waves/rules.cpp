@@ -190,8 +190,9 @@ std::optional<std::string> WavesKind::asymmetry(const Scene& scene, const Mirror
 }
 
 std::optional<WantedSize> WavesKind::surface_size(const Scene& scene) const {
-  constexpr double a_wave = 40;  // heights within 1 to 2 %: docs/waves.md
   if (!present(scene) || !scene.tank || !scene.gravity || wavy_region(scene) < 0) return {};
+  // Heights within 1 to 2 %; a spectrum has waves a third as long that lose some of theirs: docs/waves.md.
+  const double a_wave = scene.effects.find<Waves>()->type == "regular" ? 40 : 60;
   const double length = scene.dimension == 2 ? sea_of<2>(scene)->length() : sea_of<3>(scene)->length();
   return WantedSize{length / a_wave, fmt::format("{:g} elements on waves of {:.3g} m", a_wave, length)};
 }
