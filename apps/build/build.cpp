@@ -1,6 +1,8 @@
 #include "apps/build/build.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <stdexcept>
 
 #include "apps/scene/kinds/coupling_kinds.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
@@ -39,10 +41,24 @@ std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene,
 }
 
 template <int d>
-std::unique_ptr<rigid::Bodies<d>> bodies_with(const Scene& scene,
-                                              std::vector<std::unique_ptr<rigid::Force<d>>> forces) {
+void prescribe(const std::string& name, const std::function<rigid::Isometry<d>(double)>& path,
+               std::vector<rigid::BodySpec<d>>& specs) {
+  const auto body = std::ranges::find(specs, name, &rigid::BodySpec<d>::name);
+  if (body == specs.end() || body->motion != BodyMotion::prescribed)
+    throw std::invalid_argument("path: no body named '" + name + "' has motion = \"prescribed\"");
+  const double reach = body->surface.vertices.colwise().norm().maxCoeff(), roundoff = 1e-9;
+  const auto begin = path(0);
+  if ((begin.matrix() - body->pose.matrix()).cwiseAbs().maxCoeff() > roundoff * std::max(1., reach))
+    throw std::invalid_argument("path: at t = 0 it must have '" + name + "' where the scene puts it");
+  body->path = path;
+}
+
+template <int d>
+std::unique_ptr<rigid::Bodies<d>> bodies_with(const Scene& scene, std::vector<std::unique_ptr<rigid::Force<d>>> forces,
+                                              const Hooks<d>& hooks = {}) {
   std::vector<rigid::BodySpec<d>> specs;
   for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
+  for (const auto& [name, path] : hooks.paths) prescribe<d>(name, path, specs);
   auto joints = joint_specs(scene);
   for (const auto* kind : effect_kinds())
     if (kind->present(scene)) kind->prepare(scene, BodyParts<d>{specs, forces, joints});
@@ -81,13 +97,14 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
 }
 
 template <int d>
-World<d> build_world(const Scene& scene, std::function<void()> meanwhile) {
+World<d> build_world(const Scene& scene, std::function<void()> meanwhile, Hooks<d> hooks) {
   World<d> world;
   auto parts = parts_of<d>(scene);
+  std::ranges::move(hooks.forces, std::back_inserter(parts.forces));
   auto fluid = scene.fluid ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world) : nullptr;
   auto bodies = scene.fluid && scene.bodies.empty()
                     ? nullptr
-                    : build_bodies<d>(bodies_with<d>(scene, std::move(parts.forces)), world);
+                    : build_bodies<d>(bodies_with<d>(scene, std::move(parts.forces), hooks), world);
   if (!fluid)
     world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
   else if (!bodies)
@@ -102,8 +119,8 @@ World<d> build_world(const Scene& scene, std::function<void()> meanwhile) {
   return world;
 }
 
-template World<2> build_world<2>(const Scene&, std::function<void()>);
-template World<3> build_world<3>(const Scene&, std::function<void()>);
+template World<2> build_world<2>(const Scene&, std::function<void()>, Hooks<2>);
+template World<3> build_world<3>(const Scene&, std::function<void()>, Hooks<3>);
 template std::unique_ptr<rigid::Bodies<2>> bodies_of<2>(const Scene&);
 template std::unique_ptr<rigid::Bodies<3>> bodies_of<3>(const Scene&);
 

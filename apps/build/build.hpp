@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "apps/build/hooks.hpp"
 #include "apps/build/whole.hpp"
 #include "apps/record/settings.hpp"
 #include "apps/scene/scene.hpp"
@@ -27,7 +28,7 @@ struct World {
 
 /// Throws std::invalid_argument if the parts refuse what the scene asks for. `meanwhile`: FluidSpec::while_meshing.
 template <int d>
-World<d> build_world(const Scene& scene, std::function<void()> meanwhile = {});
+World<d> build_world(const Scene& scene, std::function<void()> meanwhile = {}, Hooks<d> hooks = {});
 /// Bodies with forces, joints and contacts.
 template <int d>
 std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene);

@@ -8,14 +8,12 @@
 #include <stdexcept>
 
 #include "apps/process/interrupt.hpp"
-#include "apps/run/approach.hpp"
 #include "apps/run/expectations.hpp"
 #include "apps/run/held.hpp"
 #include "apps/scene/numbers.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/statistics/verdict/limits.hpp"
 #include "apps/statistics/verdict/verdict.hpp"
-#include "core/leapfrog.hpp"
 #include "core/stopwatch.hpp"
 
 namespace splashdown::apps {
@@ -57,35 +55,34 @@ const char* status_word(const LoopEnd& end) {
 template <int d>
 Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, RunPlan plan, Progress& progress)
     : scene_(scene),
-      world_(std::move(world)),
+      simulation_(scene, std::move(world)),
       recorder_(std::move(settings)),
       plan_(std::move(plan)),
       progress_(progress) {
-  if (world_.bodies) walls_.emplace(scene_, *world_.bodies);
   setup_seconds_ = seconds_since(plan_.started);
-  phases_at_start_ = as_map(world_.stepper->phase_seconds());
+  phases_at_start_ = as_map(simulation_.stepper().phase_seconds());
 }
 
 template <int d>
 void Run<d>::resume(const Checkpoint& from) {
   const Stopwatch charge(setup_seconds_);
   std::istringstream stepper(from.stepper);
-  world_.stepper->load(stepper);
-  if (world_.stepper->time() != from.time || !(from.loop.dt_previous >= 0) || !(from.loop.dt_cap >= 0))
+  simulation_.stepper().load(stepper);
+  if (simulation_.stepper().time() != from.time || !(from.loop.dt_previous >= 0) || !(from.loop.dt_cap >= 0))
     throw std::runtime_error("holds times that contradict each other");
   recorder_.load(from.recorder);
-  if (world_.bodies && from.loop.steps > 0 && recorder_.bodies() != world_.bodies->size())
+  if (simulation_.world().bodies && from.loop.steps > 0 && recorder_.bodies() != simulation_.world().bodies->size())
     throw std::runtime_error("holds records of other bodies than the scene");
   loop_ = from.loop;
   wall_before_ = from.wall_seconds;
   phases_before_ = from.phases;
-  phases_at_start_ = as_map(world_.stepper->phase_seconds());
+  phases_at_start_ = as_map(simulation_.stepper().phase_seconds());
   last_checkpoint_ = Clock::now();  // the one it came from
 }
 
 template <int d>
 LoopEnd Run<d>::go() {
-  const auto end = run_loop(*world_.stepper, loop_, plan_.stop, *this);
+  const auto end = run_loop(simulation_.stepper(), loop_, plan_.stop, *this);
   progress_.clear();
   recorder_.check_files();
   const Stopwatch charge(output_seconds_);
@@ -95,52 +92,17 @@ LoopEnd Run<d>::go() {
 }
 
 template <int d>
-double Run<d>::dt_bound() const {
-  const double dt_max = scene_.time.dt_max;
-  return world_.fluid && world_.bodies ? std::min(dt_max, approach_dt(*world_.fluid, *world_.bodies)) : dt_max;
-}
-
-template <int d>
-RecordInput<d> Run<d>::input(const StepMade& step) const {
-  RecordInput<d> in;
-  in.fluid = world_.fluid;
-  in.bodies = world_.bodies;
-  in.time = step.time;
-  in.dt = step.dt;
-  in.passes = step.report.passes;
-  in.residual = step.report.residual;
-  in.wall_seconds = wall_seconds();
-  in.last = step.last;
-  if (!world_.bodies) return told(std::move(in));
-  const double kick = splashdown::kick(step.dt_previous, step.dt);
-  for (std::size_t i = 0; i < world_.bodies->size(); ++i) {
-    // Linear between the half steps: their mean for constant dt, the initial velocity at the first step.
-    const rigid::Twist<d>& before = world_.bodies->state(i).velocity;
-    const rigid::Twist<d> acceleration = (world_.bodies->trials()[i].velocity - before) / kick;
-    in.body_acceleration_n.push_back(acceleration);
-    in.body_velocity_n.push_back(before + 0.5 * step.dt_previous * acceleration);
-    in.body_load.push_back(world_.fluid ? world_.fluid->result().loads[i] : fluid::WallLoad<d>{});
-  }
-  return told(std::move(in));
-}
-
-template <int d>
 void Run<d>::record(const StepMade& step) {
   const Stopwatch charge(output_seconds_);
   recorder_.check_files();  // before anything of this step is counted: what is rescued can be continued
-  last_input_ = input(step);
+  last_input_ = simulation_.known(step);
+  last_input_.wall_seconds = wall_seconds();
   recorder_.record(last_input_);
   ProgressPoint point{
       .time = step.time, .stop = plan_.stop, .dt = step.dt, .steps = loop_.steps, .nodes = {}, .passes = {}};
-  if (world_.fluid) point.nodes = world_.fluid->nodes().size();
+  if (simulation_.world().fluid) point.nodes = simulation_.world().fluid->nodes().size();
   if (scene_.coupling) point.passes = step.report.passes;
   progress_.show(point);
-}
-
-template <int d>
-std::optional<Obstacle> Run<d>::obstacle() {
-  if (!walls_) return {};
-  return walls_->crossed(world_.bodies->trials(), time());
 }
 
 template <int d>
@@ -171,7 +133,7 @@ void Run<d>::checkpoint() {
 template <int d>
 Checkpoint Run<d>::present() {
   std::ostringstream stepper, recorder;
-  world_.stepper->save(stepper);
+  simulation_.stepper().save(stepper);
   recorder_.save(recorder);
   return {.scene = plan_.resolved,
           .loop = loop_,
@@ -214,7 +176,7 @@ double Run<d>::wall_seconds() const {
 template <int d>
 std::map<std::string, double> Run<d>::phases() const {
   auto result = phases_before_;
-  for (const auto& [name, seconds] : world_.stepper->phase_seconds()) result[name] += seconds;
+  for (const auto& [name, seconds] : simulation_.stepper().phase_seconds()) result[name] += seconds;
   for (const auto& [name, seconds] : phases_at_start_) result[name] -= seconds;
   result["setup"] += setup_seconds_;
   result["output"] += output_seconds_;

@@ -6,13 +6,12 @@
 #include <optional>
 #include <string>
 
-#include "apps/build/build.hpp"
 #include "apps/record/recorder.hpp"
-#include "apps/run/folder/checkpoint.hpp"
 #include "apps/run/loop.hpp"
 #include "apps/run/progress.hpp"
-#include "apps/run/wall_watch.hpp"
 #include "apps/scene/scene.hpp"
+#include "apps/simulation/checkpoint.hpp"
+#include "apps/simulation/simulation_of.hpp"
 
 namespace splashdown::apps {
 
@@ -39,7 +38,7 @@ class Run final : private LoopHost {
   /// Frames and pictures are not among them.
   std::optional<std::filesystem::path> rescue();
 
-  double time() const { return world_.stepper->time(); }
+  double time() const { return simulation_.stepper().time(); }
   const LoopState& loop() const { return loop_; }
   Summary summary(const LoopEnd& end) const;
   /// Half-step velocities of the bodies at the end, one a body [m/s].
@@ -48,9 +47,9 @@ class Run final : private LoopHost {
  private:
   using Clock = std::chrono::steady_clock;
 
-  double dt_bound() const override;
+  double dt_bound() const override { return simulation_.dt_bound(); }
   void record(const StepMade& step) override;
-  std::optional<Obstacle> obstacle() override;
+  std::optional<Obstacle> obstacle() override { return simulation_.obstacle(); }
   void refused(double time, double dt, const std::string& cause) override;
   void released(double time, const std::string& cause) override;
   bool checkpoint_due() override;
@@ -58,16 +57,11 @@ class Run final : private LoopHost {
   Checkpoint present();
   std::optional<std::string> interruption() override;
 
-  RecordInput<d> input(const StepMade& step) const;
-  RecordInput<d> told(RecordInput<d> simulated) const {
-    return world_.whole ? world_.whole->tell(std::move(simulated)) : simulated;
-  }
   double wall_seconds() const;
   std::map<std::string, double> phases() const;
 
   const Scene& scene_;
-  World<d> world_;
-  std::optional<WallWatch<d>> walls_;  // of scenes with bodies
+  SimulationOf<d> simulation_;
   Recorder<d> recorder_;
   RunPlan plan_;
   Progress& progress_;

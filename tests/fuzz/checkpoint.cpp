@@ -1,5 +1,5 @@
 // Checkpoints. Bytes that begin with 'r' are the file itself; others change a good one: places and what stands there.
-#include "apps/run/folder/checkpoint.hpp"
+#include "apps/simulation/checkpoint.hpp"
 
 #include <fstream>
 #include <iterator>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/folder/checkpoint.hpp"
+#include "apps/simulation/checkpoint.hpp"
 
 namespace splashdown::apps {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "apps/run/approach.hpp"
+#include "apps/simulation/approach.hpp"
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 

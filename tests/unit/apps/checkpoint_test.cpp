@@ -1,5 +1,5 @@
 // Checkpoints on disk: they read back, two generations are kept, damage is found, scenes are told apart.
-#include "apps/run/folder/checkpoint.hpp"
+#include "apps/simulation/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "apps/build/build.hpp"
-#include "apps/run/wall_watch.hpp"
+#include "apps/simulation/wall_watch.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {

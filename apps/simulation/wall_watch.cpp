@@ -1,4 +1,4 @@
-#include "apps/run/wall_watch.hpp"
+#include "apps/simulation/wall_watch.hpp"
 
 #include <fmt/format.h>
 

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/loop.hpp"
 #include "apps/scene/scene.hpp"
 #include "apps/scene/solid.hpp"
 #include "apps/scene/tank_sides.hpp"
+#include "apps/simulation/steps.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {

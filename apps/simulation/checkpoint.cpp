@@ -1,4 +1,4 @@
-#include "apps/run/folder/checkpoint.hpp"
+#include "apps/simulation/checkpoint.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/loop.hpp"
+#include "apps/simulation/steps.hpp"
 
 namespace splashdown::apps {
 

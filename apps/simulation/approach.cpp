@@ -1,4 +1,4 @@
-#include "apps/run/approach.hpp"
+#include "apps/simulation/approach.hpp"
 
 #include <algorithm>
 #include <limits>
