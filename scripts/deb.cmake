@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME splashdown-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   g++ cmake pkg-config libbullet-dev libeigen3-dev libfmt-dev libgmp-dev libhypre-dev libmpfr-dev mpi-default-dev libopenblas0-serial
-  libsuitesparse-dev libtbb-dev)
+  libsuitesparse-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "Light bodies landing on water
  Splashdown couples an incompressible fluid with a free surface, followed by
@@ -30,5 +30,5 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Light bodies landing on water: libraries
  Headers, static libraries and a CMake package for programs that drive
- Splashdown's solver without its scenes.")
+ Splashdown: scenes stepped by hand, or its solver without scenes.")
 include(CPack)

@@ -263,7 +263,7 @@ def zones(binary, seed, options, folder):
     k = 2 * math.pi / length
     omega = math.sqrt(G * k * math.tanh(k * depth))
     period, speed = 2 * math.pi / omega, group_speed(omega, k, depth)
-    breadth, draft = 0.25 * length, 0.1 * length
+    breadth, draft = 0.25 * length, min(0.1 * length, 0.3 * depth)
     heave = 0.015 * length
     first = 0.5 * breadth + 1.2 * min(depth, 0.5 * length)  # the box's own modes have died out
     places = [first + length * x for x in (0, 0.15, 0.3, 0.45, 0.6)]
