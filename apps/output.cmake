@@ -17,10 +17,15 @@ set(output_sources
   statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
   report/data.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp
   report/ablation.cpp report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
+  report/replay/moving_picture.cpp report/replay/replay.cpp
   report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp
   report/pictures/png.cpp)
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/report/replay/viewer.js)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/report/replay/viewer.js viewer)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/report/replay/viewer.hpp.in include/apps/report/replay/viewer.hpp @ONLY)
 add_library(splashdown_output STATIC ${output_sources})
+target_include_directories(splashdown_output PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/include)
 target_compile_features(splashdown_output PUBLIC cxx_std_20)
 target_include_directories(splashdown_output PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(splashdown_output

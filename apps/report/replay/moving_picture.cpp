@@ -1,0 +1,211 @@
+#include "apps/report/replay/moving_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <utility>
+
+#include "apps/record/frames/frames.hpp"
+#include "apps/record/frames/vtu.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+struct Listed {
+  double time = 0;
+  std::vector<std::pair<std::string, std::string>> pieces;  // part, file
+};
+
+std::vector<Listed> listed_pieces(const std::filesystem::path& run) {
+  std::vector<Listed> frames;
+  pugi::xml_document index;
+  if (!index.load_file((run / "frames.pvd").c_str())) return frames;
+  for (const auto& set : index.child("VTKFile").child("Collection").children("DataSet")) {
+    const double time = set.attribute("timestep").as_double();
+    if (frames.empty() || frames.back().time != time) frames.push_back({time, {}});
+    frames.back().pieces.emplace_back(set.attribute("part").value(), set.attribute("file").value());
+  }
+  return frames;
+}
+
+const VtuArray* array_called(const VtuGrid& grid, const char* name) {
+  const auto found = std::ranges::find(grid.point_data, name, &VtuArray::name);
+  return found == grid.point_data.end() ? nullptr : &*found;
+}
+
+std::vector<double> vtu_pressure(const VtuGrid& grid) {
+  const auto* p = array_called(grid, "p");
+  const auto* values = p ? std::get_if<std::vector<double>>(&p->values) : nullptr;
+  return values ? *values : std::vector<double>{};
+}
+
+MovingPart all_points(const VtuGrid& grid) {
+  MovingPart part;
+  for (std::size_t i = 0; i + 2 < grid.points.size(); i += 3)
+    part.points.push_back({grid.points[i], grid.points[i + 1], grid.points[i + 2]});
+  part.pressure = vtu_pressure(grid);
+  return part;
+}
+
+/// Cells of one kind, by their corners.
+std::vector<int> vtu_cells(const VtuGrid& grid, VtuCell kind) {
+  std::vector<int> cells;
+  int begin = 0;
+  for (std::size_t c = 0; c < grid.offsets.size(); begin = grid.offsets[c++])
+    if (grid.types[c] == static_cast<unsigned char>(kind))
+      cells.insert(cells.end(), grid.connectivity.begin() + begin, grid.connectivity.begin() + grid.offsets[c]);
+  return cells;
+}
+
+/// Faces of tetrahedra that belong to one alone and have a node of the free surface, the others on it too: the surface of the water.
+std::vector<int> water_surface_of(const VtuGrid& grid) {
+  const auto tetrahedra = vtu_cells(grid, VtuCell::tetrahedron);
+  const auto* kinds = array_called(grid, "kind");
+  const auto* kind = kinds ? std::get_if<std::vector<unsigned char>>(&kinds->values) : nullptr;
+  if (!kind) return {};
+  const auto is = [&](int node, NodeKind what) { return (*kind)[static_cast<std::size_t>(node)] == static_cast<unsigned char>(what); };
+  const auto is_free = [&](int node) { return is(node, NodeKind::free_surface); };
+  std::map<std::array<int, 3>, std::array<int, 3>> once;  // sorted -> as it stands
+  constexpr int faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  for (std::size_t c = 0; c < tetrahedra.size(); c += 4)
+    for (const auto& face : faces) {
+      std::array<int, 3> nodes;
+      for (std::size_t k = 0; k < 3; ++k) nodes[k] = tetrahedra[c + static_cast<std::size_t>(face[k])];
+      if (!std::ranges::any_of(nodes, is_free)) continue;
+      if (!std::ranges::all_of(nodes, [&](int n) { return is_free(n) || is(n, NodeKind::contact); })) continue;
+      auto sorted = nodes;
+      std::ranges::sort(sorted);
+      if (const auto [known, fresh] = once.emplace(sorted, nodes); !fresh) once.erase(known);
+    }
+  std::vector<int> triangles;
+  for (const auto& [sorted, nodes] : once) triangles.insert(triangles.end(), nodes.begin(), nodes.end());
+  return triangles;
+}
+
+/// Without points that no cell names.
+void compact_part(MovingPart& part) {
+  std::vector<int> number(part.points.size(), -1);
+  MovingPart kept;
+  for (int& node : part.cells) {
+    int& at = number[static_cast<std::size_t>(node)];
+    if (at < 0) {
+      at = static_cast<int>(kept.points.size());
+      kept.points.push_back(part.points[static_cast<std::size_t>(node)]);
+      if (!part.pressure.empty()) kept.pressure.push_back(part.pressure[static_cast<std::size_t>(node)]);
+    }
+    node = at;
+  }
+  kept.cells = std::move(part.cells);
+  part = std::move(kept);
+}
+
+/// What is larger is a splash or the weight of deep water: colours end there.
+double colour_limit(const MovingPicture& picture) {
+  std::vector<double> at_hulls;
+  for (const auto& frame : picture.frames)
+    for (const auto& body : frame.bodies)
+      for (const double p : body.pressure)
+        if (p > 0) at_hulls.push_back(p);
+  if (at_hulls.empty()) {
+    double most = 0;
+    for (const auto& frame : picture.frames)
+      for (const double p : frame.water.pressure) most = std::max(most, p);
+    return most;
+  }
+  constexpr double share = 0.995;
+  const auto nth = at_hulls.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(at_hulls.size() - 1));
+  std::ranges::nth_element(at_hulls, nth);
+  return *nth;
+}
+
+template <class Number>
+void append_raw(std::string& bytes, Number value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+class Packer {
+ public:
+  Packer(std::array<double, 3> low, std::array<double, 3> high, double limit) : low_(low), limit_(limit) {
+    for (std::size_t k = 0; k < 3; ++k) step_[k] = std::max(high[k] - low[k], 1e-300) / std::numeric_limits<std::uint16_t>::max();
+  }
+  nlohmann::json add(const MovingPart& part, bool with_cells) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const auto& x : part.points) append_raw(bytes, static_cast<std::uint16_t>(std::lround((x[k] - low_[k]) / step_[k])));
+    for (std::size_t i = 0; i < part.points.size(); ++i) {
+      const double p = part.pressure.empty() || !(limit_ > 0) ? 0 : std::clamp(part.pressure[i] / limit_, 0., 1.);
+      append_raw(bytes, static_cast<std::uint8_t>(std::lround(255 * p)));
+    }
+    if (with_cells)
+      for (const int node : part.cells) append_raw(bytes, static_cast<std::uint32_t>(node));
+    return {{"points", part.points.size()}, {"cells", with_cells ? part.cells.size() : 0}};
+  }
+  std::string bytes;
+
+ private:
+  std::array<double, 3> low_, step_;
+  double limit_;
+};
+
+}  // namespace
+
+MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_frames) {
+  MovingPicture picture;
+  const auto listed = listed_pieces(run);
+  const std::size_t count = std::min(most_frames, listed.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& from = listed[count > 1 ? i * (listed.size() - 1) / (count - 1) : 0];
+    MovingFrame frame{.time = from.time, .water = {}, .bodies = {}};
+    for (const auto& [part, file] : from.pieces) {
+      if (part == "tank") continue;
+      const auto grid = read_vtu(run / file);
+      auto moving = all_points(grid);
+      if (part == "fluid") {
+        moving.cells = vtu_cells(grid, VtuCell::triangle);
+        if (moving.cells.empty() && !vtu_cells(grid, VtuCell::tetrahedron).empty()) {
+          picture.dimension = 3;
+          moving.cells = water_surface_of(grid);
+        }
+        compact_part(moving);
+        frame.water = std::move(moving);
+      } else {
+        moving.cells = vtu_cells(grid, VtuCell::triangle);
+        if (moving.cells.empty()) moving.cells = vtu_cells(grid, VtuCell::line);
+        if (i == 0) picture.names.push_back(part);
+        frame.bodies.push_back(std::move(moving));
+      }
+    }
+    frame.bodies.resize(picture.names.size());
+    picture.frames.push_back(std::move(frame));
+  }
+  return picture;
+}
+
+PackedPicture packed(const MovingPicture& picture) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{far, far, far}, high{-far, -far, -far};
+  const auto look = [&](const MovingPart& part) {
+    for (const auto& x : part.points)
+      for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+  };
+  for (const auto& frame : picture.frames) {
+    look(frame.water);
+    for (const auto& body : frame.bodies) look(body);
+  }
+  const double limit = colour_limit(picture);
+  nlohmann::json json{{"dimension", picture.dimension}, {"names", picture.names}, {"low", low}, {"high", high}, {"pressure", limit}};
+  Packer packer(low, high, limit);
+  for (const auto& frame : picture.frames) {
+    auto& entry = json["frames"].emplace_back(nlohmann::json{{"time", frame.time}});
+    entry["water"] = packer.add(frame.water, true);
+    entry["bodies"] = nlohmann::json::array();
+    for (const auto& body : frame.bodies) entry["bodies"].push_back(packer.add(body, &frame == &picture.frames.front()));
+  }
+  return {json.dump(), std::move(packer.bytes)};
+}
+
+}  // namespace splashdown::apps
