@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/statistics/verdict/share.hpp"
+#include "apps/statistics/verdict/statements.hpp"
 #include "apps/text/number_text.hpp"
 #include "apps/text/plain_text.hpp"
 
@@ -122,7 +123,8 @@ std::string relative(const std::optional<double>& part, double whole) {
 /// With the prefix that its value has.
 std::string band_text(double band, double value, const std::string& unit) {
   const double factor = unit == "-" ? 1 : prefix_of(value).factor;
-  return fmt::format("+- {:.2g} ({})", band / factor, relative(band, value));
+  const auto ratio = ratio_of(band, value);
+  return fmt::format("+- {:.2g} ({})", band / factor, ratio ? band_mark(*ratio, "") : "?");
 }
 
 const std::vector<std::pair<const char*, Role>> lists = {

@@ -8,7 +8,9 @@
 #include <tuple>
 
 #include "apps/record/frames/frames.hpp"
+#include "apps/report/filtered_curves.hpp"
 #include "apps/report/words.hpp"
+#include "apps/scene/channel_classes.hpp"
 #include "apps/statistics/attitude.hpp"
 #include "apps/statistics/summary.hpp"
 #include "apps/statistics/verdict/share.hpp"
@@ -26,6 +28,7 @@ constexpr const char* red = "#d1495b";
 constexpr const char* green = "#3a9d7c";
 constexpr const char* amber = "#d98e04";
 constexpr const char* violet = "#7b5ea7";
+constexpr const char* grey = "#b9c3cc";
 constexpr std::array series_colours = {ink, red, blue, amber, green, violet};
 
 Values scaled(const Values& values, double scale, double offset = 0) {
@@ -59,11 +62,23 @@ std::vector<std::size_t> present(const std::vector<Values>& group) {
   return indices;
 }
 
+/// Whether the body's acceleration has a peak in the class of its headline.
+bool has_class(const RunData& run, const std::string& body) {
+  const auto key = fmt::format("cfc{}", structures_class);
+  return number_at(run.summary, {"bodies", body.c_str(), "peak_acceleration_g", key.c_str(), "value"}) > 0;
+}
+
+/// A table with fewer rows than steps does not show what the filter was given.
+bool has_every_step(const RunData& run, const Table& rows) {
+  return static_cast<double>(rows.rows()) >= number_at(run.summary, {"steps"});
+}
+
 struct BodyPlotter {
   const Table& table;
   std::string body;
   std::string stem;
   int dimension;
+  bool filters;  ///< headline numbers are filtered, and rows are steps
   Unit time;
   Values t;
 
@@ -72,6 +87,7 @@ struct BodyPlotter {
         body(name),
         stem("body_" + file_name_of(name)),
         dimension(run.dimension()),
+        filters(has_class(run, name) && has_every_step(run, rows)),
         time(time_unit(run.end_time())),
         t(scaled(rows["time"], time.scale)) {}
 
@@ -91,9 +107,13 @@ struct BodyPlotter {
     const Values &total = table[column], &repair = table[column + "_repair"];
     const Unit unit = si_unit(largest(total), base_unit);
     Figure figure = empty(column, what + " / (" + unit.unit + ")");
-    figure.curves = {{"total", t, scaled(total, unit.scale), ink, 1.8},
+    const auto smooth = filters ? filtered_curves(table, {column}, structures_class) : std::nullopt;
+    figure.curves = {{"total", t, scaled(total, unit.scale), smooth ? grey : ink, smooth ? 1.1 : 1.8},
                      {"physical", t, scaled(difference(total, repair), unit.scale), blue, 1.1},
                      {"repair", t, scaled(repair, unit.scale), red, 1.1}};
+    if (smooth)
+      figure.curves.push_back(
+          {class_label(), scaled(smooth->t, time.scale), scaled(smooth->values[0], unit.scale), ink, 2.2});
     double impulse = 0, repair_impulse = 0, to_and_fro = 0;
     for (std::size_t i = 1; i < t.size(); ++i) {
       const double dt = table["time"][i] - table["time"][i - 1];
@@ -102,20 +122,18 @@ struct BodyPlotter {
       if (repair.size() == t.size()) repair_impulse += 0.5 * dt * (repair[i] + repair[i - 1]);
     }
     const auto share = share_of(repair_impulse, impulse, cancels_below * to_and_fro);
-    const auto top = std::ranges::max_element(total, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
-    if (top != total.end() && std::isfinite(*top)) {
-      const auto i = static_cast<std::size_t>(top - total.begin());
+    const auto& marked = figure.curves[smooth ? figure.curves.size() - 1 : 0];
+    const auto top =
+        std::ranges::max_element(marked.y, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
+    if (top != marked.y.end() && std::isfinite(*top)) {
+      const double when = marked.x[static_cast<std::size_t>(top - marked.y.begin())];
       figure.marks = {
-          {t[i], *top * unit.scale,
-           fmt::format("{} {} at {} {}", digits(*top * unit.scale, 4), unit.unit, digits(t[i], 4), time.unit)}};
+          {when, *top, fmt::format("{} {} at {} {}", digits(*top, 4), unit.unit, digits(when, 4), time.unit)}};
     }
     figure.caption = fmt::format(
-        "{} of the water on the body, unfiltered, one value a recorded step: one component, while the peak load above "
-        "is "
-        "the resultant of all, at every step. The repair part is what "
-        "re-meshing "
-        "costs: {}.",
-        what,
+        "{} of the water on the body, one value a recorded step{}: one component, while the peak load above is the "
+        "resultant of all, at every step. The repair part is what re-meshing costs: {}.",
+        what, smooth ? ", and filtered as the peaks above" : ", unfiltered",
         share ? "it makes up " + percent(*share) + " of the impulse"
               : std::string("of the little impulse that is left it is no meaningful share"));
     return figure;
@@ -130,6 +148,29 @@ struct BodyPlotter {
       figure.curves.push_back({labels[k], t, std::move(values[k]), series_colours[k], 1.6});
     if (figure.curves.empty()) return;
     figure.caption = caption;
+    figures.push_back(std::move(figure));
+  }
+
+  std::string class_label() const { return fmt::format("CFC {}", structures_class); }
+
+  /// Filtered as the headline is, over the raw one in grey.
+  void add_acceleration(std::vector<Figure>& figures, const std::vector<Values>& raw,
+                        const std::vector<std::string>& labels) const {
+    std::vector<std::string> columns;
+    for (const char axis : std::string(dimension == 2 ? "xy" : "xyz")) columns.push_back(std::string("a") + axis);
+    const auto smooth = filters ? filtered_curves(table, columns, structures_class) : std::nullopt;
+    const auto kept = present(raw);
+    if (!smooth || kept.empty())
+      return add_components(figures, "acceleration", "acceleration / g", raw, labels,
+                            "Acceleration of the centre of mass, unfiltered, in multiples of 9.80665 m/s².");
+    Figure figure = empty("acceleration", "acceleration / g");
+    for (const std::size_t k : kept) figure.curves.push_back({k == kept[0] ? "raw" : "", t, raw[k], grey, 1.1});
+    for (const std::size_t k : kept)
+      figure.curves.push_back({labels[k] + ", " + class_label(), scaled(smooth->t, time.scale),
+                               scaled(smooth->values[k], 1 / standard_gravity), series_colours[k], 2.2});
+    figure.caption =
+        "Acceleration of the centre of mass in multiples of 9.80665 m/s², filtered as the peak above; grey: "
+        "unfiltered.";
     figures.push_back(std::move(figure));
   }
 
@@ -168,8 +209,7 @@ struct BodyPlotter {
       names_a.push_back(std::string("a_") + axis);
     }
     add_components(figures, "velocity", "velocity / (m/s)", v, names_v, "Velocity of the centre of mass.");
-    add_components(figures, "acceleration", "acceleration / g", a, names_a,
-                   "Acceleration of the centre of mass, unfiltered, in multiples of 9.80665 m/s².");
+    add_acceleration(figures, a, names_a);
     add_components(figures, "displacement", "displacement / m", x, names_x,
                    "Displacement of the centre of mass since the start.");
     double turned = 0;

@@ -133,6 +133,54 @@ TEST(Report, shows_the_verdict_in_its_colour_with_its_reason_above_all) {
   for (const auto& page : {red, amber, green}) EXPECT_NE(page.find("energy gain of the water"), std::string::npos);
 }
 
+TEST(Report, says_the_verdict_in_three_lines_then_answers_then_the_numerics) {
+  ScratchFolder folder;
+  make_run(folder.path(), "done", 0.03);
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  const auto page = folder.text("report.html");
+  std::size_t last = 0;
+  for (const char* piece :
+       {">trust</span>", ">doubt</span>", "the water&#39;s energy (3 % of what was exchanged", ">do</span>",
+        "why, with the numbers", "class=\"tile\"", "peak acceleration of the centre of mass",
+        "peak load, all directions together", "class=\"quiet\"", "<h2>Bodies</h2>", "<h2>Where the time went</h2>"}) {
+    const auto at = page.find(piece, last);
+    EXPECT_NE(at, std::string::npos) << piece << " does not follow what should stand before it";
+    if (at != std::string::npos) last = at;
+  }
+}
+
+TEST(Report, of_an_earlier_version_without_the_lines_has_its_reasons) {
+  ScratchFolder folder;
+  folder.write("summary.json", R"({"status": "done", "verdict": {"grade": "doubtful", "reasons": ["It looks odd."]}})");
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  EXPECT_NE(folder.text("report.html").find("It looks odd."), std::string::npos);
+}
+
+TEST(Report, has_a_number_for_each_patch_limit_and_instrument) {
+  ScratchFolder folder;
+  folder.write("summary.json", R"({"status": "done", "dimension": 3,
+    "limits": {"belly": {"answer": "no", "above": 20000, "value": 13200, "band": 1100, "unit": "Pa"}},
+    "bodies": {"uav": {"first_contact_time": 0.01, "settled_time": 2.5, "capsized_time": null, "skips": 0,
+      "attitude_deg": {"roll": {"end": -1.02}, "pitch": {"end": 3.4}},
+      "peak_acceleration_g": {"raw": {"value": 9.1, "time": 0.1}}, "grades": {"peak_acceleration_g": {}}}},
+    "equipment": {"payload": {"raw": {"value": 14, "time": 0.1}, "cfc60": {"value": 12.3, "time": 0.1, "rise_time": 0.004, "delta_v": 2.5},
+      "grades": {"cfc60": {"grade": "unresolved", "band_percent": 61}}}},
+    "patches": {"belly": {"peak_pressure": {"value": 13200, "time": 0.1}, "impulse": 12, "grades": {"peak_pressure": {"grade": "resolved", "band_percent": 4}}},
+      "tail": {"peak_pressure": {"value": 1100, "time": 0.1}, "impulse": 1}}})");
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  const auto page = folder.text("report.html");
+  for (const char* piece :
+       {"<b>no</b>", "belly above 20 kPa? 13.2 kPa ± 1.1 kPa", "<b>12.3 g</b>", "peak acceleration at payload, CFC 60",
+        "may be off by half and more", "Δv 2.50 m/s, rises in 4.00 ms", "<b>13.2 kPa</b>",
+        "highest of 2 patches: mean over belly", "within 4 %", "<b>at rest</b>", "trim 3.4°, heel −1.0°",
+        "<h2>Pressures</h2>", "<td>tail</td><td>1.10 kPa</td>"})
+    EXPECT_NE(page.find(piece), std::string::npos) << piece;
+  EXPECT_EQ(page.find("61 %"), std::string::npos);
+}
+
 TEST(Report, a_folder_without_a_run_is_an_error_and_stays_as_it_is) {
   ScratchFolder folder;
   EXPECT_THROW(write_report(folder.path()), std::runtime_error);
