@@ -151,7 +151,7 @@ double draft_at_end(const RunData& run, const std::string& name) {
   return NAN;
 }
 
-std::string degrees(double value) {
+std::string degree_text(double value) {
   const auto text = fmt::format("{:.1f}", std::abs(value));
   return (value < 0 && text != "0.0" ? "−" : "") + text + "°";
 }
@@ -164,7 +164,7 @@ std::string lie_text(const RunData& run, const std::string& name, const Json& bo
     add(draft > 0 ? "draft " + digits_with_unit(draft, "m", 3) : digits_with_unit(-draft, "m", 3) + " above the water");
   for (const auto& [angle, word] : {std::pair{"pitch", "trim"}, {"roll", "heel"}})
     if (const double value = number_at(body, {"attitude_deg", angle, "end"}); std::isfinite(value))
-      add(fmt::format("{} {}", word, degrees(value)));
+      add(fmt::format("{} {}", word, degree_text(value)));
   return text;
 }
 

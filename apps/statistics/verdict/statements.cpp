@@ -1,6 +1,7 @@
 #include "apps/statistics/verdict/statements.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ namespace {
 /// Above it the digits of a percentage say more than is known.
 constexpr double most_said = 0.5;
 constexpr double order_of_magnitude = 1;  // of the value
-constexpr double roundoff = 1e-9;
+constexpr double a_hair = 1e-9;
 
 struct Fraction {
   double most;
@@ -47,6 +48,14 @@ std::string bracket_of(const Summary& summary, const std::string& name, const He
   return band_words(number.band) + (number.causes.empty() ? "" : ": " + number.causes.front());
 }
 
+std::string owner(const std::string& body, bool several) { return several ? body + ": " : ""; }
+
+/// "left: " of a statement about a body; empty: of none.
+std::string owner_in(const std::string& statement) {
+  const auto colon = statement.find(": ");
+  return colon < statement.find(" (") ? statement.substr(0, colon + 2) : "";
+}
+
 /// Where the brackets begin that a statement ends with; npos: none.
 std::size_t brackets_at(const std::string& statement) {
   return statement.ends_with(")") ? statement.find(" (") : std::string::npos;
@@ -59,7 +68,7 @@ std::string band_words(double band) {
   if (band <= doubtful_band) return "within " + share_text(band);
   if (band <= fractions_above) return "may be off by " + share_text(band);
   for (const auto& [most, words] : fractions)
-    if (band <= most * (1 + roundoff)) return fmt::format("may be off by {}", words);
+    if (band <= most * (1 + a_hair)) return fmt::format("may be off by {}", words);
   return band <= order_of_magnitude ? "may be off by half and more" : "tells no more than the order of magnitude";
 }
 
@@ -75,20 +84,31 @@ std::string part_words(double share) {
 }
 
 std::string statement_of(const Summary& summary, const std::string& body, const Headline& headline, bool several) {
-  return fmt::format("{}{} {} ({}{})", several ? body + ": " : "", headline.what, headline.value,
+  return fmt::format("{}{} {} ({}{})", owner(body, several), headline.what, headline.value,
                      headline.filter.empty() ? "" : headline.filter + ", ", bracket_of(summary, body, headline));
+}
+
+std::string further_causes(const Summary& summary, const std::string& body, const Headline& headline, bool several) {
+  const auto& causes = headline.grade->causes;
+  if (causes.size() < 2 || !ruling(summary, body, headline).empty()) return {};
+  return fmt::format("{}{} (also {})", owner(body, several), headline.what,
+                     fmt::join(causes.begin() + 1, causes.end(), "; "));
 }
 
 std::vector<std::string> grouped(const std::vector<std::string>& statements) {
   std::vector<std::string> groups;
-  std::string open;
+  std::string open, last;  // last: of whom it was
   for (std::size_t i = 0; i < statements.size(); ++i) {
     const auto& statement = statements[i];
     const auto at = brackets_at(statement);
     const auto next = i + 1 < statements.size() ? brackets_at(statements[i + 1]) : std::string::npos;
     const bool shared = at != std::string::npos && next != std::string::npos &&
                         std::string_view(statement).substr(at) == std::string_view(statements[i + 1]).substr(next);
-    open += (open.empty() ? "" : ", ") + (shared ? statement.substr(0, at) : statement);
+    const auto whose = owner_in(statement);
+    auto text = shared ? statement.substr(0, at) : statement;
+    if (!open.empty() && whose == last) text.erase(0, whose.size());
+    open += (open.empty() ? "" : ", ") + text;
+    last = whose;
     if (!shared) groups.push_back(std::exchange(open, {}));
   }
   return groups;
@@ -98,19 +118,20 @@ std::vector<std::string> advice_of(const Summary& summary) {
   std::vector<std::string> list;
   const auto& verdict = summary.verdict;
   // The next step is the cure of what is doubtful; what is unphysical comes before it.
-  if (!summary.next || verdict.grade == Grade::unphysical) list = verdict.advice;
+  const bool interrupted = summary.status == "interrupted";
+  if ((!summary.next && !interrupted) || verdict.grade == Grade::unphysical) list = verdict.advice;
   if (summary.next) list.push_back(text_of(*summary.next));
-  if (summary.status == "interrupted") list.emplace_back("go on with --resume");
+  if (interrupted) list.emplace_back("go on with --resume");
   if (!list.empty()) return list;
   for (const auto& [name, body] : summary.bodies)
     if (std::ranges::any_of(headlines(summary, name), &Headline::is_impulse))
       return {"read the impulse: no mesh gives the peak a value"};
-  if (!verdict.doubted.empty()) return {"compare with a finer run (--refine 2)"};
+  if (!verdict.doubted.empty()) return {"compare with a run of half the element size"};
   if (!summary.ledger) return {"nothing: there is no water"};
   const bool graded =
       std::ranges::any_of(summary.bodies, [](const auto& body) { return !body.second.verdict.about.empty(); });
   return {graded ? "nothing more: all that is graded is resolved"
-                 : "no load is graded: compare with a finer run (--refine 2) before you quote a number"};
+                 : "no load is graded: compare with a run of half the element size before you quote a number"};
 }
 
 }  // namespace splashdown::apps

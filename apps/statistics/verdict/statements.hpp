@@ -30,7 +30,10 @@ std::string part_words(double share);
 /// A headline of a body, with its body where `several` have some.
 std::string statement_of(const Summary& summary, const std::string& body, const Headline& headline, bool several);
 
-/// Neighbours in the same brackets share them: "peak force 3 N, peak acceleration 2 g (within 4 %)".
+/// The causes that its statement leaves out, "peak force (also its steps are long for the filter)"; empty: there are none.
+std::string further_causes(const Summary& summary, const std::string& body, const Headline& headline, bool several);
+
+/// Neighbours in the same brackets share them, and their body: "peak force 3 N, peak acceleration 2 g (within 4 %)".
 std::vector<std::string> grouped(const std::vector<std::string>& statements);
 
 /// Of a judged run, never empty: last stands the next step, if there is one.

@@ -217,13 +217,6 @@ std::string band_text(const NumberGrade& number) {
   return fmt::format("within {:.{}f} %", 100 * number.band, number.band < 0.1 ? 1 : 0);
 }
 
-/// What its statement leaves out.
-std::string because_text(const Headline& headline, const std::string& owner) {
-  const auto& causes = headline.grade->causes;
-  if (causes.size() < 2) return {};
-  return fmt::format("{}{} (also {})", owner, headline.what, fmt::join(causes.begin() + 1, causes.end(), "; "));
-}
-
 /// A body is worth what its headline numbers are. What is still to come was told before.
 void add_numbers(Summary& summary, const std::string& name, BodySummary& body, bool several) {
   const bool to_come = peak_is_to_come(summary, name);
@@ -243,7 +236,7 @@ void add_numbers(Summary& summary, const std::string& name, BodySummary& body, b
     const Finding finding{number.grade, fmt::format("{}: {}.", about, fmt::join(number.reasons, "; ")), {}, {}};
     add(body.verdict, finding);
     add(summary.verdict, finding);
-    add_once(because, because_text(headline, several ? name + ": " : ""));
+    add_once(because, further_causes(summary, name, headline, several));
   }
   for (const auto& group : grouped(because)) summary.verdict.because.push_back(group);
 }

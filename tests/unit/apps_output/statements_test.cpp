@@ -196,6 +196,9 @@ TEST(Bands, in_words_never_promise_more_than_the_number) {
 TEST(Bands, of_neighbours_are_said_once) {
   EXPECT_EQ(grouped({"a 1 g (within 4 %)", "b 2 N (within 4 %)", "c 3 N (within 5 %)", "the water"}),
             (std::vector<std::string>{"a 1 g, b 2 N (within 4 %)", "c 3 N (within 5 %)", "the water"}));
+  EXPECT_EQ(grouped({"left: a 1 g (within 4 %)", "left: b 2 N (within 4 %)", "right: b 3 N (within 4 %)"}),
+            (std::vector<std::string>{"left: a 1 g, b 2 N, right: b 3 N (within 4 %)"}));
+  EXPECT_EQ(grouped({"the load (it rises: no peak)"}), (std::vector<std::string>{"the load (it rises: no peak)"}));
   EXPECT_TRUE(grouped({}).empty());
 }
 
