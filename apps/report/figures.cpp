@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "apps/record/frames/frames.hpp"
-#include "apps/report/filtered_curves.hpp"
+#include "apps/report/curves/filtered_curves.hpp"
 #include "apps/report/words.hpp"
 #include "apps/scene/channel_classes.hpp"
 #include "apps/statistics/attitude.hpp"

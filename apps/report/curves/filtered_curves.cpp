@@ -1,4 +1,4 @@
-#include "apps/report/filtered_curves.hpp"
+#include "apps/report/curves/filtered_curves.hpp"
 
 #include <algorithm>
 #include <cmath>
