@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "apps/report/curves/filtered_curves.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/words.hpp"
@@ -179,6 +180,49 @@ TEST(Report, has_a_number_for_each_patch_limit_and_instrument) {
         "<h2>Pressures</h2>", "<td>tail</td><td>1.10 kPa</td>"})
     EXPECT_NE(page.find(piece), std::string::npos) << piece;
   EXPECT_EQ(page.find("61 %"), std::string::npos);
+}
+
+// J211's filter leaves what is far below its class as it is, also over steps of different lengths, and takes what is far above.
+TEST(FilteredCurves, keep_slow_motion_and_take_fast_one) {
+  Table rows{{"time", "ax", "ay"}, {{}, {}, {}}};
+  for (double t = 0; t < 1; t += rows.rows() % 2 == 0 ? 0.7e-3 : 1.3e-3) {
+    rows.columns[0].push_back(t);
+    rows.columns[1].push_back(10 * std::sin(2 * M_PI * 3 * t));
+    rows.columns[2].push_back(10 * std::sin(2 * M_PI * 350 * t));
+  }
+  const auto curves = filtered_curves(rows, {"ax", "ay"}, 60);
+  ASSERT_TRUE(curves);
+  double slow = 0, fast = 0;
+  for (std::size_t i = 0; i < curves->t.size(); ++i) {
+    if (curves->t[i] < 0.1 || curves->t[i] > 0.9) continue;
+    slow = std::max(slow, std::abs(curves->values[0][i] - 10 * std::sin(2 * M_PI * 3 * curves->t[i])));
+    fast = std::max(fast, std::abs(curves->values[1][i]));
+  }
+  // |H|^2 = 1 / (1 + (f / 2.0775 CFC)^4); a step's mean stands for its middle: half a step of a slope of 2 pi f.
+  EXPECT_LT(slow, 10 * (std::pow(3 / (2.0775 * 60), 4) + 2 * M_PI * 3 * 1.3e-3));
+  EXPECT_LT(fast, 10 * std::pow(2.0775 * 60 / 350, 2));
+  EXPECT_FALSE(filtered_curves(rows, {"ax", "az"}, 60)) << "there is no such column";
+  EXPECT_FALSE(filtered_curves({{"time", "ax"}, {{0, 1e-3, 1e-3}, {1, 2, 3}}}, {"ax"}, 60)) << "time stands still";
+}
+
+TEST(Report, shows_instruments_in_g_with_their_components_in_one_figure) {
+  ScratchFolder folder;
+  folder.write(
+      "probes.csv",
+      "time,probe,value\n0,seat.ax,1\n0,seat.ay,-9.80665\n0,keel,5\n0.1,seat.ax,1\n0.1,seat.ay,9.80665\n0.1,keel,6\n");
+  folder.write(
+      "scene.resolved.toml",
+      "[[record]]\nkind = \"pressure\"\nname = \"keel\"\n\n[[record]]\nkind = \"acceleration\"\nname = \"seat\"\n");
+  folder.write("summary.json", "{}");
+  const auto groups = figures_of(read_run(folder.path()));
+  ASSERT_EQ(groups.size(), 1u);
+  ASSERT_EQ(groups[0].figures.size(), 2u);
+  const auto& seat = groups[0].figures[0];
+  EXPECT_EQ(seat.y_label, "acceleration / g");
+  ASSERT_EQ(seat.curves.size(), 2u);
+  EXPECT_EQ(seat.curves[1].label, "a_y");
+  EXPECT_DOUBLE_EQ(seat.curves[1].y[1], 1);
+  EXPECT_EQ(groups[0].figures[1].y_label, "keel / Pa");
 }
 
 TEST(Report, a_folder_without_a_run_is_an_error_and_stays_as_it_is) {
