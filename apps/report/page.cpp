@@ -47,7 +47,7 @@ th:first-child,td:first-child{text-align:left}
 thead th{border-top:0;color:var(--soft);font-weight:600}
 td.good{color:#2b7d62}td.fair{color:#a56a00}td.bad{color:#b8354a}
 th.text,td.text{text-align:left}
-td.text{white-space:normal;min-width:11em}
+td.text{white-space:normal;min-width:16em}
 .note{background:#fff8e8;border:1px solid #f0dfb4;border-radius:8px;padding:12px 16px;margin:16px 0 0}
 a{color:var(--blue)}
 code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;background:#eef2f5;border-radius:4px;padding:1px 5px;overflow-wrap:anywhere}
