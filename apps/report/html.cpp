@@ -150,7 +150,7 @@ std::string body_table(const RunData& run) {
     row("capsized", [](const Body& b) { return since_text(b, "capsized_time", "no"); });
     row("left the water again", [](const Body& b) {
       const double skips = number_at(b, {"skips"});
-      return skips > 0 ? count_text(skips) + " times" : std::string("no");
+      return skips > 0 ? count_text(skips) + (skips > 1 ? " times" : " time") : std::string("no");
     });
     row("settled", [](const Body& b) { return since_text(b, "settled_time", "not within the run"); });
   }

@@ -135,12 +135,13 @@ std::string time_text(const Summary& summary) {
 }
 
 std::string coupling_text(const CouplingSummary& coupling) {
-  return fmt::format("{}, {}: {:.3g} passes a step, {} at most", coupling.scheme, coupling.interface_term,
-                     coupling.passes_mean, coupling.passes_max);
+  const auto mean = fmt::format("{:.3g}", coupling.passes_mean);
+  return fmt::format("{}, {}: {} pass{} a step, {} at most", coupling.scheme, coupling.interface_term, mean,
+                     mean == "1" ? "" : "es", coupling.passes_max);
 }
 
 std::string refused_text(const Summary& summary) {
-  std::string text = fmt::format("{} steps", summary.rejected_steps);
+  std::string text = fmt::format("{} step{}", summary.rejected_steps, summary.rejected_steps == 1 ? "" : "s");
   for (const auto& [cause, count] : summary.rejected_causes) text += fmt::format("; {}: {}", cause, count);
   if (summary.released_fragments > 0)
     text += fmt::format("; fragments that flew on as drops: {}", summary.released_fragments);

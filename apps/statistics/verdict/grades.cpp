@@ -58,8 +58,7 @@ std::string coarse_words(const Evidence& e) {
   const char* place = on_patch ? "across it" : "across its wet part";
   constexpr double few = 20;
   if (count < 1) return fmt::format("less than one element {}", place);
-  if (count > few) return fmt::format("{:.0f} elements {} are too few", count, place);
-  return fmt::format("only {:.0f} element{} {}", count, count == 1 ? "" : "s", place);
+  return fmt::format("{}{:.0f} element{} {}", count <= few ? "only " : "", count, count == 1 ? "" : "s", place);
 }
 
 /// What a number is of.

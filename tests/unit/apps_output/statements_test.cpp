@@ -178,6 +178,27 @@ TEST(Statements, summary_json_has_them) {
   EXPECT_EQ(verdict["advice"], nlohmann::json(advice_of(summary)));
 }
 
+TEST(Statements, of_coarse_meshes_count_across_what_is_wet) {
+  for (const auto& [half, pressed, words] : {std::tuple{0.2, NAN, "less than one element across its wet part"},
+                                             {0.5, NAN, "only 1 element across its wet part"},
+                                             {4.1, NAN, "only 8 elements across its wet part"},
+                                             {11.5, NAN, "23 elements across its wet part"},
+                                             {4.1, 0.7, "only 1 element across it"},
+                                             {4.1, 6., "only 8 elements across its wet part"}}) {
+    Summary summary;
+    summary.status = "done";
+    auto& body = summary.bodies["hull"];
+    body.landing.first_contact = 0;
+    auto& patch = summary.patches["belly"];
+    patch.body = "hull";
+    patch.pressure.offer(1000, 0.1);
+    patch.evidence.elements = half, patch.evidence.pressed = pressed, patch.evidence.growing = 1;
+    judge(summary);
+    ASSERT_EQ(summary.verdict.doubted.size(), 1u);
+    EXPECT_TRUE(summary.verdict.doubted[0].ends_with(std::string(": ") + words + ")")) << summary.verdict.doubted[0];
+  }
+}
+
 TEST(Bands, in_words_never_promise_more_than_the_number) {
   EXPECT_EQ(band_words(0.0005), "within less than 0.1 %");
   EXPECT_EQ(band_words(0.041), "within 4.1 %");
