@@ -14,9 +14,9 @@ set(output_sources
   record/tables/energy.cpp record/tables/evidence.cpp record/tables/rows.cpp
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/filters.cpp
   statistics/verdict/grades.cpp statistics/landing_statistics.cpp statistics/verdict/limits.cpp statistics/verdict/missing.cpp statistics/verdict/next_step.cpp
-  statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
-  report/data.cpp report/figures.cpp report/gnuplot.cpp report/html.cpp
-  report/ablation.cpp report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
+  statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/verdict/statements.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
+  report/data.cpp report/figures.cpp report/curves/acceleration.cpp report/curves/filtered_curves.cpp report/curves/style.cpp report/gnuplot.cpp report/html.cpp
+  report/ablation.cpp report/answers.cpp report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
   report/replay/moving_picture.cpp report/replay/replay.cpp
   report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp
   report/pictures/png.cpp)

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/statistics/verdict/share.hpp"
+#include "apps/statistics/verdict/statements.hpp"
 #include "apps/text/number_text.hpp"
 #include "apps/text/plain_text.hpp"
 
@@ -122,7 +123,8 @@ std::string relative(const std::optional<double>& part, double whole) {
 /// With the prefix that its value has.
 std::string band_text(double band, double value, const std::string& unit) {
   const double factor = unit == "-" ? 1 : prefix_of(value).factor;
-  return fmt::format("+- {:.2g} ({})", band / factor, relative(band, value));
+  const auto ratio = ratio_of(band, value);
+  return fmt::format("+- {:.2g} ({})", band / factor, ratio ? band_mark(*ratio, "") : "?");
 }
 
 const std::vector<std::pair<const char*, Role>> lists = {
@@ -174,9 +176,19 @@ std::string prices_text(const Price& price, std::size_t width) {
   return text + (any_beyond ? "  * extrapolated\n" : "");
 }
 
+std::string counted(std::size_t number, const char* one, const char* many) {
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+/// Of the finest mesh, as its column has it.
+std::string finest_band_text(const PricedQuantity& quantity) {
+  const auto band = quantity.band_of_finest();
+  return band ? band_text(*band, quantity.value, quantity.what.unit) : "?";
+}
+
 /// Why a quantity plays no part in the rows; empty: it does.
 std::string not_counted(const PricedQuantity& quantity) {
-  if (!quantity.fit) return fmt::format("  (on {} meshes: too few)", quantity.rungs.size());
+  if (!quantity.fit) return fmt::format("  (on {}: too few)", counted(quantity.rungs.size(), "mesh", "meshes"));
   return quantity.what.counts ? "" : "  (not counted)";
 }
 
@@ -278,24 +290,26 @@ std::string price_line(const Price& price) {
 
 std::string price_text(const Price& price) {
   const auto number_of = [&](Role role) {
-    return std::ranges::count_if(price.rungs, [=](const Rung& rung) { return rung.spec.role == role; });
+    return static_cast<std::size_t>(
+        std::ranges::count_if(price.rungs, [=](const Rung& rung) { return rung.spec.role == role; }));
   };
-  std::string text = fmt::format("{}: {} meshes and {} replicates{}, the finest at refine {:.3g}\n",
-                                 one_line(price.title.empty() ? price.scene : price.title), number_of(Role::rung),
-                                 number_of(Role::replicate),
-                                 number_of(Role::larger_tank) > 0 ? ", one in a larger tank" : "", price.finest());
+  std::string text = fmt::format(
+      "{}: {} and {}{}, the finest at refine {:.3g}\n", one_line(price.title.empty() ? price.scene : price.title),
+      counted(number_of(Role::rung), "mesh", "meshes"), counted(number_of(Role::replicate), "replicate", "replicates"),
+      number_of(Role::larger_tank) > 0 ? ", one in a larger tank" : "", price.finest());
   if (!price.rows.empty()) text += "  accuracy      time  refine  decided by\n";
   text += rows_text(price);
-  std::size_t width = 14;
-  for (const auto& quantity : price.quantities) width = std::max(width, quantity.what.name.size());
-  text +=
-      fmt::format("  {:<{}}  {:>12}  {:>20}  {:>5}  {:>7}\n", "quantity", width, "value", "band", "order", "scatter");
+  std::size_t width = 14, band_width = 20;
   for (const auto& quantity : price.quantities) {
-    const auto band = quantity.band_of_finest();
+    width = std::max(width, quantity.what.name.size());
+    band_width = std::max(band_width, finest_band_text(quantity).size());
+  }
+  text += fmt::format("  {:<{}}  {:>12}  {:>{}}  {:>5}  {:>7}\n", "quantity", width, "value", "band", band_width,
+                      "order", "scatter");
+  for (const auto& quantity : price.quantities) {
     const auto order = quantity.fit ? quantity.fit->order() : std::nullopt;
-    text += fmt::format("  {:<{}}  {:>12}  {:>20}  {:>5}  {:>7}{}\n", quantity.what.name, width,
-                        value_text(quantity.value, quantity.what.unit),
-                        band ? band_text(*band, quantity.value, quantity.what.unit) : "?",
+    text += fmt::format("  {:<{}}  {:>12}  {:>{}}  {:>5}  {:>7}{}\n", quantity.what.name, width,
+                        value_text(quantity.value, quantity.what.unit), finest_band_text(quantity), band_width,
                         order ? fmt::format("{:.2f}", *order) : "-", relative(quantity.scatter, quantity.value),
                         not_counted(quantity));
   }

@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <tuple>
 
 #include "apps/record/frames/frames.hpp"
+#include "apps/report/curves/acceleration.hpp"
+#include "apps/report/curves/filtered_curves.hpp"
+#include "apps/report/curves/style.hpp"
 #include "apps/report/words.hpp"
+#include "apps/scene/channel_classes.hpp"
 #include "apps/statistics/attitude.hpp"
 #include "apps/statistics/summary.hpp"
 #include "apps/statistics/verdict/share.hpp"
@@ -18,45 +24,23 @@ namespace splashdown::apps {
 
 namespace {
 
-using Values = std::vector<double>;
-
-constexpr const char* ink = "#0f2f4f";
-constexpr const char* blue = "#2f7fc1";
-constexpr const char* red = "#d1495b";
-constexpr const char* green = "#3a9d7c";
-constexpr const char* amber = "#d98e04";
-constexpr const char* violet = "#7b5ea7";
-constexpr std::array series_colours = {ink, red, blue, amber, green, violet};
-
-Values scaled(const Values& values, double scale, double offset = 0) {
-  Values result(values);
-  for (double& v : result) v = (v - offset) * scale;
-  return result;
-}
-
 Values difference(const Values& a, const Values& b) {
   Values result(a);
   for (std::size_t i = 0; i < result.size() && i < b.size(); ++i) result[i] -= b[i];
   return result;
 }
 
-double largest(const Values& values) {
-  double top = 0;
-  for (const double v : values)
-    if (std::isfinite(v)) top = std::max(top, std::abs(v));
-  return top;
-}
-
 double first_of(const Values& values) { return values.empty() ? 0 : values.front(); }
 
-/// Columns that carry something, next to the largest of their group (1e-6: rounding does not).
-std::vector<std::size_t> present(const std::vector<Values>& group) {
-  double top = 0;
-  for (const auto& values : group) top = std::max(top, largest(values));
-  std::vector<std::size_t> indices;
-  for (std::size_t k = 0; k < group.size(); ++k)
-    if (largest(group[k]) > 1e-6 * top && top > 1e-12) indices.push_back(k);
-  return indices;
+/// Whether the body's acceleration has a peak in the class of its headline.
+bool has_class(const RunData& run, const std::string& body) {
+  const auto key = fmt::format("cfc{}", structures_class);
+  return number_at(run.summary, {"bodies", body.c_str(), "peak_acceleration_g", key.c_str(), "value"}) > 0;
+}
+
+/// A table with fewer rows than steps does not show what the filter was given.
+bool has_every_step(const RunData& run, const Table& rows) {
+  return static_cast<double>(rows.rows()) >= number_at(run.summary, {"steps"});
 }
 
 struct BodyPlotter {
@@ -64,6 +48,7 @@ struct BodyPlotter {
   std::string body;
   std::string stem;
   int dimension;
+  bool filters;  ///< headline numbers are filtered, and rows are steps
   Unit time;
   Values t;
 
@@ -72,6 +57,7 @@ struct BodyPlotter {
         body(name),
         stem("body_" + file_name_of(name)),
         dimension(run.dimension()),
+        filters(has_class(run, name) && has_every_step(run, rows)),
         time(time_unit(run.end_time())),
         t(scaled(rows["time"], time.scale)) {}
 
@@ -91,9 +77,13 @@ struct BodyPlotter {
     const Values &total = table[column], &repair = table[column + "_repair"];
     const Unit unit = si_unit(largest(total), base_unit);
     Figure figure = empty(column, what + " / (" + unit.unit + ")");
-    figure.curves = {{"total", t, scaled(total, unit.scale), ink, 1.8},
+    const auto smooth = filters ? filtered_curves(table, {column}, structures_class) : std::nullopt;
+    figure.curves = {{"total", t, scaled(total, unit.scale), smooth ? grey : ink, smooth ? 1.1 : 1.8},
                      {"physical", t, scaled(difference(total, repair), unit.scale), blue, 1.1},
                      {"repair", t, scaled(repair, unit.scale), red, 1.1}};
+    if (smooth)
+      figure.curves.push_back({fmt::format("CFC {}", structures_class), scaled(smooth->t, time.scale),
+                               scaled(smooth->values[0], unit.scale), ink, 2.2});
     double impulse = 0, repair_impulse = 0, to_and_fro = 0;
     for (std::size_t i = 1; i < t.size(); ++i) {
       const double dt = table["time"][i] - table["time"][i - 1];
@@ -102,20 +92,18 @@ struct BodyPlotter {
       if (repair.size() == t.size()) repair_impulse += 0.5 * dt * (repair[i] + repair[i - 1]);
     }
     const auto share = share_of(repair_impulse, impulse, cancels_below * to_and_fro);
-    const auto top = std::ranges::max_element(total, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
-    if (top != total.end() && std::isfinite(*top)) {
-      const auto i = static_cast<std::size_t>(top - total.begin());
+    const auto& marked = figure.curves[smooth ? figure.curves.size() - 1 : 0];
+    const auto top =
+        std::ranges::max_element(marked.y, {}, [](double v) { return std::isfinite(v) ? std::abs(v) : -1; });
+    if (top != marked.y.end() && std::isfinite(*top)) {
+      const double when = marked.x[static_cast<std::size_t>(top - marked.y.begin())];
       figure.marks = {
-          {t[i], *top * unit.scale,
-           fmt::format("{} {} at {} {}", digits(*top * unit.scale, 4), unit.unit, digits(t[i], 4), time.unit)}};
+          {when, *top, fmt::format("{} {} at {} {}", digits(*top, 4), unit.unit, digits(when, 4), time.unit)}};
     }
     figure.caption = fmt::format(
-        "{} of the water on the body, unfiltered, one value a recorded step: one component, while the peak load above "
-        "is "
-        "the resultant of all, at every step. The repair part is what "
-        "re-meshing "
-        "costs: {}.",
-        what,
+        "{} of the water on the body, one value a recorded step{}: one component, while the peak load above is the "
+        "resultant of all, at every step. The repair part is what re-meshing costs: {}.",
+        what, smooth ? ", and filtered as the peaks above" : ", unfiltered",
         share ? "it makes up " + percent(*share) + " of the impulse"
               : std::string("of the little impulse that is left it is no meaningful share"));
     return figure;
@@ -157,19 +145,19 @@ struct BodyPlotter {
           size > 0.02 * top && size > 0)  // less is what symmetry leaves
         figures.push_back(load(*axis, "f", force_unit(dimension),
                                *axis == vertical() ? "Vertical load" : fmt::format("Load along {}", *axis)));
-    std::vector<Values> v, x, a;
-    std::vector<std::string> names_v, names_x, names_a;
+    std::vector<Values> v, x;
+    std::vector<std::string> names_v, names_x, columns_a;
     for (const char axis : axes) {
       v.push_back(table[std::string("v") + axis]);
       x.push_back(scaled(table[std::string(1, axis)], 1, first_of(table[std::string(1, axis)])));
-      a.push_back(scaled(table[std::string("a") + axis], 1 / standard_gravity));
       names_v.push_back(std::string("v_") + axis);
       names_x.push_back(std::string(1, axis));
-      names_a.push_back(std::string("a_") + axis);
+      columns_a.push_back(std::string("a") + axis);
     }
     add_components(figures, "velocity", "velocity / (m/s)", v, names_v, "Velocity of the centre of mass.");
-    add_components(figures, "acceleration", "acceleration / g", a, names_a,
-                   "Acceleration of the centre of mass, unfiltered, in multiples of 9.80665 m/s².");
+    if (auto figure = acceleration_figure(
+            {table, columns_a, empty("acceleration", ""), time.scale, filters, "the centre of mass"}))
+      figures.push_back(std::move(*figure));
     add_components(figures, "displacement", "displacement / m", x, names_x,
                    "Displacement of the centre of mass since the start.");
     double turned = 0;
@@ -315,13 +303,39 @@ FigureGroup surface_figures(const RunData& run) {
   return group;
 }
 
+/// The components of an instrument in one table, "ax" to "az"; nothing for other records and for components but the first.
+std::optional<Table> instrument_table(const RunData& run, const std::string& probe) {
+  const auto dot = probe.rfind('.');
+  const auto kind = dot == std::string::npos ? run.record_kinds.end() : run.record_kinds.find(probe.substr(0, dot));
+  if (kind == run.record_kinds.end() || kind->second != "acceleration") return {};
+  Table table;
+  for (const auto& [name, rows] : run.probes) {
+    if (!name.starts_with(probe.substr(0, dot + 1))) continue;
+    if (table.empty()) table = {{"time"}, {rows["time"]}};
+    table.names.push_back(name.substr(dot + 1));
+    table.columns.push_back(rows["value"]);
+  }
+  return table;
+}
+
 FigureGroup probe_figures(const RunData& run) {
   FigureGroup group{"Probes and gauges", {}};
   const Unit time = time_unit(run.end_time());
+  std::set<std::string> instruments;
   for (const auto& [name, table] : run.probes) {
     Figure figure;
     figure.name = "probe_" + std::to_string(group.figures.size());
     figure.x_label = "t / " + time.unit;
+    if (const auto components = instrument_table(run, name)) {
+      const auto instrument = name.substr(0, name.rfind('.'));
+      if (!instruments.insert(instrument).second) continue;
+      const bool filters = number_at(run.summary, {"equipment", instrument.c_str(), "cfc60", "value"}) > 0 &&
+                           has_every_step(run, *components);
+      const std::vector<std::string> columns(components->names.begin() + 1, components->names.end());
+      if (auto drawn = acceleration_figure({*components, columns, figure, time.scale, filters, instrument}))
+        group.figures.push_back(std::move(*drawn));
+      continue;
+    }
     figure.y_label = name + run.unit_of_probe(name);
     figure.curves = {{"", scaled(table["time"], time.scale), table["value"], ink, 1.4}};
     figure.caption = fmt::format("Probe <b>{}</b>, SI units.", html_escaped(name));

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "apps/report/answers.hpp"
 #include "apps/report/page.hpp"
 #include "apps/statistics/attitude.hpp"
-#include "apps/statistics/verdict/limits.hpp"
 
 namespace splashdown::apps {
 
@@ -18,56 +18,12 @@ namespace {
 constexpr std::array phase_colours = {"#0f2f4f", "#2f7fc1", "#3a9d7c", "#d98e04", "#d1495b",
                                       "#7b5ea7", "#8fb8d8", "#b0a990", "#5f6b76"};
 
-const nlohmann::ordered_json& member(const nlohmann::ordered_json& json, const char* key) {
-  static const nlohmann::ordered_json nothing = nlohmann::ordered_json::object();
-  return json.is_object() && json.contains(key) && json[key].is_object() ? json[key] : nothing;
-}
-
 std::string title_of(const RunData& run) {
   if (run.summary.is_object()) {
     const auto scene = run.summary.value("scene", std::string());
     if (!scene.empty()) return scene;
   }
   return folder_name(run.directory);
-}
-
-/// "belly above 20 kPa? 13.2 kPa ± 1.1 kPa"
-std::string limit_text(const std::string& name, const nlohmann::ordered_json& limit) {
-  const auto text = [&](double value) { return value_text(value, text_at(limit, "unit")); };
-  const char* side = limit.contains("above") ? "above" : "below";
-  const double value = number_at(limit, {"value"}), band = number_at(limit, {"band"});
-  auto words = fmt::format("{} {} {}?", name, side, text(number_at(limit, {side})));
-  if (std::isfinite(value)) words += " " + text(value);
-  if (std::isfinite(band)) words += " ± " + text(band);
-  if (const auto reason = text_at(limit, "reason"); !reason.empty()) words += "; " + reason;
-  return html_escaped(words);
-}
-
-std::string tiles(const RunData& run) {
-  std::string html;
-  const auto tile = [&](const std::string& value, const std::string& what) { html += html_tile(value, what); };
-  for (const auto& [name, limit] : member(run.summary, "limits").items())
-    tile(html_escaped(text_at(limit, "answer")), limit_text(name, limit));
-  const auto& bodies = member(run.summary, "bodies");
-  const bool several = bodies.size() > 1;
-  for (const auto& [name, body] : bodies.items()) {
-    const std::string of = several ? ", " + html_escaped(name) : std::string();
-    if (const auto f = headline(body, "peak_force", run.dimension()); f.value > 0)
-      tile(digits_with_unit(f.value, force_unit(run.dimension())), "peak load, resultant" + f.filter + of + f.band);
-    if (const auto a = headline(body, "peak_acceleration_g", run.dimension()); a.value > 0)
-      tile(digits(a.value, 3) + " g", "peak acceleration" + a.filter + of + a.band);
-  }
-  if (const double e = number_at(run.summary, {"ledger", "volume_error"}); std::isfinite(e))
-    tile(percent(e), "change of volume");
-  if (const double e = number_at(run.summary, {"ledger", "volume_error_bodies"}); std::isfinite(e))
-    tile(percent(e), "change of volume over the hulls");
-  if (const double g = number_at(run.summary, {"ledger", "energy_gain"}); std::isfinite(g))
-    tile(percent(g), "energy gain of the water");
-  if (const double p = number_at(run.summary, {"coupling", "passes_mean"}); std::isfinite(p))
-    tile(digits(p, 3), "coupling passes a step");
-  if (const double n = number_at(run.summary, {"nodes", "max"}); n > 0) tile(count_text(n), "nodes at most");
-  if (const double w = number_at(run.summary, {"wall_seconds"}); w > 0) tile(seconds_text(w), "wall time");
-  return html_tiles(html);
 }
 
 std::string phase_bar(const RunData& run) {
@@ -116,13 +72,6 @@ std::string figures(const ReportPage& page) {
 double last_component(const nlohmann::ordered_json& body, const char* key) {
   if (!body.contains(key) || !body[key].is_array() || body[key].empty() || !body[key].back().is_number()) return NAN;
   return body[key].back().get<double>();
-}
-
-/// The class that J211 gives for integration to velocity, or the lowest that the run's steps allow.
-const nlohmann::ordered_json& shown_pulse(const nlohmann::ordered_json& acceleration) {
-  for (const char* cfc : {"cfc180", "cfc60", "cfc600", "cfc1000"})
-    if (acceleration.contains(cfc)) return acceleration[cfc];
-  return member(acceleration, "none");
 }
 
 std::string angle_text(const nlohmann::ordered_json& angle) {
@@ -201,7 +150,7 @@ std::string body_table(const RunData& run) {
     row("capsized", [](const Body& b) { return since_text(b, "capsized_time", "no"); });
     row("left the water again", [](const Body& b) {
       const double skips = number_at(b, {"skips"});
-      return skips > 0 ? count_text(skips) + " times" : std::string("no");
+      return skips > 0 ? count_text(skips) + (skips > 1 ? " times" : " time") : std::string("no");
     });
     row("settled", [](const Body& b) { return since_text(b, "settled_time", "not within the run"); });
   }
@@ -235,6 +184,24 @@ std::string equipment_table(const RunData& run) {
                         digits_with_unit(number_at(pulse, {"delta_v"}), "m/s", 3));
   }
   return html + "</tbody></table></div>\n";
+}
+
+/// Patches, and points where pressure was recorded.
+std::string pressure_table(const RunData& run) {
+  std::string rows;
+  for (const auto& [list, kind] : {std::pair{"patches", "mean over the patch"}, {"probes", "at the point"}})
+    for (const auto& [name, place] : member(run.summary, list).items()) {
+      const auto& peak = member(place, "peak_pressure");
+      if (peak.empty()) continue;
+      rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                          html_escaped(name), digits_with_unit(number_at(peak, {"value"}), "Pa", 3),
+                          seconds_text(number_at(peak, {"time"})), grade_text(place, {"peak_pressure"}), kind,
+                          digits_with_unit(number_at(place, {"impulse"}), "Pa s", 3));
+    }
+  if (rows.empty()) return rows;
+  return "<h2>Pressures</h2>\n<div class=\"scroll\"><table><thead><tr><th>place</th><th>peak</th><th>at</th>"
+         "<th>its band</th><th>what</th><th>impulse</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
 }
 
 std::string ledger_table(const RunData& run) {
@@ -301,9 +268,11 @@ std::string refusals_table(const RunData& run) {
 
 std::string html_of(const ReportPage& page) {
   const auto title = title_of(page.run);
-  return html_page(title, html_header(title, page.run.directory, page.banner, page.warnings) + tiles(page.run) +
-                              phase_bar(page.run) + figures(page) + body_table(page.run) + equipment_table(page.run) +
-                              ledger_table(page.run) + effects_table(page.run) + refusals_table(page.run) +
+  const auto& run = page.run;
+  return html_page(title, html_header(title, run.directory, page.banner, page.warnings) + answer_card(run) +
+                              quiet_line(run) + page.replay + figures(page) + body_table(run) + equipment_table(run) +
+                              pressure_table(run) + ledger_table(run) + effects_table(run) + refusals_table(run) +
+                              phase_bar(run) +
                               "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
                               "in <code>report/</code>.</footer>\n");
 }

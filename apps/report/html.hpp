@@ -19,6 +19,7 @@ struct ReportPage {
   std::vector<FigureGroup> groups;
   std::map<std::string, std::string> images;  ///< figure name -> <svg> or <img> element
   std::vector<std::string> warnings;          ///< HTML
+  std::string replay = {};                    ///< HTML; empty: none
 };
 
 std::string html_of(const ReportPage& page);

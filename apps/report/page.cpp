@@ -15,17 +15,22 @@ body{margin:0;background:var(--ground);color:var(--ink);font:16px/1.5 system-ui,
 main{max-width:1180px;margin:0 auto;padding:32px 24px 64px}
 h1{font-size:30px;line-height:1.2;margin:0 0 4px;letter-spacing:-.01em}
 h2{font-size:20px;margin:40px 0 12px;letter-spacing:-.005em}
+h1,h2{overflow-wrap:anywhere}
 .where{color:var(--soft);margin:0 0 20px;font-size:14px;overflow-wrap:anywhere}
 .verdict{background:var(--paper);border:1px solid var(--line);border-left:6px solid;border-radius:8px;padding:18px 22px}
 .verdict.good{border-left-color:#3a9d7c}.verdict.fair{border-left-color:#d98e04}.verdict.bad{border-left-color:#d1495b}
 .verdict strong{display:block;font-size:19px;margin-bottom:6px}
-.verdict p{margin:3px 0}
+.verdict p{margin:3px 0;overflow-wrap:anywhere}
 .verdict b.bad{color:#b8354a}.verdict b.fair{color:#a56a00}
+.verdict p:has(.head){display:grid;grid-template-columns:3.6em minmax(0,1fr)}.verdict .head{font-weight:600}
+.verdict details{font-size:14px;color:var(--soft)}.verdict summary{cursor:pointer}.verdict ul{margin:6px 0 0;padding-left:20px}
 .verdict.bad{background:#fdf0f1}.verdict.fair{background:#fff8e8}
-.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(165px,1fr));gap:12px;margin:16px 0 0}
-.tile{background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}
-.tile b{display:block;font-size:22px;line-height:1.25;font-variant-numeric:tabular-nums;white-space:nowrap}
-.tile span{color:var(--soft);font-size:13px}
+.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,190px),1fr));gap:12px;margin:16px 0 0}
+.tile{min-width:0;overflow-wrap:anywhere;background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}
+.tile b{display:block;font-size:22px;line-height:1.25;font-variant-numeric:tabular-nums}
+.tile span{display:block;color:var(--soft);font-size:13px;line-height:1.4}
+.tile span.good{color:#2b7d62}.tile span.fair{color:#a56a00}.tile span.bad{color:#b8354a}
+.quiet{color:var(--soft);font-size:13px;margin:12px 2px 0;overflow-wrap:anywhere}
 .bar{display:flex;height:26px;border-radius:6px;overflow:hidden;background:var(--line)}
 .bar div{min-width:1px}
 .legend{display:flex;flex-wrap:wrap;gap:4px 20px;margin:10px 0 0;padding:0;list-style:none;font-size:14px;color:var(--soft)}
@@ -42,11 +47,12 @@ th:first-child,td:first-child{text-align:left}
 thead th{border-top:0;color:var(--soft);font-weight:600}
 td.good{color:#2b7d62}td.fair{color:#a56a00}td.bad{color:#b8354a}
 th.text,td.text{text-align:left}
-td.text{white-space:normal}
+td.text{white-space:normal;min-width:16em}
 .note{background:#fff8e8;border:1px solid #f0dfb4;border-radius:8px;padding:12px 16px;margin:16px 0 0}
 a{color:var(--blue)}
-code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;background:#eef2f5;border-radius:4px;padding:1px 5px}
+code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;background:#eef2f5;border-radius:4px;padding:1px 5px;overflow-wrap:anywhere}
 footer{color:var(--soft);font-size:13px;margin-top:40px}
+@media (max-width:480px){main{padding:18px 12px 40px}h1{font-size:24px}.verdict{padding:14px 14px}.tile{padding:10px 12px}.tiles{grid-template-columns:repeat(auto-fit,minmax(min(100%,150px),1fr))}th,td{padding:6px 9px}figure{padding:10px 8px}}
 @media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}}
 )";
 
@@ -80,14 +86,15 @@ std::string html_header(const std::string& title, const std::filesystem::path& d
       fmt::format("<h1>{}</h1>\n<p class=\"where\">{}</p>\n<section class=\"verdict {}\"><strong>{}</strong>\n",
                   html_escaped(title), html_escaped(std::filesystem::absolute(directory).lexically_normal().string()),
                   css_class(banner.mood), html_escaped(banner.headline));
-  for (const auto& sentence : banner.sentences) html += "<p>" + sentence + "</p>\n";
+  for (const auto& sentence : banner.sentences)
+    html += sentence.starts_with("<details") ? sentence + "\n" : "<p>" + sentence + "</p>\n";
   html += "</section>\n";
   for (const auto& warning : warnings) html += "<div class=\"note\">" + warning + "</div>\n";
   return html;
 }
 
-std::string html_tile(const std::string& value, const std::string& what) {
-  return fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", value, what);
+std::string html_tile(const std::string& value, const std::string& rows) {
+  return fmt::format("<div class=\"tile\"><b>{}</b>{}</div>\n", value, rows);
 }
 
 std::string html_tiles(const std::string& tiles) {

@@ -22,8 +22,8 @@ std::string html_page(const std::string& title, const std::string& content);
 std::string html_header(const std::string& title, const std::filesystem::path& directory, const Banner& banner,
                         const std::vector<std::string>& warnings);
 
-std::string html_tile(const std::string& value, const std::string& what);
-std::string html_tiles(const std::string& tiles);  ///< around them; nothing if there are none
+std::string html_tile(const std::string& value, const std::string& rows);  ///< rows: <span> elements
+std::string html_tiles(const std::string& tiles);                          ///< around them; nothing if there are none
 std::string html_figure(const std::string& image, const std::string& caption);
 const char* css_class(Mood mood);
 

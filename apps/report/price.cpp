@@ -11,6 +11,7 @@
 #include "apps/report/data.hpp"
 #include "apps/report/page.hpp"
 #include "apps/statistics/verdict/share.hpp"
+#include "apps/statistics/verdict/statements.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -54,14 +55,14 @@ std::string quantities_table(const Json& price) {
   for (const auto& [name, q] : price.at("quantities").items()) {
     const double value = number_at(q, {"value"}), band = number_at(q, {"band"});
     const auto ratio = ratio_of(band, value);
-    const double percent = ratio ? 100 * *ratio : NAN;
-    rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}{}{}{}{}<td class=\"text\">{}{}</td></tr>\n",
-                        html_escaped(name), cell(value), escaped_at(q, "unit"), cell(band, 2), cell(percent, 2),
-                        cell(number_at(q, {"order"}), 2), cell(number_at(q, {"richardson"})),
-                        cell(number_at(q, {"scatter"}), 2), q.at("counts").get<bool>() ? "" : "not counted; ",
-                        escaped_at(q, "refused"));
+    rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}<td>{}</td>{}{}{}<td class=\"text\">{}{}</td></tr>\n",
+                        html_escaped(name), cell(value), escaped_at(q, "unit"), cell(band, 2),
+                        ratio ? band_mark(*ratio, "") : "–", cell(number_at(q, {"order"}), 2),
+                        cell(number_at(q, {"richardson"})), cell(number_at(q, {"scatter"}), 2),
+                        q.at("counts").get<bool>() ? "" : "not counted; ", escaped_at(q, "refused"));
   }
-  return table("Quantities", {"quantity", "finest mesh", "unit", "band ±", "%", "order", "Richardson", "scatter", ""},
+  return table("Quantities",
+               {"quantity", "finest mesh", "unit", "band ±", "of the value", "order", "Richardson", "scatter", ""},
                rows);
 }
 

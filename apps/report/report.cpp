@@ -18,6 +18,7 @@
 #include "apps/report/pictures/hull.hpp"
 #include "apps/report/pictures/picture.hpp"
 #include "apps/report/price.hpp"
+#include "apps/report/replay/replay.hpp"
 #include "apps/report/study.hpp"
 
 namespace splashdown::apps {
@@ -93,6 +94,9 @@ ReportResult write_report(const std::filesystem::path& directory) {
   page.hulls.assign(fields.figures.begin() + of_plane, fields.figures.end());
   fields.figures.resize(static_cast<std::size_t>(of_plane));
   page.fields = std::move(fields.figures);
+  auto replay = replay_of(directory);
+  page.replay = std::move(replay.html);
+  std::ranges::move(replay.warnings, std::back_inserter(result.warnings));
   for (const auto& warning : result.warnings) page.warnings.push_back(html_escaped(warning));
   write_file_atomically(result.page, html_of(page));
   return result;

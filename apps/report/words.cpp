@@ -6,13 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/statistics/verdict/statements.hpp"
+
 namespace splashdown::apps {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr double volume_error_good = 0.005;  // the bar of all examples (docs/validation.md)
 
-std::string status_sentence(const nlohmann::ordered_json& summary) {
+std::string status_sentence(const Json& summary) {
   const std::string status = summary.value("status", "");
   if (status == "done") return "The run finished";
   if (status == "interrupted") return "The run was interrupted and can be resumed";
@@ -20,45 +24,73 @@ std::string status_sentence(const nlohmann::ordered_json& summary) {
   return "The run stopped";
 }
 
-/// The grade into the headline and its reasons first: nothing below counts if they are bad.
-void add_verdict(const nlohmann::ordered_json& summary, Banner& banner) {
+std::vector<std::string> texts_at(const Json& json, const char* key) {
+  std::vector<std::string> texts;
+  if (!json.is_object() || !json.contains(key) || !json[key].is_array()) return texts;
+  for (const auto& text : json[key])
+    if (text.is_string()) texts.push_back(text.get<std::string>());
+  return texts;
+}
+
+/// Below each other behind a word; HTML.
+std::string verdict_line(const char* head, const std::string& html) {
+  return fmt::format("<span class=\"head\">{}</span><span>{}</span>", head, html);
+}
+
+std::string lines_html(const std::vector<std::string>& statements) {
+  std::string html;
+  for (const auto& group : grouped(statements)) html += (html.empty() ? "" : "<br>") + html_escaped(group);
+  return html.empty() ? "nothing" : html;
+}
+
+/// A command in a form that can be copied, then what it takes and brings.
+std::string advice_html(const Json& summary, const std::string& advice) {
+  const auto command = summary.contains("next") ? text_at(summary["next"], "command") : "";
+  if (command.empty() || !advice.starts_with(command)) return html_escaped(advice);
+  return "<code>" + html_escaped(command) + "</code>" + html_escaped(advice.substr(command.size()));
+}
+
+/// All reasons as they stand in summary.json, folded away if something says them shorter.
+std::string details_html(const Json& verdict) {
+  const auto reasons = texts_at(verdict, "reasons");
+  if (reasons.empty()) return {};
+  std::string html = std::string(verdict.contains("trusted") ? "<details>" : "<details open>") +
+                     "<summary>why, with the numbers</summary><ul>";
+  for (const auto& reason : reasons) html += "<li>" + html_escaped(reason) + "</li>";
+  return html + "</ul></details>";
+}
+
+/// The grade into the headline, then what is trusted, what is not, what to do.
+void add_verdict(const Json& summary, Banner& banner) {
   if (!summary.contains("verdict")) return;  // of an earlier version
   const auto& verdict = summary["verdict"];
   const auto grade = text_at(verdict, "grade");
   banner.mood = std::max(banner.mood, mood_of_grade(grade));
   if (!grade.empty()) banner.headline += ": " + grade;
-  if (!verdict.is_object() || !verdict.contains("reasons")) return;
   // What is told although the grade is good is no reason for green either.
-  if (!verdict["reasons"].empty()) banner.mood = std::max(banner.mood, Mood::fair);
-  for (const auto& reason : verdict["reasons"])
-    if (reason.is_string())
-      banner.sentences.push_back("<b class=\"" + std::string(mood_of_grade(grade) == Mood::bad ? "bad" : "fair") +
-                                 "\">" + html_escaped(reason.get<std::string>()) + "</b>");
+  if (!texts_at(verdict, "reasons").empty()) banner.mood = std::max(banner.mood, Mood::fair);
+  const auto trusted = texts_at(verdict, "trusted"), doubted = texts_at(verdict, "doubted");
+  if (verdict.contains("trusted")) banner.sentences.push_back(verdict_line("trust", lines_html(trusted)));
+  if (!doubted.empty()) banner.sentences.push_back(verdict_line("doubt", lines_html(doubted)));
+  for (const auto& advice : texts_at(verdict, "advice"))
+    banner.sentences.push_back(verdict_line("do", advice_html(summary, advice)));
+  for (const auto& note : texts_at(verdict, "notes"))
+    banner.sentences.push_back(verdict_line("note", html_escaped(note)));
+  if (auto details = details_html(verdict); !details.empty()) banner.sentences.push_back(std::move(details));
 }
 
-/// The command in a form that can be copied, then what it takes and brings.
-void add_next(const nlohmann::ordered_json& summary, Banner& banner) {
-  if (!summary.contains("next")) return;
-  const auto command = text_at(summary["next"], "command"), text = text_at(summary["next"], "text");
-  if (text.empty()) return;
-  const auto end = command.empty() || !text.starts_with(command) ? text.find(',') : command.size();
-  banner.sentences.push_back("Next: <code>" + html_escaped(text.substr(0, end)) + "</code>" +
-                             (end < text.size() ? html_escaped(text.substr(end)) : "") + ".");
-}
+double band_of(const Json& number) { return number_at(number, {"band_percent"}) / 100; }
 
-/// " (± 2.1 %)", with the grade if it is not resolved; nothing for what is not graded.
-std::string band_text(const nlohmann::ordered_json& number) {
+/// "± 2.1 %", with the grade if it is not resolved; nothing for what is not graded.
+std::string band_text(const Json& number) {
   const auto grade = text_at(number, "grade");
   if (grade.empty()) return {};
-  const double band = number_at(number, {"band_percent"});
-  const auto width = !std::isfinite(band) ? std::string("no band")
-                     : band < 0.1         ? std::string("± less than 0.1 %")
-                                          : "± " + digits(band, 2) + " %";
-  return grade == "resolved" ? " (" + width + ")" : " (" + html_escaped(grade) + ", " + width + ")";
+  const auto width = band_mark(band_of(number), "± ");
+  return grade == "resolved" ? width : html_escaped(grade) + ", " + width;
 }
 
-const nlohmann::ordered_json& at(const nlohmann::ordered_json& json, std::initializer_list<const char*> path) {
-  static const nlohmann::ordered_json nothing;
+const Json& at(const Json& json, std::initializer_list<const char*> path) {
+  static const Json nothing;
   const auto* node = &json;
   for (const char* key : path) {
     if (!node->is_object() || !node->contains(key)) return nothing;
@@ -67,45 +99,17 @@ const nlohmann::ordered_json& at(const nlohmann::ordered_json& json, std::initia
   return *node;
 }
 
-void add_body_sentences(const RunData& run, std::vector<std::string>& sentences) {
-  for (const auto& [name, body] : at(run.summary, {"bodies"}).items()) {
-    const auto force = headline(body, "peak_force", run.dimension());
-    if (!(force.value > 0)) continue;
-    std::string text = fmt::format(
-        "The largest load on <b>{}</b>, all directions together{}, was <b>{}</b>{} at {}", html_escaped(name),
-        force.filter, digits_with_unit(force.value, force_unit(run.dimension())), force.band, seconds_text(force.time));
-    if (const auto a = headline(body, "peak_acceleration_g", run.dimension()); a.value > 0) {
-      text += fmt::format("; its centre of mass felt up to <b>{} g</b>{}{}", digits(a.value, 3), a.filter, a.band);
-      for (const char* cfc : {"cfc1000", "cfc600", "cfc180", "cfc60"}) {
-        const double filtered = number_at(body, {"peak_acceleration_g", cfc, "value"});
-        if (!a.filter.empty() || !std::isfinite(filtered)) continue;
-        text += fmt::format(" ({} g filtered by CFC {})", digits(filtered, 3), cfc + 3);
-        break;
-      }
-    }
-    sentences.push_back(text + ".");
-  }
-}
-
 }  // namespace
 
-ReportHeadline headline(const nlohmann::ordered_json& body, const std::string& key, int dimension) {
-  const bool force = key == "peak_force";
-  const auto& filtered =
-      force ? at(body, {"peak_force_filtered", "cfc60"}) : at(body, {"peak_acceleration_g", "cfc60"});
-  const auto& raw = force ? at(body, {"peak_force"}) : at(body, {"peak_acceleration_g", "raw"});
-  const bool is_filtered = dimension == 3 && filtered.is_object();
-  const auto& peak = is_filtered ? filtered : raw;
-  const auto& grade =
-      force ? at(body, is_filtered ? std::initializer_list<const char*>{"grades", "peak_force_filtered", "cfc60"}
-                                   : std::initializer_list<const char*>{"grades", "peak_force"})
-            : at(body, {"grades", "peak_acceleration_g", is_filtered ? "cfc60" : "raw"});
-  return {number_at(peak, {"value"}), number_at(peak, {"time"}), is_filtered ? " (CFC 60)" : "", band_text(grade)};
+GradeWords grade_words(const Json& number) {
+  const auto grade = text_at(number, "grade");
+  if (grade.empty()) return {};
+  return {mood_of_grade(grade), grade == "unphysical" ? grade : band_words(band_of(number))};
 }
 
-std::string grade_text(const nlohmann::ordered_json& body, std::initializer_list<const char*> path) {
+std::string grade_text(const Json& body, std::initializer_list<const char*> path) {
   const auto text = band_text(at(at(body, {"grades"}), path));
-  return text.empty() ? "–" : text.substr(2, text.size() - 3);
+  return text.empty() ? "–" : text;
 }
 
 std::string html_escaped(const std::string& text) {
@@ -134,12 +138,12 @@ std::string html_escaped(const std::string& text) {
   return escaped;
 }
 
-std::string text_at(const nlohmann::ordered_json& json, const char* key) {
+std::string text_at(const Json& json, const char* key) {
   return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
-double number_at(const nlohmann::ordered_json& json, std::initializer_list<const char*> path) {
-  const nlohmann::ordered_json* at = &json;
+double number_at(const Json& json, std::initializer_list<const char*> path) {
+  const Json* at = &json;
   for (const char* key : path) {
     if (!at->is_object() || !at->contains(key)) return std::numeric_limits<double>::quiet_NaN();
     at = &(*at)[key];
@@ -167,37 +171,27 @@ Banner banner_of(const RunData& run) {
                 status_sentence(summary),
                 {}};
   add_verdict(summary, banner);
-  const bool told = status == "failed" && !banner.sentences.empty();  // the verdict's reason has it
+  const bool told = status == "failed" && !banner.sentences.empty();  // the verdict has it
   if (!told && summary.contains("cause") && summary["cause"].is_string())
     banner.sentences.push_back("Cause: " + html_escaped(summary["cause"].get<std::string>()));
-  add_next(summary, banner);
-  banner.sentences.push_back(fmt::format("<b>{}</b> were simulated in <b>{}</b> of wall time, {} steps.",
-                                         seconds_text(number_at(summary, {"simulated_time"})),
-                                         seconds_text(number_at(summary, {"wall_seconds"})),
-                                         count_text(number_at(summary, {"steps"}))));
-  add_body_sentences(run, banner.sentences);
-  const double error = number_at(summary, {"ledger", "volume_error"});
-  if (std::isfinite(error)) {
-    const bool good = std::abs(error) <= volume_error_good;
-    banner.sentences.push_back(fmt::format("The water's volume changed by <b>{}</b>{}.", percent(error),
-                                           good ? "" : ", more than the 0.5 % that the examples keep"));
-    if (!good && banner.mood == Mood::good) banner.mood = Mood::fair;
-  }
-  const double gain = number_at(summary, {"ledger", "energy_gain"});
-  if (std::isfinite(gain) && number_at(summary, {"ledger", "energy_scale"}) > 0)
-    banner.sentences.push_back(fmt::format(
-        "Its energy rose unexplained by <b>{}</b> of {}, the largest of what there was to give or to take ({}).",
-        percent(gain), digits_with_unit(number_at(summary, {"ledger", "energy_scale"}), energy_unit(run.dimension())),
-        html_escaped(text_at(summary["ledger"], "energy_scale_from"))));
-  const double passes = number_at(summary, {"coupling", "passes_mean"});
-  if (std::isfinite(passes)) {
-    const double rejected = number_at(summary, {"coupling", "rejected_steps"});
-    banner.sentences.push_back(
-        fmt::format("The coupling took {} passes a step on average and {} at most; {}.", digits(passes, 3),
-                    count_text(number_at(summary, {"coupling", "passes_max"})),
-                    rejected > 0 ? count_text(rejected) + " steps were refused and repeated" : "no step was refused"));
-  }
+  if (!volume_is_kept(run)) banner.mood = std::max(banner.mood, Mood::fair);
   return banner;
+}
+
+bool volume_is_kept(const RunData& run) {
+  const double error = number_at(run.summary, {"ledger", "volume_error"});
+  return !(std::abs(error) > volume_error_good);
+}
+
+const Json& member(const Json& json, const char* key) {
+  static const Json nothing = Json::object();
+  return json.is_object() && json.contains(key) && json[key].is_object() ? json[key] : nothing;
+}
+
+const Json& shown_pulse(const Json& acceleration) {
+  for (const char* cfc : {"cfc180", "cfc60", "cfc600", "cfc1000"})
+    if (acceleration.contains(cfc)) return acceleration[cfc];
+  return member(acceleration, "none");
 }
 
 }  // namespace splashdown::apps

@@ -9,8 +9,8 @@
 #include "apps/record/frames/frames.hpp"
 #include "apps/statistics/verdict/grades.hpp"
 #include "apps/statistics/verdict/limits.hpp"
-#include "apps/statistics/verdict/next_step.hpp"
 #include "apps/statistics/verdict/share.hpp"
+#include "apps/statistics/verdict/statements.hpp"
 #include "apps/text/number_text.hpp"
 #include "apps/text/plain_text.hpp"
 
@@ -26,7 +26,7 @@ std::string at(const Peak& peak) { return peak.time < 0 ? "" : " at " + with_uni
 /// " (+- 2.1 %)", with the grade if it is not resolved; nothing for what is not graded.
 std::string band_text(const NumberGrade* number) {
   if (!number) return {};
-  const auto band = std::isfinite(number->band) ? "+- " + share_text(number->band) : "no band";
+  const auto band = band_mark(number->band);
   return number->grade == Grade::resolved ? " (" + band + ")" : fmt::format(" ({}, {})", band, name_of(number->grade));
 }
 
@@ -70,10 +70,10 @@ std::string pulse_text(const PulseSummary& acceleration, const PulseGrades& grad
   for (const auto& [cfc, pulse] : classes) {
     names += fmt::format("{}{}", names.empty() ? "" : "/", cfc);
     const auto graded = grades.cfc.find(cfc);
-    peaks += fmt::format("{}{:.3g}{}", peaks.empty() ? "" : ", ", pulse.value,
+    peaks += fmt::format("{}{:.3g} g{}", peaks.empty() ? "" : ", ", pulse.value,
                          band_text(cfc == structures_class && graded != grades.cfc.end() ? &graded->second : nullptr));
   }
-  auto text = fmt::format("CFC {}: {} g", names, peaks);
+  auto text = fmt::format("CFC {}: {}", names, peaks);
   const auto chosen = classes.contains(180) ? classes.find(180) : classes.begin();
   const auto& [cfc, pulse] = *chosen;
   if (std::isfinite(pulse.rise_time))
@@ -135,12 +135,13 @@ std::string time_text(const Summary& summary) {
 }
 
 std::string coupling_text(const CouplingSummary& coupling) {
-  return fmt::format("{}, {}: {:.3g} passes a step, {} at most", coupling.scheme, coupling.interface_term,
-                     coupling.passes_mean, coupling.passes_max);
+  const auto mean = fmt::format("{:.3g}", coupling.passes_mean);
+  return fmt::format("{}, {}: {} pass{} a step, {} at most", coupling.scheme, coupling.interface_term, mean,
+                     mean == "1" ? "" : "es", coupling.passes_max);
 }
 
 std::string refused_text(const Summary& summary) {
-  std::string text = fmt::format("{} steps", summary.rejected_steps);
+  std::string text = fmt::format("{} step{}", summary.rejected_steps, summary.rejected_steps == 1 ? "" : "s");
   for (const auto& [cause, count] : summary.rejected_causes) text += fmt::format("; {}: {}", cause, count);
   if (summary.released_fragments > 0)
     text += fmt::format("; fragments that flew on as drops: {}", summary.released_fragments);
@@ -182,12 +183,38 @@ const char* colour_of(Grade grade) {
   return "1;31";
 }
 
-std::string verdict_rows(const Verdict& verdict, Ink ink) {
+/// As many parts in a row as it holds; further rows stand below the text behind the `label`.
+std::string folded(const std::string& label, const std::vector<std::string>& parts) {
+  constexpr std::size_t wide = 110;
+  std::string rows, row;
+  const auto end_row = [&](const char* comma) {
+    rows += closing_row("", (rows.empty() ? label : std::string(label.size(), ' ')) + row + comma);
+    row.clear();
+  };
+  for (const auto& part : parts) {
+    if (!row.empty() && row.size() + part.size() > wide) end_row(",");
+    row += (row.empty() ? "" : ", ") + part;
+  }
+  end_row("");
+  return rows;
+}
+
+std::string dimmed(const std::string& text, Ink ink) {
+  return ink == Ink::colour ? fmt::format("\x1b[2m{}\x1b[0m", text) : text;
+}
+
+std::string verdict_rows(const Summary& summary, Ink ink) {
+  const auto& verdict = summary.verdict;
   std::string name = name_of(verdict.grade);
   if (ink == Ink::colour) name = fmt::format("\x1b[{}m{}\x1b[0m", colour_of(verdict.grade), name);
   auto text = closing_row("verdict", name);
-  for (const auto& reason : verdict.reasons) text += closing_row("", reason);
-  for (const auto& number : verdict.about) text += closing_row(&number == &verdict.about.front() ? "of" : "", number);
+  text += verdict.trusted.empty() ? closing_row("", "trust: nothing") : folded("trust: ", grouped(verdict.trusted));
+  if (!verdict.doubted.empty()) text += folded("doubt: ", grouped(verdict.doubted));
+  for (const auto& advice : advice_of(summary)) text += closing_row("", "do:    " + advice);
+  for (const auto& note : verdict.notes) text += closing_row("note", note);
+  if (verdict.grade == Grade::resolved) return text;
+  for (const auto& reason : verdict.because)
+    text += closing_row(&reason == &verdict.because.front() ? "because" : "", dimmed(reason, ink));
   return text;
 }
 
@@ -210,9 +237,8 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
   if (summary.rejected_steps > 0) text += closing_row("refused", refused_text(summary));
   if (summary.wall_seconds > 0) text += closing_row("spent on", time_text(summary));
   text += closing_row("files", files_text(directory, summary.bodies));
-  text += verdict_rows(summary.verdict, ink);
+  text += verdict_rows(summary, ink);
   for (const auto& limit : summary.limits) text += closing_row("limit", text_of(limit));
-  if (summary.next) text += closing_row("next", text_of(*summary.next));
   return text;
 }
 

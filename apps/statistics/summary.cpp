@@ -6,6 +6,7 @@
 #include "apps/files/csv.hpp"
 #include "apps/statistics/verdict/next_step.hpp"
 #include "apps/statistics/verdict/share.hpp"
+#include "apps/statistics/verdict/statements.hpp"
 
 namespace splashdown::apps {
 
@@ -53,7 +54,8 @@ Json json_of(const std::vector<double>& values) {
 }
 
 Json json_of(const Verdict& verdict) {
-  return {{"grade", name_of(verdict.grade)}, {"reasons", verdict.reasons}, {"about", verdict.about}};
+  return {{"grade", name_of(verdict.grade)}, {"reasons", verdict.reasons}, {"about", verdict.about},
+          {"notes", verdict.notes},          {"trusted", verdict.trusted}, {"doubted", verdict.doubted}};
 }
 
 Json json_of(const NextStep& next) {
@@ -242,6 +244,7 @@ std::string to_json(const Summary& summary) {
   json["status"] = summary.status;
   if (!summary.cause.empty()) json["cause"] = summary.cause;
   json["verdict"] = json_of(summary.verdict);
+  json["verdict"]["advice"] = advice_of(summary);
   if (summary.next) json["next"] = json_of(*summary.next);
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;

@@ -31,6 +31,11 @@ struct Verdict {
   Grade grade = Grade::resolved;
   std::vector<std::string> reasons;  ///< sentences: what, how much, what to do; what did not happen comes first
   std::vector<std::string> about;    ///< what the grade is of: the headline numbers with their bands
+  std::vector<std::string> notes;    ///< those of the reasons that leave the grade as it is
+  /// In plain words (statements.hpp): each headline number, and the water, is in one of the first two.
+  std::vector<std::string> trusted, doubted;
+  std::vector<std::string> advice;   ///< of the findings; what a run is advised has `next`, too (advice_of)
+  std::vector<std::string> because;  ///< shortened: what `doubted` does not say
 };
 
 /// What the steps around a peak say about it (evidence.hpp); nan: nothing.
@@ -55,6 +60,7 @@ struct NumberGrade {
   double band = 0;  ///< relative, to either side
   BandParts parts;
   std::vector<std::string> reasons;
+  std::vector<std::string> causes;  ///< the same in plain words, the largest first
   Evidence evidence;
 };
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <span>
 
 #include "apps/report/pictures/picture.hpp"
 #include "apps/report/words.hpp"
@@ -70,8 +71,8 @@ std::vector<Instant> choose_instants(const std::filesystem::path& run, std::vect
   return instants;
 }
 
-/// What all pictures show: the bodies with room around them, or all the water if there is no body.
-Box view_of(const std::vector<Instant>& instants) {
+/// What all these pictures show: the bodies with room around them, or all the water if there is no body.
+Box view_of(std::span<const Instant> instants) {
   Box water, bodies;
   double body_size = 0;
   for (const auto& [title, picture] : instants) {
@@ -88,8 +89,11 @@ Box view_of(const std::vector<Instant>& instants) {
   }
   Box view = bodies.valid() ? bodies : water;
   if (!view.valid()) return view;
-  const double margin = bodies.valid() ? 0.7 * body_size : 0.04 * std::max(view.width(), view.height());
-  for (std::size_t k = 0; k < 2; ++k) view.low[k] -= margin, view.high[k] += margin;
+  // Less above and below: the weight of deep water would fill the colours.
+  const double rim_of_water = 0.04 * std::max(view.width(), view.height());
+  const PlanePoint margin =
+      bodies.valid() ? PlanePoint{0.7 * body_size, 0.35 * body_size} : PlanePoint{rim_of_water, rim_of_water};
+  for (std::size_t k = 0; k < 2; ++k) view.low[k] -= margin[k], view.high[k] += margin[k];
   if (bodies.valid() && water.valid()) {
     // No empty margins beyond the tank.
     const double rim = 0.05 * body_size;
@@ -100,10 +104,25 @@ Box view_of(const std::vector<Instant>& instants) {
   // Between 0.4 and 0.85 as high as wide, growing the short side.
   const double low_aspect = 0.4, high_aspect = 0.85;
   if (const double lack = low_aspect * view.width() - view.height(); lack > 0)
-    view.low[1] -= 0.6 * lack, view.high[1] += 0.4 * lack;
+    view.low[1] -= 0.5 * lack, view.high[1] += 0.5 * lack;
   if (const double lack = view.height() / high_aspect - view.width(); lack > 0)
     view.low[0] -= 0.5 * lack, view.high[0] += 0.5 * lack;
   return view;
+}
+
+/// Where bodies travel far, one view of all would leave them small.
+constexpr double far_travel = 1.3;  // widths of a view of one picture
+
+std::vector<Box> views_of(const std::vector<Instant>& instants) {
+  const Box whole = view_of(instants);
+  std::vector<Box> own;
+  double widest = 0;
+  for (const auto& instant : instants) {
+    own.push_back(view_of({&instant, 1}));
+    widest = std::max(widest, own.back().width());
+  }
+  if (whole.width() > far_travel * widest) return own;
+  return std::vector<Box>(instants.size(), whole);
 }
 
 std::string caption_of(const PlanePicture& picture, const std::string& highest) {
@@ -119,9 +138,11 @@ std::string caption_of(const PlanePicture& picture, const std::string& highest) 
 FieldFigures prepare_field_figures(const std::filesystem::path& run) {
   FieldFigures result;
   const auto instants = choose_instants(run, result.warnings);
-  const Box view = view_of(instants);
-  if (!view.valid() || !(view.width() > 0) || !(view.height() > 0)) return result;
-  for (const auto& [title, picture] : instants) {
+  const auto views = views_of(instants);
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const auto& [title, picture] = instants[i];
+    const Box& view = views[i];
+    if (!view.valid() || !(view.width() > 0) || !(view.height() > 0)) continue;
     auto figure = figure_of("field_" + std::to_string(result.figures.size()), picture, view);
     figure.title = title;
     figure.caption = caption_of(picture, figure.caption);

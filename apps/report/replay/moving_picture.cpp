@@ -68,7 +68,9 @@ std::vector<int> water_surface_of(const VtuGrid& grid) {
   const auto* kinds = array_called(grid, "kind");
   const auto* kind = kinds ? std::get_if<std::vector<unsigned char>>(&kinds->values) : nullptr;
   if (!kind) return {};
-  const auto is = [&](int node, NodeKind what) { return (*kind)[static_cast<std::size_t>(node)] == static_cast<unsigned char>(what); };
+  const auto is = [&](int node, NodeKind what) {
+    return (*kind)[static_cast<std::size_t>(node)] == static_cast<unsigned char>(what);
+  };
   const auto is_free = [&](int node) { return is(node, NodeKind::free_surface); };
   std::map<std::array<int, 3>, std::array<int, 3>> once;  // sorted -> as it stands
   constexpr int faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -131,11 +133,13 @@ void append_raw(std::string& bytes, Number value) {
 class Packer {
  public:
   Packer(std::array<double, 3> low, std::array<double, 3> high, double limit) : low_(low), limit_(limit) {
-    for (std::size_t k = 0; k < 3; ++k) step_[k] = std::max(high[k] - low[k], 1e-300) / std::numeric_limits<std::uint16_t>::max();
+    for (std::size_t k = 0; k < 3; ++k)
+      step_[k] = std::max(high[k] - low[k], 1e-300) / std::numeric_limits<std::uint16_t>::max();
   }
   nlohmann::json add(const MovingPart& part, bool with_cells) {
     for (std::size_t k = 0; k < 3; ++k)
-      for (const auto& x : part.points) append_raw(bytes, static_cast<std::uint16_t>(std::lround((x[k] - low_[k]) / step_[k])));
+      for (const auto& x : part.points)
+        append_raw(bytes, static_cast<std::uint16_t>(std::lround((x[k] - low_[k]) / step_[k])));
     for (std::size_t i = 0; i < part.points.size(); ++i) {
       const double p = part.pressure.empty() || !(limit_ > 0) ? 0 : std::clamp(part.pressure[i] / limit_, 0., 1.);
       append_raw(bytes, static_cast<std::uint8_t>(std::lround(255 * p)));
@@ -197,13 +201,15 @@ PackedPicture packed(const MovingPicture& picture) {
     for (const auto& body : frame.bodies) look(body);
   }
   const double limit = colour_limit(picture);
-  nlohmann::json json{{"dimension", picture.dimension}, {"names", picture.names}, {"low", low}, {"high", high}, {"pressure", limit}};
+  nlohmann::json json{
+      {"dimension", picture.dimension}, {"names", picture.names}, {"low", low}, {"high", high}, {"pressure", limit}};
   Packer packer(low, high, limit);
   for (const auto& frame : picture.frames) {
     auto& entry = json["frames"].emplace_back(nlohmann::json{{"time", frame.time}});
     entry["water"] = packer.add(frame.water, true);
     entry["bodies"] = nlohmann::json::array();
-    for (const auto& body : frame.bodies) entry["bodies"].push_back(packer.add(body, &frame == &picture.frames.front()));
+    for (const auto& body : frame.bodies)
+      entry["bodies"].push_back(packer.add(body, &frame == &picture.frames.front()));
   }
   return {json.dump(), std::move(packer.bytes)};
 }

@@ -11,8 +11,8 @@ namespace splashdown::apps {
 /// A part of a frame. Points have three coordinates [m]; in the plane the third is zero.
 struct MovingPart {
   std::vector<std::array<double, 3>> points;
-  std::vector<int> cells;         ///< three points a triangle; of bodies in the plane two a segment
-  std::vector<double> pressure;   ///< at the points [Pa]; empty: none
+  std::vector<int> cells;        ///< three points a triangle; of bodies in the plane two a segment
+  std::vector<double> pressure;  ///< at the points [Pa]; empty: none
 };
 
 struct MovingFrame {

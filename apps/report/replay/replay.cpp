@@ -29,8 +29,8 @@ std::string script_text(const std::filesystem::path& path) {
 std::string deflated(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string result(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-                Z_DEFAULT_COMPRESSION) != Z_OK)
+  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                bytes.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
     throw std::runtime_error("the replay cannot be compressed");
   result.resize(size);
   return result;
@@ -38,15 +38,18 @@ std::string deflated(const std::string& bytes) {
 
 /// A script must not end before its end.
 std::string unbroken(std::string script) {
-  for (std::size_t at = script.find("</"); at != std::string::npos; at = script.find("</", at + 3)) script.insert(at + 1, "\\");
+  for (std::size_t at = script.find("</"); at != std::string::npos; at = script.find("</", at + 3))
+    script.insert(at + 1, "\\");
   return script;
 }
 
 std::string replay_caption(const MovingPicture& picture, double limit) {
-  const auto colours = limit > 0 ? fmt::format("colours: pressure from 0 to {}", with_unit(limit, "Pa")) : std::string();
-  const char* hands = picture.dimension == 2 ? "drag to move, wheel to zoom" : "drag to turn, right button to move, wheel to zoom";
-  return fmt::format("{} frames from 0 to {}; {}{}{}", picture.frames.size(), with_unit(picture.frames.back().time, "s"), colours,
-                     colours.empty() ? "" : "; ", hands);
+  const auto colours =
+      limit > 0 ? fmt::format("colours: pressure from 0 to {}", with_unit(limit, "Pa")) : std::string();
+  const char* hands =
+      picture.dimension == 2 ? "drag to move, wheel to zoom" : "drag to turn, right button to move, wheel to zoom";
+  return fmt::format("{} frames from 0 to {}; {}{}{}", picture.frames.size(),
+                     with_unit(picture.frames.back().time, "s"), colours, colours.empty() ? "" : "; ", hands);
 }
 
 }  // namespace
@@ -61,9 +64,11 @@ Replay replay_of(const std::filesystem::path& run) {
     return replay;
   }
   if (picture.frames.size() < 2) return replay;
-  const auto library = script_text(three / "three.min.js"), controls = script_text(three / "examples/js/controls/OrbitControls.js");
+  const auto library = script_text(three / "three.min.js"),
+             controls = script_text(three / "examples/js/controls/OrbitControls.js");
   if (library.empty() || controls.empty()) {
-    replay.warnings.emplace_back("no replay: three.js is not there (Debian: apt-get install libjs-three), then splashdown report");
+    replay.warnings.emplace_back(
+        "no replay: three.js is not there (Debian: apt-get install libjs-three), then splashdown report");
     return replay;
   }
   const auto [json, bytes] = packed(picture);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -30,7 +31,7 @@ enum class Kind { acceleration, force, pressure };
 /// One error with its words.
 struct Share {
   double error;
-  std::string words;
+  std::string words, plain;
   double BandParts::*part = &BandParts::rest;
 };
 
@@ -41,6 +42,23 @@ constexpr double worth_telling = resolved_band / 4;
 std::string rounded(double value) { return value < 10 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value); }
 std::string percent_text(double share) {
   return share > widest_band ? fmt::format("over {:g} %", 100 * widest_band) : rounded(100 * share) + " %";
+}
+
+/// "1 element", "4.1 elements".
+std::string elements_text(double count) {
+  const auto number = rounded(count);
+  return number + (number == "1" ? " element" : " elements");
+}
+
+/// "only 3 elements across it": twice what is on half of the width.
+std::string coarse_words(const Evidence& e) {
+  if (!(e.elements > 0)) return "no wet elements there";
+  const bool on_patch = e.pressed < e.elements;
+  const double count = std::round(2 * (on_patch ? e.pressed : e.elements));
+  const char* place = on_patch ? "across it" : "across its wet part";
+  constexpr double few = 20;
+  if (count < 1) return fmt::format("less than one element {}", place);
+  return fmt::format("{}{:.0f} element{} {}", count <= few ? "only " : "", count, count == 1 ? "" : "s", place);
 }
 
 /// What a number is of.
@@ -60,36 +78,43 @@ std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
   list.push_back(
       {mesh,
-       fmt::format("{} elements on half of the wetted width{}{}: {}",
-                   std::isnan(e.elements) ? "no" : rounded(e.elements), e.growing > mostly ? ", which grows" : "",
+       fmt::format("{} on half of the wetted width{}{}: {}",
+                   std::isnan(e.elements) ? "no elements" : elements_text(e.elements),
+                   e.growing > mostly ? ", which grows" : "",
                    std::isfinite(e.pressed) ? fmt::format(", {} on half of the patch", rounded(e.pressed)) : "",
                    percent_text(mesh)),
-       &BandParts::mesh});
+       coarse_words(e), &BandParts::mesh});
   if (!std::isnan(e.step))
     list.push_back({e.step,
                     fmt::format("it stands {} off the {} around it", percent_text(e.step),
                                 kind == Kind::pressure && !std::isfinite(e.pressed) ? "points" : "steps"),
+                    kind == Kind::pressure && !std::isfinite(e.pressed) ? "it jumps from point to point"
+                                                                        : "it jumps from step to step",
                     &BandParts::step});
   if (std::isfinite(e.sampling))
     list.push_back(
         {e.sampling,
          fmt::format("means over its steps may take {} of what the filter lets through", percent_text(e.sampling)),
-         &BandParts::sampling});
+         "its steps are long for the filter", &BandParts::sampling});
   if (std::isfinite(e.sideways))
-    list.push_back(
-        {e.sideways, fmt::format("{} of the load acts sideways, which symmetry forbids", percent_text(e.sideways))});
+    list.push_back({e.sideways,
+                    fmt::format("{} of the load acts sideways, which symmetry forbids", percent_text(e.sideways)),
+                    "part of the load acts sideways, which symmetry forbids"});
   if (std::isfinite(e.repair) && (kind == Kind::pressure || (raw && is_impulse(e))))
-    list.push_back(
-        {e.repair, fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
-                               kind == Kind::pressure ? "which pressures lack and impulses hold"
-                                                      : "whose peak goes as 1/dt: the impulse has a value")});
+    list.push_back({e.repair,
+                    fmt::format("{} of the load is impulse of repairs, {}", percent_text(e.repair),
+                                kind == Kind::pressure ? "which pressures lack and impulses hold"
+                                                       : "whose peak goes as 1/dt: the impulse has a value"),
+                    kind == Kind::pressure ? "part of the load came as impulses, which pressures lack"
+                                           : "the load is an impulse"});
   return list;
 }
 
 void grade(NumberGrade& number, const Of& of, const BodySummary& body) {
-  const auto list = shares(of, number.evidence, body.inertial);
+  auto list = shares(of, number.evidence, body.inertial);
   double squared = 0;
   number.reasons.clear();
+  number.causes.clear();
   number.parts = {};
   for (const auto& share : list) {
     squared += share.error * share.error;
@@ -101,6 +126,9 @@ void grade(NumberGrade& number, const Of& of, const BodySummary& body) {
   if (number.grade != Grade::resolved)
     for (const auto& share : list)
       if (share.error >= worth_telling || &share == &*largest) number.reasons.push_back(share.words);
+  std::ranges::stable_sort(list, std::greater(), &Share::error);
+  for (const auto& share : list)
+    if (share.error >= worth_telling || &share == &list.front()) number.causes.push_back(share.plain);
   if (body.of_water > number.grade || (body.of_water == number.grade && number.grade != Grade::resolved)) {
     number.grade = body.of_water;
     number.reasons.emplace_back("the water's energy or volume, see the verdict");
@@ -137,7 +165,12 @@ bool is_impulse(const PulseGrades& grades) {
 }
 
 std::string class_text(const PulseGrades& grades) {
-  return grades.cfc.contains(structures_class) ? fmt::format(", CFC {}", structures_class) : ", raw";
+  return grades.cfc.contains(structures_class) ? fmt::format("CFC {}", structures_class) : "raw";
+}
+
+Headline headline(const std::string& what, const std::string& filter, const std::string& value,
+                  const NumberGrade* grade, bool is_impulse) {
+  return {what + (filter.empty() ? "" : ", ") + filter, value, what, filter, grade, is_impulse};
 }
 
 double value_of(const PulseSummary& pulses, const PulseGrades& grades) {
@@ -200,21 +233,21 @@ std::vector<Headline> headlines(const Summary& summary, const std::string& name)
   if (!is_asked_for(summary, name)) return list;
   const auto& body = summary.bodies.at(name);
   if (const auto* a = headline_of(body.acceleration_grades))
-    list.push_back({"peak acceleration" + class_text(body.acceleration_grades),
-                    fmt::format("{:.3g} g", value_of(body.acceleration, body.acceleration_grades)), a,
-                    is_impulse(body.acceleration_grades)});
+    list.push_back(headline("peak acceleration", class_text(body.acceleration_grades),
+                            fmt::format("{:.3g} g", value_of(body.acceleration, body.acceleration_grades)), a,
+                            is_impulse(body.acceleration_grades)));
   if (const auto* f = headline_of(body.force_grades))
-    list.push_back({"peak force" + class_text(body.force_grades),
-                    digits_with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3), f,
-                    is_impulse(body.force_grades)});
+    list.push_back(headline("peak force", class_text(body.force_grades),
+                            digits_with_unit(value_of(body.force, body.force_grades), force_unit(summary.dimension), 3),
+                            f, is_impulse(body.force_grades)));
   for (const auto& [point_name, point] : summary.equipment)
     if (const auto* a = point.body == name ? headline_of(point.grades) : nullptr)
-      list.push_back({"peak acceleration at " + point_name + class_text(point.grades),
-                      fmt::format("{:.3g} g", value_of(point, point.grades)), a, is_impulse(point.grades)});
+      list.push_back(headline("peak acceleration at " + point_name, class_text(point.grades),
+                              fmt::format("{:.3g} g", value_of(point, point.grades)), a, is_impulse(point.grades)));
   for (const auto& [patch_name, patch] : summary.patches)
     if (patch.body == name && patch.grade)
-      list.push_back({"peak pressure on " + patch_name, digits_with_unit(patch.pressure.value, "Pa", 3), &*patch.grade,
-                      is_impulse(patch.grade->evidence)});
+      list.push_back(headline("peak pressure on " + patch_name, "", digits_with_unit(patch.pressure.value, "Pa", 3),
+                              &*patch.grade, is_impulse(patch.grade->evidence)));
   return list;
 }
 

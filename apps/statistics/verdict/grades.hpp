@@ -42,7 +42,8 @@ void grade_numbers(Summary& summary);
 /// The numbers that a body's verdict goes by, with their names: accelerations and loads of CFC 60, raw where the record is too
 /// short for that class, of the body and of its instruments, and means over patches.
 struct Headline {
-  std::string name, value;
+  std::string name, value;   ///< with the filter: "peak force, CFC 60"
+  std::string what, filter;  ///< apart: "peak force", "CFC 60"; pressures have no filter
   const NumberGrade* grade = nullptr;
   bool is_impulse = false;  ///< a raw peak or a pressure where half of the load or more is: no mesh gives it a value
 };

@@ -32,6 +32,8 @@ std::optional<double> until_contact(const Summary& summary, const std::string& n
   return v > 0 ? std::optional(landing.height / v) : std::nullopt;
 }
 
+constexpr const char* mind = "mind its place, velocity and freedom";
+
 std::string where(const Summary& summary, const std::string& name) {
   const auto& landing = summary.bodies.at(name).landing;
   if (!(landing.height > 0)) return " Mind its place, velocity and freedom.";
@@ -39,7 +41,7 @@ std::string where(const Summary& summary, const std::string& name) {
   const auto gap = fmt::format(" It is {} above the water", digits_with_unit(landing.height, "m", 3));
   return wait ? fmt::format("{} and gets there at about t = {:.3g} s: let the run last longer (time.end).", gap,
                             summary.simulated_time + *wait)
-              : gap + " and does not come nearer: mind its place, velocity and freedom.";
+              : fmt::format("{} and does not come nearer: {}.", gap, mind);
 }
 
 bool is_carried(const Summary& summary, const std::string& name) {
@@ -53,9 +55,12 @@ void add_dry_bodies(const Summary& summary, std::vector<Missing>& list) {
     if (is_wet(summary, name) || !summary.bodies.contains(name)) continue;
     const auto until = fmt::format("{} stayed dry until the run ended, at t = {:.4g} s", name, summary.simulated_time);
     if (asked.moves && !is_carried(summary, name))
-      list.push_back({Grade::unresolved, until + ": there is no load on it to judge." + where(summary, name), name});
+      list.push_back(
+          {Grade::unresolved, until + ": there is no load on it to judge." + where(summary, name), name,
+           fmt::format("the load on {} (it stayed dry)", name),
+           until_contact(summary, name) ? "let the run last longer (time.end)" : fmt::format("{}: {}", name, mind)});
     else
-      list.push_back({Grade::resolved, until + ".", name});
+      list.push_back({Grade::resolved, until + ".", name, {}, {}});
   }
 }
 
@@ -65,9 +70,13 @@ void add_rising(const Summary& summary, std::vector<Missing>& list) {
     const auto rises =
         fmt::format("The load on {} still rises when the run ends, at t = {:.4g} s", name, summary.simulated_time);
     if (peak_is_to_come(summary, name))
-      list.push_back({Grade::unresolved, rises + ": its peak comes later. Let the run last longer (time.end).", name});
+      list.push_back({Grade::unresolved,
+                      rises + ": its peak comes later. Let the run last longer (time.end).",
+                      name,
+                      {},
+                      "let the run last longer (time.end)"});
     else
-      list.push_back({Grade::resolved, rises + ": the largest one is of that instant and no peak.", name});
+      list.push_back({Grade::resolved, rises + ": the largest one is of that instant and no peak.", name, {}, {}});
   }
 }
 
@@ -77,7 +86,9 @@ void add_dry_records(const Summary& summary, std::vector<Missing>& list) {
   list.push_back(
       {nothing_else ? Grade::unresolved : Grade::resolved,
        fmt::format("No water met {} until t = {:.4g} s.", fmt::join(summary.dry_records, ", "), summary.simulated_time),
-       {}});
+       {},
+       fmt::format("{} (met no water)", fmt::join(summary.dry_records, ", ")),
+       "mind the places of its records, or let the run last longer (time.end)"});
 }
 
 void add_early_end(const Summary& summary, std::vector<Missing>& list) {
@@ -87,11 +98,15 @@ void add_early_end(const Summary& summary, std::vector<Missing>& list) {
                     fmt::format("The run was stopped at t = {:.4g} s of {:.4g} s: what comes later is in no number. "
                                 "--resume goes on.",
                                 summary.simulated_time, asked.end),
+                    {},
+                    {},
                     {}});
   else if (summary.status == "done" && asked.path_ends_at > summary.simulated_time * (1 + 1e-9))
     list.push_back({Grade::resolved,
                     fmt::format("The prescribed path goes on until t = {:.4g} s, the run ended at {:.4g} s.",
                                 asked.path_ends_at, summary.simulated_time),
+                    {},
+                    {},
                     {}});
 }
 
@@ -113,7 +128,9 @@ void add_form_drag(const Summary& summary, std::vector<Missing>& list) {
            fmt::format("{} went {:.2g} of its lengths under water. {} it goes too deep and leaps too far: add "
                        "[fluid.form_drag] where that counts.",
                        name, body.submergence.value / length, cure),
-           name});
+           name,
+           {},
+           {}});
     else if (g > 0 && afloat > periods * 2 * std::numbers::pi * std::sqrt(length / g) &&
              body.landing.maximum_tilt.value > tilted)
       list.push_back(
@@ -121,7 +138,9 @@ void add_form_drag(const Summary& summary, std::vector<Missing>& list) {
            fmt::format("{} swung afloat for {:.3g} s. {} its motion decays too slowly: add [fluid.form_drag] "
                        "where that counts.",
                        name, afloat, cure),
-           name});
+           name,
+           {},
+           {}});
   }
 }
 

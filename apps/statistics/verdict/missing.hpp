@@ -21,7 +21,8 @@ namespace splashdown::apps {
 struct Missing {
   Grade grade = Grade::resolved;
   std::string reason;
-  std::string body;  ///< that it concerns alone; empty: the run
+  std::string body;           ///< that it concerns alone; empty: the run
+  std::string doubt, advice;  ///< in plain words; empty: nothing is doubted, told by others
 };
 
 std::vector<Missing> missing(const Summary& summary);

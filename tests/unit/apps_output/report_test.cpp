@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "apps/report/curves/filtered_curves.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/words.hpp"
@@ -131,6 +132,97 @@ TEST(Report, shows_the_verdict_in_its_colour_with_its_reason_above_all) {
   EXPECT_LT(reason, red.find("were simulated in"));
   EXPECT_EQ(green.find("from nowhere"), std::string::npos);
   for (const auto& page : {red, amber, green}) EXPECT_NE(page.find("energy gain of the water"), std::string::npos);
+}
+
+TEST(Report, says_the_verdict_in_three_lines_then_answers_then_the_numerics) {
+  ScratchFolder folder;
+  make_run(folder.path(), "done", 0.03);
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  const auto page = folder.text("report.html");
+  std::size_t last = 0;
+  for (const char* piece :
+       {">trust</span>", ">doubt</span>", "the water&#39;s energy (3 % of what was exchanged", ">do</span>",
+        "why, with the numbers", "class=\"tile\"", "peak acceleration of the centre of mass",
+        "peak load, all directions together", "class=\"quiet\"", "<h2>Bodies</h2>", "<h2>Where the time went</h2>"}) {
+    const auto at = page.find(piece, last);
+    EXPECT_NE(at, std::string::npos) << piece << " does not follow what should stand before it";
+    if (at != std::string::npos) last = at;
+  }
+}
+
+TEST(Report, of_an_earlier_version_without_the_lines_has_its_reasons) {
+  ScratchFolder folder;
+  folder.write("summary.json", R"({"status": "done", "verdict": {"grade": "doubtful", "reasons": ["It looks odd."]}})");
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  EXPECT_NE(folder.text("report.html").find("It looks odd."), std::string::npos);
+}
+
+TEST(Report, has_a_number_for_each_patch_limit_and_instrument) {
+  ScratchFolder folder;
+  folder.write("summary.json", R"({"status": "done", "dimension": 3,
+    "limits": {"belly": {"answer": "no", "above": 20000, "value": 13200, "band": 1100, "unit": "Pa"}},
+    "bodies": {"uav": {"first_contact_time": 0.01, "settled_time": 2.5, "capsized_time": null, "skips": 0,
+      "attitude_deg": {"roll": {"end": -1.02}, "pitch": {"end": 3.4}},
+      "peak_acceleration_g": {"raw": {"value": 9.1, "time": 0.1}}, "grades": {"peak_acceleration_g": {}}}},
+    "equipment": {"payload": {"raw": {"value": 14, "time": 0.1}, "cfc60": {"value": 12.3, "time": 0.1, "rise_time": 0.004, "delta_v": 2.5},
+      "grades": {"cfc60": {"grade": "unresolved", "band_percent": 61}}}},
+    "patches": {"belly": {"peak_pressure": {"value": 13200, "time": 0.1}, "impulse": 12, "grades": {"peak_pressure": {"grade": "resolved", "band_percent": 4}}},
+      "tail": {"peak_pressure": {"value": 1100, "time": 0.1}, "impulse": 1}}})");
+  const PathVariable nowhere("/nonexistent");
+  write_report(folder.path());
+  const auto page = folder.text("report.html");
+  for (const char* piece :
+       {"<b>no</b>", "belly above 20 kPa? 13.2 kPa ± 1.1 kPa", "<b>12.3 g</b>", "peak acceleration at payload, CFC 60",
+        "may be off by half and more", "Δv 2.50 m/s, rises in 4.00 ms", "<b>13.2 kPa</b>",
+        "highest of 2 patches: mean over belly", "within 4 %", "<b>at rest</b>", "trim 3.4°, heel −1.0°",
+        "<h2>Pressures</h2>", "<td>tail</td><td>1.10 kPa</td>"})
+    EXPECT_NE(page.find(piece), std::string::npos) << piece;
+  EXPECT_EQ(page.find("61 %"), std::string::npos);
+}
+
+// J211's filter leaves what is far below its class as it is, also over steps of different lengths, and takes what is far above.
+TEST(FilteredCurves, keep_slow_motion_and_take_fast_one) {
+  Table rows{{"time", "ax", "ay"}, {{}, {}, {}}};
+  for (double t = 0; t < 1; t += rows.rows() % 2 == 0 ? 0.7e-3 : 1.3e-3) {
+    rows.columns[0].push_back(t);
+    rows.columns[1].push_back(10 * std::sin(2 * M_PI * 3 * t));
+    rows.columns[2].push_back(10 * std::sin(2 * M_PI * 350 * t));
+  }
+  const auto curves = filtered_curves(rows, {"ax", "ay"}, 60);
+  ASSERT_TRUE(curves);
+  double slow = 0, fast = 0;
+  for (std::size_t i = 0; i < curves->t.size(); ++i) {
+    if (curves->t[i] < 0.1 || curves->t[i] > 0.9) continue;
+    slow = std::max(slow, std::abs(curves->values[0][i] - 10 * std::sin(2 * M_PI * 3 * curves->t[i])));
+    fast = std::max(fast, std::abs(curves->values[1][i]));
+  }
+  // |H|^2 = 1 / (1 + (f / 2.0775 CFC)^4); a step's mean stands for its middle: half a step of a slope of 2 pi f.
+  EXPECT_LT(slow, 10 * (std::pow(3 / (2.0775 * 60), 4) + 2 * M_PI * 3 * 1.3e-3));
+  EXPECT_LT(fast, 10 * std::pow(2.0775 * 60 / 350, 2));
+  EXPECT_FALSE(filtered_curves(rows, {"ax", "az"}, 60)) << "there is no such column";
+  EXPECT_FALSE(filtered_curves({{"time", "ax"}, {{0, 1e-3, 1e-3}, {1, 2, 3}}}, {"ax"}, 60)) << "time stands still";
+}
+
+TEST(Report, shows_instruments_in_g_with_their_components_in_one_figure) {
+  ScratchFolder folder;
+  folder.write(
+      "probes.csv",
+      "time,probe,value\n0,seat.ax,1\n0,seat.ay,-9.80665\n0,keel,5\n0.1,seat.ax,1\n0.1,seat.ay,9.80665\n0.1,keel,6\n");
+  folder.write(
+      "scene.resolved.toml",
+      "[[record]]\nkind = \"pressure\"\nname = \"keel\"\n\n[[record]]\nkind = \"acceleration\"\nname = \"seat\"\n");
+  folder.write("summary.json", "{}");
+  const auto groups = figures_of(read_run(folder.path()));
+  ASSERT_EQ(groups.size(), 1u);
+  ASSERT_EQ(groups[0].figures.size(), 2u);
+  const auto& seat = groups[0].figures[0];
+  EXPECT_EQ(seat.y_label, "acceleration / g");
+  ASSERT_EQ(seat.curves.size(), 2u);
+  EXPECT_EQ(seat.curves[1].label, "a_y");
+  EXPECT_DOUBLE_EQ(seat.curves[1].y[1], 1);
+  EXPECT_EQ(groups[0].figures[1].y_label, "keel / Pa");
 }
 
 TEST(Report, a_folder_without_a_run_is_an_error_and_stays_as_it_is) {

@@ -21,7 +21,8 @@ Summary full() {
   summary.elements = RangeCount{12, 24, 18};
   summary.coupling = CouplingSummary{"iterated", "rigid", 1.5, 3, 2, {{"coupling diverged", 2}}};
   summary.ledger = LedgerSummary{};
-  summary.verdict = {Grade::doubtful, {"It looks odd."}, {}};
+  summary.verdict.grade = Grade::doubtful;
+  summary.verdict.reasons = {"It looks odd."};
   summary.fluid = FluidSummary{};
   BodySummary body;
   body.acceleration.raw = {12, 0.01};
@@ -76,6 +77,11 @@ TEST(Summary, has_the_keys_of_the_contract) {
                            "/ledger/volume_error_bodies",
                            "/verdict/grade",
                            "/verdict/reasons/0",
+                           "/verdict/about",
+                           "/verdict/notes",
+                           "/verdict/trusted",
+                           "/verdict/doubted",
+                           "/verdict/advice/0",
                            "/bodies/hull/verdict/grade",
                            "/bodies/hull/verdict/reasons",
                            "/bodies/hull/peak_acceleration_g/raw/value",

@@ -44,7 +44,9 @@ TEST(Words, a_run_closes_with_its_verdict_in_red_on_a_terminal) {
   const auto plain = closing_text(summary, "nowhere");
   for (const auto* piece :
        {"20 nodes (30 at most), volume error 0.01 % (1.1 % of the hulls), energy gain 34 % of 2 kJ/m",
-        "verdict     unphysical\n", "from nowhere", "time.cfl"})
+        "verdict     unphysical\n              trust: the water's volume\n",
+        "doubt: the water's energy (34 % of what was exchanged came from nowhere)\n",
+        "do:    ", "because     The water gained", "from nowhere", "time.cfl"})
     EXPECT_NE(plain.find(piece), std::string::npos) << piece << " is not in: " << plain;
   EXPECT_EQ(plain.find('\x1b'), std::string::npos);
   const auto colour = [&] { return closing_text(summary, "nowhere", Ink::colour); };

@@ -1,0 +1,228 @@
+#include "apps/report/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "apps/report/page.hpp"
+#include "apps/report/words.hpp"
+#include "apps/statistics/verdict/limits.hpp"
+
+namespace splashdown::apps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a tile says of its number, a row each.
+struct Lines {
+  std::string html;
+  void add(const std::string& text, const char* style = "") {
+    if (text.empty()) return;
+    html += fmt::format("<span{}>{}</span>", *style ? fmt::format(" class=\"{}\"", style) : "", text);
+  }
+  void add(const GradeWords& grade) {
+    if (!grade.words.empty()) add(html_escaped(grade.words), css_class(grade.mood));
+  }
+};
+
+std::string tile(const std::string& value, const Lines& lines) { return html_tile(value, lines.html); }
+
+/// "belly above 20 kPa? 13.2 kPa ± 1.1 kPa"
+std::string limit_text(const std::string& name, const Json& limit) {
+  const auto text = [&](double value) { return value_text(value, text_at(limit, "unit")); };
+  const char* side = limit.contains("above") ? "above" : "below";
+  const double value = number_at(limit, {"value"}), band = number_at(limit, {"band"});
+  auto words = fmt::format("{} {} {}?", name, side, text(number_at(limit, {side})));
+  if (std::isfinite(value)) words += " " + text(value);
+  if (std::isfinite(band)) words += " ± " + text(band);
+  if (const auto reason = text_at(limit, "reason"); !reason.empty()) words += "; " + reason;
+  return html_escaped(words);
+}
+
+std::string limit_tiles(const RunData& run) {
+  std::string html;
+  for (const auto& [name, limit] : member(run.summary, "limits").items()) {
+    Lines lines;
+    lines.add(limit_text(name, limit));
+    html += tile(html_escaped(text_at(limit, "answer")), lines);
+  }
+  return html;
+}
+
+/// A peak, by the class that the verdict goes by; raw where the record is too short for it.
+struct Shown {
+  const Json& peak;
+  const char* grade;   ///< its key among the grades
+  const char* filter;  ///< ", CFC 60"
+};
+Shown shown(const Json& peaks) {
+  const auto& filtered = member(peaks, "cfc60");
+  if (number_at(filtered, {"value"}) > 0) return {filtered, "cfc60", ", CFC 60"};
+  return {member(peaks, "raw"), "raw", ", raw"};
+}
+
+/// `grades`: of the classes of the peaks.
+std::string acceleration_tile(const std::string& what, const Json& peaks, const Json& grades) {
+  const auto [peak, key, filter] = shown(peaks);
+  const double value = number_at(peak, {"value"});
+  if (!(value > 0)) return {};
+  Lines lines;
+  lines.add(html_escaped("peak acceleration" + what) + filter + ", at " + seconds_text(number_at(peak, {"time"})));
+  lines.add(grade_words(member(grades, key)));
+  const auto& pulse = shown_pulse(peaks);
+  std::string text;
+  if (const double dv = number_at(pulse, {"delta_v"}); std::isfinite(dv)) text = "Δv " + digits_with_unit(dv, "m/s", 3);
+  if (const double rise = number_at(pulse, {"rise_time"}); std::isfinite(rise))
+    text += (text.empty() ? "" : ", ") + std::string("rises in ") + seconds_text(rise);
+  lines.add(text);
+  return tile(digits(value, 3) + " g", lines);
+}
+
+std::string acceleration_tiles(const RunData& run) {
+  std::string html;
+  for (const auto& [name, point] : member(run.summary, "equipment").items())
+    html += acceleration_tile(" at " + name, point, member(point, "grades"));
+  const auto& bodies = member(run.summary, "bodies");
+  for (const auto& [name, body] : bodies.items())
+    html +=
+        acceleration_tile(bodies.size() > 1 ? " of " + name : " of the centre of mass",
+                          member(body, "peak_acceleration_g"), member(member(body, "grades"), "peak_acceleration_g"));
+  return html;
+}
+
+std::string pressure_tile(const std::string& what, const Json& peak, const Json& grade) {
+  const double value = number_at(peak, {"value"});
+  if (!(value > 0)) return {};
+  Lines lines;
+  lines.add(html_escaped(what) + ", at " + seconds_text(number_at(peak, {"time"})));
+  lines.add(grade_words(grade));
+  return tile(digits_with_unit(value, "Pa", 3), lines);
+}
+
+/// The largest of the patches; in the plane, where it converges, that of each hull.
+std::string pressure_tiles(const RunData& run) {
+  std::string html;
+  const auto& patches = member(run.summary, "patches");
+  const auto pressure = [](const Json& patch) {
+    const double value = number_at(patch, {"peak_pressure", "value"});
+    return std::isfinite(value) ? value : 0;
+  };
+  std::string highest;
+  for (const auto& [name, patch] : patches.items())
+    if (highest.empty() || pressure(patch) > pressure(patches[highest])) highest = name;
+  if (!highest.empty())
+    html += pressure_tile(
+        (patches.size() > 1 ? fmt::format("highest of {} patches: mean over ", patches.size()) : "peak, mean over ") +
+            highest,
+        member(patches[highest], "peak_pressure"), member(member(patches[highest], "grades"), "peak_pressure"));
+  if (run.dimension() == 2)
+    for (const auto& [name, body] : member(run.summary, "bodies").items())
+      html += pressure_tile("highest pressure on " + name, member(body, "maximum_pressure"),
+                            member(member(body, "grades"), "maximum_pressure"));
+  return html;
+}
+
+std::string load_tiles(const RunData& run) {
+  std::string html;
+  const auto& bodies = member(run.summary, "bodies");
+  for (const auto& [name, body] : bodies.items()) {
+    const bool filtered = number_at(body, {"peak_force_filtered", "cfc60", "value"}) > 0;
+    const auto& peak = filtered ? member(member(body, "peak_force_filtered"), "cfc60") : member(body, "peak_force");
+    const auto& grades = member(body, "grades");
+    if (!(number_at(peak, {"value"}) > 0)) continue;
+    Lines lines;
+    lines.add(fmt::format("peak load, all directions together{}{}, at {}",
+                          bodies.size() > 1 ? ", on " + html_escaped(name) : "", filtered ? ", CFC 60" : ", raw",
+                          seconds_text(number_at(peak, {"time"}))));
+    lines.add(
+        grade_words(filtered ? member(member(grades, "peak_force_filtered"), "cfc60") : member(grades, "peak_force")));
+    html += tile(digits_with_unit(number_at(peak, {"value"}), force_unit(run.dimension()), 3), lines);
+  }
+  return html;
+}
+
+/// Of the lowest point below the level of the water, where the run ended [m]; nan: not recorded.
+double draft_at_end(const RunData& run, const std::string& name) {
+  for (const auto& [body, table] : run.bodies)
+    if (body == name && !table["submergence"].empty()) return table["submergence"].back();
+  return NAN;
+}
+
+std::string degree_text(double value) {
+  const auto text = fmt::format("{:.1f}", std::abs(value));
+  return (value < 0 && text != "0.0" ? "−" : "") + text + "°";
+}
+
+/// Draft, trim, heel at the end.
+std::string lie_text(const RunData& run, const std::string& name, const Json& body) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (const double draft = draft_at_end(run, name); std::isfinite(draft))
+    add(draft > 0 ? "draft " + digits_with_unit(draft, "m", 3) : digits_with_unit(-draft, "m", 3) + " above the water");
+  for (const auto& [angle, word] : {std::pair{"pitch", "trim"}, {"roll", "heel"}})
+    if (const double value = number_at(body, {"attitude_deg", angle, "end"}); std::isfinite(value))
+      add(fmt::format("{} {}", word, degree_text(value)));
+  return text;
+}
+
+/// How bodies that the water moves lie in it when the run ends.
+std::string floating_tiles(const RunData& run) {
+  std::string html;
+  const auto& bodies = member(run.summary, "bodies");
+  for (const auto& [name, body] : bodies.items()) {
+    const double settled = number_at(body, {"settled_time"}), capsized = number_at(body, {"capsized_time"});
+    const bool moved_by_water =
+        std::isfinite(settled) || !member(member(body, "grades"), "peak_acceleration_g").empty();
+    if (!std::isfinite(number_at(body, {"first_contact_time"})) || !moved_by_water) continue;
+    Lines lines;
+    lines.add(lie_text(run, name, body) + " at the end" + (bodies.size() > 1 ? ": " + html_escaped(name) : ""));
+    if (std::isfinite(capsized)) lines.add("capsized since " + seconds_text(capsized), css_class(Mood::bad));
+    lines.add(std::isfinite(settled) ? "settled since " + seconds_text(settled)
+                                     : std::string("not settled within the run: this is no position of rest"));
+    const double skips = number_at(body, {"skips"});
+    if (skips > 0) lines.add(fmt::format("left the water {} time{}", count_text(skips), skips > 1 ? "s" : ""));
+    html += tile(std::isfinite(capsized) ? "capsized" : std::isfinite(settled) ? "at rest" : "still moving", lines);
+  }
+  return html;
+}
+
+}  // namespace
+
+std::string answer_card(const RunData& run) {
+  return html_tiles(limit_tiles(run) + acceleration_tiles(run) + pressure_tiles(run) + load_tiles(run) +
+                    floating_tiles(run));
+}
+
+std::string quiet_line(const RunData& run) {
+  std::vector<std::string> parts;
+  const auto number = [&](std::initializer_list<const char*> path) { return number_at(run.summary, path); };
+  if (const double t = number({"simulated_time"}); std::isfinite(t))
+    parts.push_back(fmt::format("{} were simulated in {} of wall time, {} steps", seconds_text(t),
+                                seconds_text(number({"wall_seconds"})), count_text(number({"steps"}))));
+  if (const double n = number({"nodes", "max"}); n > 0) parts.push_back(count_text(n) + " nodes at most");
+  if (const double e = number({"ledger", "volume_error"}); std::isfinite(e)) {
+    const double hulls = number({"ledger", "volume_error_bodies"});
+    parts.push_back(fmt::format("change of the water's volume {}{}{}", percent(e),
+                                std::isfinite(hulls) ? ", over the hulls " + percent(hulls) : "",
+                                volume_is_kept(run) ? "" : ": more than the 0.5 % that the examples keep"));
+  }
+  const double gain = number({"ledger", "energy_gain"}), scale = number({"ledger", "energy_scale"});
+  if (std::isfinite(gain))
+    parts.push_back(fmt::format("energy gain of the water {}{}", percent(gain),
+                                scale > 0 ? " of " + digits_with_unit(scale, energy_unit(run.dimension())) : ""));
+  if (const double passes = number({"coupling", "passes_mean"}); std::isfinite(passes)) {
+    const double refused = number({"coupling", "rejected_steps"});
+    parts.push_back(fmt::format("{} coupling passes a step, {} at most", digits(passes, 3),
+                                count_text(number({"coupling", "passes_max"}))));
+    if (refused > 0)
+      parts.push_back(fmt::format("{} step{} refused and repeated", count_text(refused), refused > 1 ? "s" : ""));
+  }
+  std::string line;
+  for (const auto& part : parts) line += (line.empty() ? "" : "; ") + part;
+  return line.empty() ? line : "<p class=\"quiet\">" + line + ".</p>\n";
+}
+
+}  // namespace splashdown::apps
