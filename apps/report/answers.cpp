@@ -68,7 +68,8 @@ Shown shown(const Json& peaks) {
 std::string acceleration_tile(const std::string& what, const Json& peaks, const Json& grades) {
   const auto [peak, key, filter] = shown(peaks);
   const double value = number_at(peak, {"value"});
-  if (!(value > 0)) return {};
+  constexpr double least = 1e-6;  // g: what roundoff leaves of a motion that is prescribed
+  if (!(value > least)) return {};
   Lines lines;
   lines.add(html_escaped("peak acceleration" + what) + filter + ", at " + seconds_text(number_at(peak, {"time"})));
   lines.add(grade_words(member(grades, key)));

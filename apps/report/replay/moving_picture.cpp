@@ -28,7 +28,7 @@ std::vector<Listed> listed_pieces(const std::filesystem::path& run) {
   for (const auto& set : index.child("VTKFile").child("Collection").children("DataSet")) {
     const double time = set.attribute("timestep").as_double();
     if (frames.empty() || frames.back().time != time) frames.push_back({time, {}});
-    frames.back().pieces.emplace_back(set.attribute("part").value(), set.attribute("file").value());
+    frames.back().pieces.emplace_back(set.attribute("name").value(), set.attribute("file").value());
   }
   return frames;
 }
@@ -106,23 +106,25 @@ void compact_part(MovingPart& part) {
   part = std::move(kept);
 }
 
-/// What is larger is a splash or the weight of deep water: colours end there.
-double colour_limit(const MovingPicture& picture) {
-  std::vector<double> at_hulls;
-  for (const auto& frame : picture.frames)
-    for (const auto& body : frame.bodies)
-      for (const double p : body.pressure)
-        if (p > 0) at_hulls.push_back(p);
-  if (at_hulls.empty()) {
-    double most = 0;
-    for (const auto& frame : picture.frames)
-      for (const double p : frame.water.pressure) most = std::max(most, p);
-    return most;
-  }
-  constexpr double share = 0.995;
-  const auto nth = at_hulls.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(at_hulls.size() - 1));
-  std::ranges::nth_element(at_hulls, nth);
+/// The value that a share of these pressures, those above zero, is below [Pa]; 0: there are none.
+double quantile(std::vector<double> pressures, double share) {
+  std::erase_if(pressures, [](double p) { return !(p > 0); });
+  if (pressures.empty()) return 0;
+  const auto nth = pressures.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(pressures.size() - 1));
+  std::ranges::nth_element(pressures, nth);
   return *nth;
+}
+
+/// Where the colours end: few points at hulls are above it, and not most of the water.
+double colour_limit(const MovingPicture& picture) {
+  constexpr double of_hulls = 0.995, of_water = 0.9;
+  std::vector<double> at_hulls, in_water;
+  for (const auto& frame : picture.frames) {
+    in_water.insert(in_water.end(), frame.water.pressure.begin(), frame.water.pressure.end());
+    for (const auto& body : frame.bodies) at_hulls.insert(at_hulls.end(), body.pressure.begin(), body.pressure.end());
+  }
+  const double hulls = quantile(std::move(at_hulls), of_hulls);
+  return picture.dimension == 3 && hulls > 0 ? hulls : std::max(hulls, quantile(std::move(in_water), of_water));
 }
 
 template <class Number>

@@ -26,18 +26,23 @@
 
   // Viridis, nine colours (van der Walt and Smith 2015).
   const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
-  function colour(p, out, i) {
-    const s = 8 * Math.min(1, Math.max(0, p)), k = Math.min(7, Math.floor(s)), f = s - k;
-    for (let c = 0; c < 3; ++c) out[3 * i + c] = ((1 - f) * viridis[k][c] + f * viridis[k + 1][c]) / 255;
+  // As a texture that pressures look up: colours that are mixed between the corners of large triangles are none of the scale's.
+  const texels = new Uint8Array(3 * 256);
+  for (let i = 0; i < 256; ++i) {
+    const s = 8 * i / 255, k = Math.min(7, Math.floor(s));
+    for (let c = 0; c < 3; ++c) texels[3 * i + c] = Math.round((1 - s + k) * viridis[k][c] + (s - k) * viridis[k + 1][c]);
   }
-  const colours = (p) => { const out = new Float32Array(3 * p.length); p.forEach((v, i) => colour(v, out, i)); return out; };
+  const scale = new THREE.DataTexture(texels, 256, 1, THREE.RGBFormat);
+  scale.magFilter = scale.minFilter = THREE.LinearFilter;
+  scale.needsUpdate = true;
+  function lookUp(geometry, p) {
+    const uv = new Float32Array(2 * p.length).fill(0.5);
+    p.forEach((v, i) => { uv[2 * i] = (0.5 + 255 * v) / 256; });
+    geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
+  }
   // What each point of a hull has felt so far.
-  const most = info.names.map((_, b) => frames.map(() => null).map((_, f) => {
-    const now = frames[f].bodies[b].p;
-    return now;
-  }));
-  for (let b = 0; b < info.names.length; ++b)
-    for (let f = 1; f < frames.length; ++f) if (most[b][f].length === most[b][f - 1].length) most[b][f] = most[b][f].map((v, i) => Math.max(v, most[b][f - 1][i]));
+  const most = info.names.map((_, b) => frames.map((frame) => frame.bodies[b].p));
+  for (const of of most) for (let f = 1; f < of.length; ++f) of[f] = of[f].map((v, i) => Math.max(v, of[f - 1][i] || 0));
 
   const view = holder.querySelector('.view');
   let renderer;
@@ -61,14 +66,14 @@
   const up = plane ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);
   const camera = plane ? new THREE.OrthographicCamera(-1, 1, 1, -1, -10 * reach, 10 * reach) : new THREE.PerspectiveCamera(35, 1, 0.01 * reach, 100 * reach);
   camera.up.copy(up);
-  camera.position.copy(middle).add(plane ? new THREE.Vector3(0, 0, reach) : new THREE.Vector3(-0.9, -1.6, 0.9).multiplyScalar(1.3 * reach));
+  camera.position.copy(middle).add(plane ? new THREE.Vector3(0, 0, reach) : new THREE.Vector3(-1, -1.7, 0.55).multiplyScalar(1.2 * reach));
   const controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.target.copy(middle);
   controls.enableRotate = !plane;
   if (plane) controls.mouseButtons = { LEFT: THREE.MOUSE.PAN, MIDDLE: THREE.MOUSE.DOLLY, RIGHT: THREE.MOUSE.PAN };
 
-  const water = new THREE.Mesh(new THREE.BufferGeometry(), plane ? new THREE.MeshBasicMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide })
-    : new THREE.MeshPhongMaterial({ color: 0x3f8fd0, transparent: true, opacity: 0.72, side: THREE.DoubleSide, shininess: 60, depthWrite: false }));
+  const water = new THREE.Mesh(new THREE.BufferGeometry(), plane ? new THREE.MeshBasicMaterial({ map: scale, side: THREE.DoubleSide })
+    : new THREE.MeshPhongMaterial({ color: 0x3f8fd0, transparent: true, opacity: 0.45, side: THREE.DoubleSide, shininess: 60, depthWrite: false }));
   const mesh = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x000000, transparent: true, opacity: 0.16 }));
   scene.add(water, mesh);
   mesh.visible = false;
@@ -76,7 +81,7 @@
     const geometry = new THREE.BufferGeometry(), first = frames[0].bodies[b];
     geometry.setIndex(new THREE.BufferAttribute(first.cells, 1));
     const body = plane ? new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: dark.matches ? 0xffffff : 0x17222d }))
-      : new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, flatShading: true }));
+      : new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ map: scale, side: THREE.DoubleSide }));
     scene.add(body);
     return body;
   });
@@ -94,11 +99,11 @@
     water.geometry = new THREE.BufferGeometry();
     set(water.geometry, 'position', frame.water.x);
     water.geometry.setIndex(new THREE.BufferAttribute(frame.water.cells, 1));
-    if (plane) set(water.geometry, 'color', colours(frame.water.p)); else water.geometry.computeVertexNormals();
+    if (plane) lookUp(water.geometry, frame.water.p); else water.geometry.computeVertexNormals();
     if (mesh.visible) { mesh.geometry.dispose(); mesh.geometry = new THREE.WireframeGeometry(water.geometry); }
     bodies.forEach((body, b) => {
       set(body.geometry, 'position', frame.bodies[b].x);
-      if (!plane) { set(body.geometry, 'color', colours(so_far.checked ? most[b][f] : frame.bodies[b].p)); body.geometry.computeVertexNormals(); }
+      if (!plane) { lookUp(body.geometry, so_far.checked ? most[b][f] : frame.bodies[b].p); body.geometry.computeVertexNormals(); }
       body.geometry.computeBoundingSphere();
     });
     clock.textContent = milli ? (1e3 * frame.time).toFixed(1) + ' ms' : frame.time.toFixed(2) + ' s';

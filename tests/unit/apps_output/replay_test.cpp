@@ -1,0 +1,157 @@
+// Frames as a moving picture: what is read back of them, and what their bytes hold.
+#include "apps/report/replay/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "apps/record/frames/frames.hpp"
+#include "apps/report/replay/moving_picture.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+/// Two triangles of water, a node that no cell names, and a body, a segment long.
+Frame<2> plane_frame(double time, double lift) {
+  Frame<2> frame;
+  frame.time = time;
+  frame.x = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {5, 5}};
+  frame.v.assign(5, Vec<2>::Zero());
+  frame.p = {100, 50, 0, 0, 0};
+  frame.drop_diameter.assign(5, 0);
+  frame.kind.assign(5, NodeKind::interior);
+  frame.wall.assign(5, -1);
+  frame.cells = {{0, 1, 2}, {0, 2, 3}};
+  Outline<2> body;
+  body.name = "fluid_like";  // no body is taken for the water by its name's beginning
+  body.surface.vertices.resize(2, 2);
+  body.surface.vertices << 0, 1, 2 + lift, 2 + lift;
+  body.surface.facets.resize(2, 1);
+  body.surface.facets << 0, 1;
+  body.p = {10, 20};
+  frame.outlines = {body};
+  auto tank = body;
+  tank.name = "tank";
+  frame.outlines.push_back(tank);
+  return frame;
+}
+
+/// A tetrahedron with a face of the free surface.
+Frame<3> spatial_frame(double time) {
+  Frame<3> frame;
+  frame.time = time;
+  frame.x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  frame.v.assign(4, Vec<3>::Zero());
+  frame.p.assign(4, 0);
+  frame.drop_diameter.assign(4, 0);
+  frame.kind = {NodeKind::free_surface, NodeKind::free_surface, NodeKind::contact, NodeKind::wall};
+  frame.wall.assign(4, -1);
+  frame.cells = {{0, 2, 1, 3}};
+  return frame;
+}
+
+template <int d, class Make>
+void write_frames(const std::filesystem::path& folder, int count, const Make& make) {
+  FrameSeries series(folder);
+  for (int i = 0; i < count; ++i) series.add<d>(make(0.1 * i));
+}
+
+TEST(Replay, of_the_plane_has_all_triangles_and_no_tank) {
+  ScratchFolder folder;
+  write_frames<2>(folder.path(), 3, [](double t) { return plane_frame(t, t); });
+  const auto picture = moving_picture(folder.path(), 60);
+  EXPECT_EQ(picture.dimension, 2);
+  ASSERT_EQ(picture.frames.size(), 3U);
+  EXPECT_EQ(picture.names, std::vector<std::string>{"fluid_like"});
+  EXPECT_EQ(picture.frames[1].water.points.size(), 4U);  // without the one that no cell names
+  EXPECT_EQ(picture.frames[1].water.cells.size(), 6U);
+  EXPECT_NEAR(picture.frames[2].bodies[0].points[0][1], 2.2, 1e-12);
+}
+
+TEST(Replay, of_space_has_the_free_surface_alone) {
+  ScratchFolder folder;
+  write_frames<3>(folder.path(), 2, spatial_frame);
+  const auto picture = moving_picture(folder.path(), 60);
+  EXPECT_EQ(picture.dimension, 3);
+  EXPECT_EQ(picture.frames[0].water.cells.size(), 3U);
+  EXPECT_EQ(picture.frames[0].water.points.size(), 3U);
+}
+
+TEST(Replay, keeps_the_first_and_the_last_of_many_frames) {
+  ScratchFolder folder;
+  write_frames<2>(folder.path(), 9, [](double t) { return plane_frame(t, t); });
+  const auto picture = moving_picture(folder.path(), 4);
+  ASSERT_EQ(picture.frames.size(), 4U);
+  EXPECT_EQ(picture.frames.front().time, 0);
+  EXPECT_NEAR(picture.frames.back().time, 0.8, 1e-12);
+}
+
+// Half a step of the box, 65 535 steps wide, and half of a step of 255.
+TEST(Replay, bytes_hold_places_and_pressures_within_their_steps) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-3, 7), pressure(-100, 900);
+  MovingPicture picture;
+  picture.names = {"a"};
+  for (int f = 0; f < 2; ++f) {
+    MovingPart body;
+    for (int i = 0; i < 40; ++i) {
+      body.points.push_back({place(random), place(random), place(random)});
+      body.pressure.push_back(pressure(random));
+    }
+    body.cells = {0, 1, 2};
+    MovingFrame frame;
+    frame.time = f;
+    frame.bodies = {body};
+    picture.frames.push_back(frame);
+  }
+  const auto [text, bytes] = packed(picture);
+  const auto json = nlohmann::json::parse(text);
+  const double limit = json["pressure"];
+  std::size_t at = 0;
+  const auto take = [&]<class Number>(Number number) {
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    at += sizeof number;
+    return number;
+  };
+  for (std::size_t f = 0; f < 2; ++f) {
+    const auto& body = picture.frames[f].bodies[0];
+    ASSERT_EQ(json["frames"][f]["bodies"][0]["points"], 40);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = json["low"][k], step = (json["high"][k].get<double>() - low) / 65535;
+      for (const auto& x : body.points) EXPECT_NEAR(low + step * take(std::uint16_t{}), x[k], 0.5001 * step);
+    }
+    for (const double p : body.pressure)
+      EXPECT_NEAR(take(std::uint8_t{}) * limit / 255, std::clamp(p, 0., limit), 0.5001 * limit / 255);
+    if (f == 0) {
+      for (const int node : body.cells) EXPECT_EQ(take(std::uint32_t{}), static_cast<std::uint32_t>(node));
+    }
+  }
+  EXPECT_EQ(at, bytes.size());
+}
+
+TEST(Replay, of_a_damaged_frame_says_so_and_of_none_says_nothing) {
+  ScratchFolder folder;
+  EXPECT_TRUE(replay_of(folder.path()).warnings.empty());
+  write_frames<2>(folder.path(), 3, [](double t) { return plane_frame(t, t); });
+  folder.write("frames/000001.vtu", "damaged");
+  const auto replay = replay_of(folder.path());
+  EXPECT_TRUE(replay.html.empty());
+  ASSERT_EQ(replay.warnings.size(), 1U);
+  EXPECT_NE(replay.warnings[0].find("000001.vtu"), std::string::npos);
+}
+
+TEST(Replay, needs_no_network) {
+  ScratchFolder folder;
+  write_frames<2>(folder.path(), 3, [](double t) { return plane_frame(t, t); });
+  const auto html = replay_of(folder.path()).html;
+  for (const char* outside : {"src=\"", "@import", "<link"})
+    EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+}
+
+}  // namespace
+}  // namespace splashdown::apps
