@@ -1,0 +1,163 @@
+#include "apps/new/records.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "apps/new/numbers.hpp"
+#include "apps/scene/geometry.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+/// The lowest height of a hull at a place, and how thick it is there.
+struct Skin {
+  double low = 0, thickness = 0;  ///< [m]
+};
+
+/// Where the upright line through x leaves the outline, from below.
+std::vector<double> heights(const rigid::Surface<2>& hull, const Eigen::Vector2d& at) {
+  std::vector<double> found;
+  for (const Eigen::Vector2i facet : hull.facets.colwise()) {
+    const rigid::Vec<2> a = hull.vertices.col(facet[0]), b = hull.vertices.col(facet[1]);
+    const double share = (at.x() - a.x()) / (b.x() - a.x());
+    if (share >= 0 && share <= 1) found.push_back(a.y() + share * (b.y() - a.y()));
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+/// The same through (x, y) and the facets of a hull in space.
+std::vector<double> heights(const rigid::Surface<3>& hull, const Eigen::Vector2d& at) {
+  std::vector<double> found;
+  for (const Eigen::Vector3i facet : hull.facets.colwise()) {
+    const rigid::Vec<3> a = hull.vertices.col(facet[0]), b = hull.vertices.col(facet[1]),
+                        c = hull.vertices.col(facet[2]);
+    Eigen::Matrix2d edges;
+    edges << b.head<2>() - a.head<2>(), c.head<2>() - a.head<2>();
+    if (edges.determinant() == 0) continue;
+    const Eigen::Vector2d share = edges.inverse() * (at - a.head<2>());
+    if (share.minCoeff() >= 0 && share.sum() <= 1)
+      found.push_back(a.z() + share.x() * (b.z() - a.z()) + share.y() * (c.z() - a.z()));
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+template <int d>
+std::optional<Skin> skin_at(const rigid::Surface<d>& hull, const Eigen::Vector2d& at, double height) {
+  const auto found = heights(hull, at);
+  if (found.empty()) return {};
+  const double apart = 1e-6 * height;  // the same edge of two facets
+  const auto next = std::ranges::find_if(found, [&](double z) { return z > found.front() + apart; });
+  return Skin{found.front(), next == found.end() ? height : *next - found.front()};
+}
+
+struct Spot {
+  Eigen::Vector2d at;
+  Skin skin;
+};
+
+/// The lowest of a section, in the middle of it where that is as low but for a fiftieth of the height.
+template <int d>
+std::optional<Spot> lowest_spot(const rigid::Surface<d>& hull, const Extents<d>& box, double x) {
+  const double height = box.sizes()[d - 1], as_low = 0.02 * height;
+  const double middle = d == 3 ? box.center()[1] : 0, breadth = d == 3 ? box.sizes()[1] : 0;
+  // Off the lines that modellers like to put vertices on.
+  const double aside = 1e-4;
+  std::optional<Spot> best;
+  const int lines = d == 3 ? 41 : 1;
+  for (int i = 0; i < lines; ++i) {
+    const int step = (i + 1) / 2 * (i % 2 == 0 ? 1 : -1);  // from the middle to both sides
+    const Eigen::Vector2d at(x, middle + breadth * (step / static_cast<double>(lines) + (d == 3 ? aside : 0)));
+    const auto skin = skin_at<d>(hull, at, height);
+    if (skin && (!best || skin->low < best->skin.low - as_low)) best = {at, *skin};
+  }
+  if (best && std::abs(best->at.y() - middle) < 1e-3 * breadth) best->at.y() = middle;
+  return best;
+}
+
+std::string panel_name(int panel, int count) {
+  if (count == 3) return panel == 0 ? "tail" : panel == 1 ? "middle" : "nose";
+  return fmt::format("panel_{}", panel + 1);
+}
+
+template <int d>
+void add_panels(const NewOptions& options, LandingPlan& plan) {
+  const auto hull = shape_of<d>(plan.scene.bodies.front().shape).surface;
+  const auto box = extents<d>(hull);
+  const double length = box.sizes()[0], breadth = d == 3 ? box.sizes()[1] : length, digits = 1e-4 * length;
+  const double step = std::pow(10., std::round(std::log10(digits)));
+  const auto written = [&](double x) { return std::round(x / step) / std::round(1 / step); };
+  int made = 0;
+  const double half = std::min({0.1 * length, 0.1 * breadth, 0.4 * length / options.panels});
+  for (int i = 0; i < options.panels; ++i) {
+    const double x = box.min()[0] + length * (i + 0.5) / options.panels;
+    const auto spot = lowest_spot<d>(hull, box, x);
+    if (!spot) continue;
+    const double up = std::min(half, 0.5 * spot->skin.thickness), down = half;
+    PatchEntry patch{.name = panel_name(i, options.panels),
+                     .body = 0,
+                     .centre = {},
+                     .radius = {},
+                     .min = Point::Zero(),
+                     .max = Point::Zero()};
+    patch.min->head<2>() = Eigen::Vector2d(written(x - half), written(spot->at.y() - half));
+    patch.max->head<2>() = Eigen::Vector2d(written(x + half), written(spot->at.y() + half));
+    (*patch.min)[d - 1] = written(spot->skin.low - down);
+    (*patch.max)[d - 1] = written(spot->skin.low + up);
+    if (!((*patch.max - *patch.min).head<d>().minCoeff() > 0)) continue;
+    plan.scene.records.emplace_back(patch);
+    ++made;
+  }
+  plan.told.push_back(
+      {"panels",
+       fmt::format("mean pressures of {} patches of {:.2g} m along the bottom, from tail to nose; the highest "
+                   "pressure all over the hull",
+                   made, 2 * half)});
+}
+
+/// "NAME=x,y,z"
+template <int d>
+AccelerationEntry equipment(const std::string& text) {
+  const auto sign = text.find('=');
+  if (sign == std::string::npos || sign == 0)
+    throw NewError(
+        fmt::format("--point {}: must read NAME={}, in metres of the hull's frame. Use e.g. --point autopilot={}", text,
+                    d == 3 ? "x,y,z" : "x,y", d == 3 ? "0.3,0,0.05" : "0.1,0.05"));
+  AccelerationEntry entry{.name = text.substr(0, sign), .body = 0, .point = Point::Zero()};
+  const auto numbers = numbers_of_list("--point " + entry.name + "=", text.substr(sign + 1), d);
+  for (int k = 0; k < d; ++k) entry.point[k] = numbers[static_cast<std::size_t>(k)];
+  return entry;
+}
+
+}  // namespace
+
+template <int d>
+void add_records(const NewOptions& options, LandingPlan& plan) {
+  auto& records = plan.scene.records;
+  const auto& body = plan.scene.bodies.front();
+  AccelerationEntry centre{.name = "centre_of_mass", .body = 0, .point = Point::Zero()};
+  const rigid::Vec<d> at = mass_properties<d>(body).centre;
+  const double tiny = 1e-9 * extents<d>(shape_of<d>(body.shape).surface).sizes().maxCoeff();
+  for (int k = 0; k < d; ++k) centre.point[k] = std::abs(at[k]) < tiny ? 0 : rounded(at[k], 4);
+  records.emplace_back(centre);
+  for (const auto& point : options.points) records.emplace_back(equipment<d>(point));
+  plan.told.push_back(
+      {"points", options.points.empty()
+                     ? "accelerations at the centre of mass alone (--point NAME=x,y,z adds equipment)"
+                     : fmt::format("accelerations at the centre of mass and at {} of equipment, in metres of the "
+                                   "hull's frame",
+                                   options.points.size() == 1 ? "a point" : "points")});
+  if (options.panels < 0 || options.panels > 50)
+    throw NewError(fmt::format("--panels {}: must be from 0 to 50", options.panels));
+  records.emplace_back(MaximumPressureEntry{.body = 0, .size = 0});
+  if (options.panels > 0) add_panels<d>(options, plan);
+}
+
+template void add_records<2>(const NewOptions&, LandingPlan&);
+template void add_records<3>(const NewOptions&, LandingPlan&);
+
+}  // namespace splashdown::apps
