@@ -73,34 +73,6 @@ void refuse(bool wrong, const std::string& text) {
   if (wrong) throw NewError(text);
 }
 
-void check_numbers(const NewOptions& o) {
-  refuse(
-      !o.mass,
-      "--mass is missing: no load follows without it. Use kilograms, in the plane kilograms a metre, e.g. --mass 12");
-  refuse(!(*o.mass > 0) || !std::isfinite(*o.mass),
-         fmt::format("--mass {:g}: must be positive (kg). Use e.g. --mass 12", *o.mass));
-  refuse(!o.sink,
-         "--sink is missing: the speed downward at the water. Use metres per second, e.g. --sink 3; 0 lets go of the "
-         "hull there");
-  refuse(!(*o.sink >= 0) || !std::isfinite(*o.sink),
-         fmt::format("--sink {:g}: must not be negative (m/s), downward is positive. Use e.g. --sink {:g}", *o.sink,
-                     std::isfinite(*o.sink) ? -*o.sink : 3));
-  refuse(!std::isfinite(o.forward) || o.forward < 0,
-         fmt::format("--forward {:g}: must not be negative (m/s). Turn the hull with --nose -x instead", o.forward));
-  refuse(!(std::abs(o.pitch) <= 90),
-         fmt::format("--pitch {:g}: must be from -90 to 90 (deg), nose up is positive", o.pitch));
-  refuse(!(std::abs(o.roll) <= 180), fmt::format("--roll {:g}: must be from -180 to 180 (deg)", o.roll));
-  refuse(o.plane && o.roll != 0, "--roll: a plane scene has none. Leave it out, or leave out --plane");
-  refuse(!(o.density > 0) || !std::isfinite(o.density),
-         fmt::format("--water {:g}: must be positive (kg/m^3)", o.density));
-  refuse(!(o.accuracy > 0 && o.accuracy < 100),
-         fmt::format("--accuracy {:g}: must be between 0 and 100 (%)", o.accuracy));
-  refuse(o.end && (!(*o.end > 0) || !std::isfinite(*o.end)),
-         fmt::format("--end {:g}: must be positive (s)", o.end.value_or(0)));
-  refuse(o.depth && (!(*o.depth > 0) || !std::isfinite(*o.depth)),
-         fmt::format("--depth {:g}: must be positive (m)", o.depth.value_or(0)));
-}
-
 template <int d>
 Body body_of(const NewOptions& options, const NewHull& hull) {
   Body body;
@@ -132,7 +104,7 @@ void place(LandingPlan& plan, const Measures<d>& m) {
   const double length = m.box.sizes().maxCoeff(), sink = -body.velocity[d - 1];
   const double gap = rounded(std::clamp(sinking_time * sink, nearest * length, highest * length), 2);
   const double digits = 1e-5 * length, step = std::pow(10., std::floor(std::log10(digits)));
-  const double many = std::round(1 / step);  // whole, for lengths of kilometres at most
+  const double many = std::max(1., std::round(1 / step));  // whole
   const auto written = [&](double x) { return std::abs(x) < digits ? 0 : std::round(x * many) / many; };
   for (int k = 0; k < d - 1; ++k) body.position[k] = written(-m.box.center()[k]);
   body.position[d - 1] = std::ceil((gap - m.box.min()[d - 1]) * many) / many;
@@ -203,40 +175,44 @@ Room room_of(const Measures<d>& m, double accuracy) {
   return {r * std::cbrt(1.5 / accuracy), r * std::cbrt(0.75 / accuracy)};
 }
 
+void tell_tank(const NewOptions& options, const Tank& tank, int up, LandingPlan& plan) {
+  const double behind = -tank.min[0], beside = up == 2 ? tank.max[1] : behind, ahead = tank.max[0];
+  const std::string walls = up == 2 && beside != behind
+                                ? fmt::format("{:g} m behind, {:g} m beside", behind, beside)
+                                : fmt::format("{:g} m {}", behind, up == 2 ? "behind and beside" : "behind");
+  plan.told.push_back(
+      {"tank",
+       fmt::format("from the middle of the hull {}, {:g} m ahead{}; water {:g} m deep{}: walls and floor change the "
+                   "added mass by {:g} % at most (a dipole's images; Lamb 1932, articles 99 and 137)",
+                   walls, ahead, options.forward > 0 ? ", so that the hull stays inside at full speed" : "",
+                   -tank.min[up], options.depth ? " (--depth, not by this rule)" : "", options.accuracy)});
+}
+
 template <int d>
 void choose_tank(const NewOptions& options, const Measures<d>& m, const Entry& entry, LandingPlan& plan) {
   auto& scene = plan.scene;
   const auto& body = scene.bodies.front();
   const auto room = room_of<d>(m, options.accuracy / 100);
   const double after = scene.time.end - entry.time, plunge = std::min(entry.speed * after, swings * m.height);
-  const double beside = std::max(room.wall, 0.5 * m.breadth + 0.5 * m.length);
-  const double behind = std::max(room.wall, 0.75 * m.length);
-  const double ahead = body.velocity[0] == 0 ? behind
-                                             : std::max(body.velocity[0] * (entry.time + entry.peak_time()) + behind,
-                                                        body.velocity[0] * scene.time.end + 0.75 * m.length);
-  const double depth = options.depth.value_or(std::max(room.floor, plunge + 0.5 * m.height));
+  const double beside = std::max(room.wall, 0.5 * m.breadth + 0.5 * m.length),
+               behind = std::max(room.wall, 0.75 * m.length);
+  const double forward = body.velocity[0];
+  const double ahead = forward == 0 ? behind
+                                    : std::max(forward * (entry.time + entry.peak_time()) + behind,
+                                               forward * scene.time.end + 0.75 * m.length);
   const double above = body.position[d - 1] + m.box.max()[d - 1] + 0.5 * std::max(m.length, m.height);
   Tank tank;
   tank.min[0] = -rounded_up(behind);
   tank.max[0] = rounded_up(ahead);
   if (d == 3) tank.min[1] = -rounded_up(beside), tank.max[1] = rounded_up(beside);
-  tank.min[d - 1] = options.depth ? -depth : -rounded_up(depth);
+  tank.min[d - 1] = options.depth ? -*options.depth : -rounded_up(std::max(room.floor, plunge + 0.5 * m.height));
   tank.max[d - 1] = rounded_up(above);
-  if (options.depth && depth < plunge)
+  tell_tank(options, tank, d - 1, plan);
+  if (options.depth && *options.depth < plunge)
     plan.told.push_back(
-        {"tank", fmt::format("QUESTION: at {:g} m/s the hull sinks by up to {:.2g} m, and the water is {:g} m "
-                             "deep: will it meet the floor?",
-                             entry.speed, plunge, depth)});
-  plan.told.push_back(
-      {"tank",
-       fmt::format("walls {:.2g} m beside and behind, water {:.2g} m deep: they change the added mass by {:g} % at "
-                   "most (dipole and its images, Lamb 1932, articles 99 and 137); {}",
-                   beside, -tank.min[d - 1], options.accuracy,
-                   body.velocity[0] == 0 ? "the same ahead"
-                                         : fmt::format("{:.2g} m ahead, so that the hull stays inside at "
-                                                       "full speed",
-                                                       tank.max[0]))});
-  if (options.depth) plan.told.back().text += "; the depth is that of --depth, not of this rule";
+        {"tank", fmt::format("QUESTION: the hull may sink by {:.2g} m, and the water is {:g} m deep: will it meet "
+                             "the floor?",
+                             plunge, *options.depth)});
   scene.tank = tank;
   BoxRegion water{.min = tank.min, .max = tank.max};
   water.max[d - 1] = 0;
@@ -248,14 +224,24 @@ void choose_symmetry(LandingPlan& plan) {
   const Mirror mirror{d == 3 ? 1 : 0, 0};
   const auto found = asymmetries<d>(plan.scene, mirror);
   plan.symmetric = found.empty();
+  // What the hull or its motion breaks is the cause; that the tank is longer ahead follows from it.
+  const auto of_body = std::ranges::find_if(found, [](const Asymmetric& a) { return a.key.starts_with("body."); });
+  const std::string rule = found.empty() ? "" : (of_body == found.end() ? found.front() : *of_body).rule;
   plan.told.push_back(
       {"symmetry",
        plan.symmetric
            ? fmt::format("half of the water is simulated, about {} = 0: hull, mass and motion are their own "
                          "mirror image. What breaks it (roll, yaw, drift) is not seen; remove the table then",
                          d == 3 ? "y" : "x")
-           : fmt::format("the whole water is simulated: {}",
-                         found.front().rule.substr(found.front().rule.find(": ") + 2))});
+           : fmt::format("the whole water is simulated: {}", rule.substr(rule.find(": ") + 2))});
+}
+
+/// Zeros for what roundoff has left of them.
+template <int d>
+rigid::Vec<d> plain(rigid::Vec<d> x, double length) {
+  const double roundoff = 1e-8;  // of sums over facets
+  for (auto& entry : x) entry = std::abs(entry) < roundoff * length ? 0 : entry;
+  return x;
 }
 
 template <int d>
@@ -264,12 +250,12 @@ void tell_mass(const NewOptions& options, const Measures<d>& m, LandingPlan& pla
   const auto properties = mass_properties<d>(body);
   const double mean = *body.mass / m.volume;
   plan.told.push_back(
-      {"mass",
-       fmt::format("{:g} {}, {:.3g} of the water's density; centre of mass at {} m of the hull's frame{}; "
-                   "moments of inertia {}",
-                   *body.mass, d == 2 ? "kg/m" : "kg", mean / plan.scene.fluid->density, text<d>(properties.centre, 4),
-                   body.centre_of_mass ? "" : ", that of uniform density (--centre)",
-                   body.inertia ? "as given" : "of uniform density (--inertia)")});
+      {"mass", fmt::format("{:g} {}, {:.3g} of the water's density; centre of mass at {} m of the hull's frame{}; "
+                           "moments of inertia {}",
+                           *body.mass, d == 2 ? "kg/m" : "kg", mean / plan.scene.fluid->density,
+                           text<d>(plain<d>(properties.centre, m.length), 4),
+                           body.centre_of_mass ? "" : ", that of uniform density (--centre)",
+                           body.inertia ? "as given" : "of uniform density (--inertia)")});
   if (mean >= plan.scene.fluid->density)
     plan.told.push_back({"mass",
                          "QUESTION: the hull is heavier than the water that it can displace and sinks: are mass and "
@@ -280,9 +266,36 @@ void tell_mass(const NewOptions& options, const Measures<d>& m, LandingPlan& pla
 
 }  // namespace
 
+void check_numbers(const NewOptions& o) {
+  refuse(
+      !o.mass,
+      "--mass is missing: no load follows without it. Use kilograms, in the plane kilograms a metre, e.g. --mass 12");
+  refuse(!(*o.mass > 0) || !std::isfinite(*o.mass),
+         fmt::format("--mass {:g}: must be positive (kg). Use e.g. --mass 12", *o.mass));
+  refuse(!o.sink,
+         "--sink is missing: the speed downward at the water. Use metres per second, e.g. --sink 3; 0 lets go of the "
+         "hull there");
+  refuse(!(*o.sink >= 0) || !std::isfinite(*o.sink),
+         fmt::format("--sink {:g}: must not be negative (m/s), downward is positive. Use e.g. --sink {:g}", *o.sink,
+                     std::isfinite(*o.sink) ? -*o.sink : 3));
+  refuse(!std::isfinite(o.forward) || o.forward < 0,
+         fmt::format("--forward {:g}: must not be negative (m/s). Turn the hull with --nose -x instead", o.forward));
+  refuse(!(std::abs(o.pitch) <= 90),
+         fmt::format("--pitch {:g}: must be from -90 to 90 (deg), nose up is positive", o.pitch));
+  refuse(!(std::abs(o.roll) <= 180), fmt::format("--roll {:g}: must be from -180 to 180 (deg)", o.roll));
+  refuse(o.plane && o.roll != 0, "--roll: a plane scene has none. Leave it out, or leave out --plane");
+  refuse(!(o.density > 0) || !std::isfinite(o.density),
+         fmt::format("--water {:g}: must be positive (kg/m^3)", o.density));
+  refuse(!(o.accuracy > 0 && o.accuracy < 100),
+         fmt::format("--accuracy {:g}: must be between 0 and 100 (%)", o.accuracy));
+  refuse(o.end && (!(*o.end > 0) || !std::isfinite(*o.end)),
+         fmt::format("--end {:g}: must be positive (s)", o.end.value_or(0)));
+  refuse(o.depth && (!(*o.depth > 0) || !std::isfinite(*o.depth)),
+         fmt::format("--depth {:g}: must be positive (m)", o.depth.value_or(0)));
+}
+
 template <int d>
 LandingPlan landing_plan(const NewOptions& options, const NewHull& hull) {
-  check_numbers(options);
   LandingPlan plan;
   plan.told = hull.told;
   auto& scene = plan.scene;
@@ -290,7 +303,8 @@ LandingPlan landing_plan(const NewOptions& options, const NewHull& hull) {
   scene.title = fmt::format("{} lands: {:g} m/s forward, {:g} m/s down, pitch {:g} deg", hull.name, options.forward,
                             *options.sink, options.pitch);
   scene.gravity.emplace();
-  scene.gravity->acceleration = -gravity * Point::Unit(d - 1);
+  scene.gravity->acceleration = Point::Zero();
+  scene.gravity->acceleration[d - 1] = -gravity;
   scene.fluid.emplace().density = options.density;
   scene.bodies.push_back(body_of<d>(options, hull));
   const auto m = measures_of<d>(scene.bodies.front());

@@ -28,6 +28,8 @@ struct LandingPlan {
 };
 
 /// Throws NewError for numbers that no landing has.
+void check_numbers(const NewOptions& options);
+/// Of checked numbers. Throws NewError where they do not go together.
 template <int d>
 LandingPlan landing_plan(const NewOptions& options, const NewHull& hull);
 

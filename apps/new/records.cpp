@@ -90,7 +90,9 @@ void add_panels(const NewOptions& options, LandingPlan& plan) {
   const auto box = extents<d>(hull);
   const double length = box.sizes()[0], breadth = d == 3 ? box.sizes()[1] : length, digits = 1e-4 * length;
   const double step = std::pow(10., std::round(std::log10(digits)));
-  const auto written = [&](double x) { return std::round(x / step) / std::round(1 / step); };
+  const auto written = [&](double value) {
+    return std::round(value / step) / std::max(1., std::round(1 / step)) + 0.;  // no -0
+  };
   int made = 0;
   const double half = std::min({0.1 * length, 0.1 * breadth, 0.4 * length / options.panels});
   for (int i = 0; i < options.panels; ++i) {
@@ -133,24 +135,30 @@ AccelerationEntry equipment(const std::string& text) {
   return entry;
 }
 
+template <int d>
+AccelerationEntry at_centre_of_mass(const Body& body) {
+  AccelerationEntry entry{.name = "centre", .body = 0, .point = Point::Zero()};
+  const rigid::Vec<d> at = mass_properties<d>(body).centre;
+  const double roundoff = 1e-8 * extents<d>(shape_of<d>(body.shape).surface).sizes().maxCoeff();  // of sums over facets
+  for (int k = 0; k < d; ++k) entry.point[k] = std::abs(at[k]) < roundoff ? 0 : rounded(at[k], 4);
+  return entry;
+}
+
 }  // namespace
 
 template <int d>
 void add_records(const NewOptions& options, LandingPlan& plan) {
   auto& records = plan.scene.records;
   const auto& body = plan.scene.bodies.front();
-  AccelerationEntry centre{.name = "centre_of_mass", .body = 0, .point = Point::Zero()};
-  const rigid::Vec<d> at = mass_properties<d>(body).centre;
-  const double tiny = 1e-9 * extents<d>(shape_of<d>(body.shape).surface).sizes().maxCoeff();
-  for (int k = 0; k < d; ++k) centre.point[k] = std::abs(at[k]) < tiny ? 0 : rounded(at[k], 4);
-  records.emplace_back(centre);
   for (const auto& point : options.points) records.emplace_back(equipment<d>(point));
+  if (options.points.empty()) records.emplace_back(at_centre_of_mass<d>(body));
   plan.told.push_back(
-      {"points", options.points.empty()
-                     ? "accelerations at the centre of mass alone (--point NAME=x,y,z adds equipment)"
-                     : fmt::format("accelerations at the centre of mass and at {} of equipment, in metres of the "
-                                   "hull's frame",
-                                   options.points.size() == 1 ? "a point" : "points")});
+      {"points",
+       options.points.empty()
+           ? "acceleration at the centre of mass (--point NAME=x,y,z adds equipment)"
+           : fmt::format("accelerations at {} of equipment, in metres of the hull's frame; those of the centre of mass "
+                         "are recorded anyway",
+                         options.points.size() == 1 ? "a point" : "points")});
   if (options.panels < 0 || options.panels > 50)
     throw NewError(fmt::format("--panels {}: must be from 0 to 50", options.panels));
   records.emplace_back(MaximumPressureEntry{.body = 0, .size = 0});

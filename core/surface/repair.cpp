@@ -5,6 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/intersection.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/merge_border_vertices.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
@@ -95,6 +96,7 @@ void remove_crumbs(Shell& shell, Done& done) {
 }
 
 void close_holes(Shell& shell, Done& done) {
+  pmp::merge_duplicated_vertices_in_boundary_cycles(shell);  // holes that touch in a point are two
   const auto stitched = pmp::stitch_borders(shell);
   if (stitched > 0)
     done.push_back(fmt::format("stitched {} of borders", counted(stitched, "pair of edges", "pairs of edges")));
