@@ -58,22 +58,27 @@ void write(const fs::path& path, const std::string& text) {
   if (!file) throw NewError(path.string() + ": cannot be written. Is the folder yours, with space on the disk?");
 }
 
-/// A mesh to begin with, and what a run on it costs.
+/// A mesh, and what a run on it is predicted to take on one core.
 struct Offer {
-  std::string refine;
-  double seconds = 0;  ///< on one core
+  std::string refine;  ///< "standard": the scene's own
+  double seconds = 0;
 };
 
-// Predictions may be a factor of three too low (docs/guide.md): 20 s become a minute, 100 s five.
-constexpr double at_once = 20, few_minutes = 100;  // [s]
+constexpr double few_minutes =
+    100;  // predicted; five minutes where that is too low by a factor of three (docs/guide.md) [s]
 
-/// The scene's own mesh where it is predicted to take a minute at most, else the finest of these that is to take five.
+/// The scene's own mesh, and the finest of those for a first look that takes a few minutes, else the coarsest.
 std::vector<Offer> offered(const fs::path& scene) {
-  std::vector<Offer> all;
-  for (const auto* refine : {"standard", "draft", "0.25", "0.18", "0.12"}) {
+  const auto offer = [&](const std::string& refine) {
     const std::vector<std::string> set = {fmt::format("--refine {0}: fluid.size.refine={0}", refine)};
-    all.push_back({refine, predicted_seconds(read_scene(scene, set).scene)});
-    if (all.back().seconds <= (all.size() == 1 ? at_once : few_minutes)) break;
+    return Offer{refine, predicted_seconds(read_scene(scene, set).scene)};
+  };
+  std::vector<Offer> all = {offer("standard")};
+  for (const auto* refine : {"draft", "0.25", "0.18", "0.12"}) {
+    const auto first = offer(refine);
+    if (all.size() == 2) all.pop_back();
+    all.push_back(first);
+    if (first.seconds <= few_minutes) break;
   }
   return all;
 }
@@ -86,18 +91,17 @@ void tell_questions(const SceneFile& file) {
   for (const auto& question : asked) fmt::print("  {}\n", question);
 }
 
-void tell(const fs::path& scene, const SceneFile& file) {
-  const auto all = offered(scene);
-  std::string costs;
-  for (const auto& offer : all)
-    costs += fmt::format("{}{} {}", costs.empty() ? "" : ", ", offer.refine, clock_text(offer.seconds));
-  row("cost", fmt::format("predicted for one core, by --refine: {}; may be wrong by a factor of three", costs));
-  if (file.scene.dimension == 2)
-    tell_questions<2>(file);
-  else
-    tell_questions<3>(file);
+void tell_next(const fs::path& scene) {
   const auto word = shell_word(scene.string());
-  fmt::print("Next:\n  splashdown check {}\n  splashdown run {} --refine {}\n", word, word, all.back().refine);
+  const auto all = offered(scene);
+  fmt::print("Next (times are predicted for one core, and may be wrong by a factor of three):\n");
+  const auto line = [](const std::string& command, const std::string& what) {
+    fmt::print("  {:<56} {}\n", command, what);
+  };
+  line("splashdown check " + word, "what would run");
+  line(fmt::format("splashdown run {} --refine {}", word, all.back().refine),
+       "a first look, " + clock_text(all.back().seconds));
+  line("splashdown run " + word, clock_text(all.front().seconds));
 }
 
 template <int d>
@@ -121,7 +125,8 @@ int write_scene(const NewOptions& options) {
   fmt::print("{}: {}\n", written.scene.string(), plan.scene.title);
   if (hull.write) row("file", fmt::format("the hull is written to {}", written.hull.string()));
   for (const auto& told : plan.told) row(told.about, told.text);
-  tell(written.scene, file);
+  tell_questions<d>(file);
+  tell_next(written.scene);
   return exit_code::done;
 }
 
