@@ -104,24 +104,29 @@ void tell_next(const fs::path& scene) {
   line("splashdown run " + word, clock_text(all.front().seconds));
 }
 
+/// Nothing stays of a scene that is refused.
+SceneFile write_and_read(const Written& written, const NewHull& hull, const std::string& text) {
+  const auto folder = written.scene.parent_path();
+  const bool made = !folder.empty() && fs::create_directories(folder);
+  if (hull.write) write_stl(written.hull, *hull.write);
+  write(written.scene, text);
+  try {
+    return read_scene(written.scene);
+  } catch (const SceneError&) {
+    fs::remove(written.scene);
+    if (hull.write) fs::remove(written.hull);
+    if (made) fs::remove(folder);
+    throw;
+  }
+}
+
 template <int d>
 int write_scene(const NewOptions& options) {
   const auto hull = new_hull(options);
   const auto written = places(options, hull);
   const auto plan = landing_plan<d>(options, hull);
   const auto text = scene_text<d>(options, hull, plan, file_in_scene(options, written));
-  const auto folder = written.scene.parent_path();
-  if (!folder.empty()) fs::create_directories(folder);
-  if (hull.write) write_stl(written.hull, *hull.write);
-  write(written.scene, text);
-  SceneFile file;
-  try {
-    file = read_scene(written.scene);
-  } catch (const SceneError&) {
-    fs::remove(written.scene);
-    if (hull.write) fs::remove(written.hull);
-    throw;
-  }
+  const auto file = write_and_read(written, hull, text);
   fmt::print("{}: {}\n", written.scene.string(), plan.scene.title);
   if (hull.write) row("file", fmt::format("the hull is written to {}", written.hull.string()));
   for (const auto& told : plan.told) row(told.about, told.text);

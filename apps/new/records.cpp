@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "apps/new/numbers.hpp"
 #include "apps/scene/geometry.hpp"
@@ -121,6 +122,14 @@ void add_panels(const NewOptions& options, LandingPlan& plan) {
                    made, 2 * half)});
 }
 
+void refuse_taken(const std::string& name, const NewOptions& options, std::set<std::string>& taken) {
+  bool panel = false;
+  for (int i = 0; i < options.panels; ++i) panel = panel || panel_name(i, options.panels) == name;
+  if (panel || !taken.insert(name).second)
+    throw NewError(
+        fmt::format("--point {}=: {} has this name. Use another one", name, panel ? "a panel" : "another point"));
+}
+
 /// "NAME=x,y,z"
 template <int d>
 AccelerationEntry equipment(const std::string& text) {
@@ -148,9 +157,16 @@ AccelerationEntry at_centre_of_mass(const Body& body) {
 
 template <int d>
 void add_records(const NewOptions& options, LandingPlan& plan) {
+  if (options.panels < 0 || options.panels > 50)
+    throw NewError(fmt::format("--panels {}: must be from 0 to 50", options.panels));
   auto& records = plan.scene.records;
   const auto& body = plan.scene.bodies.front();
-  for (const auto& point : options.points) records.emplace_back(equipment<d>(point));
+  std::set<std::string> taken;
+  for (const auto& point : options.points) {
+    const auto entry = equipment<d>(point);
+    refuse_taken(entry.name, options, taken);
+    records.emplace_back(entry);
+  }
   if (options.points.empty()) records.emplace_back(at_centre_of_mass<d>(body));
   plan.told.push_back(
       {"points",
@@ -159,8 +175,6 @@ void add_records(const NewOptions& options, LandingPlan& plan) {
            : fmt::format("accelerations at {} of equipment, in metres of the hull's frame; those of the centre of mass "
                          "are recorded anyway",
                          options.points.size() == 1 ? "a point" : "points")});
-  if (options.panels < 0 || options.panels > 50)
-    throw NewError(fmt::format("--panels {}: must be from 0 to 50", options.panels));
   records.emplace_back(MaximumPressureEntry{.body = 0, .size = 0});
   if (options.panels > 0) add_panels<d>(options, plan);
 }

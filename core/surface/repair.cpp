@@ -47,7 +47,7 @@ Vec<3> corner(const Shell& shell, Shell::Vertex_index vertex) {
 }
 
 /// Points and facets that are there twice, and facets that came to nothing, go.
-void clean(Soup& soup, Done& done) {
+void cleaned_up(Soup& soup, Done& done) {
   const auto given = soup.polygons.size();
   merge_points(soup);
   pmp::repair_polygon_soup(soup.points, soup.polygons);
@@ -209,7 +209,7 @@ Surface<3> surface_of(const Soup& soup) {
 RepairedSurface repaired_surface(const std::filesystem::path& path) {
   RepairedSurface result;
   Soup soup = read_soup(path);
-  clean(soup, result.done);
+  cleaned_up(soup, result.done);
   if (soup.polygons.empty())
     throw SurfaceFileError("has no facet with an area",
                            "Give it a thickness, e.g. Blender: Solidify, and export it again.");
@@ -222,7 +222,7 @@ RepairedSurface repaired_surface(const std::filesystem::path& path) {
   Soup last;
   pmp::polygon_mesh_to_polygon_soup(whole, last.points, last.polygons);
   Done of_cuts;  // slivers along the cuts of a union: no news
-  clean(last, of_cuts);
+  cleaned_up(last, of_cuts);
   result.surface = surface_of(last);
   return result;
 }

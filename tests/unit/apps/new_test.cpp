@@ -268,6 +268,8 @@ TEST_F(NewScene, mistakes_are_refused_with_a_cure) {
   EXPECT_TRUE(refuses(told([](auto& o) { o.up = "x"; }), "along one axis"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.centre = "0,1"; }), "--centre 0,1: must be 3 numbers"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.points = {"0,0,0"}; }), "NAME=x,y,z"));
+  EXPECT_TRUE(refuses(told([](auto& o) { o.points = {"nose=0,0,0"}; }), "a panel has this name"));
+  EXPECT_TRUE(refuses(told([](auto& o) { o.points = {"a=0,0,0", "a=0,0,0"}; }), "another point has this name"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.end = 1e-4; }), "nothing is wetted before"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.plane = true; }), "hulls in space"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.shape = "sphere"; }), "there is one hull"));
