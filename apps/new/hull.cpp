@@ -202,6 +202,21 @@ NewHull hull_of_shape(const NewOptions& options) {
                              options.plane ? "in the plane" : "in space; --plane has wedge, circle, box, capsule"));
 }
 
+/// Options of the other way to name a hull.
+void refuse_strangers(const NewOptions& o) {
+  const bool file = !o.hull.empty();
+  const struct {
+    const char* option;
+    bool given;
+  } strangers[] = {
+      {"--radius", file && o.radius},         {"--length", file && o.length},     {"--breadth", file && o.breadth},
+      {"--height", file && o.height},         {"--deadrise", file && o.deadrise}, {"--size", file && !o.size.empty()},
+      {"--units", !file && !o.units.empty()}, {"--scale", !file && o.scale},      {"--nose", !file && o.nose != "x"},
+      {"--up", !file && o.up != "z"},         {"--repair", !file && o.repair}};
+  for (const auto& [option, given] : strangers)
+    if (given) throw NewError(fmt::format("{}: is for {}. Leave it out", option, file ? "shapes" : "hulls from files"));
+}
+
 }  // namespace
 
 NewHull new_hull(const NewOptions& options) {
@@ -210,6 +225,7 @@ NewHull new_hull(const NewOptions& options) {
                                         : "a file and --shape: there is one hull. Leave one of them out");
   if (!options.hull.empty() && options.plane)
     throw NewError("--plane: files are hulls in space. Leave it out, or use --shape wedge");
+  refuse_strangers(options);
   return options.hull.empty() ? hull_of_shape(options) : hull_of_file(options);
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/new/numbers.hpp"
 #include "apps/scene/geometry.hpp"
+#include "apps/scene/patch.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -85,41 +86,48 @@ std::string panel_name(int panel, int count) {
   return fmt::format("panel_{}", panel + 1);
 }
 
+/// A box around the lowest point of a section; nothing where the hull has none.
+template <int d>
+std::optional<PatchEntry> panel(const rigid::Surface<d>& hull, const Extents<d>& box, double x,
+                                const Eigen::Vector2d& half) {
+  const auto spot = lowest_spot<d>(hull, box, x);
+  if (!spot) return {};
+  const double step = std::pow(10., std::round(std::log10(1e-4 * box.sizes()[0])));
+  const auto written = [&](double value) {
+    return std::round(value / step) / std::max(1., std::round(1 / step)) + 0.;  // no -0
+  };
+  // Not the deck; the rise of floors and bows.
+  const double up = std::min(half.maxCoeff(), 0.5 * spot->skin.thickness), down = half.maxCoeff();
+  Point min = Point::Zero(), max = Point::Zero();
+  min.head<2>() = (spot->at - half).unaryExpr(written);
+  max.head<2>() = (spot->at + half).unaryExpr(written);
+  min[d - 1] = written(spot->skin.low - down);
+  max[d - 1] = written(spot->skin.low + up);
+  PatchEntry patch{.name = {}, .body = 0, .centre = {}, .radius = {}, .min = min, .max = max};
+  const bool holds = (max - min).head<d>().minCoeff() > 0 &&
+                     patch_area<d>(patch_region<d>(patch, hull, rigid::Vec<d>::Zero()), hull) > 0;
+  return holds ? std::optional(patch) : std::nullopt;
+}
+
 template <int d>
 void add_panels(const NewOptions& options, LandingPlan& plan) {
   const auto hull = shape_of<d>(plan.scene.bodies.front().shape).surface;
   const auto box = extents<d>(hull);
-  const double length = box.sizes()[0], breadth = d == 3 ? box.sizes()[1] : length, digits = 1e-4 * length;
-  const double step = std::pow(10., std::round(std::log10(digits)));
-  const auto written = [&](double value) {
-    return std::round(value / step) / std::max(1., std::round(1 / step)) + 0.;  // no -0
-  };
+  const double length = box.sizes()[0], breadth = d == 3 ? box.sizes()[1] : 0;
+  const Eigen::Vector2d half(std::min(0.1 * length, 0.4 * length / options.panels), 0.15 * breadth);
   int made = 0;
-  const double half = std::min({0.1 * length, 0.1 * breadth, 0.4 * length / options.panels});
   for (int i = 0; i < options.panels; ++i) {
-    const double x = box.min()[0] + length * (i + 0.5) / options.panels;
-    const auto spot = lowest_spot<d>(hull, box, x);
-    if (!spot) continue;
-    const double up = std::min(half, 0.5 * spot->skin.thickness), down = half;
-    PatchEntry patch{.name = panel_name(i, options.panels),
-                     .body = 0,
-                     .centre = {},
-                     .radius = {},
-                     .min = Point::Zero(),
-                     .max = Point::Zero()};
-    patch.min->head<2>() = Eigen::Vector2d(written(x - half), written(spot->at.y() - half));
-    patch.max->head<2>() = Eigen::Vector2d(written(x + half), written(spot->at.y() + half));
-    (*patch.min)[d - 1] = written(spot->skin.low - down);
-    (*patch.max)[d - 1] = written(spot->skin.low + up);
-    if (!((*patch.max - *patch.min).head<d>().minCoeff() > 0)) continue;
-    plan.scene.records.emplace_back(patch);
+    auto patch = panel<d>(hull, box, box.min()[0] + length * (i + 0.5) / options.panels, half);
+    if (!patch) continue;
+    patch->name = panel_name(i, options.panels);
+    plan.scene.records.emplace_back(*patch);
     ++made;
   }
+  const std::string across = d == 3 ? fmt::format(" by {:.2g} m", 2 * half.y()) : "";
   plan.told.push_back(
-      {"panels",
-       fmt::format("mean pressures of {} patches of {:.2g} m along the bottom, from tail to nose; the highest "
-                   "pressure all over the hull",
-                   made, 2 * half)});
+      {"panels", fmt::format("mean pressures of {} patches of {:.2g} m{} along the bottom, from tail to nose; the "
+                             "highest pressure all over the hull",
+                             made, 2 * half.x(), across)});
 }
 
 void refuse_taken(const std::string& name, const NewOptions& options, std::set<std::string>& taken) {

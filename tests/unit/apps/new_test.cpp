@@ -276,6 +276,9 @@ TEST_F(NewScene, mistakes_are_refused_with_a_cure) {
   EXPECT_TRUE(refuses(told([](auto& o) { o.hull.clear(); }), "there is no hull"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.hull.clear(), o.shape = "disc"; }), "capsule, sphere, box, cone"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.hull.clear(), o.shape = "cone", o.radius = 1; }), "needs --deadrise"));
+  EXPECT_TRUE(refuses(told([](auto& o) { o.radius = 1; }), "--radius: is for shapes"));
+  EXPECT_TRUE(refuses(told([](auto& o) { o.hull.clear(), o.shape = "sphere", o.radius = 1, o.units = "mm"; }),
+                      "--units: is for hulls from files"));
   EXPECT_TRUE(refuses(told([](auto& o) { o.hull = "nowhere.stl"; }), "nowhere.stl"));
   EXPECT_TRUE(says(made(of(hull, 1.5e3 * volume(hull), 2)).plan.told, "mass", "heavier than the water"));
 }
