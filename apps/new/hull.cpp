@@ -62,7 +62,22 @@ struct GivenSurface {
   int parts = 1;
 };
 
+bool can_be_repaired(const std::string& file) {
+  try {
+    repaired_surface(file);
+    return true;
+  } catch (const SurfaceFileError&) {
+    return false;
+  }
+}
+
+void refuse_missing(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw NewError(file + ": there is no such file. Name an STL or OBJ file");
+  if (std::filesystem::is_directory(file)) throw NewError(file + ": is a folder. Name an STL or OBJ file");
+}
+
 GivenSurface read_given(const NewOptions& options, NewHull& hull) {
+  refuse_missing(options.hull);
   try {
     if (!options.repair) {
       auto file = read_surface_file(options.hull);
@@ -75,8 +90,9 @@ GivenSurface read_given(const NewOptions& options, NewHull& hull) {
     if (!repaired.done.empty()) hull.write = repaired.surface;
     return {std::move(repaired.surface), 1};
   } catch (const SurfaceFileError& error) {
+    const bool offer = !options.repair && can_be_repaired(options.hull);
     throw NewError(fmt::format("{}: {}. {}{}", options.hull, error.what(), error.cure(),
-                               options.repair ? "" : " Or try --repair, which says what it does"));
+                               offer ? " Or try --repair, which says what it does" : ""));
   }
 }
 
