@@ -29,7 +29,7 @@ Fit fit_of(const LengthUnit& unit, double extent, double volume, double mass) {
   return {&unit, unit.metres * extent, mass / (volume * std::pow(unit.metres, 3))};
 }
 
-std::string words(const Fit& fit) {
+std::string fit_text(const Fit& fit) {
   return fmt::format("{:.3g} m long, {:.3g} kg/m^3 in {}", fit.extent, fit.density, fit.unit->words);
 }
 
@@ -45,7 +45,7 @@ UnitGuess guessed_unit(double extent, double volume, double mass) {
   for (const auto& unit : units) {
     if (!unit.guessed) continue;
     const auto fit = fit_of(unit, extent, volume, mass);
-    all += (all.empty() ? "" : "; ") + words(fit);
+    all += (all.empty() ? "" : "; ") + fit_text(fit);
     if (fit.extent >= shortest && fit.extent <= longest && fit.density >= lightest && fit.density <= heaviest)
       possible.push_back(fit);
   }
@@ -59,7 +59,7 @@ UnitGuess guessed_unit(double extent, double volume, double mass) {
   UnitGuess guess{best.unit->metres, {}};
   std::string others;
   for (std::size_t i = 1; i < possible.size(); ++i)
-    others += fmt::format("{}{} (--units {})", i > 1 ? ", or " : "", words(possible[i]), possible[i].unit->name);
+    others += fmt::format("{}{} (--units {})", i > 1 ? ", or " : "", fit_text(possible[i]), possible[i].unit->name);
   guess.told.push_back(
       {"units",
        others.empty()
