@@ -102,6 +102,8 @@ void tell_next(const fs::path& scene) {
   line(fmt::format("splashdown run {} --refine {}", word, all.back().refine),
        "a first look, " + clock_text(all.back().seconds));
   line("splashdown run " + word, clock_text(all.front().seconds));
+  line(fmt::format("splashdown run {} --seconds {:g}", word, 3 * few_minutes),
+       "the finest mesh for five minutes, with bands");
 }
 
 /// Nothing stays of a scene that is refused.

@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "apps/effects/symmetry/symmetry.hpp"
+#include "apps/new/measures.hpp"
 #include "apps/new/numbers.hpp"
 #include "apps/new/records.hpp"
+#include "apps/new/tank.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/outlook/outlook.hpp"
 #include "apps/text/number_text.hpp"
-#include "core/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -24,43 +24,6 @@ constexpr double gravity = 9.81;                                        // [m/s^
 constexpr double sinking_time = 0.01, nearest = 0.005, highest = 0.02;  // [s]; of the length
 constexpr double peaks = 4, swings = 2, before_waves = 0.98;
 constexpr double cfc_60 = 0.0016;  // 600 samples a second [s]
-
-/// Of the hull in its attitude, its reference point at the origin.
-template <int d>
-struct Measures {
-  Extents<d> box;
-  double length = 0, breadth = 0, height = 0;  ///< along x, across (in the plane that along x), upward [m]
-  double plan = 0;                             ///< area, breadth seen from above [m^2, m]
-  double volume = 0;
-
-  /// Half of the breadth in the plane, the radius of a disc of the plan area in space [m].
-  double reach() const { return d == 2 ? plan / 2 : std::sqrt(plan / pi); }
-};
-
-/// What is seen from above; parts behind others count, too [m, m^2].
-template <int d>
-double plan_of(const rigid::Surface<d>& hull) {
-  double plan = 0;
-  for (Eigen::Index f = 0; f < hull.facets.cols(); ++f) {
-    std::array<rigid::Vec<d>, d> corners;
-    for (int k = 0; k < d; ++k) corners[static_cast<std::size_t>(k)] = hull.vertices.col(hull.facets(k, f));
-    plan += std::max(0., -area_vector(corners)[d - 1]);
-  }
-  return plan;
-}
-
-template <int d>
-Measures<d> measures_of(const Body& body) {
-  const auto hull = outline<d>(body);
-  Measures<d> m;
-  m.box = extents<d>(hull);
-  m.length = m.box.sizes()[0];
-  m.breadth = m.box.sizes()[d - 2];
-  m.height = m.box.sizes()[d - 1];
-  m.plan = plan_of<d>(hull);
-  m.volume = shape_of<d>(body.shape).at_unit_density.mass;
-  return m;
-}
 
 template <int d>
 Point point_of(const std::vector<double>& numbers) {
@@ -162,61 +125,6 @@ void choose_end(const NewOptions& options, const Measures<d>& m, const Entry& en
   if (entry.time >= scene.time.end)
     throw NewError(fmt::format("--end {:g}: {}, and nothing is wetted before. Use {:g} s or more", scene.time.end,
                                contact, rounded_up(entry.time + after)));
-}
-
-struct Room {
-  double wall = 0, floor = 0;  ///< distance from the middle; depth [m]
-};
-
-template <int d>
-Room room_of(const Measures<d>& m, double accuracy) {
-  const double r = m.reach();
-  if (d == 2) return {r * std::sqrt(2 / accuracy), r / std::sqrt(accuracy)};
-  return {r * std::cbrt(1.5 / accuracy), r * std::cbrt(0.75 / accuracy)};
-}
-
-void tell_tank(const NewOptions& options, const Tank& tank, int up, LandingPlan& plan) {
-  const double behind = -tank.min[0], beside = up == 2 ? tank.max[1] : behind, ahead = tank.max[0];
-  const std::string walls = up == 2 && beside != behind
-                                ? fmt::format("{:g} m behind, {:g} m beside", behind, beside)
-                                : fmt::format("{:g} m {}", behind, up == 2 ? "behind and beside" : "behind");
-  plan.told.push_back(
-      {"tank",
-       fmt::format("from the middle of the hull {}, {:g} m ahead{}; water {:g} m deep{}: walls and floor change the "
-                   "added mass by {:g} % at most (a dipole's images; Lamb 1932, articles 99 and 137)",
-                   walls, ahead, options.forward > 0 ? ", so that the hull stays inside at full speed" : "",
-                   -tank.min[up], options.depth ? " (--depth, not by this rule)" : "", options.accuracy)});
-}
-
-template <int d>
-void choose_tank(const NewOptions& options, const Measures<d>& m, const Entry& entry, LandingPlan& plan) {
-  auto& scene = plan.scene;
-  const auto& body = scene.bodies.front();
-  const auto room = room_of<d>(m, options.accuracy / 100);
-  const double after = scene.time.end - entry.time, plunge = std::min(entry.speed * after, swings * m.height);
-  const double beside = std::max(room.wall, 0.5 * m.breadth + 0.5 * m.length),
-               behind = std::max(room.wall, 0.75 * m.length);
-  const double forward = body.velocity[0];
-  const double ahead = forward == 0 ? behind
-                                    : std::max(forward * (entry.time + entry.peak_time()) + behind,
-                                               forward * scene.time.end + 0.75 * m.length);
-  const double above = body.position[d - 1] + m.box.max()[d - 1] + 0.5 * std::max(m.length, m.height);
-  Tank tank;
-  tank.min[0] = -rounded_up(behind);
-  tank.max[0] = rounded_up(ahead);
-  if (d == 3) tank.min[1] = -rounded_up(beside), tank.max[1] = rounded_up(beside);
-  tank.min[d - 1] = options.depth ? -*options.depth : -rounded_up(std::max(room.floor, plunge + 0.5 * m.height));
-  tank.max[d - 1] = rounded_up(above);
-  tell_tank(options, tank, d - 1, plan);
-  if (options.depth && *options.depth < plunge)
-    plan.told.push_back(
-        {"tank", fmt::format("QUESTION: the hull may sink by {:.2g} m, and the water is {:g} m deep: will it meet "
-                             "the floor?",
-                             plunge, *options.depth)});
-  scene.tank = tank;
-  BoxRegion water{.min = tank.min, .max = tank.max};
-  water.max[d - 1] = 0;
-  scene.fluid->regions = {{.shape = water}};
 }
 
 template <int d>
