@@ -1,4 +1,4 @@
-// splashdown run | check | advise | study | price | ablate | report | schema
+// splashdown new | run | check | advise | study | price | ablate | report | schema
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include "apps/advise/command.hpp"
 #include "apps/check/command.hpp"
 #include "apps/cli/schema.hpp"
+#include "apps/new/command.hpp"
 #include "apps/price/command.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/version.hpp"
@@ -18,6 +19,7 @@
 #include "apps/scene/choose/presets.hpp"
 #include "apps/scene/rules/problems.hpp"
 #include "apps/study/command.hpp"
+#include "apps/text/shell_word.hpp"
 
 namespace splashdown::apps {
 
@@ -280,10 +282,68 @@ CLI::App* add_ablate(CLI::App& app, AblateOptions& ablate) {
   return ablate_app;
 }
 
+void add_accuracy_of_tank(CLI::App* new_app, NewOptions& made) {
+  new_app
+      ->add_option_function<std::string>(
+          "--accuracy", [&made](const std::string& text) { made.accuracy = *percent_of(text); },
+          "what walls and floor of the tank may change, e.g. 1% (default: 2%)")
+      ->type_name("PERCENT")
+      ->check(percentage());
+}
+
+/// The shape's numbers of a new scene.
+void add_new_shape(CLI::App* new_app, NewOptions& made) {
+  new_app->add_option("--shape", made.shape,
+                      "instead of a file: capsule, sphere, box, cone; with --plane wedge, circle, box, capsule");
+  new_app->add_flag("--plane", made.plane, "a scene in the plane, masses per metre of depth");
+  new_app->add_option("--radius", made.radius, "of a sphere, capsule, cone, circle [m]");
+  new_app->add_option("--length", made.length, "of a capsule's straight part [m]");
+  new_app->add_option("--size", made.size, "of a box: X,Y,Z, in the plane X,Y [m]");
+  new_app->add_option("--deadrise", made.deadrise, "of a cone or wedge [deg]");
+  new_app->add_option("--breadth", made.breadth, "of a wedge [m]");
+  new_app->add_option("--height", made.height, "of a wedge, keel to top [m]");
+}
+
+CLI::App* add_new(CLI::App& app, NewOptions& made) {
+  auto* new_app = app.add_subcommand("new", "Write a scene for a hull that lands: STL or OBJ file, or a shape");
+  new_app->add_option("hull", made.hull, "STL or OBJ file, nose along x, z up");
+  add_new_shape(new_app, made);
+  new_app->add_option("--mass", made.mass, "[kg], in the plane [kg/m]; needed");
+  new_app->add_option("--sink", made.sink, "speed downward at the water [m/s]; needed");
+  new_app->add_option("--forward", made.forward, "speed along x [m/s]");
+  new_app->add_option("--pitch", made.pitch, "nose up [deg]");
+  new_app->add_option("--roll", made.roll, "about x [deg]");
+  new_app->add_option("--units", made.units,
+                      "of the file: mm, cm, in, ft or m (default: guessed from extent and mass)");
+  new_app->add_option("--scale", made.scale, "metres per unit of the file, instead");
+  new_app->add_option("--nose", made.nose, "axis of the file towards the nose: x, -x, y ...")->capture_default_str();
+  new_app->add_option("--up", made.up, "axis of the file that is up")->capture_default_str();
+  new_app->add_flag("--repair", made.repair, "mend the file's mesh and write it beside the scene; says what was done");
+  new_app->add_option("--centre", made.centre, "centre of mass X,Y,Z in the hull's frame [m]");
+  new_app->add_option("--inertia", made.inertia, "moments about it, IX,IY,IZ [kg m^2]");
+  new_app
+      ->add_option("--point", made.points, "acceleration at a place of the hull's frame: NAME=X,Y,Z [m] (repeatable)")
+      ->allow_extra_args(false);
+  new_app->add_option("--panels", made.panels, "pressure patches along the bottom")->capture_default_str();
+  new_app->add_option("--limit-g", made.limit_g, "asks at all points: is it above so many g?");
+  new_app->add_option("--limit-pressure", made.limit_pressure, "asks at all panels: is it above so many Pa?");
+  new_app->add_option("--end", made.end, "of the run [s] (default: from the motion)");
+  new_app->add_option("--depth", made.depth, "of the water [m] (default: deep)");
+  new_app->add_option("--water", made.density, "density of the water [kg/m^3]")->capture_default_str();
+  add_accuracy_of_tank(new_app, made);
+  new_app->add_option("--name", made.name, "of the body and the folder (default: that of the file or shape)");
+  new_app->add_option("-o,--out", made.out, "folder of the scene (default: the name), or a .toml file");
+  new_app->add_flag("--force", made.force, "replace files that are there");
+  return new_app;
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
   app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
+  NewOptions made;
+  const auto* new_app = add_new(app, made);
+  for (int i = 0; i < argc; ++i) made.command += i == 0 ? "splashdown" : " " + shell_word(argv[i]);
   RunOptions run;
   const auto* run_app = add_run(app, run);
 
@@ -319,6 +379,7 @@ int command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return finish(app, error, argc, argv);
   }
+  if (*new_app) return new_command(made);
   if (*run_app) return run.accuracy || run.seconds ? aimed_run_command(run) : run_command(run);
   if (*check_app) return check_command(scene, overrides);
   if (*study_app) return study_command(study);

@@ -1,8 +1,6 @@
 #include "core/surface/surface_file.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/IO/OBJ.h>
-#include <CGAL/IO/STL.h>
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
@@ -23,21 +21,18 @@
 #include <optional>
 #include <vector>
 
-#include "core/surface/facet_count.hpp"
+#include "core/surface/soup.hpp"
 
 namespace splashdown {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Kernel = Soup::Kernel;
 using Polyhedron = CGAL::Surface_mesh<Kernel::Point_3>;
 
 const std::string flip =
     "Flip it in the tool that made it, e.g. Blender: Mesh > Normals > Recalculate Outside, and export "
     "it again.";
-const std::string close =
-    "Close it in the tool that made it, e.g. Blender: 3D-Print Toolbox > Make Manifold, or MeshLab: "
-    "Filters > Remeshing > Close Holes, and export it again.";
 const std::string clean =
     "Remove it, e.g. MeshLab: Filters > Cleaning > Merge Close Vertices and Remove Zero Area Faces, and "
     "export it again.";
@@ -47,86 +42,6 @@ const std::string bridge =
     "Join the rims of both skins, e.g. Blender: Edge > Bridge Edge Loops; for a hull that is closed above, delete the "
     "inner skin and close the outer one.";
 const std::string unite = "Join the parts, e.g. Blender: Boolean > Union, or mend the place, and export it again.";
-
-/// Points and the polygons between them.
-struct Soup {
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::vector<std::size_t>> polygons;
-
-  Vec<3> at(std::size_t point) const { return {points[point].x(), points[point].y(), points[point].z()}; }
-  Vec<3> centre(std::size_t polygon) const {
-    Vec<3> sum = Vec<3>::Zero();
-    for (const auto point : polygons[polygon]) sum += at(point);
-    return sum / static_cast<double>(polygons[polygon].size());
-  }
-  Eigen::AlignedBox3d box() const {
-    Eigen::AlignedBox3d all;
-    for (std::size_t i = 0; i < points.size(); ++i) all.extend(at(i));
-    return all;
-  }
-  double extent() const { return box().diagonal().norm(); }
-};
-
-std::string text(const Vec<3>& x) { return fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()); }
-
-Soup read_soup(const std::filesystem::path& path) {
-  const auto expected = count_facets(path);
-  Soup soup;
-  const bool good = expected.format == SurfaceFormat::obj
-                        ? CGAL::IO::read_OBJ(path.string(), soup.points, soup.polygons)
-                        : CGAL::IO::read_STL(path.string(), soup.points, soup.polygons);
-  long triangles = 0;
-  bool whole = good;
-  for (const auto& polygon : soup.polygons) {
-    triangles += static_cast<long>(polygon.size()) - 2;
-    for (const auto point : polygon) whole = whole && point < soup.points.size();
-  }
-  for (std::size_t i = 0; i < soup.points.size(); ++i) whole = whole && soup.at(i).allFinite();
-  if (!whole || triangles != expected.facets)
-    throw SurfaceFileError(
-        fmt::format("is not a whole mesh: {} of {} facets could be read", triangles, expected.facets),
-        "Export it again as STL or OBJ.");
-  if (triangles < 4)
-    throw SurfaceFileError(fmt::format("has {} facets; a closed surface has at least 4", triangles), close);
-  return soup;
-}
-
-/// One point for those that rounding has parted: of single precision, which STL files have, or of their digits.
-void merge_points(Soup& soup) {
-  const Vec<3> origin = soup.box().min();
-  const double near = 1e-6 * soup.extent();
-  if (!(near > 0))
-    throw SurfaceFileError(fmt::format("has no extent: all its points are at {}", text(origin)), "Export it again.");
-  using Cell = std::array<long, 3>;
-  std::map<Cell, std::vector<std::size_t>> cells;
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::size_t> now(soup.points.size());
-  const auto cell_of = [&](const Vec<3>& x) {
-    const Vec<3> count = (x - origin) / near;
-    return Cell{std::lround(count.x()), std::lround(count.y()), std::lround(count.z())};
-  };
-  for (std::size_t i = 0; i < soup.points.size(); ++i) {
-    const Vec<3> x = soup.at(i);
-    const Cell cell = cell_of(x);
-    std::optional<std::size_t> same;
-    for (int k = 0; k < 27 && !same; ++k) {
-      const auto found =
-          cells.find({cell[0] + (k % 3 + 1) % 3 - 1, cell[1] + (k / 3 % 3 + 1) % 3 - 1, cell[2] + (k / 9 + 1) % 3 - 1});
-      if (found == cells.end()) continue;
-      for (const auto other : found->second)
-        if ((Vec<3>(points[other].x(), points[other].y(), points[other].z()) - x).norm() <= near) same = other;
-    }
-    if (!same) {
-      same = points.size();
-      points.push_back(soup.points[i]);
-      cells[cell].push_back(*same);
-    }
-    now[i] = *same;
-  }
-  soup.points = std::move(points);
-  for (auto& polygon : soup.polygons)
-    for (auto& point : polygon) point = now[point];
-}
 
 /// A polygon that comes back to a corner encloses nothing that facets could be made of.
 void refuse_repeated_corners(const Soup& soup) {
@@ -279,7 +194,7 @@ void refuse_holes(const Polyhedron& mesh) {
   const bool skins = has_open_skins(mesh);
   throw SurfaceFileError(fmt::format("is not closed: {} {}{}{}", found.size(), holes_are, where,
                                      skins ? "; of two skins, one inside the other" : ""),
-                         skins ? bridge : close);
+                         skins ? bridge : cure_of_open_surface);
 }
 
 void refuse_crossings(const Polyhedron& mesh) {

@@ -8,12 +8,32 @@ namespace splashdown::fluid {
 namespace {
 // A few points are looked at as fast as a box.
 constexpr std::size_t leaf = 8;
+// And a few dozen as fast as they are put into a tree.
+constexpr std::size_t handful = 64;
 // Halves of 2^64 points, and the other half at each level.
 constexpr std::size_t deepest = 65;
 }  // namespace
 
 template <int d>
+void SizeSources<d>::add(const SizeSource<d>& source) {
+  points_.push_back(source);
+  if (points_.size() - in_trees_ >= handful) gather();
+}
+
+template <int d>
+void SizeSources<d>::gather() {
+  SizeSources tree(growth_);
+  tree.points_.assign(points_.begin() + static_cast<std::ptrdiff_t>(in_trees_), points_.end());
+  in_trees_ = points_.size();
+  for (; !gathered_.empty() && gathered_.back().points_.size() <= tree.points_.size(); gathered_.pop_back())
+    tree.points_.insert(tree.points_.end(), gathered_.back().points_.begin(), gathered_.back().points_.end());
+  tree.plant();
+  gathered_.push_back(std::move(tree));
+}
+
+template <int d>
 void SizeSources<d>::plant() {
+  gathered_.clear();
   branches_.clear();
   if (points_.size() > leaf) grow(0, points_.size());
 }
@@ -60,7 +80,8 @@ void SizeSources<d>::look(std::size_t first, std::size_t last, const Vec<d>& x, 
 template <int d>
 double SizeSources<d>::least(const Vec<d>& x, double h) const {
   if (branches_.empty()) {
-    look(0, points_.size(), x, h);
+    for (const auto& tree : gathered_) h = tree.least(x, h);
+    look(gathered_.empty() ? 0 : in_trees_, points_.size(), x, h);
     return h;
   }
   std::array<std::size_t, deepest> open{0};

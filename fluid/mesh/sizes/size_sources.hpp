@@ -20,9 +20,9 @@ class SizeSources {
  public:
   /// `growth`: dh/dx [-].
   explicit SizeSources(double growth) : growth_(growth) {}
-  /// One more; before `plant`.
-  void add(const SizeSource<d>& source) { points_.push_back(source); }
-  /// Puts them into a tree: jets of a fine mesh have hundreds, and every node asks. Without it all are looked at.
+  /// One more; before `plant`. It is asked for at once: hulls of many facets have thousands that others already imply.
+  void add(const SizeSource<d>& source);
+  /// Puts them into a tree: jets of a fine mesh have hundreds, and every node asks.
   void plant();
   /// h, or less if a source asks for less.
   double least(const Vec<d>& x, double h) const;
@@ -34,6 +34,8 @@ class SizeSources {
     double size;
     std::size_t first, last, right;
   };
+  /// Those of which no tree knows, with trees that hold no more (Bentley and Saxe 1980): n points in n log^2 n steps.
+  void gather();
   std::size_t grow(std::size_t first, std::size_t last);
   double squared_gap(const Branch& branch, const Vec<d>& x) const;
   void look(std::size_t first, std::size_t last, const Vec<d>& x, double& h) const;
@@ -41,6 +43,8 @@ class SizeSources {
   double growth_;
   std::vector<SizeSource<d>> points_;
   std::vector<Branch> branches_;
+  std::vector<SizeSources> gathered_;  // before `plant`: trees of the first points
+  std::size_t in_trees_ = 0;           // that many
 };
 
 extern template class SizeSources<2>;

@@ -60,7 +60,7 @@ rule("of a scene, what is recorded and told knows plain structs" FILES "^apps/(s
   BUT_INCLUDES "^apps/scene/(channel_classes|limit|patch_region)\\.hpp$")
 
 # Layers of the program, from below: a room includes itself and what stands before it.
-set(layers quantity text files process scene effects statistics record report build simulation check advise run study price ablate cli)
+set(layers quantity text files process scene effects statistics record report build simulation check new advise run study price ablate cli)
 set(below "")
 foreach(room IN LISTS layers)
   list(APPEND below ${room})
@@ -83,7 +83,7 @@ rule("XML and zlib stay in apps/record/frames" FILES "." BUT_FILES "^apps/record
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
 rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
-  BUT_FILES "^(core/parallel|fluid/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
+  BUT_FILES "^(core/(parallel|surface/soup)|fluid/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
   BUT_INCLUDES "^(core|fluid|rigid|coupling|Eigen)/")
 
 # The line of the first inclusion of a header in a file.

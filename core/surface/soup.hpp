@@ -1,0 +1,40 @@
+// Polygons of a surface file as they are read, before anything is known of a surface. Internal to the core room.
+#pragma once
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+
+namespace splashdown {
+
+/// Points and the polygons between them.
+struct Soup {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+
+  Vec<3> at(std::size_t point) const { return {points[point].x(), points[point].y(), points[point].z()}; }
+  Vec<3> centre(std::size_t polygon) const;
+  Eigen::AlignedBox3d box() const;
+  double extent() const { return box().diagonal().norm(); }
+};
+
+/// Throws SurfaceFileError if the file is no whole mesh.
+Soup read_soup(const std::filesystem::path& path);
+
+/// One point for those that rounding has parted: of single precision, which STL files have, or of their digits. How many are gone.
+/// Throws SurfaceFileError if all are one.
+std::size_t merge_points(Soup& soup);
+
+/// "(1, 2, 3)"
+std::string text(const Vec<3>& x);
+
+/// What is told of surfaces that are not closed.
+extern const std::string cure_of_open_surface;
+
+}  // namespace splashdown
