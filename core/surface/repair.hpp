@@ -14,6 +14,7 @@
 
 namespace splashdown {
 
+/// A mended hull, and how.
 struct RepairedSurface {
   Surface<3> surface;  ///< in the units of the file; closed, normals outward
   std::vector<std::string>

@@ -13,21 +13,24 @@ namespace splashdown {
 
 /// Points and the polygons between them.
 struct Soup {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;  ///< of its points
 
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> polygons;
 
+  /// Of a point [units of the file].
   Vec<3> at(std::size_t point) const { return {points[point].x(), points[point].y(), points[point].z()}; }
-  Vec<3> centre(std::size_t polygon) const;
-  Eigen::AlignedBox3d box() const;
+  Vec<3> centre(std::size_t polygon) const;  ///< mean of a polygon's corners
+  Eigen::AlignedBox3d box() const;           ///< around all points
+  /// Diagonal of the box.
   double extent() const { return box().diagonal().norm(); }
 };
 
 /// Throws SurfaceFileError if the file is no whole mesh.
 Soup read_soup(const std::filesystem::path& path);
 
-/// One point for those that rounding has parted: of single precision, which STL files have, or of their digits. How many are gone.
+/// One point for those that rounding has parted: of single precision, which STL files have, or of their digits. How many are
+/// gone.
 /// Throws SurfaceFileError if all are one.
 std::size_t merge_points(Soup& soup);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <pugixml.hpp>
 
 #include "apps/files/csv.hpp"
 #include "apps/record/frames/vtu.hpp"
@@ -156,6 +157,18 @@ void FrameSeries::extend_index(std::size_t first) {
   const auto lines = lines_from(first);
   overwrite_end(path, index_end_, lines + index_foot);
   index_end_ += lines.size();
+}
+
+std::vector<ListedFrame> listed_frames(const std::filesystem::path& run) {
+  std::vector<ListedFrame> frames;
+  pugi::xml_document index;
+  if (!index.load_file((run / "frames.pvd").c_str())) return frames;
+  for (const auto& set : index.child("VTKFile").child("Collection").children("DataSet")) {
+    const double time = set.attribute("timestep").as_double();
+    if (frames.empty() || frames.back().time != time) frames.push_back({time, {}});
+    frames.back().pieces.emplace_back(set.attribute("name").value(), set.attribute("file").value());
+  }
+  return frames;
 }
 
 template std::vector<std::pair<std::string, std::string>> write_pieces<2>(const std::filesystem::path&,

@@ -91,6 +91,14 @@ class FrameSeries {
   std::size_t index_end_ = 0;  // of the entries in frames.pvd [bytes]; 0: there is none yet
 };
 
+/// A frame as frames.pvd lists it: (part, file in the run's folder) of each piece, the fluid's first.
+struct ListedFrame {
+  double time = 0;  ///< [s]
+  std::vector<std::pair<std::string, std::string>> pieces;
+};
+/// Of a run's folder; none where there is no frames.pvd, or none that can be read.
+std::vector<ListedFrame> listed_frames(const std::filesystem::path& run);
+
 /// A name that is safe as part of a file name: letters, digits, - and _ stay, the rest becomes _.
 std::string file_name_of(const std::string& name);
 

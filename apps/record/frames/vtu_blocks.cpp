@@ -17,9 +17,9 @@ namespace {
 // block for each of some cores.
 constexpr std::size_t block_bytes = 1 << 16;
 // Digits hardly compress: the slower levels take up to three times as long for one or two per cent.
-constexpr int level = 1;
+constexpr int of_digits = 1;
 
-std::string deflated(std::string_view block) {
+std::string deflated(std::string_view block, int level = of_digits) {
   uLongf size = compressBound(block.size());
   std::string result(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(block.data()),
@@ -54,6 +54,12 @@ class Front {
 };
 
 }  // namespace
+
+std::string stream_of(std::string_view bytes) {
+  std::string text;
+  append_base64(text, deflated(bytes, Z_DEFAULT_COMPRESSION));
+  return text;
+}
 
 std::string blocks_of(std::string_view bytes) {
   const std::size_t count = (bytes.size() + block_bytes - 1) / block_bytes;

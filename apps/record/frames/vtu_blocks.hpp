@@ -8,6 +8,9 @@
 
 namespace splashdown::apps {
 
+/// One zlib stream in base64: as browsers unpack it.
+std::string stream_of(std::string_view bytes);
+
 /// Header and blocks of an array's bytes.
 std::string blocks_of(std::string_view bytes);
 

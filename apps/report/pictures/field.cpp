@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <span>
 
+#include "apps/record/frames/frames.hpp"
 #include "apps/report/pictures/picture.hpp"
 #include "apps/report/words.hpp"
-#include "apps/text/pattern.hpp"
 
 namespace splashdown::apps {
 
@@ -28,13 +27,12 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-/// (time, stem) of the frames listed in frames.pvd.
-std::vector<std::pair<double, std::string>> listed_frames(const std::filesystem::path& run) {
+/// (time, stem) of the frames that there are.
+std::vector<std::pair<double, std::string>> stems_of_frames(const std::filesystem::path& run) {
   std::vector<std::pair<double, std::string>> frames;
-  std::ifstream in(run / "frames.pvd");
-  const Pattern fluid_entry("timestep=\"([^\"]+)\".*file=\"frames/([0-9]+)\\.vtu\"");
-  for (std::string line; std::getline(in, line);)
-    if (const auto [time, stem] = fluid_entry.in<2>(line); !stem.empty()) frames.emplace_back(std::stod(time), stem);
+  for (const auto& [time, pieces] : listed_frames(run))
+    if (const std::filesystem::path fluid = pieces.front().second; pieces.front().first == "fluid")
+      frames.emplace_back(time, fluid.stem().string());
   return frames;
 }
 
@@ -55,7 +53,7 @@ std::vector<Instant> choose_instants(const std::filesystem::path& run, std::vect
        {std::pair{"start", "Start"}, {"peak", "Largest load"}, {"end", "End"}, {"failed", "Last good state"}})
     if (std::filesystem::exists(run / "snapshots" / (std::string(stem) + ".vtu"))) add("snapshots", stem, title);
 
-  const auto frames = listed_frames(run);
+  const auto frames = stems_of_frames(run);
   double last = frames.empty() ? 0 : frames.back().first;
   for (const auto& instant : instants) last = std::max(last, instant.picture.time);
   for (std::size_t k = 1; k <= frames_between && !frames.empty(); ++k) {

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <pugixml.hpp>
 #include <utility>
 
 #include "apps/record/frames/frames.hpp"
@@ -15,23 +13,6 @@
 
 namespace splashdown::apps {
 namespace {
-
-struct Listed {
-  double time = 0;
-  std::vector<std::pair<std::string, std::string>> pieces;  // part, file
-};
-
-std::vector<Listed> listed_pieces(const std::filesystem::path& run) {
-  std::vector<Listed> frames;
-  pugi::xml_document index;
-  if (!index.load_file((run / "frames.pvd").c_str())) return frames;
-  for (const auto& set : index.child("VTKFile").child("Collection").children("DataSet")) {
-    const double time = set.attribute("timestep").as_double();
-    if (frames.empty() || frames.back().time != time) frames.push_back({time, {}});
-    frames.back().pieces.emplace_back(set.attribute("name").value(), set.attribute("file").value());
-  }
-  return frames;
-}
 
 const VtuArray* array_called(const VtuGrid& grid, const char* name) {
   const auto found = std::ranges::find(grid.point_data, name, &VtuArray::name);
@@ -161,7 +142,7 @@ class Packer {
 
 MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_frames) {
   MovingPicture picture;
-  const auto listed = listed_pieces(run);
+  const auto listed = listed_frames(run);
   const std::size_t count = std::min(most_frames, listed.size());
   for (std::size_t i = 0; i < count; ++i) {
     const auto& from = listed[count > 1 ? i * (listed.size() - 1) / (count - 1) : 0];

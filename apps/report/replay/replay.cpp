@@ -1,14 +1,13 @@
 #include "apps/report/replay/replay.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "apps/record/frames/base64.hpp"
+#include "apps/record/frames/vtu_blocks.hpp"
 #include "apps/report/replay/moving_picture.hpp"
 #include "apps/report/replay/viewer.hpp"
 #include "apps/text/number_text.hpp"
@@ -24,16 +23,6 @@ constexpr const char* three_license = "/*! three.js r111, (c) 2010-2019 three.js
 std::string script_text(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string result(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                bytes.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
-    throw std::runtime_error("the replay cannot be compressed");
-  result.resize(size);
-  return result;
 }
 
 /// A script must not end before its end.
@@ -72,8 +61,6 @@ Replay replay_of(const std::filesystem::path& run) {
     return replay;
   }
   const auto [json, bytes] = packed(picture);
-  std::string base64;
-  append_base64(base64, deflated(bytes));
   const double limit = nlohmann::json::parse(json)["pressure"].get<double>();
   replay.html = fmt::format(
       R"(<h2>Replay</h2>
@@ -85,7 +72,7 @@ Replay replay_of(const std::filesystem::path& run) {
 <script type="application/json" id="replay-info">{}</script>
 <script type="text/plain" id="replay-bytes">{}</script>
 )",
-      picture.dimension == 2 ? " hidden" : "", replay_caption(picture, limit), unbroken(json), base64);
+      picture.dimension == 2 ? " hidden" : "", replay_caption(picture, limit), unbroken(json), stream_of(bytes));
   for (const auto& script : {three_license + library, controls, std::string(viewer_script)})
     replay.html += "<script>" + unbroken(script) + "</script>\n";
   return replay;

@@ -130,7 +130,8 @@ def errors():
             if "skipped" in scene:
                 continue
             count += 1
-            messages = told(["check", scene["file"], *(w for s in scene["set"] for w in ("--set", s))])
+            command = scene.get("command") or ["check", scene["file"], *(w for s in scene["set"] for w in ("--set", s))]
+            messages = told(command)
             if said not in messages:
                 fail(f"{document.name} quotes '{said}', the program says: {messages.strip()}")
     print(f"{count} errors")

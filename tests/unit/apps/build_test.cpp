@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "apps/simulation/approach.hpp"
 #include "apps/scene/read/read.hpp"
+#include "apps/simulation/approach.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {
