@@ -57,6 +57,11 @@ def _options(set: Mapping | Iterable[str] | None, named: Mapping) -> list[str]:
     return out
 
 
+def _folder(out: str | Path | None) -> Path:
+    """Of a run; a new one without `out`, with room for a scene beside it."""
+    return Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="splashdown-")) / "run"
+
+
 def _file(scene, folder: Path) -> Path:
     """Where the scene is: a file, or one that is written into the folder."""
     if isinstance(scene, Mapping):
@@ -80,7 +85,7 @@ def run(scene, out: str | Path | None = None, *, set: Mapping | Iterable[str] | 
     Raises SceneError for a wrong scene and CannotGoOn for a run that finds no step, with the command's text.
     A run that spent its budget is returned, with status "interrupted".
     """
-    folder = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="splashdown-"))
+    folder = _folder(out)
     path = _file(scene, folder.parent if out is None else folder)
     _call(["run", str(path), "--out", str(folder), "--quiet", *([] if report else ["--no-report"]), *_options(set, options)])
     return Result(folder)
@@ -94,7 +99,7 @@ def check(scene, *, set: Mapping | Iterable[str] | None = None, **options) -> st
 
 def study(file: str | Path, out: str | Path | None = None, **options) -> StudyResult:
     """All runs of a study (docs/study.md). Raises SceneError for a wrong one."""
-    folder = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="splashdown-"))
+    folder = _folder(out)
     _call(["study", str(file), "--out", str(folder), *_options(None, options)])
     return StudyResult(folder)
 
@@ -103,8 +108,8 @@ def price(scene, out: str | Path | None = None, *, set: Mapping | Iterable[str] 
     """What accuracy costs (docs/price.md): price.json as dictionaries."""
     import json
 
-    folder = Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="splashdown-"))
-    _call(["price", str(_file(scene, folder.parent)), "--out", str(folder), *_options(set, options)])
+    folder = _folder(out)
+    _call(["price", str(_file(scene, folder.parent if out is None else folder)), "--out", str(folder), *_options(set, options)])
     return json.loads((folder / "price.json").read_text())
 
 
