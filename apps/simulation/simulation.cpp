@@ -17,7 +17,7 @@ namespace {
 using namespace apps;
 
 template <int d>
-Eigen::Vector3d in_space(const Vec<d>& v) {
+Eigen::Vector3d padded(const Vec<d>& v) {
   Eigen::Vector3d out = Eigen::Vector3d::Zero();
   out.template head<d>() = v;
   return out;
@@ -25,7 +25,7 @@ Eigen::Vector3d in_space(const Vec<d>& v) {
 
 /// The rotations of a twist or wrench: about the last axis in two dimensions.
 template <int d>
-Eigen::Vector3d turning(const Twist<d>& twist) {
+Eigen::Vector3d turning_part(const Twist<d>& twist) {
   Eigen::Vector3d out = Eigen::Vector3d::Zero();
   out.template tail<freedoms<d> - d>() = twist.template tail<freedoms<d> - d>();
   return out;
@@ -34,10 +34,10 @@ Eigen::Vector3d turning(const Twist<d>& twist) {
 template <int d>
 BodyNow body_at(const BodySpec<d>& spec, const BodyState<d>& state) {
   BodyNow now{.name = spec.name};
-  now.position = in_space<d>(state.pose.translation());
+  now.position = padded<d>(state.pose.translation());
   now.rotation.template topLeftCorner<d, d>() = state.pose.linear();
-  now.velocity = in_space<d>(state.velocity.template head<d>());
-  now.spin = turning<d>(state.velocity);
+  now.velocity = padded<d>(state.velocity.template head<d>());
+  now.spin = turning_part<d>(state.velocity);
   return now;
 }
 
@@ -150,13 +150,13 @@ class Simulation::StateOf final : public Simulation::State, private StepHost {
     std::vector<BodyNow> out;
     for (std::size_t i = 0; known.bodies && i < known.bodies->size(); ++i) {
       auto body = body_at<d>(known.bodies->spec(i), known.bodies->state(i));
-      body.velocity = in_space<d>(known.body_velocity_n[i].template head<d>());
-      body.spin = turning<d>(known.body_velocity_n[i]);
-      body.acceleration = in_space<d>(known.body_acceleration_n[i].template head<d>());
-      body.angular_acceleration = turning<d>(known.body_acceleration_n[i]);
+      body.velocity = padded<d>(known.body_velocity_n[i].template head<d>());
+      body.spin = turning_part<d>(known.body_velocity_n[i]);
+      body.acceleration = padded<d>(known.body_acceleration_n[i].template head<d>());
+      body.angular_acceleration = turning_part<d>(known.body_acceleration_n[i]);
       const Wrench<d> load = known.body_load[i].total();
-      body.force = in_space<d>(load.template head<d>());
-      body.moment = turning<d>(load);
+      body.force = padded<d>(load.template head<d>());
+      body.moment = turning_part<d>(load);
       body.wetted = known.body_load[i].wetted;
       out.push_back(std::move(body));
     }
