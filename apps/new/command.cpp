@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 
 #include "apps/check/cost.hpp"
 #include "apps/check/questions.hpp"
@@ -75,10 +76,15 @@ std::vector<Offer> offered(const fs::path& scene) {
   };
   std::vector<Offer> all = {offer("standard")};
   for (const auto* refine : {"draft", "0.25", "0.18", "0.12"}) {
-    const auto first = offer(refine);
+    std::optional<Offer> first;
+    try {
+      first = offer(refine);
+    } catch (const SceneError&) {  // its elements are larger than the water
+      break;
+    }
     if (all.size() == 2) all.pop_back();
-    all.push_back(first);
-    if (first.seconds <= few_minutes) break;
+    all.push_back(*first);
+    if (first->seconds <= few_minutes) break;
   }
   return all;
 }

@@ -50,6 +50,8 @@ check "and what was done is told" grep -q "put a lid on a hole" stdout
 check "one that is inside out, too" exits 0 new over.stl --mass 10 --sink 2 --repair --out turned
 check "whose hull is written" test -s turned/over.stl
 check "and read again" exits 0 "$splashdown" check turned/scene.toml
+uav=$(dirname "${BASH_SOURCE[0]}")/../../../../examples/uav_landing/uav.stl
+check "wide water, for which the coarsest meshes are too coarse" exits 0 new "$(realpath "$uav")" --mass 600 --sink 1.5 --forward 12 --pitch 6
 check "a mass is needed" exits 2 new "my float.stl" --sink 2
 check "in kilograms" exits 2 new "my float.stl" --mass 1e9 --sink 2
 check "with a cure" grep -q -- "--units" stderr
