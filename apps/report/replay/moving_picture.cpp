@@ -108,9 +108,16 @@ double colour_limit(const MovingPicture& picture) {
   return picture.dimension == 3 && hulls > 0 ? hulls : std::max(hulls, quantile(std::move(in_water), of_water));
 }
 
+/// Differences from number to number, all first bytes, then all second ones and so on: neighbours differ little, and zlib finds that.
 template <class Number>
-void append_raw(std::string& bytes, Number value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+void append_differences(std::string& bytes, const std::vector<Number>& numbers) {
+  for (std::size_t byte = 0; byte < sizeof(Number); ++byte) {
+    Number before = 0;
+    for (const Number number : numbers) {
+      bytes.push_back(static_cast<char>((static_cast<Number>(number - before) >> (8 * byte)) & 0xff));
+      before = number;
+    }
+  }
 }
 
 class Packer {
@@ -120,15 +127,17 @@ class Packer {
       step_[k] = std::max(high[k] - low[k], 1e-300) / std::numeric_limits<std::uint16_t>::max();
   }
   nlohmann::json add(const MovingPart& part, bool with_cells) {
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::vector<std::uint16_t> places;
       for (const auto& x : part.points)
-        append_raw(bytes, static_cast<std::uint16_t>(std::lround((x[k] - low_[k]) / step_[k])));
-    for (std::size_t i = 0; i < part.points.size(); ++i) {
-      const double p = part.pressure.empty() || !(limit_ > 0) ? 0 : std::clamp(part.pressure[i] / limit_, 0., 1.);
-      append_raw(bytes, static_cast<std::uint8_t>(std::lround(255 * p)));
+        places.push_back(static_cast<std::uint16_t>(std::lround((x[k] - low_[k]) / step_[k])));
+      append_differences(bytes, places);
     }
-    if (with_cells)
-      for (const int node : part.cells) append_raw(bytes, static_cast<std::uint32_t>(node));
+    std::vector<std::uint8_t> pressures(part.points.size(), 0);
+    for (std::size_t i = 0; i < part.pressure.size() && limit_ > 0; ++i)
+      pressures[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(part.pressure[i] / limit_, 0., 1.)));
+    append_differences(bytes, pressures);
+    if (with_cells) append_differences(bytes, std::vector<std::uint32_t>(part.cells.begin(), part.cells.end()));
     return {{"points", part.points.size()}, {"cells", with_cells ? part.cells.size() : 0}};
   }
   std::string bytes;

@@ -31,8 +31,9 @@ struct MovingPicture {
 MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_frames);
 
 /// {"dimension", "names", "low", "high" [m], "pressure" [Pa], "frames": [{"time", "water": {"points", "cells"}, "bodies": ...}]}: numbers of
-/// points and cells; what they are is in the bytes, in this order: points as uint16 by axis, pressures as uint8, cells as uint32. Cells of
-/// bodies stand in the first frame alone.
+/// points and cells; what they are is in the bytes, in this order: points as uint16 by axis, pressures as uint8, cells as uint32. Each
+/// array as differences from number to number, modulo 2^bits, all their first bytes, then all second ones and so on. Cells of bodies
+/// stand in the first frame alone.
 struct PackedPicture {
   std::string json;
   std::string bytes;  ///< little-endian

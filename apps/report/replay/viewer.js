@@ -13,13 +13,18 @@
   // Parts of a frame: places [m], pressures 0 to 1, cells.
   let at = 0;
   const step = info.low.map((low, k) => (info.high[k] - low) / 65535);
+  // Differences, byte by byte.
+  function numbers(Kind, n) {
+    const out = new Kind(n), size = Kind.BYTES_PER_ELEMENT;
+    for (let b = 0; b < size; ++b) for (let i = 0; i < n; ++i) out[i] += bytes.getUint8(at++) * 2 ** (8 * b);
+    for (let i = 1; i < n; ++i) out[i] += out[i - 1];
+    return out;
+  }
   function part(entry) {
-    const n = entry.points, x = new Float32Array(3 * n), p = new Float32Array(n);
-    for (let k = 0; k < 3; ++k) for (let i = 0; i < n; ++i, at += 2) x[3 * i + k] = info.low[k] + step[k] * bytes.getUint16(at, true);
-    for (let i = 0; i < n; ++i, ++at) p[i] = bytes.getUint8(at) / 255;
-    const cells = new Uint32Array(entry.cells);
-    for (let i = 0; i < entry.cells; ++i, at += 4) cells[i] = bytes.getUint32(at, true);
-    return { x, p, cells };
+    const n = entry.points, x = new Float32Array(3 * n);
+    for (let k = 0; k < 3; ++k) numbers(Uint16Array, n).forEach((v, i) => { x[3 * i + k] = info.low[k] + step[k] * v; });
+    const p = Float32Array.from(numbers(Uint8Array, n), (v) => v / 255);
+    return { x, p, cells: numbers(Uint32Array, entry.cells) };
   }
   const frames = info.frames.map((f) => ({ time: f.time, water: part(f.water), bodies: f.bodies.map(part) }));
   const plane = info.dimension === 2;

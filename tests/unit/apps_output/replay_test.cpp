@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -113,22 +112,28 @@ TEST(Replay, bytes_hold_places_and_pressures_within_their_steps) {
   const auto json = nlohmann::json::parse(text);
   const double limit = json["pressure"];
   std::size_t at = 0;
-  const auto take = [&]<class Number>(Number number) {
-    std::memcpy(&number, bytes.data() + at, sizeof number);
-    at += sizeof number;
-    return number;
+  const auto take = [&]<class Number>(std::size_t count, Number) {
+    std::vector<Number> numbers(count, 0);
+    for (std::size_t byte = 0; byte < sizeof(Number); ++byte)
+      for (auto& number : numbers)
+        number = static_cast<Number>(number +
+                                     (static_cast<Number>(static_cast<unsigned char>(bytes.at(at++))) << (8 * byte)));
+    for (std::size_t i = 1; i < count; ++i) numbers[i] = static_cast<Number>(numbers[i] + numbers[i - 1]);
+    return numbers;
   };
   for (std::size_t f = 0; f < 2; ++f) {
     const auto& body = picture.frames[f].bodies[0];
     ASSERT_EQ(json["frames"][f]["bodies"][0]["points"], 40);
     for (std::size_t k = 0; k < 3; ++k) {
       const double low = json["low"][k], step = (json["high"][k].get<double>() - low) / 65535;
-      for (const auto& x : body.points) EXPECT_NEAR(low + step * take(std::uint16_t{}), x[k], 0.5001 * step);
+      const auto places = take(40, std::uint16_t{});
+      for (std::size_t i = 0; i < 40; ++i) EXPECT_NEAR(low + step * places[i], body.points[i][k], 0.5001 * step);
     }
-    for (const double p : body.pressure)
-      EXPECT_NEAR(take(std::uint8_t{}) * limit / 255, std::clamp(p, 0., limit), 0.5001 * limit / 255);
+    const auto pressures = take(40, std::uint8_t{});
+    for (std::size_t i = 0; i < 40; ++i)
+      EXPECT_NEAR(pressures[i] * limit / 255, std::clamp(body.pressure[i], 0., limit), 0.5001 * limit / 255);
     if (f == 0) {
-      for (const int node : body.cells) EXPECT_EQ(take(std::uint32_t{}), static_cast<std::uint32_t>(node));
+      EXPECT_EQ(take(3, std::uint32_t{}), std::vector<std::uint32_t>(body.cells.begin(), body.cells.end()));
     }
   }
   EXPECT_EQ(at, bytes.size());
