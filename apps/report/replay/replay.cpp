@@ -25,12 +25,16 @@ std::string script_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A script must not end before its end.
-std::string unbroken(std::string script) {
-  for (std::size_t at = script.find("</"); at != std::string::npos; at = script.find("</", at + 3))
-    script.insert(at + 1, "\\");
-  return script;
+/// Every `of` in a text replaced.
+std::string substituted(std::string text, const std::string& of, const std::string& instead) {
+  for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + instead.size()))
+    text.replace(at, of.size(), instead);
+  return text;
 }
+
+/// A script must not end before its end, and texts in it must not begin another.
+std::string unbroken(const std::string& script) { return substituted(script, "</", "<\\/"); }
+std::string unbroken_json(const std::string& json) { return substituted(json, "<", "\\u003c"); }
 
 std::string replay_caption(const MovingPicture& picture, double limit) {
   const auto colours =
@@ -72,7 +76,7 @@ Replay replay_of(const std::filesystem::path& run) {
 <script type="application/json" id="replay-info">{}</script>
 <script type="text/plain" id="replay-bytes">{}</script>
 )",
-      picture.dimension == 2 ? " hidden" : "", replay_caption(picture, limit), unbroken(json), stream_of(bytes));
+      picture.dimension == 2 ? " hidden" : "", replay_caption(picture, limit), unbroken_json(json), stream_of(bytes));
   for (const auto& script : {three_license + library, controls, std::string(viewer_script)})
     replay.html += "<script>" + unbroken(script) + "</script>\n";
   return replay;
