@@ -19,14 +19,6 @@ Isometry<d> body_pose(const Point& position, const Attitude& attitude, const Vec
   return shape_pose<d>(position, attitude) * Eigen::Translation<double, d>(centre);
 }
 
-/// Angles that are small or about one axis, as a vector; in two dimensions its last entry alone.
-template <int d>
-Eigen::Vector3d in_space(const Rotation<d>& rotation) {
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  vector.tail<rigid::rotations<d>>() = rotation;
-  return vector;
-}
-
 Attitude between(const Attitude& a, const Attitude& b, double share) {
   return {.heading_deg = a.heading_deg + share * (b.heading_deg - a.heading_deg),
           .pitch_deg = a.pitch_deg + share * (b.pitch_deg - a.pitch_deg),
@@ -74,10 +66,10 @@ Twist<d> first_velocity(const std::vector<Waypoint>& path, const Vec<d>& centre)
                       .pitch_deg = (b.attitude.pitch_deg - a.attitude.pitch_deg) / seconds,
                       .roll_deg = (b.attitude.roll_deg - a.attitude.roll_deg) / seconds};
   const Rotation<d> spin = angular_velocity<d>(a.attitude, rate);
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
-  arm.head<d>() = rotation<d>(a.attitude) * centre;
+  const Eigen::Vector3d arm = in_space<d>(rotation<d>(a.attitude) * centre);
   Twist<d> velocity;
-  velocity << vec<d>((b.position - a.position) / seconds) + in_space<d>(spin).cross(arm).template head<d>(), spin;
+  velocity << vec<d>((b.position - a.position) / seconds) + rotation_in_space<d>(spin).cross(arm).template head<d>(),
+      spin;
   return velocity;
 }
 

@@ -66,14 +66,10 @@ Run<d>::Run(const Scene& scene, World<d> world, RecorderSettings<d> settings, Ru
 template <int d>
 void Run<d>::resume(const Checkpoint& from) {
   const Stopwatch charge(setup_seconds_);
-  std::istringstream stepper(from.stepper);
-  simulation_.stepper().load(stepper);
-  if (simulation_.stepper().time() != from.time || !(from.loop.dt_previous >= 0) || !(from.loop.dt_cap >= 0))
-    throw std::runtime_error("holds times that contradict each other");
+  put_back(from, simulation_.stepper(), loop_);
   recorder_.load(from.recorder);
   if (simulation_.world().bodies && from.loop.steps > 0 && recorder_.bodies() != simulation_.world().bodies->size())
     throw std::runtime_error("holds records of other bodies than the scene");
-  loop_ = from.loop;
   wall_before_ = from.wall_seconds;
   phases_before_ = from.phases;
   phases_at_start_ = as_map(simulation_.stepper().phase_seconds());

@@ -21,6 +21,21 @@ rigid::Vec<d> vec(const Point& point) {
   return point.head<d>();
 }
 
+/// Three entries, zero beyond the last axis.
+template <int d>
+Eigen::Vector3d in_space(const rigid::Vec<d>& x) {
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  vector.head<d>() = x;
+  return vector;
+}
+/// Angles that are small or about one axis, their rates or moments, as a vector; in two dimensions its last entry alone.
+template <int d>
+Eigen::Vector3d rotation_in_space(const rigid::Rotation<d>& rotation) {
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  vector.tail<rigid::rotations<d>>() = rotation;
+  return vector;
+}
+
 /// In the shape's frame.
 template <int d>
 rigid::Shape<d> shape_of(const Shape& shape);

@@ -41,6 +41,15 @@ double at_the_water(const Scene& scene, const Body& body) {
 
 }  // namespace
 
+std::optional<double> straight_pull(const Scene& scene) {
+  constexpr double roundoff = 1e-9;
+  if (!scene.gravity) return {};
+  const int up = scene.dimension - 1;
+  const Point& g = scene.gravity->acceleration;
+  if (!(g[up] < 0) || g.head(up).norm() > roundoff * g.norm()) return {};
+  return -g[up];
+}
+
 template <int d>
 std::optional<double> still_water_level(const Scene& scene) {
   if (!scene.fluid) return {};

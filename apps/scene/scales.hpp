@@ -20,6 +20,9 @@ struct Scales {
 template <int d>
 Scales scales(const Scene& scene);
 
+/// Gravity that points straight down, along the last axis [m/s^2]; nothing for none, or another.
+std::optional<double> straight_pull(const Scene& scene);
+
 /// Highest point of the liquid at t = 0 on its largest region [m]; nothing without liquid.
 template <int d>
 std::optional<double> still_water_level(const Scene& scene);

@@ -126,6 +126,14 @@ Checkpoint read_one(const fs::path& path) {
 
 }  // namespace
 
+void put_back(const Checkpoint& from, coupling::Stepper& stepper, LoopState& loop) {
+  std::istringstream state(from.stepper);
+  stepper.load(state);
+  if (stepper.time() != from.time || !(from.loop.dt_previous >= 0) || !(from.loop.dt_cap >= 0))
+    throw std::runtime_error("holds times that contradict each other");
+  loop = from.loop;
+}
+
 void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
   std::ostringstream body, whole;
   {

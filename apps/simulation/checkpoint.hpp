@@ -24,6 +24,9 @@ struct Checkpoint {
   std::string stepper, recorder;         ///< what their save() wrote
 };
 
+/// The simulated state again, without its records. Throws std::runtime_error for one of another world, or that contradicts itself.
+void put_back(const Checkpoint& from, coupling::Stepper& stepper, LoopState& loop);
+
 /// Throws std::runtime_error with the cause if the disk refuses.
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "apps/build/build.hpp"
+#include "apps/scene/geometry.hpp"
+#include "apps/scene/read/parts.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/simulation/checkpoint.hpp"
 #include "apps/simulation/simulation_of.hpp"
@@ -16,28 +18,19 @@ namespace {
 
 using namespace apps;
 
+/// The rotations of a twist or a wrench.
 template <int d>
-Eigen::Vector3d padded(const Vec<d>& v) {
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
-  out.template head<d>() = v;
-  return out;
-}
-
-/// The rotations of a twist or wrench: about the last axis in two dimensions.
-template <int d>
-Eigen::Vector3d turning_part(const Twist<d>& twist) {
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
-  out.template tail<freedoms<d> - d>() = twist.template tail<freedoms<d> - d>();
-  return out;
+Eigen::Vector3d turning(const Twist<d>& twist) {
+  return rotation_in_space<d>(twist.template tail<rigid::rotations<d>>());
 }
 
 template <int d>
 BodyNow body_at(const BodySpec<d>& spec, const BodyState<d>& state) {
   BodyNow now{.name = spec.name};
-  now.position = padded<d>(state.pose.translation());
+  now.position = in_space<d>(state.pose.translation());
   now.rotation.template topLeftCorner<d, d>() = state.pose.linear();
-  now.velocity = padded<d>(state.velocity.template head<d>());
-  now.spin = turning_part<d>(state.velocity);
+  now.velocity = in_space<d>(state.velocity.template head<d>());
+  now.spin = turning<d>(state.velocity);
   return now;
 }
 
@@ -150,13 +143,13 @@ class Simulation::StateOf final : public Simulation::State, private StepHost {
     std::vector<BodyNow> out;
     for (std::size_t i = 0; known.bodies && i < known.bodies->size(); ++i) {
       auto body = body_at<d>(known.bodies->spec(i), known.bodies->state(i));
-      body.velocity = padded<d>(known.body_velocity_n[i].template head<d>());
-      body.spin = turning_part<d>(known.body_velocity_n[i]);
-      body.acceleration = padded<d>(known.body_acceleration_n[i].template head<d>());
-      body.angular_acceleration = turning_part<d>(known.body_acceleration_n[i]);
+      body.velocity = in_space<d>(known.body_velocity_n[i].template head<d>());
+      body.spin = turning<d>(known.body_velocity_n[i]);
+      body.acceleration = in_space<d>(known.body_acceleration_n[i].template head<d>());
+      body.angular_acceleration = turning<d>(known.body_acceleration_n[i]);
       const Wrench<d> load = known.body_load[i].total();
-      body.force = padded<d>(load.template head<d>());
-      body.moment = turning_part<d>(load);
+      body.force = in_space<d>(load.template head<d>());
+      body.moment = turning<d>(load);
       body.wetted = known.body_load[i].wetted;
       out.push_back(std::move(body));
     }
@@ -205,18 +198,19 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Simulation Simulation::open(const std::filesystem::path& scene, const std::vector<std::string>& set,
-                            SimulationHooks hooks) {
-  auto file = read_scene(scene, set);
+Simulation Simulation::made(SceneFile file, const SimulationHooks& hooks) {
   if (file.scene.dimension == 2) return Simulation(std::make_unique<StateOf<2>>(std::move(file), hooks));
   return Simulation(std::make_unique<StateOf<3>>(std::move(file), hooks));
 }
 
+Simulation Simulation::open(const std::filesystem::path& scene, const std::vector<std::string>& set,
+                            const SimulationHooks& hooks) {
+  return made(read_scene(scene, set), hooks);
+}
+
 Simulation Simulation::of_text(const std::string& toml, const std::filesystem::path& folder,
-                               const std::vector<std::string>& set, SimulationHooks hooks) {
-  auto file = read_scene_text(toml, (folder / "scene.toml").string(), set);
-  if (file.scene.dimension == 2) return Simulation(std::make_unique<StateOf<2>>(std::move(file), hooks));
-  return Simulation(std::make_unique<StateOf<3>>(std::move(file), hooks));
+                               const std::vector<std::string>& set, const SimulationHooks& hooks) {
+  return made(read_scene_text(toml, (folder / "scene.toml").string(), set), hooks);
 }
 
 bool Simulation::advance() { return state_->advance(end()); }
@@ -236,11 +230,7 @@ double Simulation::dt() const { return state_->tried() ? state_->tried()->dt : 0
 long Simulation::steps() const { return state_->loop().steps; }
 int Simulation::passes() const { return state_->tried() ? state_->tried()->report.passes : 0; }
 
-std::vector<std::string> Simulation::body_names() const {
-  std::vector<std::string> names;
-  for (const auto& body : state_->file().scene.bodies) names.push_back(body.name);
-  return names;
-}
+std::vector<std::string> Simulation::body_names() const { return apps::body_names(state_->file().scene); }
 
 std::vector<BodyNow> Simulation::bodies() const {
   state_->expect_tried();
@@ -276,9 +266,7 @@ void Simulation::restore(const std::filesystem::path& folder) {
                              (stored.bad.empty() ? "holds no checkpoint" : "checkpoint " + stored.bad.front()));
   const auto& state = stored.good.front().state;
   if (state.scene != resolved()) throw std::runtime_error(folder.string() + ": is the checkpoint of another scene");
-  std::istringstream stepper(state.stepper);
-  state_->stepper().load(stepper);
-  state_->loop() = state.loop;
+  put_back(state, state_->stepper(), state_->loop());
   state_->forget();
 }
 

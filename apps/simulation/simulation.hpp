@@ -16,6 +16,9 @@
 #include <vector>
 
 namespace splashdown {
+namespace apps {
+struct SceneFile;
+}
 
 /// A body at t_n. World frame. In two dimensions vectors have no third entry but spins and moments, which have it alone; loads and
 /// masses are per metre of depth.
@@ -80,10 +83,10 @@ class Simulation {
  public:
   /// The scene of a file, with texts `key=value` set in it.
   static Simulation open(const std::filesystem::path& scene, const std::vector<std::string>& set = {},
-                         SimulationHooks hooks = {});
+                         const SimulationHooks& hooks = {});
   /// The scene of a text; files that it names are looked for in `folder`.
   static Simulation of_text(const std::string& toml, const std::filesystem::path& folder = ".",
-                            const std::vector<std::string>& set = {}, SimulationHooks hooks = {});
+                            const std::vector<std::string>& set = {}, const SimulationHooks& hooks = {});
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
@@ -120,6 +123,7 @@ class Simulation {
   template <int d>
   class StateOf;
   explicit Simulation(std::unique_ptr<State> state);
+  static Simulation made(apps::SceneFile file, const SimulationHooks& hooks);
   std::unique_ptr<State> state_;
 };
 

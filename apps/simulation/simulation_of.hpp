@@ -1,9 +1,7 @@
 // A scene's world and its steps, in two dimensions or in three.
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <string>
 
 #include "apps/build/build.hpp"
 #include "apps/record/recorder.hpp"

@@ -1,6 +1,7 @@
 """The command, called: each function is one of its words, and options have the command's names."""
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -10,7 +11,7 @@ from pathlib import Path
 
 from ._results import Result, StudyResult
 from ._simulation import CannotGoOn, SceneError
-from ._toml import scene_text
+from ._toml import scene_text, toml_value
 
 _DONE, _BAD_INPUT, _CANNOT_GO_ON, _INTERRUPTED = 0, 2, 3, 130
 
@@ -44,9 +45,7 @@ def _call(arguments: list[str]) -> str:
 
 def _options(set: Mapping | Iterable[str] | None, named: Mapping) -> list[str]:
     """--set KEY=VALUE and --NAME VALUE."""
-    from ._toml import _value
-
-    texts = [f"{key}={_value(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set or [])
+    texts = [f"{key}={toml_value(value)}" for key, value in set.items()] if isinstance(set, Mapping) else list(set or [])
     out = [part for text in texts for part in ("--set", text)]
     for name, value in named.items():
         option = "--" + name.rstrip("_").replace("_", "-")
@@ -106,8 +105,6 @@ def study(file: str | Path, out: str | Path | None = None, **options) -> StudyRe
 
 def price(scene, out: str | Path | None = None, *, set: Mapping | Iterable[str] | None = None, **options) -> dict:
     """What accuracy costs (docs/price.md): price.json as dictionaries."""
-    import json
-
     folder = _folder(out)
     _call(["price", str(_file(scene, folder.parent if out is None else folder)), "--out", str(folder), *_options(set, options)])
     return json.loads((folder / "price.json").read_text())

@@ -1,6 +1,7 @@
 """What a run or a study left in its folder."""
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 
@@ -47,8 +48,6 @@ class Result:
 
         Columns and their units: docs/files.md.
         """
-        import csv
-
         import numpy
 
         path = self.folder / f"{name}.csv"
@@ -87,8 +86,6 @@ class StudyResult:
     """
 
     def __init__(self, folder: str | Path):
-        import csv
-
         self.folder = Path(folder)
         path = self.folder / "study.csv"
         if not path.is_file():

@@ -5,18 +5,18 @@ import json
 from collections.abc import Mapping
 
 
-def _value(value) -> str:
+def toml_value(value) -> str:
     """As TOML writes it."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{_key(k)} = {toml_value(v)}" for k, v in value.items()) + "}"
     if hasattr(value, "tolist"):  # of NumPy
-        return _value(value.tolist())
+        return toml_value(value.tolist())
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_value(v) for v in value) + "]"
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
     if isinstance(value, (int, float)):
         return repr(value)
     raise TypeError(f"{value!r} of type {type(value).__name__}: a scene holds numbers, texts, lists and tables")
@@ -33,4 +33,4 @@ def scene_text(scene: Mapping) -> str:
     time = {end = 0.1}
     body = [{name = "a"}]
     """
-    return "\n".join(f"{_key(key)} = {_value(value)}" for key, value in scene.items())
+    return "\n".join(f"{_key(key)} = {toml_value(value)}" for key, value in scene.items())

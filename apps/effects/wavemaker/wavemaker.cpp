@@ -10,6 +10,7 @@
 #include "apps/effects/waves/waves.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/reader.hpp"
+#include "apps/scene/scales.hpp"
 #include "fluid/effects/waves/dispersion.hpp"
 #include "fluid/effects/waves/wavemaker.hpp"
 
@@ -27,7 +28,6 @@ struct Flume {
   double face = 0;     ///< of the paddle at rest, along x [m]
   double inward = 1;   ///< 1: the water is at larger x; -1: at smaller
   double behind = 0;   ///< dry length of the tank [m]
-  double level = 0;    ///< of still water [m]
   double depth = 0;    ///< [m]
   double free = 0;     ///< height of the tank above the still level [m]
   double gravity = 0;  ///< [m/s^2]
@@ -35,11 +35,10 @@ struct Flume {
 
 /// Nothing where the scene has no such box, or no gravity straight down.
 std::optional<Flume> flume_of(const Scene& scene, const Wavemaker& table) {
-  if (!scene.fluid || !scene.tank || !scene.gravity) return {};
+  const auto gravity = straight_pull(scene);
+  if (!scene.fluid || !scene.tank || !gravity) return {};
   const int up = scene.dimension - 1;
-  const Point& g = scene.gravity->acceleration;
   constexpr double roundoff = 1e-9;
-  if (!(g[up] < 0) || g.head(up).norm() > roundoff * g.norm()) return {};
   const auto& tank = *scene.tank;
   const double slack = roundoff * (tank.max - tank.min).norm();
   for (const auto& region : scene.fluid->regions) {
@@ -56,10 +55,9 @@ std::optional<Flume> flume_of(const Scene& scene, const Wavemaker& table) {
     flume.face = at_lower ? box->min.x() : box->max.x();
     flume.inward = at_lower ? 1 : -1;
     flume.behind = at_lower ? flume.face - tank.min.x() : tank.max.x() - flume.face;
-    flume.level = box->max[up];
-    flume.depth = flume.level - tank.min[up];
-    flume.free = tank.max[up] - flume.level;
-    flume.gravity = -g[up];
+    flume.depth = box->max[up] - tank.min[up];
+    flume.free = tank.max[up] - box->max[up];
+    flume.gravity = *gravity;
     if (flume.depth > 0) return flume;
   }
   return {};

@@ -19,7 +19,6 @@ using std::numbers::pi;
 
 // What there has to be before a sea can be made.
 bool has_a_tank_of_water(const Scene& scene, Problems& problems) {
-  const int up = scene.dimension - 1;
   const auto fail = [&](const std::string& rule, const std::string& cure) {
     problems.add("waves", rule, cure);
     return false;
@@ -28,8 +27,7 @@ bool has_a_tank_of_water(const Scene& scene, Problems& problems) {
   if (!scene.tank)
     return fail("needs a [tank]: the sea is kept alive along its sides", "Add [tank] or remove the table.");
   if (!scene.gravity) return fail("needs [gravity]", "Add [gravity] or remove the table.");
-  const Point& g = scene.gravity->acceleration;
-  if (!(g[up] < 0) || g.head(up).norm() > 1e-9 * g.norm())
+  if (!straight_pull(scene))
     return fail("needs gravity that points straight down", "Turn the scene so that the last axis is up.");
   if (scene.effects.find<Absorber>()) return fail("absorbs other waves itself", "Remove [fluid.absorber].");
   if (wavy_region(scene) < 0)

@@ -18,8 +18,7 @@ std::vector<double> numbers(const std::vector<VtuArray>& arrays, const std::stri
 
 }  // namespace
 
-Grid read_grid(const std::filesystem::path& path, const std::string& scalar) {
-  const VtuGrid data = read_vtu(path);
+Grid grid_of(const VtuGrid& data, const std::string& scalar) {
   Grid grid;
   if (const auto time = numbers(data.field_data, "TimeValue"); !time.empty()) grid.time = time.front();
   if (const auto forward = numbers(data.field_data, "forward"); forward.size() == 3)
@@ -35,5 +34,7 @@ Grid read_grid(const std::filesystem::path& path, const std::string& scalar) {
   }
   return grid;
 }
+
+Grid read_grid(const std::filesystem::path& path, const std::string& scalar) { return grid_of(read_vtu(path), scalar); }
 
 }  // namespace splashdown::apps

@@ -18,6 +18,9 @@ struct Grid {
   Point3 forward{1, 0, 0};  ///< of a body: where its x axis points
 };
 
+struct VtuGrid;
+/// Of what a file holds.
+Grid grid_of(const VtuGrid& data, const std::string& scalar = "p");
 /// Throws std::runtime_error if the file cannot be read.
 Grid read_grid(const std::filesystem::path& path, const std::string& scalar = "p");
 

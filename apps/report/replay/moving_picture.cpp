@@ -10,47 +10,23 @@
 
 #include "apps/record/frames/frames.hpp"
 #include "apps/record/frames/vtu.hpp"
+#include "apps/record/frames/vtu_grid.hpp"
 
 namespace splashdown::apps {
 namespace {
 
-const VtuArray* array_called(const VtuGrid& grid, const char* name) {
-  const auto found = std::ranges::find(grid.point_data, name, &VtuArray::name);
-  return found == grid.point_data.end() ? nullptr : &*found;
-}
-
-std::vector<double> vtu_pressure(const VtuGrid& grid) {
-  const auto* p = array_called(grid, "p");
-  const auto* values = p ? std::get_if<std::vector<double>>(&p->values) : nullptr;
-  return values ? *values : std::vector<double>{};
-}
-
-MovingPart all_points(const VtuGrid& grid) {
-  MovingPart part;
-  for (std::size_t i = 0; i + 2 < grid.points.size(); i += 3)
-    part.points.push_back({grid.points[i], grid.points[i + 1], grid.points[i + 2]});
-  part.pressure = vtu_pressure(grid);
-  return part;
-}
-
-/// Cells of one kind, by their corners.
-std::vector<int> vtu_cells(const VtuGrid& grid, VtuCell kind) {
+/// Cells of so many corners, one after the other.
+std::vector<int> cells_with(const Grid& grid, std::size_t corners) {
   std::vector<int> cells;
-  int begin = 0;
-  for (std::size_t c = 0; c < grid.offsets.size(); begin = grid.offsets[c++])
-    if (grid.types[c] == static_cast<unsigned char>(kind))
-      cells.insert(cells.end(), grid.connectivity.begin() + begin, grid.connectivity.begin() + grid.offsets[c]);
+  for (const auto& cell : grid.cells)
+    if (cell.size() == corners) cells.insert(cells.end(), cell.begin(), cell.end());
   return cells;
 }
 
 /// Faces of tetrahedra that belong to one alone and have a node of the free surface, the others on it too: the surface of the water.
-std::vector<int> water_surface_of(const VtuGrid& grid) {
-  const auto tetrahedra = vtu_cells(grid, VtuCell::tetrahedron);
-  const auto* kinds = array_called(grid, "kind");
-  const auto* kind = kinds ? std::get_if<std::vector<unsigned char>>(&kinds->values) : nullptr;
-  if (!kind) return {};
+std::vector<int> water_surface_of(const std::vector<int>& tetrahedra, const std::vector<double>& kinds) {
   const auto is = [&](int node, NodeKind what) {
-    return (*kind)[static_cast<std::size_t>(node)] == static_cast<unsigned char>(what);
+    return kinds[static_cast<std::size_t>(node)] == static_cast<double>(what);
   };
   const auto is_free = [&](int node) { return is(node, NodeKind::free_surface); };
   std::map<std::array<int, 3>, std::array<int, 3>> once;  // sorted -> as it stands
@@ -79,7 +55,7 @@ void compact_part(MovingPart& part) {
     if (at < 0) {
       at = static_cast<int>(kept.points.size());
       kept.points.push_back(part.points[static_cast<std::size_t>(node)]);
-      if (!part.pressure.empty()) kept.pressure.push_back(part.pressure[static_cast<std::size_t>(node)]);
+      kept.pressure.push_back(part.pressure[static_cast<std::size_t>(node)]);
     }
     node = at;
   }
@@ -158,19 +134,19 @@ MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_
     MovingFrame frame{.time = from.time, .water = {}, .bodies = {}};
     for (const auto& [part, file] : from.pieces) {
       if (part == "tank") continue;
-      const auto grid = read_vtu(run / file);
-      auto moving = all_points(grid);
+      const auto data = read_vtu(run / file);
+      auto grid = grid_of(data);
+      const auto tetrahedra = cells_with(grid, 4);
+      MovingPart moving{std::move(grid.points), cells_with(grid, 3), std::move(grid.values)};
       if (part == "fluid") {
-        moving.cells = vtu_cells(grid, VtuCell::triangle);
-        if (moving.cells.empty() && !vtu_cells(grid, VtuCell::tetrahedron).empty()) {
+        if (!tetrahedra.empty()) {
           picture.dimension = 3;
-          moving.cells = water_surface_of(grid);
+          moving.cells = water_surface_of(tetrahedra, grid_of(data, "kind").values);
         }
         compact_part(moving);
         frame.water = std::move(moving);
       } else {
-        moving.cells = vtu_cells(grid, VtuCell::triangle);
-        if (moving.cells.empty()) moving.cells = vtu_cells(grid, VtuCell::line);
+        if (moving.cells.empty()) moving.cells = cells_with(grid, 2);
         if (i == 0) picture.names.push_back(part);
         frame.bodies.push_back(std::move(moving));
       }
@@ -203,7 +179,7 @@ PackedPicture packed(const MovingPicture& picture) {
     for (const auto& body : frame.bodies)
       entry["bodies"].push_back(packer.add(body, &frame == &picture.frames.front()));
   }
-  return {json.dump(), std::move(packer.bytes)};
+  return {json.dump(), std::move(packer.bytes), limit};
 }
 
 }  // namespace splashdown::apps

@@ -12,7 +12,7 @@ namespace splashdown::apps {
 struct MovingPart {
   std::vector<std::array<double, 3>> points;
   std::vector<int> cells;        ///< three points a triangle; of bodies in the plane two a segment
-  std::vector<double> pressure;  ///< at the points [Pa]; empty: none
+  std::vector<double> pressure;  ///< at the points [Pa]; zero where a file has none
 };
 
 struct MovingFrame {
@@ -37,6 +37,7 @@ MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_
 struct PackedPicture {
   std::string json;
   std::string bytes;  ///< little-endian
+  double limit = 0;   ///< where the colours end [Pa]
 };
 PackedPicture packed(const MovingPicture& picture);
 

@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "apps/record/frames/vtu_blocks.hpp"
@@ -64,8 +63,7 @@ Replay replay_of(const std::filesystem::path& run) {
         "no replay: three.js is not there (Debian: apt-get install libjs-three), then splashdown report");
     return replay;
   }
-  const auto [json, bytes] = packed(picture);
-  const double limit = nlohmann::json::parse(json)["pressure"].get<double>();
+  const auto [json, bytes, limit] = packed(picture);
   replay.html = fmt::format(
       R"(<h2>Replay</h2>
 <style>#replay .bar2{{display:flex;flex-wrap:wrap;gap:8px 14px;align-items:center;margin-top:10px}}#replay input[type=range]{{flex:1 1 160px;min-width:0}}

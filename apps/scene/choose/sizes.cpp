@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/scene/choose/round_numbers.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/outlook/motion_guess.hpp"
@@ -30,17 +31,12 @@ struct Rules<3> {
 };
 constexpr double of_calm_surface = 5, of_waves = 20, of_liquid = 30, a_wave = 40, far_of_liquid = 8;
 constexpr double wet_from = 0.02;           // of its height under water at the start: more than a touch
-constexpr double rounded = 1.05;            // what two digits make of a size
+constexpr double rounding = 1.05;           // what two digits make of a size
 constexpr double of_root = 0.2, a_jet = 2;  // elements on a root's radius; across a jet
 constexpr double finest_root = 8;           // times smaller than the hull's: steps shrink with it
 constexpr double gentle_froude2 = 0.1;      // V^2 / (g c): a hull that is put down, not thrown
 
-double two_digits(double value) {
-  const int digit = static_cast<int>(std::floor(std::log10(value))) - 1;
-  const double step =
-      std::pow(10., std::abs(digit));  // a whole number: what is divided by it is the nearest to its decimals
-  return digit < 0 ? std::round(value * step) / step : std::round(value / step) * step;
-}
+double two_digits(double value) { return rounded(value, 2); }
 
 template <int d>
 struct Hull {
@@ -57,7 +53,7 @@ struct Hull {
 template <int d>
 double allowance(const Sizes& size, const Hull<d>& hull) {
   const bool fine_root = d == 3 && hull.enters && size.hollow && size.hollow_min <= hull.size() / 2;
-  return fine_root ? 2 * rounded : rounded;
+  return fine_root ? 2 * rounding : rounding;
 }
 
 /// Speed at the water, downward [m/s].
@@ -124,7 +120,7 @@ std::optional<std::string> jet_against_rules(const Scene& scene, const Body& bod
   if (!jet) return {};
   const auto& size = scene.fluid->size;
   const double most = *jet / a_jet, finest = size.hollow ? std::min(size.hollow_min, body.size) : body.size;
-  if (finest <= rounded * most) return {};
+  if (finest <= rounding * most) return {};
   const std::string given =
       size.hollow ? fmt::format("fluid.size.hollow_min = {:.3g} m", size.hollow_min)
                   : fmt::format("body.{}.size = {:.3g} m without fluid.size.hollow", body.name, body.size);
@@ -239,7 +235,7 @@ std::optional<std::pair<double, std::string>> root_size(const Scene& scene, cons
     const auto jet = thin_jet(body, hulls[b]);
     const double hull = body.size > 0 ? body.size : hulls[b].size();
     const bool is_pushed = body.motion == Motion::prescribed && hulls[b].half < hulls[b].breadth / 2;
-    if (!jet || !is_pushed || hull <= rounded * *jet / a_jet) continue;
+    if (!jet || !is_pushed || hull <= rounding * *jet / a_jet) continue;
     const double two = *jet / a_jet, least = hulls[b].size() / finest_root, size = std::max(two, least);
     if (finest && finest->first <= size) continue;
     finest.emplace(
@@ -306,7 +302,7 @@ std::vector<std::string> sizes_against_rules(const Scene& scene) {
           size.wetted_fraction, 1 / size.wetted_fraction, 1 / Rules<d>::wetted_fraction, Rules<d>::wetted_fraction));
     if (auto jet = jet_against_rules(scene, body, hull)) list.push_back(std::move(*jet));
   }
-  if (choice.surface > 0 && size.surface > rounded * choice.surface)
+  if (choice.surface > 0 && size.surface > rounding * choice.surface)
     list.push_back(fmt::format("fluid.size.surface = {:.3g} m is more than {}: use {:.2g} m", size.surface,
                                choice.surface_why, two_digits(choice.surface)));
   const double most_growth = 0.3;  // of the examples

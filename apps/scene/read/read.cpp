@@ -54,14 +54,15 @@ void read_output(Reader& reader, Output& output) {
   reader.number("checkpoint", output.checkpoint, positive("s", "Use wall-clock seconds, e.g. 60."));
 }
 
-/// The tables of effects that stand there, each by its own kind.
-void read_effects(Reader& around, TablePlace place, Scene& scene) {
+/// The tables of effects that stand there, each by its own kind. A body that one makes is told by its table.
+void read_effects(Reader& around, TablePlace place, Scene& scene, SceneLabels& labels) {
   for (const auto* kind : effect_kinds()) {
     if (kind->place() != place) continue;
     if (place == TablePlace::array || place == TablePlace::body_array)
       around.each_table(kind->name(), [&](Reader& reader) { kind->read(reader, scene); });
     else if (auto reader = around.table(kind->name()))
       kind->read(*reader, scene);
+    labels.bodies.resize(scene.bodies.size(), std::string(kind->name()));
   }
 }
 
@@ -76,18 +77,18 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     root.context().clip_to = scene.time.end;
   if (auto fluid = root.table("fluid")) {
     read_fluid(*fluid, scene.fluid.emplace());
-    read_effects(*fluid, TablePlace::fluid, scene);
+    read_effects(*fluid, TablePlace::fluid, scene, labels);
   }
   if (scene.fluid)
     for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
       labels.regions.push_back(fmt::format("fluid.region[{}]", i));
   if (auto tank = root.table("tank")) read_tank(*tank, scene);
-  read_effects(root, TablePlace::scene, scene);
+  read_effects(root, TablePlace::scene, scene, labels);
   root.each_table("body", [&](Reader& reader) {
     labels.bodies.push_back(reader.path());
     read_body(reader, scene.bodies.emplace_back(), scene);
-    read_effects(reader, TablePlace::body, scene);
-    read_effects(reader, TablePlace::body_array, scene);
+    read_effects(reader, TablePlace::body, scene, labels);
+    read_effects(reader, TablePlace::body_array, scene, labels);
   });
   root.each_table("joint", [&](Reader& reader) {
     auto joint = read_joint(reader, scene);
@@ -96,9 +97,8 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     scene.joints.push_back(*joint);
   });
   if (auto contact = root.table("contact")) read_contact(*contact, scene.contact.emplace());
-  read_effects(root, TablePlace::after_bodies, scene);
-  labels.bodies.resize(scene.bodies.size(), "wavemaker");  // the one effect that makes a body
-  read_effects(root, TablePlace::array, scene);
+  read_effects(root, TablePlace::after_bodies, scene, labels);
+  read_effects(root, TablePlace::array, scene, labels);
   scene.time.dt_max = default_dt_max(scene);
   time.number("dt_max", scene.time.dt_max,
               refined(positive("s", "Leave it out for a sensible value."), refine_of(scene)));

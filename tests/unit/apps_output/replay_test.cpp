@@ -108,9 +108,10 @@ TEST(Replay, bytes_hold_places_and_pressures_within_their_steps) {
     frame.bodies = {body};
     picture.frames.push_back(frame);
   }
-  const auto [text, bytes] = packed(picture);
+  const auto [text, bytes, colours_end] = packed(picture);
   const auto json = nlohmann::json::parse(text);
   const double limit = json["pressure"];
+  EXPECT_EQ(limit, colours_end);
   std::size_t at = 0;
   const auto take = [&]<class Number>(std::size_t count, Number) {
     std::vector<Number> numbers(count, 0);
