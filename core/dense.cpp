@@ -1,6 +1,7 @@
 #include "core/dense.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -31,6 +32,11 @@ Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, doubl
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
   svd.setThreshold(negligible);
   return {svd.solve(b), svd.matrixV().rightCols(n - svd.rank()), svd.matrixU().rightCols(A.rows() - svd.rank())};
+}
+
+Principal principal_of(const Eigen::MatrixXd& A) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 }  // namespace splashdown::algebra

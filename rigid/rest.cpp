@@ -1,6 +1,5 @@
 #include "rigid/rest.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -263,24 +262,24 @@ Eigen::VectorXd Settling<d>::step(const Place& at, const Conditions& conditions,
   const double neutral = facets_share * stiff_, balance = 1e-9 * stiff_ * size_;
   const Eigen::MatrixXd stiffness =
       algebra::congruence(now.stiffness, modes) + joint_stiffness(at, conditions, now.force, modes);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(stiffness);
-  const Eigen::VectorXd along = principal.eigenvectors().transpose() * (modes.transpose() * now.force);
-  Eigen::VectorXd curvatures = principal.eigenvalues(), pushes = along;
+  const auto principal = algebra::principal_of(stiffness);
+  const Eigen::VectorXd along = principal.directions.transpose() * (modes.transpose() * now.force);
+  Eigen::VectorXd curvatures = principal.values, pushes = along;
   for (Eigen::Index k = 0; k < along.size(); ++k) {
     if (std::abs(curvatures[k]) <= neutral && std::abs(along[k]) <= 0.1 * neutral * size_) pushes[k] = 0;
     curvatures[k] = std::max(std::abs(curvatures[k]), neutral);
   }
   // Both as on all bodies: modes^T (U^2 modes) = 1.
-  const Eigen::MatrixXd dual = unit_.cwiseAbs2().asDiagonal() * modes * principal.eigenvectors();
-  p.inertia = dual * curvatures.asDiagonal() * dual.transpose();
+  const Eigen::MatrixXd dual = unit_.cwiseAbs2().asDiagonal() * modes * principal.directions;
+  p.inertia = algebra::lifted(dual, curvatures.asDiagonal());
   p.impulse = dual * pushes;
   ConstraintSolver motions(p);
   const auto found = motions.settled(Eigen::VectorXd::Zero(p.impulse.size()));
   Eigen::VectorXd step = found ? *found : Eigen::VectorXd::Zero(p.before.size());
   const double most = stride(at), length = farthest(step);
-  unstable_ = length <= balance / stiff_ && principal.eigenvalues()[0] < -neutral;
+  unstable_ = length <= balance / stiff_ && principal.values[0] < -neutral;
   if (unstable_) {
-    const Eigen::VectorXd off = modes * principal.eigenvectors().col(0);
+    const Eigen::VectorXd off = modes * principal.directions.col(0);
     const double turns = unit_.cwiseProduct(off).sum();
     return (turns < 0 ? -most : most) / farthest(off) * off;
   }
