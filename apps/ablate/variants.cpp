@@ -7,8 +7,10 @@
 #include <optional>
 
 #include "apps/advise/advise.hpp"
+#include "apps/effects/symmetry/symmetry.hpp"
 #include "apps/price/ladder.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
+#include "apps/scene/mirror.hpp"
 #include "apps/scene/read/echo.hpp"
 
 namespace splashdown::apps {
@@ -91,6 +93,18 @@ void add_tank(const SceneToAblate& of, std::vector<Variant>& variants) {
   variants.push_back({"larger_tank", VariantKind::choice, "tank", larger_tank_of(of.scene, of.name), {}});
 }
 
+/// Half of a scene that is its own mirror image.
+void add_half(const SceneToAblate& of, std::vector<Variant>& variants) {
+  if (mirror_of(of.scene)) return;  // without_symmetry is there
+  if (const auto mirror = mirror_of_whole(of.scene))
+    variants.push_back(
+        {"half",
+         VariantKind::choice,
+         "symmetry",
+         {fmt::format("symmetry.normal={}", "xy"[mirror->axis]), fmt::format("symmetry.at={}", mirror->at)},
+         {}});
+}
+
 }  // namespace
 
 const char* word(VariantKind kind) {
@@ -113,6 +127,7 @@ std::vector<Variant> variants_of(const SceneToAblate& of) {
   add_slip(of, variants);
   add_freedoms(of, variants);
   add_tank(of, variants);
+  add_half(of, variants);
   return variants;
 }
 

@@ -16,7 +16,7 @@ struct SceneToAblate {
 };
 
 /// The scene as it is first, then without each effect, then with each one that is advised, then its choices: slip of walls, freedoms
-/// of bodies, size of the tank.
+/// of bodies, size of the tank, half of a symmetric scene.
 std::vector<Variant> variants_of(const SceneToAblate& of);
 
 }  // namespace splashdown::apps

@@ -22,6 +22,17 @@ class HalfForce final : public Force<d> {
     look(at, [&](const BodiesAt<d>& seen) { of_whole_->add(seen, whole); });
     for (std::size_t b = 0; b < whole.size(); ++b) wrenches[b] += 0.5 * whole[b];
   }
+  bool is_of_velocity() const override { return of_whole_->is_of_velocity(); }
+  void pull(const BodiesAt<d>& at, std::vector<Pull<d>>& pulls) const override {
+    const std::size_t before = pulls.size();
+    look(at, [&](const BodiesAt<d>& seen) { of_whole_->pull(seen, pulls); });
+    for (std::size_t p = before; p < pulls.size(); ++p) pulls[p].impulse *= 0.5, pulls[p].inertia *= 0.5;
+  }
+  void commit(const BodiesAt<d>& at) override {
+    look(at, [&](const BodiesAt<d>& seen) { of_whole_->commit(seen); });
+  }
+  void save(std::ostream& out) const override { of_whole_->save(out); }
+  void load(std::istream& in) override { of_whole_->load(in); }
   double stable_dt(const BodiesAt<d>& at) const override {
     double dt = 0;
     look(at, [&](const BodiesAt<d>& seen) { dt = of_whole_->stable_dt(seen); });

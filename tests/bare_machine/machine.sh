@@ -21,10 +21,24 @@ in_machine() {  # in_machine NAME COMMAND...
   local root=$work/$1
   shift
   mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
-  mountpoint -q "$root/dev" || mount --bind /dev "$root/dev"
+  mountpoint -q "$root/dev" || devices "$root/dev"
   cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
   chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
     ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} DEBIAN_FRONTEND=noninteractive "$@"
+}
+
+devices() {  # devices FOLDER: nodes of its own, never those of this machine
+  local node name major minor
+  mount -t tmpfs -o mode=755 tmpfs "$1"
+  for node in null:1:3 zero:1:5 full:1:7 random:1:8 urandom:1:9 tty:5:0; do
+    IFS=: read -r name major minor <<<"$node"
+    mknod -m 666 "$1/$name" c "$major" "$minor"
+  done
+  ln -s /proc/self/fd "$1/fd"
+  ln -s fd/0 "$1/stdin"
+  ln -s fd/1 "$1/stdout"
+  ln -s fd/2 "$1/stderr"
+  mkdir -m 1777 "$1/shm"
 }
 
 end_machine() {  # end_machine NAME: nothing of this machine is mounted there any more

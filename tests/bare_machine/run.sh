@@ -7,6 +7,8 @@
 # paraview  with Debian's ParaView there before, which stays; it reads what was written
 # The others take over root's build: they install and run, and compile nothing. Exit code 77: cannot be tried here.
 set -euo pipefail
+# In a mount namespace of its own: what it mounts is gone when it ends, however it ends.
+[[ -n ${SPLASHDOWN_OWN_MOUNTS:-} || $(id -u) != 0 ]] || SPLASHDOWN_OWN_MOUNTS=yes exec unshare --mount --propagation private "$0" "$@"
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 release=bookworm
 most_megabytes=630    # README: 0.62 GB

@@ -59,6 +59,7 @@ class LinesKind final : public EffectOf<LinesKind, Lines> {
   void check(const Scene& scene, Problems& problems) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+  std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;
 
  private:
   friend EffectOf;

@@ -15,7 +15,8 @@ namespace {
 
 using rigid::Vec;
 
-constexpr double facets = 1e-3;  // of a body: round hulls are as symmetric as their facets
+constexpr double facets = 1e-3;    // of a body: round hulls are as symmetric as their facets
+constexpr double elements = 0.15;  // of the hull's own: water does not feel less
 
 template <int d>
 class Judge {
@@ -82,11 +83,12 @@ class Judge {
   void body(const Body& body, const std::string& key) {
     const auto hull = outline<d>(body);
     const double length = extents<d>(hull).sizes().maxCoeff();
-    if (const auto off = asymmetry_of<d>(mirror_, hull); off.distance > facets * length) {
+    const double slack = std::max(facets * length, elements * body.size);
+    if (const auto off = asymmetry_of<d>(mirror_, hull); off.distance > slack) {
       const double middle = extents<d>(hull).center()[mirror_.axis] - mirror_.at;
       auto moved = hull;
       moved.vertices.row(mirror_.axis).array() -= middle;
-      const bool is_aside = asymmetry_of<d>(mirror_, moved).distance <= facets * length;
+      const bool is_aside = asymmetry_of<d>(mirror_, moved).distance <= slack;
       return add(
           key + ".shape",
           fmt::format("the mirror image of its vertex at {} m is {:.3g} m off the hull", text<d>(off.at), off.distance),
@@ -94,8 +96,19 @@ class Judge {
               ? fmt::format("The hull's middle lies {:g} m off the plane: move the body, or remove [symmetry].", middle)
               : "Turn the body or mend its shape, or remove [symmetry].");
     }
+    volume(body, key, length);
     weight(body, key, length);
     motion(body, key, length);
+  }
+
+  // A hull that is off by many small facets has as much of it on either side; one that is bent has not.
+  void volume(const Body& body, const std::string& key, double length) {
+    Body alone = body;
+    alone.centre_of_mass.reset();
+    const double off = mirror_.distance<d>(shape_pose<d>(alone) * mass_properties<d>(alone).centre);
+    if (std::abs(off) > facets * length)
+      add(key + ".shape", fmt::format("the centroid of the hull lies {:.3g} m off the plane", off),
+          "Turn the body or mend its shape, or remove [symmetry].");
   }
 
   void weight(const Body& body, const std::string& key, double length) {

@@ -45,6 +45,15 @@ void straighten(const Mirror& mirror, rigid::Isometry<d>& pose) {
 
 }  // namespace
 
+std::optional<Mirror> mirror_of_whole(const Scene& scene) {
+  if (!scene.fluid || !scene.tank) return {};
+  for (int axis = 0; axis < scene.dimension - 1; ++axis) {
+    const Mirror mirror{axis, 0.5 * (scene.tank->min[axis] + scene.tank->max[axis])};
+    if ((scene.dimension == 2 ? asymmetries<2>(scene, mirror) : asymmetries<3>(scene, mirror)).empty()) return mirror;
+  }
+  return {};
+}
+
 void SymmetryKind::read(Reader& reader, Scene& scene) const {
   auto& table = scene.effects.table<Symmetry>();
   if (scene.dimension == 2) table.normal = "x";
@@ -81,21 +90,15 @@ void SymmetryKind::check(const Scene& scene, Problems& problems) const {
 
 std::optional<EffectNote> SymmetryKind::note(const Scene& scene, const Scales&) const {
   if (!scene.fluid || !scene.tank) return {};
-  const auto judge = [&](const Mirror& mirror) {
-    return scene.dimension == 2 ? asymmetries<2>(scene, mirror) : asymmetries<3>(scene, mirror);
-  };
   if (const auto mirror = this->mirror(scene))
     return EffectNote{"symmetry", true,
                       fmt::format("about {}: half of the nodes; loads, masses and energies are those of the whole",
                                   plane_of(*mirror))};
-  for (int axis = 0; axis < scene.dimension - 1; ++axis) {
-    const Mirror mirror{axis, 0.5 * (scene.tank->min[axis] + scene.tank->max[axis])};
-    if (judge(mirror).empty())
-      return EffectNote{
-          "symmetry", false,
-          fmt::format("the scene is its own mirror image about {}: [symmetry] halves the nodes", plane_of(mirror))};
-  }
-  return EffectNote{"symmetry", false, "the scene is not its own mirror image"};
+  const auto mirror = mirror_of_whole(scene);
+  return EffectNote{
+      "symmetry", false,
+      mirror ? fmt::format("the scene is its own mirror image about {}: [symmetry] halves the nodes", plane_of(*mirror))
+             : "the scene is not its own mirror image"};
 }
 
 void SymmetryKind::prepare(const Scene& scene, const BodyParts<2>& parts) const {

@@ -38,4 +38,7 @@ struct Asymmetric {
 template <int d>
 std::vector<Asymmetric> asymmetries(const Scene& scene, const Mirror& mirror);
 
+/// The vertical plane through the middle of the tank about which a scene without [symmetry] is its own mirror image.
+std::optional<Mirror> mirror_of_whole(const Scene& scene);
+
 }  // namespace splashdown::apps

@@ -1,4 +1,5 @@
 // [symmetry]: what is read, what is refused because its mirror image is another, how surfaces are cut.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -102,6 +103,43 @@ INSTANTIATE_TEST_SUITE_P(
              "Set those with y to 0"},
             {"upright", {"symmetry.normal=z"}, "symmetry.normal = \"z\"", "'y'"}})),
     name_of);
+
+const std::string mooring = R"([[line]]
+name = "port"
+body = "capsule"
+point = [0.1, 0.1, 0]
+anchor = [1, 2, 0.5]
+length = 1
+axial_stiffness = 1e4
+)";
+std::string starboard() {
+  return testing::replaced(testing::replaced(mooring, "0.1, 0.1", "0.1, -0.1"), "1, 2,", "1, -2,");
+}
+std::string with_lines(const std::string& lines) {
+  return half_capsule + testing::replaced(lines, "\"port\"", "\"first\"");
+}
+
+TEST(MirroredScene, has_lines_in_its_plane_and_in_pairs) {
+  const auto second = testing::replaced(starboard(), "\"port\"", "\"second\"");
+  const auto middle = testing::replaced(testing::replaced(mooring, "0.1, 0.1", "0.1, 0"), "1, 2,", "1, 0,");
+  EXPECT_TRUE(testing::messages_of(with_lines(mooring) + second).empty());
+  EXPECT_TRUE(testing::messages_of(with_lines(middle)).empty());
+  for (const auto& alone : {mooring, starboard(), mooring + testing::replaced(second, "length = 1", "length = 1.1")}) {
+    const auto messages = testing::messages_of(with_lines(alone));
+    ASSERT_EQ(messages.size(), 1u) << alone;
+    EXPECT_NE(messages[0].find("has no mirror image"), std::string::npos) << messages[0];
+  }
+}
+
+// Facets of a round hull that are not their own mirror image: off by less than water feels. A hull that is bent is told.
+TEST(MirroredScene, takes_hulls_as_symmetric_as_their_elements) {
+  const auto sheared = [](double share) {
+    return testing::replaced(half_capsule, "pitch_deg = 10",
+                             fmt::format("pitch_deg = 10\nsize = 0.05\nheading_deg = {}", share));
+  };
+  EXPECT_TRUE(testing::messages_of(sheared(0.5)).empty());  // its ends are 3 mm off
+  EXPECT_FALSE(testing::messages_of(sheared(5)).empty());   // 30 mm
+}
 
 TEST(MirroredScene, keeps_what_is_told_and_halves_what_is_simulated) {
   const auto scene = read_scene_text(half_capsule, "scene.toml", {}).scene;
