@@ -11,6 +11,7 @@
 
 #include "apps/scene/rules/problems.hpp"
 #include "apps/simulation/simulation.hpp"
+#include "python/hydrostatics.hpp"
 
 namespace py = pybind11;
 using splashdown::BodyNow;
@@ -75,6 +76,7 @@ PYBIND11_MODULE(_simulation, m) {
   py::register_exception<splashdown::CannotGoOn>(m, "CannotGoOn", PyExc_RuntimeError).attr("__doc__") =
       "A simulation that found no step: when, where and why, and what may help.";
 
+  splashdown::add_hydrostatics(m);
   py::class_<BodyNow>(
       m, "Body", "A body at an instant. World frame, vectors of three; plane: the third entries are spins and moments.")
       .def_readonly("name", &BodyNow::name)

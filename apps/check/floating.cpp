@@ -57,13 +57,6 @@ void describe(const Scene&, const Resting<2>& resting, double level) {
                   attitude_text(rest.pose), rest.metacentric_height, height_text(rest.pose.translation().y() - level)));
 }
 
-/// The horizontal direction in which the nose (x axis of the shape) points, that of the world's x if it points up.
-rigid::Slope<3> length_axis(const rigid::Floating<3>& rest) {
-  const rigid::Slope<3> nose = rest.pose.linear().col(0).head<2>();
-  const double upright = 0.1;
-  return nose.norm() > upright ? rigid::Slope<3>(nose.normalized()) : rigid::Slope<3>::UnitX();
-}
-
 /// Where a value that rows of a curve have changes its sign from positive [deg], linear between them; nothing if it does not.
 template <class Value>
 std::optional<double> zero_of(const std::vector<rigid::Heeled>& curve, std::size_t from, const Value& value) {
@@ -96,8 +89,8 @@ void print_levers(const Scene& scene, const Resting<3>& resting, double level) {
   const auto& rest = *resting.floats;
   std::vector<double> heels;
   for (int degree = 0; degree <= 180; degree += 15) heels.push_back(degree * radians);
-  const auto curve =
-      rigid::righting_levers(spec.surface, rest, spec.mass, scene.fluid->density, level, length_axis(rest), heels);
+  const auto curve = rigid::righting_levers(spec.surface, rest, spec.mass, scene.fluid->density, level,
+                                            rigid::length_axis(rest), heels);
   const auto most =
       std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.lever < b.lever; });
   const double last = curve.back().heel / radians;
@@ -129,7 +122,7 @@ void describe(const Scene& scene, const Resting<3>& resting, double level) {
   const auto& rest = *resting.floats;
   row("at rest", fmt::format("floats with a draft of {:.5g} m, {}, centre of mass {}", rest.draft,
                              attitude_text(rest.pose), height_text(rest.pose.translation().z() - level)));
-  const rigid::Slope<3> length = length_axis(rest), across(-length.y(), length.x());
+  const rigid::Slope<3> length = rigid::length_axis(rest), across(-length.y(), length.x());
   const auto height = [&](const rigid::Slope<3>& direction) {
     const double gm = rigid::metacentric_height<3>(rest, direction);
     return std::abs(gm) < facets * extent<3>(resting.spec) ? 0 : gm;

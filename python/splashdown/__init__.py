@@ -8,12 +8,15 @@
     for now in splashdown.Simulation.open("scene.toml"):
         print(now.time, now.bodies["wedge"].force[1])
 
+    afloat = splashdown.hydrostatics("hull.stl", mass=12)
+    print(afloat.draft, afloat.gm_roll, afloat.levers.max())
+
 SI units; in two dimensions masses and loads are per metre of depth. Keys of scenes: docs/scene.md; files of runs: docs/files.md.
 """
 from ._command import CommandError, check, price, run, study, version
 from ._results import Result, StudyResult
-from ._simulation import Body, CannotGoOn, SceneError, Simulation
+from ._simulation import Afloat, Body, CannotGoOn, SceneError, Simulation, hydrostatics
 from ._toml import scene_text
 
-__all__ = ["Body", "CannotGoOn", "CommandError", "Result", "SceneError", "Simulation", "StudyResult", "check", "price", "run", "scene_text",
-           "study", "version"]
+__all__ = ["Afloat", "Body", "CannotGoOn", "CommandError", "Result", "SceneError", "Simulation", "StudyResult", "check", "hydrostatics", "price", "run",
+           "scene_text", "study", "version"]

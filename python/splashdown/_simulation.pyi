@@ -56,3 +56,32 @@ class Simulation:
     def pressure_at(self, point: Sequence[float]) -> float | None: ...
     def save(self, folder: str | PathLike[str]) -> None: ...
     def restore(self, folder: str | PathLike[str]) -> None: ...
+
+class Afloat:
+    volume: float
+    mass: float
+    centre_of_mass: ndarray
+    floats: bool
+    displacement: float
+    draft: float
+    heel: float
+    trim: float
+    waterplane: float
+    gm_roll: float
+    gm_pitch: float
+    freeboard: float
+    position: ndarray
+    rotation: ndarray
+    heels: ndarray
+    levers: ndarray
+    trims: ndarray
+
+def hydrostatics(
+    hull: str | PathLike[str],
+    mass: float,
+    centre_of_mass: Sequence[float] | None = ...,
+    *,
+    scale: float = ...,
+    density: float = ...,
+    heels: Sequence[float] = ...,
+) -> Afloat: ...

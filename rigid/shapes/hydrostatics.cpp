@@ -201,6 +201,12 @@ double metacentric_height(const Floating<d>& f, const Slope<d>& direction) {
   return direction.dot(metacentric_tensor(f) * direction);
 }
 
+Slope<3> length_axis(const Floating<3>& floating) {
+  const Slope<3> nose = floating.pose.linear().col(0).head<2>();
+  const double upright = 0.1;
+  return nose.norm() > upright ? Slope<3>(nose.normalized()) : Slope<3>::UnitX();
+}
+
 template <int d>
 std::optional<Floating<d>> floating_stable(const Surface<d>& surface, const Isometry<d>& pose, double mass,
                                            double density, double water_level, Hollow hollow) {

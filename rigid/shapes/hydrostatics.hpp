@@ -72,6 +72,9 @@ using Slope = Eigen::Matrix<double, d - 1, 1>;
 template <int d>
 double metacentric_height(const Floating<d>& floating, const Slope<d>& direction);
 
+/// The horizontal direction in which the nose (x axis of the body) points, that of the world's x if it points up.
+Slope<3> length_axis(const Floating<3>& floating);
+
 /// Where a body floats when it may heel and trim: the stable attitude that its righting moments lead to from the given
 /// one (in the plane counter-clockwise if that one is an unstable balance). Found by descent of the height of the
 /// centre of mass over that of buoyancy, which is the energy over the weight. Yaw stays as it is.

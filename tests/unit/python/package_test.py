@@ -30,6 +30,55 @@ STONE = {"time": {"end": 1, "dt_max": 0.01}, "gravity": {}, "body": [{"name": "s
                                                                      "velocity": [3, 4]}]}
 
 
+def stl_of_box(size) -> str:
+    """ASCII, about the origin."""
+    corners = [[(-0.5 + (k >> a & 1)) * size[a] for a in range(3)] for k in range(8)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    facets = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    text = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex {} {} {}\n".format(*corners[k]) for k in facet) + "endloop\nendfacet\n"
+                   for facet in facets)
+    return "solid box\n" + text + "endsolid box\n"
+
+
+class Hydrostatics(unittest.TestCase):
+    def afloat(self, size, share, **options):
+        """A box with a share of the water's density; the file is in millimetres."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "box.stl")
+            file.write_text(stl_of_box([1000 * s for s in size]))
+            return splashdown.hydrostatics(file, share * 1000 * math.prod(size), scale=0.001, **options)
+
+    def test_a_box_has_the_draft_and_heights_of_archimedes(self):
+        random = np.random.default_rng(3)
+        for _ in range(10):
+            breadth, height, share = random.uniform(0.5, 1), random.uniform(0.1, 0.15), random.uniform(0.2, 0.8)
+            length, heels = 1.5, np.radians([0, 1, 2])
+            box = self.afloat([length, breadth, height], share, heels=np.degrees(heels))
+            draft = share * height
+            gm = breadth**2 / (12 * draft) - 0.5 * (height - draft)
+            self.assertTrue(box.floats)
+            self.assertAlmostEqual(box.draft, draft, delta=1e-9)
+            self.assertAlmostEqual(box.gm_roll, gm, delta=1e-9 * gm)
+            self.assertAlmostEqual(box.gm_pitch, length**2 / (12 * draft) - 0.5 * (height - draft), delta=1e-6)
+            self.assertAlmostEqual(box.waterplane, length * breadth, delta=1e-9)
+            # wall-sided: GZ = sin(phi) (GM + BM tan^2(phi)/2), while deck and bottom stay dry and wet
+            gz = np.sin(heels) * (gm + breadth**2 / (24 * draft) * np.tan(heels) ** 2)
+            np.testing.assert_allclose(box.levers, gz, atol=1e-9)
+
+    def test_a_low_centre_of_mass_rights_and_lead_sinks(self):
+        box = self.afloat([1, 1, 1], 0.5, centre_of_mass=[0, 0, -0.3])
+        self.assertAlmostEqual(box.draft, 0.5, delta=1e-9)
+        self.assertGreater(box.gm_roll, 0)
+        self.assertFalse(self.afloat([1, 1, 1], 1.2).floats)
+
+    def test_mistakes_are_told(self):
+        for options, words in (({"mass": -1}, "mass = -1: must be positive"), ({"heels": [10, 5]}, "must rise")):
+            with self.assertRaisesRegex(ValueError, words):
+                splashdown.hydrostatics(EXAMPLES / "uav_landing" / "uav.stl", **{"mass": 100, **options})
+        with self.assertRaisesRegex(ValueError, "nowhere.stl"):
+            splashdown.hydrostatics("nowhere.stl", 1)
+
+
 class Steps(unittest.TestCase):
     def test_a_loop_sees_what_the_command_writes_bit_for_bit(self):
         result = splashdown.run(DROP, report=False, threads=1)
