@@ -18,7 +18,7 @@ enum class BodyMotion { free, fixed, prescribed };
 /// When a prescribed body becomes free: as soon as one of these holds at the end of a step.
 struct Release {
   std::optional<double> time = {};  ///< it is this time, which a step ends at [s]
-  bool at_contact = false;          ///< its hull is wet
+  bool at_contact = false;          ///< its hull is wet, or a body that moves touches it
   std::optional<double> load = {};  ///< the water's load on it is so large [N, N/m]
 };
 

@@ -86,6 +86,15 @@ Twist<d> Bodies<d>::System::acceleration(std::size_t i, Wrench<d> sum) const {
 }
 
 template <int d>
+bool Bodies<d>::System::is_touched(std::size_t body) const {
+  const std::size_t contacts_of_bodies = near.size() - stopped.size();
+  for (std::size_t c = 0; c < contacts_of_bodies; ++c)
+    if (constraints.closed(static_cast<Eigen::Index>(c)) && (near[c].body == body || near[c].other == body))
+      return true;
+  return false;
+}
+
+template <int d>
 void Bodies<d>::System::release() {
   constexpr double roundoff = 1e-9;  // of a step: what sums of them miss
   for (std::size_t i = 0; i < specs.size(); ++i) {
@@ -93,7 +102,8 @@ void Bodies<d>::System::release() {
     const auto& asked = *specs[i].release;
     const bool is_loaded = loads.size() > 0 && asked.load &&
                            loads.segment<d>(freedoms<d> * static_cast<Eigen::Index>(i)).norm() >= *asked.load;
-    if ((asked.time && time >= *asked.time - roundoff * dt) || (asked.at_contact && wetted_share[i] > 0) || is_loaded)
+    if ((asked.time && time >= *asked.time - roundoff * dt) ||
+        (asked.at_contact && (wetted_share[i] > 0 || is_touched(i))) || is_loaded)
       let_go(i);
   }
 }

@@ -78,6 +78,8 @@ struct Bodies<d>::System {
   BodyState<d> prescribed(std::size_t body) const;
   /// Whether forces move it in the step.
   bool answers(std::size_t body) const { return movers[body] && !held[body]; }
+  /// Whether a contact with another body was closed in the step that was tried.
+  bool is_touched(std::size_t body) const;
   /// Lets go whose time, contact or load has come.
   void release();
   /// Largest dt that ends at the next release at a time, not by a sliver of a step [s].

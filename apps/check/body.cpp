@@ -32,7 +32,7 @@ std::string release_text(const Body& body, int dimension) {
   const auto& of = *body.release;
   const auto at = of.time   ? fmt::format("at {:g} s", *of.time)
                   : of.load ? fmt::format("at a load of {:g} {}", *of.load, dimension == 2 ? "N/m" : "N")
-                            : std::string("at contact with the water");
+                            : std::string("at contact with the water or a body that moves");
   return fmt::format("; {} let go in {}", at, fmt::join(body.free, ", "));
 }
 

@@ -30,11 +30,17 @@ struct Written {
 Written places(const NewOptions& options, const NewHull& hull) {
   const fs::path out = options.out.empty() ? fs::path(hull.name) : options.out;
   Written written{out.extension() == ".toml" ? out : out / "scene.toml", {}};
-  if (hull.write) written.hull = written.scene.parent_path() / (hull.name + ".stl");
+  const auto is_read = [&](const fs::path& file) {
+    return fs::exists(options.hull) && fs::exists(file) && fs::equivalent(file, options.hull);
+  };
+  if (hull.write) {
+    written.hull = written.scene.parent_path() / (hull.name + ".stl");
+    if (is_read(written.hull)) written.hull.replace_filename(hull.name + "_repaired.stl");
+  }
   std::vector<fs::path> files = {written.scene};
   if (hull.write) files.push_back(written.hull);
   for (const auto& file : files) {
-    if (fs::exists(options.hull) && fs::exists(file) && fs::equivalent(file, options.hull))
+    if (is_read(file))
       throw NewError(
           fmt::format("{}: is the hull that is read. Use another folder with --out, or --name", file.string()));
     if (fs::exists(file) && !options.force)

@@ -39,11 +39,14 @@ devices() {  # devices FOLDER: nodes of its own, never those of this machine
   ln -s fd/1 "$1/stdout"
   ln -s fd/2 "$1/stderr"
   mkdir -m 1777 "$1/shm"
+  mkdir "$1/pts"
+  mount -t devpts -o newinstance,ptmxmode=0666 devpts "$1/pts"
+  ln -s pts/ptmx "$1/ptmx"
 }
 
 end_machine() {  # end_machine NAME: nothing of this machine is mounted there any more
   local part
-  for part in proc dev; do
+  for part in proc dev/pts dev; do
     ! mountpoint -q "$work/$1/$part" || umount "$work/$1/$part"
   done
 }

@@ -109,6 +109,19 @@ TEST(Release, at_contact_and_at_load_wait_for_the_water) {
   EXPECT_NEAR(loaded.state(0).velocity[1], -1 - g * 0.5e-3 - 0.5e-3 * 41 / 2, 1e-9);
 }
 
+TEST(Release, at_contact_waits_for_a_body_that_touches) {
+  BodySpec<2> shelf = carried<2>({0, 0, 0}, {.at_contact = true});
+  shelf.surface = box(1, 0.2).surface;
+  const auto ball = of_shape(circle(0.1), {0, 0.3});  // 0.1 m above the shelf
+  for (const bool falls : {false, true}) {
+    Bodies<2> bodies({shelf, ball}, falls ? pull<2>({0, -g}) : pull<2>({0, 0}), {}, ContactSpec<2>{});
+    const double contact = std::sqrt(2 * 0.1 / g), dt = 1e-3;
+    while (bodies.time() < 2 * contact && !bodies.answers(0)) run(bodies, 1, dt, bodies.time() == 0);
+    EXPECT_EQ(bodies.answers(0), falls);
+    if (falls) EXPECT_NEAR(bodies.time(), contact, 2 * dt);
+  }
+}
+
 TEST(Release, keeps_the_spin_of_a_body_with_three_moments) {
   auto spec = skew_body();
   const auto on_path = carried<3>((Twist<3>() << 0, 0, 0, 1, 0.5, -0.3).finished(), {.time = 0.1});
