@@ -33,11 +33,12 @@ struct Solutions {
 /// By singular values: A = U S V^T, point = V S^+ U^T b. An empty A leaves all directions.
 Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible);
 
-/// A = V diag(values) V^T of a symmetric A.
+/// Eigenvalues and eigenvectors.
 struct Principal {
   Eigen::VectorXd values;      ///< from the lowest up
   Eigen::MatrixXd directions;  ///< V: a column each, orthonormal
 };
+/// A = V diag(values) V^T of a symmetric A, by its tridiagonal form (Golub, Van Loan, section 8.3).
 Principal principal_of(const Eigen::MatrixXd& A);
 
 }  // namespace splashdown::algebra
