@@ -41,7 +41,8 @@ check "and run, too" exits 0 "$splashdown" run my_float/scene.toml --refine 0.12
 check "from anywhere" bash -c "cd / && '$splashdown' check '$work/my_float/scene.toml' >/dev/null"
 check "it is not replaced" exits 2 new "my float.stl" --mass 10 --sink 2
 check "unless it is asked for" exits 0 new "my float.stl" --mass 10 --sink 2 --force
-check "nor is the hull itself" exits 2 new open.stl --mass 10 --sink 2 --repair --force --out .
+check "the hull itself is kept" exits 0 new open.stl --mass 10 --sink 2 --repair --force --out .
+check "what is mended lies beside it" test -s open_repaired.stl
 check "an open hull is refused" exits 2 new open.stl --mass 10 --sink 2
 check "with a cure" grep -q -- "--repair" stderr
 check "and nothing is written" test ! -e open
