@@ -15,12 +15,11 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// A sea has its own zones, wind acts through the air's loads, and what pulls or blows from one side has no mirror image.
+// A sea has its own zones, wind acts through the air's loads, and what blows from one side has no mirror image. Lines have one:
+// in space they lie in the plane, in the plane they come in pairs.
 const Names anywhere{"waves",         "wind and air loads", "thrust",    "mooring", "catenary", "parachute",
                      "skin friction", "form drag",          "viscosity", "beach",   "release"};
-const Names along_a_plane{"waves",     "wind and air loads", "thrust", "skin friction",
-                          "form drag", "viscosity",          "beach",  "release"};
-const Names mirrored{"skin friction", "form drag", "viscosity", "beach", "release"};
+const Names mirrored{"mooring", "catenary", "parachute", "skin friction", "form drag", "viscosity", "beach", "release"};
 
 Names drawn(Random& random, Names from, int count) {
   Names names;
@@ -75,11 +74,7 @@ Member effect_mix(std::uint64_t seed) {
   Random random("effect_mixes", seed);
   const int d = random.chance(0.15) ? 3 : 2;
   const bool mirror = random.chance(0.2);
-  Names names = drawn(random,
-                      !mirror  ? anywhere
-                      : d == 3 ? along_a_plane
-                               : mirrored,
-                      random.integer(3, 6) - (mirror ? 1 : 0));
+  Names names = drawn(random, mirror && d == 2 ? mirrored : anywhere, random.integer(3, 6) - (mirror ? 1 : 0));
   const auto has = [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); };
   const double L = random.log_uniform(0.1, 3), ratio = random.log_uniform(0.03, 0.9),
                V = rounded(random.uniform(0.3, 3) * std::sqrt(g * L)),
@@ -163,15 +158,23 @@ Member effect_mix(std::uint64_t seed) {
     return s.list("line").word("name", name).word("body", "hull").set("axial_stiffness", rounded(weight * stiffness));
   };
   const double x = 2 * L, reach = std::hypot(x, height + depth);  // of anchors on the floor
-  if (has("mooring"))
-    line("mooring", random.log_uniform(1, 1e6))
-        .set("anchor", at(-x, -depth))
-        .set("length", rounded(reach * random.uniform(1, 1.2)));
-  if (has("catenary"))
-    line("chain", random.log_uniform(10, 1e5))
-        .set("anchor", at(x, -depth))
-        .set("length", rounded(reach * random.uniform(1.02, 1.3)))
-        .toml("catenary", fmt::format("{{weight = {}}}", toml_of(rounded(random.uniform(0.02, 0.3) * weight / depth))));
+  const std::vector<double> sides = mirror && d == 2 ? std::vector{1.0, -1.0} : std::vector{1.0};
+  if (has("mooring")) {
+    const double stiffness = random.log_uniform(1, 1e6), length = rounded(reach * random.uniform(1, 1.2));
+    for (const double side : sides)
+      line(side > 0 ? "mooring" : "second_mooring", stiffness)
+          .set("anchor", at(-side * x, -depth))
+          .set("length", length);
+  }
+  if (has("catenary")) {
+    const double stiffness = random.log_uniform(10, 1e5), length = rounded(reach * random.uniform(1.02, 1.3)),
+                 heavy = rounded(random.uniform(0.02, 0.3) * weight / depth);
+    for (const double side : sides)
+      line(side > 0 ? "chain" : "second_chain", stiffness)
+          .set("anchor", at(side * x, -depth))
+          .set("length", length)
+          .toml("catenary", fmt::format("{{weight = {}}}", toml_of(heavy)));
+  }
   if (has("parachute"))
     line("riser", random.log_uniform(10, 1e5))
         .set("length", 3 * L)
