@@ -9,7 +9,7 @@ sharp  boxes with sharp edges, free in heave alone. The flow separates there, in
        the speed: linear theory has none of it. Waves of two heights, 0.01 and 0.0025 of their length, tell the drag from the rest.
 
 Waves are 0.01 of their length high, bodies 0.05 to 0.3 of it wide, depths from 0.12 of it to deep water. What is left of the start has died out
-before the motions are read: members that ring for longer than 30 periods are drawn again. One line a member. Exit code 1 if a member breaks a law.
+before the motions are read: members that ring for longer than 30 periods are drawn again, and those that pitch by more than 0.1. One line a member. Exit code 1 if a member breaks a law.
 Standard library only.
 
 The theory: floating_section.py."""
@@ -37,7 +37,7 @@ class Float:
         r = random.Random(seed)
         self.freedoms = freedoms
         self.draw(r, kinds)
-        while 2 * self.draft > self.depth or self.ringing() > 30:
+        while 2 * self.draft > self.depth or self.ringing() > 30 or not self.is_small():
             self.draw(r, kinds)
         self.periods = self.ringing()
 
@@ -130,6 +130,10 @@ size = {min(self.length / elements, self.breadth / 16):.6g}
                 own = math.sqrt(self.stiffness[m] / total)
             rings.append(math.log(100) * 2 * total / max(c.damping[m][m], 1e-12) * self.omega / (2 * math.pi))
         return math.ceil(4 + max(rings)) + READ
+
+    def is_small(self):
+        """Whether it pitches by less than 0.1."""
+        return ROLL not in self.freedoms or self.theory()[ROLL] * 0.5 * STEEPNESS * self.length < 0.1
 
     def theory(self):
         """Amplitudes over that of the waves: sway, heave, roll."""
