@@ -58,6 +58,9 @@ if [[ ! -d $work/compilers ]]; then
   mv "$work/compilers.part" "$work/compilers"
 fi
 
+rm -rf --one-file-system "${work:?}/compilers$at"  # machines that were kept have the sources of then
+put_sources compilers
+
 for variant in "${variants[@]}"; do
   echo "== $variant"
   # shellcheck source=/dev/null
