@@ -95,9 +95,9 @@ class FluidView {
   /// fluids without repair. Walls are loaded by the sum of both: in a true impact this is all there is.
   virtual std::span<const double> repair_pressure() const = 0;
   virtual const Ledger& ledger() const = 0;  ///< to t_n
-  /// Velocity at t_n [m/s]: mean of the half-step velocities around it (core/leapfrog.hpp).
+  /// Velocity of a point at t_n [m/s]; of fluids that know it at half steps the mean of those around (core/leapfrog.hpp).
   virtual Vec<d> velocity_n(std::size_t point) const = 0;
-  /// Pressure at a point at t_n [Pa], linear in its cell; nothing where there is no fluid. O(cells).
+  /// Pressure anywhere at t_n [Pa], as the fluid interpolates it; nothing where there is no fluid.
   virtual std::optional<double> pressure_at(const Vec<d>& point) const = 0;
   /// Potential energy per unit mass at a point [J/kg], the sum over all effects.
   virtual double potential(const Vec<d>& point) const = 0;

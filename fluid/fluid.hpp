@@ -91,7 +91,7 @@ class Fluid final : public FluidView<d> {
   std::span<const double> repair_pressure() const override;
   const Ledger& ledger() const override;
   Vec<d> velocity_n(std::size_t node) const override;
-  std::optional<double> pressure_at(const Vec<d>& point) const override;
+  std::optional<double> pressure_at(const Vec<d>& point) const override;  ///< linear in its cell; O(cells)
   double potential(const Vec<d>& point) const override;
   std::vector<std::pair<std::string, double>> diagnostics() const override;
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;  ///< from `begin` to `commit`

@@ -13,10 +13,7 @@ namespace splashdown::apps {
 
 namespace {
 
-template <int d>
-NodeKind kind_of(const FluidView<d>& fluid, std::size_t point) {
-  if (fluid.drop_volume(point)) return NodeKind::drop;
-  const PointPlace place = fluid.place(point);
+NodeKind kind_of(const PointPlace& place) {
   if (place.wall < 0) return place.on_free_surface ? NodeKind::free_surface : NodeKind::interior;
   if (place.at_corner) return NodeKind::wall_vertex;
   return place.on_free_surface ? NodeKind::contact : NodeKind::wall;
@@ -95,9 +92,11 @@ void take_fluid(const FluidView<d>& fluid, Frame<d>& frame) {
   frame.drop_diameter.assign(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     frame.v.push_back(fluid.velocity_n(i));
-    frame.kind.push_back(kind_of(fluid, i));
-    frame.wall.push_back(fluid.place(i).wall);
-    if (const auto volume = fluid.drop_volume(i)) frame.drop_diameter[i] = diameter<d>(*volume);
+    const PointPlace place = fluid.place(i);
+    const auto drop = fluid.drop_volume(i);
+    frame.kind.push_back(drop ? NodeKind::drop : kind_of(place));
+    frame.wall.push_back(place.wall);
+    if (drop) frame.drop_diameter[i] = diameter<d>(*drop);
   }
 }
 
@@ -168,8 +167,8 @@ std::size_t body_index(const BodiesView<d>& bodies, const std::string& name) {
 template <int d>
 double max_speed(const FluidView<d>& fluid) {
   double squared = 0;
-  for (std::size_t i = 0; i < fluid.points().size(); ++i)
-    squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
+  const std::size_t count = fluid.points().size();
+  for (std::size_t i = 0; i < count; ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
   return std::sqrt(squared);
 }
 

@@ -124,7 +124,7 @@ class GridRun {
     body.surface = hull();
     body.mass = 50;
     bodies_.specs.push_back(body);
-    bodies_.states.push_back({});
+    bodies_.states.push_back({body.pose, body.velocity});
     input_.fluid = &fluid_;
     input_.bodies = &bodies_;
   }
@@ -240,7 +240,9 @@ TEST(GridFluid, surface_pressure_has_a_row_for_each_sample_of_the_hull) {
   ASSERT_EQ(rows.rows(), static_cast<std::size_t>(hull_samples));
   for (std::size_t i = 0; i < rows.rows(); ++i) {
     EXPECT_NEAR(rows["p"][i], pressure_of({rows["x"][i], rows["y"][i]}, end / 2), 1e-8 * weight);  // digits of the file
-    if (i > 0) EXPECT_NEAR(rows["s"][i] - rows["s"][i - 1], sample, 1e-9);
+    if (i > 0) {
+      EXPECT_NEAR(rows["s"][i] - rows["s"][i - 1], sample, 1e-9);
+    }
     EXPECT_EQ(rows["p_repair"][i], 0);
   }
 }
