@@ -1,6 +1,10 @@
 // What people look at in a fluid: its state at t_n, read only. Records know a fluid by this alone.
+//
+// It is sampled at numbered points. Most are corners of cells; others may be samples of walls, or drops. Where they come from,
+// a mesh that moves or a grid that stays, is the fluid's own matter: a grid gives its squares as triangles, two each.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,9 +12,8 @@
 #include <vector>
 
 #include "core/diagnostic.hpp"
-#include "core/mesh.hpp"
+#include "core/facet.hpp"
 #include "core/mirror.hpp"
-#include "core/nodes.hpp"
 
 namespace splashdown {
 
@@ -38,7 +41,7 @@ struct WallLoad {
   Wrench<d> total() const { return physical + repair; }
 };
 
-/// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D].
+/// Volume and energy book-keeping since t = 0 [m^d, J; per metre of depth in 2D]. What a fluid does not do stays zero.
 struct Ledger {
   double volume_initial = 0;    ///< at t = 0
   double volume = 0;            ///< at t_n: enclosed by the boundary, with `hull_chords`; spray apart
@@ -61,7 +64,15 @@ struct Ledger {
   double volume_excess() const { return volume + spray - volume_initial - volume_of_effects; }
 };
 
-/// World frame; of the step under way between its begin and its commit, else of t_n.
+/// Where a point of a fluid lies.
+struct PointPlace {
+  int wall = -1;                 ///< index of the wall that it lies on, -1: none
+  bool at_corner = false;        ///< of that wall's surface
+  bool on_free_surface = false;  ///< with a wall: at the contact line
+};
+
+/// World frame; of the step under way between its begin and its commit, else of t_n. Spans and numbers of points hold until the
+/// fluid is stepped on.
 template <int d>
 class FluidView {
  public:
@@ -69,17 +80,24 @@ class FluidView {
   virtual double density() const = 0;                           ///< [kg/m^3]
   virtual std::span<const WallSpec<d>> walls() const = 0;       ///< as they were made
   virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n
-  virtual const Nodes<d>& nodes() const = 0;                    ///< of the mesh below
-  virtual const Mesh<d>& mesh() const = 0;                      ///< of t_n
-  /// At the nodes at t_n [Pa]: of the step under way once it is solved, before that what the nodes carry.
+  virtual std::span<const Vec<d>> points() const = 0;           ///< at t_n [m]; arrays below are as long
+  /// Simplices of numbers of points, positively oriented.
+  virtual std::span<const std::array<int, d + 1>> cells() const = 0;
+  /// Facets between points, area vectors out of the fluid: wetted walls and the free surface. Ends of a domain that are neither
+  /// are not among them.
+  virtual std::span<const Facet<d>> boundary() const = 0;
+  virtual PointPlace place(std::size_t point) const = 0;  ///< where a point lies
+  /// Volume of a drop [m^d], a point by itself in no cell; nothing: the point is none.
+  virtual std::optional<double> drop_volume(std::size_t point) const = 0;
+  /// At the points at t_n [Pa]: of the step under way once it is solved, before that what they carry.
   virtual std::span<const double> pressure() const = 0;
-  /// What the repair impulse is as a mean over the kick of a step that is solved, at the nodes [Pa]; before that empty. Walls are
-  /// loaded by the sum of both: in a true impact this is all there is.
+  /// What the repair impulse is as a mean over the kick of a step that is solved, at the points [Pa]; before that empty, and of
+  /// fluids without repair. Walls are loaded by the sum of both: in a true impact this is all there is.
   virtual std::span<const double> repair_pressure() const = 0;
   virtual const Ledger& ledger() const = 0;  ///< to t_n
-  /// Velocity at t_n [m/s]: mean of the half-step velocities around it (core/leapfrog.hpp).
-  virtual Vec<d> velocity_n(std::size_t node) const = 0;
-  /// Pressure at a point at t_n [Pa], linear in its cell; nothing where there is no fluid. O(cells).
+  /// Velocity of a point at t_n [m/s]; of fluids that know it at half steps the mean of those around (core/leapfrog.hpp).
+  virtual Vec<d> velocity_n(std::size_t point) const = 0;
+  /// Pressure anywhere at t_n [Pa], as the fluid interpolates it; nothing where there is no fluid.
   virtual std::optional<double> pressure_at(const Vec<d>& point) const = 0;
   /// Potential energy per unit mass at a point [J/kg], the sum over all effects.
   virtual double potential(const Vec<d>& point) const = 0;

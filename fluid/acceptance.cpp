@@ -12,7 +12,7 @@ namespace splashdown::fluid {
 namespace {
 
 template <int d>
-std::string place(const Vec<d>& x) {
+std::string position_text(const Vec<d>& x) {
   std::string text = fmt::format("{:.4g}", x[0]);
   for (int k = 1; k < d; ++k) text += fmt::format(", {:.4g}", x[k]);
   return "at (" + text + ") m";
@@ -66,7 +66,7 @@ Refusal Fluid<d>::State::inverted_element() const {
   for (int n : cell)
     if (const double apart = (result.velocity[n] - mean).squaredNorm(); may_fly_alone(n) && apart > most_apart)
       most_apart = apart, runs_away = n;
-  return {{"an element turns over within the step: " + place<d>(work.nodes.x[cell[0]])}, runs_away};
+  return {{"an element turns over within the step: " + position_text<d>(work.nodes.x[cell[0]])}, runs_away};
 }
 
 // Repair and pressure are projections: what water and walls have after them they had before. Where worn films let them be
@@ -100,7 +100,7 @@ Refusal Fluid<d>::State::energy_from_nowhere() const {
     if (change > most) most = change, fastest = i;
   }
   return {{fmt::format("the pressure makes energy: {:.2g} times what there was, {}", gain / scale,
-                       place<d>(work.nodes.x[fastest]))},
+                       position_text<d>(work.nodes.x[fastest]))},
           may_fly_alone(static_cast<int>(fastest)) ? static_cast<int>(fastest) : -1};
 }
 

@@ -13,6 +13,7 @@
 //   commit   move the nodes, t_n <- t_{n+1}
 #pragma once
 
+#include <array>
 #include <iosfwd>
 #include <memory>
 #include <span>
@@ -30,6 +31,7 @@
 namespace splashdown::fluid {
 
 using splashdown::FluidView;
+using splashdown::PointPlace;
 
 /// The fluid and its state. One thread drives it; loops within run on all.
 template <int d>
@@ -78,13 +80,18 @@ class Fluid final : public FluidView<d> {
   double density() const override;
   std::span<const WallSpec<d>> walls() const override;
   std::span<const Isometry<d>> wall_poses() const override;
-  const Nodes<d>& nodes() const override;
-  const Mesh<d>& mesh() const override;
+  const Nodes<d>& nodes() const;  ///< of the mesh below
+  const Mesh<d>& mesh() const;    ///< of t_n
+  std::span<const Vec<d>> points() const override;
+  std::span<const std::array<int, d + 1>> cells() const override;
+  std::span<const Facet<d>> boundary() const override;
+  PointPlace place(std::size_t node) const override;
+  std::optional<double> drop_volume(std::size_t node) const override;
   std::span<const double> pressure() const override;
   std::span<const double> repair_pressure() const override;
   const Ledger& ledger() const override;
   Vec<d> velocity_n(std::size_t node) const override;
-  std::optional<double> pressure_at(const Vec<d>& point) const override;
+  std::optional<double> pressure_at(const Vec<d>& point) const override;  ///< linear in its cell; O(cells)
   double potential(const Vec<d>& point) const override;
   std::vector<std::pair<std::string, double>> diagnostics() const override;
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;  ///< from `begin` to `commit`

@@ -14,6 +14,34 @@ std::span<const WallSpec<d>> Fluid<d>::walls() const {
 }
 
 template <int d>
+std::span<const Vec<d>> Fluid<d>::points() const {
+  return nodes().x;
+}
+
+template <int d>
+std::span<const std::array<int, d + 1>> Fluid<d>::cells() const {
+  return mesh().cells;
+}
+
+template <int d>
+std::span<const Facet<d>> Fluid<d>::boundary() const {
+  return mesh().boundary;
+}
+
+template <int d>
+PointPlace Fluid<d>::place(std::size_t node) const {
+  const auto& at = nodes();
+  const auto& tie = at.tie[node];
+  return {tie.wall, tie.vertex >= 0, at.surface[node] != 0};
+}
+
+template <int d>
+std::optional<double> Fluid<d>::drop_volume(std::size_t node) const {
+  const auto& at = nodes();
+  return at.spray[node] ? std::optional(at.volume[node]) : std::nullopt;
+}
+
+template <int d>
 double Fluid<d>::potential(const Vec<d>& point) const {
   double sum = 0;
   for (const auto& effect : s_->effects) sum += effect->potential(point);
@@ -45,6 +73,16 @@ template double Fluid<2>::density() const;
 template double Fluid<3>::density() const;
 template std::span<const WallSpec<2>> Fluid<2>::walls() const;
 template std::span<const WallSpec<3>> Fluid<3>::walls() const;
+template std::span<const Vec<2>> Fluid<2>::points() const;
+template std::span<const Vec<3>> Fluid<3>::points() const;
+template std::span<const std::array<int, 3>> Fluid<2>::cells() const;
+template std::span<const std::array<int, 4>> Fluid<3>::cells() const;
+template std::span<const Facet<2>> Fluid<2>::boundary() const;
+template std::span<const Facet<3>> Fluid<3>::boundary() const;
+template PointPlace Fluid<2>::place(std::size_t) const;
+template PointPlace Fluid<3>::place(std::size_t) const;
+template std::optional<double> Fluid<2>::drop_volume(std::size_t) const;
+template std::optional<double> Fluid<3>::drop_volume(std::size_t) const;
 template double Fluid<2>::potential(const Vec<2>&) const;
 template double Fluid<3>::potential(const Vec<3>&) const;
 template std::vector<std::pair<std::string, double>> Fluid<2>::diagnostics() const;

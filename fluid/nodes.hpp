@@ -1,17 +1,26 @@
-// The nodes of the PFEM: what is looked at (core/nodes.hpp), and what a step keeps about each of them besides.
+// The nodes of the PFEM, one array per quantity: what a step keeps about each of them.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "core/nodes.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/types.hpp"
 
 namespace splashdown::fluid {
 
-using splashdown::WallTie;
+/// A node is free, or slides on a smooth patch of a wall or (3D) along one of its creases, or sits on one of its corners.
+struct WallTie {
+  int wall = -1;    ///< index of the wall, -1: none
+  int patch = -1;   ///< smooth patch of its surface the node slides on
+  int vertex = -1;  ///< corner of its surface the node is fixed to, -1: slides
+  int crease = -1;  ///< crease of its surface the node slides along
+  /// Whether the node is at a corner or on a crease.
+  bool sharp() const { return vertex >= 0 || crease >= 0; }
+  /// Equal in all four.
+  bool operator==(const WallTie&) const = default;
+};
 
 /// Volume, momentum and kinetic energy, the latter two over the density.
 template <int d>
@@ -40,20 +49,15 @@ struct VelocityMoments {
   double inner_energy() const { return std::max(0.0, energy - 0.5 * momentum.dot(mean_velocity())); }
 };
 
-/// What a step keeps about nodes; all arrays are as long as `x`. World frame.
+/// All nodes, world frame. All arrays are as long as `x`.
 template <int d>
-struct Nodes : splashdown::Nodes<d> {
-  /// The part that others look at.
-  using View = splashdown::Nodes<d>;
-  using View::p;
-  /// Number of nodes.
-  using View::size;
-  using View::surface;
-  using View::tie;
-  using View::v;
-  using View::volume;
-  using View::x;
-
+struct Nodes {
+  std::vector<Vec<d>> x;              ///< position at t_n [m]
+  std::vector<Vec<d>> v;              ///< velocity at t_{n-1/2} [m/s]
+  std::vector<double> p;              ///< pressure they carry: at t_{n-1}, or where they were made [Pa]
+  std::vector<WallTie> tie;           ///< wall contact
+  std::vector<char> surface;          ///< 1: on the free surface (p = 0)
+  std::vector<double> volume;         ///< share of the cells around it after the last move; drops keep their own [m^d]
   std::vector<double> h;              ///< size that elements around it are to have [m]
   std::vector<double> wall_pressure;  ///< mean of late at a wall (fluid/contact/ventilation.hpp), elsewhere 0 [Pa]
   std::vector<char> separates;        ///< 1: at an edge of a wall where the flow leaves it
@@ -64,9 +68,18 @@ struct Nodes : splashdown::Nodes<d> {
   std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
   std::vector<double> field_energy;           ///< over the density: what the field had around it (field_energy.hpp)
 
+  /// Number of nodes.
+  std::size_t size() const { return x.size(); }
+
   /// Appends a node without volume; `element_size`: h [m]. Returns its index.
   int add(const Vec<d>& position, const Vec<d>& velocity, double pressure, WallTie t, bool on_surface,
           double element_size = 0) {
+    x.push_back(position);
+    v.push_back(velocity);
+    p.push_back(pressure);
+    tie.push_back(t);
+    surface.push_back(on_surface);
+    volume.push_back(0);
     h.push_back(element_size);
     wall_pressure.push_back(0);
     separates.push_back(0);
@@ -76,7 +89,7 @@ struct Nodes : splashdown::Nodes<d> {
     part.push_back(-1);
     inherited.emplace_back();
     field_energy.push_back(0);
-    return View::add(position, velocity, pressure, t, on_surface);
+    return static_cast<int>(x.size()) - 1;
   }
 
   /// What node i carries.

@@ -48,12 +48,15 @@ class Whole<d>::Fluid final : public FluidView<d> {
   double density() const override { return half_.density(); }
   std::span<const WallSpec<d>> walls() const override { return walls_; }
   std::span<const Isometry<d>> wall_poses() const override { return half_.wall_poses(); }
-  const Nodes<d>& nodes() const override { return half_.nodes(); }
-  const Mesh<d>& mesh() const override { return half_.mesh(); }
+  std::span<const Vec<d>> points() const override { return half_.points(); }
+  std::span<const std::array<int, d + 1>> cells() const override { return half_.cells(); }
+  std::span<const Facet<d>> boundary() const override { return half_.boundary(); }
+  PointPlace place(std::size_t point) const override { return half_.place(point); }
+  std::optional<double> drop_volume(std::size_t point) const override { return half_.drop_volume(point); }
   std::span<const double> pressure() const override { return half_.pressure(); }
   std::span<const double> repair_pressure() const override { return half_.repair_pressure(); }
   const Ledger& ledger() const override { return ledger_; }
-  Vec<d> velocity_n(std::size_t node) const override { return half_.velocity_n(node); }
+  Vec<d> velocity_n(std::size_t point) const override { return half_.velocity_n(point); }
   std::optional<double> pressure_at(const Vec<d>& point) const override {
     return half_.pressure_at(mirror_.distance<d>(point) < 0 ? mirror_.image<d>(point) : point);
   }

@@ -1,7 +1,7 @@
 // A simulation of one half of a symmetric scene, told as the whole.
 //
 // Twice: masses, inertias, loads along the plane, wetted measures, volumes, energies, powers, work. Zero: what a load has across
-// the plane. As they are: nodes and mesh, which hold the half before the plane, and pressures.
+// the plane. As they are: points, cells and boundary, which hold the half before the plane, and pressures.
 #pragma once
 
 #include <memory>

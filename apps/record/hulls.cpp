@@ -50,10 +50,9 @@ void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
   pressures_.clear();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
     const auto& patch = settings_.patches[i];
-    const int wall = wall_called(fluid, patch.body);
-    const auto& pose = fluid.wall_poses()[static_cast<std::size_t>(wall)];
+    const auto wall = wall_facets(fluid, wall_called(fluid, patch.body));
     const auto mean = [&](std::span<const double> pressure) {
-      return patch_force(fluid.nodes(), fluid.mesh(), pressure, wall, pose, patch.region) / patch.area;
+      return patch_force(wall, pressure, patch.region) / patch.area;
     };
     pressures_.push_back(mean(fluid.pressure()));
     peaks_[i].offer(pressures_[i], time);
@@ -65,8 +64,7 @@ void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
   }
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     const int wall = wall_called(fluid, settings_.hull_maps[i].body);
-    maps_[i].add(fluid.nodes(), fluid.mesh(), fluid.pressure(), fluid.repair_pressure(), wall,
-                 fluid.wall_poses()[static_cast<std::size_t>(wall)], kick);
+    maps_[i].add(wall_facets(fluid, wall), fluid.pressure(), fluid.repair_pressure(), kick);
   }
 }
 

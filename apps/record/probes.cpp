@@ -24,13 +24,6 @@ Eigen::Matrix<double, d, 1> nearest_weights(const std::array<Vec<d>, d>& corners
   return weights / weights.sum();
 }
 
-template <int d>
-std::array<Vec<d>, d> corners_of(const Nodes<d>& nodes, const Facet<d>& facet) {
-  std::array<Vec<d>, d> corners;
-  for (std::size_t k = 0; k < d; ++k) corners[k] = nodes.x[slot(facet.nodes[k])];
-  return corners;
-}
-
 /// Chains the facets of an outline, so that each begins where the one before ended.
 std::vector<Eigen::Index> chain(const Eigen::Matrix<int, 2, Eigen::Dynamic>& facets) {
   std::vector<Eigen::Index> after(static_cast<std::size_t>(facets.size()), -1);
@@ -51,12 +44,12 @@ std::vector<Eigen::Index> chain(const Eigen::Matrix<int, 2, Eigen::Dynamic>& fac
 }  // namespace
 
 template <int d>
-std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& mesh,
+std::optional<double> surface_elevation(std::span<const Vec<d>> points, std::span<const Facet<d>> boundary,
                                         const Eigen::Matrix<double, d - 1, 1>& at) {
   std::optional<double> highest;
-  for (const auto& facet : mesh.boundary) {
+  for (const auto& facet : boundary) {
     if (facet.wall >= 0) continue;
-    const auto corners = corners_of(nodes, facet);
+    const auto corners = corners_of(facet, points);
     Eigen::Matrix<double, d - 1, d - 1> edges;
     for (int k = 1; k < d; ++k)
       edges.col(k - 1) = corners[slot(k)].template head<d - 1>() - corners[0].template head<d - 1>();
@@ -73,13 +66,13 @@ std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& me
 }
 
 template <int d>
-std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure,
-                                    const Vec<d>& point) {
+std::optional<double> wall_pressure(std::span<const Vec<d>> points, std::span<const Facet<d>> boundary,
+                                    std::span<const double> pressure, const Vec<d>& point) {
   std::optional<double> found;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& facet : mesh.boundary) {
+  for (const auto& facet : boundary) {
     if (facet.wall < 0) continue;
-    const auto corners = corners_of(nodes, facet);
+    const auto corners = corners_of(facet, points);
     const auto weights = nearest_weights<d>(corners, point);
     Vec<d> foot = Vec<d>::Zero();
     double p = 0, size = 0;
@@ -98,18 +91,17 @@ std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, 
 }
 
 template <int d>
-double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
-                   const Isometry<d>& pose, const PatchRegion<d>& region) {
-  const Isometry<d> to_wall = pose.inverse();
+double patch_force(const WallFacets<d>& wall, std::span<const double> pressure, const PatchRegion<d>& region) {
+  const Isometry<d> to_wall = wall.pose.inverse();
   double force = 0;
-  for (const auto& facet : mesh.boundary) {
-    if (facet.wall != wall) continue;
+  for (const auto& facet : wall.boundary) {
+    if (facet.wall != wall.wall) continue;
     std::array<Vec<d>, d> corners;
     std::array<double, d> at_corners;
     for (std::size_t k = 0; k < d; ++k) {
-      const std::size_t node = slot(facet.nodes[d - 1 - k]);  // turned round: the hull's sense, not the fluid's
-      corners[k] = to_wall * nodes.x[node];
-      at_corners[k] = pressure[node];
+      const std::size_t point = slot(facet.nodes[d - 1 - k]);  // turned round: the hull's sense, not the fluid's
+      corners[k] = to_wall * wall.points[point];
+      at_corners[k] = pressure[point];
     }
     force += integrate<d>(region, corners, at_corners).force;
   }
@@ -164,37 +156,34 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 }
 
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh,
-                                                      std::span<const double> pressure, std::span<const double> repair,
-                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose) {
+std::vector<SurfacePressurePoint<d>> surface_pressure(const WallFacets<d>& wall, std::span<const double> pressure,
+                                                      std::span<const double> repair, const SurfaceRuler<d>& ruler) {
   std::vector<int> wetted;
-  for (const auto& facet : mesh.boundary)
-    if (facet.wall == wall) wetted.insert(wetted.end(), facet.nodes.begin(), facet.nodes.end());
+  for (const auto& facet : wall.boundary)
+    if (facet.wall == wall.wall) wetted.insert(wetted.end(), facet.nodes.begin(), facet.nodes.end());
   std::ranges::sort(wetted);
   wetted.erase(std::unique(wetted.begin(), wetted.end()), wetted.end());
 
   std::vector<SurfacePressurePoint<d>> points;
   points.reserve(wetted.size());
-  const Isometry<d> to_wall = pose.inverse();
-  for (const int node : wetted) {
-    const Vec<d>& x = nodes.x[slot(node)];
-    points.push_back({x, ruler.distance(to_wall * x), pressure[slot(node)], repair.empty() ? 0.0 : repair[slot(node)]});
+  const Isometry<d> to_wall = wall.pose.inverse();
+  for (const int at : wetted) {
+    const Vec<d>& x = wall.points[slot(at)];
+    points.push_back({x, ruler.distance(to_wall * x), pressure[slot(at)], repair.empty() ? 0.0 : repair[slot(at)]});
   }
   std::ranges::stable_sort(points, {}, &SurfacePressurePoint<d>::s);
   return points;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                                     \
-  template std::optional<double> surface_elevation<d>(const Nodes<d>&, const Mesh<d>&,                                \
-                                                      const Eigen::Matrix<double, d - 1, 1>&);                        \
-  template std::optional<double> wall_pressure<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>,           \
-                                                  const Vec<d>&);                                                     \
-  template double patch_force<d>(const Nodes<d>&, const Mesh<d>&, std::span<const double>, int, const Isometry<d>&,   \
-                                 const PatchRegion<d>&);                                                              \
-  template class SurfaceRuler<d>;                                                                                     \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const Nodes<d>&, const Mesh<d>&,                  \
-                                                                    std::span<const double>, std::span<const double>, \
-                                                                    int, const SurfaceRuler<d>&, const Isometry<d>&);
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
+  template std::optional<double> surface_elevation<d>(std::span<const Vec<d>>, std::span<const Facet<d>>,          \
+                                                      const Eigen::Matrix<double, d - 1, 1>&);                     \
+  template std::optional<double> wall_pressure<d>(std::span<const Vec<d>>, std::span<const Facet<d>>,              \
+                                                  std::span<const double>, const Vec<d>&);                         \
+  template double patch_force<d>(const WallFacets<d>&, std::span<const double>, const PatchRegion<d>&);            \
+  template class SurfaceRuler<d>;                                                                                  \
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const WallFacets<d>&, std::span<const double>, \
+                                                                    std::span<const double>, const SurfaceRuler<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

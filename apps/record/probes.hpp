@@ -1,31 +1,30 @@
-// Readings of the fluid at lines and walls, from nodes and mesh alone.
+// Readings of a fluid at lines and walls, from its points and boundary (core/fluid_view.hpp).
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "apps/record/wall_facets.hpp"
 #include "apps/scene/patch_region.hpp"
-#include "core/mesh.hpp"
-#include "core/nodes.hpp"
 
 namespace splashdown::apps {
 
 /// Height of the highest free-surface facet over a horizontal position; nothing where there is none.
 template <int d>
-std::optional<double> surface_elevation(const Nodes<d>& nodes, const Mesh<d>& mesh,
+std::optional<double> surface_elevation(std::span<const Vec<d>> points, std::span<const Facet<d>> boundary,
                                         const Eigen::Matrix<double, d - 1, 1>& at);
 
 /// Pressure at the point of the walls' wetted facets that is nearest to `point`, if it is not farther away
 /// than half that facet: walls are faceted finer or coarser than the fluid, so that a sensor on a wall may
 /// lie outside every cell.
 template <int d>
-std::optional<double> wall_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure,
-                                    const Vec<d>& point);
+std::optional<double> wall_pressure(std::span<const Vec<d>> points, std::span<const Facet<d>> boundary,
+                                    std::span<const double> pressure, const Vec<d>& point);
 
-/// Force of the pressure on the region's part of a wall [N/m, N]; `pose` of the wall. Dry parts have no pressure.
+/// Force of the pressure on the region's part of a wall [N/m, N]. Dry parts have no pressure.
 template <int d>
-double patch_force(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, int wall,
-                   const Isometry<d>& pose, const PatchRegion<d>& region);
+double patch_force(const WallFacets<d>& wall, std::span<const double> pressure, const PatchRegion<d>& region);
 
 template <int d>
 struct SurfacePressurePoint {
@@ -54,10 +53,9 @@ class SurfaceRuler {
   Vec<d> keel_point_;
 };
 
-/// Wetted nodes of a wall, ordered by s. `repair`: empty where there is none.
+/// Points of the wetted facets of a wall, ordered by s. `repair`: empty where there is none.
 template <int d>
-std::vector<SurfacePressurePoint<d>> surface_pressure(const Nodes<d>& nodes, const Mesh<d>& mesh,
-                                                      std::span<const double> pressure, std::span<const double> repair,
-                                                      int wall, const SurfaceRuler<d>& ruler, const Isometry<d>& pose);
+std::vector<SurfacePressurePoint<d>> surface_pressure(const WallFacets<d>& wall, std::span<const double> pressure,
+                                                      std::span<const double> repair, const SurfaceRuler<d>& ruler);
 
 }  // namespace splashdown::apps

@@ -143,7 +143,7 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
   const Kick kick{input.time, input.time - before, input.time + 0.5 * input.dt};
   run.add_step(input.passes);
   if (input.fluid) {
-    run.add_mesh(input.fluid->nodes().size(), input.fluid->mesh().cells.size());
+    run.add_mesh(input.fluid->points().size(), input.fluid->cells().size());
     ledger = input.fluid->ledger();
     speed = max_speed(*input.fluid);
     max_speed_peak = std::max(max_speed_peak, speed);
@@ -192,8 +192,8 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
     std::vector<double> values;
     for (const auto& [name, value] : fluid.diagnostics()) names.push_back(name), values.push_back(value);
     write_row(file("fluid.csv", fluid_header(names)),
-              FluidRow{input.time, input.dt, fluid.nodes().size(), fluid.mesh().cells.size(), fluid.ledger(),
-                       input.passes, input.residual, input.wall_seconds, speed, energy.gain(), std::move(values)});
+              FluidRow{input.time, input.dt, fluid.points().size(), fluid.cells().size(), fluid.ledger(), input.passes,
+                       input.residual, input.wall_seconds, speed, energy.gain(), std::move(values)});
   }
   write_probes(input);
 }
@@ -216,7 +216,7 @@ double Recorder<d>::State::probe_pressure(const RecordInput<d>& input, const Pre
   if (!probe.body.empty()) point = input.bodies->state(body_index(*input.bodies, probe.body)).pose * point;
   const auto& fluid = *input.fluid;
   if (const auto p = fluid.pressure_at(point)) return *p;
-  return wall_pressure(fluid.nodes(), fluid.mesh(), fluid.pressure(), point).value_or(0);
+  return wall_pressure<d>(fluid.points(), fluid.boundary(), fluid.pressure(), point).value_or(0);
 }
 
 template <int d>
@@ -234,7 +234,7 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
       put(settings.pressure_probes[i].name, pressure);
     }
     for (const auto& gauge : settings.gauges) {
-      const auto elevation = surface_elevation(input.fluid->nodes(), input.fluid->mesh(), gauge.at);
+      const auto elevation = surface_elevation<d>(input.fluid->points(), input.fluid->boundary(), gauge.at);
       met_water[k++] |= elevation.has_value();
       put(gauge.name, elevation.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
@@ -258,8 +258,8 @@ void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std
   const Vec<d> origin = centre_of_mass(settings, name);
   const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
   auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
-  for (const auto& point : surface_pressure(input.fluid->nodes(), input.fluid->mesh(), input.fluid->pressure(),
-                                            input.fluid->repair_pressure(), wall, ruler, pose)) {
+  for (const auto& point : surface_pressure(wall_facets(*input.fluid, wall), input.fluid->pressure(),
+                                            input.fluid->repair_pressure(), ruler)) {
     const Vec<d> on_hull = to_wall * point.x + origin;
     csv << input.time << name;
     for (int k = 0; k < d; ++k) csv << point.x(k);

@@ -13,13 +13,10 @@ namespace splashdown::apps {
 
 namespace {
 
-template <int d>
-NodeKind kind_of(const Nodes<d>& nodes, std::size_t i, bool has_cell) {
-  if (!has_cell) return NodeKind::drop;
-  const auto& tie = nodes.tie[i];
-  if (tie.wall < 0) return nodes.surface[i] ? NodeKind::free_surface : NodeKind::interior;
-  if (tie.vertex >= 0) return NodeKind::wall_vertex;
-  return nodes.surface[i] ? NodeKind::contact : NodeKind::wall;
+NodeKind kind_of(const PointPlace& place) {
+  if (place.wall < 0) return place.on_free_surface ? NodeKind::free_surface : NodeKind::interior;
+  if (place.at_corner) return NodeKind::wall_vertex;
+  return place.on_free_surface ? NodeKind::contact : NodeKind::wall;
 }
 
 /// Of the disc or ball of a volume.
@@ -32,15 +29,16 @@ double diameter(double volume) {
 template <int d>
 class WettedWall {
  public:
-  WettedWall(const FluidView<d>& fluid, int wall) : nodes_(fluid.nodes()), pressure_(fluid.pressure()) {
-    for (const auto& facet : fluid.mesh().boundary)
+  WettedWall(const FluidView<d>& fluid, int wall) : pressure_(fluid.pressure()) {
+    const auto points = fluid.points();
+    for (const auto& facet : fluid.boundary())
       if (facet.wall == wall) facets_.push_back(facet.nodes);
     surface_.facets.resize(d, static_cast<Eigen::Index>(facets_.size()));
     surface_.vertices.resize(d, d * static_cast<Eigen::Index>(facets_.size()));
     Eigen::Index corner = 0;
     for (std::size_t f = 0; f < facets_.size(); ++f)
       for (int k = 0; k < d; ++k, ++corner) {
-        surface_.vertices.col(corner) = nodes_.x[static_cast<std::size_t>(facets_[f][static_cast<std::size_t>(k)])];
+        surface_.vertices.col(corner) = points[static_cast<std::size_t>(facets_[f][static_cast<std::size_t>(k)])];
         surface_.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(corner);
       }
     tree_ = FacetTree<d>(surface_.vertices, surface_.facets);
@@ -65,7 +63,6 @@ class WettedWall {
   }
 
  private:
-  const Nodes<d>& nodes_;
   std::span<const double> pressure_;
   std::vector<std::array<int, static_cast<std::size_t>(d)>> facets_;
   Surface<d> surface_;
@@ -83,22 +80,23 @@ Vec<d> velocity_at(const Vec<d>& r, const Twist<d>& velocity) {
 
 template <int d>
 void take_fluid(const FluidView<d>& fluid, Frame<d>& frame) {
-  const auto& nodes = fluid.nodes();
-  frame.x = nodes.x;
-  frame.p.assign(fluid.pressure().begin(), fluid.pressure().end());
-  frame.cells = fluid.mesh().cells;
-  std::vector<char> has_cell(nodes.size(), 0);
-  for (const auto& cell : frame.cells)
-    for (const int node : cell) has_cell[static_cast<std::size_t>(node)] = 1;
-  frame.v.reserve(nodes.size());
-  frame.kind.reserve(nodes.size());
-  frame.wall.reserve(nodes.size());
-  frame.drop_diameter.assign(nodes.size(), 0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  const auto points = fluid.points();
+  const auto cells = fluid.cells();
+  const auto pressure = fluid.pressure();
+  frame.x.assign(points.begin(), points.end());
+  frame.p.assign(pressure.begin(), pressure.end());
+  frame.cells.assign(cells.begin(), cells.end());
+  frame.v.reserve(points.size());
+  frame.kind.reserve(points.size());
+  frame.wall.reserve(points.size());
+  frame.drop_diameter.assign(points.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
     frame.v.push_back(fluid.velocity_n(i));
-    frame.kind.push_back(kind_of(nodes, i, has_cell[i] != 0));
-    frame.wall.push_back(nodes.tie[i].wall);
-    if (frame.kind.back() == NodeKind::drop) frame.drop_diameter[i] = diameter<d>(nodes.volume[i]);
+    const PointPlace place = fluid.place(i);
+    const auto drop = fluid.drop_volume(i);
+    frame.kind.push_back(drop ? NodeKind::drop : kind_of(place));
+    frame.wall.push_back(place.wall);
+    if (drop) frame.drop_diameter[i] = diameter<d>(*drop);
   }
 }
 
@@ -169,17 +167,18 @@ std::size_t body_index(const BodiesView<d>& bodies, const std::string& name) {
 template <int d>
 double max_speed(const FluidView<d>& fluid) {
   double squared = 0;
-  for (std::size_t i = 0; i < fluid.nodes().size(); ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
+  const std::size_t count = fluid.points().size();
+  for (std::size_t i = 0; i < count; ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
   return std::sqrt(squared);
 }
 
 template <int d>
 double water_level(const FluidView<d>& fluid) {
-  const auto& nodes = fluid.nodes();
+  const auto points = fluid.points();
   double level = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& facet : fluid.mesh().boundary) {
+  for (const auto& facet : fluid.boundary()) {
     if (facet.wall >= 0) continue;
-    for (const int node : facet.nodes) level = std::fmax(level, nodes.x[static_cast<std::size_t>(node)](d - 1));
+    for (const int point : facet.nodes) level = std::fmax(level, points[static_cast<std::size_t>(point)](d - 1));
   }
   return level;
 }

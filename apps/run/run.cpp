@@ -96,7 +96,7 @@ void Run<d>::record(const StepMade& step) {
   recorder_.record(last_input_);
   ProgressPoint point{
       .time = step.time, .stop = plan_.stop, .dt = step.dt, .steps = loop_.steps, .nodes = {}, .passes = {}};
-  if (simulation_.world().fluid) point.nodes = simulation_.world().fluid->nodes().size();
+  if (simulation_.world().fluid) point.nodes = simulation_.world().fluid->points().size();
   if (scene_.coupling) point.passes = step.report.passes;
   progress_.show(point);
 }

@@ -15,7 +15,7 @@ using Box = Eigen::AlignedBox<double, d>;
 template <int d>
 std::vector<char> wet_bodies(const fluid::Fluid<d>& fluid, std::size_t count) {
   std::vector<char> wet(count, 0);
-  for (const auto& facet : fluid.mesh().boundary)
+  for (const auto& facet : fluid.boundary())
     if (facet.wall >= 0 && static_cast<std::size_t>(facet.wall) < count) wet[static_cast<std::size_t>(facet.wall)] = 1;
   return wet;
 }
@@ -28,7 +28,7 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
   if (fluid.is_waiting()) return dt;  // all hulls are far away
   const auto wet = wet_bodies(fluid, bodies.size());
   if (std::find(wet.begin(), wet.end(), 0) == wet.end()) return dt;
-  const auto& nodes = fluid.nodes();
+  const auto points = fluid.points();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (wet[b]) continue;
     const auto& hull = bodies.spec(b).surface;
@@ -38,13 +38,14 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
       box.extend(state.pose * rigid::Vec<d>(hull.vertices.col(i)));
     const double own = rigid::farthest_speed<d>(state.velocity, rigid::reach(bodies.spec(b))),
                  least = fluid.spec().step.cfl * fluid.spec().walls[b].size;
-    for (const auto& facet : fluid.mesh().boundary) {
+    for (const auto& facet : fluid.boundary()) {
       if (facet.wall >= 0) continue;
       Box<d> water;
       double speed = 0;
-      for (int n : facet.nodes) {
-        water.extend(nodes.x[n]);
-        speed = std::max(speed, nodes.v[n].norm());
+      for (const int point : facet.nodes) {
+        const auto at = static_cast<std::size_t>(point);
+        water.extend(points[at]);
+        speed = std::max(speed, fluid.velocity_n(at).norm());
       }
       dt = std::min(dt, std::max(least, 0.5 * box.exteriorDistance(water)) / (own + speed));
     }

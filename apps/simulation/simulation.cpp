@@ -159,18 +159,17 @@ class Simulation::StateOf final : public Simulation::State, private StepHost {
   std::optional<WaterNow> water() const override {
     const auto* fluid = simulation_.known(*tried_).fluid;
     if (!fluid) return {};
-    const auto& nodes = fluid->nodes();
-    const auto& mesh = fluid->mesh();
+    const auto points = fluid->points();
     WaterNow now;
-    now.positions = flat<double>(nodes.x);
+    now.positions = flat<double>(points);
     now.pressure = fluid->pressure();
-    now.cells = flat<int>(mesh.cells);
-    now.velocities.reserve(d * nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
+    now.cells = flat<int>(fluid->cells());
+    now.velocities.reserve(d * points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec<d> v = fluid->velocity_n(i);
       now.velocities.insert(now.velocities.end(), v.data(), v.data() + d);
     }
-    for (const auto& facet : mesh.boundary) {
+    for (const auto& facet : fluid->boundary()) {
       now.boundary.insert(now.boundary.end(), facet.nodes.begin(), facet.nodes.end());
       now.walls.push_back(facet.wall);
     }

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh.hpp"
+#include "core/facet.hpp"
 
 namespace splashdown {
 

@@ -1,4 +1,4 @@
-// The mesh as the fluid room names it: as it is looked at (core/mesh.hpp), and what remeshing asks of simplices and facets.
+// The mesh of a step: cells and boundary facets between the nodes at t_n, and what remeshing asks of them.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/mesh.hpp"
+#include "core/facet.hpp"
 #include "core/mirror.hpp"
 #include "fluid/geometry.hpp"
 #include "fluid/parallel.hpp"
@@ -18,10 +18,40 @@ using splashdown::corners;
 using splashdown::corners_of;
 using splashdown::enclosed_volume;
 using splashdown::Facet;
-using splashdown::Mesh;
-using splashdown::nodal_sums;
-using splashdown::nodal_volumes;
-using splashdown::volume_shares;
+
+/// Simplices between nodes, and the closed boundary of what they fill.
+template <int d>
+struct Mesh {
+  std::vector<std::array<int, d + 1>> cells;  ///< positively oriented simplices
+  std::vector<Facet<d>> boundary;             ///< closed: free surface and wetted walls, area vectors out of the fluid
+};
+
+/// The share V / (d + 1) of each cell's volume that falls to each of its corners [m^d]. O(cells), on all threads.
+template <int d, class Positions>
+std::vector<double> volume_shares(const Mesh<d>& mesh, const Positions& x) {
+  std::vector<double> share(mesh.cells.size());
+  in_parallel(share.size(), [&](std::size_t c) { share[c] = volume<d>(corners(x, mesh.cells[c])) / (d + 1); });
+  return share;
+}
+
+/// The sum over the cells around each of `nodes` nodes of what `share(c)` gives to each corner of cell c, in ascending order
+/// of the cells. O(cells).
+template <int d, class Share>
+std::vector<double> nodal_sums(const Mesh<d>& mesh, std::size_t nodes, Share share) {
+  std::vector<double> sums(nodes, 0.0);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const double of_corner = share(c);
+    for (int n : mesh.cells[c]) sums[n] += of_corner;
+  }
+  return sums;
+}
+
+/// Volume of the cells around each node, shared equally among their corners [m^d].
+template <int d, class Positions>
+std::vector<double> nodal_volumes(const Mesh<d>& mesh, const Positions& x) {
+  const std::vector<double> share = volume_shares(mesh, x);
+  return nodal_sums(mesh, x.size(), [&](std::size_t c) { return share[c]; });
+}
 
 /// Corners of the facet opposite each corner of a positive simplex, oriented out of it.
 template <int d>

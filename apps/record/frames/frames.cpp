@@ -38,13 +38,9 @@ void write_fluid(const Frame<d>& frame, const std::filesystem::path& path) {
   VtuGrid grid;
   grid.points.reserve(3 * frame.x.size());
   for (const auto& x : frame.x) append<d>(grid.points, x);
-  std::vector<char> used(frame.x.size(), 0);
-  for (const auto& cell : frame.cells) {
-    for (const int node : cell) used[static_cast<std::size_t>(node)] = 1;
-    grid.add_cell(cell_type<d>, cell.data(), d + 1);
-  }
-  for (int i = 0; i < static_cast<int>(used.size()); ++i)
-    if (!used[static_cast<std::size_t>(i)]) grid.add_cell(VtuCell::vertex, &i, 1);
+  for (const auto& cell : frame.cells) grid.add_cell(cell_type<d>, cell.data(), d + 1);
+  for (int i = 0; i < static_cast<int>(frame.kind.size()); ++i)
+    if (frame.kind[static_cast<std::size_t>(i)] == NodeKind::drop) grid.add_cell(VtuCell::vertex, &i, 1);
 
   grid.point_data.push_back(vectors<d>("v", frame.v));
   grid.point_data.push_back({"p", frame.p});

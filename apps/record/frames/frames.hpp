@@ -1,7 +1,7 @@
 // Pictures of a state for ParaView: one .vtu for the fluid, one for each wall, listed in frames.pvd.
 //
-// Fluid point data: v [m/s], p [Pa], kind (NodeKind), wall (index, -1: none), drop_diameter [m] (0: no drop). Nodes
-// without a cell (separated drops) are vertex cells. Wall point data: v [m/s], p [Pa] (0: dry). 2D points have z = 0.
+// Fluid point data: v [m/s], p [Pa], kind (NodeKind), wall (index, -1: none), drop_diameter [m] (0: no drop). Separated
+// drops are vertex cells. Wall point data: v [m/s], p [Pa] (0: dry). 2D points have z = 0.
 // docs/files.md.
 #pragma once
 

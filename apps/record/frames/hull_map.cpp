@@ -147,21 +147,21 @@ template <int d>
 HullMap<d>::HullMap(HullMap&&) noexcept = default;
 
 template <int d>
-void HullMap<d>::add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure,
-                     std::span<const double> repair, int wall, const Isometry<d>& pose, const Kick& kick) {
+void HullMap<d>::add(const WallFacets<d>& wall, std::span<const double> pressure, std::span<const double> repair,
+                     const Kick& kick) {
   // Facets are chords: beside a convex edge there is a gap of sagitta times angle, h/8 (h/R)^2 < rim h for h < R/4.
   constexpr double rim = 0.01;
   // Cosine of the angle between normals: a point beside a right-angled edge does not face as the other side does, the edge
   // of a blade of 12 degrees, whose normal is that of both sides together, faces like either.
   constexpr double alike = 0.1;
-  const Isometry<d> to_wall = pose.inverse();
+  const Isometry<d> to_wall = wall.pose.inverse();
   wet_.assign(pressure_.size(), 0);
-  for (const auto& facet : mesh.boundary) {
-    if (facet.wall != wall) continue;
+  for (const auto& facet : wall.boundary) {
+    if (facet.wall != wall.wall) continue;
     std::array<Vec<d>, d> corner;
     Vec<d> middle = Vec<d>::Zero();
     for (std::size_t k = 0; k < d; ++k) {
-      corner[k] = to_wall * nodes.x[static_cast<std::size_t>(facet.nodes[k])];
+      corner[k] = to_wall * wall.points[static_cast<std::size_t>(facet.nodes[k])];
       middle += corner[k] / d;
     }
     const Vec<d> out_of_fluid = area_vector(corner);

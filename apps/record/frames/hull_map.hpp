@@ -1,7 +1,7 @@
 // The highest pressure that each part of a hull has seen in a run, and when, and the impulse that it got.
 //
 // The hull's surface is divided until no edge is longer than asked for; its vertices are the points. In each step a
-// wetted facet of the mesh gives its linear pressure to the points that lie on it: whose foot on the facet's plane is
+// wetted facet of the fluid gives its linear pressure to the points that lie on it: whose foot on the facet's plane is
 // inside it, nearer than half of its size, where the hull faces the same way. Cost: that of the wetted facets.
 // The highest is that of the physical pressure: in the step of a true impact the repair impulse is not part of it. The impulse, the
 // time integral, has both.
@@ -12,9 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/record/wall_facets.hpp"
 #include "apps/statistics/statistics.hpp"
-#include "core/mesh.hpp"
-#include "core/nodes.hpp"
 
 namespace splashdown::apps {
 
@@ -30,8 +29,8 @@ class HullMap {
   HullMap(HullMap&&) noexcept;
 
   /// `repair`: mean over the kick of what the repair impulse adds [Pa]; empty where there is none.
-  void add(const Nodes<d>& nodes, const Mesh<d>& mesh, std::span<const double> pressure, std::span<const double> repair,
-           int wall, const Isometry<d>& pose, const Kick& kick);
+  void add(const WallFacets<d>& wall, std::span<const double> pressure, std::span<const double> repair,
+           const Kick& kick);
   const Surface<d>& surface() const { return surface_; }
   const std::vector<double>& pressure() const { return pressure_; }  ///< [Pa]; 0 where never wetted
   const std::vector<double>& time() const { return time_; }          ///< [s]; nan where never wetted

@@ -77,7 +77,7 @@ template <int d>
 WaterAtStart water_at_start(const RecordInput<d>& input) {
   const auto& fluid = *input.fluid;
   Extremes energy;
-  for (const auto& x : fluid.nodes().x) energy.offer(energy_at<d>(fluid, x));
+  for (const auto& x : fluid.points()) energy.offer(energy_at<d>(fluid, x));
   return {.level_energy = level_energy(input),
           .depth_energy = fluid.ledger().volume_initial * energy.length(),
           .hull_volume = input.bodies ? moving_hulls<d>(*input.bodies) : 0};

@@ -9,7 +9,7 @@ namespace splashdown::apps {
 template <int d>
 double wetted_facets(const RecordInput<d>& input, std::size_t body) {
   if (!input.fluid) return 0;
-  const auto& boundary = input.fluid->mesh().boundary;
+  const auto boundary = input.fluid->boundary();
   const int wall = static_cast<int>(body);  // body k is wall k
   return static_cast<double>(std::ranges::count(boundary, wall, &Facet<d>::wall));
 }

@@ -2,19 +2,22 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <vector>
 
-#include "core/mesh.hpp"
-#include "core/nodes.hpp"
+#include "apps/record/wall_facets.hpp"
 
 namespace splashdown::apps {
 
 template <int d>
 struct BoxOfWater {
-  Nodes<d> nodes;
-  Mesh<d> mesh;
+  std::vector<Vec<d>> x;
+  std::vector<double> p;
+  std::vector<Facet<d>> boundary;
   Surface<d> hull;
+
+  WallFacets<d> wall(const Isometry<d>& pose) const { return {x, boundary, 0, pose}; }
 };
 
 inline constexpr double weight = 9810;  // of water [N/m^3]
@@ -50,7 +53,8 @@ BoxOfWater<d> box_of_water(const Isometry<d>& pose, int cuts = 200) {
   box.hull = unit_box<d>();
   for (Eigen::Index v = 0; v < box.hull.vertices.cols(); ++v) {
     const Vec<d> x = pose * Vec<d>(box.hull.vertices.col(v));
-    box.nodes.add(x, Vec<d>::Zero(), hydrostatic<d>(x), {0, 0, -1}, false);
+    box.x.push_back(x);
+    box.p.push_back(hydrostatic<d>(x));
   }
   std::vector<std::array<int, d>> facets;
   for (Eigen::Index f = 0; f < box.hull.facets.cols(); ++f) {
@@ -66,12 +70,14 @@ BoxOfWater<d> box_of_water(const Isometry<d>& pose, int cuts = 200) {
     double sum = 0;
     for (auto& w : weights) sum += w = share(random);
     Vec<d> x = Vec<d>::Zero();
-    for (std::size_t k = 0; k < d; ++k) x += weights[k] / sum * box.nodes.x[static_cast<std::size_t>(facets[f][k])];
-    const int node = box.nodes.add(x, Vec<d>::Zero(), hydrostatic<d>(x), {0, 0, -1}, false);
+    for (std::size_t k = 0; k < d; ++k) x += weights[k] / sum * box.x[static_cast<std::size_t>(facets[f][k])];
+    const int point = static_cast<int>(box.x.size());
+    box.x.push_back(x);
+    box.p.push_back(hydrostatic<d>(x));
     const auto whole = facets[f];
     for (std::size_t k = 0; k < d; ++k) {
       auto piece = whole;
-      piece[k] = node;
+      piece[k] = point;
       if (k == 0)
         facets[f] = piece;
       else
@@ -80,7 +86,7 @@ BoxOfWater<d> box_of_water(const Isometry<d>& pose, int cuts = 200) {
   }
   for (auto facet : facets) {
     std::reverse(facet.begin(), facet.end());  // out of the fluid is into the box
-    box.mesh.boundary.push_back({facet, 0});
+    box.boundary.push_back({facet, 0});
   }
   return box;
 }

@@ -51,7 +51,7 @@ void map_of_a_hydrostatic_box() {
     pose.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
   const auto box = box_of_water<d>(pose);
   HullMap<d> map(box.hull, 0.1);
-  map.add(box.nodes, box.mesh, box.nodes.p, {}, 0, pose, {0.5, 0.4, 0.6});
+  map.add(box.wall(pose), box.p, {}, {0.5, 0.4, 0.6});
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     const Vec<d> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
     EXPECT_EQ(map.time()[i], 0.5);
@@ -68,11 +68,11 @@ TEST(HullMap, of_a_box_under_water_is_rho_g_z_everywhere) {
 TEST(HullMap, keeps_the_maximum_pressure_and_its_first_time_and_sums_impulses) {
   auto box = box_of_water<3>(Isometry<3>::Identity());
   HullMap<3> map(box.hull, 0.25);
-  const std::vector<double> repair(box.nodes.p.size(), 2.0);
+  const std::vector<double> repair(box.p.size(), 2.0);
   double time = 0;
   for (const double pressure : {5., 8., 8., 3.}) {
-    std::ranges::fill(box.nodes.p, pressure);
-    map.add(box.nodes, box.mesh, box.nodes.p, repair, 0, Isometry<3>::Identity(), {time, time, time + 0.5});
+    std::ranges::fill(box.p, pressure);
+    map.add(box.wall(Isometry<3>::Identity()), box.p, repair, {time, time, time + 0.5});
     ++time;
   }
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
@@ -85,12 +85,12 @@ TEST(HullMap, keeps_the_maximum_pressure_and_its_first_time_and_sums_impulses) {
 
 TEST(HullMap, what_stays_dry_has_no_time) {
   auto box = box_of_water<3>(Isometry<3>::Identity());
-  for (auto& facet : box.mesh.boundary) {  // wet at the bottom only
+  for (auto& facet : box.boundary) {  // wet at the bottom only
     for (const int node : facet.nodes)
-      if (box.nodes.x[static_cast<std::size_t>(node)].z() > -0.49) facet.wall = -1;
+      if (box.x[static_cast<std::size_t>(node)].z() > -0.49) facet.wall = -1;
   }
   HullMap<3> map(box.hull, 0.25);
-  map.add(box.nodes, box.mesh, box.nodes.p, {}, 0, Isometry<3>::Identity(), {1, 1, 2});
+  map.add(box.wall(Isometry<3>::Identity()), box.p, {}, {1, 1, 2});
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
     const double z = map.surface().vertices(2, static_cast<Eigen::Index>(i));
     EXPECT_EQ(std::isfinite(map.time()[i]), z < -0.49) << z;
@@ -105,17 +105,15 @@ TEST(HullMap, what_stays_dry_has_no_time) {
 TEST(HullMap, the_other_side_of_a_thin_plate_is_not_wetted) {
   Surface<2> plate = unit_box<2>();
   plate.vertices.row(1) *= 0.02;
-  Nodes<2> nodes;
-  nodes.x = {{-0.5, -0.01}, {0.5, -0.01}};
-  nodes.p = {7, 7};
-  Mesh<2> mesh;
-  mesh.boundary = {{{1, 0}, 0}};
+  const std::vector<Vec<2>> x{{-0.5, -0.01}, {0.5, -0.01}};
+  const std::vector<double> p{7, 7};
+  const std::vector<Facet<2>> boundary{{{1, 0}, 0}};
   HullMap<2> map(plate, 0.1);
-  map.add(nodes, mesh, nodes.p, {}, 0, Isometry<2>::Identity(), {0, 0, 1});
+  map.add({x, boundary, 0}, p, {}, {0, 0, 1});
   for (std::size_t i = 0; i < map.pressure().size(); ++i) {
-    const Vec<2> x = map.surface().vertices.col(static_cast<Eigen::Index>(i));
-    if (std::abs(x.x()) < 0.49) {
-      EXPECT_EQ(map.pressure()[i] > 0, x.y() < 0) << x.transpose();
+    const Vec<2> at = map.surface().vertices.col(static_cast<Eigen::Index>(i));
+    if (std::abs(at.x()) < 0.49) {
+      EXPECT_EQ(map.pressure()[i] > 0, at.y() < 0) << at.transpose();
     }
   }
 }

@@ -20,7 +20,7 @@ Isometry<d> somewhere() {
 
 template <int d>
 double mean(const BoxOfWater<d>& box, const Isometry<d>& pose, const PatchRegion<d>& region) {
-  return patch_force<d>(box.nodes, box.mesh, box.nodes.p, 0, pose, region) / patch_area<d>(region, box.hull);
+  return patch_force<d>(box.wall(pose), box.p, region) / patch_area<d>(region, box.hull);
 }
 
 // Linear pressure on flat facets that are cut exactly: the mean is the pressure at the centroid of the patch, to rounding
@@ -59,19 +59,16 @@ TEST(Patch, around_the_whole_box_has_the_mean_pressure_of_its_centre) {
 }
 
 TEST(Patch, its_dry_part_counts_with_zero) {
-  Nodes<2> nodes;
-  nodes.x = {{0, 0}, {1, 0}};
-  nodes.p = {10, 10};
-  Mesh<2> mesh;
-  mesh.boundary = {{{1, 0}, 0}, {{0, 1}, -1}};
+  const std::vector<Vec<2>> x{{0, 0}, {1, 0}};
+  const std::vector<double> p{10, 10};
+  const std::vector<Facet<2>> boundary{{{1, 0}, 0}, {{0, 1}, -1}};
   Surface<2> hull;  // runs on, dry, to x = 3
   hull.vertices.resize(2, 2);
   hull.vertices << 0, 3, 0, 0;
   hull.facets.resize(2, 1);
   hull.facets << 0, 1;
   const auto region = box_region<2>({0.5, -1}, {1.5, 1});
-  const auto rest = Isometry<2>::Identity();
-  EXPECT_NEAR(patch_force<2>(nodes, mesh, nodes.p, 0, rest, region) / patch_area<2>(region, hull), 5, 1e-14);
+  EXPECT_NEAR(patch_force<2>({x, boundary, 0}, p, region) / patch_area<2>(region, hull), 5, 1e-14);
 }
 
 // A plate thinner than the patch's radius: the other side is no part of it.

@@ -22,38 +22,32 @@ Surface<2> polygon(const std::vector<Vec<2>>& points) {
 const Isometry<2> at_rest = Isometry<2>::Identity();
 
 TEST(Elevation, is_the_highest_crossing_of_the_free_surface) {
-  Nodes<2> nodes;
-  nodes.x = {{0, 1}, {1, 2}, {2, 2}, {0.5, 3}, {1.5, 3}};
-  Mesh<2> mesh;
-  mesh.boundary = {{{1, 0}, -1}, {{2, 1}, -1}};
+  const std::vector<Vec<2>> x{{0, 1}, {1, 2}, {2, 2}, {0.5, 3}, {1.5, 3}};
+  std::vector<Facet<2>> boundary{{{1, 0}, -1}, {{2, 1}, -1}};
   using At = Eigen::Matrix<double, 1, 1>;
-  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(0.25)), 1.25);
-  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(1.0)), 2);  // at a node
-  EXPECT_FALSE(surface_elevation<2>(nodes, mesh, At(2.5)));
-  mesh.boundary.push_back({{4, 3}, -1});  // a jet above
-  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(1.0)), 3);
-  mesh.boundary.back().wall = 0;  // a hull above
-  EXPECT_DOUBLE_EQ(*surface_elevation<2>(nodes, mesh, At(1.0)), 2);
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(x, boundary, At(0.25)), 1.25);
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(x, boundary, At(1.0)), 2);  // at a node
+  EXPECT_FALSE(surface_elevation<2>(x, boundary, At(2.5)));
+  boundary.push_back({{4, 3}, -1});  // a jet above
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(x, boundary, At(1.0)), 3);
+  boundary.back().wall = 0;  // a hull above
+  EXPECT_DOUBLE_EQ(*surface_elevation<2>(x, boundary, At(1.0)), 2);
 }
 
 TEST(Elevation, of_a_tilted_plane_in_space_is_exact) {
-  Nodes<3> nodes;
-  nodes.x = {{0, 0, 1}, {1, 0, 3}, {0, 1, 4}};
-  Mesh<3> mesh;
-  mesh.boundary = {{{0, 1, 2}, -1}};
-  EXPECT_NEAR(*surface_elevation<3>(nodes, mesh, Eigen::Vector2d(0.25, 0.5)), 1 + 2 * 0.25 + 3 * 0.5, 1e-14);
-  EXPECT_FALSE(surface_elevation<3>(nodes, mesh, Eigen::Vector2d(0.75, 0.5)));
+  const std::vector<Vec<3>> x{{0, 0, 1}, {1, 0, 3}, {0, 1, 4}};
+  const std::vector<Facet<3>> boundary{{{0, 1, 2}, -1}};
+  EXPECT_NEAR(*surface_elevation<3>(x, boundary, Eigen::Vector2d(0.25, 0.5)), 1 + 2 * 0.25 + 3 * 0.5, 1e-14);
+  EXPECT_FALSE(surface_elevation<3>(x, boundary, Eigen::Vector2d(0.75, 0.5)));
 }
 
 TEST(WallPressure, is_interpolated_at_the_nearest_wetted_facet_and_absent_far_away) {
-  Nodes<2> nodes;
-  nodes.x = {{0, 0}, {1, 0}, {1, 1}};
-  nodes.p = {10, 20, 40};
-  Mesh<2> mesh;
-  mesh.boundary = {{{0, 1}, 0}, {{1, 2}, 1}, {{2, 0}, -1}};
-  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, nodes.p, {0.3, -0.01}), 13, 1e-12);
-  EXPECT_NEAR(*wall_pressure<2>(nodes, mesh, nodes.p, {1.01, 0.5}), 30, 1e-12);
-  EXPECT_FALSE(wall_pressure<2>(nodes, mesh, nodes.p, {0.3, -0.6}));
+  const std::vector<Vec<2>> x{{0, 0}, {1, 0}, {1, 1}};
+  const std::vector<double> p{10, 20, 40};
+  const std::vector<Facet<2>> boundary{{{0, 1}, 0}, {{1, 2}, 1}, {{2, 0}, -1}};
+  EXPECT_NEAR(*wall_pressure<2>(x, boundary, p, {0.3, -0.01}), 13, 1e-12);
+  EXPECT_NEAR(*wall_pressure<2>(x, boundary, p, {1.01, 0.5}), 30, 1e-12);
+  EXPECT_FALSE(wall_pressure<2>(x, boundary, p, {0.3, -0.6}));
 }
 
 TEST(Ruler, measures_a_wedge_from_its_keel_with_opposite_signs_on_its_faces) {
@@ -77,22 +71,20 @@ TEST(Ruler, the_keel_is_what_is_lowest_in_the_first_pose) {
   EXPECT_NEAR(ruler.distance({0, 1}), 0, 1e-14);
 }
 
-TEST(SurfacePressure, has_the_wetted_nodes_of_one_wall_in_order) {
-  Nodes<2> nodes;
-  nodes.x = {{0, 0}, {0.6, 0.8}, {-0.6, 0.8}, {2, 0}};
-  nodes.p = {5, 6, 7, 8};
-  Mesh<2> mesh;
-  mesh.boundary = {{{0, 1}, 0}, {{2, 0}, 0}, {{1, 3}, -1}};
+TEST(SurfacePressure, has_the_wetted_points_of_one_wall_in_order) {
+  const std::vector<Vec<2>> x{{0, 0}, {0.6, 0.8}, {-0.6, 0.8}, {2, 0}};
+  const std::vector<double> p{5, 6, 7, 8};
+  const std::vector<Facet<2>> boundary{{{0, 1}, 0}, {{2, 0}, 0}, {{1, 3}, -1}};
   const SurfaceRuler<2> ruler(polygon({{0, 0}, {3, 4}, {-3, 4}}), at_rest);
   const std::vector<double> repair{1, 2, 3, 4};
-  const auto points = surface_pressure<2>(nodes, mesh, nodes.p, repair, 0, ruler, at_rest);
+  const auto points = surface_pressure<2>({x, boundary, 0}, p, repair, ruler);
   ASSERT_EQ(points.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(points[i].s, static_cast<double>(i) - 1, 1e-14);
   EXPECT_EQ(points[0].p, 7);
   EXPECT_EQ(points[1].p, 5);
   EXPECT_EQ(points[2].p, 6);
   EXPECT_EQ(points[0].p_repair, 3);
-  EXPECT_EQ(surface_pressure<2>(nodes, mesh, nodes.p, {}, 0, ruler, at_rest)[0].p_repair, 0) << "none was made";
+  EXPECT_EQ(surface_pressure<2>({x, boundary, 0}, p, {}, ruler)[0].p_repair, 0) << "none was made";
 }
 
 }  // namespace

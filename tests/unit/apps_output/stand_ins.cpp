@@ -78,8 +78,7 @@ Surface<2> StandInDrop::hull() { return wedge(); }
 
 const RecordInput<2>& StandInDrop::at(double time, double dt) {
   const Motion motion = motion_at(time);
-  auto& nodes = fluid_.at;
-  auto& mesh = fluid_.cells;
+  auto& water = fluid_;
   auto& ledger = fluid_.books;
   auto& pose = fluid_.poses[0];
   pose = Isometry<2>::Identity();
@@ -87,49 +86,47 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   bodies_.states[0].pose = pose;
 
   const int across = nodes_across_, down = across / 2;
-  nodes = {};
-  mesh = {};
+  water.x.clear(), water.v.clear(), water.p.clear(), water.places.clear(), water.simplices.clear(),
+      water.facets.clear();
   const double wetted = std::min(wedge_half_breadth, 1.5 * motion.depth * wedge_half_breadth / wedge_height);
   for (int j = 0; j <= down; ++j)
     for (int i = 0; i <= across; ++i) {
       const double u = 2.0 * i / across - 1, x = tank_half_width * (0.3 * u + 0.7 * u * u * u);
       const double top = top_of_water(x, motion.depth), s = static_cast<double>(j) / down;
       const double y = top - (top + water_depth) * (0.3 * s + 0.7 * s * s);
-      nodes.x.emplace_back(x, y);
-      nodes.v.emplace_back(0.2 * x, motion.velocity * std::exp(-4 * std::hypot(x, y)));
+      water.x.emplace_back(x, y);
+      water.v.emplace_back(0.2 * x, motion.velocity * std::exp(-4 * std::hypot(x, y)));
       const bool x_is_dry = std::abs(x) >= wetted;
       const double r = std::hypot(std::abs(x) - wetted, 2 * (y - top)) / 0.08;
-      nodes.p.push_back(1000 * 9.81 * (top - y) + (x_is_dry ? 1 - std::exp(-60 * s) : 1.0) * motion.load *
+      water.p.push_back(1000 * 9.81 * (top - y) + (x_is_dry ? 1 - std::exp(-60 * s) : 1.0) * motion.load *
                                                       (3 * std::exp(-r * r) + std::exp(-std::pow(x / 0.3, 2) - 6 * s)));
       const bool on_wedge = j == 0 && std::abs(x) < wetted, on_tank = j == down || i == 0 || i == across;
-      nodes.tie.push_back({on_wedge ? 0 : on_tank ? 1 : -1, -1});
-      nodes.surface.push_back(j == 0 && !on_wedge);
+      water.places.push_back({on_wedge ? 0 : on_tank ? 1 : -1, false, j == 0 && !on_wedge});
     }
   const auto id = [&](int i, int j) { return j * (across + 1) + i; };
   for (int j = 0; j < down; ++j)
     for (int i = 0; i < across; ++i) {
       const int a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), e = id(i, j + 1);
       if (i < across / 2) {
-        mesh.cells.push_back({a, e, b});
-        mesh.cells.push_back({b, e, c});
+        water.simplices.push_back({a, e, b});
+        water.simplices.push_back({b, e, c});
       } else {
-        mesh.cells.push_back({a, e, c});
-        mesh.cells.push_back({a, c, b});
+        water.simplices.push_back({a, e, c});
+        water.simplices.push_back({a, c, b});
       }
     }
-  const auto tie = [&](int node) { return nodes.tie[static_cast<std::size_t>(node)].wall; };
+  const auto wall = [&](int point) { return water.places[static_cast<std::size_t>(point)].wall; };
   for (int i = 0; i < across; ++i) {
     const int a = id(i, 0), b = id(i + 1, 0);
-    mesh.boundary.push_back({{b, a}, tie(a) == 0 || tie(b) == 0 ? 0 : -1});
-    mesh.boundary.push_back({{id(i, down), id(i + 1, down)}, 1});
+    water.facets.push_back({{b, a}, wall(a) == 0 || wall(b) == 0 ? 0 : -1});
+    water.facets.push_back({{id(i, down), id(i + 1, down)}, 1});
   }
-  nodes.x.emplace_back(0.5, 0.2 + time);  // a drop
-  nodes.v.emplace_back(0, 1);
-  nodes.p.push_back(0);
-  nodes.tie.push_back({-1, -1});
-  nodes.surface.push_back(1);
-  nodes.volume.assign(nodes.size(), 0);
-  nodes.volume.back() = std::numbers::pi / 4 * 0.01 * 0.01;  // a drop of a centimetre
+  water.x.emplace_back(0.5, 0.2 + time);
+  water.v.emplace_back(0, 1);
+  water.p.push_back(0);
+  water.places.push_back({.on_free_surface = true});
+  water.drops = 1;
+  water.volume_of_drop = std::numbers::pi / 4 * 0.01 * 0.01;  // of a centimetre
 
   ledger.volume_initial = 2 * tank_half_width * water_depth;
   ledger.time_integration = -2e-6 * time / drop_end;
@@ -185,33 +182,38 @@ StandInPress::StandInPress(int nodes_across) {
   input_.fluid = &fluid_;
   input_.bodies = &bodies_;
 
-  auto& nodes = fluid_.at;
-  auto& mesh = fluid_.cells;
+  auto& water = fluid_;
   const int n = nodes_across, deep = n / 2;
   const double h = 2.0 / n;
   const auto id = [&](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
   for (int k = 0; k <= deep; ++k)
     for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) nodes.add({i * h - 1, j * h - 1, (k - deep) * h}, {0, 0, 0}, 0, {}, k == deep);
+      for (int i = 0; i <= n; ++i) {
+        water.x.emplace_back(i * h - 1, j * h - 1, (k - deep) * h);
+        water.places.push_back({.on_free_surface = k == deep});
+      }
+  water.v.assign(water.x.size(), Vec<3>::Zero());
+  water.p.assign(water.x.size(), 0);
   constexpr int paths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};  // of a cube's corners, bits x y z
   for (int k = 0; k < deep; ++k)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
         const auto corner = [&](int c) { return id(i + (c & 1), j + ((c >> 1) & 1), k + (c >> 2)); };
-        for (const auto& path : paths) mesh.cells.push_back({corner(0), corner(path[0]), corner(path[1]), corner(7)});
+        for (const auto& path : paths)
+          water.simplices.push_back({corner(0), corner(path[0]), corner(path[1]), corner(7)});
         if (k + 1 < deep) continue;
         const auto under = [&](int c) { return std::abs((i + c) * h - 1) <= press_half_length + 1e-12; };
         const auto beside = [&](int c) { return std::abs((j + c) * h - 1) <= press_half_length + 1e-12; };
         const int wall = under(0) && under(1) && beside(0) && beside(1) ? 0 : -1;
-        mesh.boundary.push_back({{corner(4), corner(5), corner(7)}, wall});
-        mesh.boundary.push_back({{corner(4), corner(7), corner(6)}, wall});
+        water.facets.push_back({{corner(4), corner(5), corner(7)}, wall});
+        water.facets.push_back({{corner(4), corner(7), corner(6)}, wall});
       }
 }
 
 const RecordInput<3>& StandInPress::at(double time, double dt) {
-  auto& nodes = fluid_.at;
+  auto& water = fluid_;
   const double press = press_at(time), area = 4 * press_half_length * press_half_length;
-  for (std::size_t i = 0; i < nodes.size(); ++i) nodes.p[i] = press - 9810 * nodes.x[i].z();
+  for (std::size_t i = 0; i < water.x.size(); ++i) water.p[i] = press - 9810 * water.x[i].z();
   Twist<3> velocity = Twist<3>::Zero(), acceleration = Twist<3>::Zero();
   acceleration(2) = press * area / 100;
   velocity(5) = 10;

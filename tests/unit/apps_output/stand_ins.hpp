@@ -2,6 +2,9 @@
 // the recorder can be driven without a solver.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/record/recorder.hpp"
@@ -14,8 +17,13 @@ class DrawnFluid final : public FluidView<d> {
  public:
   std::vector<WallSpec<d>> made;
   std::vector<Isometry<d>> poses;
-  Nodes<d> at;
-  Mesh<d> cells;
+  std::vector<Vec<d>> x, v;
+  std::vector<double> p;
+  std::vector<PointPlace> places;
+  std::vector<std::array<int, d + 1>> simplices;
+  std::vector<Facet<d>> facets;
+  std::size_t drops = 0;       ///< the last points
+  double volume_of_drop = 0;   ///< [m^d]
   std::vector<double> repair;  ///< empty: none was made
   Ledger books;
   double gravity = 0;  ///< 0: no such effect
@@ -23,12 +31,17 @@ class DrawnFluid final : public FluidView<d> {
   double density() const override { return 1000; }
   std::span<const WallSpec<d>> walls() const override { return made; }
   std::span<const Isometry<d>> wall_poses() const override { return poses; }
-  const Nodes<d>& nodes() const override { return at; }
-  const Mesh<d>& mesh() const override { return cells; }
-  std::span<const double> pressure() const override { return at.p; }
+  std::span<const Vec<d>> points() const override { return x; }
+  std::span<const std::array<int, d + 1>> cells() const override { return simplices; }
+  std::span<const Facet<d>> boundary() const override { return facets; }
+  PointPlace place(std::size_t point) const override { return places[point]; }
+  std::optional<double> drop_volume(std::size_t point) const override {
+    return point + drops >= x.size() ? std::optional(volume_of_drop) : std::nullopt;
+  }
+  std::span<const double> pressure() const override { return p; }
   std::span<const double> repair_pressure() const override { return repair; }
   const Ledger& ledger() const override { return books; }
-  Vec<d> velocity_n(std::size_t node) const override { return at.v[node]; }
+  Vec<d> velocity_n(std::size_t point) const override { return v[point]; }
   std::optional<double> pressure_at(const Vec<d>& point) const override {
     if (point(d - 1) > 0) return std::nullopt;
     return -density() * 9.81 * point(d - 1);
@@ -37,8 +50,9 @@ class DrawnFluid final : public FluidView<d> {
   std::vector<std::pair<std::string, double>> diagnostics() const override {
     if (gravity == 0) return {};
     double energy = 0;
-    const auto volumes = nodal_volumes(cells, at.x);
-    for (std::size_t i = 0; i < at.size(); ++i) energy += density() * volumes[i] * potential(at.x[i]);
+    for (const auto& cell : simplices)
+      for (const int corner : cell)
+        energy += density() * volume<d>(corners(x, cell)) / (d + 1) * potential(x[static_cast<std::size_t>(corner)]);
     return {{"gravity_energy", energy}};
   }
   Eigen::MatrixXd added_mass(std::span<const std::size_t> of) const override {

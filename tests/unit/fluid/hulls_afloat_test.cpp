@@ -15,7 +15,7 @@ constexpr std::array kinds{Afloat::box_at_small_draft, Afloat::box_of_small_free
                            Afloat::any_corners,        Afloat::beside_wall};
 
 /// Contact lines and corners at the hull.
-std::vector<Vec<2>> contact_lines(const splashdown::Nodes<2>& nodes) {
+std::vector<Vec<2>> contact_lines(const Nodes<2>& nodes) {
   std::vector<Vec<2>> at;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes.tie[i].wall == 0 && nodes.surface[i]) at.push_back(nodes.x[i]);

@@ -16,7 +16,7 @@ Vec<d> place(int i) {
   return x;
 }
 
-/// Simplices of nodes that follow each other; the last node is in none.
+/// Simplices of nodes that follow each other; the last node is in none, a drop.
 template <int d>
 Frame<d> frame_of(int nodes, double time) {
   Frame<d> frame;
@@ -26,7 +26,7 @@ Frame<d> frame_of(int nodes, double time) {
     frame.v.push_back(-place<d>(i));
     frame.p.push_back(1000.0 * i + 0.125);
     frame.drop_diameter.push_back(i % 3 == 0 ? i / 64.0 : 0.0);
-    frame.kind.push_back(static_cast<NodeKind>(i % 6));
+    frame.kind.push_back(i + 1 == nodes ? NodeKind::drop : static_cast<NodeKind>(i % 5));
     frame.wall.push_back(i % 5 - 1);
   }
   for (int i = 0; i + d + 1 < nodes; ++i) {

@@ -69,6 +69,7 @@ foreach(room IN LISTS layers)
 endforeach()
 rule("each room of apps has a place among the layers" FILES "^apps/" BUT_FILES "^apps/(${known})/" INCLUDES ".")
 rule("what is recorded does not depend on how it is coupled" FILES "^apps/(record|statistics|report)/" INCLUDES "^coupling/")
+rule("nodes and mesh are the particle finite element method's own" FILES "^(apps|rigid|coupling)/" INCLUDES "^fluid/(nodes|mesh/mesh)\\.hpp$")
 rule("records look at views, in core, not at who solves" FILES "^apps/(record|statistics|report)/" INCLUDES "^(fluid|rigid)/")
 
 # Libraries, each with one home.
