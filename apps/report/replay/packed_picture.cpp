@@ -26,18 +26,34 @@ double quantile(std::vector<double> values, double share) {
   return *nth;
 }
 
-/// Where the colours end: few points at hulls are above it, and not most of the water.
-double colour_limit(const MovingPicture& picture) {
-  constexpr double of_hulls = 0.995, of_water = 0.9;
-  std::vector<double> at_hulls, in_water;
-  const auto add = [](std::vector<double>& all, const MovingPart& part) {
-    std::ranges::copy_if(part.pressure, std::back_inserter(all), [](double p) { return p > 0; });
+/// Where the colours end, and whether something lies beyond. In space one point of a hull in twenty feels more at some time: noise
+/// in time does not count, and of all times most are calm. In the plane few points of hulls and not most of the water are above it.
+std::pair<double, bool> colour_limit(const MovingPicture& picture) {
+  constexpr double of_highest = 0.95, of_hulls = 0.995, of_water = 0.9;
+  std::vector<double> at_hulls, in_water, highest;
+  const auto add = [](std::vector<double>& all, const std::vector<double>& pressures) {
+    std::ranges::copy_if(pressures, std::back_inserter(all), [](double p) { return p > 0; });
   };
-  for (const auto& frame : picture.frames) {
-    if (picture.dimension == 2) add(in_water, frame.water);
-    for (const auto& body : frame.bodies) add(at_hulls, body);
+  if (picture.dimension == 3 && !picture.frames.empty()) {
+    for (std::size_t b = 0; b < picture.names.size(); ++b) {
+      auto most = picture.frames.front().bodies[b].pressure;
+      for (const auto& frame : picture.frames)
+        for (std::size_t i = 0; i < std::min(most.size(), frame.bodies[b].pressure.size()); ++i)
+          most[i] = std::max(most[i], frame.bodies[b].pressure[i]);
+      add(highest, most);
+    }
+    const double limit = quantile(highest, of_highest);
+    return {limit, std::ranges::any_of(highest, [&](double p) { return p > limit; })};
   }
-  return std::max(quantile(std::move(at_hulls), of_hulls), quantile(std::move(in_water), of_water));
+  for (const auto& frame : picture.frames) {
+    add(in_water, frame.water.pressure);
+    for (const auto& body : frame.bodies) add(at_hulls, body.pressure);
+  }
+  const double limit = std::max(quantile(at_hulls, of_hulls), quantile(in_water, of_water));
+  const auto beyond = [&](const std::vector<double>& all) {
+    return std::ranges::any_of(all, [&](double p) { return p > limit; });
+  };
+  return {limit, beyond(at_hulls) || beyond(in_water)};
 }
 
 std::size_t index_of(int number) { return static_cast<std::size_t>(number); }
@@ -212,11 +228,16 @@ std::array<double, 7> pose_of(const MovingPart& first, const MovingPart& now, do
 PackedPicture packed(const MovingPicture& picture) {
   PackedPicture result;
   const Raster raster(picture);
-  result.limit = colour_limit(picture);
+  const auto [limit, is_exceeded] = colour_limit(picture);
+  result.limit = limit;
   result.step = raster.step;
-  nlohmann::json json{
-      {"dimension", picture.dimension}, {"names", picture.names},           {"low", raster.low}, {"step", raster.step},
-      {"pressure", result.limit},       {"bodies", nlohmann::json::array()}};
+  nlohmann::json json{{"dimension", picture.dimension},
+                      {"names", picture.names},
+                      {"low", raster.low},
+                      {"step", raster.step},
+                      {"pressure", result.limit},
+                      {"above", is_exceeded},
+                      {"bodies", nlohmann::json::array()}};
   Packer packer(picture, raster, result.limit);
   const std::vector<MovingPart> none;
   const auto& bodies = picture.frames.empty() ? none : picture.frames.front().bodies;

@@ -76,7 +76,7 @@ std::string replay_html(const MovingPicture& picture, const std::string& library
   const char* in_space = picture.dimension == 3 ? "" : " hidden";
   auto html = fmt::format(
       R"(<style>{}</style>
-<figure id="replay"{}><div class="view"><div class="stamp"></div>{}<div class="key" hidden><span class="what"></span><div class="bar"></div><div class="ticks"></div></div></div>
+<figure id="replay"{}><div class="view"><div class="stamp"></div>{}<div class="ruler"></div><div class="key" hidden><span class="what"></span><div class="bar"></div><div class="ticks"></div></div></div>
 <p class="state" hidden></p><div class="hands"><button type="button">Play</button><input type="range" min="0" value="0" aria-label="frame"><span class="clock"></span>
 <label{}><select class="from" aria-label="view">{}</select></label><label{}><input type="checkbox" class="so-far"> highest pressure so far</label><label{}><input type="checkbox" class="follow"> follow</label><label><input type="checkbox" class="mesh"> mesh</label></div>
 <figcaption>{}</figcaption></figure>

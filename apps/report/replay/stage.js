@@ -5,8 +5,9 @@ function splashdown_stage(info, picture, colours, dark) {
   const plane = info.dimension === 2, frames = picture.frames;
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   const scene = new THREE.Scene();
-  scene.add(new THREE.HemisphereLight(0xffffff, 0x8f9ba6, 0.75));
-  const sun = new THREE.DirectionalLight(0xffffff, 0.45);
+  // From above, and from where the reader stands: colours are to be read from any side.
+  scene.add(new THREE.HemisphereLight(0xffffff, 0x9aa7b2, 0.55));
+  const sun = new THREE.DirectionalLight(0xffffff, 0.35), lamp = new THREE.DirectionalLight(0xffffff, 0.25);
   sun.position.set(0.4, -0.8, 1.6);
   scene.add(sun);
 
@@ -72,14 +73,42 @@ function splashdown_stage(info, picture, colours, dark) {
     body.cells.forEach((point, i) => { for (let k = 0; k < 3; ++k) x[3 * i + k] = body.x[3 * point + k]; });
     set(geometry, 'position', x);
     set(geometry, 'normal', normals(body.x, body.cells));
-    return new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ map: scale, side: THREE.DoubleSide, shininess: 25, specular: 0x222222 }));
+    return new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ map: scale, emissive: 0xffffff, emissiveMap: scale, emissiveIntensity: 0.25, side: THREE.DoubleSide, shininess: 25, specular: 0x1a1a1a }));
   });
   bodies.forEach((body) => scene.add(body));
+
+  // Where bodies are: boxes around them.
+  const point = new THREE.Vector3(), turn = new THREE.Quaternion(), matrix = new THREE.Matrix4(), one = new THREE.Vector3(1, 1, 1);
+  const pose = (f, b) => { const [x, y, z, ...q] = frames[f].poses[b]; return matrix.compose(point.set(x, y, z), turn.set(...q), one); };
+  function box_of(f, b, box) {
+    const motion = pose(f, b).clone(), x = picture.bodies[b].x;
+    for (let i = 0; i < x.length; i += 3) box.expandByPoint(point.fromArray(x, i).applyMatrix4(motion));
+    return box;
+  }
+  const boxes = bodies.length ? frames.map((_, f) => box_of(f, 0, new THREE.Box3())) : [];
+  const path = new THREE.Box3();
+  frames.forEach((_, f) => bodies.forEach((_, b) => box_of(f, b, path)));
+  if (path.isEmpty()) frames.forEach((_, f) => { const { x } = picture.water(f); for (let i = 0; i < x.length; i += 3) path.expandByPoint(point.fromArray(x, i)); });
+  const reach = Math.max(...path.getSize(new THREE.Vector3()).toArray());
+
+  // A grid on the water, and what it is worth: how large is it, and how fast? Its lines lie on round coordinates.
+  const round = (length) => { const power = 10 ** Math.floor(Math.log10(length)); return [5, 2, 1].map((n) => n * power).find((n) => n <= length * (1 + 1e-9)); };
+  const spacing = round(0.3 * reach), squares = document.createElement('canvas'), side = 256;
+  squares.width = squares.height = side;
+  const ink_of_grid = squares.getContext('2d');
+  ink_of_grid.fillStyle = '#fff';
+  ink_of_grid.fillRect(0, 0, side, side);
+  ink_of_grid.fillStyle = '#c3d3df';
+  for (const [w, h] of [[side, 2], [2, side]]) for (const from of [0, side - 2]) ink_of_grid.fillRect(w === 2 ? from : 0, h === 2 ? from : 0, w, h);
+  const grid = new THREE.CanvasTexture(squares);
+  grid.wrapS = grid.wrapT = THREE.RepeatWrapping;
+  grid.anisotropy = renderer.capabilities.getMaxAnisotropy();
+  const lie_on_grid = (geometry, x) => geometry.setAttribute('uv', new THREE.BufferAttribute(Float32Array.from({ length: x.length / 3 * 2 }, (_, i) => x[3 * (i >> 1) + i % 2] / spacing), 2));
 
   // Water in space: the nearest surface alone is blended over the hulls, so that it looks the same whichever triangle comes first.
   const water = new THREE.Group();
   const material = plane ? new THREE.MeshBasicMaterial({ map: scale, side: THREE.DoubleSide })
-    : new THREE.MeshPhongMaterial({ vertexColors: THREE.VertexColors, transparent: true, opacity: 0.72, side: THREE.DoubleSide, shininess: 70, specular: 0x445566 });
+    : new THREE.MeshPhongMaterial({ vertexColors: THREE.VertexColors, map: grid, transparent: true, opacity: 0.78, side: THREE.DoubleSide, shininess: 30, specular: 0x1c262e });
   const front = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true, side: THREE.DoubleSide }));
   const surface = new THREE.Mesh(new THREE.BufferGeometry(), material);
   front.renderOrder = 1;
@@ -102,7 +131,7 @@ function splashdown_stage(info, picture, colours, dark) {
     const all = [0, frames.length >> 1, frames.length - 1].flatMap((f) => Array.from(heights(f), (z) => Math.abs(z - level))).sort((a, b) => a - b);
     swell = Math.max(all[Math.floor(0.98 * (all.length - 1))] || 0, 1e-9);
   }
-  const trough = [0.05, 0.22, 0.42], still = [0.16, 0.47, 0.7], crest = [0.86, 0.94, 0.98];
+  const trough = [0.02, 0.16, 0.36], still = [0.12, 0.42, 0.66], crest = [0.84, 0.93, 0.98];
   function tint({ x }) {
     const colour = new Float32Array(x.length);
     for (let i = 0; i < x.length; i += 3) {
@@ -124,21 +153,9 @@ function splashdown_stage(info, picture, colours, dark) {
     return lines;
   }
 
-  // Where bodies are: boxes around them.
-  const point = new THREE.Vector3(), turn = new THREE.Quaternion(), matrix = new THREE.Matrix4(), one = new THREE.Vector3(1, 1, 1);
-  const pose = (f, b) => { const [x, y, z, ...q] = frames[f].poses[b]; return matrix.compose(point.set(x, y, z), turn.set(...q), one); };
-  function box_of(f, b, box) {
-    const motion = pose(f, b).clone(), x = picture.bodies[b].x;
-    for (let i = 0; i < x.length; i += 3) box.expandByPoint(point.fromArray(x, i).applyMatrix4(motion));
-    return box;
-  }
-  const boxes = bodies.length ? frames.map((_, f) => box_of(f, 0, new THREE.Box3())) : [];
-  const path = new THREE.Box3();
-  frames.forEach((_, f) => bodies.forEach((_, b) => box_of(f, b, path)));
-  if (path.isEmpty()) frames.forEach((_, f) => { const { x } = picture.water(f); for (let i = 0; i < x.length; i += 3) path.expandByPoint(point.fromArray(x, i)); });
-  const reach = Math.max(...path.getSize(new THREE.Vector3()).toArray());
-
   const camera = plane ? new THREE.OrthographicCamera(-1, 1, 1, -1, -10 * reach, 10 * reach) : new THREE.PerspectiveCamera(30, 1, 0.02 * reach, 60 * reach);
+  camera.add(lamp);
+  scene.add(camera);
   camera.up.set(0, plane ? 1 : 0, plane ? 0 : 1);
   const controls = new THREE.OrbitControls(camera, renderer.domElement);
   controls.enableRotate = !plane;
@@ -204,6 +221,7 @@ function splashdown_stage(info, picture, colours, dark) {
     } else {
       geometry.computeVertexNormals();
       set(geometry, 'color', tint(now));
+      lie_on_grid(geometry, now.x);
     }
     surface.geometry = front.geometry = geometry;
     if (mesh.visible) { mesh.geometry.dispose(); mesh.geometry = new THREE.WireframeGeometry(geometry); }
@@ -216,15 +234,23 @@ function splashdown_stage(info, picture, colours, dark) {
     controls.update();
     draw();
   }
-  function draw() { renderer.render(scene, camera); }
+  let drawn = () => {};
+  function draw() { renderer.render(scene, camera); drawn(); }
   controls.addEventListener('change', draw);
   return {
     element: renderer.domElement,
     state,
     mesh,
+    spacing,
     show,
+    // A round length and its pixels in the plane, after each drawing.
+    on_drawn: (tell) => {
+      drawn = () => {
+        const metre = renderer.domElement.clientHeight * camera.zoom / (camera.top - camera.bottom), length = round(0.16 * renderer.domElement.clientWidth / metre);
+        tell(length, length * metre);
+      };
+    },
     aim: () => { aim(); draw(); },
-    again: () => show(state.frame),
     resize: (width, height) => {
       renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
       renderer.setSize(width, height);

@@ -76,6 +76,12 @@ function splashdown_unpack(info, buffer) {
     felt = felt.map((last) => last.map((v) => v + hulls[hull++]));
     return { time: frame.time, poses: frame.poses, pressures: felt };
   });
+  begins.push(from);
   const known = [];
-  return { bodies, frames, water: (f) => (known[f] = known[f] || triangles(info.frames[f].points, info.frames[f].cells, { ...begins[f] }, plane)) };
+  function unpacked_water(f) {
+    const at = { ...begins[f] }, part = triangles(info.frames[f].points, info.frames[f].cells, at, plane);
+    if (Object.keys(at).some((array) => at[array] !== begins[f + 1][array])) throw new Error('frame ' + f + ' of the replay is damaged');
+    return part;
+  }
+  return { bodies, frames, water: (f) => (known[f] = known[f] || unpacked_water(f)) };
 }

@@ -37,6 +37,7 @@
     const most = info.pressure / factor, power = 10 ** Math.floor(Math.log10(most / 2)), step = [5, 2, 1].map((n) => n * power).find((s) => most / s >= 2) || power;
     const bar = colours.map(([at, ...c]) => `rgb(${c}) ${100 * at}%`).join(',');
     pick('.key .bar').style.background = `linear-gradient(to right,${bar})`;
+    pick('.key .bar').classList.toggle('open', info.above);
     const ticks = pick('.key .ticks');
     for (let n = 0; n * step <= most; ++n) {
       const tick = document.createElement('span');
@@ -88,6 +89,11 @@
     Object.assign(stage.state, { view: film.view, zoom: film.zoom, follow: film.follow });
   }
   key();
+  const length_text = (metres) => +(metres < 0.1 ? 1e3 * metres : metres).toPrecision(3) + (metres < 0.1 ? ' mm' : ' m');
+  const ruler = pick('.ruler');
+  if (plane) stage.on_drawn((length, pixels) => { ruler.textContent = length_text(length); ruler.style.width = pixels + 'px'; });
+  else ruler.textContent = 'grid: ' + length_text(stage.spacing);
+  ruler.classList.toggle('bar', plane);
   stage.paint(dark ? 0x18222c : plane ? 0xf6f9fb : 0xeaf1f6);
   resize();
   stage.state.frame = Math.floor((frames.length - 1) / 2);
