@@ -55,6 +55,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::fil
   id_ = ::fork();
   if (id_ == 0) become(log.c_str(), arguments.data(), parent, copies);
   const int trouble = errno;
+  if (id_ > 0) ::setpgid(id_, id_);  // whoever comes first: the group is there before anybody signals it
   for (const auto& copy : copies) ::close(copy.ours);
   if (id_ < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(trouble)));
 }

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<std::string> words_for(const std::filesystem::path& program, const std::filesystem::path& part,
                                    double pictures_a_second) {
-  // yuv420p and the index at the beginning: what browsers and slides play. 18: hardly to be told from the pictures.
+  // Told what comes, ffmpeg begins with the first picture instead of looking at megabytes of them. yuv420p and the index at the beginning: what browsers and slides play. 18: hardly to be told from the pictures.
   return {program.string(),
           "-nostdin",
           "-hide_banner",
@@ -23,6 +23,12 @@ std::vector<std::string> words_for(const std::filesystem::path& program, const s
           "-y",
           "-f",
           "image2pipe",
+          "-probesize",
+          "32",
+          "-analyzeduration",
+          "0",
+          "-c:v",
+          "png",
           "-framerate",
           fmt::format("{}", pictures_a_second),
           "-i",

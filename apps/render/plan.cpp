@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -14,6 +15,7 @@
 #include "apps/report/data.hpp"
 #include "apps/report/price.hpp"
 #include "apps/report/study.hpp"
+#include "apps/scene/rules/problems.hpp"
 #include "apps/text/number_text.hpp"
 #include "apps/text/shell_word.hpp"
 
@@ -58,6 +60,8 @@ void check_file(const char* option, const std::filesystem::path& file, const cha
   if (!folder.empty() && !std::filesystem::is_directory(folder))
     throw refused(
         fmt::format("{} {}: there is no folder {}. Make it, or name another", option, file.string(), folder.string()));
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+    throw refused(fmt::format("{} {}: its folder cannot be written. Name another", option, file.string()));
   if (std::filesystem::is_directory(file))
     throw refused(fmt::format("{} {}: is a folder. Name a file in it", option, file.string()));
 }
@@ -71,11 +75,12 @@ std::array<double, 2> view_of(const std::string& text, int dimension) {
     names.emplace_back(view.name);
   }
   const auto angles = pair_of<double>(text, ',');
+  const auto near = nearest(text, names);
   if (!angles || !(std::abs((*angles)[0]) <= 360) || !(std::abs((*angles)[1]) < 90))
-    throw refused(fmt::format(
-        "--view {}: must be {}, or two angles in degrees: where the camera stands, turned from ahead to port "
-        "(-360 to 360), and how high (-89 to 89), e.g. --view -55,16",
-        text, fmt::join(names, ", ")));
+    throw refused(
+        fmt::format("--view {}: must be {}, or two angles in degrees: where the camera stands, turned from ahead to "
+                    "port (-360 to 360), and how high (-89 to 89), e.g. --view -55,16{}",
+                    text, fmt::join(names, ", "), near.empty() ? "" : fmt::format("; did you mean {}?", near)));
   return *angles;
 }
 
@@ -87,10 +92,10 @@ std::runtime_error no_frames(const std::filesystem::path& run) {
   const auto data = read_run(run);  // throws where there is no run
   const double end = data.end_time();
   const double every = end > 0 ? std::pow(10, std::floor(std::log10(end / 25))) : 0.01;
-  return refused(
-      fmt::format("{}: the run recorded no frames: frames.pvd is not there. Add these lines to the scene, or --set "
-                  "output.frames={:g} to the command, and run it again:\n[output]\nframes = {:g}  # s",
-                  run.string(), every, every));
+  return refused(fmt::format(
+      "{}: the run recorded no frames: frames.pvd is not there. Put \"frames = {:g}\" (s) below [output] of "
+      "the scene, or --set output.frames={:g} behind the command, and run it again",
+      run.string(), every, every));
 }
 
 /// What a killed or copied folder lacks.

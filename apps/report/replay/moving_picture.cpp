@@ -136,6 +136,7 @@ MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_
       }
   });
   MovingPicture picture;
+  picture.mirror = mirror_plane(run);
   for (auto& [frame, names, in_space, trouble] : frames) {
     if (!trouble.empty()) throw std::runtime_error(trouble);
     if (in_space) picture.dimension = 3;

@@ -3,8 +3,11 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "apps/report/data.hpp"
 
 namespace splashdown::apps {
 
@@ -25,6 +28,7 @@ struct MovingPicture {
   int dimension = 2;
   std::vector<std::string> names;  ///< of the bodies
   std::vector<MovingFrame> frames;
+  std::optional<MirrorPlane> mirror;  ///< hulls are whole, water and pressures are those of one half
 };
 
 /// Reads frames.pvd and what it names, at most so many frames, evenly spread, the first and the last among them. In space the water is

@@ -78,6 +78,11 @@ struct Raster {
     // Differences of places have to fit into 32 bits.
     const double width = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
     step = std::max({of_edge * quantile(std::move(edges), shorter), std::ldexp(width, -24), 1e-300});
+    // Whole steps from the mirror plane: both halves meet.
+    if (picture.mirror) {
+      double& begin = low[index_of(picture.mirror->axis)];
+      begin = picture.mirror->at - std::ceil((picture.mirror->at - begin) / step) * step;
+    }
   }
   Steps of(const Place& x) const {
     Steps steps{};
@@ -238,6 +243,7 @@ PackedPicture packed(const MovingPicture& picture) {
                       {"pressure", result.limit},
                       {"above", is_exceeded},
                       {"bodies", nlohmann::json::array()}};
+  if (picture.mirror) json["mirror"] = {{"axis", picture.mirror->axis}, {"at", picture.mirror->at}};
   Packer packer(picture, raster, result.limit);
   const std::vector<MovingPart> none;
   const auto& bodies = picture.frames.empty() ? none : picture.frames.front().bodies;

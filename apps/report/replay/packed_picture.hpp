@@ -13,7 +13,7 @@
 namespace splashdown::apps {
 
 /// {"dimension", "names", "low" [m], "step" [m], "pressure" [Pa], "above", "bodies": [{"points", "cells"}], "frames": [{"time", "points", "cells",
-/// "steps", "references", "poses"}], "arrays": [{"name", "size", "count"}]}: `above`: some pressures are. The numbers of what the arrays of bytes hold, one after the
+/// "steps", "references", "poses"}], "arrays": [{"name", "size", "count"}]}: `above`: some pressures are. "mirror" {"axis", "at" [m]} where one half is told. The numbers of what the arrays of bytes hold, one after the
 /// other. An array of `size` bytes a number has all their first bytes, then all second ones and so on. They are those of bodies, then of
 /// frames: "steps" and "references" (mesh_code.hpp), "x", "y", "z" (how far places are from where they are expected), "segments"
 /// (of bodies in the plane, from number to number), "water" (pressures, as places), "hulls" (pressures, from frame to frame). Differences of

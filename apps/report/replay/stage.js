@@ -6,8 +6,8 @@ function splashdown_stage(info, picture, colours, dark) {
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   const scene = new THREE.Scene();
   // From above, and from where the reader stands: colours are to be read from any side.
-  scene.add(new THREE.HemisphereLight(0xffffff, 0x9aa7b2, 0.55));
-  const sun = new THREE.DirectionalLight(0xffffff, 0.35), lamp = new THREE.DirectionalLight(0xffffff, 0.25);
+  scene.add(new THREE.HemisphereLight(0xffffff, 0xc8d0d7, 0.5));
+  const sun = new THREE.DirectionalLight(0xffffff, 0.22), lamp = new THREE.DirectionalLight(0xffffff, 0.3);
   sun.position.set(0.4, -0.8, 1.6);
   scene.add(sun);
 
@@ -73,7 +73,7 @@ function splashdown_stage(info, picture, colours, dark) {
     body.cells.forEach((point, i) => { for (let k = 0; k < 3; ++k) x[3 * i + k] = body.x[3 * point + k]; });
     set(geometry, 'position', x);
     set(geometry, 'normal', normals(body.x, body.cells));
-    return new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ map: scale, emissive: 0xffffff, emissiveMap: scale, emissiveIntensity: 0.25, side: THREE.DoubleSide, shininess: 25, specular: 0x1a1a1a }));
+    return new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ map: scale, emissive: 0xffffff, emissiveMap: scale, emissiveIntensity: 0.14, side: THREE.DoubleSide, shininess: 25, specular: 0x1a1a1a }));
   });
   bodies.forEach((body) => scene.add(body));
 
@@ -83,6 +83,11 @@ function splashdown_stage(info, picture, colours, dark) {
   function box_of(f, b, box) {
     const motion = pose(f, b).clone(), x = picture.bodies[b].x;
     for (let i = 0; i < x.length; i += 3) box.expandByPoint(point.fromArray(x, i).applyMatrix4(motion));
+    // The mirror image of a body that stands aside.
+    if (info.mirror && box.max.getComponent(info.mirror.axis) > info.mirror.at) {
+      const { axis, at } = info.mirror, beyond = box.max.getComponent(axis);
+      box.min.setComponent(axis, Math.min(box.min.getComponent(axis), 2 * at - beyond));
+    }
     return box;
   }
   const boxes = bodies.length ? frames.map((_, f) => box_of(f, 0, new THREE.Box3())) : [];
@@ -121,6 +126,34 @@ function splashdown_stage(info, picture, colours, dark) {
   mesh.renderOrder = edge.renderOrder = 3;
   scene.add(water, mesh);
   if (plane) scene.add(edge);
+
+  // Of a scene of which one half was simulated the other one is its mirror image. Hulls are whole, with the pressures of one half.
+  const twins = [], other = new THREE.Group();
+  if (info.mirror) {
+    const { axis, at } = info.mirror, normal = new THREE.Vector3().setComponent(axis, 1);
+    const sides = [new THREE.Plane(normal, -at), new THREE.Plane(normal.clone().negate(), at)];
+    other.scale.setComponent(axis, -1);
+    other.position.setComponent(axis, 2 * at);
+    renderer.localClippingEnabled = true;
+    for (const part of [front, surface, mesh, edge].filter((part) => part.parent).concat(plane ? [] : bodies)) {
+      const twin = part.clone();
+      if (bodies.includes(part)) {
+        twin.material = part.material.clone();
+        [part, twin].forEach((half, side) => { half.material.clippingPlanes = [sides[side]]; });
+      }
+      twins.push([part, twin]);
+      other.add(twin);
+    }
+    scene.add(other);
+  }
+  function match_twins() {
+    for (const [part, twin] of twins) {
+      twin.geometry = part.geometry;
+      twin.visible = part.visible;
+      twin.matrixAutoUpdate = part.matrixAutoUpdate;
+      twin.matrix.copy(part.matrix);
+    }
+  }
 
   // Height over still water, told by colour: troughs dark, crests pale.
   const heights = (f) => picture.water(f).x.filter((_, i) => i % 3 === 2).sort();
@@ -231,6 +264,7 @@ function splashdown_stage(info, picture, colours, dark) {
       body.matrixAutoUpdate = false;
       body.matrix.copy(pose(f, b));
     });
+    match_twins();
     controls.update();
     draw();
   }

@@ -264,6 +264,20 @@ TEST(PackedPicture, fits_fifty_frames_of_a_large_surface_into_four_megabytes) {
   EXPECT_LE(50. / frames * static_cast<double>(stream_of(result.bytes).size()), 11. / 12 * 4e6);
 }
 
+// So that no gap opens between the water and its mirror image.
+TEST(PackedPicture, keeps_what_lies_on_the_mirror_plane_on_it) {
+  std::mt19937 random(9);
+  auto picture = waves(6, 2, random);
+  picture.mirror = MirrorPlane{1, 0.123};
+  for (auto& frame : picture.frames)
+    for (auto& x : frame.water.points) x[1] = 0.123;
+  const auto result = packed(picture);
+  const auto& water = picture.frames[0].water;
+  const auto hull = mesh_code(picture.frames[0].bodies[0].cells, 8);
+  for (const auto& x : places_of(mesh_code(water.cells, water.points.size()), result, hull.order.size()))
+    EXPECT_NEAR(x[1], 0.123, 1e-9);
+}
+
 TEST(PackedPicture, refuses_a_hull_that_changes_its_shape) {
   std::mt19937 random(8);
   auto picture = waves(4, 3, random);
