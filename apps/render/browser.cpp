@@ -103,9 +103,10 @@ nlohmann::json Browser::open(const std::filesystem::path& page, const std::strin
   }
 }
 
-std::string Browser::picture() {
+std::string Browser::picture(bool quick) {
   return asked([&] {
-    return from_base64(tools_.call("Page.captureScreenshot", {{"format", "png"}}).value("data", std::string()));
+    return from_base64(tools_.call("Page.captureScreenshot", {{"format", "png"}, {"optimizeForSpeed", quick}})
+                           .value("data", std::string()));
   });
 }
 

@@ -25,8 +25,8 @@ class Browser {
   /// Shows a file, once, and waits until `ready`, an expression, is neither false nor empty: its value.
   nlohmann::json open(const std::filesystem::path& page, const std::string& ready);
   nlohmann::json value_of(const std::string& expression);
-  /// Bytes of a PNG file.
-  std::string picture();
+  /// Bytes of a PNG file; `quick`: larger, in a third of the time.
+  std::string picture(bool quick);
 
  private:
   template <class Ask>

@@ -118,7 +118,7 @@ void render(const RenderPlan& plan, const Programs& programs, const std::string&
   }
   const auto picture_of = [&](std::size_t frame) {
     browser.value_of(fmt::format("splashdown_show({})", frame));
-    return browser.picture();
+    return browser.picture(plan.is_movie);
   };
   if (!plan.is_movie) return write_file_atomically(plan.file, picture_of(plan.frame));
   Film film(programs.ffmpeg, plan.file, plan.fps, folder.path() / "ffmpeg.log");
