@@ -17,12 +17,15 @@ set(output_sources
   statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/verdict/statements.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
   report/data.cpp report/figures.cpp report/curves/acceleration.cpp report/curves/filtered_curves.cpp report/curves/style.cpp report/gnuplot.cpp report/html.cpp
   report/ablation.cpp report/answers.cpp report/page.cpp report/price.cpp report/report.cpp report/study.cpp report/words.cpp
-  report/replay/moving_picture.cpp report/replay/replay.cpp
+  report/replay/mesh_code.cpp report/replay/moving_picture.cpp report/replay/packed_picture.cpp report/replay/replay.cpp
   report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp
   report/pictures/png.cpp)
 list(TRANSFORM output_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/report/replay/viewer.js)
-file(READ ${CMAKE_CURRENT_LIST_DIR}/report/replay/viewer.js viewer)
+foreach(file replay.css unpack.js stage.js viewer.js)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/report/replay/${file})
+  string(REPLACE . _ name ${file})
+  file(READ ${CMAKE_CURRENT_LIST_DIR}/report/replay/${file} ${name})
+endforeach()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/report/replay/viewer.hpp.in include/apps/report/replay/viewer.hpp @ONLY)
 add_library(splashdown_output STATIC ${output_sources})
 target_include_directories(splashdown_output PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/include)

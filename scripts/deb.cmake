@@ -16,7 +16,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libopenblas0-serial | libopenblas0, openmpi-bin")
 # Reports are written without them, too: they lack the curves or the replay, and say so.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, libjs-three")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "paraview")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "chromium, ffmpeg, paraview")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME splashdown-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -1,4 +1,4 @@
-// splashdown new | run | check | advise | study | price | ablate | report | schema
+// splashdown new | run | check | advise | study | price | ablate | report | render | schema
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include "apps/price/command.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/version.hpp"
+#include "apps/render/command.hpp"
 #include "apps/report/command.hpp"
 #include "apps/run/command.hpp"
 #include "apps/scene/choose/presets.hpp"
@@ -337,6 +338,26 @@ CLI::App* add_new(CLI::App& app, NewOptions& made) {
   return new_app;
 }
 
+CLI::App* add_render(CLI::App& app, RenderOptions& render) {
+  auto* render_app = app.add_subcommand("render", "Draw a run's frames without a display: a still or a film");
+  render_app->add_option("directory", render.directory, "folder of a run with frames (output.frames)")->required();
+  render_app->add_option("--time", render.time, "simulated time of a still [s]; the nearest frame is taken");
+  render_app->add_option("-o,--out", render.out, "file of the still, FILE.png (default: render.png in the folder)");
+  render_app->add_option("--movie", render.movie, "film of all frames, FILE.mp4");
+  render_app->add_option("--fps", render.fps, "frames a second of the film (default: all in five seconds)")
+      ->check(CLI::Range(0.5, 120.));
+  render_app->add_option("--size", render.size, "pixels")->type_name("WxH")->capture_default_str();
+  render_app->add_option("--view", render.view,
+                         "in space: bow (default), stern, side, ahead, above, below; or AZIMUTH,ELEVATION [deg]: where "
+                         "the camera stands, from ahead to port, and up");
+  render_app->add_option("--zoom", render.zoom, "how much nearer")->check(positive_number())->capture_default_str();
+  render_app->add_flag("--follow", render.follow, "the camera follows the first body");
+  render_app->add_flag("--so-far", render.so_far, "colour hulls by their highest pressure so far");
+  render_app->add_flag("--mesh", render.mesh, "draw the mesh");
+  render_app->add_flag("--quiet", render.quiet, "print errors only");
+  return render_app;
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
   app.set_version_flag("--version", version_text);
@@ -368,6 +389,9 @@ int command_line(int argc, char** argv) {
       app.add_subcommand("report", "Write report.html from the files of a run, a study, a price or an ablation");
   report_app->add_option("directory", directory, "folder of the run, the study, the price or the ablation")->required();
 
+  RenderOptions render;
+  const auto* render_app = add_render(app, render);
+
   std::string schema_of = "scene";
   auto* schema_app = app.add_subcommand("schema", "Print the JSON Schema of scenes or studies, for editors");
   schema_app->add_option("what", schema_of, "scene or study")
@@ -386,6 +410,7 @@ int command_line(int argc, char** argv) {
   if (*price_app) return price_command(price);
   if (*advise_app) return advise_command(advise);
   if (*ablate_app) return ablate_command(ablate);
+  if (*render_app) return render_command(render);
   if (*schema_app) {
     fmt::print("{}", schema_of == "scene" ? scene_schema() : study_schema());
     return exit_code::done;

@@ -22,7 +22,8 @@ namespace {
 constexpr int could_not_start = 127;  // as shells have it
 
 /// In the child between fork and exec: calls that are safe after a fork only.
-[[noreturn]] void become(const char* log, char* const* arguments, pid_t parent) {
+[[noreturn]] void become(const char* log, char* const* arguments, pid_t parent,
+                         const std::vector<ChildProcess::Handed>& handed) {
   ::setpgid(0, 0);  // the terminal's Ctrl-C is for the parent, who passes it on once
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(could_not_start);  // it died before the line above
@@ -32,6 +33,8 @@ constexpr int could_not_start = 127;  // as shells have it
   ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(out, STDERR_FILENO);
+  for (const auto& [ours, theirs] : handed)
+    if (::dup2(ours, theirs) < 0) ::_exit(could_not_start);
   ::execv(arguments[0], arguments);
   ::_exit(could_not_start);
 }
@@ -39,14 +42,22 @@ constexpr int could_not_start = 127;  // as shells have it
 }  // namespace
 
 // posix_spawn, which the rest of this room uses, cannot tie a child's life to its parent's.
-ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log) {
+ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log,
+                           const std::vector<Handed>& handed) {
   std::vector<char*> arguments;
   for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  // Out of the way of the child's numbers.
+  constexpr int beyond = 64;
+  std::vector<Handed> copies;
+  for (const auto& [ours, theirs] : handed) copies.push_back({::fcntl(ours, F_DUPFD_CLOEXEC, beyond), theirs});
   const pid_t parent = ::getpid();
   id_ = ::fork();
-  if (id_ < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errno)));
-  if (id_ == 0) become(log.c_str(), arguments.data(), parent);
+  if (id_ == 0) become(log.c_str(), arguments.data(), parent, copies);
+  const int trouble = errno;
+  if (id_ > 0) ::setpgid(id_, id_);  // whoever comes first: the group is there before anybody signals it
+  for (const auto& copy : copies) ::close(copy.ours);
+  if (id_ < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(trouble)));
 }
 
 std::optional<ChildProcess::End> ChildProcess::end() {
@@ -66,6 +77,8 @@ ChildProcess::End ChildProcess::wait() {
 }
 
 void ChildProcess::ask_to_stop() const { ::kill(id_, SIGTERM); }
+
+void ChildProcess::kill_group() const { ::kill(-id_, SIGKILL); }
 
 std::string last_line(const std::filesystem::path& log) {
   std::ifstream in(log);

@@ -12,9 +12,14 @@ namespace splashdown::apps {
 
 class ChildProcess {
  public:
-  /// Both outputs go to the end of `log`. The child gets SIGTERM when this process dies, even of SIGKILL.
-  /// Throws std::runtime_error if no process can be made.
-  ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log);
+  /// A file descriptor of this process, and its number in the child.
+  struct Handed {
+    int ours, theirs;
+  };
+  /// Both outputs go to the end of `log`; the input is empty, unless something is handed over for it. The child gets SIGTERM when this
+  /// process dies, even of SIGKILL. Throws std::runtime_error if no process can be made.
+  ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log,
+               const std::vector<Handed>& handed = {});
 
   struct End {
     int code = -1;   ///< exit code; -1: ended by a signal
@@ -24,6 +29,7 @@ class ChildProcess {
   std::optional<End> end();
   End wait();
   void ask_to_stop() const;  ///< SIGTERM
+  void kill_group() const;   ///< SIGKILL to it and what it has started
 
  private:
   pid_t id_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -127,6 +128,20 @@ std::map<std::string, std::string> read_record_kinds(const std::filesystem::path
 }
 
 }  // namespace
+
+std::optional<MirrorPlane> mirror_plane(const std::filesystem::path& run) {
+  std::ifstream in(run / "scene.resolved.toml");
+  std::optional<MirrorPlane> plane;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("[")) inside = line == "[symmetry]";
+    if (!inside) continue;
+    if (!plane) plane.emplace();
+    if (value_in(line, "normal") == "y") plane->axis = 1;
+    if (const auto at = value_in(line, "at"); !at.empty()) plane->at = std::strtod(at.c_str(), nullptr);
+  }
+  return plane;
+}
 
 std::string RunData::unit_of_probe(const std::string& name) const {
   const auto kind = [&](const std::string& of) {

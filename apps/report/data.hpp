@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,14 @@ struct RunData {
   int dimension() const;
   double end_time() const;
 };
+
+/// The plane x_axis = at [m] of a scene of which one half was simulated, that of larger coordinates.
+struct MirrorPlane {
+  int axis = 0;  ///< 0: x, 1: y
+  double at = 0;
+};
+/// From scene.resolved.toml; nothing if the whole was simulated.
+std::optional<MirrorPlane> mirror_plane(const std::filesystem::path& run);
 
 RunData read_run(const std::filesystem::path& directory);
 

@@ -21,14 +21,10 @@ constexpr int figure_width = 1000, plot_width = 760, left = 95, above = 20, belo
 constexpr double faint_edges = 4, edges_of = 9;  // [pixels]: shorter mesh lines would hide the colours
 constexpr std::size_t most_edges = 20000;        // of a picture: browsers scroll a page of several at ease
 
-struct Stop {
-  double at;
-  std::uint8_t red, green, blue;
-};
 /// From pale to dark by lightness alone, so that it reads in print and with any eyes.
-constexpr Stop stops[] = {{0, 0xdc, 0xec, 0xf5},   {0.12, 0xa9, 0xd3, 0xea}, {0.3, 0x5f, 0xa8, 0xd8},
-                          {0.5, 0x32, 0x72, 0xb4}, {0.68, 0x3f, 0x3f, 0x97}, {0.84, 0x7a, 0x2a, 0x86},
-                          {1, 0xc2, 0x18, 0x5b}};
+constexpr ColourStop stops[] = {{0, 0xdc, 0xec, 0xf5},   {0.12, 0xa9, 0xd3, 0xea}, {0.3, 0x5f, 0xa8, 0xd8},
+                                {0.5, 0x32, 0x72, 0xb4}, {0.68, 0x3f, 0x3f, 0x97}, {0.84, 0x7a, 0x2a, 0x86},
+                                {1, 0xc2, 0x18, 0x5b}};
 
 /// The stops for gnuplot.
 std::string palette_command() {
@@ -217,6 +213,8 @@ std::string axes_script(const std::string& name, const Box& view, int height, co
 }
 
 }  // namespace
+
+std::span<const ColourStop> pressure_colours() { return stops; }
 
 FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view,
                       const std::string& colour_label) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "apps/report/pictures/field.hpp"
@@ -20,6 +22,13 @@ struct Box {
   double width() const { return high[0] - low[0]; }
   double height() const { return high[1] - low[1]; }
 };
+
+/// A colour of the pressure at a share of the largest; those between two stops are mixed.
+struct ColourStop {
+  double at;
+  std::uint8_t red, green, blue;
+};
+std::span<const ColourStop> pressure_colours();
 
 /// The figure; its caption ends with the highest pressure.
 FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view,

@@ -1,10 +1,13 @@
-// Frames as plain triangles and segments, and as bytes.
+// Frames of a run as plain triangles and segments.
 #pragma once
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "apps/report/data.hpp"
 
 namespace splashdown::apps {
 
@@ -25,20 +28,12 @@ struct MovingPicture {
   int dimension = 2;
   std::vector<std::string> names;  ///< of the bodies
   std::vector<MovingFrame> frames;
+  std::optional<MirrorPlane> mirror;  ///< hulls are whole, water and pressures are those of one half
 };
 
-/// Reads frames.pvd and what it names, at most so many frames. Empty without frames. Throws std::runtime_error for damaged ones.
+/// Reads frames.pvd and what it names, at most so many frames, evenly spread, the first and the last among them. In space the water is
+/// its free surface. Empty without frames. Throws std::runtime_error for damaged ones.
+/// Cost: 0.1 s for a frame of 60 000 nodes, on all threads.
 MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_frames);
-
-/// {"dimension", "names", "low", "high" [m], "pressure" [Pa], "frames": [{"time", "water": {"points", "cells"}, "bodies": ...}]}: numbers of
-/// points and cells; what they are is in the bytes, in this order: points as uint16 by axis, pressures as uint8, cells as uint32. Each
-/// array as differences from number to number, modulo 2^bits, all their first bytes, then all second ones and so on. Cells of bodies
-/// stand in the first frame alone.
-struct PackedPicture {
-  std::string json;
-  std::string bytes;  ///< little-endian
-  double limit = 0;   ///< where the colours end [Pa]
-};
-PackedPicture packed(const MovingPicture& picture);
 
 }  // namespace splashdown::apps

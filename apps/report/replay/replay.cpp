@@ -4,11 +4,15 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "apps/record/frames/vtu_blocks.hpp"
+#include "apps/report/pictures/picture.hpp"
 #include "apps/report/replay/moving_picture.hpp"
+#include "apps/report/replay/packed_picture.hpp"
 #include "apps/report/replay/viewer.hpp"
+#include "apps/report/words.hpp"
 #include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
@@ -17,11 +21,18 @@ namespace {
 constexpr std::size_t replay_frames = 60;
 // Debian's libjs-three: classic scripts, which a page that is opened from disk may hold (modules may not).
 const std::filesystem::path three = "/usr/share/javascript/three";
-constexpr const char* three_license = "/*! three.js r111, (c) 2010-2019 three.js authors, MIT License */\n";
+constexpr const char* three_license = "<!-- holds three.js r111, (c) 2010-2019 three.js authors, MIT License -->\n";
 
 std::string script_text(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// three.js and its OrbitControls; nothing if they are not there.
+std::string three_text() {
+  const auto library = script_text(three / "three.min.js"),
+             controls = script_text(three / "examples/js/controls/OrbitControls.js");
+  return library.empty() || controls.empty() ? std::string() : library + "\n" + controls;
 }
 
 /// Every `of` in a text replaced.
@@ -37,47 +48,74 @@ std::string unbroken_json(const std::string& json) { return substituted(json, "<
 
 std::string replay_caption(const MovingPicture& picture, double limit) {
   const auto colours =
-      limit > 0 ? fmt::format("colours: pressure from 0 to {}", with_unit(limit, "Pa")) : std::string();
-  const char* hands =
-      picture.dimension == 2 ? "drag to move, wheel to zoom" : "drag to turn, right button to move, wheel to zoom";
-  return fmt::format("{} frames from 0 to {}; {}{}{}", picture.frames.size(),
-                     with_unit(picture.frames.back().time, "s"), colours, colours.empty() ? "" : "; ", hands);
+      limit > 0 ? fmt::format("colours: pressure from 0 to {}; ", with_unit(limit, "Pa")) : std::string();
+  const char* hands = picture.dimension == 2
+                          ? "drag to move, wheel to zoom"
+                          : "water is darker in troughs and paler on crests; drag to turn, right button to move, "
+                            "wheel to zoom";
+  return fmt::format("{} frames from {} to {}; {}{}", picture.frames.size(),
+                     with_unit(picture.frames.front().time, "s"), with_unit(picture.frames.back().time, "s"), colours,
+                     hands);
+}
+
+std::string view_options() {
+  std::string options;
+  for (const auto& [name, label, direction] : replay_views)
+    options += fmt::format("<option value=\"{},{}\">{}</option>", direction[0], direction[1], label);
+  return options;
+}
+
+/// Figure, data and scripts. `film`: an empty object in a replay for readers.
+std::string replay_html(const MovingPicture& picture, const std::string& library, const std::string& title,
+                        const nlohmann::json& film) {
+  const auto [text, bytes, limit, step] = packed(picture);
+  auto info = nlohmann::json::parse(text);
+  if (!film.empty()) info["film"] = film;
+  for (const auto& [at, red, green, blue] : pressure_colours())
+    info["colours"].push_back(nlohmann::json::array({at, red, green, blue}));
+  const char* in_space = picture.dimension == 3 ? "" : " hidden";
+  auto html = fmt::format(
+      R"(<style>{}</style>
+<figure id="replay"{}><div class="view"><div class="stamp"></div>{}<div class="ruler"></div><div class="key" hidden><span class="what"></span><div class="bar"></div><div class="ticks"></div></div></div>
+<p class="state" hidden></p><div class="hands"><button type="button">Play</button><input type="range" min="0" value="0" aria-label="frame"><span class="clock"></span>
+<label{}><select class="from" aria-label="view">{}</select></label><label{}><input type="checkbox" class="so-far"> highest pressure so far</label><label{}><input type="checkbox" class="follow"> follow</label><label><input type="checkbox" class="mesh"> mesh</label></div>
+<figcaption>{}</figcaption></figure>
+{}<script type="text/plain" id="replay-library">{}</script>
+<script type="application/json" id="replay-info">{}</script>
+<script type="text/plain" id="replay-bytes">{}</script>
+)",
+      replay_style, film.empty() ? "" : " class=\"film\"",
+      film.empty() ? std::string() : "<div class=\"name\">" + html_escaped(title) + "</div>", in_space, view_options(),
+      in_space, picture.names.empty() ? " hidden" : "", replay_caption(picture, limit), three_license,
+      stream_of(library), unbroken_json(info.dump()), stream_of(bytes));
+  for (const char* script : replay_scripts) html += "<script>" + unbroken(script) + "</script>\n";
+  return html;
 }
 
 }  // namespace
 
 Replay replay_of(const std::filesystem::path& run) {
   Replay replay;
-  MovingPicture picture;
   try {
-    picture = moving_picture(run, replay_frames);
+    const auto picture = moving_picture(run, replay_frames);
+    if (picture.frames.size() < 2) return replay;
+    if (const auto library = three_text(); !library.empty())
+      replay.html = "<h2>Replay</h2>\n" + replay_html(picture, library, {}, nlohmann::json::object());
+    else
+      replay.warnings.push_back(fmt::format("no replay: {}, then splashdown report", no_three));
   } catch (const std::exception& error) {
     replay.warnings.push_back(fmt::format("no replay: {}", error.what()));
-    return replay;
   }
-  if (picture.frames.size() < 2) return replay;
-  const auto library = script_text(three / "three.min.js"),
-             controls = script_text(three / "examples/js/controls/OrbitControls.js");
-  if (library.empty() || controls.empty()) {
-    replay.warnings.emplace_back(
-        "no replay: three.js is not there (Debian: apt-get install libjs-three), then splashdown report");
-    return replay;
-  }
-  const auto [json, bytes, limit] = packed(picture);
-  replay.html = fmt::format(
-      R"(<h2>Replay</h2>
-<style>#replay .bar2{{display:flex;flex-wrap:wrap;gap:8px 14px;align-items:center;margin-top:10px}}#replay input[type=range]{{flex:1 1 160px;min-width:0}}
-#replay canvas{{display:block;max-width:100%;border-radius:6px}}#replay .clock{{font-variant-numeric:tabular-nums;min-width:5em}}#replay label{{font-size:14px;color:var(--soft)}}</style>
-<figure id="replay"><div class="view"></div><p class="state" hidden></p><div class="bar2"><button type="button">Play</button><input type="range" min="0" value="0" aria-label="frame"><span class="clock"></span>
-<label{}><input type="checkbox" class="so-far"> highest pressure so far</label><label><input type="checkbox" class="mesh"> mesh</label></div>
-<figcaption>{}</figcaption></figure>
-<script type="application/json" id="replay-info">{}</script>
-<script type="text/plain" id="replay-bytes">{}</script>
-)",
-      picture.dimension == 2 ? " hidden" : "", replay_caption(picture, limit), unbroken_json(json), stream_of(bytes));
-  for (const auto& script : {three_license + library, controls, std::string(viewer_script)})
-    replay.html += "<script>" + unbroken(script) + "</script>\n";
   return replay;
+}
+
+std::optional<std::string> film_page(const MovingPicture& picture, const FilmLook& look) {
+  const auto library = three_text();
+  if (library.empty()) return {};
+  const nlohmann::json film{
+      {"view", look.view}, {"zoom", look.zoom}, {"follow", look.follow}, {"so_far", look.so_far}, {"mesh", look.mesh}};
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + html_escaped(look.title) +
+         "</title></head><body>\n" + replay_html(picture, library, look.title, film) + "</body></html>\n";
 }
 
 }  // namespace splashdown::apps

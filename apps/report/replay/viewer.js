@@ -1,132 +1,67 @@
-// Plays what moving_picture.cpp packed. Expects three.js (global THREE, r111) and its OrbitControls.
+// The replay of a page: unpacks three.js and the frames, and lets a reader play, scrub, turn. In a film, `info.film`, a program does.
 (async function () {
   'use strict';
-  const holder = document.getElementById('replay');
-  const note = holder.querySelector('.state');
-  const fail = (why) => { note.textContent = why; note.hidden = false; };
+  const holder = document.getElementById('replay'), pick = (what) => holder.querySelector(what);
+  const note = pick('.state');
+  const fail = (why) => { note.textContent = why; note.hidden = false; holder.dataset.ready = 'failed'; };
   if (typeof DecompressionStream === 'undefined') return fail('This browser is too old to unpack the replay: it needs Compression Streams (2023).');
-  const info = JSON.parse(document.getElementById('replay-info').textContent);
-  const packed = Uint8Array.from(atob(document.getElementById('replay-bytes').textContent.trim()), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
-  const bytes = new DataView(await new Response(stream).arrayBuffer());
-
-  // Parts of a frame: places [m], pressures 0 to 1, cells.
-  let at = 0;
-  const step = info.low.map((low, k) => (info.high[k] - low) / 65535);
-  // Differences, byte by byte.
-  function numbers(Kind, n) {
-    const out = new Kind(n), size = Kind.BYTES_PER_ELEMENT;
-    for (let b = 0; b < size; ++b) for (let i = 0; i < n; ++i) out[i] += bytes.getUint8(at++) * 2 ** (8 * b);
-    for (let i = 1; i < n; ++i) out[i] += out[i - 1];
-    return out;
-  }
-  function part(entry) {
-    const n = entry.points, x = new Float32Array(3 * n);
-    for (let k = 0; k < 3; ++k) numbers(Uint16Array, n).forEach((v, i) => { x[3 * i + k] = info.low[k] + step[k] * v; });
-    const p = Float32Array.from(numbers(Uint8Array, n), (v) => v / 255);
-    return { x, p, cells: numbers(Uint32Array, entry.cells) };
-  }
-  const frames = info.frames.map((f) => ({ time: f.time, water: part(f.water), bodies: f.bodies.map(part) }));
+  const unpacked = (id) => {
+    const packed = Uint8Array.from(atob(document.getElementById(id).textContent.trim()), (c) => c.charCodeAt(0));
+    return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate')));
+  };
+  const info = JSON.parse(document.getElementById('replay-info').textContent), film = info.film;
+  const library = document.createElement('script');
+  library.textContent = await unpacked('replay-library').text();
+  document.head.appendChild(library);
   const plane = info.dimension === 2;
+  // Hulls in space, over blue water: grey where they are dry, then from pale to dark (after Brewer's YlOrRd). The plane has the colours of the pictures.
+  const of_hulls = [[0, 221, 226, 230], [0.03, 246, 232, 200], [0.15, 254, 217, 118], [0.35, 254, 178, 76], [0.55, 253, 141, 60], [0.75, 227, 26, 28], [1, 128, 0, 38]];
+  const colours = plane ? info.colours : of_hulls;
+  const dark = !film && window.matchMedia('(prefers-color-scheme: dark)').matches;
+  let stage, frames;
+  try {
+    const picture = splashdown_unpack(info, await unpacked('replay-bytes').arrayBuffer());
+    frames = picture.frames;
+    stage = splashdown_stage(info, picture, colours, dark);
+  } catch (error) { return fail('This browser cannot show the replay: ' + error.message); }
+  const view = pick('.view'), clock = pick('.clock'), stamp = pick('.stamp'), slider = pick('input[type=range]'), button = pick('button');
+  const so_far = pick('.so-far'), mesh = pick('.mesh'), follow = pick('.follow'), views = pick('.from');
+  view.prepend(stage.element);
 
-  // Viridis, nine colours (van der Walt and Smith 2015).
-  const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
-  // As a texture that pressures look up: colours that are mixed between the corners of large triangles are none of the scale's.
-  const texels = new Uint8Array(3 * 256);
-  for (let i = 0; i < 256; ++i) {
-    const s = 8 * i / 255, k = Math.min(7, Math.floor(s));
-    for (let c = 0; c < 3; ++c) texels[3 * i + c] = Math.round((1 - s + k) * viridis[k][c] + (s - k) * viridis[k + 1][c]);
+  const end = frames[frames.length - 1].time, scale = end < 1 ? [1e3, 1, 'ms'] : [1, 3, 's'];
+  const time_text = (t) => (scale[0] * t).toFixed(scale[1]) + ' ' + scale[2];
+  // The key: three or more round pressures, the first zero.
+  function key() {
+    if (!(info.pressure > 0)) return;
+    const [factor, unit] = info.pressure >= 1e6 ? [1e6, 'MPa'] : info.pressure >= 1e3 ? [1e3, 'kPa'] : [1, 'Pa'];
+    const most = info.pressure / factor, power = 10 ** Math.floor(Math.log10(most / 2)), step = [5, 2, 1].map((n) => n * power).find((s) => most / s >= 2) || power;
+    const bar = colours.map(([at, ...c]) => `rgb(${c}) ${100 * at}%`).join(',');
+    pick('.key .bar').style.background = `linear-gradient(to right,${bar})`;
+    pick('.key .bar').classList.toggle('open', info.above);
+    const ticks = pick('.key .ticks');
+    for (let n = 0; n * step <= most; ++n) {
+      const tick = document.createElement('span');
+      tick.textContent = String(+(n * step).toPrecision(6));
+      tick.style.left = 100 * n * step / most + '%';
+      ticks.append(tick);
+    }
+    pick('.key .what').textContent = (so_far.checked ? 'highest pressure so far' : plane ? 'pressure' : 'pressure on the hull') + ' / ' + unit;
+    pick('.key').hidden = false;
   }
-  const scale = new THREE.DataTexture(texels, 256, 1, THREE.RGBFormat);
-  scale.magFilter = scale.minFilter = THREE.LinearFilter;
-  scale.needsUpdate = true;
-  function lookUp(geometry, p) {
-    const uv = new Float32Array(2 * p.length).fill(0.5);
-    p.forEach((v, i) => { uv[2 * i] = (0.5 + 255 * v) / 256; });
-    geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
-  }
-  // What each point of a hull has felt so far.
-  const most = info.names.map((_, b) => frames.map((frame) => frame.bodies[b].p));
-  for (const of of most) for (let f = 1; f < of.length; ++f) of[f] = of[f].map((v, i) => Math.max(v, of[f - 1][i] || 0));
-
-  const view = holder.querySelector('.view');
-  let renderer;
-  try { renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true }); } catch (e) { return fail('This browser shows no WebGL: ' + e.message); }
-  view.appendChild(renderer.domElement);
-  const scene = new THREE.Scene();
-  const dark = window.matchMedia('(prefers-color-scheme: dark)');
-  const paint = () => { scene.background = new THREE.Color(dark.matches ? 0x18222c : 0xf6f9fb); draw(); };
-  scene.add(new THREE.HemisphereLight(0xffffff, 0x8899aa, 0.9));
-  const sun = new THREE.DirectionalLight(0xffffff, 0.5);
-  sun.position.set(1, -1, 2);
-  scene.add(sun);
-
-  // The bodies on their way, with room around them: a tank is larger than what happens in it.
-  const box = new THREE.Box3(), all = new THREE.Box3(new THREE.Vector3(...info.low), new THREE.Vector3(...info.high));
-  const point = new THREE.Vector3();
-  for (const f of frames) for (const b of f.bodies) for (let i = 0; i < b.x.length; i += 3) box.expandByPoint(point.set(b.x[i], b.x[i + 1], b.x[i + 2]));
-  if (box.isEmpty()) box.copy(all);
-  const size = box.getSize(new THREE.Vector3()), middle = box.getCenter(new THREE.Vector3());
-  const reach = Math.max(size.x, size.y, size.z);
-  const up = plane ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(0, 0, 1);
-  const camera = plane ? new THREE.OrthographicCamera(-1, 1, 1, -1, -10 * reach, 10 * reach) : new THREE.PerspectiveCamera(35, 1, 0.01 * reach, 100 * reach);
-  camera.up.copy(up);
-  camera.position.copy(middle).add(plane ? new THREE.Vector3(0, 0, reach) : new THREE.Vector3(-1, -1.7, 0.55).multiplyScalar(1.2 * reach));
-  const controls = new THREE.OrbitControls(camera, renderer.domElement);
-  controls.target.copy(middle);
-  controls.enableRotate = !plane;
-  if (plane) controls.mouseButtons = { LEFT: THREE.MOUSE.PAN, MIDDLE: THREE.MOUSE.DOLLY, RIGHT: THREE.MOUSE.PAN };
-
-  const water = new THREE.Mesh(new THREE.BufferGeometry(), plane ? new THREE.MeshBasicMaterial({ map: scale, side: THREE.DoubleSide })
-    : new THREE.MeshPhongMaterial({ color: 0x3f8fd0, transparent: true, opacity: 0.45, side: THREE.DoubleSide, shininess: 60, depthWrite: false }));
-  const mesh = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x000000, transparent: true, opacity: 0.16 }));
-  scene.add(water, mesh);
-  mesh.visible = false;
-  const bodies = info.names.map((_, b) => {
-    const geometry = new THREE.BufferGeometry(), first = frames[0].bodies[b];
-    geometry.setIndex(new THREE.BufferAttribute(first.cells, 1));
-    const body = plane ? new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: dark.matches ? 0xffffff : 0x17222d }))
-      : new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ map: scale, side: THREE.DoubleSide }));
-    scene.add(body);
-    return body;
-  });
-
-  const clock = holder.querySelector('.clock'), slider = holder.querySelector('input[type=range]'), button = holder.querySelector('button');
-  const so_far = holder.querySelector('.so-far'), lines = holder.querySelector('.mesh');
-  slider.max = frames.length - 1;
   let now = 0;
-  const milli = frames[frames.length - 1].time < 1;
-  function set(geometry, name, values) { geometry.setAttribute(name, new THREE.BufferAttribute(values, 3)); }
   function show(f) {
     now = f;
-    const frame = frames[f];
-    water.geometry.dispose();
-    water.geometry = new THREE.BufferGeometry();
-    set(water.geometry, 'position', frame.water.x);
-    water.geometry.setIndex(new THREE.BufferAttribute(frame.water.cells, 1));
-    if (plane) lookUp(water.geometry, frame.water.p); else water.geometry.computeVertexNormals();
-    if (mesh.visible) { mesh.geometry.dispose(); mesh.geometry = new THREE.WireframeGeometry(water.geometry); }
-    bodies.forEach((body, b) => {
-      set(body.geometry, 'position', frame.bodies[b].x);
-      if (!plane) { lookUp(body.geometry, so_far.checked ? most[b][f] : frame.bodies[b].p); body.geometry.computeVertexNormals(); }
-      body.geometry.computeBoundingSphere();
-    });
-    clock.textContent = milli ? (1e3 * frame.time).toFixed(1) + ' ms' : frame.time.toFixed(2) + ' s';
+    stage.state.so_far = so_far.checked;
+    stage.mesh.visible = mesh.checked;
+    stage.show(f);
+    clock.textContent = time_text(frames[f].time);
+    stamp.textContent = 't = ' + time_text(frames[f].time);
     slider.value = f;
     holder.dataset.frame = f;
-    draw();
   }
-  function draw() { renderer.render(scene, camera); }
   function resize() {
-    const width = view.clientWidth, height = Math.round(Math.min(0.62 * width, 560));
-    renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
-    renderer.setSize(width, height);
-    if (plane) {
-      const half = 0.75 * Math.max(size.y + 0.4 * reach, (size.x + 0.8 * reach) * height / width);
-      camera.top = half; camera.bottom = -half; camera.right = half * width / height; camera.left = -camera.right;
-    } else camera.aspect = width / height;
-    camera.updateProjectionMatrix();
-    draw();
+    if (film) stage.resize(window.innerWidth, window.innerHeight);
+    else stage.resize(view.clientWidth, Math.round(Math.min(0.62 * view.clientWidth, 560)));
   }
   let timer = 0;
   const seconds = 5;  // for all
@@ -136,16 +71,34 @@
     button.textContent = 'Pause';
     timer = setInterval(() => { if (now === frames.length - 1) play(); else show(now + 1); }, 1e3 * seconds / frames.length);
   }
+  const look = () => {
+    stage.state.view = views.value.split(',').map(Number);
+    stage.state.follow = follow.checked;
+    stage.aim();
+  };
+  slider.max = frames.length - 1;
   button.addEventListener('click', play);
   slider.addEventListener('input', () => show(+slider.value));
-  so_far.addEventListener('change', () => show(now));
-  lines.addEventListener('change', () => { mesh.visible = lines.checked; show(now); });
-  controls.addEventListener('change', draw);
+  so_far.addEventListener('change', () => { pick('.key .ticks').textContent = ''; key(); show(now); });
+  mesh.addEventListener('change', () => show(now));
+  follow.addEventListener('change', look);
+  views.addEventListener('change', look);
   window.addEventListener('resize', resize);
-  dark.addListener(paint);
+  if (film) {
+    so_far.checked = film.so_far; mesh.checked = film.mesh; follow.checked = film.follow;
+    Object.assign(stage.state, { view: film.view, zoom: film.zoom, follow: film.follow });
+  }
+  key();
+  const length_text = (metres) => +(metres < 0.1 ? 1e3 * metres : metres).toPrecision(3) + (metres < 0.1 ? ' mm' : ' m');
+  const ruler = pick('.ruler');
+  if (plane) stage.on_drawn((length, pixels) => { ruler.textContent = length_text(length); ruler.style.width = pixels + 'px'; });
+  else ruler.textContent = 'grid: ' + length_text(stage.spacing);
+  ruler.classList.toggle('bar', plane);
+  stage.paint(dark ? 0x18222c : plane ? 0xf6f9fb : 0xeaf1f6);
   resize();
-  controls.update();
-  paint();
-  show(Math.floor((frames.length - 1) / 2));
+  stage.state.frame = Math.floor((frames.length - 1) / 2);
+  if (film) stage.aim(); else look();
+  show(stage.state.frame);
+  if (film) window.splashdown_show = show;
   holder.dataset.ready = 'yes';
 })();

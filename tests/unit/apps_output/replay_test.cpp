@@ -3,11 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdint>
-#include <nlohmann/json.hpp>
-#include <random>
-
 #include "apps/record/frames/frames.hpp"
 #include "apps/report/replay/moving_picture.hpp"
 #include "tests/scratch_folder.hpp"
@@ -88,56 +83,6 @@ TEST(Replay, keeps_the_first_and_the_last_of_many_frames) {
   ASSERT_EQ(picture.frames.size(), 4U);
   EXPECT_EQ(picture.frames.front().time, 0);
   EXPECT_NEAR(picture.frames.back().time, 0.8, 1e-12);
-}
-
-// Half a step of the box, 65 535 steps wide, and half of a step of 255.
-TEST(Replay, bytes_hold_places_and_pressures_within_their_steps) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(-3, 7), pressure(-100, 900);
-  MovingPicture picture;
-  picture.names = {"a"};
-  for (int f = 0; f < 2; ++f) {
-    MovingPart body;
-    for (int i = 0; i < 40; ++i) {
-      body.points.push_back({place(random), place(random), place(random)});
-      body.pressure.push_back(pressure(random));
-    }
-    body.cells = {0, 1, 2};
-    MovingFrame frame;
-    frame.time = f;
-    frame.bodies = {body};
-    picture.frames.push_back(frame);
-  }
-  const auto [text, bytes, colours_end] = packed(picture);
-  const auto json = nlohmann::json::parse(text);
-  const double limit = json["pressure"];
-  EXPECT_EQ(limit, colours_end);
-  std::size_t at = 0;
-  const auto take = [&]<class Number>(std::size_t count, Number) {
-    std::vector<Number> numbers(count, 0);
-    for (std::size_t byte = 0; byte < sizeof(Number); ++byte)
-      for (auto& number : numbers)
-        number = static_cast<Number>(number +
-                                     (static_cast<Number>(static_cast<unsigned char>(bytes.at(at++))) << (8 * byte)));
-    for (std::size_t i = 1; i < count; ++i) numbers[i] = static_cast<Number>(numbers[i] + numbers[i - 1]);
-    return numbers;
-  };
-  for (std::size_t f = 0; f < 2; ++f) {
-    const auto& body = picture.frames[f].bodies[0];
-    ASSERT_EQ(json["frames"][f]["bodies"][0]["points"], 40);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double low = json["low"][k], step = (json["high"][k].get<double>() - low) / 65535;
-      const auto places = take(40, std::uint16_t{});
-      for (std::size_t i = 0; i < 40; ++i) EXPECT_NEAR(low + step * places[i], body.points[i][k], 0.5001 * step);
-    }
-    const auto pressures = take(40, std::uint8_t{});
-    for (std::size_t i = 0; i < 40; ++i)
-      EXPECT_NEAR(pressures[i] * limit / 255, std::clamp(body.pressure[i], 0., limit), 0.5001 * limit / 255);
-    if (f == 0) {
-      EXPECT_EQ(take(3, std::uint32_t{}), std::vector<std::uint32_t>(body.cells.begin(), body.cells.end()));
-    }
-  }
-  EXPECT_EQ(at, bytes.size());
 }
 
 TEST(Replay, of_a_damaged_frame_says_so_and_of_none_says_nothing) {

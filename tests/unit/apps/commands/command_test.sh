@@ -280,6 +280,19 @@ check "and the cure" grep -q 'Add \[contact\]' stderr
 check "the last good state is saved" test -s stone/checkpoint/state
 check "with contact it does not end there" exits 0 "$splashdown" run stone.toml --out held --no-report --quiet --set "contact={}" --until 0.3
 
+# Stills and films: what is refused before any browser is looked for, and what is said where there is none
+check "render needs to know what" exits 2 "$splashdown" render whole
+check "with both ways" grep -q 'Use --time T -o FILE.png, or --movie FILE.mp4' stderr
+check "a time after the run is refused" exits 2 "$splashdown" render whole --time 7
+check "with those that there are" grep -q -e '--time 7: the run has frames from 0 s to 60 ms' stderr
+check "a run without frames has no film" exits 2 "$splashdown" render held --movie film.mp4
+check "with the line that records them" grep -q 'frames = 0.01' stderr
+check "a misspelt view is no view" exits 2 "$splashdown" render whole --time 0 --veiw bow
+check "with the right one" grep -q -e 'Did you mean --view?' stderr
+check "render says what is not installed" exits 2 env PATH=/nowhere "$splashdown" render whole --movie film.mp4
+check "and how to get it" grep -q 'sudo apt-get install chromium ffmpeg' stderr
+check "and leaves no film" test ! -e film.mp4
+
 # Killed at any time, many times
 for pause in 0.05 0.3 0.11 0.17 0.23 0.08 0.29 0.41 0.13 0.19 0.37 0.07 0.31 0.21 0.15 0.45 0.09 0.27 0.33 0.25; do
   killed_after $pause "$splashdown" run scene.toml --quiet --out killed --resume
