@@ -66,6 +66,7 @@ struct BodyPlotter {
     figure.name = stem + "_" + kind;
     figure.x_label = "t / " + time.unit;
     figure.y_label = y_label;
+    figure.over_time = true;
     return figure;
   }
 
@@ -215,6 +216,7 @@ FigureGroup fluid_figures(const RunData& run) {
     f.name = name;
     f.x_label = "t / " + time.unit;
     f.y_label = y_label;
+    f.over_time = true;
     return f;
   };
 
@@ -326,6 +328,7 @@ FigureGroup probe_figures(const RunData& run) {
     Figure figure;
     figure.name = "probe_" + std::to_string(group.figures.size());
     figure.x_label = "t / " + time.unit;
+    figure.over_time = true;
     if (const auto components = instrument_table(run, name)) {
       const auto instrument = name.substr(0, name.rfind('.'));
       if (!instruments.insert(instrument).second) continue;

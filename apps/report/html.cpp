@@ -48,6 +48,14 @@ std::string phase_bar(const RunData& run) {
          "</ul>\n";
 }
 
+/// As a chart, as a picture, or not at all.
+std::string curves_figure(const ReportPage& page, const Figure& figure) {
+  const auto image = page.images.find(figure.name);
+  if (page.charts.drawn.contains(figure.name))
+    return html_chart(figure.name, image == page.images.end() ? "" : image->second, figure.caption);
+  return image == page.images.end() ? "" : html_figure(image->second, figure.caption);
+}
+
 std::string figures(const ReportPage& page) {
   std::string html;
   for (const auto& [heading, pictures] :
@@ -60,9 +68,7 @@ std::string figures(const ReportPage& page) {
   }
   for (const auto& group : page.groups) {
     std::string inside;
-    for (const auto& figure : group.figures)
-      if (const auto image = page.images.find(figure.name); image != page.images.end())
-        inside += html_figure(image->second, figure.caption);
+    for (const auto& figure : group.figures) inside += curves_figure(page, figure);
     if (!inside.empty())
       html += "<h2>" + html_escaped(group.title) + "</h2>\n<div class=\"grid\">" + inside + "</div>\n";
   }
@@ -274,7 +280,8 @@ std::string html_of(const ReportPage& page) {
                               pressure_table(run) + ledger_table(run) + effects_table(run) + refusals_table(run) +
                               phase_bar(run) +
                               "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
-                              "in <code>report/</code>.</footer>\n");
+                              "in <code>report/</code>.</footer>\n" +
+                              page.charts.html);
 }
 
 }  // namespace splashdown::apps

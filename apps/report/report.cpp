@@ -70,7 +70,7 @@ ReportResult write_report(const std::filesystem::path& directory) {
   remove_old_images(folder);
 
   ReportResult result{directory / "report.html", {}};
-  ReportPage page{data, banner_of(data), {}, {}, figures_of(data), {}, {}};
+  ReportPage page{data, banner_of(data), {}, {}, figures_of(data), {}, {}, {}, {}};
   if (auto hulls = hull_curves(directory); !hulls.figures.empty())
     page.groups.insert(page.groups.end() - (page.groups.empty() ? 0 : 1), std::move(hulls));  // before the numerics
   std::vector<Figure> curves;
@@ -94,6 +94,8 @@ ReportResult write_report(const std::filesystem::path& directory) {
   page.hulls.assign(fields.figures.begin() + of_plane, fields.figures.end());
   fields.figures.resize(static_cast<std::size_t>(of_plane));
   page.fields = std::move(fields.figures);
+  page.charts = charts_of(curves, 1 / time_unit(data.end_time()).scale);
+  std::ranges::move(page.charts.warnings, std::back_inserter(result.warnings));
   auto replay = replay_of(directory);
   page.replay = std::move(replay.html);
   std::ranges::move(replay.warnings, std::back_inserter(result.warnings));

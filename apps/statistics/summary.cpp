@@ -28,6 +28,7 @@ Json json_of(const Peak& peak) {
 Json json_of(const Pulse& pulse, const char* change) {
   Json json = json_of(static_cast<const Peak&>(pulse));
   if (json.is_null()) return json;
+  json["begin"] = number(pulse.begin);
   json["rise_time"] = number(pulse.rise_time);
   json["duration"] = number(pulse.duration);
   json[change] = number(pulse.change);

@@ -85,6 +85,7 @@ struct InactiveEffect {
 
 /// A peak with the pulse around it (pulse.hpp); nan: the record does not show it.
 struct Pulse : Peak {
+  double begin = std::numeric_limits<double>::quiet_NaN();      ///< last passage of 10 % of the peak before it [s]
   double rise_time = std::numeric_limits<double>::quiet_NaN();  ///< from 10 to 90 % of the peak [s]
   double duration = std::numeric_limits<double>::quiet_NaN();   ///< above 10 % of the peak [s]
   double change = std::numeric_limits<double>::quiet_NaN();     ///< integral over the duration [m/s, N s]

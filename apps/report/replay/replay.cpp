@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "apps/record/frames/vtu_blocks.hpp"
 #include "apps/report/replay/moving_picture.hpp"
 #include "apps/report/replay/viewer.hpp"
+#include "apps/report/scripts.hpp"
 #include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
@@ -18,22 +17,6 @@ constexpr std::size_t replay_frames = 60;
 // Debian's libjs-three: classic scripts, which a page that is opened from disk may hold (modules may not).
 const std::filesystem::path three = "/usr/share/javascript/three";
 constexpr const char* three_license = "/*! three.js r111, (c) 2010-2019 three.js authors, MIT License */\n";
-
-std::string script_text(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Every `of` in a text replaced.
-std::string substituted(std::string text, const std::string& of, const std::string& instead) {
-  for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + instead.size()))
-    text.replace(at, of.size(), instead);
-  return text;
-}
-
-/// A script must not end before its end, and texts in it must not begin another.
-std::string unbroken(const std::string& script) { return substituted(script, "</", "<\\/"); }
-std::string unbroken_json(const std::string& json) { return substituted(json, "<", "\\u003c"); }
 
 std::string replay_caption(const MovingPicture& picture, double limit) {
   const auto colours =
@@ -56,8 +39,8 @@ Replay replay_of(const std::filesystem::path& run) {
     return replay;
   }
   if (picture.frames.size() < 2) return replay;
-  const auto library = script_text(three / "three.min.js"),
-             controls = script_text(three / "examples/js/controls/OrbitControls.js");
+  const auto library = library_text(three / "three.min.js"),
+             controls = library_text(three / "examples/js/controls/OrbitControls.js");
   if (library.empty() || controls.empty()) {
     replay.warnings.emplace_back(
         "no replay: three.js is not there (Debian: apt-get install libjs-three), then splashdown report");
@@ -74,9 +57,9 @@ Replay replay_of(const std::filesystem::path& run) {
 <script type="application/json" id="replay-info">{}</script>
 <script type="text/plain" id="replay-bytes">{}</script>
 )",
-      picture.dimension == 2 ? " hidden" : "", replay_caption(picture, limit), unbroken_json(json), stream_of(bytes));
+      picture.dimension == 2 ? " hidden" : "", replay_caption(picture, limit), json_in_script(json), stream_of(bytes));
   for (const auto& script : {three_license + library, controls, std::string(viewer_script)})
-    replay.html += "<script>" + unbroken(script) + "</script>\n";
+    replay.html += script_element(script);
   return replay;
 }
 

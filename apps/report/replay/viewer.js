@@ -97,7 +97,8 @@
   let now = 0;
   const milli = frames[frames.length - 1].time < 1;
   function set(geometry, name, values) { geometry.setAttribute(name, new THREE.BufferAttribute(values, 3)); }
-  function show(f) {
+  // Curves point at the same time: they follow the replay, and it follows them.
+  function show(f, told) {
     now = f;
     const frame = frames[f];
     water.geometry.dispose();
@@ -114,6 +115,7 @@
     clock.textContent = milli ? (1e3 * frame.time).toFixed(1) + ' ms' : frame.time.toFixed(2) + ' s';
     slider.value = f;
     holder.dataset.frame = f;
+    if (!told) document.dispatchEvent(new CustomEvent('splashdown:time', { detail: { time: frame.time, from: 'replay' } }));
     draw();
   }
   function draw() { renderer.render(scene, camera); }
@@ -140,6 +142,12 @@
   slider.addEventListener('input', () => show(+slider.value));
   so_far.addEventListener('change', () => show(now));
   lines.addEventListener('change', () => { mesh.visible = lines.checked; show(now); });
+  document.addEventListener('splashdown:time', ({ detail }) => {
+    if (detail.from === 'replay') return;
+    let nearest = 0;
+    frames.forEach((frame, f) => { if (Math.abs(frame.time - detail.time) < Math.abs(frames[nearest].time - detail.time)) nearest = f; });
+    if (nearest !== now) show(nearest, true);
+  });
   controls.addEventListener('change', draw);
   window.addEventListener('resize', resize);
   dark.addListener(paint);
