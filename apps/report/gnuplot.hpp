@@ -14,8 +14,9 @@ struct Curve {
   std::string colour;  ///< #rrggbb
   double width = 1.6;
   bool right_axis = false;
-  bool steps = false;   ///< constant until the next point
-  bool points = false;  ///< dots, not joined
+  bool steps = false;                   ///< constant until the next point
+  bool points = false;                  ///< dots, not joined
+  std::vector<std::string> links = {};  ///< where a click on a point leads; empty: nowhere
 };
 
 /// A labelled point, e.g. a peak.

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "apps/report/theme.hpp"
+#include "apps/report/look/theme.hpp"
 
 namespace splashdown::apps {
 
@@ -31,6 +31,8 @@ h1,h2{overflow-wrap:anywhere}
 .tile b{display:block;font-size:22px;line-height:1.25;font-variant-numeric:tabular-nums}
 .tile span{display:block;color:var(--soft);font-size:13px;line-height:1.4}
 .tile span.good{color:var(--good)}.tile span.fair{color:var(--fair)}.tile span.bad{color:var(--bad)}
+.tile svg{display:block;margin:6px 0 2px;max-width:100%}
+@media (min-width:700px){.tile.wide{grid-column:span 2;position:relative}.tile.wide:has(svg){padding-right:200px}.tile.wide svg{position:absolute;right:16px;top:12px}}
 .quiet{color:var(--soft);font-size:13px;margin:12px 2px 0;overflow-wrap:anywhere}
 .bar{display:flex;height:26px;border-radius:6px;overflow:hidden;background:var(--line)}
 .bar div{min-width:1px}
@@ -39,8 +41,11 @@ h1,h2{overflow-wrap:anywhere}
 .grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:16px}
 figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:14px 16px 12px}
 figure svg,figure img{display:block;width:100%;height:auto}
+figure.heat{padding-bottom:16px}.scroll+figure,figure+.scroll{margin-top:16px}
 figcaption{color:var(--soft);font-size:14px;margin-top:8px}
 figcaption b{color:var(--ink)}
+.heat td{background:color-mix(in srgb,var(--c-blue) var(--s,0%),var(--paper));text-align:center}.heat td a{color:var(--ink);text-decoration:none}.heat td a:hover{text-decoration:underline}
+.heat td.none{color:var(--bad);background:var(--ground)}.heat figcaption{margin:0 0 8px}.heat tbody th{color:var(--soft);font-weight:600}
 .scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:8px}
 table{border-collapse:collapse;width:100%;font-size:14px;font-variant-numeric:tabular-nums}
 th,td{text-align:right;padding:7px 14px;border-top:1px solid var(--line);white-space:nowrap}
@@ -52,6 +57,8 @@ td.text{white-space:normal;min-width:16em}
 .note{background:var(--fair-ground);border:1px solid var(--fair-line);border-radius:8px;padding:12px 16px;margin:16px 0 0}
 a{color:var(--link)}
 code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;background:var(--code);border-radius:4px;padding:1px 5px;overflow-wrap:anywhere}
+details.scene{background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}details.scene summary{cursor:pointer;font-size:14px;color:var(--soft)}
+pre{font:12px/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;overflow-x:auto;margin:10px 0 0}
 footer{color:var(--soft);font-size:13px;margin-top:40px}
 @media (max-width:480px){main{padding:18px 12px 40px}h1{font-size:24px}.verdict{padding:14px 14px}.tile{padding:10px 12px}.tiles{grid-template-columns:repeat(auto-fit,minmax(min(100%,150px),1fr))}th,td{padding:6px 9px}figure{padding:10px 8px}}
 @media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}#replay{display:none}}
@@ -94,8 +101,8 @@ std::string html_header(const std::string& title, const std::filesystem::path& d
   return html;
 }
 
-std::string html_tile(const std::string& value, const std::string& rows) {
-  return fmt::format("<div class=\"tile\"><b>{}</b>{}</div>\n", value, rows);
+std::string html_tile(const std::string& value, const std::string& rows, const char* classes) {
+  return fmt::format("<div class=\"{}\"><b>{}</b>{}</div>\n", classes, value, rows);
 }
 
 std::string html_tiles(const std::string& tiles) {
@@ -127,6 +134,7 @@ std::string inline_svg(const std::string& svg, const std::string& name) {
     replace_all(element, fmt::format("href='#{}", id), fmt::format("href='#{}_{}", name, id));
     replace_all(element, fmt::format("url(#{}", id), fmt::format("url(#{}_{}", name, id));
   }
+  replace_all(element, "=\"black\"", "=\"var(--ink)\"");  // what no script gave a colour
   replace_all(element, "font-family=\"Helvetica\"", "font-family=\"system-ui,Helvetica Neue,Arial,sans-serif\"");
   return themed(element);
 }

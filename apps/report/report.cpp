@@ -75,7 +75,7 @@ ReportResult write_report(const std::filesystem::path& directory) {
     page.groups.insert(page.groups.end() - (page.groups.empty() ? 0 : 1), std::move(hulls));  // before the numerics
   std::vector<Figure> curves;
   for (const auto& group : page.groups) curves.insert(curves.end(), group.figures.begin(), group.figures.end());
-  FieldFigures fields = prepare_field_figures(directory), hulls = prepare_hull_figures(directory);
+  FieldFigures fields = prepare_field_figures(directory, data.summary), hulls = prepare_hull_figures(directory);
   result.warnings = fields.warnings;
   result.warnings.insert(result.warnings.end(), hulls.warnings.begin(), hulls.warnings.end());
   const auto of_plane = static_cast<std::ptrdiff_t>(fields.figures.size());

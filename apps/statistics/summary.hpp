@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/statistics/foreseen.hpp"
+
 namespace splashdown::apps {
 
 inline constexpr double standard_gravity = 9.80665;  ///< [m/s^2], CGPM 1901: one g
@@ -77,6 +79,7 @@ struct RangeCount {
 struct ActiveEffect {
   std::string name;
   double seconds = 0;
+  std::string reason = {};  ///< the number that says when it matters
 };
 
 struct InactiveEffect {
@@ -250,6 +253,8 @@ struct Summary {
   std::vector<std::pair<std::string, double>> phases;  ///< seconds each
   std::vector<ActiveEffect> effects;
   std::vector<InactiveEffect> inactive_effects;
+  std::map<std::string, Foreseen> foreseen;   ///< by body
+  std::optional<StillWater> still_water;      ///< absent: no water, or no gravity that points down
   std::optional<RangeCount> nodes, elements;  ///< absent without a fluid
   std::optional<CouplingSummary> coupling;    ///< absent unless fluid and bodies are coupled
   std::optional<LedgerSummary> ledger;

@@ -11,8 +11,8 @@
 #include "apps/record/frames/vtu_blocks.hpp"
 #include "apps/report/curves/charts_script.hpp"
 #include "apps/report/curves/reduction.hpp"
-#include "apps/report/scripts.hpp"
-#include "apps/report/theme.hpp"
+#include "apps/report/look/scripts.hpp"
+#include "apps/report/look/theme.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -40,7 +40,7 @@ Json range_json(const AxisRange& range) { return range.low <= range.high ? Json{
 
 Json curve_json(const Curve& curve, const AxisRange& range) {
   auto x = curve.x, y = curve.y;
-  if (!curve.points) {
+  if (!curve.points && curve.links.empty()) {
     thin(x, y, most_points);
     if (!curve.steps) straighten(x, y, tolerance_of_axis * (range.high - range.low));
   }
@@ -48,6 +48,7 @@ Json curve_json(const Curve& curve, const AxisRange& range) {
   if (curve.right_axis) json["right"] = true;
   if (curve.steps) json["steps"] = true;
   if (curve.points) json["points"] = true;
+  if (!curve.links.empty()) json["links"] = curve.links;
   json["x"] = numbers(x);
   json["y"] = numbers(y);
   return json;

@@ -48,11 +48,12 @@
   }
 
   const charts = data.charts.map((chart) => new Chart(chart));
+  const differs = (range, all) => !!all && range.some((v, k) => Math.abs(v - all[k]) > 1e-6 * (all[1] - all[0]));
   let linking = false, span = null;  // zoom of all figures over time; null: all
   function zoom_all(from) {
     if (linking || !from.chart.time) return;
     linking = true;
-    span = from.graph.isZoomed('x') ? from.graph.xAxisRange() : null;
+    span = differs(from.graph.xAxisRange(), from.graph.xAxisExtremes()) ? from.graph.xAxisRange() : null;
     for (const other of charts) if (other !== from && other.graph && other.chart.time) other.graph.updateOptions({ dateWindow: span });
     linking = false;
   }
@@ -101,7 +102,7 @@
     const { chart } = this, series = {};
     chart.curves.forEach((curve, k) => {
       series['c' + k] = { color: colour(curve.colour), strokeWidth: curve.points ? 0 : curve.width, stepPlot: !!curve.steps, axis: curve.right ? 'y2' : 'y1',
-        drawPoints: !!curve.points, pointSize: 1.4 };
+        drawPoints: !!(curve.points || curve.links), pointSize: curve.links ? 4 : 1.4 };
     });
     return { series, gridLineColor: colour('--line'), axisLineColor: colour('--c-axis') };
   };
@@ -128,13 +129,22 @@
       dateWindow: chart.time ? span : null,
       axes: { x: { axisLabelWidth: 56, pixelsPerLabel: 60 }, y: { axisLabelWidth: 52, valueRange: chart.range, pixelsPerLabel: 34 }, y2: { axisLabelWidth: 48, valueRange: right ? chart.range2 : undefined, drawGrid: false } },
       underlayCallback: (context, area, graph) => this.behind(context, area, graph),
-      drawCallback: (graph, first) => { if (!first) { zoom_all(this); this.place(this.at); } this.reset.hidden = first || !(graph.isZoomed('x') || graph.isZoomed('y')); },
+      drawCallback: (graph, first) => { if (!first) { zoom_all(this); this.place(this.at); } this.reset.hidden = !differs(graph.xAxisRange(), graph.xAxisExtremes()) && !differs(graph.yAxisRange(0), chart.range); },
     }, this.look_before(tools)));
     const line = this.line = made('div', 'cursor', plot);
     line.hidden = true;
     plot.addEventListener('mousemove', (event) => this.hover(event.clientX - plot.getBoundingClientRect().left));
     plot.addEventListener('touchmove', (event) => this.hover(event.touches[0].clientX - plot.getBoundingClientRect().left), { passive: true });
+    if (chart.curves.some((curve) => curve.links)) plot.addEventListener('click', (event) => this.follow(event));
     this.place(this.at);
+  };
+  // To the run of the point that was clicked on.
+  Chart.prototype.follow = function (event) {
+    const at = event.currentTarget.getBoundingClientRect(), near = 14;
+    this.chart.curves.forEach((curve, k) => (curve.links || []).forEach((link, i) => {
+      const [x, y] = this.graph.toDomCoords(curve.x[i], curve.y[i]);
+      if (link && Math.hypot(event.clientX - at.left - x, event.clientY - at.top - y) < near) window.location.href = link;
+    }));
   };
   // Links below the plot, which exist before it draws.
   Chart.prototype.look_before = function (tools) {
@@ -169,6 +179,7 @@
     this.line.hidden = across < area.x - 0.5 || across > area.x + area.w + 0.5;
     Object.assign(this.line.style, { left: across + 'px', top: area.y + 'px', height: area.h + 'px' });
     const name = chart.x.split(' / ')[0];
+    this.readout.dataset.time = chart.time ? x * data.seconds : '';
     this.fields[0].textContent = name + ' = ' + text(x) + ' ' + unit(chart.x);
     chart.curves.forEach((curve, k) => {
       const value = value_at(curve, x), field = this.fields[k + 1];

@@ -1,4 +1,4 @@
-#include "apps/report/theme.hpp"
+#include "apps/report/look/theme.hpp"
 
 #include <fmt/format.h>
 
@@ -49,11 +49,9 @@ constexpr ThemeColour theme_colours[] = {
 };
 
 /// Shades of pictures that stand for a colour that the page has anyway.
-constexpr std::pair<std::string_view, std::string_view> aliases[] = {{"#24313d", "--ink"},
-                                                                     {"#e3e8ed", "--line"},
-                                                                     {"#dfe5ea", "--line"},
-                                                                     {"#fff", "--paper"},
-                                                                     {"#fdeef0", "--bad-ground"}};
+constexpr std::pair<std::string_view, std::string_view> aliases[] = {
+    {"#24313d", "--ink"},  {"#000000", "--ink"}, {"#e3e8ed", "--line"},
+    {"#dfe5ea", "--line"}, {"#fff", "--paper"},  {"#fdeef0", "--bad-ground"}};
 
 /// The colour that begins at a place, "#rrggbb" or "rgb( 15,  47,  79)" as "#rrggbb", and where it ends; no text if none does.
 struct Found {

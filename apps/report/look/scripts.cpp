@@ -1,4 +1,4 @@
-#include "apps/report/scripts.hpp"
+#include "apps/report/look/scripts.hpp"
 
 #include <fstream>
 #include <iterator>
