@@ -61,7 +61,7 @@ details.scene{background:var(--paper);border:1px solid var(--line);border-radius
 pre{font:12px/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;overflow-x:auto;margin:10px 0 0}
 footer{color:var(--soft);font-size:13px;margin-top:40px}
 @media (max-width:480px){main{padding:18px 12px 40px}h1{font-size:24px}.verdict{padding:14px 14px}.tile{padding:10px 12px}.tiles{grid-template-columns:repeat(auto-fit,minmax(min(100%,150px),1fr))}th,td{padding:6px 9px}figure{padding:10px 8px}}
-@media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}#replay{display:none}}
+@media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}#replay,h2:has(+style+#replay){display:none}}
 )";
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {

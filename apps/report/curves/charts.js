@@ -148,6 +148,12 @@
   };
   // Links below the plot, which exist before it draws.
   Chart.prototype.look_before = function (tools) {
+    for (const [from, to] of (this.chart.time && this.chart.stretches) || []) {
+      const pulse = made('a', '', tools);
+      pulse.textContent = 'pulse';
+      pulse.title = 'all curves from before the pulse to after it';
+      pulse.addEventListener('click', () => this.graph.updateOptions({ dateWindow: [Math.max(0, 1.5 * from - 0.5 * to), 2 * to - from] }));
+    }
     this.reset = made('a', '', tools);
     this.reset.textContent = 'all';
     this.reset.hidden = true;

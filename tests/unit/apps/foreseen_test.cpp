@@ -30,10 +30,11 @@ Scene entering(const Case& of, const std::string& rest) {
                     level = plane ? "[4, 0]" : "[4, 4, 0]", zero = plane ? "0, " : "0, 0, ";
   const double bottom = std::string(of.name) == "circle" || std::string(of.name) == "sphere" ? 0.5 : 0;
   return read_scene_text(
-             "[time]\nend = 10\n[gravity]\nacceleration = [" + zero + "-9.81]\n[tank]\nmin = " + low +
-                 "\nmax = " + high + "\n[fluid]\ndensity = 1000\n[[fluid.region]]\nshape = \"box\"\nmin = " + low +
-                 "\nmax = " + level + "\n[[body]]\nname = \"hull\"\nshape = " + of.shape + "\nposition = [" + zero +
-                 std::to_string(bottom) + "]\nvelocity = [" + zero + "-2]\n" + rest,
+             "dimension = " + std::to_string(of.dimension) + "\n[time]\nend = 10\n[gravity]\nacceleration = [" + zero +
+                 "-9.81]\n[tank]\nmin = " + low + "\nmax = " + high +
+                 "\n[fluid]\ndensity = 1000\n[[fluid.region]]\nshape = \"box\"\nmin = " + low + "\nmax = " + level +
+                 "\n[[body]]\nname = \"hull\"\nshape = " + of.shape + "\nposition = [" + zero + std::to_string(bottom) +
+                 "]\nvelocity = [" + zero + "-2]\n" + rest,
              "scene.toml", {})
       .scene;
 }
@@ -78,9 +79,9 @@ TEST(ImpactTheory, of_a_free_body_keeps_momentum) {
 }
 
 TEST(ImpactTheory, has_nothing_to_say_of_other_shapes_and_of_hulls_that_are_turned) {
-  const Case box{"box", "{type = \"rectangle\", width = 1, height = 1}", 2, 0, 0};
+  const Case box{"box", "{type = \"box\", width = 1, height = 1}", 2, 0, 0};
   EXPECT_FALSE(theory_of_scene(entering(box, "motion = \"prescribed\"\n")));
-  EXPECT_FALSE(theory_of_scene(entering(cases[0], "motion = \"prescribed\"\nangle_deg = 10\n")));
+  EXPECT_FALSE(theory_of_scene(entering(cases[0], "motion = \"prescribed\"\npitch_deg = 10\n")));
 }
 
 // A box of L x B x H, of a third of water's density: draft T = H/3, GM = B^2/(12 T) + T/2 - H/2 about each axis.

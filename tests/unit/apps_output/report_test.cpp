@@ -134,7 +134,7 @@ TEST(Report, shows_the_verdict_in_its_colour_with_its_reason_above_all) {
   const auto reason = red.find("from nowhere");
   ASSERT_NE(reason, std::string::npos);
   EXPECT_LT(reason, red.find("were simulated in"));
-  EXPECT_EQ(green.find("from nowhere"), std::string::npos);
+  EXPECT_GT(green.find("from nowhere"), green.find("were simulated in")) << "but for the words below its curve";
   for (const auto& page : {red, amber, green}) EXPECT_NE(page.find("energy gain of the water"), std::string::npos);
 }
 

@@ -25,6 +25,7 @@ RUNS = {
 }
 STUDY = """scene = "{scene}"
 title = "A map"
+set = ["fluid.size.refine=0.3", "time.end=0.01"]
 [[axis]]
 name = "speed"
 key = "body.wedge.velocity.1"
@@ -37,9 +38,6 @@ values = [200, 300]
 name = "peak"
 quantity = "summary.bodies.wedge.peak_force.value"
 unit = "N/m"
-[set]
-"fluid.size.refine" = 0.3
-"time.end" = 0.01
 """
 READY = "document.readyState === 'complete' && (!document.querySelector('#charts-bytes') || document.documentElement.dataset.charts === 'ready') && " \
         "(!document.querySelector('#replay') || document.querySelector('#replay').dataset.ready === 'yes')"
