@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "apps/record/frames/vtu_blocks.hpp"
+#include "apps/report/look/scripts.hpp"
 #include "apps/report/replay/moving_picture.hpp"
 #include "apps/report/replay/viewer.hpp"
-#include "apps/report/look/scripts.hpp"
 #include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {

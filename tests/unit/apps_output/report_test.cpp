@@ -71,8 +71,7 @@ TEST(Report, is_one_page_without_links_to_elsewhere) {
   for (const char* outside : {"src=\"http", "href=\"http", "<script src", "@import", "src=\"//"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   for (const auto& warning : result.warnings)
-    EXPECT_TRUE(warning.find("gnuplot") != std::string::npos || warning.find("libjs-") != std::string::npos)
-        << warning;
+    EXPECT_TRUE(warning.find("gnuplot") != std::string::npos || warning.find("libjs-") != std::string::npos) << warning;
 }
 
 TEST(Report, shows_curves_and_fields_where_gnuplot_is_installed) {
