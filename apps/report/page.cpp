@@ -33,6 +33,7 @@ h1,h2{overflow-wrap:anywhere}
 .tile span.good{color:var(--good)}.tile span.fair{color:var(--fair)}.tile span.bad{color:var(--bad)}
 .tile svg{display:block;margin:6px 0 2px;max-width:100%}
 @media (min-width:700px){.tile.wide{grid-column:span 2;position:relative}.tile.wide:has(svg){padding-right:200px}.tile.wide svg{position:absolute;right:16px;top:12px}}
+@media (min-width:1000px){.tile.wide:has(svg){grid-column:span 3}}
 .quiet{color:var(--soft);font-size:13px;margin:12px 2px 0;overflow-wrap:anywhere}
 .bar{display:flex;height:26px;border-radius:6px;overflow:hidden;background:var(--line)}
 .bar div{min-width:1px}
@@ -44,7 +45,7 @@ figure svg,figure img{display:block;width:100%;height:auto}
 figure.heat{padding-bottom:16px}.scroll+figure,figure+.scroll{margin-top:16px}
 figcaption{color:var(--soft);font-size:14px;margin-top:8px}
 figcaption b{color:var(--ink)}
-.heat td{background:color-mix(in srgb,var(--c-blue) var(--s,0%),var(--paper));text-align:center}.heat td a{color:var(--ink);text-decoration:none}.heat td a:hover{text-decoration:underline}
+.heat td{background:color-mix(in srgb,var(--heat) var(--s,0%),var(--paper));text-align:center}.heat td a{color:var(--ink);text-decoration:none}.heat td a:hover{text-decoration:underline}
 .heat td.none{color:var(--bad);background:var(--ground)}.heat figcaption{margin:0 0 8px}.heat tbody th{color:var(--soft);font-weight:600}
 .scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:8px}
 table{border-collapse:collapse;width:100%;font-size:14px;font-variant-numeric:tabular-nums}

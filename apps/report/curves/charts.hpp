@@ -13,6 +13,7 @@
 
 namespace splashdown::apps {
 
+/// What a page needs to draw its curves in the browser.
 struct Charts {
   std::string html;             ///< data and scripts, once for a page; empty: none
   std::set<std::string> drawn;  ///< names of the figures that are in it

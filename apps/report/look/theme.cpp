@@ -43,6 +43,7 @@ constexpr ThemeColour theme_colours[] = {
     {"--c-orange-1", "#d55e00", "#f08a4b"},
     {"--c-green-1", "#009e73", "#2fc79d"},
     // Of the page again, after the pictures whose colours they share.
+    {"--heat", "#2f7fc1", "#2469a3"},
     {"--good-edge", "#3a9d7c", "#3a9d7c"},
     {"--fair-edge", "#d98e04", "#d98e04"},
     {"--bad-edge", "#d1495b", "#d1495b"},

@@ -139,7 +139,8 @@ FieldFigures prepare_hull_figures(const std::filesystem::path& run) {
         auto figure = figure_of("hull_" + file_name_of(name) + "_" + view.name, picture, room_around(picture),
                                 {.label = "highest pressure"});
         figure.title = name + " " + view.title;
-        figure.caption += ", of all instants until t = " + seconds_text(hull.time) + ".";
+        figure.caption += (figure.caption.empty() ? "of all instants until t = " : ", of all instants until t = ") +
+                          seconds_text(hull.time) + ".";
         result.figures.push_back(std::move(figure));
       }
     } catch (const std::exception& error) {

@@ -224,11 +224,13 @@ FieldFigure figure_of(const std::string& name, const PlanePicture& picture, cons
   figure.script = axes_script(name, view, height, range, unit, scale.label);
   figure.content = content_of(picture, view, raster, range);
   const bool any = std::ranges::any_of(raster.values, [](float v) { return std::isfinite(v); });
-  if (any) figure.caption = fmt::format("highest pressure in view {}", digits_with_unit(range.most, "Pa", 3));
+  if (any && range.most > worth_a_mark * range.high)
+    figure.caption = fmt::format("highest pressure in view {}", digits_with_unit(range.most, "Pa", 3));
   if (any && range.most > range.high)
     figure.caption += fmt::format(", beyond the colours, which end at {}", digits_with_unit(range.high, "Pa", 3));
-  if (any && range.least < range.low)
-    figure.caption += fmt::format("; lowest {}, below them", digits_with_unit(range.least, "Pa", 3));
+  if (any && range.least < range.low - worth_a_mark * (range.high - range.low))
+    figure.caption += (figure.caption.empty() ? "" : "; ") +
+                      fmt::format("lowest {}, below the colours", digits_with_unit(range.least, "Pa", 3));
   return figure;
 }
 
