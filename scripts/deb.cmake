@@ -15,7 +15,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # The one without threads, where there is a choice: scripts/packages.txt. MPI, which hypre starts, runs its daemon (orted) from the second.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libopenblas0-serial | libopenblas0, openmpi-bin")
 # Reports are written without them, too: they lack the curves or the replay, and say so.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, libjs-three")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, libjs-dygraphs, libjs-three")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "chromium, ffmpeg, paraview")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME splashdown-dev)

@@ -70,7 +70,7 @@ std::string script_of(const AblationPlan& plan, const Ablation& ablation, double
              "set tics nomirror out scale 0.5 textcolor rgb '#51606e'\nset grid x lw 0.6 lt 1 lc rgb '#dfe5ea'\n"
              "set xrange [{:.4g}:{:.4g}]\nset yrange [-0.6:{}]\nset ytics ({}) noenhanced\nset xtics ({})\n"
              "set object 1 rectangle from {:.4g}, graph 0 to {:.4g}, graph 1 behind fillcolor rgb '#eef2f5' fillstyle "
-             "solid noborder\nset xlabel 'change (%%); shaded: does not matter'\n"
+             "solid noborder\nset xlabel 'change (%); shaded: does not matter'\n"
              "set key outside right top samplen 1 font ',12'\n",
              150 + 60 * rows, -1.05 * most, 1.05 * most, static_cast<double>(rows) - 0.4, names, tics(least, most),
              -edge, edge) +

@@ -1,12 +1,12 @@
 #include "apps/check/floating.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "apps/check/statics.hpp"
 #include "apps/check/words.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/scales.hpp"
@@ -15,17 +15,6 @@
 
 namespace splashdown::apps {
 namespace {
-
-/// Round-off of an angle that is meant to be zero is not shown.
-double shown(double degrees) { return std::abs(degrees) < 1e-6 ? 0 : degrees; }
-
-template <int d>
-double extent(const rigid::BodySpec<d>& spec) {
-  return extents<d>(spec.surface).diagonal().norm();
-}
-
-/// Levers below this share of the extent are those of a round body's facets.
-constexpr double facets = 1e-4;
 
 std::string attitude_text(const rigid::Isometry<2>& pose) {
   return fmt::format("pitch {:.4g} deg", shown(attitude_deg<2>(pose.linear())[1]));
@@ -85,30 +74,19 @@ void print_trim(const std::vector<rigid::Heeled>& curve, double round_off) {
 }
 
 void print_levers(const Scene& scene, const Resting<3>& resting, double level) {
-  const auto& spec = resting.spec;
-  const auto& rest = *resting.floats;
-  std::vector<double> heels;
-  for (int degree = 0; degree <= 180; degree += 15) heels.push_back(degree * radians);
-  const auto curve = rigid::righting_levers(spec.surface, rest, spec.mass, scene.fluid->density, level,
-                                            rigid::length_axis(rest), heels);
-  const auto most =
-      std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.lever < b.lever; });
-  const double last = curve.back().heel / radians;
-  const bool ends = last < 180 - 1e-9;
-  if (!ends && most->lever < facets * extent<3>(spec))
-    return row("righting levers", "none to speak of: a round body keeps any heel");
-  const double round_off = 1e-9 * extent<3>(spec);
-  // Positive from rest to where the lever changes its sign.
-  const double range = zero_of(curve, 2, [](const rigid::Heeled& at) { return at.lever; }).value_or(last);
-  const bool rights = curve.size() < 2 || curve[1].lever > -round_off;
+  const auto righting = righting_of(scene, resting, level);
+  const auto& curve = righting.curve;
+  if (righting.round) return row("righting levers", "none to speak of: a round body keeps any heel");
   row("righting levers",
       fmt::format("heel about its length, to starboard, free to sink and to trim: GZ {:.4g} m at most, near "
                   "{:g} deg; it {}",
-                  most->lever, std::round(most->heel / radians),
-                  rights ? fmt::format("rights itself up to about {:.0f} deg", range) : "does not right itself"));
-  print_trim(curve, facets * extent<3>(spec));
-  if (ends)
-    row("", fmt::format("at {:.1f} deg {}", last,
+                  righting.most, std::round(righting.most_at),
+                  righting.rights ? fmt::format("rights itself up to about {:.0f} deg", righting.range)
+                                  : "does not right itself"));
+  const double size = diagonal<3>(resting.spec), round_off = 1e-9 * size;
+  print_trim(curve, facets_of_round * size);
+  if (righting.ends)
+    row("", fmt::format("at {:.1f} deg {}", curve.back().heel / radians,
                         std::isfinite(curve.back().floating.freeboard) ? "water comes over the rim of its hollow"
                                                                        : "it trims until it stands on end"));
   row("", "heel [deg]     GZ [m]  draft [m]");
@@ -122,30 +100,10 @@ void describe(const Scene& scene, const Resting<3>& resting, double level) {
   const auto& rest = *resting.floats;
   row("at rest", fmt::format("floats with a draft of {:.5g} m, {}, centre of mass {}", rest.draft,
                              attitude_text(rest.pose), height_text(rest.pose.translation().z() - level)));
-  const rigid::Slope<3> length = rigid::length_axis(rest), across(-length.y(), length.x());
-  const auto height = [&](const rigid::Slope<3>& direction) {
-    const double gm = rigid::metacentric_height<3>(rest, direction);
-    return std::abs(gm) < facets * extent<3>(resting.spec) ? 0 : gm;
-  };
-  row("metacentric heights", fmt::format("GM {:.4g} m in roll, {:.4g} m in pitch; water plane {:.4g} m^2",
-                                         height(across), height(length), rest.submerged.waterline));
+  const auto [roll, pitch] = metacentric_heights(resting);
+  row("metacentric heights", fmt::format("GM {:.4g} m in roll, {:.4g} m in pitch; water plane {:.4g} m^2", roll, pitch,
+                                         rest.submerged.waterline));
   print_levers(scene, resting, level);
-}
-
-/// What keeps it from floating as if it were alone.
-template <int d>
-std::string held_text(const Scene& scene, std::size_t number, const rigid::BodyAtRest<d>& rest) {
-  const Body& body = scene.bodies[number];
-  std::vector<std::string> reasons;
-  if (body.free.size() < freedom_names(d).size())
-    reasons.push_back(fmt::format("free in {} only", fmt::join(body.free, ", ")));
-  for (const auto& joint : scene.joints) {
-    if (joint.body != number && joint.other != number) continue;
-    const auto other = joint.body == number ? joint.other : std::optional(joint.body);
-    reasons.push_back(fmt::format("{} to {}", joint.type, other ? scene.bodies[*other].name : "the world"));
-  }
-  if (rest.touches) reasons.emplace_back("touches what it meets");
-  return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 template <int d>

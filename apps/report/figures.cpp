@@ -11,6 +11,7 @@
 
 #include "apps/record/frames/frames.hpp"
 #include "apps/report/curves/acceleration.hpp"
+#include "apps/report/curves/behind.hpp"
 #include "apps/report/curves/filtered_curves.hpp"
 #include "apps/report/curves/style.hpp"
 #include "apps/report/words.hpp"
@@ -44,6 +45,7 @@ bool has_every_step(const RunData& run, const Table& rows) {
 }
 
 struct BodyPlotter {
+  const RunData& run;
   const Table& table;
   std::string body;
   std::string stem;
@@ -52,13 +54,14 @@ struct BodyPlotter {
   Unit time;
   Values t;
 
-  BodyPlotter(const RunData& run, const std::string& name, const Table& rows)
-      : table(rows),
+  BodyPlotter(const RunData& of, const std::string& name, const Table& rows)
+      : run(of),
+        table(rows),
         body(name),
         stem("body_" + file_name_of(name)),
-        dimension(run.dimension()),
-        filters(has_class(run, name) && has_every_step(run, rows)),
-        time(time_unit(run.end_time())),
+        dimension(of.dimension()),
+        filters(has_class(of, name) && has_every_step(of, rows)),
+        time(time_unit(of.end_time())),
         t(scaled(rows["time"], time.scale)) {}
 
   Figure empty(const std::string& kind, const std::string& y_label) const {
@@ -66,9 +69,11 @@ struct BodyPlotter {
     figure.name = stem + "_" + kind;
     figure.x_label = "t / " + time.unit;
     figure.y_label = y_label;
+    figure.over_time = true;
     return figure;
   }
 
+  const nlohmann::ordered_json& json() const { return member(member(run.summary, "bodies"), body.c_str()); }
   char vertical() const { return dimension == 2 ? 'y' : 'z'; }
 
   /// Total, physical and repair part of one component.
@@ -84,6 +89,7 @@ struct BodyPlotter {
     if (smooth)
       figure.curves.push_back({fmt::format("CFC {}", structures_class), scaled(smooth->t, time.scale),
                                scaled(smooth->values[0], unit.scale), ink, 2.2});
+    if (column == std::string("f") + vertical()) figure.between = theory_of(json(), time.scale, unit.scale);
     double impulse = 0, repair_impulse = 0, to_and_fro = 0;
     for (std::size_t i = 1; i < t.size(); ++i) {
       const double dt = table["time"][i] - table["time"][i - 1];
@@ -155,8 +161,10 @@ struct BodyPlotter {
       columns_a.push_back(std::string("a") + axis);
     }
     add_components(figures, "velocity", "velocity / (m/s)", v, names_v, "Velocity of the centre of mass.");
-    if (auto figure = acceleration_figure(
-            {table, columns_a, empty("acceleration", ""), time.scale, filters, "the centre of mass"}))
+    auto with_pulse = empty("acceleration", "");
+    with_pulse.stretches = pulse_of_peaks(member(json(), "peak_acceleration_g"), time.scale);
+    with_pulse.levels = levels_of(run.summary, body + ".peak_g");
+    if (auto figure = acceleration_figure({table, columns_a, with_pulse, time.scale, filters, "the centre of mass"}))
       figures.push_back(std::move(*figure));
     add_components(figures, "displacement", "displacement / m", x, names_x,
                    "Displacement of the centre of mass since the start.");
@@ -215,6 +223,7 @@ FigureGroup fluid_figures(const RunData& run) {
     f.name = name;
     f.x_label = "t / " + time.unit;
     f.y_label = y_label;
+    f.over_time = true;
     return f;
   };
 
@@ -326,17 +335,22 @@ FigureGroup probe_figures(const RunData& run) {
     Figure figure;
     figure.name = "probe_" + std::to_string(group.figures.size());
     figure.x_label = "t / " + time.unit;
+    figure.over_time = true;
     if (const auto components = instrument_table(run, name)) {
       const auto instrument = name.substr(0, name.rfind('.'));
       if (!instruments.insert(instrument).second) continue;
       const bool filters = number_at(run.summary, {"equipment", instrument.c_str(), "cfc60", "value"}) > 0 &&
                            has_every_step(run, *components);
+      const auto& peaks = member(member(run.summary, "equipment"), instrument.c_str());
+      figure.stretches = pulse_of_peaks(peaks, time.scale);
+      figure.levels = levels_of(run.summary, instrument + ".peak_g");
       const std::vector<std::string> columns(components->names.begin() + 1, components->names.end());
       if (auto drawn = acceleration_figure({*components, columns, figure, time.scale, filters, instrument}))
         group.figures.push_back(std::move(*drawn));
       continue;
     }
     figure.y_label = name + run.unit_of_probe(name);
+    figure.levels = levels_of(run.summary, name + ".peak_pressure");
     figure.curves = {{"", scaled(table["time"], time.scale), table["value"], ink, 1.4}};
     figure.caption = fmt::format("Probe <b>{}</b>, SI units.", html_escaped(name));
     group.figures.push_back(std::move(figure));

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "apps/report/curves/reduction.hpp"
 #include "apps/text/plain_text.hpp"
 
 extern char** environ;
@@ -20,6 +21,10 @@ extern char** environ;
 namespace splashdown::apps {
 
 namespace {
+
+// Grounds of pulses and of theories, lines of limits.
+constexpr const char *pulse_ground = "#f7efd8", *theory_ground = "#dbe9f4", *level_colour = "#d1495b";
+constexpr double level_in_view = 3;  // times the highest value: farther off, a limit would flatten the curves
 
 constexpr std::size_t points_a_curve = 1200;  // twice the pixels of a figure's axis
 
@@ -37,6 +42,11 @@ void write_data(const std::filesystem::path& path, const Figure& figure) {
     }
     text.append(std::string_view("\n\n"));
   }
+  for (const auto& band : figure.between) {
+    for (std::size_t i = 0; i < band.x.size(); ++i)
+      fmt::format_to(std::back_inserter(text), "{:.7g} {:.7g} {:.7g}\n", band.x[i], band.low[i], band.high[i]);
+    text.append(std::string_view("\n\n"));
+  }
   std::ofstream out(path, std::ios::binary);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   if (!out) throw std::runtime_error(path.string() + ": cannot write");
@@ -50,37 +60,61 @@ bool has_points(const Curve& curve) {
 
 std::string plot_command(const Figure& figure) {
   std::string plots;
+  const auto add = [&](const std::string& plot) { plots += (plots.empty() ? "" : ", \\\n  ") + plot; };
+  for (std::size_t i = 0; i < figure.between.size(); ++i)
+    add(fmt::format("'{}.dat' index {} using 1:2:3 with filledcurves lc rgb '{}' title {}", figure.name,
+                    figure.curves.size() + i, theory_ground, gnuplot_text(figure.between[i].text)));
+  bool any = false;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     const Curve& curve = figure.curves[i];
     if (!has_points(curve)) continue;
-    if (!plots.empty()) plots += ", \\\n  ";
-    plots += fmt::format("'{}.dat' index {} using 1:2 {} with {} lw {} lc rgb '{}' {}", figure.name, i,
-                         curve.right_axis ? "axes x1y2" : "",
-                         curve.points  ? "points pt 7 ps 0.25"
-                         : curve.steps ? "steps"
-                                       : "lines",
-                         curve.width, curve.colour,
-                         curve.label.empty() ? std::string("notitle") : "title " + gnuplot_text(curve.label));
+    any = true;
+    add(fmt::format("'{}.dat' index {} using 1:2 {} with {} lw {} lc rgb '{}' {}", figure.name, i,
+                    curve.right_axis ? "axes x1y2" : "",
+                    curve.points  ? "points pt 7 ps 0.25"
+                    : curve.steps ? "steps"
+                                  : "lines",
+                    curve.width, curve.colour,
+                    curve.label.empty() ? std::string("notitle") : "title " + gnuplot_text(curve.label)));
   }
-  return plots;
+  return any ? plots : std::string();
 }
 
-/// A curve that is one value throughout would leave the axis without a range.
 std::string range_command(const Figure& figure, bool right_axis) {
-  double low = INFINITY, high = -INFINITY;
-  for (const auto& curve : figure.curves) {
-    if (curve.right_axis != right_axis) continue;
-    for (const double y : curve.y)
-      if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
-  }
+  const auto [low, high] = axis_range(figure, right_axis);
   const std::string axis = right_axis ? "y2" : "y";
   if (low > high) return fmt::format("set {}range [*:*]\n", axis);
-  double margin = 0.07 * (high - low);
-  if (margin <= 1e-12 * std::max(std::abs(low), std::abs(high))) margin = low == 0 ? 1 : 0.1 * std::abs(low);
-  if (figure.counts && !right_axis)
-    return fmt::format("set yrange [0:{:.7g}]\n{}", high + 0.1 * high, high < 10 ? "set ytics 1\n" : "");
-  const double room_for_marks = figure.marks.empty() ? 0 : margin;
-  return fmt::format("set {}range [{:.7g}:{:.7g}]\n", axis, low - margin, high + margin + room_for_marks);
+  return fmt::format("set {}range [{:.7g}:{:.7g}]\n{}", axis, low, high,
+                     figure.counts && !right_axis && high < 11 ? "set ytics 1\n" : "");
+}
+
+/// What is neither curve nor axis.
+std::string decorations(const Figure& figure) {
+  std::string script = "unset label\nunset arrow\nunset object\n";
+  int number = 0;
+  for (const auto& stretch : figure.stretches)
+    script += fmt::format(
+        "set object {} rectangle from {:.7g},graph 0 to {:.7g},graph 1 behind fc rgb '{}' fs solid noborder\n",
+        ++number, stretch.from, stretch.to, pulse_ground);
+  const auto range = axis_range(figure, false);
+  for (const auto& level : figure.levels)
+    if (level.y > range.low && level.y < range.high)
+      script += fmt::format(
+          "set arrow from graph 0,first {0:.7g} to graph 1,first {0:.7g} nohead dt 2 lw 1.4 lc rgb '{2}'\nset label "
+          "{1} "
+          "at "
+          "graph 0.01,first {0:.7g} offset 0,0.5 textcolor rgb '{2}'\n",
+          level.y, gnuplot_text(level.text), level_colour);
+  if (figure.zero_line)
+    script += "set xzeroaxis lt 1 lw 0.8 lc rgb '#8796a5'\n";
+  else
+    script += "unset xzeroaxis\n";
+  for (const auto& mark : figure.marks)
+    script += fmt::format(
+        "set label {} at {:.7g},{:.7g} point pt 7 ps 0.5 lc rgb '#24313d' offset 0.8,0.4 textcolor rgb "
+        "'#24313d'\n",
+        gnuplot_text(mark.text), mark.x, mark.y);
+  return script;
 }
 
 struct Process {
@@ -116,30 +150,28 @@ GnuplotResult wait_for(const Process& process) {
 
 }  // namespace
 
-void thin(std::vector<double>& x, std::vector<double>& y, std::size_t limit) {
-  if (x.size() <= limit || limit < 4) return;
-  // Lowest and highest point of each of limit/2 groups, in their order.
-  const std::size_t groups = limit / 2;
-  std::vector<double> thin_x, thin_y;
-  for (std::size_t g = 0; g < groups; ++g) {
-    const std::size_t begin = g * x.size() / groups, end = (g + 1) * x.size() / groups;
-    std::size_t low = begin, high = begin;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (y[i] < y[low] || std::isnan(y[low])) low = i;
-      if (y[i] > y[high] || std::isnan(y[high])) high = i;
-    }
-    for (const std::size_t i : {std::min(low, high), std::max(low, high)}) {
-      if (i == std::max(low, high) && low == high && !thin_x.empty() && thin_x.back() == x[i]) continue;
-      thin_x.push_back(x[i]);
-      thin_y.push_back(y[i]);
-    }
-  }
-  if (thin_x.back() != x.back()) {
-    thin_x.push_back(x.back());
-    thin_y.push_back(y.back());
-  }
-  x = std::move(thin_x);
-  y = std::move(thin_y);
+// A curve that is one value throughout would leave the axis without a range.
+AxisRange axis_range(const Figure& figure, bool right_axis) {
+  AxisRange range{INFINITY, -INFINITY};
+  const auto look = [&](double y) {
+    if (std::isfinite(y)) range = {std::min(range.low, y), std::max(range.high, y)};
+  };
+  for (const auto& curve : figure.curves)
+    if (curve.right_axis == right_axis)
+      for (const double y : curve.y) look(y);
+  if (range.low > range.high) return range;
+  if (!right_axis)
+    for (const auto& band : figure.between)
+      for (const double y : band.high) look(y);
+  const double highest = range.high;
+  for (const auto& level : figure.levels)
+    if (!right_axis && level.y < level_in_view * highest) look(level.y);
+  const auto [low, high] = range;
+  double margin = 0.07 * (high - low);
+  if (margin <= 1e-12 * std::max(std::abs(low), std::abs(high))) margin = low == 0 ? 1 : 0.1 * std::abs(low);
+  if (figure.counts && !right_axis) return {0, high + 0.1 * high};
+  const double room_for_marks = figure.marks.empty() ? 0 : margin;
+  return {low - margin, high + margin + room_for_marks};
 }
 
 std::optional<std::string> draw_chart(const std::filesystem::path& folder, const std::string& name,
@@ -188,16 +220,7 @@ std::string script_of(const std::filesystem::path& folder, const std::vector<Fig
                 range_command(figure, true);
     else
       script += "set border 3\nunset y2tics\nunset y2label\n";
-    script += "unset label\nunset arrow\n";
-    if (figure.zero_line)
-      script += "set xzeroaxis lt 1 lw 0.8 lc rgb '#8796a5'\n";
-    else
-      script += "unset xzeroaxis\n";
-    for (const auto& mark : figure.marks)
-      script += fmt::format(
-          "set label {} at {:.7g},{:.7g} point pt 7 ps 0.5 lc rgb '#24313d' offset 0.8,0.4 textcolor rgb "
-          "'#24313d'\n",
-          gnuplot_text(mark.text), mark.x, mark.y);
+    script += decorations(figure);
     script += "plot " + plots + "\n";
   }
   return script;

@@ -14,8 +14,9 @@ struct Curve {
   std::string colour;  ///< #rrggbb
   double width = 1.6;
   bool right_axis = false;
-  bool steps = false;   ///< constant until the next point
-  bool points = false;  ///< dots, not joined
+  bool steps = false;                   ///< constant until the next point
+  bool points = false;                  ///< dots, not joined
+  std::vector<std::string> links = {};  ///< where a click on a point leads; empty: nowhere
 };
 
 /// A labelled point, e.g. a peak.
@@ -24,18 +25,43 @@ struct Mark {
   std::string text;
 };
 
+/// A piece of the x axis that is shaded, e.g. a pulse.
+struct Stretch {
+  double from, to;
+  std::string text;
+};
+
+/// A value that is drawn right across, e.g. a limit.
+struct Level {
+  double y;
+  std::string text;
+};
+
+/// What lies between two curves, behind all others, e.g. what theories say.
+struct Between {
+  std::string text;
+  std::vector<double> x, low, high;
+};
+
 struct Figure {
   std::string name;  ///< of its files
   std::string x_label, y_label, y2_label;
   std::vector<Curve> curves;
   std::vector<Mark> marks;
+  std::vector<Stretch> stretches;
+  std::vector<Level> levels;
+  std::vector<Between> between;
+  bool over_time = false;  ///< x is the run's time, in the unit of all such figures of the run
   bool zero_line = true;
   bool counts = false;  ///< the left axis counts something: from zero, whole numbers
   std::string caption;  ///< HTML below the figure
 };
 
-/// At most about `limit` points that keep every extreme the eye could see.
-void thin(std::vector<double>& x, std::vector<double>& y, std::size_t limit);
+/// The left or the right axis: from its lowest value to its highest with a margin; reversed if there is none.
+struct AxisRange {
+  double low, high;
+};
+AxisRange axis_range(const Figure& figure, bool right_axis);
 
 /// Writes NAME.dat for each figure; the commands that draw NAME.svg.
 std::string script_of(const std::filesystem::path& folder, const std::vector<Figure>& figures);

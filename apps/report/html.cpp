@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "apps/report/answers.hpp"
+#include "apps/report/answers/answers.hpp"
 #include "apps/report/page.hpp"
 #include "apps/statistics/attitude.hpp"
 
@@ -48,6 +48,14 @@ std::string phase_bar(const RunData& run) {
          "</ul>\n";
 }
 
+/// As a chart, as a picture, or not at all.
+std::string curves_figure(const ReportPage& page, const Figure& figure) {
+  const auto image = page.images.find(figure.name);
+  if (page.charts.drawn.contains(figure.name))
+    return html_chart(figure.name, image == page.images.end() ? "" : image->second, figure.caption);
+  return image == page.images.end() ? "" : html_figure(image->second, figure.caption);
+}
+
 std::string figures(const ReportPage& page) {
   std::string html;
   for (const auto& [heading, pictures] :
@@ -56,13 +64,17 @@ std::string figures(const ReportPage& page) {
     for (const auto& field : *pictures)
       if (const auto image = page.images.find(field.name); image != page.images.end())
         inside += html_figure(image->second, "<b>" + html_escaped(field.title) + "</b>, " + field.caption);
-    if (!inside.empty()) html += fmt::format("<h2>{}</h2>\n<div class=\"grid\">{}</div>\n", heading, inside);
+    const bool less_rest = pictures == &page.fields && !member(page.run.summary, "still_water").empty();
+    if (!inside.empty())
+      html += fmt::format("<h2>{}</h2>\n{}<div class=\"grid\">{}</div>\n", heading,
+                          less_rest ? "<p class=\"where\">Colours: pressure less that of still water, ρ g depth, so "
+                                      "that the impact shows.</p>\n"
+                                    : "",
+                          inside);
   }
   for (const auto& group : page.groups) {
     std::string inside;
-    for (const auto& figure : group.figures)
-      if (const auto image = page.images.find(figure.name); image != page.images.end())
-        inside += html_figure(image->second, figure.caption);
+    for (const auto& figure : group.figures) inside += curves_figure(page, figure);
     if (!inside.empty())
       html += "<h2>" + html_escaped(group.title) + "</h2>\n<div class=\"grid\">" + inside + "</div>\n";
   }
@@ -240,16 +252,26 @@ std::string effects_table(const RunData& run) {
   const auto &active = member(effects, "active"), &inactive = member(effects, "inactive");
   if (active.empty() && inactive.empty()) return {};
   std::string html =
-      "<h2>Effects</h2>\n<div class=\"scroll\"><table><thead><tr><th>effect</th><th>wall "
-      "time</th><th>share</th>"
-      "<th style=\"text-align:left\">why it is off</th></tr></thead><tbody>\n";
+      "<h2>Effects</h2>\n<div class=\"scroll\"><table><thead><tr><th>effect</th><th></th><th class=\"text\">the number "
+      "that says whether it matters</th><th>wall time</th><th>share</th></tr></thead><tbody>\n";
   for (const auto& [name, effect] : active.items())
-    html += fmt::format("<tr><td><b>{}</b></td><td>{}</td><td>{}</td><td></td></tr>\n", html_escaped(name),
+    html += fmt::format("<tr><td><b>{}</b></td><td>on</td><td class=\"text\">{}</td><td>{}</td><td>{}</td></tr>\n",
+                        html_escaped(name), html_escaped(text_at(effect, "reason")),
                         seconds_text(number_at(effect, {"seconds"})), percent(number_at(effect, {"share"})));
   for (const auto& [name, reason] : inactive.items())
-    html += fmt::format("<tr><td>{}</td><td>–</td><td>–</td><td class=\"text\">{}</td></tr>\n", html_escaped(name),
-                        reason.is_string() ? html_escaped(reason.get<std::string>()) : "");
+    html += fmt::format("<tr><td>{}</td><td>off</td><td class=\"text\">{}</td><td>–</td><td>–</td></tr>\n",
+                        html_escaped(name), reason.is_string() ? html_escaped(reason.get<std::string>()) : "");
   return html + "</tbody></table></div>\n";
+}
+
+/// The scene with all values in force, to copy.
+std::string scene_text(const RunData& run) {
+  const auto text = read_text(run.directory / "scene.resolved.toml");
+  if (text.empty()) return {};
+  return "<h2>Scene</h2>\n<details class=\"scene\"><summary>all values in force, as a scene to copy: <code>splashdown "
+         "run "
+         "scene.resolved.toml</code> repeats this run</summary><pre>" +
+         html_escaped(text) + "</pre></details>\n";
 }
 
 std::string refusals_table(const RunData& run) {
@@ -271,10 +293,11 @@ std::string html_of(const ReportPage& page) {
   const auto& run = page.run;
   return html_page(title, html_header(title, run.directory, page.banner, page.warnings) + answer_card(run) +
                               quiet_line(run) + page.replay + figures(page) + body_table(run) + equipment_table(run) +
-                              pressure_table(run) + ledger_table(run) + effects_table(run) + refusals_table(run) +
-                              phase_bar(run) +
+                              pressure_table(run) + effects_table(run) + scene_text(run) + ledger_table(run) +
+                              refusals_table(run) + phase_bar(run) +
                               "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
-                              "in <code>report/</code>.</footer>\n");
+                              "in <code>report/</code>.</footer>\n" +
+                              page.charts.html);
 }
 
 }  // namespace splashdown::apps

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/report/curves/charts.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/pictures/field.hpp"
@@ -20,6 +21,7 @@ struct ReportPage {
   std::map<std::string, std::string> images;  ///< figure name -> <svg> or <img> element
   std::vector<std::string> warnings;          ///< HTML
   std::string replay = {};                    ///< HTML; empty: none
+  Charts charts = {};
 };
 
 std::string html_of(const ReportPage& page);

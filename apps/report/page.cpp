@@ -4,12 +4,13 @@
 
 #include <string_view>
 
+#include "apps/report/look/theme.hpp"
+
 namespace splashdown::apps {
 
 namespace {
 
 constexpr std::string_view style = R"(
-:root{--ink:#17222d;--soft:#51606e;--line:#e1e7ec;--paper:#fff;--ground:#f4f7f9;--blue:#2f7fc1}
 *{box-sizing:border-box}
 body{margin:0;background:var(--ground);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI","Helvetica Neue",Arial,sans-serif}
 main{max-width:1180px;margin:0 auto;padding:32px 24px 64px}
@@ -18,18 +19,21 @@ h2{font-size:20px;margin:40px 0 12px;letter-spacing:-.005em}
 h1,h2{overflow-wrap:anywhere}
 .where{color:var(--soft);margin:0 0 20px;font-size:14px;overflow-wrap:anywhere}
 .verdict{background:var(--paper);border:1px solid var(--line);border-left:6px solid;border-radius:8px;padding:18px 22px}
-.verdict.good{border-left-color:#3a9d7c}.verdict.fair{border-left-color:#d98e04}.verdict.bad{border-left-color:#d1495b}
+.verdict.good{border-left-color:var(--good-edge)}.verdict.fair{border-left-color:var(--fair-edge)}.verdict.bad{border-left-color:var(--bad-edge)}
 .verdict strong{display:block;font-size:19px;margin-bottom:6px}
 .verdict p{margin:3px 0;overflow-wrap:anywhere}
-.verdict b.bad{color:#b8354a}.verdict b.fair{color:#a56a00}
+.verdict b.bad{color:var(--bad)}.verdict b.fair{color:var(--fair)}
 .verdict p:has(.head){display:grid;grid-template-columns:3.6em minmax(0,1fr)}.verdict .head{font-weight:600}
 .verdict details{font-size:14px;color:var(--soft)}.verdict summary{cursor:pointer}.verdict ul{margin:6px 0 0;padding-left:20px}
-.verdict.bad{background:#fdf0f1}.verdict.fair{background:#fff8e8}
+.verdict.bad{background:var(--bad-ground)}.verdict.fair{background:var(--fair-ground)}
 .tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,190px),1fr));gap:12px;margin:16px 0 0}
 .tile{min-width:0;overflow-wrap:anywhere;background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}
 .tile b{display:block;font-size:22px;line-height:1.25;font-variant-numeric:tabular-nums}
 .tile span{display:block;color:var(--soft);font-size:13px;line-height:1.4}
-.tile span.good{color:#2b7d62}.tile span.fair{color:#a56a00}.tile span.bad{color:#b8354a}
+.tile span.good{color:var(--good)}.tile span.fair{color:var(--fair)}.tile span.bad{color:var(--bad)}
+.tile svg{display:block;margin:6px 0 2px;max-width:100%}
+@media (min-width:700px){.tile.wide{grid-column:span 2;position:relative}.tile.wide:has(svg){padding-right:200px}.tile.wide svg{position:absolute;right:16px;top:12px}}
+@media (min-width:1000px){.tile.wide:has(svg){grid-column:span 3}}
 .quiet{color:var(--soft);font-size:13px;margin:12px 2px 0;overflow-wrap:anywhere}
 .bar{display:flex;height:26px;border-radius:6px;overflow:hidden;background:var(--line)}
 .bar div{min-width:1px}
@@ -38,22 +42,27 @@ h1,h2{overflow-wrap:anywhere}
 .grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:16px}
 figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:14px 16px 12px}
 figure svg,figure img{display:block;width:100%;height:auto}
+figure.heat{padding-bottom:16px}.scroll+figure,figure+.scroll{margin-top:16px}
 figcaption{color:var(--soft);font-size:14px;margin-top:8px}
 figcaption b{color:var(--ink)}
+.heat td{background:color-mix(in srgb,var(--heat) var(--s,0%),var(--paper));text-align:center}.heat td a{color:var(--ink);text-decoration:none}.heat td a:hover{text-decoration:underline}
+.heat td.none{color:var(--bad);background:var(--ground)}.heat figcaption{margin:0 0 8px}.heat tbody th{color:var(--soft);font-weight:600}
 .scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:8px}
 table{border-collapse:collapse;width:100%;font-size:14px;font-variant-numeric:tabular-nums}
 th,td{text-align:right;padding:7px 14px;border-top:1px solid var(--line);white-space:nowrap}
 th:first-child,td:first-child{text-align:left}
 thead th{border-top:0;color:var(--soft);font-weight:600}
-td.good{color:#2b7d62}td.fair{color:#a56a00}td.bad{color:#b8354a}
+td.good{color:var(--good)}td.fair{color:var(--fair)}td.bad{color:var(--bad)}
 th.text,td.text{text-align:left}
 td.text{white-space:normal;min-width:16em}
-.note{background:#fff8e8;border:1px solid #f0dfb4;border-radius:8px;padding:12px 16px;margin:16px 0 0}
-a{color:var(--blue)}
-code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;background:#eef2f5;border-radius:4px;padding:1px 5px;overflow-wrap:anywhere}
+.note{background:var(--fair-ground);border:1px solid var(--fair-line);border-radius:8px;padding:12px 16px;margin:16px 0 0}
+a{color:var(--link)}
+code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;background:var(--code);border-radius:4px;padding:1px 5px;overflow-wrap:anywhere}
+details.scene{background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}details.scene summary{cursor:pointer;font-size:14px;color:var(--soft)}
+pre{font:12px/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;overflow-x:auto;margin:10px 0 0}
 footer{color:var(--soft);font-size:13px;margin-top:40px}
 @media (max-width:480px){main{padding:18px 12px 40px}h1{font-size:24px}.verdict{padding:14px 14px}.tile{padding:10px 12px}.tiles{grid-template-columns:repeat(auto-fit,minmax(min(100%,150px),1fr))}th,td{padding:6px 9px}figure{padding:10px 8px}}
-@media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}}
+@media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}#replay,h2:has(+style+#replay){display:none}}
 )";
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
@@ -93,8 +102,8 @@ std::string html_header(const std::string& title, const std::filesystem::path& d
   return html;
 }
 
-std::string html_tile(const std::string& value, const std::string& rows) {
-  return fmt::format("<div class=\"tile\"><b>{}</b>{}</div>\n", value, rows);
+std::string html_tile(const std::string& value, const std::string& rows, const char* classes) {
+  return fmt::format("<div class=\"{}\"><b>{}</b>{}</div>\n", classes, value, rows);
 }
 
 std::string html_tiles(const std::string& tiles) {
@@ -103,6 +112,14 @@ std::string html_tiles(const std::string& tiles) {
 
 std::string html_figure(const std::string& image, const std::string& caption) {
   return "<figure>" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string html_chart(const std::string& name, const std::string& image, const std::string& caption) {
+  return fmt::format(
+      "<figure class=\"chart\" data-chart=\"{}\"><div class=\"live\" hidden></div><div "
+      "class=\"still\">{}</div><figcaption>{}"
+      "</figcaption></figure>\n",
+      name, image, caption);
 }
 
 std::string inline_svg(const std::string& svg, const std::string& name) {
@@ -118,14 +135,15 @@ std::string inline_svg(const std::string& svg, const std::string& name) {
     replace_all(element, fmt::format("href='#{}", id), fmt::format("href='#{}_{}", name, id));
     replace_all(element, fmt::format("url(#{}", id), fmt::format("url(#{}_{}", name, id));
   }
+  replace_all(element, "=\"black\"", "=\"var(--ink)\"");  // what no script gave a colour
   replace_all(element, "font-family=\"Helvetica\"", "font-family=\"system-ui,Helvetica Neue,Arial,sans-serif\"");
-  return element;
+  return themed(element);
 }
 
 std::string html_page(const std::string& title, const std::string& content) {
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
-         html_escaped(title) + " · Splashdown</title>\n<style>" + std::string(style) +
+         html_escaped(title) + " · Splashdown</title>\n<style>" + theme_style() + std::string(style) +
          "</style></head>\n<body><main>\n" + content + "</main></body></html>\n";
 }
 

@@ -11,7 +11,7 @@
 namespace splashdown::apps {
 
 inline constexpr const char* no_gnuplot =
-    "gnuplot is not installed, so there are no figures. Install it with \"sudo apt install gnuplot-nox\" and "
+    "gnuplot is not installed, so there are no pictures. Install it with \"sudo apt install gnuplot-nox\" and "
     "run "
     "\"splashdown report\" again.";
 
@@ -22,9 +22,12 @@ std::string html_page(const std::string& title, const std::string& content);
 std::string html_header(const std::string& title, const std::filesystem::path& directory, const Banner& banner,
                         const std::vector<std::string>& warnings);
 
-std::string html_tile(const std::string& value, const std::string& rows);  ///< rows: <span> elements
-std::string html_tiles(const std::string& tiles);                          ///< around them; nothing if there are none
+std::string html_tile(const std::string& value, const std::string& rows,
+                      const char* classes = "tile");  ///< rows: <span> elements
+std::string html_tiles(const std::string& tiles);     ///< around them; nothing if there are none
 std::string html_figure(const std::string& image, const std::string& caption);
+/// One whose picture a chart of the browser takes the place of (curves/charts.hpp); without scripts and in print it is there.
+std::string html_chart(const std::string& name, const std::string& image, const std::string& caption);
 const char* css_class(Mood mood);
 
 /// Last part of the path, also of "." and "folder/".

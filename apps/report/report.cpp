@@ -70,12 +70,12 @@ ReportResult write_report(const std::filesystem::path& directory) {
   remove_old_images(folder);
 
   ReportResult result{directory / "report.html", {}};
-  ReportPage page{data, banner_of(data), {}, {}, figures_of(data), {}, {}};
+  ReportPage page{data, banner_of(data), {}, {}, figures_of(data), {}, {}, {}, {}};
   if (auto hulls = hull_curves(directory); !hulls.figures.empty())
     page.groups.insert(page.groups.end() - (page.groups.empty() ? 0 : 1), std::move(hulls));  // before the numerics
   std::vector<Figure> curves;
   for (const auto& group : page.groups) curves.insert(curves.end(), group.figures.begin(), group.figures.end());
-  FieldFigures fields = prepare_field_figures(directory), hulls = prepare_hull_figures(directory);
+  FieldFigures fields = prepare_field_figures(directory, data.summary), hulls = prepare_hull_figures(directory);
   result.warnings = fields.warnings;
   result.warnings.insert(result.warnings.end(), hulls.warnings.begin(), hulls.warnings.end());
   const auto of_plane = static_cast<std::ptrdiff_t>(fields.figures.size());
@@ -94,6 +94,8 @@ ReportResult write_report(const std::filesystem::path& directory) {
   page.hulls.assign(fields.figures.begin() + of_plane, fields.figures.end());
   fields.figures.resize(static_cast<std::size_t>(of_plane));
   page.fields = std::move(fields.figures);
+  page.charts = charts_of(curves, 1 / time_unit(data.end_time()).scale);
+  std::ranges::move(page.charts.warnings, std::back_inserter(result.warnings));
   auto replay = replay_of(directory);
   page.replay = std::move(replay.html);
   std::ranges::move(replay.warnings, std::back_inserter(result.warnings));

@@ -8,9 +8,11 @@
 #include <set>
 
 #include "apps/files/csv.hpp"
+#include "apps/report/curves/charts.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/page.hpp"
+#include "apps/report/study_maps.hpp"
 #include "apps/text/pattern.hpp"
 
 namespace splashdown::apps {
@@ -123,6 +125,13 @@ std::string chart_of(const fs::path& directory, std::vector<std::string>& warnin
                      "curves coincide their points stand a little beside each other.");
 }
 
+std::string lines_of(const std::vector<Figure>& figures, const Charts& charts) {
+  std::string html;
+  for (const auto& figure : figures)
+    if (charts.drawn.contains(figure.name)) html += html_chart(figure.name, "", figure.caption);
+  return html.empty() ? html : "<h2>Lines</h2>\n<div class=\"grid\">" + html + "</div>\n";
+}
+
 std::string axes_table(const StudyData& study) {
   const auto& axes = list_at(study.root, "axes");
   if (axes.empty()) return {};
@@ -138,18 +147,6 @@ std::string axes_table(const StudyData& study) {
                         list_at(axis, "values").size(), values);
   }
   return html + "</tbody></table></div>\n";
-}
-
-/// Columns in which any run has a number: name and label.
-std::vector<std::pair<std::string, std::string>> columns_of(const StudyData& study) {
-  std::vector<std::pair<std::string, std::string>> columns;
-  for (const auto& column : list_at(study.root, "columns")) {
-    const auto name = text_at(column, "name");
-    bool any = false;
-    for (const auto& run : study.runs()) any |= std::isfinite(number_at(run, {"numbers", name.c_str()}));
-    if (any) columns.emplace_back(name, text_at(column, "label"));
-  }
-  return columns;
 }
 
 std::string number_cell(double value) {
@@ -186,14 +183,21 @@ std::string verdict_cell(const std::string& verdict) {
   return fmt::format("<td class=\"{}\"><b>{}</b></td>", css_class(mood_of_grade(verdict)), html_escaped(verdict));
 }
 
+/// The study's own quantities before what every study has, so that they are in view.
 std::string runs_table(const StudyData& study) {
-  const auto columns = columns_of(study);
+  const auto columns = study_columns(study.root);
   const auto limits = limits_of(study);
+  const auto numbers = [&](bool own, const auto& add) {
+    for (const auto& column : columns)
+      if (column.own == own) add(column);
+  };
   std::string html = "<h2>Runs</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th>", rows;
+  const auto head = [&](const StudyColumn& column) { html += "<th>" + html_escaped(column.label) + "</th>"; };
   for (const auto& axis : list_at(study.root, "axes")) html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
+  numbers(true, head);
   html += "<th>status</th><th>verdict</th>";
-  for (const auto& [name, label] : columns) html += "<th>" + html_escaped(label) + "</th>";
   for (const auto& name : limits) html += "<th>limit " + html_escaped(name) + "</th>";
+  numbers(false, head);
   html += "</tr></thead><tbody>\n";
   bool linked = false;
   for (const auto& run : study.runs()) {
@@ -209,9 +213,13 @@ std::string runs_table(const StudyData& study) {
               "</td>";
     }
     const auto verdict = text_at(run, "verdict");
+    const auto number = [&](const StudyColumn& column) {
+      rows += number_cell(number_at(run, {"numbers", column.name.c_str()}));
+    };
+    numbers(true, number);
     rows += status_cell(text_at(run, "status"), verdict) + verdict_cell(verdict);
-    for (const auto& [column, label] : columns) rows += number_cell(number_at(run, {"numbers", column.c_str()}));
     for (const auto& limit : limits) rows += limit_cell(run, limit);
+    numbers(false, number);
     rows += "</tr>\n";
   }
   html += rows + "</tbody></table></div>\n";
@@ -239,14 +247,19 @@ ReportResult write_study_report(const fs::path& directory) {
   const StudyData study = read_study_folder(directory);
   ReportResult result{directory / "report.html", {}};
   const auto chart = chart_of(directory, result.warnings);
+  const auto lines = chart.empty() ? study_lines(directory, study.root) : std::vector<Figure>();
+  const auto charts = charts_of(lines, 1);
+  result.warnings.insert(result.warnings.end(), charts.warnings.begin(), charts.warnings.end());
   std::vector<std::string> notes;
   for (const auto& warning : result.warnings) notes.push_back(html_escaped(warning));
   write_file_atomically(
       result.page,
       html_page(study.title(), html_header(study.title(), directory, banner_of(study), notes) + chart +
-                                   axes_table(study) + runs_table(study) + causes_table(study) +
+                                   lines_of(lines, charts) + heat_maps(directory, study.root) + runs_table(study) +
+                                   causes_table(study) + axes_table(study) +
                                    "<footer>Made by Splashdown from <code>study.json</code> in this folder; the same "
-                                   "as a table: <code>study.csv</code>.</footer>\n"));
+                                   "as a table: <code>study.csv</code>.</footer>\n" +
+                                   charts.html));
   return result;
 }
 

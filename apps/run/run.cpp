@@ -9,6 +9,7 @@
 
 #include "apps/process/interrupt.hpp"
 #include "apps/run/expectations.hpp"
+#include "apps/run/foreseen.hpp"
 #include "apps/run/held.hpp"
 #include "apps/scene/numbers.hpp"
 #include "apps/scene/scales.hpp"
@@ -205,7 +206,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   for (const auto& note : effect_notes<d>(scene_)) {
     const auto found = spent.find(note.name);
     if (note.active)
-      s.effects.push_back({note.name, found == spent.end() ? 0 : found->second});
+      s.effects.push_back({note.name, found == spent.end() ? 0 : found->second, note.reason});
     else
       s.inactive_effects.push_back({note.name, note.reason});
   }
@@ -216,6 +217,8 @@ Summary Run<d>::summary(const LoopEnd& end) const {
     coupling.rejected_causes = s.rejected_causes;
     coupling.rejected_steps = s.rejected_steps;
   }
+  s.foreseen = foreseen<d>(scene_);
+  s.still_water = still_water<d>(scene_);
   recorder_.summarise(s);
   s.expected = expectations_of(scene_);
   mark_held<d>(scene_, last_input_.time + 0.5 * last_input_.dt, s);

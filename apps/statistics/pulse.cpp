@@ -75,7 +75,7 @@ Pulse pulse_of(const IntervalHistory& history, double from, double to) {
   std::size_t first = top;  // the interval before the pulse's first one, if there is one
   while (first > 0 && c[first] >= low) --first;
   if (c[first] >= low) return pulse;
-  const double begin = channel.crossing(first, low);
+  const double begin = pulse.begin = channel.crossing(first, low);
   std::size_t risen = first;
   while (c[risen + 1] < high) ++risen;
   pulse.rise_time = channel.crossing(risen, high) - begin;

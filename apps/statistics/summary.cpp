@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/files/csv.hpp"
+#include "apps/statistics/foreseen_json.hpp"
 #include "apps/statistics/verdict/next_step.hpp"
 #include "apps/statistics/verdict/share.hpp"
 #include "apps/statistics/verdict/statements.hpp"
@@ -28,6 +29,7 @@ Json json_of(const Peak& peak) {
 Json json_of(const Pulse& pulse, const char* change) {
   Json json = json_of(static_cast<const Peak&>(pulse));
   if (json.is_null()) return json;
+  json["begin"] = number(pulse.begin);
   json["rise_time"] = number(pulse.rise_time);
   json["duration"] = number(pulse.duration);
   json[change] = number(pulse.change);
@@ -207,9 +209,11 @@ Json json_of(const CouplingSummary& coupling) {
 
 Json json_of_effects(const Summary& summary) {
   Json active = Json::object(), inactive = Json::object();
-  for (const auto& effect : summary.effects)
+  for (const auto& effect : summary.effects) {
     active[effect.name] = {{"seconds", number(effect.seconds)},
                            {"share", number(summary.wall_seconds > 0 ? effect.seconds / summary.wall_seconds : 0)}};
+    if (!effect.reason.empty()) active[effect.name]["reason"] = effect.reason;
+  }
   for (const auto& effect : summary.inactive_effects) inactive[effect.name] = effect.reason;
   return {{"active", active}, {"inactive", inactive}};
 }
@@ -263,8 +267,14 @@ std::string to_json(const Summary& summary) {
   if (summary.fluid)
     json["fluid"] = {{"max_speed", number(summary.fluid->max_speed)},
                      {"max_speed_peak", number(summary.fluid->max_speed_peak)}};
+  if (const auto& water = summary.still_water)
+    json["still_water"] = {{"density", water->density}, {"gravity", water->gravity}, {"level", water->level}};
   json["bodies"] = Json::object();
-  for (const auto& [name, body] : summary.bodies) json["bodies"][name] = json_of(body);
+  for (const auto& [name, body] : summary.bodies) {
+    json["bodies"][name] = json_of(body);
+    if (const auto found = summary.foreseen.find(name); found != summary.foreseen.end())
+      json["bodies"][name].update(foreseen_json(found->second));
+  }
   for (const auto& [name, point] : summary.equipment) {
     json["equipment"][name] = json_of_acceleration(point);
     json["equipment"][name]["grades"] = json_of(point.grades);

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/statistics/foreseen.hpp"
+
 namespace splashdown::apps {
 
 inline constexpr double standard_gravity = 9.80665;  ///< [m/s^2], CGPM 1901: one g
@@ -77,6 +79,7 @@ struct RangeCount {
 struct ActiveEffect {
   std::string name;
   double seconds = 0;
+  std::string reason = {};  ///< the number that says when it matters
 };
 
 struct InactiveEffect {
@@ -85,6 +88,7 @@ struct InactiveEffect {
 
 /// A peak with the pulse around it (pulse.hpp); nan: the record does not show it.
 struct Pulse : Peak {
+  double begin = std::numeric_limits<double>::quiet_NaN();      ///< last passage of 10 % of the peak before it [s]
   double rise_time = std::numeric_limits<double>::quiet_NaN();  ///< from 10 to 90 % of the peak [s]
   double duration = std::numeric_limits<double>::quiet_NaN();   ///< above 10 % of the peak [s]
   double change = std::numeric_limits<double>::quiet_NaN();     ///< integral over the duration [m/s, N s]
@@ -249,6 +253,8 @@ struct Summary {
   std::vector<std::pair<std::string, double>> phases;  ///< seconds each
   std::vector<ActiveEffect> effects;
   std::vector<InactiveEffect> inactive_effects;
+  std::map<std::string, Foreseen> foreseen;   ///< by body
+  std::optional<StillWater> still_water;      ///< absent: no water, or no gravity that points down
   std::optional<RangeCount> nodes, elements;  ///< absent without a fluid
   std::optional<CouplingSummary> coupling;    ///< absent unless fluid and bodies are coupled
   std::optional<LedgerSummary> ledger;

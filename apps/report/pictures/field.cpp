@@ -123,6 +123,21 @@ std::vector<Box> views_of(const std::vector<Instant>& instants) {
   return std::vector<Box>(instants.size(), whole);
 }
 
+/// Of the pressure at rest over the height of a picture: less is round-off of water that rests.
+constexpr double worth_a_colour = 0.01;
+
+/// Of the water at rest [Pa]; of the depth it would have in still water, none above.
+struct Hydrostatic {
+  double density, gravity, level;
+  bool known() const { return density > 0 && gravity > 0 && std::isfinite(level); }
+  double at(double height) const { return density * gravity * std::max(0., level - height); }
+};
+
+/// The weight of deep water would fill the colours, and an impact would be a speck.
+void take_off(const Hydrostatic& rest, PlanePicture& picture) {
+  for (std::size_t i = 0; i < picture.points.size(); ++i) picture.pressure[i] -= rest.at(picture.points[i][1]);
+}
+
 std::string caption_of(const PlanePicture& picture, const std::string& highest) {
   std::string caption = fmt::format("t = {}", seconds_text(picture.time));
   if (!highest.empty()) caption += "; " + highest;
@@ -133,15 +148,21 @@ std::string caption_of(const PlanePicture& picture, const std::string& highest) 
 
 }  // namespace
 
-FieldFigures prepare_field_figures(const std::filesystem::path& run) {
+FieldFigures prepare_field_figures(const std::filesystem::path& run, const nlohmann::ordered_json& summary) {
   FieldFigures result;
-  const auto instants = choose_instants(run, result.warnings);
+  auto instants = choose_instants(run, result.warnings);
+  const auto number = [&](const char* key) { return number_at(summary, {"still_water", key}); };
+  const Hydrostatic rest{number("density"), number("gravity"), number("level")};
+  if (rest.known())
+    for (auto& instant : instants) take_off(rest, instant.picture);
   const auto views = views_of(instants);
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const auto& [title, picture] = instants[i];
     const Box& view = views[i];
     if (!view.valid() || !(view.width() > 0) || !(view.height() > 0)) continue;
-    auto figure = figure_of("field_" + std::to_string(result.figures.size()), picture, view);
+    ColourScale scale;
+    if (rest.known()) scale = {"p − ρ g depth", true, worth_a_colour * rest.at(rest.level - view.height())};
+    auto figure = figure_of("field_" + std::to_string(result.figures.size()), picture, view, scale);
     figure.title = title;
     figure.caption = caption_of(picture, figure.caption);
     result.figures.push_back(std::move(figure));

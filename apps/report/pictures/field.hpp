@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct FieldFigures {
 };
 
 /// Start, largest load and end from DIR/snapshots, and frames between them from DIR/frames.
-FieldFigures prepare_field_figures(const std::filesystem::path& run);
+/// Pressures are those over water at rest, where `summary` says what that is ("still_water").
+FieldFigures prepare_field_figures(const std::filesystem::path& run, const nlohmann::ordered_json& summary);
 
 }  // namespace splashdown::apps

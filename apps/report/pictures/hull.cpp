@@ -48,6 +48,7 @@ struct View {
 constexpr View views[] = {{"from below", "below", {1, 0, 0}, {0, -1, 0}},
                           {"from the starboard side", "side", {1, 0, 0}, {0, 0, 1}},
                           {"from ahead", "ahead", {0, 1, 0}, {0, 0, 1}}};
+constexpr View other_side = {"from the port side", "side", {-1, 0, 0}, {0, 0, 1}};
 
 /// What the viewer sees: facets that face him, the nearest drawn last, and their silhouette.
 PlanePicture seen(const Grid& hull, const View& view) {
@@ -129,12 +130,17 @@ FieldFigures prepare_hull_figures(const std::filesystem::path& run) {
     try {
       const Grid hull = read_grid(file, "p_max");
       if (!is_surface(hull)) continue;
-      for (const auto& view : views) {
-        const PlanePicture picture = seen(hull, view);
+      for (auto view : views) {
+        PlanePicture picture = seen(hull, view);
+        if (picture.triangles.empty()) {  // half of a hull
+          view = other_side;
+          picture = seen(hull, view);
+        }
         auto figure = figure_of("hull_" + file_name_of(name) + "_" + view.name, picture, room_around(picture),
-                                "highest pressure");
+                                {.label = "highest pressure"});
         figure.title = name + " " + view.title;
-        figure.caption += ", of all instants until t = " + seconds_text(hull.time) + ".";
+        figure.caption += (figure.caption.empty() ? "of all instants until t = " : ", of all instants until t = ") +
+                          seconds_text(hull.time) + ".";
         result.figures.push_back(std::move(figure));
       }
     } catch (const std::exception& error) {

@@ -63,8 +63,11 @@ struct Range {
 /// A hundredth of the scale is no colour of its own.
 constexpr double worth_a_mark = 0.01;
 
+/// Colours that end below this share of the highest value would show no difference between what is high: few pixels are.
+constexpr double worth_the_colours = 0.1;
+
 /// Lowest and highest pressure in view, without the outermost thousandth.
-Range pressure_range(const Raster& raster) {
+Range pressure_range(const Raster& raster, const ColourScale& scale) {
   std::vector<float> values;
   for (std::size_t i = 0; i < raster.values.size(); i += pixels_of_range)
     if (std::isfinite(raster.values[i])) values.push_back(raster.values[i]);
@@ -78,6 +81,8 @@ Range pressure_range(const Raster& raster) {
   range.least = INFINITY, range.most = -INFINITY;
   for (const double value : raster.values)
     if (std::isfinite(value)) range.least = std::min(range.least, value), range.most = std::max(range.most, value);
+  range.high = std::max({range.high, worth_the_colours * range.most, scale.least});
+  if (scale.from_zero) range.low = 0;
   // Rounding below the hydrostatic zero is no suction worth a colour.
   if (range.low > -0.01 * range.high) range.low = 0;
   if (!(range.high > range.low)) range.high = range.low + 1;
@@ -179,15 +184,6 @@ std::string content_of(const PlanePicture& picture, const Box& view, const Raste
   return drawing.content + "</svg>\n";
 }
 
-/// Beside the name of the colours: where they end before the values do.
-std::string beyond_text(const Range& range, const Unit& unit) {
-  const auto value = [&](double v) { return digits(v * unit.scale, 3); };
-  std::string text;
-  if (range.most > range.high) text += ", " + value(range.high) + " and more";
-  if (range.least < range.low) text += ", " + value(range.low) + " and less";
-  return text;
-}
-
 /// Axes and colours' key. gnuplot shows the key beside a plot only, if it is of nothing.
 std::string axes_script(const std::string& name, const Box& view, int height, const Range& range, const Unit& unit,
                         const std::string& colour_label) {
@@ -206,32 +202,33 @@ std::string axes_script(const std::string& name, const Box& view, int height, co
          palette_command() +
          fmt::format(
              "set output '{}.svg'\nset xrange [{:.9g}:{:.9g}]\nset yrange [{:.9g}:{:.9g}]\n"
-             "set cbrange [{:.6g}:{:.6g}]\nset cblabel '{} / {}{}' offset 0.6,0 textcolor rgb '#51606e'\n"
+             "set cbrange [{:.6g}:{:.6g}]\nset cblabel '{} / {}' offset 0.6,0 textcolor rgb '#51606e'\n"
              "plot NaN with lines lc palette notitle\n",
              name, view.low[0], view.high[0], view.low[1], view.high[1], range.low * unit.scale,
-             range.high * unit.scale, colour_label, unit.unit, beyond_text(range, unit));
+             range.high * unit.scale, colour_label, unit.unit);
 }
 
 }  // namespace
 
 std::span<const ColourStop> pressure_colours() { return stops; }
 
-FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view,
-                      const std::string& colour_label) {
+FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view, const ColourScale& scale) {
   const int height = std::max(1, static_cast<int>(std::lround(plot_width * view.height() / view.width())));
   const Raster raster = rasterise(picture, view.low, view.high, plot_width, height);
-  const Range range = pressure_range(raster);
+  const Range range = pressure_range(raster, scale);
   const Unit unit = si_unit(std::max(range.high, -range.low), "Pa");
   FieldFigure figure;
   figure.name = name;
-  figure.script = axes_script(name, view, height, range, unit, colour_label);
+  figure.script = axes_script(name, view, height, range, unit, scale.label);
   figure.content = content_of(picture, view, raster, range);
   const bool any = std::ranges::any_of(raster.values, [](float v) { return std::isfinite(v); });
-  if (any) figure.caption = fmt::format("highest pressure in view {}", digits_with_unit(range.most, "Pa", 3));
+  if (any && range.most > worth_a_mark * range.high)
+    figure.caption = fmt::format("highest pressure in view {}", digits_with_unit(range.most, "Pa", 3));
   if (any && range.most > range.high)
     figure.caption += fmt::format(", beyond the colours, which end at {}", digits_with_unit(range.high, "Pa", 3));
-  if (any && range.least < range.low)
-    figure.caption += fmt::format("; lowest {}, below them", digits_with_unit(range.least, "Pa", 3));
+  if (any && range.least < range.low - worth_a_mark * (range.high - range.low))
+    figure.caption += (figure.caption.empty() ? "" : "; ") +
+                      fmt::format("lowest {}, below the colours", digits_with_unit(range.least, "Pa", 3));
   return figure;
 }
 

@@ -30,9 +30,17 @@ struct ColourStop {
 };
 std::span<const ColourStop> pressure_colours();
 
+/// What the colours of a figure mean.
+struct ColourScale {
+  std::string label = "pressure";
+  bool from_zero =
+      false;         ///< what is below has the colour of zero; otherwise from the lowest value, if that is below zero
+  double least = 0;  ///< they end no lower [Pa]
+};
+
 /// The figure; its caption ends with the highest pressure.
 FieldFigure figure_of(const std::string& name, const PlanePicture& picture, const Box& view,
-                      const std::string& colour_label = "pressure");
+                      const ColourScale& scale = {});
 
 /// The axes that gnuplot drew, with the picture between them.
 std::string with_content(const std::string& axes, const FieldFigure& figure);

@@ -186,13 +186,23 @@ void turn_to_heading(Grid& fluid, std::vector<Grid>& walls) {
   for (auto& wall : walls) turn(wall);
 }
 
-/// The plane through the middle of the first body, or of the water.
-double cut_level(const Grid& fluid, const std::vector<Grid>& walls) {
-  const Grid* solid = first_solid(walls);
-  const auto& points = solid ? solid->points : fluid.points;
+/// Lowest and highest y.
+std::array<double, 2> span_across(const std::vector<Point3>& points) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto& x : points) low = std::min(low, x[1]), high = std::max(high, x[1]);
-  return 0.5 * (low + high);
+  return {low, high};
+}
+
+/// The plane through the middle of the first body, or of the water. Where that is a side of the water, as in half of a scene, it goes
+/// through the cells beside it.
+double cut_level(const Grid& fluid, const std::vector<Grid>& walls) {
+  const Grid* solid = first_solid(walls);
+  const auto [low, high] = span_across(solid ? solid->points : fluid.points);
+  const double middle = 0.5 * (low + high), little = 1e-3 * (high - low);
+  const auto [side, other] = span_across(fluid.points);
+  if (std::abs(middle - side) < little) return side + little;
+  if (std::abs(middle - other) < little) return other - little;
+  return middle;
 }
 
 bool is_spatial(const Grid& fluid, const std::vector<Grid>& walls) {

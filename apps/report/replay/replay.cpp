@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "apps/record/frames/vtu_blocks.hpp"
+#include "apps/report/look/scripts.hpp"
 #include "apps/report/pictures/picture.hpp"
 #include "apps/report/replay/moving_picture.hpp"
 #include "apps/report/replay/packed_picture.hpp"
@@ -23,28 +22,12 @@ constexpr std::size_t replay_frames = 60;
 const std::filesystem::path three = "/usr/share/javascript/three";
 constexpr const char* three_license = "<!-- holds three.js r111, (c) 2010-2019 three.js authors, MIT License -->\n";
 
-std::string script_text(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// three.js and its OrbitControls; nothing if they are not there.
 std::string three_text() {
-  const auto library = script_text(three / "three.min.js"),
-             controls = script_text(three / "examples/js/controls/OrbitControls.js");
+  const auto library = library_text(three / "three.min.js"),
+             controls = library_text(three / "examples/js/controls/OrbitControls.js");
   return library.empty() || controls.empty() ? std::string() : library + "\n" + controls;
 }
-
-/// Every `of` in a text replaced.
-std::string substituted(std::string text, const std::string& of, const std::string& instead) {
-  for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + instead.size()))
-    text.replace(at, of.size(), instead);
-  return text;
-}
-
-/// A script must not end before its end, and texts in it must not begin another.
-std::string unbroken(const std::string& script) { return substituted(script, "</", "<\\/"); }
-std::string unbroken_json(const std::string& json) { return substituted(json, "<", "\\u003c"); }
 
 std::string replay_caption(const MovingPicture& picture, double limit) {
   const auto colours =
@@ -87,8 +70,8 @@ std::string replay_html(const MovingPicture& picture, const std::string& library
       replay_style, film.empty() ? "" : " class=\"film\"",
       film.empty() ? std::string() : "<div class=\"name\">" + html_escaped(title) + "</div>", in_space, view_options(),
       in_space, picture.names.empty() ? " hidden" : "", replay_caption(picture, limit), three_license,
-      stream_of(library), unbroken_json(info.dump()), stream_of(bytes));
-  for (const char* script : replay_scripts) html += "<script>" + unbroken(script) + "</script>\n";
+      stream_of(library), json_in_script(info.dump()), stream_of(bytes));
+  for (const char* script : replay_scripts) html += script_element(script);
   return html;
 }
 

@@ -49,7 +49,8 @@
     pick('.key').hidden = false;
   }
   let now = 0;
-  function show(f) {
+  // Curves point at the same time: they follow the replay, and it follows them.
+  function show(f, told) {
     now = f;
     stage.state.so_far = so_far.checked;
     stage.mesh.visible = mesh.checked;
@@ -58,6 +59,7 @@
     stamp.textContent = 't = ' + time_text(frames[f].time);
     slider.value = f;
     holder.dataset.frame = f;
+    if (!told) document.dispatchEvent(new CustomEvent('splashdown:time', { detail: { time: frames[f].time, from: 'replay' } }));
   }
   function resize() {
     if (film) stage.resize(window.innerWidth, window.innerHeight);
@@ -83,6 +85,12 @@
   mesh.addEventListener('change', () => show(now));
   follow.addEventListener('change', look);
   views.addEventListener('change', look);
+  document.addEventListener('splashdown:time', ({ detail }) => {
+    if (detail.from === 'replay') return;
+    let nearest = 0;
+    frames.forEach((frame, f) => { if (Math.abs(frame.time - detail.time) < Math.abs(frames[nearest].time - detail.time)) nearest = f; });
+    if (nearest !== now) show(nearest, true);
+  });
   window.addEventListener('resize', resize);
   if (film) {
     so_far.checked = film.so_far; mesh.checked = film.mesh; follow.checked = film.follow;

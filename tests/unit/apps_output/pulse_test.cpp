@@ -35,6 +35,7 @@ TEST(Pulse, of_a_half_sine_after_free_fall_has_its_rise_time_duration_and_change
                to_nine = std::asin(0.9) * width / std::numbers::pi;
   EXPECT_NEAR(pulse.value, height, 1e-4);
   EXPECT_NEAR(pulse.time, start + width / 2, step);
+  EXPECT_NEAR(pulse.begin, start + to_tenth, 1e-7);
   EXPECT_NEAR(pulse.rise_time, to_nine - to_tenth, 1e-7);
   EXPECT_NEAR(pulse.duration, width - 2 * to_tenth, 1e-7);
   // int h sin = 2 h w / pi cos(pi t_10 / w), the foot's intervals are cut where the line crosses: h/10 dt at most.

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "apps/report/curves/charts.hpp"
 #include "apps/report/curves/filtered_curves.hpp"
+#include "apps/report/curves/reduction.hpp"
 #include "apps/report/figures.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/words.hpp"
@@ -69,8 +71,7 @@ TEST(Report, is_one_page_without_links_to_elsewhere) {
   for (const char* outside : {"src=\"http", "href=\"http", "<script src", "@import", "src=\"//"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   for (const auto& warning : result.warnings)
-    EXPECT_TRUE(warning.find("gnuplot") != std::string::npos || warning.find("libjs-three") != std::string::npos)
-        << warning;
+    EXPECT_TRUE(warning.find("gnuplot") != std::string::npos || warning.find("libjs-") != std::string::npos) << warning;
 }
 
 TEST(Report, shows_curves_and_fields_where_gnuplot_is_installed) {
@@ -132,7 +133,7 @@ TEST(Report, shows_the_verdict_in_its_colour_with_its_reason_above_all) {
   const auto reason = red.find("from nowhere");
   ASSERT_NE(reason, std::string::npos);
   EXPECT_LT(reason, red.find("were simulated in"));
-  EXPECT_EQ(green.find("from nowhere"), std::string::npos);
+  EXPECT_GT(green.find("from nowhere"), green.find("were simulated in")) << "but for the words below its curve";
   for (const auto& page : {red, amber, green}) EXPECT_NE(page.find("energy gain of the water"), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-#include "apps/report/answers.hpp"
+#include "apps/report/answers/answers.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/report/answers/afloat.hpp"
+#include "apps/report/answers/tile.hpp"
 #include "apps/report/page.hpp"
-#include "apps/report/words.hpp"
 #include "apps/statistics/verdict/limits.hpp"
 
 namespace splashdown::apps {
@@ -15,20 +16,6 @@ namespace splashdown::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// What a tile says of its number, a row each.
-struct Lines {
-  std::string html;
-  void add(const std::string& text, const char* style = "") {
-    if (text.empty()) return;
-    html += fmt::format("<span{}>{}</span>", *style ? fmt::format(" class=\"{}\"", style) : "", text);
-  }
-  void add(const GradeWords& grade) {
-    if (!grade.words.empty()) add(html_escaped(grade.words), css_class(grade.mood));
-  }
-};
-
-std::string tile(const std::string& value, const Lines& lines) { return html_tile(value, lines.html); }
 
 /// "belly above 20 kPa? 13.2 kPa ± 1.1 kPa"
 std::string limit_text(const std::string& name, const Json& limit) {
@@ -141,51 +128,6 @@ std::string load_tiles(const RunData& run) {
     lines.add(
         grade_words(filtered ? member(member(grades, "peak_force_filtered"), "cfc60") : member(grades, "peak_force")));
     html += tile(digits_with_unit(number_at(peak, {"value"}), force_unit(run.dimension()), 3), lines);
-  }
-  return html;
-}
-
-/// Of the lowest point below the level of the water, where the run ended [m]; nan: not recorded.
-double draft_at_end(const RunData& run, const std::string& name) {
-  for (const auto& [body, table] : run.bodies)
-    if (body == name && !table["submergence"].empty()) return table["submergence"].back();
-  return NAN;
-}
-
-std::string degree_text(double value) {
-  const auto text = fmt::format("{:.1f}", std::abs(value));
-  return (value < 0 && text != "0.0" ? "−" : "") + text + "°";
-}
-
-/// Draft, trim, heel at the end.
-std::string lie_text(const RunData& run, const std::string& name, const Json& body) {
-  std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (const double draft = draft_at_end(run, name); std::isfinite(draft))
-    add(draft > 0 ? "draft " + digits_with_unit(draft, "m", 3) : digits_with_unit(-draft, "m", 3) + " above the water");
-  for (const auto& [angle, word] : {std::pair{"pitch", "trim"}, {"roll", "heel"}})
-    if (const double value = number_at(body, {"attitude_deg", angle, "end"}); std::isfinite(value))
-      add(fmt::format("{} {}", word, degree_text(value)));
-  return text;
-}
-
-/// How bodies that the water moves lie in it when the run ends.
-std::string floating_tiles(const RunData& run) {
-  std::string html;
-  const auto& bodies = member(run.summary, "bodies");
-  for (const auto& [name, body] : bodies.items()) {
-    const double settled = number_at(body, {"settled_time"}), capsized = number_at(body, {"capsized_time"});
-    const bool moved_by_water =
-        std::isfinite(settled) || !member(member(body, "grades"), "peak_acceleration_g").empty();
-    if (!std::isfinite(number_at(body, {"first_contact_time"})) || !moved_by_water) continue;
-    Lines lines;
-    lines.add(lie_text(run, name, body) + " at the end" + (bodies.size() > 1 ? ": " + html_escaped(name) : ""));
-    if (std::isfinite(capsized)) lines.add("capsized since " + seconds_text(capsized), css_class(Mood::bad));
-    lines.add(std::isfinite(settled) ? "settled since " + seconds_text(settled)
-                                     : std::string("not settled within the run: this is no position of rest"));
-    const double skips = number_at(body, {"skips"});
-    if (skips > 0) lines.add(fmt::format("left the water {} time{}", count_text(skips), skips > 1 ? "s" : ""));
-    html += tile(std::isfinite(capsized) ? "capsized" : std::isfinite(settled) ? "at rest" : "still moving", lines);
   }
   return html;
 }
