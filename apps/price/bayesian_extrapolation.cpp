@@ -17,6 +17,18 @@ namespace {
 constexpr double order_step = 0.1;
 constexpr double negligible = 1e-4;  // of the likeliest pair's weight
 
+/// Student's limits by degrees of freedom, which plans ask for thousands of times.
+double limit_of(int freedom, double probability) {
+  constexpr int normal = 200;  // to 1 %, the limits of a normal distribution
+  static const auto table = [](double of) {
+    std::vector<double> limits = {HUGE_VAL};
+    for (int k = 1; k <= normal; ++k) limits.push_back(students_limit(k, of));
+    return limits;
+  };
+  static const auto both_sides = table(0.95), one_side = table(0.9);
+  return (probability == 0.95 ? both_sides : one_side)[static_cast<std::size_t>(std::clamp(freedom, 0, normal))];
+}
+
 }  // namespace
 
 double students_limit(double freedom, double probability) {
@@ -66,15 +78,15 @@ BayesianExtrapolation::BayesianExtrapolation(std::span<const MeshValue> values, 
   for (auto& pair : pairs_) pair.weight /= sum;
 }
 
-double BayesianExtrapolation::quantile(const std::vector<Part>& parts, double probability) const {
-  const boost::math::students_t t(freedom_);
+double BayesianExtrapolation::quantile(const std::vector<Part>& parts, double freedom, double probability) {
+  const boost::math::students_t t(freedom);
   const auto missing = [&](double b) {
     double inside = 0;
     for (const auto& [weight, mean, scale] : parts)
       inside += weight * (cdf(t, (b - mean) / scale) - cdf(t, (-b - mean) / scale));
     return inside - probability;
   };
-  const double far = students_limit(freedom_, probability);
+  const double far = students_limit(freedom, probability);
   double high = 0;  // each part lies within with more than the probability
   for (const auto& part : parts) high = std::max(high, std::abs(part.mean) + far * part.scale);
   if (!(missing(high) > 0)) return high;
@@ -86,7 +98,7 @@ double BayesianExtrapolation::quantile(const std::vector<Part>& parts, double pr
 double BayesianExtrapolation::within(double value, double probability) const {
   std::vector<Part> parts;
   for (const auto& pair : pairs_) parts.push_back({pair.weight, pair.limit - value, pair.limit_error});
-  return quantile(parts, probability);
+  return quantile(parts, freedom_, probability);
 }
 
 double BayesianExtrapolation::within_of_one_at(double h, double probability) const {
@@ -96,7 +108,42 @@ double BayesianExtrapolation::within_of_one_at(double h, double probability) con
     const double noise = pair.noise * std::pow(relative, 0.5 * pair.growth);
     parts.push_back({pair.weight, pair.middle * power, std::hypot(pair.middle_error * power, noise)});
   }
-  return quantile(parts, probability);
+  return quantile(parts, freedom_, probability);
+}
+
+BayesianExtrapolation::Part BayesianExtrapolation::of_mean(const Pair& pair, std::span<const RunsOfSize> runs,
+                                                           std::size_t mean) const {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  const auto row = [&](double h) { return Eigen::Vector2d(1, std::pow(h / mean_size_, pair.order)); };
+  const auto variance = [&](double h) { return std::pow(h / mean_size_, pair.growth); };
+  for (const auto& [h, number] : runs) normal += number / variance(h) * row(h) * row(h).transpose();
+  const Eigen::Matrix2d inverse = normal.inverse();
+  const auto& [h, number] = runs[mean];
+  // Of the fit's phi_0 less the mean, which is one of the values that it is fitted to.
+  const double scatter = inverse(0, 0) + variance(h) / number - 2 * inverse.row(0).dot(row(h));
+  const double bias = pair.middle * row(h)[1], spread = pair.noise * std::sqrt(std::max(scatter, 0.));
+  return {pair.weight, std::hypot(bias, spread), pair.noise * std::sqrt(inverse(0, 0))};
+}
+
+double BayesianExtrapolation::within_of_mean(std::span<const RunsOfSize> runs, std::size_t mean) const {
+  double centre = 0, scale = 0;
+  int number = 0;
+  for (const auto& of_size : runs) number += of_size.runs;
+  for (const auto& pair : pairs_) {
+    const auto part = of_mean(pair, runs, mean);
+    centre += part.weight * part.mean * part.mean;
+    scale += part.weight * part.scale * part.scale;
+  }
+  centre = std::sqrt(centre), scale = std::sqrt(scale);
+  // Far from the centre one side of the odds is left out, near it both: what is larger is the half-width to a tenth.
+  return std::max(limit_of(number - 2, 0.95) * scale, centre + limit_of(number - 2, 0.9) * scale);
+}
+
+double BayesianExtrapolation::noise(double h) const {
+  double variance = 0;
+  for (const auto& pair : pairs_)
+    variance += pair.weight * pair.noise * pair.noise * std::pow(h / mean_size_, pair.growth);
+  return std::sqrt(variance);
 }
 
 }  // namespace splashdown::apps

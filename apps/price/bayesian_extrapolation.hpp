@@ -16,6 +16,12 @@
 
 namespace splashdown::apps {
 
+/// Runs on meshes of one size, each another mesh.
+struct RunsOfSize {
+  double h;  ///< element size, relative
+  int runs;
+};
+
 /// Student's t, two-sided: |t| is not above it with this probability.
 double students_limit(double freedom, double probability);
 
@@ -28,19 +34,26 @@ class BayesianExtrapolation {
   double within(double value, double probability) const;
   /// The same for a value that is still to be measured at h; never less at a larger h.
   double within_of_one_at(double h, double probability) const;
+  /// What `within` is expected to give, with 95 %, about the mean of the runs of one of these sizes once all of them are made: if the
+  /// coefficients are what they are taken for now, its centre is alpha h^p and the scatter of phi_0 about that mean, and its scale that
+  /// of the fit. For plans: centres and scales of all pairs are put together by their squares.
+  double within_of_mean(std::span<const RunsOfSize> runs, std::size_t mean) const;
+  /// Standard deviation between meshes of this size, as the values have it.
+  double noise(double h) const;
 
  private:
   /// Student's t about a mean with a scale.
   struct Part {
     double weight, mean, scale;
   };
-  /// The least b with P(|x| <= b) = probability for the sum of the parts.
-  double quantile(const std::vector<Part>& parts, double probability) const;
+  /// The least b with P(|x| <= b) = probability for the sum of the parts, each with these degrees of freedom.
+  static double quantile(const std::vector<Part>& parts, double freedom, double probability);
 
   struct Pair {
     double weight, order, limit, limit_error, middle, middle_error, noise;  // middle: alpha H^p
     double growth;                                                          // g = (h/H)^growth
   };
+  Part of_mean(const Pair& pair, std::span<const RunsOfSize> runs, std::size_t mean) const;
   std::vector<Pair> pairs_;
   double mean_size_, freedom_;
 };

@@ -214,4 +214,13 @@ double Convergence::band(double h) const {
   return extrapolation_ ? extrapolation_->within_of_one_at(h, sure) + of_the_model(h) : usual_band(h, deviation_);
 }
 
+std::optional<double> Convergence::band_of_mean(std::span<const RunsOfSize> runs, std::size_t mean) const {
+  if (!extrapolation_) return {};
+  return extrapolation_->within_of_mean(runs, mean) + of_the_model(runs[mean].h);
+}
+
+std::optional<double> Convergence::noise(double h) const {
+  return extrapolation_ ? std::optional(extrapolation_->noise(h)) : std::nullopt;
+}
+
 }  // namespace splashdown::apps

@@ -48,6 +48,11 @@ class Convergence {
   /// Of a value measured at h, and of one that is still to be measured there.
   double band(const MeshValue& measured) const;
   double band(double h) const;
+  /// What the band of the mean of the runs of one of these sizes is expected to be once all of them are made; nothing where the odds of
+  /// the limit do not rule the band.
+  std::optional<double> band_of_mean(std::span<const RunsOfSize> runs, std::size_t mean) const;
+  /// Standard deviation between meshes of this size, by the odds.
+  std::optional<double> noise(double h) const;
 
  private:
   double usual_band(double h, double beside) const;  ///< of the paper, but for the factor of scattered data
