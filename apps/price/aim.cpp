@@ -346,10 +346,10 @@ std::string mean_text(const Aim& aim, const RunOptions& options, const fs::path&
   if (!options.no_report) write_report(folder);
   const double all = wall() - aim.begun;
   return fmt::format(
-      "reached     {} in all, {} of them for runs in {}/{}; the mean of {} runs at refine {:.3g} has {}\n"
+      "reached     {} in all, {} of them for runs in {}/{}; the mean of {} runs at refine {:.3g} has {}{}\n"
       "            it stands in summary.json, mean_of_runs\n",
       about_time(all), about_time(found->seconds), folder.string(), replicates_folder, found->runs, found->refine,
-      accuracy_text(found->band));
+      accuracy_text(found->band), found->band.first > order.accuracy ? ", wider than was planned" : "");
 }
 
 int tell_mean(const Aim& aim, const RunOptions& options, const fs::path& folder) {

@@ -15,6 +15,8 @@
 //   mere noise 9 standard deviations with four meshes and 15 with twelve; fits of three coefficients follow the noise, and
 //   what they say of the limit is then taken three times; and of noisy series with an order it leaves one true value in
 //   four outside.
+// - Where runs are repeated on meshes of equal size, their means show what single values hide. If no order fits them (BayesianExtrapolation),
+//   the coarsest size is left out, as long as four are there; and if none fits those either, the means count as one value each.
 #pragma once
 
 #include <cmath>
@@ -63,6 +65,8 @@ class Convergence {
   std::string refusal_;
   double limit_ = 0, first_ = 0, second_ = 0;  // coefficients of h^exponent and, in the last form, of h^2
   bool weighted_ = false;
+  double coarsest_ = HUGE_VAL;   // size of those that count
+  bool follows_no_law_ = false;  // of repeated runs
   std::optional<BayesianExtrapolation> extrapolation_;
   double exponent_ = 1, deviation_ = 0, range_ = 0, safety_ = 3;
 

@@ -30,6 +30,17 @@ LadderOrder order_of(const MeanOrder& mean) {
   return order;
 }
 
+/// Sizes that a mean may need beyond those that are there, as far as prices are extrapolated.
+std::vector<double> finer_than(const MeanOrder& order) {
+  std::vector<double> finer;
+  for (double factor = std::sqrt(2.); factor < 1.01 * farthest_extrapolation; factor *= std::sqrt(2.)) {
+    const double refine = std::stod(digits_of(factor * order.price.finest()));
+    if (!scene_at(order.options.scene, order.options.overrides, refine)) break;
+    finer.push_back(refine);
+  }
+  return finer;
+}
+
 std::optional<MeanFound> best_of(const Price& price) {
   std::optional<MeanFound> best;
   for (const auto& size : price.sizes()) {
@@ -89,6 +100,7 @@ std::optional<MeanPlan> mean_in(const Price& price, double seconds) {
 
 std::optional<MeanFound> make_mean(const MeanOrder& order) {
   const auto before = measured_runs(order.price);
+  const auto finer = finer_than(order);
   Ladder ladder(order_of(order), {{order.price.finest(), Role::rung}});
   make_study_folder(order.folder / replicates_folder);
   const FolderLock lock(order.folder / replicates_folder);
@@ -100,7 +112,9 @@ std::optional<MeanFound> make_mean(const MeanOrder& order) {
     made.expected_nodes = order.price.expected_nodes;
     return made;
   };
-  climb_to(ladder, {.accuracy = order.accuracy, .finer = {}, .price = price, .by_mean = true});
+  for (const double refine : finer)
+    if (!ladder.allow({refine, Role::rung})) break;
+  climb_to(ladder, {.accuracy = order.accuracy, .finer = finer, .price = price, .by_mean = true});
   if (interrupt_received()) return {};
   const auto all = price();
   auto found = best_of(all);

@@ -12,7 +12,7 @@ bool is_in(const std::vector<double>& refines, double refine) {
 
 /// Seconds of all finer meshes up to the one of which a single run is expected to have the accuracy.
 double single_seconds(const Price& price, const BandWanted& wanted, const std::vector<double>& finer) {
-  const auto refine = price.refine_for(wanted.accuracy);
+  const auto refine = wanted.by_mean ? std::nullopt : price.refine_for(wanted.accuracy);
   if (!refine || finer.empty() || *refine > finer.back()) return HUGE_VAL;
   double seconds = 0;
   for (const double next : finer) {
