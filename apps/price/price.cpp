@@ -24,15 +24,17 @@ std::optional<double> deviation_of(const std::vector<double>& values) {
   return std::sqrt(squares / (n - 1));
 }
 
-/// Of the replicates and the rung that they stand beside.
+/// Of the finest size with two replicates or more, else of any.
 std::optional<double> scatter_of(const PricedQuantity& quantity) {
-  if (quantity.replicates.empty()) return {};
-  std::vector<double> values;
-  const double at = quantity.replicates.front().first.spec.refine;
-  for (const auto* list : {&quantity.rungs, &quantity.replicates})
-    for (const auto& [rung, value] : *list)
-      if (std::abs(rung.spec.refine / at - 1) < 3 * replicate_offset) values.push_back(value);
-  return deviation_of(values);
+  std::optional<double> scatter;
+  bool enough = false;
+  for (const auto& [rung, measured] : quantity.rungs) {  // from the coarsest on
+    const auto values = quantity.of_size(rung.spec.refine);
+    if (values.size() < (enough ? 3u : 2u)) continue;
+    enough |= values.size() >= 3;
+    scatter = deviation_of(values);
+  }
+  return scatter;
 }
 
 /// Against the mean of what was measured in the tank as it is, on meshes of that size.
