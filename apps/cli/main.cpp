@@ -235,7 +235,8 @@ CLI::App* add_price(CLI::App& app, PriceOptions& price) {
       ->check(CLI::Range(fewest_rungs, most_rungs))
       ->capture_default_str();
   add_accuracy(price_app, price.accuracy,
-               fmt::format("go on with finer meshes, {} in all, until one has this band, e.g. 10%; with --budget 20% "
+               fmt::format("go on with finer meshes, {} in all, or further runs, until a mesh or a mean has this band, "
+                           "e.g. 10%; with --budget 20% "
                            "is asked for anyway",
                            most_rungs));
   price_app->add_flag("--open-water", price.open_water,

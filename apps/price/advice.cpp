@@ -28,18 +28,6 @@ bool goes_on(const Price& price, const AccuracyWanted& wanted, double own) {
   });
 }
 
-/// Scatter is measured once, beside the last but one of the rungs that were asked for.
-std::string against_scatter(const PricedQuantity& quantity, const AccuracyWanted& wanted, double own) {
-  const double measured_at = quantity.replicates.empty() ? 0 : quantity.replicates.back().first.spec.refine;
-  const auto differ = fmt::format("meshes of equal size differ by {} in {}",
-                                  share_text(ratio_of(*quantity.scatter, quantity.value)), quantity.what.name);
-  const auto all = rung_refines(most_rungs, own);
-  if (measured_at < (1 - replicate_offset) * all[all.size() - 2])
-    return fmt::format("{}. Finer ones may differ less: {} --rungs {} measures it there", differ,
-                       command_of(wanted, wanted.set, wanted.folder), most_rungs);
-  return differ + ": no refinement gets there. Ask for less, or name what matters with --quantity";
-}
-
 }  // namespace
 
 const PricedQuantity* scatters_too_much(const Price& price, double accuracy) {
@@ -53,9 +41,13 @@ const PricedQuantity* scatters_too_much(const Price& price, double accuracy) {
 
 std::string advice_for(const Price& price, const AccuracyWanted& wanted) {
   const double own = read_scene(wanted.scene, wanted.set).scene.fluid->size.refine;
-  if (const auto* quantity = scatters_too_much(price, wanted.accuracy)) return against_scatter(*quantity, wanted, own);
-  if (wanted.folder.empty() || goes_on(price, wanted, own))
-    return command_of(wanted, wanted.set, wanted.folder) + " goes on with finer meshes";
+  if (wanted.folder.empty() || goes_on(price, wanted, own)) {
+    const auto command = command_of(wanted, wanted.set, wanted.folder);
+    const auto* quantity = scatters_too_much(price, wanted.accuracy);
+    if (quantity == nullptr) return command + " goes on with finer meshes";
+    return fmt::format("meshes of equal size differ by {} in {}. {} makes several runs and takes their mean",
+                       share_text(ratio_of(*quantity->scatter, quantity->value)), quantity->what.name, command);
+  }
   const double finer = 2 * own;
   auto set = wanted.set;
   std::erase_if(set, [](const std::string& word) { return word.starts_with("fluid.size.refine="); });

@@ -17,8 +17,7 @@ struct AccuracyWanted {
 };
 
 /// Throws SceneError for a scene that cannot be read.
-///   meshes of equal size differ by more     splashdown price --rungs 8, whose replicates are finer; after that a larger value, or a
-///                                           quantity that scatters less
+///   meshes of equal size differ by more     splashdown price --accuracy, which takes the mean of several runs
 ///   no list, or meshes left on its ladder   splashdown price --accuracy
 ///   the ladder is complete                  one that begins twice as fine, in a folder of its own
 std::string advice_for(const Price& price, const AccuracyWanted& wanted);

@@ -11,6 +11,7 @@
 #include "apps/price/advice.hpp"
 #include "apps/price/command.hpp"
 #include "apps/price/cost.hpp"
+#include "apps/price/mean_run.hpp"
 #include "apps/price/probes.hpp"
 #include "apps/price/write.hpp"
 #include "apps/process/exit.hpp"
@@ -50,6 +51,9 @@ struct Aim : Source {
   double report = 0;  ///< wall seconds that drawing the report takes
   double refine = 1;
   double predicted = 0;  ///< wall seconds
+  /// Of a mean of several runs: how many, and the relative band that is expected of it.
+  int runs = 1;
+  std::optional<Decided> band = {};
 };
 
 double wall() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -236,24 +240,39 @@ double refine_in(const Aim& aim, double asked) {
   return refine;
 }
 
-/// Throws SceneError if there is no such mesh.
-void choose(Aim& aim, const RunOptions& options) {
+/// A mean of several runs takes the place of the finest mesh where its band is narrower by this: it is told with fewer words.
+constexpr double narrower = 0.8;
+
+void choose_by_seconds(Aim& aim, double asked) {
+  aim.refine = as_written(refine_in(aim, asked));
+  aim.predicted = *aim.price.seconds(aim.refine) + aim.report;
+  aim.band = aim.price.accuracy(aim.refine);
+  const auto mean = mean_in(aim.price, asked - aim.spent - aim.report);
+  if (!mean || !aim.band || mean->band > narrower * aim.band->first) return;
+  aim.refine = as_written(1 / mean->runs[mean->mean].h);
+  aim.runs = mean->runs[mean->mean].runs;
+  aim.predicted = mean->missing_seconds + aim.report;
+  aim.band->first = mean->band;
+}
+
+/// Throws SceneError if neither a mesh nor a mean gets there.
+void choose_by_accuracy(Aim& aim, const RunOptions& options) {
   const auto& price = aim.price;
-  if (options.seconds) {
-    aim.refine = refine_in(aim, *options.seconds);
-  } else if (const auto refine = price.refine_for(*options.accuracy / 100)) {
-    aim.refine = *refine;
-  } else {
-    const double far = farthest_extrapolation * price.finest();
-    const auto list = aim.from.ends_with(price_file) ? aim.folder : fs::path();
-    throw SceneError(
-        {fmt::format("--accuracy {:g}%: up to refine {:.3g}, {:g} times the finest mesh made, the best is {}. Use a "
-                     "larger value; for this one: {}.",
-                     *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)),
-                     advice_for(price, {options.scene, options.overrides, *options.accuracy / 100, list}))});
+  const double wanted = *options.accuracy / 100;
+  if (const auto row = price.cheapest_for(wanted)) {
+    aim.refine = as_written(*row->refine);
+    aim.runs = row->runs;
+    aim.predicted = *row->seconds + aim.report;
+    aim.band = row->runs > 1 ? Decided{wanted, row->decided_by} : price.accuracy(aim.refine);
+    return;
   }
-  aim.refine = as_written(aim.refine);
-  aim.predicted = *price.seconds(aim.refine) + aim.report;
+  const double far = farthest_extrapolation * price.finest();
+  const auto list = aim.from.ends_with(price_file) ? aim.folder : fs::path();
+  throw SceneError(
+      {fmt::format("--accuracy {:g}%: up to refine {:.3g}, {:g} times the finest mesh made, the best is {}. Use a "
+                   "larger value; for this one: {}.",
+                   *options.accuracy, far, farthest_extrapolation, accuracy_text(price.accuracy(far)),
+                   advice_for(price, {options.scene, options.overrides, wanted, list}))});
 }
 
 /// Throws SceneError.
@@ -273,18 +292,17 @@ Aim aim_of(const RunOptions& options) {
   if (interrupt_received()) return aim;
   if (!options.no_report) aim.report = report_seconds(aim);
   aim.spent = wall() - begin;
-  choose(aim, options);
+  if (options.seconds)
+    choose_by_seconds(aim, *options.seconds);
+  else
+    choose_by_accuracy(aim, options);
   return aim;
 }
 
 /// What the run itself makes of the band: one more mesh of the ladder.
 std::string reached_text(const Aim& aim, const RunOptions& options, const fs::path& folder) {
-  std::vector<PriceQuantity> quantities;
-  for (const auto& quantity : aim.price.quantities) quantities.push_back(quantity.what);
-  auto rungs = aim.price.rungs;
-  for (auto& rung : rungs) rung.values.clear();
-  for (const auto& quantity : aim.price.quantities)
-    for (auto& rung : rungs) rung.values.push_back(quantity.at(rung.spec));
+  const auto quantities = quantities_of(aim.price);
+  auto rungs = measured_runs(aim.price);
   std::vector<std::string> unused;
   auto reached = rung_in(folder, {aim.refine, Role::rung}, quantities, unused);
   const double seconds = reached.seconds, all = wall() - aim.begun;
@@ -315,6 +333,37 @@ bool taken_over(const Aim& aim, const RunOptions& options, const fs::path& folde
   return true;
 }
 
+/// The other runs of the mean; in words what came of them, empty if it was stopped.
+std::string mean_text(const Aim& aim, const RunOptions& options, const fs::path& folder) {
+  MeanOrder order{.options = options,
+                  .folder = folder,
+                  .price = aim.price,
+                  .accuracy = options.accuracy ? *options.accuracy / 100 : aim.band->first,
+                  .seconds = {}};
+  if (options.seconds) order.seconds = *options.seconds - (wall() - aim.begun) - aim.report;
+  const auto found = make_mean(order);
+  if (!found) return {};
+  if (!options.no_report) write_report(folder);
+  const double all = wall() - aim.begun;
+  return fmt::format(
+      "reached     {} in all, {} of them for runs in {}/{}; the mean of {} runs at refine {:.3g} has {}{}\n"
+      "            it stands in summary.json, mean_of_runs\n",
+      about_time(all), about_time(found->seconds), folder.string(), replicates_folder, found->runs, found->refine,
+      accuracy_text(found->band), found->band.first > order.accuracy ? ", wider than was planned" : "");
+}
+
+int tell_mean(const Aim& aim, const RunOptions& options, const fs::path& folder) {
+  try {
+    const auto text = mean_text(aim, options, folder);
+    if (!options.quiet)
+      fmt::print("{}", text.empty() ? "stopped: the same command goes on with the other runs\n" : text);
+    return text.empty() ? exit_code::interrupted : exit_code::done;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: the run is done, its mean with others is not: {}\n", trouble(error));
+    return exit_code::cannot_go_on;
+  }
+}
+
 }  // namespace
 
 int aimed_run_command(const RunOptions& options) {
@@ -338,9 +387,11 @@ int aimed_run_command(const RunOptions& options) {
     return bad_input(trouble(error));
   }
   if (!options.quiet)
-    fmt::print("chosen      refine {:g}, from {}\npredicted   {}, {}\n", aim.refine, aim.from,
-               about_time(aim.predicted), accuracy_text(aim.price.accuracy(aim.refine)));
+    fmt::print("chosen      {}refine {:g}, from {}\npredicted   {}, {}\n",
+               aim.runs > 1 ? fmt::format("the mean of {} runs at ", aim.runs) : "", aim.refine, aim.from,
+               about_time(aim.predicted), accuracy_text(aim.band));
   const int code = run_command(chosen);
+  if (code == exit_code::done && aim.runs > 1) return tell_mean(aim, options, folder);
   if (options.quiet) return code;
   if (code == exit_code::interrupted)
     fmt::print("            continue with --refine {:g} --resume in place of --accuracy or --seconds\n", aim.refine);

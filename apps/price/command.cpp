@@ -6,6 +6,7 @@
 #include "apps/files/folder_lock.hpp"
 #include "apps/price/advice.hpp"
 #include "apps/price/cost.hpp"
+#include "apps/price/replicates.hpp"
 #include "apps/price/write.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"
@@ -169,10 +170,10 @@ int price_command(const PriceOptions& options) {
   catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");
   climb_all(*ladder, plan.refines, options.open_water);
   if (plan.goes_on)
-    climb_on(*ladder, plan.finer, [&] {
-      std::vector<std::string> unused;
-      return price_of(plan, *ladder, unused).is_reached(plan.accuracy);
-    });
+    climb_to(*ladder, {plan.accuracy, plan.finer, [&] {
+                         std::vector<std::string> unused;
+                         return price_of(plan, *ladder, unused);
+                       }});
   return conclude(plan, *ladder, options);
 }
 

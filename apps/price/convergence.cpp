@@ -17,21 +17,12 @@ namespace {
 constexpr double least_order = 0.5, highest_order = 2, order_too_high = 2.1;
 constexpr double good_safety = 1.25, poor_safety = 3;
 constexpr double sure = 0.95;
+constexpr double doubted = 0.75;  // a lack of fit that the coarsest mesh is taken to be the cause of
 
 /// Meshes with elements beyond this many times the finest's tell little of its error, where enough others are there.
 constexpr double coarsest_that_counts = 8.08;  // refinements are rounded
 constexpr int rungs_that_count = 4;
-constexpr double replicate = 1.1;  // sizes nearer than this are one rung
-
-int rungs_of(std::span<const MeshValue> values) {
-  std::vector<double> sizes;
-  for (const auto& value : values) sizes.push_back(value.h);
-  std::ranges::sort(sizes);
-  int rungs = 0;
-  for (double last = 0; const double size : sizes)
-    if (size > replicate * last) ++rungs, last = size;
-  return rungs;
-}
+constexpr double near = 1.05;  // of one size: half of what tells sizes apart
 
 /// Without those on too coarse meshes.
 std::vector<MeshValue> that_count(std::span<const MeshValue> values) {
@@ -39,8 +30,24 @@ std::vector<MeshValue> that_count(std::span<const MeshValue> values) {
   std::vector<MeshValue> sorted(values.begin(), values.end()), counting;
   std::ranges::sort(sorted, {}, &MeshValue::h);
   for (const auto& value : sorted)
-    if (value.h <= coarsest_that_counts * finest || rungs_of(counting) < rungs_that_count) counting.push_back(value);
+    if (value.h <= coarsest_that_counts * finest || sizes_of(counting) < rungs_that_count) counting.push_back(value);
   return counting;
+}
+
+/// Of repeated runs: sizes that no order fits, from the coarsest on, and if that is all of them their scatter. Whether one fits.
+bool leave_out_lawless(std::vector<MeshValue>& values) {  // ascending in h
+  while (are_repeated(values)) {
+    const double lack = BayesianExtrapolation(values, least_order, highest_order).lack_of_fit();
+    const bool may_be_coarser = sizes_of(values) > rungs_that_count;
+    if (lack < (may_be_coarser ? doubted : sure)) return true;
+    if (!may_be_coarser) {
+      values = means_of_sizes(values);
+      return false;
+    }
+    const double coarsest = means_of_sizes(values).back().h;
+    std::erase_if(values, [&](const MeshValue& value) { return value.h > coarsest / near; });
+  }
+  return true;
 }
 
 // The search for the order: beyond these ends h^p is a constant, or nothing but the coarsest mesh.
@@ -57,7 +64,7 @@ double sum_of_squares(const Eigen::VectorXd& weights, const Eigen::VectorXd& res
 class Fitter {
  public:
   explicit Fitter(std::span<const MeshValue> values)
-      : values_(values), h_(values.size()), phi_(values.size()), rungs_(rungs_of(values)) {
+      : values_(values), h_(values.size()), phi_(values.size()), rungs_(sizes_of(values)) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       h_[static_cast<Eigen::Index>(i)] = values[i].h;
       phi_[static_cast<Eigen::Index>(i)] = values[i].value;
@@ -183,8 +190,13 @@ class Fitter {
 
 std::optional<Convergence> Convergence::of(std::span<const MeshValue> values) {
   if (std::ranges::any_of(values, [](const auto& v) { return !std::isfinite(v.value) || !(v.h > 0); })) return {};
-  if (rungs_of(values) < 3) return {};
-  return Fitter(that_count(values)).best();
+  if (sizes_of(values) < 3) return {};
+  auto counting = that_count(values);
+  const bool lawful = leave_out_lawless(counting);
+  auto found = Fitter(counting).best();
+  found.coarsest_ = std::ranges::max_element(counting, {}, &MeshValue::h)->h;
+  found.follows_no_law_ = !lawful;
+  return found;
 }
 
 double Convergence::fitted(double h) const { return limit_ + first_ * std::pow(h, exponent_) + second_ * h * h; }
@@ -200,7 +212,10 @@ double Convergence::usual_band(double h, double beside) const {
   return scattered() ? poor_safety * (error(h) + beside) : safety_ * error(h) + beside;
 }
 
-double Convergence::of_the_model(double h) const { return order_ ? (good_safety - 1) * error(h) : 0; }
+double Convergence::of_the_model(double h) const {
+  if (extrapolation_ && extrapolation_->is_of_repeated()) return (good_safety - 1) * extrapolation_->error(h);
+  return order_ ? (good_safety - 1) * error(h) : 0;
+}
 
 double Convergence::band(const MeshValue& measured) const {
   const auto& [h, value] = measured;
@@ -212,6 +227,21 @@ double Convergence::band(const MeshValue& measured) const {
 double Convergence::band(double h) const {
   if (range_ == 0) return 0;
   return extrapolation_ ? extrapolation_->within_of_one_at(h, sure) + of_the_model(h) : usual_band(h, deviation_);
+}
+
+std::optional<double> Convergence::band_of_mean(std::span<const RunsOfSize> runs, std::size_t mean) const {
+  if (!extrapolation_ || follows_no_law_ || runs[mean].h > near * coarsest_) return {};
+  std::vector<RunsOfSize> counting;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i == mean) at = counting.size();
+    if (runs[i].h <= near * coarsest_) counting.push_back(runs[i]);
+  }
+  return extrapolation_->within_of_mean(counting, at) + of_the_model(runs[mean].h);
+}
+
+std::optional<double> Convergence::noise(double h) const {
+  return extrapolation_ ? std::optional(extrapolation_->noise(h)) : std::nullopt;
 }
 
 }  // namespace splashdown::apps

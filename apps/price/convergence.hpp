@@ -15,6 +15,8 @@
 //   mere noise 9 standard deviations with four meshes and 15 with twelve; fits of three coefficients follow the noise, and
 //   what they say of the limit is then taken three times; and of noisy series with an order it leaves one true value in
 //   four outside.
+// - Where runs are repeated on meshes of equal size, their means show what single values hide. If no order fits them (BayesianExtrapolation),
+//   the coarsest size is left out, as long as four are there; and if none fits those either, the means count as one value each.
 #pragma once
 
 #include <cmath>
@@ -48,6 +50,11 @@ class Convergence {
   /// Of a value measured at h, and of one that is still to be measured there.
   double band(const MeshValue& measured) const;
   double band(double h) const;
+  /// What the band of the mean of the runs of one of these sizes is expected to be once all of them are made; nothing where the odds of
+  /// the limit do not rule the band.
+  std::optional<double> band_of_mean(std::span<const RunsOfSize> runs, std::size_t mean) const;
+  /// Standard deviation between meshes of this size, by the odds.
+  std::optional<double> noise(double h) const;
 
  private:
   double usual_band(double h, double beside) const;  ///< of the paper, but for the factor of scattered data
@@ -58,6 +65,8 @@ class Convergence {
   std::string refusal_;
   double limit_ = 0, first_ = 0, second_ = 0;  // coefficients of h^exponent and, in the last form, of h^2
   bool weighted_ = false;
+  double coarsest_ = HUGE_VAL;   // size of those that count
+  bool follows_no_law_ = false;  // of repeated runs
   std::optional<BayesianExtrapolation> extrapolation_;
   double exponent_ = 1, deviation_ = 0, range_ = 0, safety_ = 3;
 

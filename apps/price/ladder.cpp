@@ -65,6 +65,17 @@ std::vector<double> rung_refines(int rungs, double scene) {
   return refines;
 }
 
+double replicate_refine(double refine, int k) {
+  // 2, 1, 3 %, then the middles between offsets that are there, again and again.
+  static const std::vector<double> offsets = [] {
+    std::vector<double> all = {replicate_offset, 0.01, 0.03};
+    for (double step = 0.005; step > 0.001; step /= 2)
+      for (double offset = step; offset < 0.03; offset += 2 * step) all.push_back(offset);
+    return all;
+  }();
+  return refine * (1 + (k % 2 == 0 ? -1 : 1) * offsets.at(static_cast<std::size_t>(k / 2)));
+}
+
 std::optional<Scene> scene_at(const fs::path& scene, std::vector<std::string> set, double refine) {
   set.push_back("fluid.size.refine=" + digits_of(refine));
   try {
@@ -93,6 +104,22 @@ Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
                     order_.scene.string(), digits_of(possible.front().refine)));
     throw SceneError(std::move(messages));
   }
+}
+
+bool Ladder::allow(const RungSpec& spec) {
+  if (std::ranges::any_of(possible_, [&](const RungSpec& other) { return same(spec, other); })) return true;
+  auto one = study_;
+  one.axes = {refine_axis({spec}, order_.larger_tank)};
+  auto runs = expand(one);
+  try {
+    resolve(one, runs);
+  } catch (const SceneError&) {
+    return false;
+  }
+  if (!foreign_places(runs, order_.folder).empty()) return false;
+  possible_.push_back(spec);
+  runs_.push_back(std::move(runs.front()));
+  return true;
 }
 
 double Ladder::spent() const { return now() - started_; }
@@ -251,7 +278,7 @@ std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool op
   std::vector<RungSpec> specs;
   for (const double refine : refines) specs.push_back({refine, Role::rung});
   for (const double refine : refines)
-    for (const double sign : {-1., 1.}) specs.push_back({refine * (1 + sign * replicate_offset), Role::replicate});
+    for (const int k : {0, 1}) specs.push_back({replicate_refine(refine, k), Role::replicate});
   if (open_water)
     for (const double refine : refines) specs.push_back({refine, Role::larger_tank});
   return specs;
@@ -259,8 +286,8 @@ std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool op
 
 void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water) {
   const auto beside = [&](double refine) {
-    for (const double sign : {-1., 1.})
-      if (!ladder.climb({refine * (1 + sign * replicate_offset), Role::replicate})) return;
+    for (const int k : {0, 1})
+      if (!ladder.climb({replicate_refine(refine, k), Role::replicate})) return;
     if (open_water) ladder.climb({refine, Role::larger_tank});
   };
   for (std::size_t k = 0; k < refines.size(); ++k) {
@@ -272,11 +299,6 @@ void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_wat
     }
     if (!ladder.climb({refines[k], Role::rung})) return;
   }
-}
-
-void climb_on(Ladder& ladder, const std::vector<double>& finer, const std::function<bool()>& reached) {
-  for (const double refine : finer)
-    if (reached() || !ladder.climb({refine, Role::rung})) return;
 }
 
 }  // namespace splashdown::apps

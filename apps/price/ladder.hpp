@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +15,12 @@ namespace splashdown::apps {
 /// Replicates stand this share beside the rung that they repeat: another mesh of nearly the same size. With first order
 /// that moves an error by a fiftieth of itself, which is far below the scatter that they are to show.
 inline constexpr double replicate_offset = 0.02;
+
+/// The refinement of replicate k = 0, 1 ... of a mesh: pairs about its own, within 3 %, the first of them `replicate_offset` away. With four
+/// digits those of the first `most_of_size` - 1 differ.
+double replicate_refine(double refine, int k);
+/// Runs within this share of a mesh's refinement are of its size.
+inline constexpr double same_size = 0.035;
 
 /// A tank that stands for open water is grown by this for one run: in the plane its influence falls to 4/9, in space to 8/27.
 inline constexpr double tank_growth = 1.5;
@@ -73,6 +78,9 @@ class Ladder {
   /// Throws SceneError if the scene cannot be refined so.
   Ladder(LadderOrder order, const std::vector<RungSpec>& possible);
 
+  /// Adds a run to those that are possible; false: the scene, or what is in its place, does not allow it.
+  bool allow(const RungSpec& spec);
+
   const std::vector<Rung>& made() const { return made_; }
   const LadderEnd& end() const { return end_; }
   std::vector<StudyRun> runs() const { return runs_; }
@@ -109,8 +117,6 @@ std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& n
 /// Rungs from the coarsest on, and before the last one two replicates of the one before it, and that one in a larger tank, as
 /// the budget allows.
 void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water);
-/// Finer rungs, one after the other, until `reached` holds, as the budget allows.
-void climb_on(Ladder& ladder, const std::vector<double>& finer, const std::function<bool()>& reached);
 /// All that `climb_all` may want.
 std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool open_water);
 

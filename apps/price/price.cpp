@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -25,15 +24,17 @@ std::optional<double> deviation_of(const std::vector<double>& values) {
   return std::sqrt(squares / (n - 1));
 }
 
-/// Of the replicates and the rung that they stand beside.
+/// Of the finest size with two replicates or more, else of any.
 std::optional<double> scatter_of(const PricedQuantity& quantity) {
-  if (quantity.replicates.empty()) return {};
-  std::vector<double> values;
-  const double at = quantity.replicates.front().first.spec.refine;
-  for (const auto* list : {&quantity.rungs, &quantity.replicates})
-    for (const auto& [rung, value] : *list)
-      if (std::abs(rung.spec.refine / at - 1) < 3 * replicate_offset) values.push_back(value);
-  return deviation_of(values);
+  std::optional<double> scatter;
+  bool enough = false;
+  for (const auto& [rung, measured] : quantity.rungs) {  // from the coarsest on
+    const auto values = quantity.of_size(rung.spec.refine);
+    if (values.size() < (enough ? 3u : 2u)) continue;
+    enough |= values.size() >= 3;
+    scatter = deviation_of(values);
+  }
+  return scatter;
 }
 
 /// Against the mean of what was measured in the tank as it is, on meshes of that size.
@@ -55,58 +56,6 @@ std::optional<Convergence> fit_of(const PricedQuantity& quantity) {
   return Convergence::of(values);
 }
 
-/// The least x between two ends for which `holds`, which does for all larger ones.
-template <class Holds>
-double least(double low, double high, const Holds& holds) {
-  if (holds(low)) return low;
-  for (int i = 0; i < 60 && high / low > 1 + 1e-6; ++i) {
-    const double middle = std::sqrt(low * high);
-    (holds(middle) ? high : low) = middle;
-  }
-  return high;
-}
-
-/// Of one quantity or of all together, at a refinement.
-using AccuracyAt = std::function<std::optional<Decided>(double)>;
-
-/// The coarsest mesh with that accuracy, up to `farthest_extrapolation` times finer than any made.
-std::optional<double> refine_for(const Price& price, const AccuracyAt& accuracy, double wanted) {
-  const auto holds = [&](double refine) {
-    const auto worst = accuracy(refine);
-    return worst && worst->first <= wanted;
-  };
-  const double far = farthest_extrapolation * price.finest();
-  if (price.rungs.empty() || !holds(far)) return {};
-  return least(price.coarsest(), far, holds);
-}
-
-/// With the three digits that rows are told with.
-bool is_made(const Price& price, double refine) {
-  return std::ranges::any_of(price.rungs, [&](const Rung& rung) {
-    return rung.spec.role == Role::rung && std::abs(rung.spec.refine / refine - 1) < 1e-3;
-  });
-}
-
-std::vector<PriceRow> rows_of(const Price& price, const AccuracyAt& accuracy) {
-  std::vector<PriceRow> rows;
-  if (price.rungs.empty() || !accuracy(price.finest())) return rows;
-  for (const double percent : price.percent) {
-    PriceRow row{.accuracy_percent = percent,
-                 .seconds = {},
-                 .refine = refine_for(price, accuracy, percent / 100),
-                 .decided_by = {}};
-    if (row.refine) row.seconds = price.seconds(*row.refine);
-    row.extrapolated = !row.refine || *row.refine > price.finest();
-    row.measured = row.refine && is_made(price, *row.refine);
-    row.decided_by = accuracy(row.refine.value_or(farthest_extrapolation * price.finest()))->second;
-    // What the coarsest mesh does better than asked says nothing about coarser ones.
-    const bool same = !rows.empty() && row.refine && rows.back().refine == row.refine;
-    if (same) rows.pop_back();
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 }  // namespace
 
 double PricedQuantity::at(const RungSpec& spec) const {
@@ -120,8 +69,33 @@ std::vector<std::pair<Rung, double>>& PricedQuantity::list(Role role) {
   return role == Role::rung ? rungs : role == Role::replicate ? replicates : in_larger_tank;
 }
 
-double PricedQuantity::with_scatter_and_tank(double U) const {
-  return std::hypot(U, 2 * scatter.value_or(0)) + tank.value_or(0);
+double PricedQuantity::with(double U, double scatter_band) const {
+  return std::hypot(U, scatter_band) + tank.value_or(0);
+}
+
+double PricedQuantity::with_scatter_and_tank(double U) const { return with(U, 2 * scatter.value_or(0)); }
+
+std::vector<double> PricedQuantity::of_size(double refine) const {
+  std::vector<double> values;
+  for (const auto* list : {&rungs, &replicates})
+    for (const auto& [rung, measured] : *list)
+      if (std::abs(rung.spec.refine / refine - 1) < same_size) values.push_back(measured);
+  return values;
+}
+
+std::optional<MeanOfRuns> PricedQuantity::mean(double refine) const {
+  const auto values = of_size(refine);
+  if (!fit || static_cast<int>(values.size()) < fewest_of_mean) return {};
+  MeanOfRuns found{.runs = static_cast<int>(values.size()), .deviation = *deviation_of(values)};
+  for (const double each : values) found.value += each / found.runs;
+  found.band = with(fit->band({1 / refine, found.value}), band_of_scatter(found.deviation, found.runs));
+  return found;
+}
+
+double PricedQuantity::expected_band(std::span<const RunsOfSize> runs, std::size_t mean) const {
+  const auto U = fit ? fit->band_of_mean(runs, mean) : std::nullopt;
+  if (!U) return HUGE_VAL;
+  return with(*U, band_of_scatter(*fit->noise(runs[mean].h), runs[mean].runs));
 }
 
 std::optional<double> PricedQuantity::band(double refine) const {
@@ -181,6 +155,40 @@ std::optional<Decided> Price::reached(const RungSpec& spec) const {
   return widest([&](const PricedQuantity& quantity) { return quantity.band_of(spec); });
 }
 
+std::optional<Decided> Price::reached_by_mean(double refine) const {
+  for (const auto& quantity : quantities)
+    if (quantity.what.counts && quantity.fit && !quantity.mean(refine)) return {};
+  return widest([&](const PricedQuantity& quantity) -> std::optional<double> {
+    const auto mean = quantity.mean(refine);
+    return mean ? std::optional(mean->band) : std::nullopt;
+  });
+}
+
+std::vector<SizeOfMesh> Price::sizes() const {
+  std::vector<SizeOfMesh> sizes;
+  for (const auto& own : rungs) {
+    const double refine = own.spec.refine;
+    if (own.spec.role != Role::rung || (!sizes.empty() && std::abs(refine * sizes.back().h - 1) < same_size)) continue;
+    SizeOfMesh size{1 / refine, 0, 0};
+    for (const auto& rung : rungs)
+      if (rung.spec.role != Role::larger_tank && std::abs(rung.spec.refine / refine - 1) < same_size)
+        size.seconds += rung.seconds, ++size.made;
+    size.seconds /= size.made;
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
+BandOfMean Price::expected_of_mean() const {
+  return [this](std::span<const RunsOfSize> runs, std::size_t mean) {
+    double widest = 0;
+    for (const auto& quantity : quantities)
+      if (quantity.what.counts && quantity.fit)
+        widest = std::max(widest, quantity.relative(quantity.expected_band(runs, mean)).value_or(0));
+    return widest > 0 ? widest : HUGE_VAL;
+  };
+}
+
 std::vector<std::string> Price::without_band(const RungSpec& spec) const {
   std::vector<std::string> names;
   for (const auto& quantity : quantities)
@@ -189,21 +197,26 @@ std::vector<std::string> Price::without_band(const RungSpec& spec) const {
   return names;
 }
 
-std::optional<double> Price::refine_for(double wanted) const {
-  return apps::refine_for(
-      *this, [this](double refine) { return accuracy(refine); }, wanted);
+std::vector<PriceQuantity> quantities_of(const Price& price) {
+  std::vector<PriceQuantity> quantities;
+  for (const auto& quantity : price.quantities) quantities.push_back(quantity.what);
+  return quantities;
 }
 
-bool Price::is_reached(double wanted) const {
-  const auto refine = refine_for(wanted);
-  return refine && *refine <= finest();
+std::vector<Rung> measured_runs(const Price& price) {
+  auto runs = price.rungs;
+  for (auto& run : runs) run.values.clear();
+  for (const auto& quantity : price.quantities)
+    for (auto& run : runs) run.values.push_back(quantity.at(run.spec));
+  return runs;
 }
 
-std::optional<double> Price::refine_in(double wanted) const {
-  if (rungs.empty()) return {};
-  const double far = farthest_run * finest();
-  if (*seconds(far) <= wanted) return far;
-  return least(coarsest(), far, [&](double refine) { return *seconds(refine) >= wanted; });
+std::optional<std::pair<double, MeanOfRuns>> best_mean(const PricedQuantity& quantity) {
+  std::optional<std::pair<double, MeanOfRuns>> best;
+  for (const auto& [rung, value] : quantity.rungs)
+    if (const auto mean = quantity.mean(rung.spec.refine); mean && (!best || mean->band < best->second.band))
+      best = {rung.spec.refine, *mean};
+  return best;
 }
 
 Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>& quantities, int dimension,
@@ -234,34 +247,6 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
     price.quantities.push_back(std::move(priced));
   }
   return price;
-}
-
-std::vector<double> listed_percent(std::optional<double> asked) {
-  std::vector<double> all = {20, 10, 5, 2, 1, 0.5};
-  if (asked && std::ranges::find(all, *asked) == all.end()) all.push_back(*asked);
-  std::ranges::sort(all, std::greater());
-  return all;
-}
-
-void list_rows(Price& price) {
-  price.rows = rows_of(price, [&](double refine) { return price.accuracy(refine); });
-  for (auto& quantity : price.quantities) {
-    if (!quantity.what.counts) continue;
-    quantity.rows = rows_of(price, [&](double refine) {
-      const auto accuracy = quantity.accuracy(refine);
-      return accuracy ? std::optional(Decided{*accuracy, quantity.what.name}) : std::nullopt;
-    });
-  }
-}
-
-const char* source_of(const PriceRow& row) {
-  return row.extrapolated ? "extrapolated" : row.measured ? "measured" : "interpolated";
-}
-
-const PriceRow* row_for(const std::vector<PriceRow>& rows, double percent) {
-  const auto row = std::ranges::find_if(
-      rows, [&](const PriceRow& other) { return other.accuracy_percent <= percent && other.seconds; });
-  return row == rows.end() ? nullptr : &*row;
 }
 
 std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set) {

@@ -39,6 +39,13 @@ Json json_of(const std::vector<std::pair<Rung, double>>& rungs) {
   return list;
 }
 
+/// Numbers of runs by refine.
+Json json_of(const std::vector<std::pair<double, int>>& runs) {
+  Json list = Json::array();
+  for (const auto& [refine, number] : runs) list.push_back({{"refine", refine}, {"runs", number}});
+  return list;
+}
+
 Json json_of(const std::vector<PriceRow>& rows) {
   Json list = Json::array();
   for (const auto& row : rows)
@@ -47,7 +54,24 @@ Json json_of(const std::vector<PriceRow>& rows) {
                     {"refine", number(row.refine)},
                     {"extrapolated", row.extrapolated},
                     {"from", row.seconds ? Json(source_of(row)) : Json(nullptr)},
-                    {"decided_by", row.decided_by}});
+                    {"decided_by", row.decided_by},
+                    {"runs", row.runs},
+                    {"beside", json_of(row.beside)}});
+  return list;
+}
+
+/// Of the sizes of mesh that have enough runs.
+Json means_of(const PricedQuantity& quantity) {
+  Json list = Json::array();
+  for (const auto& [rung, value] : quantity.rungs) {
+    const auto mean = quantity.mean(rung.spec.refine);
+    if (mean)
+      list.push_back({{"refine", rung.spec.refine},
+                      {"runs", mean->runs},
+                      {"value", mean->value},
+                      {"band", mean->band},
+                      {"deviation", mean->deviation}});
+  }
   return list;
 }
 
@@ -69,6 +93,7 @@ Json json_of(const PricedQuantity& quantity) {
           {"resolution", quantity.what.resolution},
           {"least_resolution", quantity.what.least_resolution},
           {"rows", json_of(quantity.rows)},
+          {"means", means_of(quantity)},
           {"rungs", json_of(quantity.rungs)},
           {"replicates", json_of(quantity.replicates)},
           {"tank", number(quantity.tank)},
@@ -131,8 +156,10 @@ const std::vector<std::pair<const char*, Role>> lists = {
     {"rungs", Role::rung}, {"replicates", Role::replicate}, {"in_larger_tank", Role::larger_tank}};
 
 std::string row_text(const PriceRow& row) {
+  std::string words = row.runs > 1 ? runs_text(row) : "";
+  if (!row.measured) words += (words.empty() ? "" : "; ") + std::string(source_of(row));
   return fmt::format("  {:>5g} %  {:>8}  {:>6.3g}  {}{}\n", row.accuracy_percent, about_time(*row.seconds), *row.refine,
-                     row.decided_by, row.measured ? "" : fmt::format("  ({})", source_of(row)));
+                     row.decided_by, words.empty() ? "" : "  (" + words + ")");
 }
 
 /// The first accuracy that refinement does not reach, and what is in its way.
@@ -161,7 +188,7 @@ std::string prices_text(const Price& price, std::size_t width) {
   std::string text = fmt::format("  {:<{}}", "each by itself", width);
   for (const double percent : price.percent) text += fmt::format("  {:>7}", fmt::format("{:g} %", percent));
   text += "\n";
-  bool any_beyond = false;
+  bool any_beyond = false, any_mean = false;
   for (const auto& quantity : price.quantities) {
     if (!priced(quantity)) continue;
     text += fmt::format("  {:<{}}", quantity.what.name, width);
@@ -169,11 +196,12 @@ std::string prices_text(const Price& price, std::size_t width) {
       const auto* row = row_for(quantity.rows, percent);
       const bool beyond = row && row->extrapolated;
       any_beyond |= beyond;
-      text += fmt::format("  {:>7}", row ? about_time(*row->seconds) + (beyond ? "*" : "") : "-");
+      any_mean |= row && row->runs > 1;
+      text += fmt::format("  {:>7}", row ? about_time(*row->seconds) + (beyond ? "*" : row->runs > 1 ? "+" : "") : "-");
     }
     text += "\n";
   }
-  return text + (any_beyond ? "  * extrapolated\n" : "");
+  return text + (any_beyond ? "  * extrapolated\n" : "") + (any_mean ? "  + mean of several runs\n" : "");
 }
 
 std::string counted(std::size_t number, const char* one, const char* many) {
@@ -184,6 +212,22 @@ std::string counted(std::size_t number, const char* one, const char* many) {
 std::string finest_band_text(const PricedQuantity& quantity) {
   const auto band = quantity.band_of_finest();
   return band ? band_text(*band, quantity.value, quantity.what.unit) : "?";
+}
+
+/// Means of runs that are better known than the value on the finest mesh.
+std::string means_text(const Price& price, std::size_t width, std::size_t band_width) {
+  std::string text;
+  for (const auto& quantity : price.quantities) {
+    const auto finest = quantity.band_of_finest();
+    const auto best = best_mean(quantity);
+    if (!best || (finest && *finest <= best->second.band)) continue;
+    const auto& [refine, mean] = *best;
+    text += fmt::format("  {:<{}}  {:>12}  {:>{}}  mean of {} runs at refine {:.3g}, which scatter by {}\n",
+                        quantity.what.name, width, value_text(mean.value, quantity.what.unit),
+                        band_text(mean.band, mean.value, quantity.what.unit), band_width, mean.runs, refine,
+                        relative(mean.deviation, mean.value));
+  }
+  return text;
 }
 
 /// Why a quantity plays no part in the rows; empty: it does.
@@ -215,6 +259,12 @@ std::string about_time(double seconds) {
   if (seconds < 100) return fmt::format("{:.2g} s", seconds);
   if (seconds < 6000) return fmt::format("{:.2g} min", seconds / 60);
   return fmt::format("{:.2g} h", seconds / 3600);
+}
+
+std::string runs_text(const PriceRow& row) {
+  auto text = fmt::format("mean of {} runs", row.runs);
+  for (const auto& [refine, number] : row.beside) text += fmt::format(", {} more at {:.3g}", number, refine);
+  return text;
 }
 
 std::string price_json(const Price& price) {
@@ -284,7 +334,9 @@ std::string price_line(const Price& price) {
   for (const auto& row : price.rows)
     if (row.seconds)
       line += fmt::format("{}{:g} %: {}{}", line.empty() ? "" : "; ", row.accuracy_percent, about_time(*row.seconds),
-                          row.extrapolated ? ", extrapolated" : "");
+                          row.runs > 1       ? fmt::format(", {} runs", row.runs)
+                          : row.extrapolated ? ", extrapolated"
+                                             : "");
   return line;
 }
 
@@ -313,7 +365,7 @@ std::string price_text(const Price& price) {
                         order ? fmt::format("{:.2f}", *order) : "-", relative(quantity.scatter, quantity.value),
                         not_counted(quantity));
   }
-  return text + prices_text(price, width) + refusals_text(price);
+  return text + means_text(price, width, band_width) + prices_text(price, width) + refusals_text(price);
 }
 
 }  // namespace splashdown::apps

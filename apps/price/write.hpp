@@ -19,6 +19,8 @@ Price read_price(const std::filesystem::path& file);
 std::string price_text(const Price& price);
 /// "12 s", "6 min", "2.5 h"
 std::string about_time(double seconds);
+/// "mean of 12 runs, 8 more at 0.5"
+std::string runs_text(const PriceRow& row);
 /// "5 %: 12 s; 2 %: 70 s; 1 %: 6 min, extrapolated"
 std::string price_line(const Price& price);
 

@@ -10,6 +10,8 @@
 #include "apps/report/answers/answers.hpp"
 #include "apps/report/page.hpp"
 #include "apps/statistics/attitude.hpp"
+#include "apps/statistics/verdict/share.hpp"
+#include "apps/statistics/verdict/statements.hpp"
 
 namespace splashdown::apps {
 
@@ -198,6 +200,29 @@ std::string equipment_table(const RunData& run) {
   return html + "</tbody></table></div>\n";
 }
 
+/// What counts, of several runs on meshes of one size (price/mean_run.hpp).
+std::string mean_table(const RunData& run) {
+  const auto& mean = member(run.summary, "mean_of_runs");
+  if (mean.empty()) return {};
+  std::string rows;
+  for (const auto& [name, quantity] : member(mean, "quantities").items()) {
+    if (!quantity.value("counts", false)) continue;
+    const double value = number_at(quantity, {"value"}), band = number_at(quantity, {"band"});
+    const auto ratio = ratio_of(band, value);
+    rows += fmt::format("<tr><td><b>{}</b></td><td>{}</td><td>{}</td><td>± {}</td><td>{}</td><td>{}</td></tr>\n",
+                        html_escaped(name), digits(value, 4), html_escaped(text_at(quantity, "unit")), digits(band, 2),
+                        ratio ? band_mark(*ratio, "") : "–", digits(number_at(quantity, {"deviation"}), 2));
+  }
+  return fmt::format(
+      "<h2>Mean of {} runs</h2>\n<p>Meshes of one size, refine {}, differ in these numbers by chance. The mean of {} "
+      "runs "
+      "is better known than that of this run alone, whose curves stand above. The band holds the limit of finer "
+      "meshes.</p>\n<div class=\"scroll\"><table><thead><tr><th>quantity</th><th>mean</th><th>unit</th><th>band</th>"
+      "<th>of the mean</th><th>scatter of one run</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      count_text(number_at(mean, {"runs"})), digits(number_at(mean, {"refine"}), 3),
+      count_text(number_at(mean, {"runs"})), rows);
+}
+
 /// Patches, and points where pressure was recorded.
 std::string pressure_table(const RunData& run) {
   std::string rows;
@@ -292,9 +317,9 @@ std::string html_of(const ReportPage& page) {
   const auto title = title_of(page.run);
   const auto& run = page.run;
   return html_page(title, html_header(title, run.directory, page.banner, page.warnings) + answer_card(run) +
-                              quiet_line(run) + page.replay + figures(page) + body_table(run) + equipment_table(run) +
-                              pressure_table(run) + effects_table(run) + scene_text(run) + ledger_table(run) +
-                              refusals_table(run) + phase_bar(run) +
+                              quiet_line(run) + page.replay + figures(page) + mean_table(run) + body_table(run) +
+                              equipment_table(run) + pressure_table(run) + effects_table(run) + scene_text(run) +
+                              ledger_table(run) + refusals_table(run) + phase_bar(run) +
                               "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
                               "in <code>report/</code>.</footer>\n" +
                               page.charts.html);

@@ -40,13 +40,23 @@ std::string source_of(const Json& row) {
   return row.contains("from") ? escaped_at(row, "from") : row.at("extrapolated").get<bool>() ? "extrapolated" : "";
 }
 
+/// How many runs a row takes, where it is the mean of several.
+std::string runs_of(const Json& row) {
+  const int runs = row.value("runs", 1);
+  if (runs < 2) return {};
+  auto text = fmt::format("mean of {} runs", runs);
+  for (const auto& other : row.value("beside", Json::array()))
+    text += fmt::format(", {} more at {}", other.at("runs").get<int>(), digits(number_at(other, {"refine"}), 3));
+  return text + "; ";
+}
+
 std::string rows_table(const Json& price) {
   std::string rows;
   for (const auto& row : price.at("rows"))
     rows += fmt::format("<tr><td><b>{:g} %</b></td>{}{}<td>{}</td><td class=\"text\">{}</td></tr>\n",
                         number_at(row, {"accuracy_percent"}), seconds_cell(number_at(row, {"seconds"})),
                         cell(number_at(row, {"refine"}), 3), escaped_at(row, "decided_by"),
-                        row.at("seconds").is_null() ? "not by refinement alone" : source_of(row));
+                        row.at("seconds").is_null() ? "not by refinement alone" : runs_of(row) + source_of(row));
   return table("What accuracy costs", {"accuracy", "wall time", "refine", "decided by", ""}, rows);
 }
 
@@ -84,12 +94,31 @@ std::string prices_table(const Json& price) {
       });
       rows += row == own.end() ? cell(NAN)
                                : fmt::format("<td>{}{}</td>", seconds_text(number_at(*row, {"seconds"})),
-                                             row->at("extrapolated").get<bool>() ? "*" : "");
+                                             row->at("extrapolated").get<bool>() ? "*"
+                                             : row->value("runs", 1) > 1         ? "+"
+                                                                                 : "");
     }
     rows += "</tr>\n";
   }
   if (rows.empty()) return {};
-  return table("What each quantity costs by itself", heads, rows) + "<p>* extrapolated beyond the finest mesh</p>\n";
+  return table("What each quantity costs by itself", heads, rows) +
+         "<p>* extrapolated beyond the finest mesh; + mean of several runs</p>\n";
+}
+
+std::string means_table(const Json& price) {
+  std::string rows;
+  for (const auto& [name, q] : price.at("quantities").items())
+    for (const auto& mean : q.value("means", Json::array())) {
+      const double value = number_at(mean, {"value"}), band = number_at(mean, {"band"});
+      const auto ratio = ratio_of(band, value);
+      rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}<td>{}</td>{}{}{}</tr>\n", html_escaped(name),
+                          cell(value), escaped_at(q, "unit"), cell(band, 2), ratio ? band_mark(*ratio, "") : "–",
+                          cell(number_at(mean, {"deviation"}), 2), cell(number_at(mean, {"runs"})),
+                          cell(number_at(mean, {"refine"}), 3));
+    }
+  if (rows.empty()) return {};
+  return table("Means of runs on meshes of one size",
+               {"quantity", "mean", "unit", "band ±", "of the mean", "scatter of one run", "runs", "refine"}, rows);
 }
 
 std::string runs_table(const fs::path& directory, const Json& price) {
@@ -113,7 +142,9 @@ Banner banner_of(const Json& price) {
     if (row.at("seconds").is_number())
       line += fmt::format("{}<b>{:g} %</b>: {}{}", line.empty() ? "" : "; ", number_at(row, {"accuracy_percent"}),
                           seconds_text(number_at(row, {"seconds"})),
-                          row.at("extrapolated").get<bool>() ? ", extrapolated" : "");
+                          row.value("runs", 1) > 1             ? fmt::format(", {} runs", row.at("runs").get<int>())
+                          : row.at("extrapolated").get<bool>() ? ", extrapolated"
+                                                               : "");
   if (price.at("rows").empty())
     banner = {Mood::fair, "Too few meshes for a price", {"Three meshes are needed at least."}};
   else if (line.empty())
@@ -152,7 +183,8 @@ ReportResult write_price_report(const fs::path& directory) {
     write_file_atomically(
         result.page,
         html_page(title, html_header(title, directory, banner_of(price), {}) + rows_table(price) + chart +
-                             prices_table(price) + quantities_table(price) + runs_table(directory, price) +
+                             prices_table(price) + quantities_table(price) + means_table(price) +
+                             runs_table(directory, price) +
                              "<footer>Made by Splashdown from <code>price.json</code> in this folder.</footer>\n"));
   } catch (const Json::exception& error) {
     throw std::runtime_error(

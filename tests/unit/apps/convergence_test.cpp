@@ -186,6 +186,47 @@ TEST(Convergence, scatter_that_hides_the_order_is_a_band_of_its_own_size) {
   EXPECT_LT(found.band(values.back()), 2 * (23.7 - 22.3));
 }
 
+/// Runs on each size whose means go by `mean`, with this noise.
+template <class Mean>
+std::vector<MeshValue> repeated(const Mean& mean, const std::vector<double>& sizes, int runs, double noise) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, noise);
+  std::vector<MeshValue> values;
+  for (const double h : sizes)
+    for (int k = 0; k < runs; ++k) {
+      const double own = h * (1 + 0.06 * (k + 0.5) / runs - 0.03);  // the sizes of replicates
+      values.push_back({own, mean(h) + normal(random)});
+    }
+  return values;
+}
+
+TEST(Convergence, sizes_that_repeated_runs_show_to_follow_no_order_do_not_count) {
+  const auto law = [](double h) { return h > 2.5 ? 2. : 1 + 0.1 * h; };
+  const auto fine = fit(repeated(law, usual, 6, 0.005));
+  const auto all = fit(repeated(law, {4, 2 * std::sqrt(2.), 2, std::sqrt(2.), 1, std::sqrt(0.5)}, 6, 0.005));
+  const MeshValue finest{usual.back(), law(usual.back())};
+  // Other draws of the same noise, whose standard deviation six runs on four sizes know to a sixth.
+  EXPECT_NEAR(all.band(finest) / fine.band(finest), 1, 0.5);
+}
+
+TEST(Convergence, of_means_that_follow_no_order_is_not_narrowed_by_further_runs) {
+  const auto zigzag = [](double h) { return h > 1.2 && h < 1.8 ? 1.05 : 1.; };
+  const MeshValue finest{usual.back(), 1};
+  const auto few = fit(repeated(zigzag, usual, 4, 0.003)), many = fit(repeated(zigzag, usual, 40, 0.003));
+  EXPECT_GT(few.band(finest), 0.05);
+  EXPECT_GT(many.band(finest), 0.05);
+  const std::vector<RunsOfSize> more = {{2, 40}, {1, 40}};
+  EXPECT_FALSE(many.band_of_mean(more, 1)) << "no number of runs is a plan";
+}
+
+TEST(Convergence, of_means_narrows_with_the_root_of_the_runs) {
+  const auto law = [](double h) { return 1 + 0.02 * h; };
+  const MeshValue finest{usual.back(), law(usual.back())};
+  const double few = fit(repeated(law, usual, 8, 0.05)).band(finest),
+               many = fit(repeated(law, usual, 72, 0.05)).band(finest);
+  EXPECT_LT(many, few / 1.5);  // a third, but for the bias that both contain
+}
+
 TEST(BayesianExtrapolation, of_one_order_are_those_of_the_straight_line) {
   // Sizes so near each other that both laws of noise are one, to 0.2 %; a straight line's value at 0 lies within
   // t s sqrt(1/n + mean^2/sum (h - mean)^2) of its least-squares value, t Student's with two degrees of freedom.
