@@ -16,8 +16,8 @@ class ChildProcess {
   struct Handed {
     int ours, theirs;
   };
-  /// Both outputs go to the end of `log`; the input is empty, unless something is handed over for it. The child gets SIGTERM when this
-  /// process dies, even of SIGKILL. Throws std::runtime_error if no process can be made.
+  /// Both outputs go to the end of `log`; the input is empty, unless something is handed over for it. The child gets SIGTERM
+  /// when this process dies, even of SIGKILL. Throws std::runtime_error if no process can be made.
   ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log,
                const std::vector<Handed>& handed = {});
 

@@ -17,8 +17,8 @@ std::optional<std::filesystem::path> find_chromium();
 
 class Browser {
  public:
-  /// Its profile and log go to `folder`, which nobody else uses. All calls throw std::runtime_error, with the browser's last words, and
-  /// Interrupted.
+  /// Its profile and log go to `folder`, which nobody else uses. All calls throw std::runtime_error, with the browser's last
+  /// words, and Interrupted.
   Browser(const std::filesystem::path& program, const std::filesystem::path& folder, std::array<int, 2> size);
   ~Browser();
 

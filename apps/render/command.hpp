@@ -5,8 +5,8 @@
 
 namespace splashdown::apps {
 
-/// Draws the replay of the report in a headless Chromium. Returns the exit code of the program (process/exit.hpp): what is asked for is
-/// checked first, what the browser or ffmpeg cannot do is cannot_go_on. Files are there whole or not at all.
+/// Draws the replay of the report in a headless Chromium. Returns the exit code of the program (process/exit.hpp): what is
+/// asked for is checked first, what the browser or ffmpeg cannot do is cannot_go_on. Files are there whole or not at all.
 int render_command(const RenderOptions& options);
 
 }  // namespace splashdown::apps

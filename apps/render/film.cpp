@@ -14,7 +14,8 @@ namespace {
 
 std::vector<std::string> words_for(const std::filesystem::path& program, const std::filesystem::path& part,
                                    double pictures_a_second) {
-  // Told what comes, ffmpeg begins with the first picture instead of looking at megabytes of them. yuv420p and the index at the beginning: what browsers and slides play. 18: hardly to be told from the pictures.
+  // Told what comes, ffmpeg begins with the first picture instead of looking at megabytes of them. yuv420p and the index at the
+  // beginning: what browsers and slides play. 18: hardly to be told from the pictures.
   return {program.string(),
           "-nostdin",
           "-hide_banner",

@@ -1,10 +1,10 @@
 // Triangles as few bytes: each is put at an edge of those before it, and mostly brings one new point or closes a gap.
 //
-// An open edge u -> w of a triangle (u, w, o) asks for its neighbour (w, u, v): a code says whether there is one and which point v is.
-// Points are numbered in the order in which they come. A new one is expected at u + w - o, the fourth corner of a parallelogram, so
-// that what is left to tell of it is small. Source: Touma and Gotsman, Graphics Interface 1998; here with a queue of edges, from which
-// any soup of triangles can be told: an edge that three triangles share, or one that is run through twice, begins a new patch.
-// Cost: two bits a triangle after compression. viewer: unpack.js reads it.
+// An open edge u -> w of a triangle (u, w, o) asks for its neighbour (w, u, v): a code says whether there is one and which
+// point v is. Points are numbered in the order in which they come. A new one is expected at u + w - o, the fourth corner of a
+// parallelogram, so that what is left to tell of it is small. Source: Touma and Gotsman, Graphics Interface 1998; here with a
+// queue of edges, from which any soup of triangles can be told: an edge that three triangles share, or one that is run through
+// twice, begins a new patch. Cost: two bits a triangle after compression. viewer: unpack.js reads it.
 #pragma once
 
 #include <cstddef>

@@ -32,7 +32,8 @@ std::vector<double> scalar(const VtuGrid& grid, const std::string& name) {
   return values;
 }
 
-/// Faces of tetrahedra that belong to one alone and have a node of the free surface, the others on it too: the surface of the water.
+/// Faces of tetrahedra that belong to one alone and have a node of the free surface, the others on it too: the surface of the
+/// water.
 std::vector<int> water_surface_of(const std::vector<int>& tetrahedra, const std::vector<double>& kinds) {
   const auto is = [&](int node, NodeKind what) {
     return kinds[static_cast<std::size_t>(node)] == static_cast<double>(what);

@@ -31,9 +31,9 @@ struct MovingPicture {
   std::optional<MirrorPlane> mirror;  ///< hulls are whole, water and pressures are those of one half
 };
 
-/// Reads frames.pvd and what it names, at most so many frames, evenly spread, the first and the last among them. In space the water is
-/// its free surface. Empty without frames. Throws std::runtime_error for damaged ones.
-/// Cost: 0.1 s for a frame of 60 000 nodes, on all threads.
+/// Reads frames.pvd and what it names, at most so many frames, evenly spread, the first and the last among them. In space the
+/// water is its free surface. Empty without frames. Throws std::runtime_error for damaged ones. Cost: 0.1 s for a frame of 60
+/// 000 nodes, on all threads.
 MovingPicture moving_picture(const std::filesystem::path& run, std::size_t most_frames);
 
 }  // namespace splashdown::apps

@@ -26,8 +26,9 @@ double quantile(std::vector<double> values, double share) {
   return *nth;
 }
 
-/// Where the colours end, and whether something lies beyond. In space one point of a hull in twenty feels more at some time: noise
-/// in time does not count, and of all times most are calm. In the plane few points of hulls and not most of the water are above it.
+/// Where the colours end, and whether something lies beyond. In space one point of a hull in twenty feels more at some time:
+/// noise in time does not count, and of all times most are calm. In the plane few points of hulls and not most of the water are
+/// above it.
 std::pair<double, bool> colour_limit(const MovingPicture& picture) {
   constexpr double of_highest = 0.95, of_hulls = 0.995, of_water = 0.9;
   std::vector<double> at_hulls, in_water, highest;

@@ -1,6 +1,7 @@
 // A run's frames as a picture that moves: WebGL by three.js, in HTML that needs no network.
 //
-// three.js and the frames (packed_picture.hpp) are one zlib stream in base64 each, which the browser unpacks (Compression Streams).
+// three.js and the frames (packed_picture.hpp) are one zlib stream in base64 each, which the browser unpacks (Compression
+// Streams).
 #pragma once
 
 #include <array>
@@ -40,8 +41,8 @@ struct FilmLook {
   bool mesh = false;
 };
 
-/// A page that fills its window with the picture and waits for splashdown_show(frame) once its figure has data-ready="yes". Nothing if
-/// three.js is not there.
+/// A page that fills its window with the picture and waits for splashdown_show(frame) once its figure has data-ready="yes".
+/// Nothing if three.js is not there.
 std::optional<std::string> film_page(const MovingPicture& picture, const FilmLook& look);
 
 /// What is said of it.
