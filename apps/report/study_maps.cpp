@@ -24,7 +24,8 @@ const Json& entries(const Json& json, const char* key) {
 
 std::string report_of(const fs::path& directory, const Json& run) {
   const auto name = text_at(run, "run");
-  return fs::exists(directory / name / "report.html") ? name + "/report.html" : "";
+  return fs::exists(directory / name / "report.html") ? "./" + name + "/report.html"
+                                                      : "";  // never a scheme such as "javascript:"
 }
 
 /// Names of the axes along which runs differ.

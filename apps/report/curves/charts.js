@@ -11,6 +11,7 @@
   const dark = window.matchMedia('(prefers-color-scheme: dark)');
   const colour = (name) => (name.startsWith('--') ? getComputedStyle(document.documentElement).getPropertyValue(name).trim() : name);
   const unit = (label) => { const at = label.indexOf(' / '); return at < 0 ? '' : label.slice(at + 3).replace(/^\((.*)\)$/, '$1'); };
+  const plain = (label) => label.replace(/[&<>]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;' }[c]));  // dygraphs takes labels for HTML
   const text = (value) => (value === null ? '–' : String(+value.toPrecision(4)).replace('-', '−'));
   function made(tag, cls, parent) { const e = document.createElement(tag); e.className = cls; parent.appendChild(e); return e; }
 
@@ -124,8 +125,8 @@
     this.rows = rows_of(chart);
     const right = chart.curves.some((curve) => curve.right);
     this.graph = new Dygraph(plot, this.rows, Object.assign({
-      labels: ['x', ...chart.curves.map((_, k) => 'c' + k)], legend: 'never', connectSeparatedPoints: true, highlightCircleSize: 0, xlabel: chart.x, ylabel: chart.y,
-      y2label: right ? chart.y2 : undefined, xLabelHeight: 18, yLabelWidth: 18, rightGap: 12, digitsAfterDecimal: 4, maxNumberWidth: 9,
+      labels: ['x', ...chart.curves.map((_, k) => 'c' + k)], legend: 'never', connectSeparatedPoints: true, highlightCircleSize: 0, xlabel: plain(chart.x), ylabel: plain(chart.y),
+      y2label: right ? plain(chart.y2) : undefined, xLabelHeight: 18, yLabelWidth: 18, rightGap: 12, digitsAfterDecimal: 4, maxNumberWidth: 9,
       dateWindow: chart.time ? span : null,
       axes: { x: { axisLabelWidth: 56, pixelsPerLabel: 60 }, y: { axisLabelWidth: 52, valueRange: chart.range, pixelsPerLabel: 34 }, y2: { axisLabelWidth: 48, valueRange: right ? chart.range2 : undefined, drawGrid: false } },
       underlayCallback: (context, area, graph) => this.behind(context, area, graph),

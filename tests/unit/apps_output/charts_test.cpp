@@ -161,7 +161,7 @@ TEST(StudyMaps, two_axes_of_numbers_make_a_map_whose_cells_lead_to_runs_and_one_
   const auto two = study_of({"a", "b"}, {{1, 10}, {1, 20}, {2, 10}, {2, 20}}), one = study_of({"a"}, {{1}, {2}});
   const auto map = heat_maps(folder.path(), two);
   EXPECT_NE(map.find("peak &lt;N&gt;"), std::string::npos);
-  EXPECT_NE(map.find("<a href=\"r3/report.html\">22.0</a>"), std::string::npos);
+  EXPECT_NE(map.find("<a href=\"./r3/report.html\">22.0</a>"), std::string::npos);
   EXPECT_EQ(map.find("r0/report.html"), std::string::npos) << "it has no page";
   EXPECT_EQ(map.find("steps"), std::string::npos) << "not a quantity of the study's own";
   EXPECT_TRUE(study_lines(folder.path(), two).empty());

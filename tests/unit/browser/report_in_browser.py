@@ -71,7 +71,7 @@ def check_page(browser, name, page, width, scheme):
     browser.look(width, scheme)
     start = time.monotonic()
     browser.open(page)
-    browser.wait_for(f"location.protocol === 'file:' && ({READY})")
+    browser.wait_for(f"location.protocol === 'file:' && ({READY})", timeout=120)
     seconds = time.monotonic() - start
     others = max(1, os.getloadavg()[0] / os.cpu_count())  # who wait for the same cores
     check(f"{what}: usable within {SECONDS:g} s", seconds <= SECONDS * others, f"{seconds:.2f} s")
