@@ -89,7 +89,7 @@
       context.setLineDash([6, 4]);
       context.beginPath(); context.moveTo(area.x, down(y)); context.lineTo(area.x + area.w, down(y)); context.stroke();
       context.setLineDash([]);
-      context.fillText(what, area.x + 6, down(y) - 5);
+      context.fillText(what, area.x + 6, down(y) - 18 < area.y ? down(y) + 14 : down(y) - 5);
     }
     for (const [x, y, what] of chart.marks || []) {
       context.fillStyle = colour('--ink');
