@@ -109,6 +109,14 @@ TEST(NextRuns, where_nothing_is_expected_to_get_there_take_turns_with_finer_mesh
   EXPECT_LE(beside, state.finer->seconds);
 }
 
+TEST(NextRuns, of_a_size_whose_meshes_are_all_made_are_none) {
+  const BandOfMean hopeful = [](auto, std::size_t) { return 0.05; };
+  LadderState state{.sizes = {{2, 1, most_of_size}}, .finer = SizeOfMesh{1, 8, 0}};
+  EXPECT_NE(next_runs(state, hopeful, 0.1)->size, 0u);
+  state.finer.reset();
+  EXPECT_FALSE(next_runs(state, hopeful, 0.1));
+}
+
 /// A scene that needs no run: phi = 1 + alpha h^p + second h^2p, and scatter that goes with a power of h.
 struct DrawnScene {
   double order, alpha, second, scatter, growth;
