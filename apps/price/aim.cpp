@@ -11,7 +11,7 @@
 #include "apps/price/advice.hpp"
 #include "apps/price/command.hpp"
 #include "apps/price/cost.hpp"
-#include "apps/price/mean_run.hpp"
+#include "apps/price/means/mean_run.hpp"
 #include "apps/price/probes.hpp"
 #include "apps/price/write.hpp"
 #include "apps/process/exit.hpp"
@@ -353,6 +353,7 @@ std::string mean_text(const Aim& aim, const RunOptions& options, const fs::path&
 }
 
 int tell_mean(const Aim& aim, const RunOptions& options, const fs::path& folder) {
+  catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");  // the report left at one
   try {
     const auto text = mean_text(aim, options, folder);
     if (!options.quiet)

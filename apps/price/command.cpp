@@ -6,7 +6,7 @@
 #include "apps/files/folder_lock.hpp"
 #include "apps/price/advice.hpp"
 #include "apps/price/cost.hpp"
-#include "apps/price/replicates.hpp"
+#include "apps/price/means/replicates.hpp"
 #include "apps/price/write.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"

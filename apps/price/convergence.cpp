@@ -22,7 +22,7 @@ constexpr double doubted = 0.75;  // a lack of fit that the coarsest mesh is tak
 /// Meshes with elements beyond this many times the finest's tell little of its error, where enough others are there.
 constexpr double coarsest_that_counts = 8.08;  // refinements are rounded
 constexpr int rungs_that_count = 4;
-constexpr double near = 1.05;  // of one size: half of what tells sizes apart
+constexpr double same_to = 1.05;  // of one size: half of what tells sizes apart
 
 /// Without those on too coarse meshes.
 std::vector<MeshValue> that_count(std::span<const MeshValue> values) {
@@ -45,7 +45,7 @@ bool leave_out_lawless(std::vector<MeshValue>& values) {  // ascending in h
       return false;
     }
     const double coarsest = means_of_sizes(values).back().h;
-    std::erase_if(values, [&](const MeshValue& value) { return value.h > coarsest / near; });
+    std::erase_if(values, [&](const MeshValue& value) { return value.h > coarsest / same_to; });
   }
   return true;
 }
@@ -230,12 +230,12 @@ double Convergence::band(double h) const {
 }
 
 std::optional<double> Convergence::band_of_mean(std::span<const RunsOfSize> runs, std::size_t mean) const {
-  if (!extrapolation_ || follows_no_law_ || runs[mean].h > near * coarsest_) return {};
+  if (!extrapolation_ || follows_no_law_ || runs[mean].h > same_to * coarsest_) return {};
   std::vector<RunsOfSize> counting;
   std::size_t at = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (i == mean) at = counting.size();
-    if (runs[i].h <= near * coarsest_) counting.push_back(runs[i]);
+    if (runs[i].h <= same_to * coarsest_) counting.push_back(runs[i]);
   }
   return extrapolation_->within_of_mean(counting, at) + of_the_model(runs[mean].h);
 }

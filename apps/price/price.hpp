@@ -16,7 +16,7 @@
 
 #include "apps/price/convergence.hpp"
 #include "apps/price/ladder.hpp"
-#include "apps/price/mean_plan.hpp"
+#include "apps/price/means/mean_plan.hpp"
 
 namespace splashdown::apps {
 

@@ -111,9 +111,9 @@ std::string means_table(const Json& price) {
     for (const auto& mean : q.value("means", Json::array())) {
       const double value = number_at(mean, {"value"}), band = number_at(mean, {"band"});
       const auto ratio = ratio_of(band, value);
-      rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}<td>{}</td>{}{}{}</tr>\n", html_escaped(name),
+      rows += fmt::format("<tr><td><b>{}</b></td>{}<td>{}</td>{}<td>{}</td>{}<td>{}</td>{}</tr>\n", html_escaped(name),
                           cell(value), escaped_at(q, "unit"), cell(band, 2), ratio ? band_mark(*ratio, "") : "–",
-                          cell(number_at(mean, {"deviation"}), 2), cell(number_at(mean, {"runs"})),
+                          cell(number_at(mean, {"deviation"}), 2), count_text(number_at(mean, {"runs"})),
                           cell(number_at(mean, {"refine"}), 3));
     }
   if (rows.empty()) return {};

@@ -1,5 +1,5 @@
 // Laws of means of runs: what they cost, and how often the truth lies within their bands on drawn ladders.
-#include "apps/price/mean_plan.hpp"
+#include "apps/price/means/mean_plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -109,6 +109,14 @@ TEST(NextRuns, where_nothing_is_expected_to_get_there_take_turns_with_finer_mesh
   EXPECT_LE(beside, state.finer->seconds);
 }
 
+TEST(NextRuns, of_a_size_whose_meshes_are_all_made_are_none) {
+  const BandOfMean hopeful = [](auto, std::size_t) { return 0.05; };
+  LadderState state{.sizes = {{2, 1, most_of_size}}, .finer = SizeOfMesh{1, 8, 0}};
+  EXPECT_NE(next_runs(state, hopeful, 0.1)->size, 0u);
+  state.finer.reset();
+  EXPECT_FALSE(next_runs(state, hopeful, 0.1));
+}
+
 /// A scene that needs no run: phi = 1 + alpha h^p + second h^2p, and scatter that goes with a power of h.
 struct DrawnScene {
   double order, alpha, second, scatter, growth;
@@ -128,7 +136,7 @@ DrawnScene drawn_scene(std::mt19937& random, int i) {
                    .alpha = between(-0.06, 0.06),
                    .second = 0,
                    .scatter = between(0.02, 0.07),
-                   .growth = 0.5 * (i % 3),
+                   .growth = 1.0 * (i % 3),
                    .heavy_tails = i / 3 % 2 == 1};
   scene.second = between(-0.3, 0.3) * scene.alpha;
   return scene;
@@ -213,7 +221,7 @@ void expect_true_values_within(int scenes) {
   EXPECT_GE(within / static_cast<double>(reached), 0.95 - slack) << within << " of " << reached;
 }
 
-TEST(MeanOfRuns, holds_the_true_value_of_drawn_scenes_in_nineteen_of_twenty) { expect_true_values_within(40); }
+TEST(MeanOfRuns, holds_the_true_value_of_drawn_scenes_in_nineteen_of_twenty) { expect_true_values_within(25); }
 
 TEST(MeanOfRunsNightly, holds_the_true_value_of_hundreds_of_drawn_scenes) { expect_true_values_within(400); }
 

@@ -25,13 +25,32 @@ def told(folder):
     return min(means + [(seat["band"], seat["value"], 1)])
 
 
-def price(program, folder, k):
+def settings(k):
     x = 0.0093 * (k + 1) - 0.2
-    subprocess.run([program, "price", str(SCENE), "--out", str(folder), "--quiet", "--accuracy", f"{100 * WANTED}%", "--budget", "120",
-                    "--set", "time.end=0.1", "--set", "output.frames=", "--set", "fluid.size.refine=0.5",
-                    "--set", f"body.capsule.position=[{x}, 0.1347296355]",
+    return ["--quiet", "--accuracy", f"{100 * WANTED}%", "--set", "time.end=0.1", "--set", "output.frames=",
+            "--set", "fluid.size.refine=0.5", "--set", f"body.capsule.position=[{x}, 0.1347296355]"]
+
+
+def price(program, folder, k):
+    subprocess.run([program, "price", str(SCENE), "--out", str(folder), "--budget", "120", *settings(k),
                     "--quantity", "seat=summary.equipment.seat.cfc60.value"], check=True)
     return told(folder)
+
+
+def is_mean(folder):
+    """Whether the list's row of the accuracy wanted is the mean of several runs."""
+    rows = json.loads((folder / "price.json").read_text())["rows"]
+    return any(row["accuracy_percent"] == 100 * WANTED and row["runs"] > 1 for row in rows)
+
+
+def run_takes_the_mean(program, folder, k):
+    """By a price list whose 10 % is a mean, `run` tells that mean."""
+    out = folder.with_name("run")
+    subprocess.run([program, "run", str(SCENE), "--out", str(out), "--price", str(folder), *settings(k)], check=True)
+    mean = json.loads((out / "summary.json").read_text())["mean_of_runs"]
+    assert mean["runs"] == len(mean["of"]) >= 4, mean
+    assert mean["decided_by"] == "seat" and mean["quantities"]["seat"]["band"] > 0, mean
+    assert f"Mean of {mean['runs']} runs" in (out / "report.html").read_text()
 
 
 def main():
@@ -39,15 +58,19 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         root = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else scratch)
         within = reached = 0
+        taken = False
         for k in range(repeats):
             band, value, runs = price(program, root / str(k), k)
             inside = abs(value - TRUE) <= band
             within += inside
             reached += band <= WANTED * value
+            if not taken and is_mean(root / str(k)):
+                run_takes_the_mean(program, root / str(k), k)
+                taken = True
             print(f"{k}: {value:.2f} +- {band:.2f} g, {runs} runs{'' if inside else ', outside'}", flush=True)
     slack = 2 * math.sqrt(0.95 * 0.05 / repeats)  # binomial, two standard deviations
     print(f"{within} of {repeats} within the band, {reached} with {100 * WANTED:g} %; the limit is known to {TRUE_WITHIN} g")
-    sys.exit(0 if within >= (0.95 - slack) * repeats else 1)
+    sys.exit(0 if (taken or repeats < 10) and within >= (0.95 - slack) * repeats else 1)
 
 
 if __name__ == "__main__":

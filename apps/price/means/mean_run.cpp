@@ -1,11 +1,11 @@
-#include "apps/price/mean_run.hpp"
+#include "apps/price/means/mean_run.hpp"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/files/csv.hpp"
 #include "apps/files/folder_lock.hpp"
-#include "apps/price/replicates.hpp"
+#include "apps/price/means/replicates.hpp"
 #include "apps/process/interrupt.hpp"
 #include "apps/study/folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/price/replicates.hpp"
+#include "apps/price/means/replicates.hpp"
 
 #include <algorithm>
 #include <cmath>

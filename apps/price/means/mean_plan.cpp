@@ -1,4 +1,4 @@
-#include "apps/price/mean_plan.hpp"
+#include "apps/price/means/mean_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,10 @@ std::optional<NextRuns> next_runs(const LadderState& state, const BandOfMean& ba
   auto sizes = state.sizes;
   const auto finer = sizes.size();
   if (state.finer) sizes.push_back(*state.finer), sizes.back().made = 0;
-  const auto plans = mean_plans(sizes, band, wanted);
+  auto plans = mean_plans(sizes, band, wanted);
+  // All of its runs are there, and no mesh is left: it was expected to have the band, and has not.
+  std::erase_if(
+      plans, [&](const MeanPlan& plan) { return plan.missing_seconds == 0 && sizes[plan.mean].made >= most_of_size; });
   const auto* plan = cheapest(plans, wanted, &MeanPlan::missing_seconds);
   if (plan != nullptr && plan->missing_seconds < state.single_seconds) return first_of(*plan, sizes);
   if (state.single_seconds < HUGE_VAL && state.finer) return NextRuns{finer, 1};
