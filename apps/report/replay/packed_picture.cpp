@@ -60,11 +60,11 @@ std::pair<double, bool> colour_limit(const MovingPicture& picture) {
 std::size_t index_of(int number) { return static_cast<std::size_t>(number); }
 
 /// All that is seen: its low corner, and the step of its places [m].
-struct Raster {
+struct Lattice {
   Place low{0, 0, 0};
   double step = 1;
 
-  explicit Raster(const MovingPicture& picture) {
+  explicit Lattice(const MovingPicture& picture) {
     constexpr double far = std::numeric_limits<double>::infinity();
     Place high{-far, -far, -far};
     low = {far, far, far};
@@ -113,8 +113,8 @@ std::uint32_t folded(std::int32_t difference) {
 
 class Packer {
  public:
-  Packer(const MovingPicture& picture, const Raster& raster, double limit)
-      : picture_(picture), raster_(raster), limit_(limit) {}
+  Packer(const MovingPicture& picture, const Lattice& lattice, double limit)
+      : picture_(picture), raster_(lattice), limit_(limit) {}
 
   void add_body(const MovingPart& body) {
     if (picture_.dimension == 3) {
@@ -200,7 +200,7 @@ class Packer {
   }
 
   const MovingPicture& picture_;
-  const Raster& raster_;
+  const Lattice& raster_;
   double limit_;
   std::vector<std::vector<int>> orders_;         // of each body: the old number of each point
   std::vector<std::vector<std::uint8_t>> felt_;  // of each body: pressures of the frame before
@@ -233,19 +233,19 @@ std::array<double, 7> pose_of(const MovingPart& first, const MovingPart& now, do
 
 PackedPicture packed(const MovingPicture& picture) {
   PackedPicture result;
-  const Raster raster(picture);
+  const Lattice lattice(picture);
   const auto [limit, is_exceeded] = colour_limit(picture);
   result.limit = limit;
-  result.step = raster.step;
+  result.step = lattice.step;
   nlohmann::json json{{"dimension", picture.dimension},
                       {"names", picture.names},
-                      {"low", raster.low},
-                      {"step", raster.step},
+                      {"low", lattice.low},
+                      {"step", lattice.step},
                       {"pressure", result.limit},
                       {"above", is_exceeded},
                       {"bodies", nlohmann::json::array()}};
   if (picture.mirror) json["mirror"] = {{"axis", picture.mirror->axis}, {"at", picture.mirror->at}};
-  Packer packer(picture, raster, result.limit);
+  Packer packer(picture, lattice, result.limit);
   const std::vector<MovingPart> none;
   const auto& bodies = picture.frames.empty() ? none : picture.frames.front().bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -257,7 +257,7 @@ PackedPicture packed(const MovingPicture& picture) {
     entry["time"] = frame.time;
     entry["poses"] = nlohmann::json::array();
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      entry["poses"].push_back(pose_of(bodies[b], frame.bodies[b], raster.step, picture.names[b]));
+      entry["poses"].push_back(pose_of(bodies[b], frame.bodies[b], lattice.step, picture.names[b]));
       packer.add_pressures(b, frame.bodies[b]);
     }
     json["frames"].push_back(std::move(entry));
