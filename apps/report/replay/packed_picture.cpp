@@ -114,7 +114,7 @@ std::uint32_t folded(std::int32_t difference) {
 class Packer {
  public:
   Packer(const MovingPicture& picture, const Lattice& lattice, double limit)
-      : picture_(picture), raster_(lattice), limit_(limit) {}
+      : picture_(picture), lattice_(lattice), limit_(limit) {}
 
   void add_body(const MovingPart& body) {
     if (picture_.dimension == 3) {
@@ -189,7 +189,7 @@ class Packer {
   }
 
   Steps add_place(const Place& x, const Steps& expected) {
-    const auto place = raster_.of(x);
+    const auto place = lattice_.of(x);
     for (std::size_t k = 0; k < 3; ++k) places_[k].push_back(folded(place[k] - expected[k]));
     return place;
   }
@@ -200,7 +200,7 @@ class Packer {
   }
 
   const MovingPicture& picture_;
-  const Lattice& raster_;
+  const Lattice& lattice_;
   double limit_;
   std::vector<std::vector<int>> orders_;         // of each body: the old number of each point
   std::vector<std::vector<std::uint8_t>> felt_;  // of each body: pressures of the frame before
