@@ -17,11 +17,12 @@ namespace splashdown::apps {
 namespace {
 
 std::string attitude_text(const rigid::Isometry<2>& pose) {
-  return fmt::format("pitch {:.4g} deg", shown(attitude_deg<2>(pose.linear())[1]));
+  return fmt::format("pitch {:.4g} deg", without_roundoff(attitude_deg<2>(pose.linear())[1]));
 }
 std::string attitude_text(const rigid::Isometry<3>& pose) {
   const auto angles = attitude_deg<3>(pose.linear());
-  return fmt::format("heel (roll) {:.4g} deg, trim (pitch) {:.4g} deg", shown(angles[0]), shown(angles[1]));
+  return fmt::format("heel (roll) {:.4g} deg, trim (pitch) {:.4g} deg", without_roundoff(angles[0]),
+                     without_roundoff(angles[1]));
 }
 
 std::string height_text(double height) { return fmt::format("{:.4g} m above the water", height); }
@@ -69,8 +70,8 @@ void print_trim(const std::vector<rigid::Heeled>& curve, double round_off) {
     if (curve[i].jumped)
       row("",
           fmt::format("between {:.0f} and {:.0f} deg it loses its stability in trim: it goes from {:.3g} to {:.3g} deg",
-                      curve[i - 1].heel / radians, curve[i].heel / radians, shown(curve[i - 1].trim / radians),
-                      shown(curve[i].trim / radians)));
+                      curve[i - 1].heel / radians, curve[i].heel / radians,
+                      without_roundoff(curve[i - 1].trim / radians), without_roundoff(curve[i].trim / radians)));
 }
 
 void print_levers(const Scene& scene, const Resting<3>& resting, double level) {

@@ -40,11 +40,11 @@ void add_stability(const Scene& scene, const Resting<3>& resting, double level, 
 }
 
 void add_attitude(const rigid::Isometry<2>& pose, AtRest& rest) {
-  rest.trim = shown(attitude_deg<2>(pose.linear())[1]);
+  rest.trim = without_roundoff(attitude_deg<2>(pose.linear())[1]);
 }
 void add_attitude(const rigid::Isometry<3>& pose, AtRest& rest) {
   const auto angles = attitude_deg<3>(pose.linear());
-  rest.heel = shown(angles[0]), rest.trim = shown(angles[1]);
+  rest.heel = without_roundoff(angles[0]), rest.trim = without_roundoff(angles[1]);
 }
 
 template <int d>
@@ -67,7 +67,7 @@ AtRest numbers_of_rest(const Scene& scene, std::size_t number, const Resting<d>&
 
 }  // namespace
 
-double shown(double degrees) { return std::abs(degrees) < 1e-6 ? 0 : degrees; }
+double without_roundoff(double degrees) { return std::abs(degrees) < 1e-6 ? 0 : degrees; }
 
 template <int d>
 double diagonal(const rigid::BodySpec<d>& spec) {

@@ -14,7 +14,7 @@
 namespace splashdown::apps {
 
 /// Round-off of an angle that is meant to be zero is not shown.
-double shown(double degrees);
+double without_roundoff(double degrees);
 
 /// Levers below this share of the extent are those of a round body's facets.
 inline constexpr double facets_of_round = 1e-4;
