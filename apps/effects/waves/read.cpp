@@ -57,7 +57,8 @@ void read_zones(Reader& reader, Waves& table) {
   reader.number("zone", table.zone, positive("m", "Use 1.5 wavelengths, the default."));
   if (reader.context().dimension == 3)
     reader.number("side_zone", table.side_zone, not_negative("m", "Use a wavelength, or 0 for walls that throw back."));
-  reader.number("rate", table.rate, positive("1/s", "Use four times the waves' angular frequency, the default."));
+  reader.number("rate", table.rate,
+                positive("1/s", "Use three times the waves' angular frequency, about the default."));
   reader.number("ramp", table.ramp, not_negative("s", "Use e.g. two periods, or 0 for a sea that is there at t = 0."));
 }
 

@@ -7,6 +7,7 @@
 
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/scales.hpp"
+#include "fluid/effects/waves/dispersion.hpp"
 #include "fluid/effects/waves/waves.hpp"
 
 namespace splashdown::apps {
@@ -135,7 +136,7 @@ std::unique_ptr<WaveField<d>> sea_of(const Scene& scene) {
 
 template <int d>
 fluid::WaveZones<d> zones_of(const Scene& scene, const WaveField<d>& sea) {
-  constexpr double wavelengths = 1.5, frequencies = 4;  // measured: docs/waves.md
+  constexpr double wavelengths = 1.5, passages = 36;  // measured: docs/waves.md
   const auto& table = *scene.effects.find<Waves>();
   fluid::WaveZones<d> zones{.min = vec<d>(scene.tank->min), .max = vec<d>(scene.tank->max)};
   const double width = table.zone.value_or(wavelengths * sea.length());
@@ -146,7 +147,9 @@ fluid::WaveZones<d> zones_of(const Scene& scene, const WaveField<d>& sea) {
     const bool runs = along[k] > oblique || table.spreading > 0;
     zones.width[k] = runs ? width : table.side_zone.value_or(0);
   }
-  zones.rate = table.rate.value_or(frequencies * 2 * pi / sea.period());
+  const auto frame = frame_of<d>(scene, table);
+  const double speed = fluid::group_velocity(2 * pi / sea.length(), frame.depth, frame.gravity);
+  zones.rate = table.rate.value_or(passages * speed / sea.length());
   zones.ramp = table.ramp;
   return zones;
 }

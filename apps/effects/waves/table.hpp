@@ -33,8 +33,9 @@ struct Waves {
   double current = 0;        ///< of the water over ground along the waves [m/s]: periods are those of a fixed observer
   std::optional<double> zone;       ///< width of the zones; default: 1.5 (peak) wavelengths
   std::optional<double> side_zone;  ///< of those along sides that the waves run along; default: none
-  std::optional<double> rate;       ///< of the zones at the walls [1/s]; default: four times the (peak) frequency
-  double ramp = 0;                  ///< in which the sea grows from still water; 0: it is there at t = 0
+  std::optional<double>
+      rate;         ///< of the zones at the walls [1/s]; default: 36 times the group speed over the (peak) length
+  double ramp = 0;  ///< in which the sea grows from still water; 0: it is there at t = 0
 
   /// Where on the wave a body shall touch the water first.
   struct Touchdown {
