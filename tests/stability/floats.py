@@ -5,7 +5,7 @@
 
 heave  half-immersed circles and boxes with bilges, free in heave alone: their height over that of the waves
 free   the same with all freedoms: heave, surge and pitch
-sharp  boxes with sharp edges, free in heave alone. The flow separates there, in the program as in a tank, and its drag grows with the square of
+sharp  boxes with sharp edges, free in heave alone. The flow separates there, in the program too, and its drag grows with the square of
        the speed: linear theory has none of it. Waves of two heights, 0.01 and 0.0025 of their length, tell the drag from the rest.
 
 Waves are 0.01 of their length high, bodies 0.05 to 0.3 of it wide, depths from 0.12 of it to deep water. What is left of the start has died out
