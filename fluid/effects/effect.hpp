@@ -99,7 +99,7 @@ class Effect {
                                               std::span<const double> /*lumped_mass*/) const {
     return {};
   }
-  /// Largest dt that is stable, and accurate where that asks for less [s]; infinity for effects that set none.
+  /// Largest stable dt [s]; infinity for effects that set none.
   virtual double stable_dt() const;
 };
 

@@ -5,8 +5,8 @@
 // u is the speed of the undisturbed sea. Other waves, from bodies, die out in the zones, the sea's own does not (Jacobsen,
 // Fuhrman, Fredsoe, Int. J. Numer. Meth. Fluids 70, 2012; here speeds alone: positions follow). Integrated exactly over a kick,
 // with u at t_{n-1/2}, to which the velocities belong, and where the nodes were then. What a zone does to a wave goes as r/c_g,
-// with the group speed c_g: zones of 1.5 wavelengths with a rate of 36 c_g/L throw back less than 2 % of the sea's waves. Drops in
-// flight are left alone.
+// with the group speed c_g: zones of 1.5 wavelengths with a rate of 36 c_g/L throw back less than 2 % of the sea's waves. Drops
+// in flight are left alone.
 #pragma once
 
 #include <memory>
