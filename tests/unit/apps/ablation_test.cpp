@@ -42,7 +42,8 @@ class AblationTest : public ::testing::Test, protected ScratchFolder {
 TEST_F(AblationTest, takes_each_effect_away_and_toggles_each_choice) {
   std::vector<std::string> names;
   for (const auto& variant : plan().variants) names.push_back(variant.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"scene", "without_gravity", "no_slip", "all_free", "larger_tank"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"scene", "without_gravity", "no_slip", "all_free", "larger_tank", "half"}));
 }
 
 TEST_F(AblationTest, what_is_taken_away_is_absent_and_what_is_added_is_present) {

@@ -91,7 +91,7 @@ const std::vector<Mistake> studies = {
      "quantity.speed.quantity = \"summary.coupling.passes\": runs of this scene have no 'summary.coupling.passes'",
      "Did you mean 'passes_max'?"},
     {"summary_entry_that_is_no_number", "last(vy)", "summary.bodies.wedge.peak_force", 22, "quantity.speed.quantity",
-     "Use one of its entries: 'duration', 'impulse'"},
+     "Use one of its entries: 'begin', 'duration', 'impulse'"},
     {"words_with_a_scale", "[1, 0.5, 0.1]", "[\"a\"]", 11, "axis.ratio.values", "must be numbers"},
     {"key_beside_cases", "name = \"scheme\"\n", "name = \"scheme\"\nkey = \"title\"\nvalues = [\"x\"]\n", 12,
      "axis.scheme", "both"},
