@@ -32,7 +32,7 @@ class NoTerm final : public InterfaceTerm {
   InterfaceOperator interface_operator(const WallCoordinates&) const override { return {}; }
 };
 
-/// A Laplacian with lambda = strength / m on the wetted hull. Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
+/// A Laplacian with lambda = strength / m on the wetted hull. Scaling and pieces: fluid/pfem/pressure/interface_laplacian.hpp.
 class LaplacianTerm final : public InterfaceTerm {
  public:
   /// `strength` [-]: factor of lambda; with 1 the energy of a translation is exact.
@@ -47,7 +47,7 @@ class LaplacianTerm final : public InterfaceTerm {
 };
 
 /// Robin-Neumann: each piece of the hull answers like a mass of its own (Badia, Nobile, Vergara 2008; Astorino, Chouly,
-/// Fernandez 2010). Scaling and pieces: fluid/pressure/interface_laplacian.hpp.
+/// Fernandez 2010). Scaling and pieces: fluid/pfem/pressure/interface_laplacian.hpp.
 class RobinTerm final : public InterfaceTerm {
  public:
   std::string name() const override { return "robin"; }

@@ -9,7 +9,7 @@
 #include "apps/scene/mirror.hpp"
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"
-#include "fluid/participant.hpp"
+#include "fluid/pfem/participant.hpp"
 #include "rigid/participant.hpp"
 
 namespace splashdown::apps {

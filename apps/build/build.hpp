@@ -11,8 +11,8 @@
 #include "apps/record/settings.hpp"
 #include "apps/scene/scene.hpp"
 #include "coupling/schemes/stepper.hpp"
-#include "fluid/fluid.hpp"
-#include "fluid/mesh/sizes/size_sources.hpp"
+#include "fluid/pfem/fluid.hpp"
+#include "fluid/pfem/mesh/sizes/size_sources.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {

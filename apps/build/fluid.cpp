@@ -4,7 +4,7 @@
 #include "apps/build/build.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
-#include "fluid/mesh/sizes/size_field.hpp"
+#include "fluid/pfem/mesh/sizes/size_field.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "apps/check/cost.hpp"
-#include "fluid/initial/initial.hpp"
+#include "fluid/pfem/initial/initial.hpp"
 
 namespace splashdown::apps {
 

@@ -116,7 +116,7 @@ std::vector<StudyColumn> study_columns(const Json& study) {
         }))
       columns.push_back(std::move(column));
   }
-  std::ranges::stable_partition(columns, &StudyColumn::own);
+  std::stable_partition(columns.begin(), columns.end(), [](const StudyColumn& column) { return column.own; });
   return columns;
 }
 

@@ -1,6 +1,6 @@
 #include "apps/run/threads.hpp"
 
-#include "fluid/parallel.hpp"
+#include "fluid/pfem/parallel.hpp"
 
 namespace splashdown::apps {
 

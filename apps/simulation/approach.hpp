@@ -7,7 +7,7 @@
 // not count: they meet a hull when they have reached it.
 #pragma once
 
-#include "fluid/fluid.hpp"
+#include "fluid/pfem/fluid.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {

@@ -12,11 +12,11 @@
 
 #include "core/response.hpp"
 #include "core/status.hpp"
-#include "fluid/mesh/mesh.hpp"
-#include "fluid/mesh/node_cells.hpp"
-#include "fluid/nodes.hpp"
-#include "fluid/spec.hpp"
-#include "fluid/types.hpp"
+#include "fluid/pfem/mesh/mesh.hpp"
+#include "fluid/pfem/mesh/node_cells.hpp"
+#include "fluid/pfem/nodes.hpp"
+#include "fluid/pfem/spec.hpp"
+#include "fluid/pfem/types.hpp"
 
 namespace splashdown::fluid {
 

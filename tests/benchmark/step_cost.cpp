@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "fluid/effects/gravity/gravity.hpp"
-#include "fluid/mesh/delaunay/delaunay.hpp"
-#include "fluid/pressure/pressure.hpp"
+#include "fluid/pfem/mesh/delaunay/delaunay.hpp"
+#include "fluid/pfem/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"
 #include "tests/unit/coupling/watched.hpp"
 

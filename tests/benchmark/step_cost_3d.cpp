@@ -10,9 +10,9 @@
 #include <memory>
 #include <numeric>
 
-#include "fluid/mesh/delaunay/moving_delaunay.hpp"
-#include "fluid/parallel.hpp"
-#include "fluid/pressure/pressure.hpp"
+#include "fluid/pfem/mesh/delaunay/moving_delaunay.hpp"
+#include "fluid/pfem/parallel.hpp"
+#include "fluid/pfem/pressure/pressure.hpp"
 #include "tests/benchmark/medians.hpp"
 #include "tests/unit/coupling/ball_in_tank.hpp"
 

@@ -18,7 +18,7 @@ CODE = "cmake_minimum_required(VERSION 3.25)\nproject(toy VERSION 0.2.0)\n"
 def tree(**documents):
     """A folder with these files (`__` stands for /, `_md` for .md), to be cleaned up by the caller."""
     folder = tempfile.TemporaryDirectory()
-    given = {"CMakeLists.txt": CODE, "fluid/solve.cpp": "void find_motion();\nstruct StepResult { int old_rate; };\n// --refine\n"}
+    given = {"CMakeLists.txt": CODE, "fluid/pfem/solve.cpp": "void find_motion();\nstruct StepResult { int old_rate; };\n// --refine\n"}
     given |= {name.replace("__", "/").replace("_md", ".md"): text for name, text in documents.items()}
     for name, text in given.items():
         path = os.path.join(folder.name, name)
@@ -61,7 +61,7 @@ class Changelog(unittest.TestCase):
 
 
 class Theory(unittest.TestCase):
-    GOOD = "# T\n\n## One\n\nWith $`a_i`$:\n```math\nx=a_i \\tag{1}\n```\nSo. Code: `fluid/solve.cpp`:\n`find_motion`.\n\n## Symbols\n"
+    GOOD = "# T\n\n## One\n\nWith $`a_i`$:\n```math\nx=a_i \\tag{1}\n```\nSo. Code: `fluid/pfem/solve.cpp`:\n`find_motion`.\n\n## Symbols\n"
 
     def faults(self, old="", new=""):
         return found(theory.faults, docs__theory_md=self.GOOD.replace(old, new) if old else self.GOOD)
@@ -114,8 +114,8 @@ class Identifiers(unittest.TestCase):
         return found(identifiers.faults, docs__a_md=f"# A\n\nText with `{span}`.\n")
 
     def test_that_exist_are_left_alone(self):
-        for span in ("fluid/solve.cpp", "solve.cpp", "fluid/solve.*", "fluid/", "find_motion", "find_motion(x)", "StepResult::old_rate",
-                     "--refine", "word", "out/run/x_y.csv", "splashdown run fluid/solve.cpp --refine 2", "old_rate.1"):
+        for span in ("fluid/pfem/solve.cpp", "solve.cpp", "fluid/pfem/solve.*", "fluid/", "find_motion", "find_motion(x)", "StepResult::old_rate",
+                     "--refine", "word", "out/run/x_y.csv", "splashdown run fluid/pfem/solve.cpp --refine 2", "old_rate.1"):
             with self.subTest(span):
                 self.assertEqual(self.faults(span), [])
 

@@ -1,6 +1,6 @@
 """What documents name in code font exists in the tree. By form:
 
-    path with /             examples/…, fluid/mesh/*.hpp; the end of a path is enough; folders of results are not looked for
+    path with /             examples/…, fluid/pfem/mesh/*.hpp; the end of a path is enough; folders of results are not looked for
     name of a source        recognise.cpp, volume_books.*; not of data, which programs write
     A::b                    words of one source that is no test
     name(…)                 a word of the sources

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fluid/parallel.hpp"
+#include "fluid/pfem/parallel.hpp"
 #include "tests/unit/coupling/ball_in_tank.hpp"
 
 namespace splashdown {

@@ -4,7 +4,7 @@
 
 #include "apps/scene/mirror.hpp"
 #include "apps/scene/read/reader.hpp"
-#include "fluid/spec.hpp"
+#include "fluid/pfem/spec.hpp"
 #include "rigid/forces/half.hpp"
 #include "rigid/joint.hpp"
 

@@ -8,7 +8,7 @@
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/scales.hpp"
 #include "fluid/effects/waves/waves.hpp"
-#include "fluid/spec.hpp"
+#include "fluid/pfem/spec.hpp"
 
 namespace splashdown::apps {
 namespace {

@@ -7,8 +7,8 @@
 #pragma once
 
 #include "fluid/effects/effect.hpp"
-#include "fluid/linear/assembly.hpp"
-#include "fluid/linear/linear_solver.hpp"
+#include "fluid/pfem/linear/assembly.hpp"
+#include "fluid/pfem/linear/linear_solver.hpp"
 
 namespace splashdown::fluid {
 

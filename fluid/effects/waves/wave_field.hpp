@@ -6,7 +6,7 @@
 
 #include "fluid/effects/waves/spectrum.hpp"
 #include "fluid/effects/waves/steady_wave.hpp"
-#include "fluid/types.hpp"
+#include "fluid/pfem/types.hpp"
 
 namespace splashdown::fluid {
 

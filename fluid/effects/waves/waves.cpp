@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fluid/parallel.hpp"
+#include "fluid/pfem/parallel.hpp"
 
 namespace splashdown::fluid {
 

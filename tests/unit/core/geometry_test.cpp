@@ -1,12 +1,12 @@
-#include "fluid/geometry.hpp"
+#include "fluid/pfem/geometry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "fluid/mesh/mesh.hpp"
-#include "fluid/mesh/node_cells.hpp"
+#include "fluid/pfem/mesh/mesh.hpp"
+#include "fluid/pfem/mesh/node_cells.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

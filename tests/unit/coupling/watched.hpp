@@ -5,7 +5,7 @@
 #include <span>
 
 #include "coupling/schemes/steppers.hpp"
-#include "fluid/participant.hpp"
+#include "fluid/pfem/participant.hpp"
 #include "rigid/participant.hpp"
 
 namespace splashdown::coupling::scenes {

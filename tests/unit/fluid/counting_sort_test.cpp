@@ -1,4 +1,4 @@
-#include "fluid/linear/counting_sort.hpp"
+#include "fluid/pfem/linear/counting_sort.hpp"
 
 #include <gtest/gtest.h>
 

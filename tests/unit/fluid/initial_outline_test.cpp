@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/closest_point.hpp"
-#include "fluid/initial/initial.hpp"
+#include "fluid/pfem/initial/initial.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {
@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Edges that are longer than this over h are split (fluid/mesh/adapt.cpp).
+// Edges that are longer than this over h are split (fluid/pfem/mesh/adapt.cpp).
 constexpr double longest = 1.5;
 
 /// Distance of chords of length `longest` h from a curve of radius 1/kappa, and of the curve's own polygon from it.

@@ -1,4 +1,4 @@
-#include "fluid/initial/initial.hpp"
+#include "fluid/pfem/initial/initial.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "fluid/mesh/conservation/displaced_volume.hpp"
-#include "fluid/mesh/sizes/size_field.hpp"
+#include "fluid/pfem/mesh/conservation/displaced_volume.hpp"
+#include "fluid/pfem/mesh/sizes/size_field.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

@@ -1,4 +1,4 @@
-#include "fluid/linear/linear_solver.hpp"
+#include "fluid/pfem/linear/linear_solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "fluid/parallel.hpp"
+#include "fluid/pfem/parallel.hpp"
 
 namespace splashdown::fluid {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "fluid/effects/gravity/gravity.hpp"
-#include "fluid/fluid.hpp"
-#include "fluid/initial/initial.hpp"
-#include "fluid/mesh/delaunay/delaunay.hpp"
+#include "fluid/pfem/fluid.hpp"
+#include "fluid/pfem/initial/initial.hpp"
+#include "fluid/pfem/mesh/delaunay/delaunay.hpp"
 
 namespace splashdown::fluid::scenes {
 

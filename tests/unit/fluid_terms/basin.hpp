@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fluid/effects/gravity/gravity.hpp"
-#include "fluid/fluid.hpp"
+#include "fluid/pfem/fluid.hpp"
 #include "tests/unit/coupling/watched.hpp"
 
 namespace splashdown::fluid::testing {

@@ -12,7 +12,7 @@
 
 #include "fluid/effects/gravity/gravity.hpp"
 #include "fluid/effects/waves/waves.hpp"
-#include "fluid/fluid.hpp"
+#include "fluid/pfem/fluid.hpp"
 #include "tests/unit/coupling/watched.hpp"
 
 namespace splashdown::fluid::testing {

@@ -26,33 +26,33 @@ rule("a fluid knows no bodies" FILES "^fluid/" INCLUDES "^rigid/")
 rule("bodies know no fluid" FILES "^rigid/" INCLUDES "^fluid/")
 rule("coupling says what a fluid and a structure are and includes neither" FILES "^coupling/" INCLUDES "^(fluid|rigid)/")
 rule("of coupling, a fluid and bodies know what they implement, in one file each" FILES "^(fluid|rigid)/"
-  BUT_FILES "^(fluid|rigid)/participant\\." INCLUDES "^coupling/")
+  BUT_FILES "^(fluid/pfem|rigid)/participant\\." INCLUDES "^coupling/")
 rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
 rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
   BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/accelerators/")
 rule("schemes and types are chosen in apps/build and apps/effects alone" FILES "^apps/" BUT_FILES "^apps/(build|effects/[a-z_]*)/[a-z_]*\\.cpp$"
-  INCLUDES "^((fluid|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
+  INCLUDES "^((fluid/pfem|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
 
 # Rooms within a room.
-rule("a fluid's parts do not know the whole" FILES "^fluid/.*/" INCLUDES "^fluid/(fluid|fluid_state|participant)\\.hpp")
-rule("the linear algebra knows no water, but for the pattern that cells make" FILES "^fluid/linear/"
-  INCLUDES "^fluid/(mesh|initial|contact|pressure|effects)/" BUT_INCLUDES "^fluid/mesh/node_cells\\.hpp$")
-rule("the mesh knows walls, and nothing of what is solved on it" FILES "^fluid/mesh/"
-  INCLUDES "^fluid/(initial|contact|pressure|effects)/" BUT_INCLUDES "^fluid/contact/wall\\.hpp$")
-rule("the triangulation knows points and facets, and nothing of water" FILES "^fluid/mesh/delaunay/"
-  INCLUDES "^fluid/mesh/" BUT_INCLUDES "^fluid/mesh/(delaunay/|mesh\\.hpp$)")
-rule("what is liquid is decided without what changes nodes" FILES "^fluid/mesh/recognition/"
-  INCLUDES "^fluid/mesh/(adapt|conservation|drops|sizes)/")
-rule("what the mesh keeps of volume, momentum and energy knows no drops" FILES "^fluid/mesh/conservation/"
-  INCLUDES "^fluid/mesh/(adapt|drops|sizes)/")
-rule("nodes are split and merged by the sizes that they carry" FILES "^fluid/mesh/adapt/" INCLUDES "^fluid/mesh/(conservation|drops|sizes)/")
-rule("sizes are of places, not of what becomes of nodes there" FILES "^fluid/mesh/sizes/" INCLUDES "^fluid/mesh/(adapt|conservation|drops)/")
-rule("drops know what they carry, not how the rest is adapted" FILES "^fluid/mesh/drops/" INCLUDES "^fluid/mesh/(adapt|sizes)/")
-rule("the pressure knows neither contact nor effects" FILES "^fluid/pressure/" INCLUDES "^fluid/(initial|contact|effects)/")
-rule("an effect knows neither contact nor the pressure" FILES "^fluid/effects/" INCLUDES "^fluid/(initial|contact|pressure)/")
-rule("contact hands mass to the pressure and knows nothing else of it" FILES "^fluid/contact/"
-  INCLUDES "^fluid/(initial|linear|pressure|effects)/" BUT_INCLUDES "^fluid/pressure/held_mass\\.hpp$")
-rule("the first mesh is made before anything is solved" FILES "^fluid/initial/" INCLUDES "^fluid/(linear|pressure|effects)/")
+rule("a fluid's parts do not know the whole" FILES "^fluid/(pfem/.*|effects)/" INCLUDES "^fluid/pfem/(fluid|fluid_state|participant)\\.hpp")
+rule("the linear algebra knows no water, but for the pattern that cells make" FILES "^fluid/pfem/linear/"
+  INCLUDES "^fluid/(pfem/(mesh|initial|contact|pressure)|effects)/" BUT_INCLUDES "^fluid/pfem/mesh/node_cells\\.hpp$")
+rule("the mesh knows walls, and nothing of what is solved on it" FILES "^fluid/pfem/mesh/"
+  INCLUDES "^fluid/(pfem/(initial|contact|pressure)|effects)/" BUT_INCLUDES "^fluid/pfem/contact/wall\\.hpp$")
+rule("the triangulation knows points and facets, and nothing of water" FILES "^fluid/pfem/mesh/delaunay/"
+  INCLUDES "^fluid/pfem/mesh/" BUT_INCLUDES "^fluid/pfem/mesh/(delaunay/|mesh\\.hpp$)")
+rule("what is liquid is decided without what changes nodes" FILES "^fluid/pfem/mesh/recognition/"
+  INCLUDES "^fluid/pfem/mesh/(adapt|conservation|drops|sizes)/")
+rule("what the mesh keeps of volume, momentum and energy knows no drops" FILES "^fluid/pfem/mesh/conservation/"
+  INCLUDES "^fluid/pfem/mesh/(adapt|drops|sizes)/")
+rule("nodes are split and merged by the sizes that they carry" FILES "^fluid/pfem/mesh/adapt/" INCLUDES "^fluid/pfem/mesh/(conservation|drops|sizes)/")
+rule("sizes are of places, not of what becomes of nodes there" FILES "^fluid/pfem/mesh/sizes/" INCLUDES "^fluid/pfem/mesh/(adapt|conservation|drops)/")
+rule("drops know what they carry, not how the rest is adapted" FILES "^fluid/pfem/mesh/drops/" INCLUDES "^fluid/pfem/mesh/(adapt|sizes)/")
+rule("the pressure knows neither contact nor effects" FILES "^fluid/pfem/pressure/" INCLUDES "^fluid/(pfem/(initial|contact)|effects)/")
+rule("an effect knows neither contact nor the pressure" FILES "^fluid/effects/" INCLUDES "^fluid/pfem/(initial|contact|pressure)/")
+rule("contact hands mass to the pressure and knows nothing else of it" FILES "^fluid/pfem/contact/"
+  INCLUDES "^fluid/(pfem/(initial|linear|pressure)|effects)/" BUT_INCLUDES "^fluid/pfem/pressure/held_mass\\.hpp$")
+rule("the first mesh is made before anything is solved" FILES "^fluid/pfem/initial/" INCLUDES "^fluid/(pfem/(linear|pressure)|effects)/")
 rule("shapes know what a body is, not how it moves" FILES "^rigid/shapes/" INCLUDES "^rigid/"
   BUT_INCLUDES "^rigid/(shapes/|(types|body|embedding|message)\\.hpp$)")
 rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(apps|fluid|rigid|coupling)/" BUT_INCLUDES "^apps/quantity/")
@@ -69,14 +69,14 @@ foreach(room IN LISTS layers)
 endforeach()
 rule("each room of apps has a place among the layers" FILES "^apps/" BUT_FILES "^apps/(${known})/" INCLUDES ".")
 rule("what is recorded does not depend on how it is coupled" FILES "^apps/(record|statistics|report)/" INCLUDES "^coupling/")
-rule("nodes and mesh are the particle finite element method's own" FILES "^(apps|rigid|coupling)/" INCLUDES "^fluid/(nodes|mesh/mesh)\\.hpp$")
+rule("nodes and mesh are the particle finite element method's own" FILES "^(apps|rigid|coupling)/" INCLUDES "^fluid/pfem/(nodes|mesh/mesh)\\.hpp$")
 rule("records look at views, in core, not at who solves" FILES "^apps/(record|statistics|report)/" INCLUDES "^(fluid|rigid)/")
 
 # Libraries, each with one home.
-rule("CGAL stays in core/surface, fluid/mesh/delaunay and fluid/initial" FILES "." BUT_FILES "^(core/surface|fluid/(mesh/delaunay|initial))/" INCLUDES "^(CGAL|boost)/"
+rule("CGAL stays in core/surface, fluid/pfem/mesh/delaunay and fluid/pfem/initial" FILES "." BUT_FILES "^(core/surface|fluid/pfem/(mesh/delaunay|initial))/" INCLUDES "^(CGAL|boost)/"
   BUT_INCLUDES "^boost/math/")
 rule("Boost's distributions stay in apps/price" FILES "." BUT_FILES "^apps/price/.*\\.cpp$" INCLUDES "^boost/math/")
-rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/linear" FILES "." BUT_FILES "^fluid/linear/.*\\.cpp$"
+rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/pfem/linear" FILES "." BUT_FILES "^fluid/pfem/linear/.*\\.cpp$"
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
 rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")
 rule("Bullet stays in rigid/bullet_engine.cpp" FILES "." BUT_FILES "^rigid/bullet_engine\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
@@ -84,7 +84,7 @@ rule("XML and zlib stay in apps/record/frames" FILES "." BUT_FILES "^apps/record
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
 rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
-  BUT_FILES "^(core/(parallel|surface/soup)|fluid/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
+  BUT_FILES "^(core/(parallel|surface/soup)|fluid/pfem/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
   BUT_INCLUDES "^(core|fluid|rigid|coupling|Eigen)/")
 
 # The line of the first inclusion of a header in a file.

@@ -14,7 +14,7 @@
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/read/read.hpp"
 #include "fluid/effects/waves/waves.hpp"
-#include "fluid/spec.hpp"
+#include "fluid/pfem/spec.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
 namespace splashdown::apps {

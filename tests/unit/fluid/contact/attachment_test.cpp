@@ -1,4 +1,4 @@
-#include "fluid/contact/attachment.hpp"
+#include "fluid/pfem/contact/attachment.hpp"
 
 #include "tests/unit/fluid/contact/contact.hpp"
 

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "fluid/contact/wall.hpp"
-#include "fluid/mesh/recognition/recognise.hpp"
+#include "fluid/pfem/contact/wall.hpp"
+#include "fluid/pfem/mesh/recognition/recognise.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid::scenes {

@@ -1,4 +1,4 @@
-#include "fluid/contact/separation.hpp"
+#include "fluid/pfem/contact/separation.hpp"
 
 #include "tests/unit/fluid/contact/contact.hpp"
 

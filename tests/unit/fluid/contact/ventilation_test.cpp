@@ -1,11 +1,11 @@
-#include "fluid/contact/ventilation.hpp"
+#include "fluid/pfem/contact/ventilation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "fluid/contact/attachment.hpp"
+#include "fluid/pfem/contact/attachment.hpp"
 #include "tests/unit/fluid/contact/contact.hpp"
 
 namespace splashdown::fluid {

@@ -1,4 +1,4 @@
-#include "fluid/contact/wall_motion.hpp"
+#include "fluid/pfem/contact/wall_motion.hpp"
 
 #include <set>
 

@@ -1,4 +1,4 @@
-#include "fluid/contact/wall.hpp"
+#include "fluid/pfem/contact/wall.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "fluid/pressure/interface_laplacian.hpp"
+#include "fluid/pfem/pressure/interface_laplacian.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "fluid/geometry.hpp"
+#include "fluid/pfem/geometry.hpp"
 
 namespace splashdown::fluid {
 namespace {

@@ -1,10 +1,10 @@
-#include "fluid/pressure/mass_sweep.hpp"
+#include "fluid/pfem/pressure/mass_sweep.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "fluid/parallel.hpp"
+#include "fluid/pfem/parallel.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

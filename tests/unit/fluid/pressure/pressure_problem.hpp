@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fluid/pressure/pressure.hpp"
+#include "fluid/pfem/pressure/pressure.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid::pressure_tests {

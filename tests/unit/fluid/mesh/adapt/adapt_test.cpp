@@ -1,11 +1,11 @@
-#include "fluid/mesh/adapt/adapt.hpp"
+#include "fluid/pfem/mesh/adapt/adapt.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <set>
 
-#include "fluid/initial/parts.hpp"
+#include "fluid/pfem/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

@@ -1,4 +1,4 @@
-#include "fluid/mesh/conservation/displaced_volume.hpp"
+#include "fluid/pfem/mesh/conservation/displaced_volume.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fluid/mesh/conservation/field_energy.hpp"
+#include "fluid/pfem/mesh/conservation/field_energy.hpp"
 
 #include <gtest/gtest.h>
 

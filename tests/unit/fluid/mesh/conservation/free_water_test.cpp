@@ -1,8 +1,8 @@
-#include "fluid/mesh/conservation/free_water.hpp"
+#include "fluid/pfem/mesh/conservation/free_water.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fluid/mesh/recognition/recognise.hpp"
+#include "fluid/pfem/mesh/recognition/recognise.hpp"
 #include "tests/unit/fluid/contact/contact.hpp"
 
 namespace splashdown::fluid {

@@ -1,4 +1,4 @@
-#include "fluid/mesh/conservation/shares.hpp"
+#include "fluid/pfem/mesh/conservation/shares.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "fluid/mesh/conservation/volume_correction.hpp"
+#include "fluid/pfem/mesh/conservation/volume_correction.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fluid/mesh/parts.hpp"
+#include "fluid/pfem/mesh/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

@@ -1,4 +1,4 @@
-#include "fluid/mesh/delaunay/delaunay.hpp"
+#include "fluid/pfem/mesh/delaunay/delaunay.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numeric>
 #include <set>
 
-#include "fluid/mesh/delaunay/moving_delaunay.hpp"
-#include "fluid/parallel.hpp"
+#include "fluid/pfem/mesh/delaunay/moving_delaunay.hpp"
+#include "fluid/pfem/parallel.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

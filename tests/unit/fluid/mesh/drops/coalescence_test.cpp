@@ -1,4 +1,4 @@
-#include "fluid/mesh/drops/coalescence.hpp"
+#include "fluid/pfem/mesh/drops/coalescence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fluid/mesh/drops/droplets.hpp"
+#include "fluid/pfem/mesh/drops/droplets.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "fluid/mesh/drops/sheets.hpp"
+#include "fluid/pfem/mesh/drops/sheets.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "fluid/mesh/conservation/field_energy.hpp"
+#include "fluid/pfem/mesh/conservation/field_energy.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

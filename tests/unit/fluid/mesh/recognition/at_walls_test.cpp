@@ -1,11 +1,11 @@
 // Chords of curved walls: what stands on them is water, what cuts a hull is in the solid.
-#include "fluid/mesh/recognition/at_walls.hpp"
+#include "fluid/pfem/mesh/recognition/at_walls.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "fluid/initial/parts.hpp"
+#include "fluid/pfem/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

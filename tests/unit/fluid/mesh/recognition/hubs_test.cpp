@@ -1,11 +1,11 @@
-#include "fluid/mesh/recognition/hubs.hpp"
+#include "fluid/pfem/mesh/recognition/hubs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <set>
 
-#include "fluid/mesh/delaunay/moving_delaunay.hpp"
+#include "fluid/pfem/mesh/delaunay/moving_delaunay.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

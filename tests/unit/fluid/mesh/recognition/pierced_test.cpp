@@ -1,4 +1,4 @@
-#include "fluid/mesh/recognition/pierced.hpp"
+#include "fluid/pfem/mesh/recognition/pierced.hpp"
 
 #include <gtest/gtest.h>
 

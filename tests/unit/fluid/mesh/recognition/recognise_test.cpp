@@ -1,10 +1,10 @@
-#include "fluid/mesh/recognition/recognise.hpp"
+#include "fluid/pfem/mesh/recognition/recognise.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "fluid/initial/parts.hpp"
+#include "fluid/pfem/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
 namespace splashdown::fluid {

@@ -1,4 +1,4 @@
-#include "fluid/mesh/sizes/size_field.hpp"
+#include "fluid/pfem/mesh/sizes/size_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,136 @@
+// What of a fluid a checkpoint holds, written as it is and read as if nobody vouched for it.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <istream>
+#include <ostream>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "core/stored.hpp"
+#include "fluid/pfem/fluid_state.hpp"
+#include "fluid/pfem/mesh/parts.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+/// Both ways of a checkpoint: values as they lie in memory, lists with their lengths.
+struct Saver {
+  std::ostream& out;
+  template <class T>
+  void value(const T& v) {
+    out.write(reinterpret_cast<const char*>(&v), sizeof v);
+  }
+  template <class T>
+  void list(const std::vector<T>& values) {
+    value(static_cast<std::uint64_t>(values.size()));
+    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+  }
+};
+
+struct Loader {
+  std::istream& in;
+  template <class T>
+  void value(T& v) {
+    in.read(reinterpret_cast<char*>(&v), sizeof v);
+  }
+  template <class T>
+  void list(std::vector<T>& values) {
+    values.resize(stored_count(in, sizeof(T)));
+    in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+  }
+};
+
+template <class Stream, int d>
+void archive_present(Stream stream, Present<d>& s) {
+  stream.value(s.time), stream.value(s.dt), stream.value(s.acceleration_dt), stream.value(s.ledger);
+  stream.list(s.nodes.x), stream.list(s.nodes.v), stream.list(s.nodes.p);
+  stream.list(s.nodes.tie), stream.list(s.nodes.surface), stream.list(s.nodes.separates);
+  stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.nodes.owed), stream.list(s.nodes.h),
+      stream.list(s.nodes.wall_pressure);
+  stream.list(s.mesh.cells), stream.list(s.mesh.boundary);
+  stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted), stream.list(s.chords),
+      stream.list(s.resting_loads);
+}
+
+template <class T>
+bool all_finite(const std::vector<T>& values) {
+  return std::ranges::all_of(values, [](const auto& v) {
+    if constexpr (std::is_arithmetic_v<T>)
+      return std::isfinite(v);
+    else
+      return v.allFinite();
+  });
+}
+
+/// Throws std::runtime_error unless every index and number is one that a step can begin with.
+template <int d>
+void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
+  const Nodes<d>& nodes = s.nodes;
+  const std::size_t count = nodes.size(), wall_count = walls.size();
+  bool good = count > 0 && std::isfinite(s.time) && std::isfinite(s.dt) && s.acceleration_dt > 0;
+  for (const std::size_t size :
+       {nodes.v.size(), nodes.p.size(), nodes.tie.size(), nodes.surface.size(), nodes.separates.size(),
+        nodes.spray.size(), nodes.volume.size(), nodes.owed.size(), nodes.h.size(), nodes.wall_pressure.size()})
+    good = good && size == count;
+  good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count &&
+         s.chords.size() == wall_count && (s.resting_loads.empty() || s.resting_loads.size() == wall_count);
+  good = good && all_finite(nodes.x) && all_finite(nodes.v) && all_finite(nodes.p) && all_finite(nodes.volume) &&
+         all_finite(nodes.wall_pressure) && all_finite(nodes.owed) && all_finite(s.velocity) && all_finite(s.wetted) &&
+         all_finite(s.chords) && all_finite(s.resting_loads) &&
+         std::ranges::all_of(nodes.h, [](double h) { return h > 0 && std::isfinite(h); });
+  constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
+  for (const auto& pose : s.poses) good = good && pose.matrix().allFinite() && pose.linear().isUnitary(roundoff);
+  const auto is_node = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < count; };
+  for (const auto& cell : s.mesh.cells) good = good && std::ranges::all_of(cell, is_node);
+  for (const auto& facet : s.mesh.boundary)
+    good = good && std::ranges::all_of(facet.nodes, is_node) && facet.wall >= -1 &&
+           facet.wall < static_cast<int>(wall_count);
+  for (const auto& tie : nodes.tie) {
+    if (!good) break;
+    good = tie.wall >= -1 && tie.wall < static_cast<int>(wall_count) && (tie.wall < 0 || walls[tie.wall].has(tie));
+  }
+  if (!good) throw std::runtime_error("the water's state is damaged or of another scene");
+}
+
+}  // namespace
+
+template <int d>
+void Fluid<d>::save(std::ostream& out) const {
+  archive_present(Saver{out}, s_->now);
+  for (const auto& effect : s_->effects)
+    for (const double number : effect->memory()) Saver{out}.value(number);
+}
+template <int d>
+void Fluid<d>::load(std::istream& in) {
+  Present<d> loaded;
+  archive_present(Loader{in}, loaded);
+  std::vector<double> remembered;  // of all effects
+  for (const auto& effect : s_->effects)
+    for (std::size_t k = effect->memory().size(); k > 0; --k) Loader{in}.value(remembered.emplace_back());
+  if (!in) throw std::runtime_error("ends in the middle of the water's state");
+  check(loaded, s_->walls);
+  if (!all_finite(remembered)) throw std::runtime_error("the water's state is damaged or of another scene");
+  auto next = remembered.begin();
+  for (const auto& effect : s_->effects)
+    for (double& number : effect->memory()) number = *next++;
+  s_->now = std::move(loaded);
+  s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
+  s_->now.nodes.inherited.assign(s_->now.nodes.size(), {});
+  s_->now.nodes.field_energy.assign(s_->now.nodes.size(), 0.0);
+  s_->now.displaced = displaced_volumes(s_->now.mesh, s_->now.nodes.x, s_->walls.size(), s_->mirror());
+  s_->now.nodes.part = parts_of(s_->now.mesh, s_->now.nodes.size());
+  s_->prepared = s_->solved = false;
+  s_->result = {};
+  s_->result.loads.resize(s_->now.resting_loads.size());
+  for (std::size_t w = 0; w < s_->result.loads.size(); ++w)
+    s_->result.loads[w] = {.physical = s_->now.resting_loads[w], .wetted = s_->now.wetted[w]};
+}
+
+template void Fluid<2>::save(std::ostream&) const;
+template void Fluid<2>::load(std::istream&);
+template void Fluid<3>::save(std::ostream&) const;
+template void Fluid<3>::load(std::istream&);
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,250 @@
+// Bodies that the pressure equation solves for: eliminated on the factor, and what they get of a solution.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dense.hpp"
+#include "fluid/pfem/linear/conjugate_residual.hpp"
+#include "fluid/pfem/pressure/pressure.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+// What is left of a flux, and the impulse that it asks for.
+struct Left {
+  Eigen::VectorXd residual, impulse;
+
+  double dot(const Left& other) const { return residual.dot(other.impulse); }
+  void add(double share, const Left& other) {
+    residual += share * other.residual;
+    impulse += share * other.impulse;
+  }
+};
+
+// Factors that make inertias one; 0 for directions in which neither body nor water has any: they stay as they are.
+Eigen::VectorXd units_of(const Eigen::VectorXd& inertias) {
+  Eigen::VectorXd units(inertias.size());
+  for (Eigen::Index i = 0; i < units.size(); ++i) units[i] = inertias[i] > 0 ? 1 / std::sqrt(inertias[i]) : 0.0;
+  return units;
+}
+
+}  // namespace
+
+template <int d>
+bool PressureEquation<d>::add_bodies() {
+  constexpr int m = freedoms<d>;
+  Y_.setZero(size(), mode_count());
+  for (std::size_t w = 0; w < modes_.size(); ++w) {
+    if (mode_count() == 0) break;
+    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    for (const Mode& mode : modes_[w]) Y_.row(mode.unknown) += mode.row.transpose() * moves;
+  }
+  std::vector<int> wet;  // motions that the water feels
+  for (int k = 0; k < mode_count(); ++k)
+    if (!Y_.col(k).isZero(0)) wet.push_back(k);
+  const Eigen::MatrixXd loads = Y_(Eigen::all, wet);  // B^T Z
+  Eigen::MatrixXd answers = loads;
+  // The motions obey Newton's law with whatever answers these are; what they leave of the flux the corrections find.
+  constexpr double enough = 1e-4;
+  const std::span<double> systems(answers.data(), static_cast<std::size_t>(answers.size()));
+  if (!wet.empty() && !solver_.solve(systems, static_cast<int>(wet.size()), enough)) return false;
+  Y_(Eigen::all, wet) = answers;
+  added_mass_.setZero(mode_count(), mode_count());
+  added_mass_(wet, wet) = algebra::transposed_product(loads, answers);
+  held_inertia_.setZero(mode_count(), mode_count());
+  for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
+    if (!moves_wall<d>(structure_.modal, w)) continue;
+    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    held_inertia_ += moves.transpose() * held_.inertia(w) * moves;
+  }
+  if (!held_.empty())
+    for (int k = 0; k < mode_count(); ++k)
+      held_inertia_.col(k) += of_held({Y_.col(k).data(), static_cast<std::size_t>(size())});
+  allow(Eigen::MatrixXd::Identity(mode_count(), mode_count()));
+  return true;
+}
+
+template <int d>
+void PressureEquation<d>::allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless) {
+  elimination_.setZero(mode_count(), mode_count());
+  if (directions.cols() == 0) return;
+  const Eigen::MatrixXd inertia = structure_.modal.inertia + added_mass_ + held_inertia_;
+  if (workless.size() > 0 && workless != directions) {
+    const auto scaled = [&](const Eigen::MatrixXd& W) -> Eigen::MatrixXd {
+      return W * units_of(algebra::congruence(inertia, W).diagonal()).asDiagonal();
+    };
+    const Eigen::MatrixXd W = scaled(directions), tested = scaled(workless);
+    elimination_ = W * algebra::pseudo_inverse(algebra::between(tested, inertia, W)) * tested.transpose();
+    return;
+  }
+  const Eigen::MatrixXd total = algebra::congruence(inertia, directions);
+  const Eigen::VectorXd unit = units_of(total.diagonal());
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * total * unit.asDiagonal();
+  const Eigen::MatrixXd inverse = algebra::pseudo_inverse(scaled);
+  const Eigen::MatrixXd lifted = directions * unit.asDiagonal();
+  // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
+  const bool symmetric = solver_.is_direct() && held_inertia_.isZero(0);
+  elimination_ = algebra::lifted(lifted, symmetric ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse);
+}
+
+template <int d>
+bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance, std::vector<double> guess) {
+  if (size() == 0) return true;
+  // Least error in the energy norm: G y = Y^T (r - A guess), and A Y = B^T Z.
+  if (!guess.empty() && mode_count() > 0 && !solver_.is_direct()) {
+    const Eigen::Map<const Eigen::VectorXd> rhs(r.data(), size());
+    const Eigen::VectorXd left = Y_.transpose() * rhs - on_modes(impulses(guess));
+    Eigen::Map<Eigen::VectorXd>(guess.data(), size()) += Y_ * algebra::least_squares(added_mass_, left);
+  }
+  return solver_.solve(r, 1, tolerance, guess);
+}
+
+template <int d>
+Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s,
+                                             const Eigen::VectorXd& further) const {
+  if (mode_count() == 0) return {};
+  const Eigen::VectorXd y = response(on_modes(impulses(phi)) + of_held(phi) + further);
+  Eigen::Map<Eigen::VectorXd>(phi.data(), size()) -= Y_ * y;
+  move(y, s);
+  return y;
+}
+
+// Z^T R phi
+template <int d>
+Eigen::VectorXd PressureEquation<d>::of_held(std::span<const double> phi) const {
+  std::vector<Wrench<d>> loads(held_modes_.size(), Wrench<d>::Zero());
+  for (std::size_t w = 0; w < loads.size(); ++w)
+    for (const Mode& mode : held_modes_[w]) loads[w] += mode.row * phi[mode.unknown];
+  return on_modes(loads);
+}
+
+template <int d>
+Eigen::VectorXd PressureEquation<d>::on_modes(std::span<const Wrench<d>> impulses) const {
+  constexpr int m = freedoms<d>;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mode_count());
+  if (mode_count() == 0) return sum;
+  for (std::size_t w = 0; w < impulses.size(); ++w)
+    sum += structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m).transpose() * impulses[w];
+  return sum;
+}
+
+template <int d>
+void PressureEquation<d>::move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const {
+  constexpr int m = freedoms<d>;
+  if (mode_count() == 0) return;
+  const Eigen::VectorXd twists = structure_.modal.modes * y;
+  for (std::size_t w = 0; w < s.size(); ++w) s[w] += twists.segment<m>(static_cast<Eigen::Index>(w) * m);
+}
+
+template <int d>
+std::vector<Wrench<d>> PressureEquation<d>::impulses(std::span<const double> phi) const {
+  std::vector<Wrench<d>> loads;
+  for (std::size_t w = 0; w < modes_.size(); ++w) loads.push_back(impulse(w, phi));
+  return loads;
+}
+
+template <int d>
+Wrench<d> PressureEquation<d>::impulse(std::size_t wall, std::span<const double> phi) const {
+  Wrench<d> load = Wrench<d>::Zero();
+  for (const Mode& mode : modes_[wall]) load += mode.row * phi[mode.unknown];
+  return load;
+}
+
+template <int d>
+Eigen::MatrixXd PressureEquation<d>::interface_slope(std::span<const std::size_t> walls) {
+  constexpr int m = freedoms<d>;
+  const auto pieces = static_cast<Eigen::Index>(laplacian_.pieces().size());
+  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  Eigen::MatrixXd phi = Eigen::MatrixXd::Zero(size(), count + pieces);
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]]) phi.row(mode.unknown).segment(k * m, m) -= mode.row.transpose();
+  std::vector<double> unit(static_cast<std::size_t>(pieces), 0.0), flux;
+  for (Eigen::Index k = 0; k < pieces; ++k) {
+    flux.assign(size(), 0.0);
+    unit[k] = 1;
+    laplacian_.add(unit, flux);
+    unit[k] = 0;
+    phi.col(count + k) = Eigen::Map<const Eigen::VectorXd>(flux.data(), size());
+  }
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(count + pieces, count + pieces);
+  if (phi.size() == 0) return slope;
+  if (!solver_.solve({phi.data(), static_cast<std::size_t>(phi.size())}, static_cast<int>(phi.cols())))
+    return slope.array() + std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < walls.size(); ++k)
+    for (const Mode& mode : modes_[walls[k]]) slope.middleRows(k * m, m) += mode.row * phi.row(mode.unknown);
+  for (Eigen::Index k = 0; k < phi.cols(); ++k) {
+    const auto means = laplacian_.means({phi.col(k).data(), static_cast<std::size_t>(size())});
+    slope.col(k).tail(pieces) = Eigen::Map<const Eigen::VectorXd>(means.data(), pieces);
+  }
+  return slope;
+}
+
+// The impulse that takes a flux out, with the corrections of a step.
+template <int d>
+std::optional<Eigen::VectorXd> PressureEquation<d>::corrected(LinearSolver& solver, const Eigen::VectorXd& flux) const {
+  const auto asks_for = [&](const Eigen::VectorXd& residual, Left& left) {
+    left = {residual, residual};
+    return residual.size() == 0 || solver.solve({left.impulse.data(), static_cast<std::size_t>(size())}, 1);
+  };
+  Left left;
+  if (!asks_for(flux, left)) return std::nullopt;
+  Eigen::VectorXd impulse = left.impulse;
+  if (!asks_for(flux - taken_by(impulse), left)) return std::nullopt;
+  ConjugateResidual<Left> iteration(left);
+  constexpr double roundoff = 1e-12;  // of sums over neighbours
+  const double least = roundoff * roundoff * flux.dot(impulse);
+  for (int k = 1; k < corrections<d> && iteration.size() > least; ++k) {
+    const Eigen::VectorXd tried = impulse + iteration.left().impulse;
+    if (!asks_for(flux - taken_by(tried), left)) return std::nullopt;
+    iteration.step(left);
+    impulse += iteration.last().impulse;
+  }
+  return impulse + std::clamp(iteration.share(), 0.0, 1.0) * iteration.left().impulse;
+}
+
+// B^T s - D w: the flux of walls that move, and with them the nodes that they hold.
+template <int d>
+Eigen::VectorXd PressureEquation<d>::flux_of_walls(std::span<const Twist<d>> s) const {
+  std::vector<Vec<d>> w(nodes_->size(), Vec<d>::Zero());
+  held_.hold(w, s);
+  Eigen::VectorXd flux = -flux_of(w);
+  for (std::size_t k = 0; k < modes_.size(); ++k)
+    for (const Mode& mode : modes_[k]) flux(mode.unknown) += mode.row.dot(s[k]);
+  return flux;
+}
+
+template <int d>
+Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
+  constexpr int m = freedoms<d>;
+  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  // An interface Laplacian in the factor is one body's answer, not the water's.
+  LinearSolver without{most_direct<d>};
+  LinearSolver& solver = laplacian_.pieces().empty() ? solver_ : without;
+  if (&solver == &without && size() > 0) {
+    SymmetricMatrix water;
+    assemble(water);
+    without.factor(water);
+  }
+  Eigen::MatrixXd G(count, count);
+  std::vector<Twist<d>> s(modes_.size(), Twist<d>::Zero());
+  for (Eigen::Index column = 0; column < count; ++column) {
+    Twist<d>& moved = s[walls[static_cast<std::size_t>(column / m)]];
+    moved = Twist<d>::Unit(column % m);
+    const std::optional<Eigen::VectorXd> X = corrected(solver, flux_of_walls(s));
+    if (!X) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
+    const std::span<const double> phi(X->data(), static_cast<std::size_t>(size()));
+    std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
+    accelerate(phi, v);
+    moved = -moved;
+    const std::vector<Wrench<d>> of_held = held_.excess(v, s);  // R X + M_h
+    moved.setZero();
+    for (std::size_t k = 0; k < walls.size(); ++k)
+      G.col(column).segment(static_cast<Eigen::Index>(k) * m, m) = impulse(walls[k], phi) + of_held[walls[k]];
+  }
+  return 0.5 * (G + G.transpose());
+}
+
+template class PressureEquation<2>;
+template class PressureEquation<3>;
+
+}  // namespace splashdown::fluid
