@@ -1,7 +1,6 @@
 #include "apps/price/ladder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "apps/process/child_process.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"
+#include "apps/process/renewed_line.hpp"
 #include "apps/quantity/names.hpp"
 #include "apps/quantity/table.hpp"
 #include "apps/run/progress.hpp"
@@ -182,22 +182,19 @@ bool Ladder::make(const StudyRun& run, const RungSpec& spec, double most) {
   ChildProcess process(command_of(study, run, place), log);
   const double begin = now();
   const auto expected = seconds_at(spec.refine);
-  const bool terminal = !order_.quiet && ::isatty(STDOUT_FILENO) != 0;
+  RenewedLine line(!order_.quiet && RenewedLine::is_terminal());
   std::optional<ChildProcess::End> ended;
-  for (double shown = 0; !(ended = process.end());) {
+  while (!(ended = process.end())) {
     if (interrupt_received() && !end_.interrupted) {
       end_.interrupted = true;
       process.ask_to_stop();
     }
-    if (terminal && now() - shown > 0.2) {
-      shown = now();
-      fmt::print("\r\x1b[Krefine {}: {}{}", digits_of(spec.refine), clock_text(shown - begin),
-                 expected ? " of about " + clock_text(*expected) : "");
-      std::fflush(stdout);
-    }
+    if (line.is_due())
+      line.show(fmt::format("refine {}: {}{}", digits_of(spec.refine), clock_text(now() - begin),
+                            expected ? " of about " + clock_text(*expected) : ""));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  if (terminal) fmt::print("\r\x1b[K");
+  line.clear();
   if (end_.interrupted) return false;
   if (ended->code == exit_code::interrupted) {
     end_.out_of_budget = true;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "apps/files/csv.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"
+#include "apps/process/renewed_line.hpp"
 #include "apps/render/browser.hpp"
 #include "apps/render/film.hpp"
 #include "apps/text/number_text.hpp"
@@ -57,29 +57,28 @@ Programs programs_for(bool movie) {
 class FrameCount {
  public:
   FrameCount(std::size_t frames, bool quiet)
-      : frames_(frames), quiet_(quiet), terminal_(::isatty(STDOUT_FILENO) != 0) {}
-  ~FrameCount() {
-    if (terminal_ && shown_) fmt::print("\r\x1b[K");
-  }
+      : frames_(frames), quiet_(quiet), line_(!quiet && RenewedLine::is_terminal()) {}
   void show(std::size_t done) {
     constexpr std::chrono::seconds between(5);
     const auto now = std::chrono::steady_clock::now();
-    if (quiet_ || (!terminal_ && now - last_ < between)) return;
+    const bool plain = !quiet_ && !RenewedLine::is_terminal() && now - last_ >= between;
+    if (!plain && !line_.is_due()) return;
     last_ = now;
-    shown_ = true;
     const double seconds = std::chrono::duration<double>(now - begin_).count();
     auto text = fmt::format("{:3.0f} %  frame {} of {}",
                             100. * static_cast<double>(done) / static_cast<double>(frames_), done, frames_);
     if (done > 0)
       text += fmt::format("  left {}",
                           clock_text(seconds * static_cast<double>(frames_ - done) / static_cast<double>(done)));
-    fmt::print("{}{}{}", terminal_ ? "\r" : "", text, terminal_ ? "\x1b[K" : "\n");
-    std::fflush(stdout);
+    line_.show(text);
+    if (plain) fmt::print("{}\n", text);
+    if (plain) std::fflush(stdout);
   }
 
  private:
   std::size_t frames_;
-  bool quiet_, terminal_, shown_ = false;
+  bool quiet_;
+  RenewedLine line_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now(), last_ = begin_;
 };
 

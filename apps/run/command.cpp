@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "apps/files/run_files.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"
+#include "apps/process/renewed_line.hpp"
 #include "apps/report/report.hpp"
 #include "apps/run/closing.hpp"
 #include "apps/run/folder/folder.hpp"
@@ -30,11 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool on_terminal() { return ::isatty(STDOUT_FILENO) != 0; }
-
 Progress::Style progress_style(bool quiet) {
   if (quiet) return Progress::Style::none;
-  return on_terminal() ? Progress::Style::terminal : Progress::Style::plain;
+  return RenewedLine::is_terminal() ? Progress::Style::terminal : Progress::Style::plain;
 }
 
 /// Throws SceneError for a stop time that the scene has no room for.
@@ -125,7 +123,7 @@ int go(Run<d>& run, const Scene& scene, const RunOptions& options, const fs::pat
   const auto summary = conclude(run, end, scene, options, directory);
   if (end.status == LoopEnd::Status::failed) fmt::print(stderr, "{}\n", failure_text(end, run, directory));
   if (options.quiet) return exit_code_of(end);
-  fmt::print("{}", closing_text(summary, directory, on_terminal() ? Ink::colour : Ink::plain));
+  fmt::print("{}", closing_text(summary, directory, RenewedLine::is_terminal() ? Ink::colour : Ink::plain));
   if (end.status == LoopEnd::Status::interrupted) fmt::print("stopped: {}; continue with --resume\n", end.cause);
   if (end.status == LoopEnd::Status::done && !options.no_report)
     fmt::print("next: open {} in a browser{}\n", (directory / "report.html").string(),

@@ -10,7 +10,6 @@ namespace splashdown::apps {
 namespace {
 
 constexpr double seconds_between_lines = 5;
-constexpr double seconds_between_renewals = 0.2;
 constexpr double seconds_of_memory = 5;  // of the speed that the time left is judged by
 
 double seconds(std::chrono::steady_clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -50,32 +49,21 @@ void Progress::show(const ProgressPoint& point) {
     last_ = now;
     time_left(point);
     if (style_ == Style::plain) return;
-  } else if (seconds(now - *last_) < (style_ == Style::plain ? seconds_between_lines : seconds_between_renewals)) {
+  } else if (style_ == Style::plain ? seconds(now - *last_) < seconds_between_lines : !line_.is_due()) {
     return;
   }
   last_ = now;
   const auto text = progress_text(point, time_left(point));
-  if (style_ == Style::plain) {
-    fmt::print("{}\n", text);
-  } else {
-    fmt::print("\r\x1b[K{}", text);  // erases to the end of the line
-    shown_ = true;
-  }
+  if (style_ == Style::terminal) return line_.show(text);
+  fmt::print("{}\n", text);
   std::fflush(stdout);
 }
 
 void Progress::say(const std::string& text) {
   if (style_ == Style::none) return;
-  clear();
+  line_.clear();
   fmt::print("{}\n", text);
   std::fflush(stdout);
-}
-
-void Progress::clear() {
-  if (!shown_) return;
-  fmt::print("\r\x1b[K");
-  std::fflush(stdout);
-  shown_ = false;
 }
 
 }  // namespace splashdown::apps

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/process/renewed_line.hpp"
+
 namespace splashdown::apps {
 
 struct ProgressPoint {
@@ -20,20 +22,19 @@ std::string progress_text(const ProgressPoint& point, double left);
 class Progress {
  public:
   enum class Style { none, plain, terminal };
-  explicit Progress(Style style) : style_(style) {}
-  ~Progress() { clear(); }
+  explicit Progress(Style style) : style_(style), line_(style == Style::terminal) {}
 
   void show(const ProgressPoint& point);
   /// A line of its own, above the progress line.
   void say(const std::string& text);
-  void clear();
+  void clear() { line_.clear(); }
 
  private:
   using Clock = std::chrono::steady_clock;
   double time_left(const ProgressPoint& point);
 
   Style style_;
-  bool shown_ = false;
+  RenewedLine line_;
   std::optional<Clock::time_point> last_;
   double rate_ = 0;  // simulated seconds a wall second, of late
   double rated_time_ = 0;

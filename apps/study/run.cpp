@@ -1,7 +1,6 @@
 #include "apps/study/run.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +14,7 @@
 #include "apps/process/child_process.hpp"
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"
+#include "apps/process/renewed_line.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/text/number_text.hpp"
@@ -48,7 +48,7 @@ class Runner {
         folder_(std::move(folder)),
         jobs_(static_cast<std::size_t>(jobs)),
         quiet_(quiet),
-        terminal_(::isatty(STDOUT_FILENO) != 0) {
+        line_(!quiet && RenewedLine::is_terminal()) {
     for (std::size_t i = 0; i < runs.size(); ++i)
       if (!outcomes[i].finished()) queue_.push_back(i);
     before_ = runs.size() - queue_.size();
@@ -64,7 +64,7 @@ class Runner {
       show();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    clear();
+    line_.clear();
     return std::move(end_);
   }
 
@@ -145,15 +145,14 @@ class Runner {
 
   void say(const std::string& text) {
     if (quiet_) return;
-    clear();
+    line_.clear();
     fmt::print("{}\n", text);
     std::fflush(stdout);
   }
 
   /// On a terminal one line that renews itself; elsewhere the lines of finished runs are enough.
   void show() {
-    if (quiet_ || !terminal_ || seconds_since(shown_at_) < 0.2) return;
-    shown_at_ = Clock::now();
+    if (!line_.is_due()) return;
     auto text =
         fmt::format("{:3.0f} %  {} of {} runs, {} at work", 100. * double(before_ + made_) / double(runs_.size()),
                     before_ + made_, runs_.size(), running_.size());
@@ -163,14 +162,7 @@ class Runner {
           "  left " + clock_text(study_time_left(between, queue_.size() + running_.size(), seconds_since(last_end_)));
     }
     if (running_.empty() && busy_ > 0) text += fmt::format("  ({} still written by a study that was killed)", busy_);
-    fmt::print("\r\x1b[K{}", text);
-    std::fflush(stdout);
-  }
-
-  void clear() {
-    if (quiet_ || !terminal_) return;
-    fmt::print("\r\x1b[K");
-    std::fflush(stdout);  // notes go to the other stream
+    line_.show(text);
   }
 
   const Study& study_;
@@ -178,12 +170,13 @@ class Runner {
   std::vector<Outcome>& outcomes_;
   fs::path folder_;
   std::size_t jobs_;
-  bool quiet_, terminal_;
+  bool quiet_;
+  RenewedLine line_;
   std::deque<std::size_t> queue_;
   std::list<Running> running_;
   std::size_t before_ = 0, made_ = 0, busy_ = 0;
   RunnerEnd end_;
-  Clock::time_point started_ = Clock::now(), last_end_ = started_, shown_at_{};
+  Clock::time_point started_ = Clock::now(), last_end_ = started_;
 };
 
 }  // namespace
