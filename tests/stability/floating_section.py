@@ -16,22 +16,10 @@ is an equation for phi on panels of constant strength. Beyond the line phi is a 
 import cmath
 import math
 
-G = 9.81
+from linear_waves import G, group_speed, wave_number
+
 SWAY, HEAVE, ROLL = range(3)
 REACH = 1.0  # of the vertical line from the hull, in depths or wavelengths: modes that decay have lost 96 % and are still taken into account
-
-
-def wave_number(omega, depth):
-    """Of small waves on water of constant depth [1/m]."""
-    k = omega * omega / G
-    for _ in range(200):
-        k = 0.5 * (k + omega * omega / (G * math.tanh(k * depth)))
-    return k
-
-
-def group_speed(omega, k, depth):
-    """Speed of the energy [m/s]."""
-    return 0.5 * omega / k * (1 + 2 * k * depth / math.sinh(2 * k * depth) if k * depth < 300 else 1)
 
 
 def circle(radius, panels=40):

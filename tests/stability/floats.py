@@ -13,17 +13,14 @@ before the motions are read: members that ring for longer than 30 periods are dr
 Standard library only.
 
 The theory: floating_section.py."""
-import argparse
 import csv
 import math
 import os
 import random
-import subprocess
-import sys
-import tempfile
-import time
 
-from floating_section import G, HEAVE, ROLL, SWAY, Coefficients, about, box, circle, response, solved
+from floating_section import HEAVE, ROLL, SWAY, Coefficients, about, box, circle, response, solved
+from linear_waves import G
+from members import arguments, run, try_members
 
 DENSITY = 1000.0
 STEEPNESS = 0.01
@@ -153,22 +150,15 @@ def amplitude(signal, omega):
     return math.hypot(x[2].real, x[3].real)
 
 
-def run(binary, text, folder):
+def motions(binary, text, folder):
     """Rows of bodies.csv as (time, x, y, angle)."""
-    os.makedirs(folder, exist_ok=True)
-    scene = os.path.join(folder, "scene.toml")
-    with open(scene, "w") as f:
-        f.write(text)
-    out = os.path.join(folder, "out")
-    done = subprocess.run([binary, "run", scene, "--out", out, "--threads", "1", "--quiet", "--no-report"], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"exit {done.returncode}: {done.stderr.strip()[-300:]}")
-    return [(float(q["time"]), float(q["x"]), float(q["y"]), 2 * math.atan2(float(q["qz"]), float(q["qw"]))) for q in csv.DictReader(open(os.path.join(out, "bodies.csv")))]
+    with open(os.path.join(run(binary, text, folder), "bodies.csv")) as rows:
+        return [(float(q["time"]), float(q["x"]), float(q["y"]), 2 * math.atan2(float(q["qz"]), float(q["qw"]))) for q in csv.DictReader(rows)]
 
 
 def measured(binary, body, steepness, options, folder):
     """Amplitudes over that of the waves: sway, heave, roll."""
-    rows = run(binary, body.scene(steepness * body.length, options.elements), folder)
+    rows = motions(binary, body.scene(steepness * body.length, options.elements), folder)
     start = rows[-1][0] - READ * 2 * math.pi / body.omega
     return {m: amplitude([(q[0], q[1 + m]) for q in rows if q[0] >= start], body.omega) / (0.5 * steepness * body.length) for m in body.freedoms}
 
@@ -224,30 +214,6 @@ def sharp(binary, seed, options, folder):
                                    f"without the drag of its edges {100 * (rest - 1):+.1f} %, its coefficient {drag:.1f}")
 
 
-def main():
-    """Runs the members."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("binary")
-    parser.add_argument("kind", choices=["heave", "free", "sharp"])
-    parser.add_argument("--members", type=int, default=4)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--elements", type=int, default=40, help="on a wave")
-    parser.add_argument("--keep")
-    options = parser.parse_args()
-    folder = options.keep or tempfile.mkdtemp(prefix="floats-")
-    law, broken = globals()[options.kind], 0
-    print(law.__doc__)
-    for seed in range(options.first, options.first + options.members):
-        begin = time.time()
-        try:
-            holds, words = law(options.binary, seed, options, os.path.join(folder, f"{options.kind}-{seed}"))
-        except RuntimeError as error:
-            holds, words = False, str(error)
-        broken += not holds
-        print(f"{seed:5d} {'holds ' if holds else 'BROKEN'} {words}; {time.time() - begin:.0f} s", flush=True)
-    print(f"{options.members - broken} of {options.members} hold")
-    sys.exit(broken > 0)
-
-
 if __name__ == "__main__":
-    main()
+    LAWS = (heave, free, sharp)
+    try_members(arguments(__doc__, LAWS).parse_args(), LAWS)

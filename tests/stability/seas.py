@@ -13,34 +13,16 @@ touchdown  [waves.touchdown]: where on the wave a falling body touches the water
 One line a member. Exit code 1 if a member breaks a law. Standard library only.
 
 Waves that run either way are told apart by their phases at all gauges, by least squares (Mansard and Funke 1980)."""
-import argparse
 import cmath
 import csv
 import json
 import math
 import os
 import random
-import subprocess
-import sys
-import tempfile
-import time
 from collections import defaultdict
 
-G = 9.81
-
-
-def wave_number(omega, depth):
-    """Of small waves on water of constant depth [1/m]."""
-    k = omega * omega / G
-    for _ in range(200):
-        k = 0.5 * (k + omega * omega / (G * math.tanh(k * depth)))
-    return k
-
-
-def group_speed(omega, k, depth):
-    """Speed of the energy [m/s]."""
-    return 0.5 * omega / k * (1 + 2 * k * depth / math.sinh(2 * k * depth) if k * depth < 300 else 1)
-
+from linear_waves import G, group_speed, wave_number
+from members import arguments, run, try_members
 
 def tank(low, high, depth, top, face=None):
     """The text of gravity, tank and water; its region begins at `face`."""
@@ -62,20 +44,15 @@ def gauges(places):
     return "".join(f'[[record]]\nkind = "surface_elevation"\nname = "g{i}"\nx = {x:.9g}\n' for i, x in enumerate(places))
 
 
-def run(binary, text, folder):
-    """Signals by gauge as lists of (time, value), summary, last row of fluid.csv."""
-    os.makedirs(folder, exist_ok=True)
-    scene = os.path.join(folder, "scene.toml")
-    with open(scene, "w") as f:
-        f.write(text)
-    out = os.path.join(folder, "out")
-    done = subprocess.run([binary, "run", scene, "--out", out, "--threads", "1", "--quiet", "--no-report"], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"exit {done.returncode}: {done.stderr.strip()[-300:]}")
+def tables(binary, text, folder):
+    """Signals by gauge as lists of (time, value), summary, rows of fluid.csv."""
+    out = tables(binary, text, folder)
     signals = defaultdict(list)
-    for row in csv.DictReader(open(os.path.join(out, "probes.csv"))):
-        signals[row["probe"]].append((float(row["time"]), float(row["value"])))
-    return signals, json.load(open(os.path.join(out, "summary.json"))), list(csv.DictReader(open(os.path.join(out, "fluid.csv"))))
+    with open(os.path.join(out, "probes.csv")) as rows:
+        for row in csv.DictReader(rows):
+            signals[row["probe"]].append((float(row["time"]), float(row["value"])))
+    with open(os.path.join(out, "summary.json")) as summary, open(os.path.join(out, "fluid.csv")) as rows:
+        return signals, json.load(summary), list(csv.DictReader(rows))
 
 
 def at_time(signal, t):
@@ -139,7 +116,7 @@ type = "regular"
 height = {height:.9g}
 length = {length:.9g}
 """ + tank(-2.5 * length, 2.5 * length, depth, 2.5 * height + 0.05 * length) + f"[fluid.size]\nsurface = {length / options.elements:.6g}\nfar = {length / 10:.6g}\n" + gauges(places)
-    signals, _, rows = run(binary, text, folder)
+    signals, _, rows = tables(binary, text, folder)
     end = signals["g0"][-1][0]
     period = period_of(signals["g2.undisturbed"])
     omega = 2 * math.pi / period
@@ -205,7 +182,7 @@ rate = {omega:.6g}
 surface = {length / options.elements:.6g}
 far = {length / 10:.6g}
 """ + gauges([sign * x for x in places])
-    signals, summary, rows = run(binary, text, folder)
+    signals, summary, rows = tables(binary, text, folder)
     stop = signals["g0"][-1][0]
     amplitudes = [fundamental(between(signals[f"g{i}"], stop - seen, stop), omega) for i in range(len(places))]
     out, back_wave = two_ways(amplitudes, places, k)
@@ -238,7 +215,7 @@ gamma = {gamma}
 repeat = {repeat}
 seed = {seed}
 """ + tank(-2.5 * length, 2.5 * length, depth, 2.5 * height + 0.05 * length) + f"[fluid.size]\nsurface = {length / options.elements:.6g}\nfar = {length / 8:.6g}\n" + gauges([0, 0.3 * length])
-    signals, _, _ = run(binary, text, folder)
+    signals, _, _ = tables(binary, text, folder)
     stop = signals["g0"][-1][0]
     numbers = []
     for name in ("g0", "g0.undisturbed"):
@@ -291,7 +268,7 @@ motion = "prescribed"
 path = [{", ".join(rows)}]
 size = {length / options.elements:.6g}
 """ + gauges(places)
-    signals, _, _ = run(binary, text, folder)
+    signals, _, _ = tables(binary, text, folder)
     stop = signals["g0"][-1][0]
     amplitudes = [fundamental(between(signals[f"g{i}"], stop - seen, stop), omega) for i in range(len(places))]
     out, back = two_ways(amplitudes, places, k)
@@ -338,7 +315,7 @@ pitch_deg = {pitch:.6g}
 velocity = [{vx:.6g}, {vy:.6g}]
 size = {size / 20:.6g}
 """ + gauges([length * (i / 40 - 0.5) for i in range(40)])
-    signals, summary, _ = run(binary, text, folder)
+    signals, summary, _ = tables(binary, text, folder)
     contact = summary["bodies"]["hull"]["first_contact_time"]
     if not contact or contact < 0:
         return False, f"{kind}: stays dry"
@@ -365,31 +342,8 @@ size = {size / 20:.6g}
     return abs(miss) <= 7.2, f"{kind} of {size / length:.3f} L, H/L {height / length:.3f}, asked for {phase:.0f} deg: {miss / 3.6:+.2f} % of a wavelength off"
 
 
-def main():
-    """Runs the members."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("binary")
-    parser.add_argument("kind", choices=["regular", "paddle", "irregular", "zones", "touchdown"])
-    parser.add_argument("--members", type=int, default=4)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--elements", type=int, default=40, help="on a wave")
-    parser.add_argument("--periods", type=int, default=0)
-    parser.add_argument("--keep")
-    options = parser.parse_args()
-    folder = options.keep or tempfile.mkdtemp(prefix="seas-")
-    law, broken = globals()[options.kind], 0
-    print(law.__doc__)
-    for seed in range(options.first, options.first + options.members):
-        begin = time.time()
-        try:
-            holds, words = law(options.binary, seed, options, os.path.join(folder, f"{options.kind}-{seed}"))
-        except RuntimeError as error:
-            holds, words = False, str(error)
-        broken += not holds
-        print(f"{seed:5d} {'holds ' if holds else 'BROKEN'} {words}; {time.time() - begin:.0f} s", flush=True)
-    print(f"{options.members - broken} of {options.members} hold")
-    sys.exit(broken > 0)
-
-
 if __name__ == "__main__":
-    main()
+    LAWS = (regular, paddle, irregular, zones, touchdown)
+    PARSER = arguments(__doc__, LAWS)
+    PARSER.add_argument("--periods", type=int, default=0)
+    try_members(PARSER.parse_args(), LAWS)
