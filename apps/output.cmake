@@ -8,7 +8,7 @@ find_package(ZLIB REQUIRED)
 find_package(pugixml REQUIRED)
 
 set(output_sources
-  text/number_text.cpp files/csv.cpp files/run_files.cpp
+  text/number_text.cpp text/shell.cpp files/csv.cpp files/run_files.cpp
   record/hulls.cpp record/points.cpp record/probes.cpp record/recorder.cpp record/view.cpp
   record/frames/base64.cpp record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu.cpp record/frames/vtu_blocks.cpp record/frames/vtu_grid.cpp
   record/tables/energy.cpp record/tables/evidence.cpp record/tables/rows.cpp
@@ -16,7 +16,7 @@ set(output_sources
   statistics/verdict/grades.cpp statistics/landing_statistics.cpp statistics/verdict/limits.cpp statistics/verdict/missing.cpp statistics/verdict/next_step.cpp
   statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/verdict/statements.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
   report/data.cpp report/figures.cpp report/curves/acceleration.cpp report/curves/behind.cpp report/curves/charts.cpp report/curves/filtered_curves.cpp report/curves/reduction.cpp report/curves/style.cpp report/gnuplot.cpp report/html.cpp
-  report/ablation.cpp report/answers/afloat.cpp report/answers/answers.cpp report/page.cpp report/price.cpp report/report.cpp report/look/scripts.cpp report/study.cpp report/study_maps.cpp report/look/theme.cpp report/answers/tile.cpp report/words.cpp
+  report/ablation.cpp report/answers/afloat.cpp report/answers/answers.cpp report/page.cpp report/price.cpp report/report.cpp report/look/scripts.cpp report/study/study.cpp report/study/campaign.cpp report/study/distributions.cpp report/study/maps.cpp report/look/theme.cpp report/answers/tile.cpp report/words.cpp
   report/replay/mesh_code.cpp report/replay/moving_picture.cpp report/replay/packed_picture.cpp report/replay/replay.cpp
   report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp
   report/pictures/png.cpp)

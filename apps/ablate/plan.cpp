@@ -14,14 +14,17 @@ namespace splashdown::apps {
 namespace {
 
 Axis variant_axis(const std::vector<Variant>& variants) {
-  Axis axis{.name = "variant", .label = "variant", .values = {}};
+  Axis axis;
+  axis.name = axis.label = "variant";
   for (const auto& variant : variants) axis.values.push_back({variant.name, {}, variant.set, {}});
   return axis;
 }
 
 /// The scene's mesh and two beside it; a scene without a fluid has none to scatter by.
 Axis mesh_axis(const Scene& scene) {
-  Axis axis{.name = "refine", .label = "refine", .values = {}, .leader = 1};
+  Axis axis;
+  axis.name = axis.label = "refine";
+  axis.leader = 1;
   if (!scene.fluid) {
     axis.values.push_back({"no_mesh", {}, {}, {}});
     return axis;

@@ -217,7 +217,7 @@ CLI::App* add_study(CLI::App& app, StudyOptions& study) {
                         "folder for the runs and tables (default: out/<folder of the study>, or out/<folder>_<file>)");
   add_jobs(study_app, study.jobs);
   study_app->add_option("--on", study.on, "where the runs are made")
-      ->check(CLI::IsMember({"local", "slurm"}))
+      ->check(CLI::IsMember({"local", "parallel", "slurm"}))
       ->capture_default_str();
   add_collect(study_app, study.collect);
   add_runs(study_app, study.large, study.quiet);

@@ -74,18 +74,16 @@ CsvFile& CsvFile::operator<<(double value) {
   return *this;
 }
 
+std::string csv_cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted(1, '"');
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
 CsvFile& CsvFile::operator<<(std::string_view text) {
   separate();
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-    buffer_.append(text);
-    return *this;
-  }
-  buffer_.push_back('"');
-  for (const char c : text) {
-    if (c == '"') buffer_.push_back('"');
-    buffer_.push_back(c);
-  }
-  buffer_.push_back('"');
+  buffer_.append(csv_cell(text));
   return *this;
 }
 

@@ -62,6 +62,9 @@ class CsvFile {
   std::uint64_t length_ = 0;
 };
 
+/// The text as a cell, between quotes where RFC 4180 asks for them.
+std::string csv_cell(std::string_view text);
+
 /// Writes a whole file or leaves the old one: temporary file, fsync, rename.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 /// What stands from `begin` on, which `content` must not be shorter than, in one write: readers see the old or the new end.

@@ -31,7 +31,8 @@ namespace fs = std::filesystem;
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 Axis refine_axis(const std::vector<RungSpec>& specs, const std::vector<std::string>& larger_tank) {
-  Axis axis{.name = "refine", .label = "refine", .values = {}};
+  Axis axis;
+  axis.name = axis.label = "refine";
   for (const auto& spec : specs) {
     const auto text = digits_of(spec.refine);
     AxisValue value{text, spec.refine, {"fluid.size.refine=" + text}, {}};
@@ -63,17 +64,6 @@ std::vector<double> rung_refines(int rungs, double scene) {
     refines.push_back(std::stod(fmt::format("{:.3g}", exact)));
   }
   return refines;
-}
-
-double replicate_refine(double refine, int k) {
-  // 2, 1, 3 %, then the middles between offsets that are there, again and again.
-  static const std::vector<double> offsets = [] {
-    std::vector<double> all = {replicate_offset, 0.01, 0.03};
-    for (double step = 0.005; step > 0.001; step /= 2)
-      for (double offset = step; offset < 0.03; offset += 2 * step) all.push_back(offset);
-    return all;
-  }();
-  return refine * (1 + (k % 2 == 0 ? -1 : 1) * offsets.at(static_cast<std::size_t>(k / 2)));
 }
 
 std::optional<Scene> scene_at(const fs::path& scene, std::vector<std::string> set, double refine) {

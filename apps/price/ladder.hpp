@@ -8,17 +8,11 @@
 #include <vector>
 
 #include "apps/price/quantities.hpp"
+#include "apps/study/design/replicates.hpp"
 #include "apps/study/study.hpp"
 
 namespace splashdown::apps {
 
-/// Replicates stand this share beside the rung that they repeat: another mesh of nearly the same size. With first order
-/// that moves an error by a fiftieth of itself, which is far below the scatter that they are to show.
-inline constexpr double replicate_offset = 0.02;
-
-/// The refinement of replicate k = 0, 1 ... of a mesh: pairs about its own, within 3 %, the first of them `replicate_offset` away. With four
-/// digits those of the first `most_of_size` - 1 differ.
-double replicate_refine(double refine, int k);
 /// Runs within this share of a mesh's refinement are of its size.
 inline constexpr double same_size = 0.035;
 

@@ -14,7 +14,7 @@
 #include "apps/report/ablation.hpp"
 #include "apps/report/data.hpp"
 #include "apps/report/price.hpp"
-#include "apps/report/study.hpp"
+#include "apps/report/study/study.hpp"
 #include "apps/scene/rules/problems.hpp"
 #include "apps/text/number_text.hpp"
 #include "apps/text/shell_word.hpp"

@@ -19,7 +19,7 @@
 #include "apps/report/pictures/picture.hpp"
 #include "apps/report/price.hpp"
 #include "apps/report/replay/replay.hpp"
-#include "apps/report/study.hpp"
+#include "apps/report/study/study.hpp"
 
 namespace splashdown::apps {
 

@@ -183,6 +183,11 @@ bool volume_is_kept(const RunData& run) {
   return !(std::abs(error) > volume_error_good);
 }
 
+const Json& entries(const Json& json, const char* key) {
+  static const Json none = Json::array();
+  return json.is_object() && json.contains(key) && json[key].is_array() ? json[key] : none;
+}
+
 const Json& member(const Json& json, const char* key) {
   static const Json nothing = Json::object();
   return json.is_object() && json.contains(key) && json[key].is_object() ? json[key] : nothing;

@@ -36,6 +36,8 @@ Mood mood_of_grade(const std::string& grade);
 
 /// A JSON object's text; none if absent or no text.
 std::string text_at(const nlohmann::ordered_json& json, const char* key);
+/// Its list of this name; an empty one if there is none.
+const nlohmann::ordered_json& entries(const nlohmann::ordered_json& json, const char* key);
 /// Its object of this name; an empty one if there is none.
 const nlohmann::ordered_json& member(const nlohmann::ordered_json& json, const char* key);
 /// The pulse of the class that J211 gives for integration to velocity, or of the lowest that the run's steps allow.

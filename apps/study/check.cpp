@@ -139,6 +139,13 @@ std::optional<Names> columns_of(const std::string& table, const Scene& scene) {
   return {};
 }
 
+/// Where an expression stands.
+struct Origin {
+  const char* table;  ///< quantity or limit
+  std::string name;
+  Place place;
+};
+
 class Checker {
  public:
   Checker(const Study& study, const Scene& scene, Problems& problems)
@@ -149,24 +156,32 @@ class Checker {
   }
 
   void check(const StudyQuantity& quantity) {
-    check_body(quantity);
+    const Origin origin{"quantity", quantity.name, quantity.place};
+    check_body(quantity, origin);
     std::optional<Names> columns = Names{};
     if (!quantity.table.empty()) columns = columns_of(quantity.table, scene_);
-    check_names(quantity, "where", quantity.where, columns);
-    check_names(quantity, "quantity", quantity.quantity, columns);
+    check_names(origin, "where", quantity.where, columns);
+    check_names(origin, "quantity", quantity.quantity, columns);
     known_.push_back(quantity.name);
-    check_names(quantity, "exact", quantity.exact.value_or(""), columns);
-    check_names(quantity, "scale", quantity.scale, columns);
+    check_names(origin, "exact", quantity.exact.value_or(""), columns);
+    check_names(origin, "scale", quantity.scale, columns);
     if (quantity.has_error()) known_.push_back(quantity.error_name());
   }
 
- private:
-  void tell(const StudyQuantity& quantity, const char* key, const std::string& value, const std::string& what) {
-    problems_.add_at(quantity.place,
-                     fmt::format("quantity.{}.{} = {}: {}", quantity.name, key, toml_text(value), what));
+  void check(const StudyLimit& limit) {
+    if (std::ranges::find(scene_.limits, limit.name, &Limit::name) != scene_.limits.end())
+      problems_.add_at(limit.place,
+                       fmt::format("limit.{}: the scene has a limit of this name. Use another name.", limit.name));
+    check_names({"limit", limit.name, limit.place}, "quantity", limit.quantity, Names{});
   }
 
-  void check_body(const StudyQuantity& quantity) {
+ private:
+  void tell(const Origin& origin, const char* key, const std::string& value, const std::string& what) {
+    problems_.add_at(origin.place,
+                     fmt::format("{}.{}.{} = {}: {}", origin.table, origin.name, key, toml_text(value), what));
+  }
+
+  void check_body(const StudyQuantity& quantity, const Origin& origin) {
     const std::string start = "bodies.csv:";
     if (!quantity.table.starts_with(start)) return;
     const auto name = quantity.table.substr(start.size());
@@ -174,12 +189,12 @@ class Checker {
     for (const auto& body : scene_.bodies) bodies.push_back(body.name);
     if (std::ranges::find(bodies, name) != bodies.end()) return;
     const auto near = nearest(name, bodies);
-    tell(quantity, "table", quantity.table,
+    tell(origin, "table", quantity.table,
          fmt::format("no body is called '{}'. {}", name,
                      near.empty() ? "There is " + listing(bodies) + "." : "Did you mean '" + near + "'?"));
   }
 
-  void check_names(const StudyQuantity& quantity, const char* key, const std::string& expression,
+  void check_names(const Origin& origin, const char* key, const std::string& expression,
                    const std::optional<Names>& columns) {
     if (expression.empty()) return;
     Names names;
@@ -191,7 +206,7 @@ class Checker {
     for (const auto& name : names) {
       if (const auto path = quantity::after("summary", name)) {
         if (only_the_run_knows(*path)) continue;
-        if (const auto what = astray(summary_, *path); !what.empty()) tell(quantity, key, expression, what);
+        if (const auto what = astray(summary_, *path); !what.empty()) tell(origin, key, expression, what);
         continue;
       }
       if (!columns || std::ranges::find(known_, name) != known_.end() ||
@@ -200,7 +215,7 @@ class Checker {
       Names valid = known_;
       valid.insert(valid.end(), columns->begin(), columns->end());
       const auto near = nearest(name, valid);
-      tell(quantity, key, expression,
+      tell(origin, key, expression,
            fmt::format("unknown name '{}'. {}", name,
                        near.empty() ? "Valid here: " + listing(valid) + ", and summary.PATH."
                                     : "Did you mean '" + near + "'?"));
@@ -219,6 +234,7 @@ class Checker {
 void check_quantities(const Study& study, const Scene& scene, Problems& problems) {
   Checker checker(study, scene, problems);
   for (const auto& quantity : study.quantities) checker.check(quantity);
+  for (const auto& limit : study.limits) checker.check(limit);
 }
 
 }  // namespace splashdown::apps

@@ -10,8 +10,10 @@
 #include "apps/process/interrupt.hpp"
 #include "apps/report/report.hpp"
 #include "apps/run/folder/folder.hpp"
+#include "apps/study/campaign/results.hpp"
 #include "apps/study/chart.hpp"
 #include "apps/study/folder.hpp"
+#include "apps/study/parallel.hpp"
 #include "apps/study/run.hpp"
 #include "apps/study/slurm.hpp"
 #include "apps/text/plain_text.hpp"
@@ -32,9 +34,11 @@ void conclude(const Study& study, const std::vector<StudyRun>& runs, std::vector
   write_report(folder);  // what it warns of, a chart that could not be drawn, is among the notes
   for (const auto& note : notes) fmt::print(stderr, "note: {}\n", note);
   if (quiet) return;
-  fmt::print("{}: {} runs: {}\n  files       {}/: report.html study.csv study.json{}\n",
+  const auto campaign = campaign_of(study, runs, outcomes);
+  fmt::print("{}: {} runs: {}\n{}  files       {}/: report.html study.csv study.json{}\n",
              one_line(study.title.empty() ? folder.filename().string() : study.title), runs.size(),
-             counts_text(outcomes), folder.string(), fs::exists(folder / "study.svg") ? " study.svg study.png" : "");
+             counts_text(outcomes), campaign ? campaign_text(*campaign, study) : "", folder.string(),
+             fs::exists(folder / "study.svg") ? " study.svg study.png" : "");
 }
 
 int hand_to_slurm(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
@@ -54,6 +58,17 @@ int hand_to_slurm(const Study& study, const std::vector<StudyRun>& runs, const s
   return exit_code::done;
 }
 
+RunnerEnd make_in_parallel(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
+                           const fs::path& folder, int jobs) {
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (!outcomes[i].finished()) prepare(runs[i], folder / runs[i].name);
+  run_in_parallel(parallel_commands(study, runs, outcomes, folder), folder, jobs);
+  outcomes = outcomes_in(study, runs, folder);
+  RunnerEnd end;
+  end.interrupted = interrupt_received();
+  return end;
+}
+
 }  // namespace
 
 int study_command(const StudyOptions& options) {
@@ -67,7 +82,10 @@ int study_command(const StudyOptions& options) {
   } catch (const SceneError& error) {
     return bad_input(error.what());
   }
-  const bool slurm = options.on == "slurm";
+  const bool slurm = options.on == "slurm", parallel = options.on == "parallel";
+  if (parallel && !find_program("parallel"))
+    return bad_input(
+        "--on parallel: there is no GNU Parallel on this machine. Install the package parallel, or leave --on out.");
   if (slurm && !find_program("sbatch"))
     return bad_input("--on slurm: there is no sbatch on this machine. Install Slurm, or leave --on out.");
 
@@ -97,11 +115,15 @@ int study_command(const StudyOptions& options) {
   RunnerEnd end;
   if (!options.collect) {
     catch_interrupts();
-    end = make_runs(study, runs, outcomes, folder, options.jobs, options.quiet);
+    end = parallel ? make_in_parallel(study, runs, outcomes, folder, options.jobs)
+                   : make_runs(study, runs, outcomes, folder, options.jobs, options.quiet);
   }
   conclude(study, runs, outcomes, folder, options.quiet);
   for (const auto& text : end.unable) fmt::print(stderr, "error: {}\n", text);
   if (end.interrupted && !options.quiet) fmt::print("stopped; the same command continues\n");
+  if (end.enough && !options.quiet)
+    fmt::print("stopped: the band of {} is narrow enough; with a smaller stop.width the same command continues\n",
+               study.stop->of);
   return exit_code_of(outcomes, end.interrupted);
 }
 

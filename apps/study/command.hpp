@@ -11,7 +11,7 @@ struct StudyOptions {
   std::filesystem::path study;
   std::optional<std::filesystem::path> out;
   int jobs = 1;              ///< runs at a time
-  std::string on = "local";  ///< "local" or "slurm"
+  std::string on = "local";  ///< "local", "parallel" or "slurm"
   bool large = false;        ///< whatever memory the runs take
   bool collect = false;      ///< tables and chart of what is there, no runs
   bool quiet = false;

@@ -34,12 +34,21 @@ std::optional<std::pair<Place, std::string>> origin(const Study& study, const St
   return {};
 }
 
-/// The axes that vary by themselves; all others go with one of them.
+/// The axes that vary by themselves; all others go with one of them, or with the product of some.
 std::vector<std::size_t> leaders_of(const Study& study) {
   std::vector<std::size_t> leaders;
   for (std::size_t a = 0; a < study.axes.size(); ++a)
-    if (study.axes[a].leader == a) leaders.push_back(a);
+    if (study.axes[a].leader == a && study.axes[a].product.empty()) leaders.push_back(a);
   return leaders;
+}
+
+/// Of an axis, where leaders stand at these.
+std::size_t index_of(const Study& study, std::size_t axis, const std::vector<std::size_t>& leaders) {
+  const std::size_t leader = study.axes[axis].leader;
+  const auto& product = study.axes[leader].product;
+  if (product.empty()) return leaders[leader];
+  const auto lows = std::ranges::count_if(product, [&](std::size_t of) { return leaders[of] == 0; });
+  return lows % 2 == 0 ? 1 : 0;  // the sign of the product is +1
 }
 
 /// Mistakes at their place in the study file, and those of the scene itself, whose messages carry their own place.
@@ -112,6 +121,9 @@ Study without_empty_axes(Study study) {
     const bool alone = axis.leader == a || leader.values.size() != axis.values.size();
     now.push_back(kept.size());
     axis.leader = alone ? kept.size() : now[axis.leader];
+    if (std::ranges::any_of(axis.product, [&](std::size_t of) { return study.axes[of].values.empty(); }))
+      axis.product.clear();
+    for (auto& of : axis.product) of = now[of];
     if (!axis.values.empty()) kept.push_back(std::move(axis));
   }
   study.axes = std::move(kept);
@@ -146,7 +158,7 @@ std::vector<StudyRun> expand(const Study& study) {
   for (;;) {
     StudyRun run{.name = {}, .value = index, .set = study.set, .resolved = {}};
     for (std::size_t a = 0; a < index.size(); ++a) {
-      run.value[a] = index[study.axes[a].leader];
+      run.value[a] = index_of(study, a, index);
       const auto& value = study.axes[a].values[run.value[a]];
       if (a > 0) run.name += '_';
       run.name += word_of(study.axes[a], value);

@@ -15,7 +15,7 @@
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"
 #include "apps/process/renewed_line.hpp"
-#include "apps/run/progress.hpp"
+#include "apps/study/campaign/results.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/text/number_text.hpp"
 
@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+constexpr double most_share_of_tables = 0.02;  // of the time
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -122,6 +124,10 @@ class Runner {
     }
     ++made_;
     last_end_ = Clock::now();
+    if (is_enough()) {
+      queue_.clear();
+      end_.enough = true;
+    }
     // What a run says about its coupling stands in its summary.
     if (outcome.finished() && outcome.status != Outcome::Status::failed) fs::remove(log_of(i));
     auto text = fmt::format("[{}/{}] {}: {}", before_ + made_, runs_.size(), name, word(outcome.status));
@@ -133,7 +139,24 @@ class Runner {
     number("passes_mean", ", {:.3g} passes");
     number("wall_seconds", ", {:.3g} s");
     say(text);
+    keep_tables();
+  }
+
+  /// Tables grow with the study: they are written anew as long as that takes a small share of the time.
+  void keep_tables() {
+    if (seconds_since(tables_at_) < seconds_of_tables_ / most_share_of_tables && !queue_.empty()) return;
+    const auto begin = Clock::now();
     write_tables(study_, runs_, outcomes_, folder_);
+    tables_at_ = Clock::now();
+    seconds_of_tables_ = seconds_since(begin);
+  }
+
+  /// Whether the band that the study is for is narrow enough.
+  bool is_enough() {
+    if (!study_.stop || queue_.empty()) return false;
+    measure(study_, runs_, folder_, outcomes_);
+    const auto width = width_of(*study_.stop, study_, runs_, outcomes_);
+    return width && *width <= study_.stop->width;
   }
 
   void stop() {
@@ -176,6 +199,8 @@ class Runner {
   std::list<Running> running_;
   std::size_t before_ = 0, made_ = 0, busy_ = 0;
   RunnerEnd end_;
+  double seconds_of_tables_ = 0;
+  Clock::time_point tables_at_{};
   Clock::time_point started_ = Clock::now(), last_end_ = started_;
 };
 

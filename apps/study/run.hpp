@@ -18,11 +18,12 @@ double study_time_left(double between, std::size_t runs, double since);
 
 struct RunnerEnd {
   bool interrupted = false;
+  bool enough = false;              ///< runs are left that the study does not need: its band is narrow enough
   std::vector<std::string> unable;  ///< runs without an end of their own, each with its reason
 };
 
-/// Makes all runs whose outcome is not finished, `jobs` at a time, and renews study.csv and study.json after
-/// each. SIGINT and SIGTERM stop the runs with checkpoints.
+/// Makes all runs whose outcome is not finished, `jobs` at a time, and renews the tables after each, or where they are long, now and then.
+/// Begins no more once `study.stop` is satisfied. SIGINT and SIGTERM stop the runs with checkpoints.
 RunnerEnd make_runs(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
                     const std::filesystem::path& folder, int jobs, bool quiet);
 

@@ -13,30 +13,12 @@
 #include "apps/process/child_process.hpp"
 #include "apps/study/run.hpp"
 #include "apps/text/plain_text.hpp"
+#include "apps/text/shell.hpp"
 
 namespace splashdown::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A word that the shell takes as it is.
-std::string quoted(const std::string& word) {
-  std::string result(1, '\'');
-  for (const char c : word) {
-    if (c == '\'')
-      result += "'\\''";
-    else
-      result += c;
-  }
-  return result + '\'';
-}
-
-std::string line_of(const std::vector<std::string>& words) {
-  std::string line;
-  for (const auto& word : words) line += quoted(word) + ' ';
-  if (!line.empty()) line.pop_back();
-  return line;
-}
 
 /// The number of the job that sbatch makes of these arguments.
 std::string sbatch(std::vector<std::string> arguments, const fs::path& folder) {
@@ -69,7 +51,7 @@ std::vector<std::string> slurm_scripts(const Study& study, const std::vector<Stu
     std::string commands;
     for (std::size_t k = 0; k < count; ++k) {
       const auto& run = runs[waiting[first + k]];
-      commands += fmt::format("  {}) exec {} ;;\n", k, line_of(command_of(study, run, folder / run.name)));
+      commands += fmt::format("  {}) exec {} ;;\n", k, shell_line(command_of(study, run, folder / run.name)));
     }
     scripts.push_back(fmt::format(
         "#!/bin/bash\n"
@@ -81,7 +63,7 @@ std::vector<std::string> slurm_scripts(const Study& study, const std::vector<Stu
         "#SBATCH --requeue\n"
         "cd {} || exit 2\n"
         "case $SLURM_ARRAY_TASK_ID in\n{}esac\n",
-        one_line(study.file.string()), count - 1, limits.at_a_time, quoted(fs::current_path().string()), commands));
+        one_line(study.file.string()), count - 1, limits.at_a_time, shell_word(fs::current_path().string()), commands));
   }
   return scripts;
 }
@@ -113,12 +95,12 @@ std::string submit(const Study& study, const std::vector<std::string>& scripts, 
     words.push_back(file.string());
     arrays.push_back(sbatch(words, folder));
   }
-  const auto gather = line_of({own_program().string(), "study", fs::absolute(study.file).string(), "--out",
-                               folder.string(), "--collect", "--quiet"});
+  const auto gather = shell_line({own_program().string(), "study", fs::absolute(study.file).string(), "--out",
+                                  folder.string(), "--collect", "--quiet"});
   const auto last =
       sbatch({"--job-name=splashdown-collect", fmt::format("--dependency=afterany:{}", fmt::join(arrays, ":")),
               "--output=" + (folder / "collect.log").string(), "--wrap",
-              "cd " + quoted(fs::current_path().string()) + " && " + gather},
+              "cd " + shell_word(fs::current_path().string()) + " && " + gather},
              folder);
   if (arrays.size() == 1) return fmt::format("job array {} is submitted, job {} gathers its results", arrays[0], last);
   return fmt::format("job arrays {} are submitted, one after the other; job {} gathers their results",

@@ -9,6 +9,7 @@
 
 #include "apps/scene/rules/problems.hpp"
 #include "apps/scene/scene.hpp"
+#include "apps/study/design/shares.hpp"
 
 namespace splashdown::apps {
 
@@ -26,8 +27,11 @@ struct Axis {
   std::string name;   ///< column; name in expressions
   std::string label;  ///< in the chart, with its unit
   std::vector<AxisValue> values;
-  std::size_t leader = 0;  ///< the axis that it varies together with, itself if it varies alone
-  bool sampled = false;    ///< its values are random
+  std::size_t leader = 0;   ///< the axis that it varies together with, itself if it varies alone
+  bool sampled = false;     ///< its values are random
+  bool replicates = false;  ///< its values are meshes of practically one size
+  /// Axes of two values, the product of whose signs is this one's: it is not free. Empty: it is.
+  std::vector<std::size_t> product;
 
   /// Index of the value with this text; nothing if there is none.
   std::optional<std::size_t> find(const std::string& text) const;
@@ -61,9 +65,26 @@ struct StudyChart {
   bool log_x = true, log_y = true;
 };
 
-/// Random values for the axes that have a range: a Latin hypercube.
+/// Random values for the axes that have a distribution.
 struct Samples {
+  Plan plan = Plan::latin_hypercube;
   int number = 0, seed = 1;
+};
+
+/// A question about each run: is the quantity above, or below, the value?
+struct StudyLimit {
+  std::string name;      ///< its column is limit.NAME
+  std::string quantity;  ///< expression of what quantities may use but tables
+  bool above = true;
+  double value = 0;
+  Place place;  ///< of `quantity` in the study file
+};
+
+/// No more runs are begun once this band is narrow enough.
+struct StudyStop {
+  std::string of;    ///< a quantity, for the mean of all runs, or a limit, for its probability
+  double width = 0;  ///< of the band, in the quantity's unit
+  int least = 10;    ///< runs with an answer before it is asked
 };
 
 struct Study {
@@ -79,6 +100,8 @@ struct Study {
   std::optional<Samples> samples;
   std::vector<Axis> axes;
   std::vector<StudyQuantity> quantities;
+  std::vector<StudyLimit> limits;  ///< beside those of the scene
+  std::optional<StudyStop> stop;
   std::map<std::string, double> constants;
   std::optional<StudyChart> chart;
 };

@@ -15,6 +15,7 @@
 #include "apps/files/csv.hpp"
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
+#include "apps/study/campaign/results.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -115,6 +116,16 @@ void compare_one(const Study& study, const StudyQuantity& quantity, const StudyR
   outcome.numbers[quantity.error_name()] = error_of(quantity, mine->second, other->second, names);
 }
 
+/// Answers the study's own question; throws where its number has no value.
+void answer_one(const Study& study, const StudyLimit& limit, const StudyRun& run, const fs::path& folder,
+                Outcome& outcome) {
+  const auto summary = quantity::read_summary(folder);
+  const quantity::Table no_table;
+  const double value = quantity::evaluate_number(limit.quantity, names_of(study, run, outcome, summary, no_table));
+  if (std::isnan(value)) throw std::runtime_error("has no value");
+  outcome.limits[limit.name] = (limit.above ? value > limit.value : value < limit.value) ? "yes" : "no";
+}
+
 /// Coupling passes can agree on velocities that have nothing to do with the motion.
 void judge(const StudyQuantity& quantity, Outcome& outcome) {
   const auto error = outcome.numbers.find(quantity.error_name());
@@ -142,19 +153,10 @@ std::vector<std::string> limit_names(const std::vector<Outcome>& outcomes) {
   return {names.begin(), names.end()};
 }
 
-/// Text of a csv cell, quoted where RFC 4180 asks for it.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted(1, '"');
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  quoted += '"';
-  return quoted;
-}
-
 std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes) {
   const auto numbers = all_number_columns(study), limits = limit_names(outcomes);
   std::string text = "run";
-  const auto add = [&](const std::string& entry) { text.append(1, ',').append(cell(entry)); };
+  const auto add = [&](const std::string& entry) { text.append(1, ',').append(csv_cell(entry)); };
   for (const auto& axis : study.axes) add(axis.name);
   add("status");
   add("verdict");
@@ -163,7 +165,7 @@ std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const 
   add("cause");
   text += '\n';
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    text += cell(runs[i].name);
+    text += csv_cell(runs[i].name);
     for (std::size_t a = 0; a < study.axes.size(); ++a) add(study.axes[a].values[runs[i].value[a]].text);
     add(word(outcomes[i].status));
     add(outcomes[i].verdict);
@@ -195,6 +197,8 @@ nlohmann::ordered_json json_of(const Study& study, const std::vector<StudyRun>& 
     auto& entry = root["axes"].emplace_back();
     entry["name"] = axis.name;
     entry["label"] = axis.label;
+    if (axis.sampled) entry["random"] = true;
+    if (axis.replicates) entry["replicates"] = true;
     for (const auto& value : axis.values) entry["values"].push_back(value.text);
   }
   for (const auto& name : all_number_columns(study))
@@ -325,26 +329,29 @@ std::vector<Outcome> outcomes_in(const Study& study, const std::vector<StudyRun>
 std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>& runs, const fs::path& folder,
                                  std::vector<Outcome>& outcomes) {
   std::vector<std::string> notes;
-  for (const auto& quantity : study.quantities) {
+  const auto each = [&](const std::string& name, const auto& work) {
     bool told = false;  // one note a quantity: what fails once usually fails everywhere
-    const auto each = [&](const auto& work) {
-      for (std::size_t i = 0; i < runs.size(); ++i) {
-        // A run that broke down has no final state: it counts in passes and seconds only.
-        if (outcomes[i].status != Outcome::Status::converged) continue;
-        try {
-          work(i);
-        } catch (const std::exception& error) {
-          if (!told) notes.push_back(fmt::format("{} of {}: {}", quantity.name, runs[i].name, error.what()));
-          told = true;
-        }
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      // A run that broke down has no final state: it counts in passes and seconds only.
+      if (outcomes[i].status != Outcome::Status::converged) continue;
+      try {
+        work(i);
+      } catch (const std::exception& error) {
+        if (!told) notes.push_back(fmt::format("{} of {}: {}", name, runs[i].name, error.what()));
+        told = true;
       }
-    };
-    each([&](std::size_t i) { measure_one(study, quantity, runs[i], folder / runs[i].name, outcomes[i]); });
+    }
+  };
+  for (const auto& quantity : study.quantities) {
+    each(quantity.name,
+         [&](std::size_t i) { measure_one(study, quantity, runs[i], folder / runs[i].name, outcomes[i]); });
     if (quantity.reference.empty()) continue;
-    each([&](std::size_t i) {
+    each(quantity.name, [&](std::size_t i) {
       compare_one(study, quantity, runs[i], outcomes[reference_run(study, quantity, runs[i])], outcomes[i]);
     });
   }
+  for (const auto& limit : study.limits)
+    each(limit.name, [&](std::size_t i) { answer_one(study, limit, runs[i], folder / runs[i].name, outcomes[i]); });
   for (const auto& quantity : study.quantities)
     for (auto& outcome : outcomes) judge(quantity, outcome);
   return notes;
@@ -352,8 +359,13 @@ std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>
 
 void write_tables(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
                   const fs::path& folder) {
+  auto root = json_of(study, runs, outcomes);
+  if (const auto campaign = campaign_of(study, runs, outcomes)) {
+    root["campaign"] = json_of(*campaign);
+    write_campaign(*campaign, folder);
+  }
   write_file_atomically(folder / "study.csv", csv_of(study, runs, outcomes));
-  write_file_atomically(folder / "study.json", json_of(study, runs, outcomes).dump(2) + "\n");
+  write_file_atomically(folder / "study.json", root.dump(2) + "\n");
 }
 
 }  // namespace splashdown::apps

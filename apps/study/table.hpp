@@ -26,7 +26,7 @@ struct Outcome {
   std::string verdict;  ///< what the run's numbers are worth: a grade of its summary; empty: not known
   /// By column: passes_mean, wall_seconds ... and the study's quantities with their errors; absent: no value.
   std::map<std::string, double> numbers;
-  std::map<std::string, std::string> limits;  ///< answers to those of the scene, by name
+  std::map<std::string, std::string> limits;  ///< answers to those of scene and study, by name
 
   bool finished() const { return status != Status::waiting && status != Status::interrupted; }
 };
@@ -57,7 +57,7 @@ bool begun_with(const StudyRun& run, const std::filesystem::path& folder);
 std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>& runs,
                                  const std::filesystem::path& folder, std::vector<Outcome>& outcomes);
 
-/// study.csv and study.json, each whole or not at all.
+/// study.csv, study.json and the tables of a campaign, each whole or not at all.
 void write_tables(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
                   const std::filesystem::path& folder);
 

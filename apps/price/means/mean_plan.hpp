@@ -18,13 +18,14 @@
 #include <vector>
 
 #include "apps/price/bayesian_extrapolation.hpp"
+#include "apps/study/design/replicates.hpp"
 
 namespace splashdown::apps {
 
 /// Fewer say too little of their own scatter: Student's t of three runs is more than twice that of many.
 inline constexpr int fewest_of_mean = 4;
 /// Of one size, meshes that are told apart and lie within 3 % of it (ladder.hpp).
-inline constexpr int most_of_size = 49;
+inline constexpr int most_of_size = most_replicates + 1;  // the mesh itself
 
 struct SizeOfMesh {
   double h;        ///< relative

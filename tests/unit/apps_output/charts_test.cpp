@@ -11,7 +11,7 @@
 #include "apps/report/curves/behind.hpp"
 #include "apps/report/curves/reduction.hpp"
 #include "apps/report/look/theme.hpp"
-#include "apps/report/study_maps.hpp"
+#include "apps/report/study/maps.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace splashdown::apps {

@@ -74,8 +74,9 @@ rule("records look at views, in core, not at who solves" FILES "^apps/(record|st
 
 # Libraries, each with one home.
 rule("CGAL stays in core/surface, fluid/pfem/mesh/delaunay and fluid/pfem/initial" FILES "." BUT_FILES "^(core/surface|fluid/pfem/(mesh/delaunay|initial))/" INCLUDES "^(CGAL|boost)/"
-  BUT_INCLUDES "^boost/math/")
-rule("Boost's distributions stay in apps/price" FILES "." BUT_FILES "^apps/price/.*\\.cpp$" INCLUDES "^boost/math/")
+  BUT_INCLUDES "^boost/(math|random)/")
+rule("Boost's distributions and sequences stay in apps/price, study/design and study/campaign" FILES "."
+  BUT_FILES "^apps/(price|study/(design|campaign))/.*\\.cpp$" INCLUDES "^boost/(math|random)/")
 rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/pfem/linear" FILES "." BUT_FILES "^fluid/pfem/linear/.*\\.cpp$"
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
 rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")

@@ -1,4 +1,4 @@
-#include "apps/report/study_maps.hpp"
+#include "apps/report/study/maps.hpp"
 
 #include <fmt/format.h>
 
@@ -17,11 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_curves = series_colours.size();
 
-const Json& entries(const Json& json, const char* key) {
-  static const Json none = Json::array();
-  return json.is_object() && json.contains(key) && json[key].is_array() ? json[key] : none;
-}
-
 std::string report_of(const fs::path& directory, const Json& run) {
   const auto name = text_at(run, "run");
   return fs::exists(directory / name / "report.html") ? "./" + name + "/report.html"
@@ -34,6 +29,11 @@ std::vector<std::string> varied_axes(const Json& study) {
   for (const auto& axis : entries(study, "axes"))
     if (entries(axis, "values").size() > 1) names.push_back(text_at(axis, "name"));
   return names;
+}
+
+/// Values that come by chance make no map and no line.
+bool has_random_axes(const Json& study) {
+  return std::ranges::any_of(entries(study, "axes"), [](const Json& axis) { return axis.contains("random"); });
 }
 
 bool is_of_numbers(const Json& study, const std::string& axis) {
@@ -122,13 +122,15 @@ std::vector<StudyColumn> study_columns(const Json& study) {
 
 std::string heat_maps(const fs::path& directory, const Json& study) {
   const auto axes = varied_axes(study);
-  if (axes.size() != 2 || !is_of_numbers(study, axes[0]) || !is_of_numbers(study, axes[1])) return {};
+  if (has_random_axes(study) || axes.size() != 2 || !is_of_numbers(study, axes[0]) || !is_of_numbers(study, axes[1]))
+    return {};
   std::string html;
   for (const auto& quantity : own_quantities(study)) html += heat_map(directory, study, quantity, {axes[0], axes[1]});
   return html.empty() ? html : "<h2>Maps</h2>\n<div class=\"grid\">" + html + "</div>\n";
 }
 
 std::vector<Figure> study_lines(const fs::path& directory, const Json& study) {
+  if (has_random_axes(study)) return {};
   auto axes = varied_axes(study);
   const auto along = std::ranges::find_if(axes, [&](const std::string& axis) { return is_of_numbers(study, axis); });
   if (along == axes.end() || (axes.size() == 2 && is_of_numbers(study, axes[0]) && is_of_numbers(study, axes[1])))

@@ -1,4 +1,4 @@
-#include "apps/report/study.hpp"
+#include "apps/report/study/study.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,9 @@
 #include "apps/report/data.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/page.hpp"
-#include "apps/report/study_maps.hpp"
+#include "apps/report/study/campaign.hpp"
+#include "apps/report/study/maps.hpp"
+#include "apps/report/words.hpp"
 #include "apps/text/pattern.hpp"
 
 namespace splashdown::apps {
@@ -38,16 +40,11 @@ constexpr std::array<StatusWords, 6> all_status = {{
     {"waiting", Mood::fair, "are waiting; the same command makes them"},
 }};
 
-const Json& list_at(const Json& json, const char* key) {
-  static const Json none = Json::array();
-  return json.contains(key) && json[key].is_array() ? json[key] : none;
-}
-
 struct StudyData {
   fs::path directory;
   Json root;
 
-  const Json& runs() const { return list_at(root, "runs"); }
+  const Json& runs() const { return entries(root, "runs"); }
   std::string title() const {
     const auto title = text_at(root, "title");
     return title.empty() ? folder_name(directory) : title;
@@ -133,18 +130,21 @@ std::string lines_of(const std::vector<Figure>& figures, const Charts& charts) {
 }
 
 std::string axes_table(const StudyData& study) {
-  const auto& axes = list_at(study.root, "axes");
+  const auto& axes = entries(study.root, "axes");
   if (axes.empty()) return {};
   std::string html =
       "<h2>Axes</h2>\n<div class=\"scroll\"><table><thead><tr><th>axis</th><th class=\"text\">what it "
       "is</th><th>values</th><th class=\"text\"></th></tr></thead><tbody>\n";
   for (const auto& axis : axes) {
     std::string values;
-    for (const auto& value : list_at(axis, "values"))
-      values += (values.empty() ? "" : ", ") + html_escaped(value.get<std::string>());
+    const auto& all = entries(axis, "values");
+    constexpr std::size_t most_named = 12;  // a random axis has as many values as there are runs
+    for (std::size_t k = 0; k < std::min(all.size(), most_named); ++k)
+      values += (values.empty() ? "" : ", ") + html_escaped(all[k].get<std::string>());
+    if (all.size() > most_named) values += " …";
     html += fmt::format("<tr><td><b>{}</b></td><td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
                         html_escaped(text_at(axis, "name")), html_escaped(text_at(axis, "label")),
-                        list_at(axis, "values").size(), values);
+                        entries(axis, "values").size(), values);
   }
   return html + "</tbody></table></div>\n";
 }
@@ -193,7 +193,7 @@ std::string runs_table(const StudyData& study) {
   };
   std::string html = "<h2>Runs</h2>\n<div class=\"scroll\"><table><thead><tr><th>run</th>", rows;
   const auto head = [&](const StudyColumn& column) { html += "<th>" + html_escaped(column.label) + "</th>"; };
-  for (const auto& axis : list_at(study.root, "axes")) html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
+  for (const auto& axis : entries(study.root, "axes")) html += "<th>" + html_escaped(text_at(axis, "name")) + "</th>";
   numbers(true, head);
   html += "<th>status</th><th>verdict</th>";
   for (const auto& name : limits) html += "<th>limit " + html_escaped(name) + "</th>";
@@ -206,7 +206,7 @@ std::string runs_table(const StudyData& study) {
     linked |= has_page;
     rows +=
         has_page ? fmt::format("<tr><td><a href=\"{0}/report.html\">{0}</a></td>", name) : "<tr><td>" + name + "</td>";
-    for (const auto& axis : list_at(study.root, "axes")) {
+    for (const auto& axis : entries(study.root, "axes")) {
       const auto& value = run.at("axes").at(text_at(axis, "name"));
       rows += "<td>" +
               (value.is_number() ? fmt::format("{:g}", value.get<double>()) : html_escaped(value.get<std::string>())) +
@@ -255,8 +255,9 @@ ReportResult write_study_report(const fs::path& directory) {
   write_file_atomically(
       result.page,
       html_page(study.title(), html_header(study.title(), directory, banner_of(study), notes) + chart +
-                                   lines_of(lines, charts) + heat_maps(directory, study.root) + runs_table(study) +
-                                   causes_table(study) + axes_table(study) +
+                                   lines_of(lines, charts) + heat_maps(directory, study.root) +
+                                   campaign_section(study.root) + runs_table(study) + causes_table(study) +
+                                   axes_table(study) +
                                    "<footer>Made by Splashdown from <code>study.json</code> in this folder; the same "
                                    "as a table: <code>study.csv</code>.</footer>\n" +
                                    charts.html));

@@ -1,0 +1,145 @@
+#include "apps/report/study/distributions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "apps/report/data.hpp"
+#include "apps/report/page.hpp"
+#include "apps/report/words.hpp"
+#include "apps/text/number_text.hpp"
+
+namespace splashdown::apps {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Of a picture, in its own units.
+struct Plot {
+  static constexpr double width = 300, height = 170, left = 12, right = 12, top = 10, bottom = 34;
+};
+
+/// A figure with a scale below it.
+std::string picture(const std::string& body, double low, double high, const std::string& label,
+                    const std::string& caption) {
+  const auto number = [&](double x, const char* anchor, double value) {
+    return fmt::format("<text x=\"{:.0f}\" y=\"{}\" text-anchor=\"{}\">{}</text>", x, Plot::height - 18, anchor,
+                       digits(value, 3));
+  };
+  return fmt::format(
+      "<figure><svg viewBox=\"0 0 {0} {1}\" width=\"100%\" role=\"img\" fill=\"currentColor\" "
+      "font-size=\"11\">{2}<line x1=\"{3}\" "
+      "y1=\"{4}\" x2=\"{5}\" y2=\"{4}\" stroke=\"currentColor\" stroke-opacity=\"0.4\"/>{6}{7}<text x=\"{8}\" "
+      "y=\"{9}\" "
+      "text-anchor=\"middle\">{10}</text></svg><figcaption>{11}</figcaption></figure>\n",
+      Plot::width, Plot::height, body, Plot::left, Plot::height - Plot::bottom, Plot::width - Plot::right,
+      number(Plot::left, "start", low), number(Plot::width - Plot::right, "end", high), Plot::width / 2,
+      Plot::height - 5, html_escaped(label), caption);
+}
+
+double across(double value, double low, double high) {
+  return Plot::left + (Plot::width - Plot::left - Plot::right) * (high > low ? (value - low) / (high - low) : 0.5);
+}
+double upwards(double share) { return Plot::height - Plot::bottom - (Plot::height - Plot::top - Plot::bottom) * share; }
+
+/// A number of each run, of those that have it.
+struct Column {
+  std::string label;
+  std::vector<double> values;
+  std::vector<const Json*> runs;
+
+  Column(const Json& study, const char* table, const std::string& name, const std::string& text) : label(text) {
+    for (const auto& run : entries(study, "runs")) {
+      const double value = number_at(run, {table, name.c_str()});
+      if (text_at(run, "status") != "converged" || !std::isfinite(value)) continue;
+      values.push_back(value);
+      runs.push_back(&run);
+    }
+  }
+  std::pair<double, double> range() const {
+    const auto [low, high] = std::ranges::minmax(values);
+    return {low, high};
+  }
+};
+
+/// Classes of the width of Freedman and Diaconis (1981): twice the range of the middle half over the cube root of the number.
+std::string histogram(const Column& column) {
+  auto sorted = column.values;
+  std::ranges::sort(sorted);
+  const auto [low, high] = column.range();
+  const double half = sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4];
+  const double width = 2 * half / std::cbrt(static_cast<double>(sorted.size()));
+  const auto classes = static_cast<std::size_t>(width > 0 ? std::clamp(std::ceil((high - low) / width), 1., 60.) : 1);
+  std::vector<double> counts(classes, 0);
+  for (const double value : sorted)
+    ++counts[std::min(classes - 1, static_cast<std::size_t>((value - low) / std::max(high - low, 1e-300) *
+                                                            static_cast<double>(classes)))];
+  const double most = std::ranges::max(counts),
+               step = (Plot::width - Plot::left - Plot::right) / static_cast<double>(classes);
+  std::string body;
+  for (std::size_t k = 0; k < classes; ++k)
+    body += fmt::format(
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
+        "fill-opacity=\"0.45\"><title>{}</title></rect>",
+        Plot::left + step * static_cast<double>(k) + 0.5, upwards(counts[k] / most), std::max(step - 1, 0.5),
+        upwards(0) - upwards(counts[k] / most), count_text(counts[k]));
+  const auto at = [&](double share) {
+    return across(sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))], low, high);
+  };
+  // Box plot: the middle half with the median, and 90 % of all.
+  body += fmt::format(
+      "<line x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2}\" y2=\"{2}\" stroke=\"currentColor\"/><line x1=\"{3:.1f}\" "
+      "x2=\"{4:.1f}\" "
+      "y1=\"{2}\" y2=\"{2}\" stroke=\"currentColor\" stroke-width=\"5\"/><circle cx=\"{5:.1f}\" cy=\"{2}\" r=\"4\" "
+      "fill=\"#c8501e\"/>",
+      at(0.05), at(0.95), Plot::top - 4, at(0.25), at(0.75), at(0.5));
+  return picture(body, low, high, column.label, "Number of runs. Above: the middle half, 90 % of all, and the median.");
+}
+
+std::string scatter(const Column& x, const Column& y) {
+  const auto [x_low, x_high] = x.range();
+  const auto [y_low, y_high] = y.range();
+  std::string body;
+  for (std::size_t i = 0; i < y.values.size(); ++i) {
+    const auto at = std::ranges::find(x.runs, y.runs[i]);
+    if (at == x.runs.end()) continue;
+    const auto name = html_escaped(text_at(*y.runs[i], "run"));
+    body += fmt::format(
+        "<a href=\"{0}/report.html\"><circle cx=\"{1:.1f}\" cy=\"{2:.1f}\" r=\"3\" fill-opacity=\"0.6\"><title>{0}: "
+        "{3}</title></circle></a>",
+        name, across(x.values[static_cast<std::size_t>(at - x.runs.begin())], x_low, x_high),
+        upwards(y_high > y_low ? (y.values[i] - y_low) / (y_high - y_low) : 0.5), digits(y.values[i]));
+  }
+  return picture(
+      body, x_low, x_high, x.label,
+      fmt::format("{} from {} to {}, a point a run.", html_escaped(y.label), digits(y_low, 3), digits(y_high, 3)));
+}
+
+}  // namespace
+
+std::string distributions(const Json& study) {
+  std::string html;
+  std::set<std::string> shown;
+  for (const auto& row : entries(study["campaign"], "statistics")) {
+    const auto name = text_at(row, "quantity");
+    if (!shown.insert(name).second) continue;
+    auto label = name;
+    for (const auto& column : entries(study, "columns"))
+      if (text_at(column, "name") == name) label = text_at(column, "label");
+    const Column y(study, "numbers", name, label);
+    if (y.values.size() < 5) continue;
+    html += histogram(y);
+    for (const auto& axis : entries(study, "axes")) {
+      if (!axis.contains("random")) continue;
+      const Column x(study, "axes", text_at(axis, "name"), text_at(axis, "label"));
+      if (x.values.size() == y.values.size()) html += scatter(x, y);
+    }
+  }
+  return html.empty() ? html : "<h2>Distributions</h2>\n<div class=\"grid\">" + html + "</div>\n";
+}
+
+}  // namespace splashdown::apps

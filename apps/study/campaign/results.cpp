@@ -1,0 +1,175 @@
+#include "apps/study/campaign/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace splashdown::apps {
+namespace {
+
+bool is_factor(const Study& study, std::size_t a) {
+  const auto& axis = study.axes[a];
+  return axis.values.size() == 2 && axis.leader == a && !axis.sampled && !axis.replicates;
+}
+
+std::vector<std::size_t> factors_of(const Study& study) {
+  std::vector<std::size_t> factors;
+  for (std::size_t a = 0; a < study.axes.size(); ++a)
+    if (is_factor(study, a)) factors.push_back(a);
+  return factors;
+}
+
+bool has_chance(const Study& study) {
+  return std::ranges::any_of(study.axes, [](const Axis& axis) { return axis.sampled || axis.replicates; });
+}
+
+/// All runs, and where other axes vary beside chance, those of each combination.
+std::vector<Group> groups_of(const Study& study, const std::vector<StudyRun>& runs) {
+  std::vector<Group> groups(1);
+  for (std::size_t i = 0; i < runs.size(); ++i) groups[0].runs.push_back(i);
+  std::vector<std::size_t> fixed;
+  for (std::size_t a = 0; a < study.axes.size(); ++a)
+    if (!study.axes[a].sampled && !study.axes[a].replicates) fixed.push_back(a);
+  if (fixed.empty() || !has_chance(study)) return groups;
+  std::map<std::vector<std::size_t>, std::size_t> places;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::vector<std::size_t> at;
+    for (const std::size_t a : fixed) at.push_back(runs[i].value[a]);
+    const auto [place, is_new] = places.try_emplace(at, groups.size());
+    if (is_new) {
+      auto& group = groups.emplace_back();
+      for (const std::size_t a : fixed)
+        group.at.emplace_back(study.axes[a].name, study.axes[a].values[runs[i].value[a]].text);
+    }
+    groups[place->second].runs.push_back(i);
+  }
+  return groups;
+}
+
+std::optional<double> number_of(const Outcome& outcome, const std::string& quantity) {
+  const auto found = outcome.numbers.find(quantity);
+  if (outcome.status != Outcome::Status::converged || found == outcome.numbers.end() || !std::isfinite(found->second))
+    return {};
+  return found->second;
+}
+
+void add_statistics(Campaign& campaign, const Group& group, const std::string& quantity,
+                    const std::vector<Outcome>& outcomes) {
+  std::vector<double> values;
+  std::size_t without = 0;
+  for (const std::size_t i : group.runs) {
+    const auto value = number_of(outcomes[i], quantity);
+    if (value) values.push_back(*value);
+    without += !value && outcomes[i].finished() ? 1 : 0;
+  }
+  if (values.empty()) return;
+  campaign.statistics.push_back(
+      {.quantity = quantity, .group = &group, .without = without, .found = statistics_of(values)});
+}
+
+void add_probability(Campaign& campaign, const Group& group, const std::string& limit,
+                     const std::vector<Outcome>& outcomes) {
+  LimitProbability found{.limit = limit, .group = &group};
+  for (const std::size_t i : group.runs) {
+    if (!outcomes[i].finished()) continue;
+    const auto answer = outcomes[i].limits.find(limit);
+    const auto text =
+        answer == outcomes[i].limits.end() || outcomes[i].status != Outcome::Status::converged ? "" : answer->second;
+    ++(text == "yes" ? found.yes : text == "no" ? found.no : text.empty() ? found.without : found.open);
+  }
+  if (found.answered() > 0) campaign.probabilities.push_back(found);
+}
+
+std::vector<std::string> limits_in(const std::vector<Outcome>& outcomes) {
+  std::vector<std::string> names;
+  for (const auto& outcome : outcomes)
+    for (const auto& [name, answer] : outcome.limits)
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  return names;
+}
+
+void add_effects(Campaign& campaign, const Study& study, const std::vector<StudyRun>& runs,
+                 const std::vector<Outcome>& outcomes) {
+  const auto factors = factors_of(study);
+  if (factors.size() < 2 || factors.size() > 60) return;
+  std::vector<Factors> generators;
+  for (std::size_t f = 0; f < factors.size(); ++f) {
+    campaign.factors.push_back(study.axes[factors[f]].name);
+    Factors word = study.axes[factors[f]].product.empty() ? 0 : Factors{1} << f;
+    for (const std::size_t of : study.axes[factors[f]].product)
+      word ^= Factors{1} << (std::ranges::find(factors, of) - factors.begin());
+    if (word != 0) generators.push_back(word);
+  }
+  campaign.fraction = Fraction(generators);
+  for (const auto& quantity : study.quantities) {
+    std::vector<FactorialRun> found;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const auto value = number_of(outcomes[i], quantity.name);
+      if (!value) continue;
+      FactorialRun run{.high = 0, .value = *value};
+      for (std::size_t f = 0; f < factors.size(); ++f)
+        if (runs[i].value[factors[f]] == 1) run.high |= Factors{1} << f;
+      found.push_back(run);
+    }
+    auto effects = effects_of(found, factors.size(), campaign.fraction);
+    if (!effects.empty()) campaign.effects.push_back({quantity.name, std::move(effects)});
+  }
+}
+
+void add_indices(Campaign& campaign, const Study& study, const std::vector<StudyRun>& runs,
+                 const std::vector<Outcome>& outcomes) {
+  const auto first = std::ranges::find_if(study.axes, &Axis::sampled);
+  if (!study.samples || study.samples->plan != Plan::saltelli || first == study.axes.end()) return;
+  const auto leader = static_cast<std::size_t>(first - study.axes.begin());
+  for (const auto& axis : study.axes)
+    if (axis.sampled) campaign.random_axes.push_back(axis.name);
+  for (const auto& quantity : study.quantities) {
+    for (const auto& group : campaign.groups) {
+      // Points of the plan in their order, once each: with other axes beside chance that is a group, without them it is all.
+      std::vector<std::optional<double>> values(study.axes[leader].values.size());
+      if (group.runs.size() != values.size()) continue;
+      for (const std::size_t i : group.runs) values[runs[i].value[leader]] = number_of(outcomes[i], quantity.name);
+      QuantityIndices found{.quantity = quantity.name, .group = &group, .rows = 0, .indices = {}};
+      found.indices = sobol_indices(values, campaign.random_axes.size(), found.rows);
+      if (!found.indices.empty()) campaign.indices.push_back(std::move(found));
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyRun>& runs,
+                                    const std::vector<Outcome>& outcomes) {
+  if (!has_chance(study) && factors_of(study).size() < 2) return {};
+  Campaign campaign;
+  campaign.groups = groups_of(study, runs);
+  const auto limits = limits_in(outcomes);
+  for (const auto& group : campaign.groups) {
+    for (const auto& quantity : study.quantities) add_statistics(campaign, group, quantity.name, outcomes);
+    for (const auto& limit : limits) add_probability(campaign, group, limit, outcomes);
+  }
+  add_effects(campaign, study, runs, outcomes);
+  add_indices(campaign, study, runs, outcomes);
+  return campaign;
+}
+
+std::optional<double> width_of(const StudyStop& stop, const Study& study, const std::vector<StudyRun>& runs,
+                               const std::vector<Outcome>& outcomes) {
+  Campaign campaign;
+  campaign.groups.resize(1);
+  for (std::size_t i = 0; i < runs.size(); ++i) campaign.groups[0].runs.push_back(i);
+  const auto least = static_cast<std::size_t>(stop.least);
+  if (std::ranges::find(study.quantities, stop.of, &StudyQuantity::name) == study.quantities.end()) {
+    add_probability(campaign, campaign.groups[0], stop.of, outcomes);
+    if (campaign.probabilities.empty() || campaign.probabilities[0].answered() < least) return {};
+    const auto band = campaign.probabilities[0].band();
+    return band.high - band.low;
+  }
+  add_statistics(campaign, campaign.groups[0], stop.of, outcomes);
+  if (campaign.statistics.empty() || campaign.statistics[0].found.runs < least ||
+      !campaign.statistics[0].found.mean_band)
+    return {};
+  return campaign.statistics[0].found.mean_band->high - campaign.statistics[0].found.mean_band->low;
+}
+
+}  // namespace splashdown::apps
