@@ -1,0 +1,22 @@
+// Ways to step the water: each makes the step of a fluid over its water.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace splashdown::fluid {
+
+template <int d>
+struct Water;
+template <int d>
+class Step;
+
+/// Makes the step; the water must outlive it.
+template <int d>
+using Formulation = std::function<std::unique_ptr<Step<d>>(Water<d>& water)>;
+
+/// Pressure and a fixed number of corrections on one factor (step/fractional).
+template <int d>
+Formulation<d> fractional();
+
+}  // namespace splashdown::fluid
