@@ -19,4 +19,14 @@ using Formulation = std::function<std::unique_ptr<Step<d>>(Water<d>& water)>;
 template <int d>
 Formulation<d> fractional();
 
+/// Of the monolithic formulation.
+struct MonolithicSpec {
+  double tolerance = 1e-6;  ///< of what the pressure does to velocities: what its solve may leave
+  double share = 0.5;       ///< tau over the interval in which the pressure acts
+};
+
+/// Velocity and pressure as one stabilised system, solved to a tolerance (step/monolithic).
+template <int d>
+Formulation<d> monolithic(const MonolithicSpec& spec = {});
+
 }  // namespace splashdown::fluid

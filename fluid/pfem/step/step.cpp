@@ -172,22 +172,78 @@ void Step<d>::move_nodes() {
   wall_motion_->move(trial_.v_after, water_.moved_poses(trial_.s_after, dt_), dt_, trial_.moved);
 }
 
-// The volume that this motion creates, and what it asks for.
+// The volume that this motion creates.
 template <int d>
-Status Step<d>::what_is_left(std::span<const double> previous, Correction<d>& left) {
+void Step<d>::what_is_left(std::span<const double> previous, std::vector<double>& residual) {
   in_parallel(trial_.v.size(),
               [&](std::size_t i) { trial_.x_mid[i] = 0.5 * (water_.work.nodes.x[i] + trial_.moved.x[i]); });
-  equation_.motion_residual(trial_.x_mid, trial_.moved.u, left.residual);
+  equation_.motion_residual(trial_.x_mid, trial_.moved.u, residual);
   equation_.slide_residual(trial_.x_mid, trial_.moved.u, trial_.s_after,
                            water_.centres(water_.moved_poses(trial_.s_after, 0.5 * dt_)), trial_.moved.slides,
-                           left.residual);
-  lag(left.residual, previous, trial_.phi);
-  equation_.add_sources(left.residual, trial_.phi);
+                           residual);
+  lag(residual, previous, trial_.phi);
+  equation_.add_sources(residual, trial_.phi);
+}
+
+// What a residual asks for, and how walls answer to it.
+template <int d>
+Status Step<d>::ask(Correction<d>& left) {
   left.impulse = left.residual;
   left.walls.assign(water_.walls.size(), Twist<d>::Zero());
   if (!equation_.solve(left.impulse, roughly)) return {"the pressure solve failed"};
   left.answer = equation_.respond(left.impulse, left.walls, Eigen::VectorXd::Zero(equation_.mode_count()));
   return {};
+}
+
+template <int d>
+typename Step<d>::Unrepaired Step<d>::begin_repair() {
+  trial_.repaired.assign(equation_.size(), 0.0);
+  trial_.repair_handed.assign(water_.walls.size(), Wrench<d>::Zero());
+  const double energy = equation_.kinetic_energy(trial_.v), drops = energy_of_drops(trial_.v);
+  trial_.energy_before = energy + drops;
+  return {trial_.s_before, trial_.v, trial_.answer, energy, drops};
+}
+
+// The carried velocity's flux, seen at t_{n-1/2} on the new mesh.
+template <int d>
+void Step<d>::flux_before(std::vector<double>& residual) {
+  middle(trial_.v, -0.5 * water_.work.dt);
+  equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_before,
+                          water_.centres(water_.moved_poses(trial_.s_before, -0.5 * water_.work.dt)), residual);
+}
+
+// It is a projection: what it gives to the water it takes from bodies. Where films are worn to nodes of hardly any mass
+// the truncated one may not be, and counts by a half, a quarter, not at all.
+template <int d>
+void Step<d>::take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
+                          std::span<const Wrench<d>> handed) {
+  const auto& held = equation_.held();
+  auto& s = trial_.s_before;
+  double taken = 1, energy = 0;
+  auto settle = [&] {
+    trial_.v = free;
+    held.hold(trial_.v, s);
+    energy = equation_.kinetic_energy(trial_.v);
+  };
+  auto gains = [&] {
+    double given = work_of(impulses, from.s, s);
+    for (std::size_t w = 0; w < handed.size(); ++w) given += taken * handed[w].dot(0.5 * (from.s[w] + s[w]));
+    return energy + given > from.energy + most_gain * (from.energy + std::abs(given));
+  };
+  settle();
+  while (taken > 0 && gains()) {
+    const double less = taken > 0.25 ? 0.5 : 0.0;
+    taken *= less;
+    for (double& impulse : impulses) impulse *= less;
+    for (std::size_t w = 0; w < s.size(); ++w) s[w] = from.s[w] + less * (s[w] - from.s[w]);
+    for (std::size_t i = 0; i < free.size(); ++i) free[i] = from.free[i] + less * (free[i] - from.free[i]);
+    trial_.answer = from.answer + less * (trial_.answer - from.answer);
+    settle();
+  }
+  for (std::size_t w = 0; w < handed.size(); ++w) trial_.repair_handed[w] += taken * handed[w];
+  for (int i = 0; i < equation_.size(); ++i) trial_.repaired[i] += impulses[i];
+  from = {s, free, trial_.answer, energy, from.drops};
+  trial_.energy_repaired = energy + from.drops;
 }
 
 template <int d>

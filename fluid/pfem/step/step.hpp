@@ -37,7 +37,8 @@ inline constexpr double closely = 1e-4, roughly = 1e-2;
 template <int d>
 class Step {
  public:
-  explicit Step(Water<d>& water) : water_(water) {}
+  explicit Step(Water<d>& water, SurfaceUnknowns on_surface = SurfaceUnknowns::without_spikes)
+      : water_(water), equation_(on_surface) {}
   virtual ~Step() = default;
   Step(const Step&) = delete;
   Step& operator=(const Step&) = delete;
@@ -68,10 +69,29 @@ class Step {
   /// Corrects impulses by the pressure matrix for what nodes and walls really do.
   virtual Status correct(std::span<const double> previous) = 0;
 
+  /// What a repair starts from.
+  struct Unrepaired {
+    std::vector<Twist<d>> s;   ///< of walls
+    std::vector<Vec<d>> free;  ///< of nodes, as if no wall held them
+    Eigen::VectorXd answer;    ///< of modes
+    double energy = 0;         ///< of the liquid [J]
+    double drops = 0;          ///< of the spray [J]
+  };
+  /// The carried velocities, before any repair.
+  Unrepaired begin_repair();
+  /// The volume that they create on the way back to t_{n-1/2}: of unknowns [m^d/s].
+  void flux_before(std::vector<double>& residual);
+  /// Takes in impulses of the repair that have made `free` of `from.free` and handed impulses to walls, as far as they bring no
+  /// energy; `from` is then what a further one starts from.
+  void take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
+                   std::span<const Wrench<d>> handed);
+
   /// The motion that the impulses found so far give the nodes.
   void move_nodes();
-  /// The volume that this motion creates, and what it asks for.
-  Status what_is_left(std::span<const double> previous, Correction<d>& left);
+  /// The volume that this motion creates: of unknowns [m^d/s].
+  void what_is_left(std::span<const double> previous, std::vector<double>& residual);
+  /// What its residual asks for, by the pressure matrix and the bodies in it.
+  Status ask(Correction<d>& left);
   /// Adds a share of a correction to impulses and walls.
   void apply(const Correction<d>& correction, double share);
   /// Lets the modes answer to impulses: changes both arguments.

@@ -12,9 +12,9 @@ class Fractional final : public Step<d> {
   using Step<d>::Step;
 
  private:
-  using Step<d>::water_, Step<d>::dt_, Step<d>::equation_, Step<d>::trial_;
-  using Step<d>::middle, Step<d>::answer_to, Step<d>::work_of, Step<d>::energy_of_drops;
-  using Step<d>::move_nodes, Step<d>::what_is_left, Step<d>::apply;
+  using Step<d>::water_, Step<d>::equation_, Step<d>::trial_;
+  using Step<d>::begin_repair, Step<d>::flux_before, Step<d>::answer_to, Step<d>::take_repair;
+  using Step<d>::move_nodes, Step<d>::what_is_left, Step<d>::ask, Step<d>::apply;
 
   Status repair() override;
   Status correct(std::span<const double> previous) override;
