@@ -4,6 +4,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "apps/build/formulations.hpp"
 #include "apps/scene/kinds/coupling_kinds.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/mirror.hpp"
@@ -34,8 +35,8 @@ std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene,
                                                  std::function<void()> meanwhile, World<d>& world) {
   auto spec = fluid_spec<d>(scene);
   spec.while_meshing = std::move(meanwhile);
-  auto part =
-      std::make_unique<fluid::Participant<d>>(std::make_unique<fluid::Fluid<d>>(std::move(spec), std::move(effects)));
+  auto part = std::make_unique<fluid::Participant<d>>(
+      std::make_unique<fluid::Fluid<d>>(std::move(spec), std::move(effects), formulation<d>(*scene.fluid)));
   world.fluid = &part->fluid();
   return part;
 }

@@ -16,6 +16,7 @@
 #include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/coupling_kinds.hpp"
+#include "apps/scene/kinds/formulation_kinds.hpp"
 #include "apps/scene/kinds/joint_kinds.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"
@@ -74,6 +75,7 @@ void print_liquid(const Scene& scene) {
   const auto& fluid = *scene.fluid;
   fmt::print("liquid\n");
   row("density", fmt::format("{:g} kg/m^3", fluid.density));
+  row("formulation", fmt::format("{}: {}", fluid.formulation, named(formulation_kinds(), fluid.formulation).about));
   row("regions", fmt::format("{}", fluid.regions.size()));
   if (scene.gravity) row("still water level", fmt::format("{:.6g} m", *still_water_level<d>(scene)));
   row("element sizes", fmt::format("{:g} m at the surface, {:g} m at most, growing {:g} per metre", fluid.size.surface,

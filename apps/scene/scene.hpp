@@ -110,7 +110,8 @@ struct Sizes {
 };
 
 struct Fluid {
-  double density = 1000;  ///< [kg/m^3]
+  double density = 1000;                   ///< [kg/m^3]
+  std::string formulation = "fractional";  ///< of `formulation_kinds`
   Sizes size;
   std::vector<Region> regions;
 };

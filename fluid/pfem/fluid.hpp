@@ -24,6 +24,7 @@
 #include "core/response.hpp"
 #include "core/status.hpp"
 #include "fluid/effects/effect.hpp"
+#include "fluid/pfem/formulations.hpp"
 #include "fluid/pfem/pressure/pressure.hpp"
 #include "fluid/pfem/spec.hpp"
 #include "fluid/pfem/step_result.hpp"
@@ -38,7 +39,9 @@ template <int d>
 class Fluid final : public FluidView<d> {
  public:
   /// Meshes the liquid at t = 0. Throws std::invalid_argument where walls leave none or its outline is no surface.
-  Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effects);
+  /// `formulation`: what steps it.
+  Fluid(FluidSpec<d> spec, std::vector<std::unique_ptr<Effect<d>>> effects,
+        const Formulation<d>& formulation = fractional<d>());
   ~Fluid() override;
 
   double time() const;       ///< t_n

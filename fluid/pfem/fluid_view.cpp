@@ -5,12 +5,12 @@ namespace splashdown::fluid {
 
 template <int d>
 double Fluid<d>::density() const {
-  return s_->spec.density;
+  return s_->water.spec.density;
 }
 
 template <int d>
 std::span<const WallSpec<d>> Fluid<d>::walls() const {
-  return s_->spec.walls;
+  return s_->water.spec.walls;
 }
 
 template <int d>
@@ -44,7 +44,7 @@ std::optional<double> Fluid<d>::drop_volume(std::size_t node) const {
 template <int d>
 double Fluid<d>::potential(const Vec<d>& point) const {
   double sum = 0;
-  for (const auto& effect : s_->effects) sum += effect->potential(point);
+  for (const auto& effect : s_->water.effects) sum += effect->potential(point);
   return sum;
 }
 
@@ -53,11 +53,11 @@ std::vector<std::pair<std::string, double>> Fluid<d>::diagnostics() const {
   const auto& at = nodes();
   const std::vector<double> lumped_mass = nodal_sums(mesh(), at.size(), [&](std::size_t c) {
     const Mat<d> edges = edge_matrix<d>(corners(at.x, mesh().cells[c]));
-    return s_->spec.density * edges.determinant() / factorial<d> / (d + 1);
+    return s_->water.spec.density * edges.determinant() / factorial<d> / (d + 1);
   });
   std::vector<std::pair<std::string, double>> all;
   std::size_t booked = 0;
-  for (const auto& effect : s_->effects) {
+  for (const auto& effect : s_->water.effects) {
     for (const auto& [name, value] : effect->diagnostics(at, lumped_mass))
       all.emplace_back(effect->name() + "_" + name, value);
     if (!effect->books_work()) continue;

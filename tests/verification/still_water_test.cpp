@@ -1,7 +1,7 @@
 // Still water stays still: what roundoff, or a ripple, moves does not grow.
 #include <gtest/gtest.h>
 
-#include "fluid/pfem/wave_bound.hpp"
+#include "fluid/pfem/water/wave_bound.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
 namespace splashdown {

@@ -127,7 +127,8 @@ void PressureEquation<d>::choose_unknowns() {
     auto on_spike = [&] {
       return lumped_[i] < lightest_on_surface * std::pow(free_measure_[i], d / (d - 1.0)) && !on_sheet(i);
     };
-    const bool held = nodes_->surface[i] && (at_contact_line(static_cast<int>(i)) || on_spike());
+    const bool held = on_surface_ == SurfaceUnknowns::without_spikes && nodes_->surface[i] &&
+                      (at_contact_line(static_cast<int>(i)) || on_spike());
     if (held || nodes_->spray[i]) {
       free_area_[i].setZero();
       continue;

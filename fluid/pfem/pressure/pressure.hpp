@@ -58,6 +58,9 @@ inline constexpr double shortest = (d + 1.0) / (d + 2.0);
 /// Stands for 1 / (1 - z): equal to it at z = 0 in value and slope, and at the middle, z = 1/2; within 4 % up to there.
 inline constexpr double inverse_mass(double z) { return 1 + z + 2 * z * z; }
 
+/// Which nodes of the free surface have a pressure of their own: all, or all but spikes and thin contact lines.
+enum class SurfaceUnknowns { without_spikes, all };
+
 /// Matrix, factor and residuals of one step. World frame; unknowns are the nodes with a pressure of their own.
 ///
 /// q and phi are linear. On the free surface p = 0 is the natural condition of the momentum equation: impulses
@@ -80,6 +83,7 @@ inline constexpr double inverse_mass(double z) { return 1 + z + 2 * z * z; }
 template <int d>
 class PressureEquation {
  public:
+  explicit PressureEquation(SurfaceUnknowns on_surface = SurfaceUnknowns::without_spikes) : on_surface_(on_surface) {}
   /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `centres`: reference
   /// points of the walls, world frame [m]; `structure`: of all walls; `held`: nodes whose mass moves with walls. False if the
   /// factor fails.
@@ -106,6 +110,11 @@ class PressureEquation {
   /// Adds what the motion form owes to boundary facets that slide along their wall; s, `centres`: as above.
   void slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
                       std::span<const Vec<d>> centres, std::span<const int> slides, std::vector<double>& r) const;
+
+  /// r -= sum_e theta_e int_e grad q . (change + grad phi / rho): PSPG, for impulses phi and the change of nodal velocities that they
+  /// have made [m/s]; `theta`: of cells.
+  void stabilise(std::span<const double> phi, std::span<const Vec<d>> change, std::span<const double> theta,
+                 std::vector<double>& r) const;
 
   /// Solves in place for walls that stand still; `respond` lets those that do not move. `tolerance`: of the residual over
   /// r, for large systems, which are solved iteratively: from `guess`, what phi is about after `respond`, and the
@@ -189,6 +198,7 @@ class PressureEquation {
   std::optional<Eigen::VectorXd> corrected(LinearSolver& solver, const Eigen::VectorXd& flux) const;
   Eigen::VectorXd of_held(std::span<const double> phi) const;
 
+  SurfaceUnknowns on_surface_;
   const Nodes<d>* nodes_ = nullptr;
   const Mesh<d>* mesh_ = nullptr;
   std::vector<VolumeGradients<d>> gradients_;  // at t_n

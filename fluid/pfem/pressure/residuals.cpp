@@ -175,6 +175,27 @@ void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>
 }
 
 template <int d>
+void PressureEquation<d>::stabilise(std::span<const double> phi, std::span<const Vec<d>> change,
+                                    std::span<const double> theta, std::vector<double>& r) const {
+  of_corner_.resize(mesh_->cells.size());
+  in_parallel(mesh_->cells.size(), [&](std::size_t c) {
+    const auto& cell = mesh_->cells[c];
+    Vec<d> mean = Vec<d>::Zero(), slope = Vec<d>::Zero();
+    for (int k = 0; k <= d; ++k) {
+      mean += change[cell[k]] / (d + 1);
+      if (const int own = unknown_[cell[k]]; own >= 0) slope += phi[own] * gradients_[c].col(k);
+    }
+    const Vec<d> left = theta[c] * (mean + per_mass_[c] * slope);
+    for (int k = 0; k <= d; ++k) of_corner_[c][k] = gradients_[c].col(k).dot(left);
+  });
+  in_parallel(node_.size(), [&](std::size_t i) {
+    double sum = 0;
+    for (const auto [c, k] : around_.around(node_[i])) sum += of_corner_[c][k];
+    r[i] -= sum;
+  });
+}
+
+template <int d>
 void PressureEquation<d>::add_sources(std::vector<double>& r) const {
   for (std::size_t k = 0; k < source_.size(); ++k) r[k] += source_[k];
 }

@@ -1,4 +1,4 @@
-#include "fluid/pfem/collision_bound.hpp"
+#include "fluid/pfem/water/collision_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -35,6 +35,15 @@ rule("schemes and types are chosen in apps/build and apps/effects alone" FILES "
 
 # Rooms within a room.
 rule("a fluid's parts do not know the whole" FILES "^fluid/(pfem/.*|effects)/" INCLUDES "^fluid/pfem/(fluid|fluid_state|participant)\\.hpp")
+rule("what a step is made of knows neither the water as a whole nor the step" FILES "^fluid/(pfem/(contact|initial|linear|mesh|pressure)|effects)/"
+  INCLUDES "^fluid/pfem/(water|step)/")
+rule("the water does not know what steps it" FILES "^fluid/pfem/water/" INCLUDES "^fluid/pfem/(step/|formulations\\.)")
+rule("the frame of a step knows no formulation" FILES "^fluid/pfem/step/[a-z_]*\\." BUT_FILES "^fluid/pfem/step/formulations\\.cpp$"
+  INCLUDES "^fluid/pfem/step/[a-z_]*/")
+rule("the fractional step knows the frame of a step and no other formulation" FILES "^fluid/pfem/step/fractional/"
+  INCLUDES "^fluid/pfem/step/" BUT_INCLUDES "^fluid/pfem/step/(fractional/|(step|trial)\\.hpp$)")
+rule("the monolithic formulation knows the frame of a step and no other formulation" FILES "^fluid/pfem/step/monolithic/"
+  INCLUDES "^fluid/pfem/step/" BUT_INCLUDES "^fluid/pfem/step/(monolithic/|(step|trial)\\.hpp$)")
 rule("the linear algebra knows no water, but for the pattern that cells make" FILES "^fluid/pfem/linear/"
   INCLUDES "^fluid/(pfem/(mesh|initial|contact|pressure)|effects)/" BUT_INCLUDES "^fluid/pfem/mesh/node_cells\\.hpp$")
 rule("the mesh knows walls, and nothing of what is solved on it" FILES "^fluid/pfem/mesh/"

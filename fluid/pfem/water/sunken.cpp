@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fluid/pfem/fluid_state.hpp"
+#include "fluid/pfem/water/water.hpp"
 
 namespace splashdown::fluid {
 
@@ -12,7 +12,7 @@ namespace splashdown::fluid {
 //
 //   dE = -rho g . (V' c' - V c - V_0 (c* - c)),   V_0 = V - chords
 template <int d>
-void Fluid<d>::State::follow_hulls(std::span<const Isometry<d>> poses) {
+void Water<d>::follow_hulls(std::span<const Isometry<d>> poses) {
   const auto before = std::exchange(work.displaced, displaced_volumes(work.mesh, work.nodes.x, walls.size(), mirror()));
   std::vector<double> taken(walls.size(), 0.0);
   for (std::size_t w = 0; w < walls.size(); ++w) {
@@ -38,7 +38,7 @@ void Fluid<d>::State::follow_hulls(std::span<const Isometry<d>> poses) {
   }
 }
 
-template struct Fluid<2>::State;
-template struct Fluid<3>::State;
+template struct Water<2>;
+template struct Water<3>;
 
 }  // namespace splashdown::fluid

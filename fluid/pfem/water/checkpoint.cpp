@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/stored.hpp"
-#include "fluid/pfem/fluid_state.hpp"
 #include "fluid/pfem/mesh/parts.hpp"
+#include "fluid/pfem/water/water.hpp"
 
 namespace splashdown::fluid {
 namespace {
@@ -42,8 +42,8 @@ struct Loader {
   }
 };
 
-template <class Stream, int d>
-void archive_present(Stream stream, Present<d>& s) {
+template <class Stream, class State>
+void archive_present(Stream stream, State& s) {
   stream.value(s.time), stream.value(s.dt), stream.value(s.acceleration_dt), stream.value(s.ledger);
   stream.list(s.nodes.x), stream.list(s.nodes.v), stream.list(s.nodes.p);
   stream.list(s.nodes.tie), stream.list(s.nodes.surface), stream.list(s.nodes.separates);
@@ -97,40 +97,34 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
 }  // namespace
 
 template <int d>
-void Fluid<d>::save(std::ostream& out) const {
-  archive_present(Saver{out}, s_->now);
-  for (const auto& effect : s_->effects)
+void Water<d>::save(std::ostream& out) const {
+  archive_present(Saver{out}, now);
+  for (const auto& effect : effects)
     for (const double number : effect->memory()) Saver{out}.value(number);
 }
 template <int d>
-void Fluid<d>::load(std::istream& in) {
+void Water<d>::load(std::istream& in) {
   Present<d> loaded;
   archive_present(Loader{in}, loaded);
   std::vector<double> remembered;  // of all effects
-  for (const auto& effect : s_->effects)
+  for (const auto& effect : effects)
     for (std::size_t k = effect->memory().size(); k > 0; --k) Loader{in}.value(remembered.emplace_back());
   if (!in) throw std::runtime_error("ends in the middle of the water's state");
-  check(loaded, s_->walls);
+  check(loaded, walls);
   if (!all_finite(remembered)) throw std::runtime_error("the water's state is damaged or of another scene");
   auto next = remembered.begin();
-  for (const auto& effect : s_->effects)
+  for (const auto& effect : effects)
     for (double& number : effect->memory()) number = *next++;
-  s_->now = std::move(loaded);
-  s_->now.nodes.vertex.assign(s_->now.nodes.size(), -1);
-  s_->now.nodes.inherited.assign(s_->now.nodes.size(), {});
-  s_->now.nodes.field_energy.assign(s_->now.nodes.size(), 0.0);
-  s_->now.displaced = displaced_volumes(s_->now.mesh, s_->now.nodes.x, s_->walls.size(), s_->mirror());
-  s_->now.nodes.part = parts_of(s_->now.mesh, s_->now.nodes.size());
-  s_->prepared = s_->solved = false;
-  s_->result = {};
-  s_->result.loads.resize(s_->now.resting_loads.size());
-  for (std::size_t w = 0; w < s_->result.loads.size(); ++w)
-    s_->result.loads[w] = {.physical = s_->now.resting_loads[w], .wetted = s_->now.wetted[w]};
+  now = std::move(loaded);
+  now.nodes.vertex.assign(now.nodes.size(), -1);
+  now.nodes.inherited.assign(now.nodes.size(), {});
+  now.nodes.field_energy.assign(now.nodes.size(), 0.0);
+  now.displaced = displaced_volumes(now.mesh, now.nodes.x, walls.size(), mirror());
+  now.nodes.part = parts_of(now.mesh, now.nodes.size());
+  prepared = false;
 }
 
-template void Fluid<2>::save(std::ostream&) const;
-template void Fluid<2>::load(std::istream&);
-template void Fluid<3>::save(std::ostream&) const;
-template void Fluid<3>::load(std::istream&);
+template struct Water<2>;
+template struct Water<3>;
 
 }  // namespace splashdown::fluid

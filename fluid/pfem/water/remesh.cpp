@@ -6,7 +6,6 @@
 
 #include "fluid/pfem/contact/attachment.hpp"
 #include "fluid/pfem/contact/separation.hpp"
-#include "fluid/pfem/fluid_state.hpp"
 #include "fluid/pfem/mesh/conservation/field_energy.hpp"
 #include "fluid/pfem/mesh/conservation/volume_correction.hpp"
 #include "fluid/pfem/mesh/drops/coalescence.hpp"
@@ -16,11 +15,12 @@
 #include "fluid/pfem/mesh/sizes/narrow_strips.hpp"
 #include "fluid/pfem/mesh/sizes/size_field.hpp"
 #include "fluid/pfem/parallel.hpp"
+#include "fluid/pfem/water/water.hpp"
 
 namespace splashdown::fluid {
 
 template <int d>
-void Fluid<d>::State::size_nodes() {
+void Water<d>::size_nodes() {
   const SizeField<d> field(spec.size, walls_at(work.poses), work.wetted, work.nodes.x, work.mesh);
   in_parallel(work.nodes.size(),
               [&](std::size_t i) { work.nodes.h[i] = field(work.nodes.x[i], work.nodes.tie[i].wall); });
@@ -33,7 +33,7 @@ void Fluid<d>::State::size_nodes() {
 // and inherited, and off water that a wall touches no more energy than the field had around it (other water keeps its momentum); one that
 // comes back brings it. What stays is owed to the rest, volume and momentum; where no water stays, drops off free water share its momentum.
 template <int d>
-void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
+void Water<d>::book_spray(const std::vector<char>& was_spray) {
   Nodes<d>& nodes = work.nodes;
   double leaving = 0, returning = 0, lost = 0;
   for (const auto& cell : work.mesh.cells) lost -= volume<d>(corners(nodes.x, cell));
@@ -81,7 +81,7 @@ void Fluid<d>::State::book_spray(const std::vector<char>& was_spray) {
 
 // What nodes that go have carried passes to a neighbour that stays.
 template <int d>
-void Fluid<d>::State::hand_over(const std::vector<char>& goes, const std::vector<std::array<int, d + 1>>& cells) {
+void Water<d>::hand_over(const std::vector<char>& goes, const std::vector<std::array<int, d + 1>>& cells) {
   Nodes<d>& nodes = work.nodes;
   for (const auto& cell : cells) {
     const auto heir = std::find_if(cell.begin(), cell.end(), [&](int n) { return !goes[n]; });
@@ -92,16 +92,9 @@ void Fluid<d>::State::hand_over(const std::vector<char>& goes, const std::vector
   }
 }
 
-template <int d>
-Vec<d> Fluid<d>::State::gravity() const {
-  Vec<d> g = Vec<d>::Zero();
-  for (const auto& effect : effects) g += effect->uniform_acceleration();
-  return g;
-}
-
 // Whether effects that spread momentum leave that of an element's size alone, within a step.
 template <int d>
-bool Fluid<d>::State::is_inviscid(int node) const {
+bool Water<d>::is_inviscid(int node) const {
   constexpr double spread = 1e-3;  // of the momentum
   double diffusivity = 0;
   for (const auto& effect : effects) diffusivity += effect->diffusivity(spec.density);
@@ -112,7 +105,7 @@ bool Fluid<d>::State::is_inviscid(int node) const {
 // Whether water at a wall is so slow along it that it does not get this far within a few times sqrt(h / g), in which waves of an
 // element's size pass, and within a few steps.
 template <int d>
-bool Fluid<d>::State::rests_on_wall(int node, double length) const {
+bool Water<d>::rests_on_wall(int node, double length) const {
   constexpr double few = 4;
   const int wall = work.nodes.tie[node].wall;
   if (wall < 0) return false;
@@ -123,7 +116,7 @@ bool Fluid<d>::State::rests_on_wall(int node, double length) const {
 }
 
 template <int d>
-void Fluid<d>::State::collect_drops() {
+void Water<d>::collect_drops() {
   Nodes<d>& nodes = work.nodes;
   auto carried = [&](const std::vector<char>& by) {
     double volume = 0;
@@ -144,7 +137,7 @@ void Fluid<d>::State::collect_drops() {
 // The nodes that are corners of cells come first, in 3D along a space-filling curve: neighbours are near in memory, and
 // in the same block of the smoother. How many they are.
 template <int d>
-std::size_t Fluid<d>::State::put_drops_last() {
+std::size_t Water<d>::put_drops_last() {
   std::vector<int> order(work.nodes.size());
   if constexpr (d == 3) {
     const auto curve = spatial_order<d>(work.nodes.x);
@@ -161,7 +154,7 @@ std::size_t Fluid<d>::State::put_drops_last() {
 
 // The cells of the water. `liquid`: nodes that may be their corners, the first ones.
 template <int d>
-void Fluid<d>::State::cut(std::size_t liquid) {
+void Water<d>::cut(std::size_t liquid) {
   Nodes<d>& nodes = work.nodes;
   // To do without nodes that keep the triangulation from the facets of walls. Tips of steep cones take up to seven.
   constexpr int attempts = 8;
@@ -201,13 +194,13 @@ void Fluid<d>::State::cut(std::size_t liquid) {
 
 // Gives nodes the energy that the field has around them, for the next mesh to keep: of all water, [J].
 template <int d>
-double Fluid<d>::State::hold_field_energy() {
+double Water<d>::hold_field_energy() {
   work.nodes.field_energy = field_energies(work.mesh, work.nodes);
   return spec.density * std::accumulate(work.nodes.field_energy.begin(), work.nodes.field_energy.end(), 0.0);
 }
 
 template <int d>
-void Fluid<d>::State::prepare() {
+void Water<d>::prepare() {
   const auto scope = timer.scope(remesh);
   work = now;
   const double energy = hold_field_energy();
@@ -229,7 +222,7 @@ void Fluid<d>::State::prepare() {
 
 // What nodes of a new mesh carry, and what its volume has changed by.
 template <int d>
-void Fluid<d>::State::settle(double before) {
+void Water<d>::settle(double before) {
   free_water = FreeWater<d>(work.mesh, work.nodes, walls_at(work.poses));
   free_carried = free_water.moments(work.nodes.volume, work.nodes.v, work.nodes.inherited);
   std::ranges::fill(work.nodes.inherited, VelocityMoments<d>{});
@@ -251,7 +244,7 @@ void Fluid<d>::State::settle(double before) {
 
 // A node for which no step is short enough leaves the begun step's mesh as a drop.
 template <int d>
-void Fluid<d>::State::let_fragment_fly(int node) {
+void Water<d>::let_fragment_fly(int node) {
   const auto scope = timer.scope(remesh);
   const double before = work.ledger.volume, energy = hold_field_energy();
   const auto spray = work.nodes.spray;
@@ -263,7 +256,7 @@ void Fluid<d>::State::let_fragment_fly(int node) {
   work.ledger.energy_remesh += hold_field_energy() - energy;
 }
 
-template struct Fluid<2>::State;
-template struct Fluid<3>::State;
+template struct Water<2>;
+template struct Water<3>;
 
 }  // namespace splashdown::fluid

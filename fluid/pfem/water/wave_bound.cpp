@@ -1,4 +1,4 @@
-#include "fluid/pfem/wave_bound.hpp"
+#include "fluid/pfem/water/wave_bound.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,12 @@
+#include "apps/scene/kinds/formulation_kinds.hpp"
+
+namespace splashdown::apps {
+
+std::span<const FormulationKind> formulation_kinds() {
+  static const FormulationKind kinds[] = {
+      {"fractional", "pressure, then corrections of what it leaves"},
+      {"monolithic", "velocity and pressure in one stabilised system, solved to a tolerance"}};
+  return kinds;
+}
+
+}  // namespace splashdown::apps

@@ -1,0 +1,19 @@
+// The formulations of the fluid that a scene may name: a row each. What they are made of stands in apps/build/formulations.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "apps/scene/kinds/named.hpp"
+
+namespace splashdown::apps {
+
+/// A way to step the water.
+struct FormulationKind {
+  std::string_view name;
+  std::string_view about;  ///< what `check` tells besides the name
+};
+/// The default comes first.
+std::span<const FormulationKind> formulation_kinds();
+
+}  // namespace splashdown::apps

@@ -1,0 +1,32 @@
+// Ways to step the water: each makes the step of a fluid over its water.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace splashdown::fluid {
+
+template <int d>
+struct Water;
+template <int d>
+class Step;
+
+/// Makes the step; the water must outlive it.
+template <int d>
+using Formulation = std::function<std::unique_ptr<Step<d>>(Water<d>& water)>;
+
+/// Pressure and a fixed number of corrections on one factor (step/fractional).
+template <int d>
+Formulation<d> fractional();
+
+/// Of the monolithic formulation.
+struct MonolithicSpec {
+  double tolerance = 1e-6;  ///< of what the pressure does to velocities: what its solve may leave
+  double share = 0.5;       ///< tau over the interval in which the pressure acts
+};
+
+/// Velocity and pressure as one stabilised system, solved to a tolerance (step/monolithic).
+template <int d>
+Formulation<d> monolithic(const MonolithicSpec& spec = {});
+
+}  // namespace splashdown::fluid

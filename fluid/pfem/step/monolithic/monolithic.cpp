@@ -1,0 +1,109 @@
+#include "fluid/pfem/step/monolithic/monolithic.hpp"
+
+#include <algorithm>
+
+#include "fluid/pfem/linear/generalised_conjugate_residual.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+// Of a velocity: what sums over its neighbours round off. Less has no direction.
+constexpr double roundoff_of_sums = 1e-12;
+// What the repair leaves of its flux the pressure takes out.
+constexpr double repaired_to = 1e-2;
+
+template <int d>
+std::vector<Vec<d>> difference(std::span<const Vec<d>> a, std::span<const Vec<d>> b) {
+  std::vector<Vec<d>> out(a.size());
+  in_parallel(a.size(), [&](std::size_t i) { out[i] = a[i] - b[i]; });
+  return out;
+}
+
+}  // namespace
+
+// Without viscosity and in a frame that moves with the water tau is half the interval over which the pressure acts.
+template <int d>
+std::vector<double> Monolithic<d>::shares() const {
+  return std::vector<double>(water_.work.mesh.cells.size(), spec_.share);
+}
+
+template <int d>
+template <class Find, class Apply>
+Status Monolithic<d>::converge(Find find, Apply add, double enough) {
+  constexpr int passes = 4, most = 40;  // of Picard; steps in one, twice what any mesh has needed to 1e-8
+  Correction<d> left;
+  for (int pass = 0;; ++pass) {
+    if (auto status = find(left); !status.ok()) return status;
+    if (left.dot(left) <= enough || pass == passes) return {};
+    GeneralisedConjugateResidual<Correction<d>> iteration(left);
+    for (int k = 0; k < most && iteration.size() > enough; ++k) {
+      const Correction<d> tried = iteration.left();
+      add(tried, 1);
+      if (auto status = find(left); !status.ok()) return status;
+      iteration.step(left);
+      add(tried, -1);
+      add(iteration.last(), 1);
+    }
+  }
+}
+
+template <int d>
+Status Monolithic<d>::repair() {
+  const auto scope = water_.timer.scope(Phase::pressure);
+  const auto& held = equation_.held();
+  const auto theta = shares();
+  auto from = begin_repair();
+  auto& impulses = trial_.r;
+  flux_before(impulses);
+  Correction<d> first;
+  first.residual = impulses;
+  if (!equation_.solve(impulses, closely)) return {"the pressure solve failed"};
+  first.impulse = impulses;
+  const double enough =
+      std::max(repaired_to * repaired_to * first.dot(first), roundoff_of_sums * roundoff_of_sums * from.energy);
+  answer_to(impulses, trial_.s_before, equation_.on_modes(held.excess(trial_.v, trial_.s_before)));
+  std::vector<Vec<d>> free;  // as if no wall held them
+  const auto find = [&](Correction<d>& left) {
+    free = from.free;
+    equation_.accelerate(impulses, free);
+    trial_.v = free;
+    held.hold(trial_.v, trial_.s_before);
+    flux_before(left.residual);
+    equation_.stabilise(impulses, difference<d>(free, from.free), theta, left.residual);
+    return ask(left);
+  };
+  const auto add = [&](const Correction<d>& correction, double share) {
+    for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] += share * correction.impulse[i];
+    for (std::size_t w = 0; w < trial_.s_before.size(); ++w) trial_.s_before[w] += share * correction.walls[w];
+    if (equation_.mode_count() > 0) trial_.answer += share * correction.answer;
+  };
+  if (auto status = converge(find, add, enough); !status.ok()) return status;
+  take_repair(from, impulses, free, held.excess(free, trial_.s_before));
+  return {};
+}
+
+template <int d>
+Status Monolithic<d>::correct(std::span<const double> previous) {
+  const auto theta = shares();
+  const auto find = [&](Correction<d>& left) {
+    move_nodes();
+    what_is_left(previous, left.residual);
+    equation_.stabilise(trial_.phi, difference<d>(trial_.v_after, trial_.v), theta, left.residual);
+    return ask(left);
+  };
+  move_nodes();
+  trial_.energy_unloaded = equation_.kinetic_energy(trial_.v);
+  // Twice the energy of what the pressure does to velocities is r^T A^-1 r of what it takes out.
+  const double done = 2 * equation_.kinetic_energy(difference<d>(trial_.v_after, trial_.v));
+  const double enough =
+      std::max(spec_.tolerance * spec_.tolerance * done, roundoff_of_sums * roundoff_of_sums * trial_.energy_unloaded);
+  const auto add = [this](const Correction<d>& correction, double share) { apply(correction, share); };
+  if (auto status = converge(find, add, enough); !status.ok()) return status;
+  trial_.uncorrected = trial_.phi;  // nothing in it alternates
+  return {};
+}
+
+template class Monolithic<2>;
+template class Monolithic<3>;
+
+}  // namespace splashdown::fluid

@@ -1,0 +1,335 @@
+// The frame of a step: mesh and factor, what comes before the pressure, the first pressure and what it leaves.
+#include "fluid/pfem/step/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fluid/pfem/parallel.hpp"
+
+namespace splashdown::fluid {
+
+template <int d>
+Status Step<d>::begin(double kick, double dt, const InterfaceModel& structure) {
+  kick_ = kick;
+  dt_ = dt;
+  if (!water_.prepared) water_.prepare();
+  {
+    const auto scope = water_.timer.scope(assemble);
+    wall_motion_.emplace(water_.work.nodes, water_.work.mesh, water_.walls_at(water_.work.poses),
+                         walls_that_answer<d>(structure.modal, water_.walls.size()));
+    if (!equation_.build(water_.work.nodes, water_.work.mesh, water_.spec.density, water_.centres(water_.work.poses),
+                         structure, wall_motion_->held()))
+      return {"the pressure matrix could not be factored"};
+    wall_motion_->meet_pressure(equation_.unknown(), equation_.lumped_volume());
+  }
+  for (std::size_t t = 0; t < water_.effects.size(); ++t) {
+    const auto scope = water_.timer.scope(first_effect + t);
+    if (auto status = water_.effects[t]->begin(view()); !status.ok()) return status;
+  }
+  return add_pressure_terms();
+}
+
+// The matrix stands without them: their diagonal is its own reason to factor once more.
+template <int d>
+Status Step<d>::add_pressure_terms() {
+  terms_ = {};
+  for (std::size_t t = 0; t < water_.effects.size(); ++t) {
+    const auto scope = water_.timer.scope(first_effect + t);
+    water_.effects[t]->pressure(view(), terms_);
+  }
+  const auto scope = water_.timer.scope(Phase::pressure);
+  if (!equation_.set_terms(terms_.diagonal, terms_.source)) return {"the pressure matrix could not be factored"};
+  return {};
+}
+
+template <int d>
+StepResult<d> Step<d>::solve(std::span<const Twist<d>> given, std::span<const double> previous,
+                             const ClosedContacts& contacts) {
+  StepResult<d> found;
+  found.status = find_motion(given, previous, contacts);
+  if (found.status.ok()) evaluate(found);
+  return found;
+}
+
+template <int d>
+Status Step<d>::find_motion(std::span<const Twist<d>> given, std::span<const double> previous,
+                            const ClosedContacts& contacts) {
+  if (previous.size() != equation_.laplacian().pieces().size())
+    throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
+  trial_.v = water_.work.nodes.v;
+  trial_.s_before = water_.work.velocity;
+  trial_.x_mid.resize(trial_.v.size());
+  trial_.on_walls.assign(water_.walls.size(), Wrench<d>::Zero());
+  trial_.known.setZero(equation_.mode_count());
+  trial_.unanswered = trial_.answer = trial_.known;
+  // Neither the repair nor effects depend on what is closed, or what closes might have to open for it.
+  if (contacts.restrict_modes())
+    equation_.allow(Eigen::MatrixXd::Identity(equation_.mode_count(), equation_.mode_count()));
+  if (auto status = repair(); !status.ok()) return status;
+  if (contacts.restrict_modes()) restrict_repair(contacts);
+  // Pressure changes no momentum of free water; masses that are held up (PressureEquation) may.
+  water_.free_water.give_back(water_.free_carried, equation_.lumped_volume(), trial_.v);
+  if (auto status = predict(contacts); !status.ok()) return status;
+  trial_.free_water = water_.free_water.moments(equation_.lumped_volume(), trial_.v);
+  const auto scope = water_.timer.scope(Phase::pressure);
+  if (auto status = solve_pressure(given, previous); !status.ok()) return status;
+  apply_body_impulse(contacts.known);
+  if (auto status = correct(previous); !status.ok()) return status;
+  trial_.handed = equation_.held().excess(trial_.v_after, trial_.s_after);
+  return {};
+}
+
+// The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree. The repair
+// keeps it: it stands for the body's answer, and what it leaves of the flux the pressure finds.
+template <int d>
+void Step<d>::lag(std::vector<double>& residual, std::span<const double> previous,
+                  std::span<const double> present) const {
+  if (previous.empty()) return;
+  std::vector<double> change = equation_.laplacian().means(present);
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] = previous[k] - change[k];
+  equation_.laplacian().add(change, residual);
+}
+
+// Closed contacts take what would open or close them of the bodies' answer to the repair: it is not a motion but an impulse.
+template <int d>
+void Step<d>::restrict_repair(const ClosedContacts& contacts) {
+  equation_.allow(contacts.directions, contacts.workless);
+  const Eigen::VectorXd kept = contacts.allowed(trial_.answer);
+  trial_.unanswered = equation_.inertia() * (trial_.answer - kept);
+  equation_.move(kept - trial_.answer, trial_.s_before);
+  trial_.answer = kept;
+}
+
+template <int d>
+Status Step<d>::predict(const ClosedContacts& contacts) {
+  std::vector<Vec<d>> carried;
+  if (!water_.effects.empty()) {
+    const auto scope = water_.timer.scope(momentum);
+    carried = trial_.v;
+  }
+  const std::vector<Twist<d>> carried_walls = trial_.s_before;
+  Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation_.mode_count());
+  trial_.booked.clear();
+  for (std::size_t t = 0; t < water_.effects.size(); ++t) {
+    const auto scope = water_.timer.scope(first_effect + t);
+    const bool answers = equation_.mode_count() > 0, books = water_.effects[t]->books_work();
+    if (books) trial_.booked.push_back({t, trial_.v, trial_.on_walls});
+    if (auto status = water_.effects[t]->predict(view(answers ? &equation_.modal() : nullptr), {carried, carried_walls},
+                                                 {trial_.v, trial_.on_walls, answers ? &answer : nullptr});
+        !status.ok())
+      return status;
+    if (!books) continue;
+    auto& booked = trial_.booked.back();
+    in_parallel(trial_.v.size(), [&](std::size_t i) { booked.change[i] = trial_.v[i] - booked.change[i]; });
+    for (std::size_t w = 0; w < water_.walls.size(); ++w) booked.on_walls[w] = trial_.on_walls[w] - booked.on_walls[w];
+  }
+  push_surface();
+  if (equation_.mode_count() == 0) return {};
+  // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
+  answer = contacts.allowed(answer);
+  const Eigen::VectorXd impulse = equation_.on_modes(trial_.on_walls);
+  trial_.known += impulse;
+  trial_.answer += answer;
+  equation_.move(answer, trial_.s_before);
+  trial_.unanswered += impulse - equation_.inertia() * answer;
+  return {};
+}
+
+template <int d>
+void Step<d>::push_surface() {
+  trial_.of_surface.clear();
+  if (terms_.surface_pressure.empty()) return;
+  const auto scope = water_.timer.scope(Phase::pressure);
+  for (const double p : terms_.surface_pressure) trial_.of_surface.push_back(kick_ * p);
+  trial_.of_surface = equation_.continued(trial_.of_surface);
+  equation_.push(trial_.of_surface, trial_.v, water_.centres(water_.work.poses), trial_.on_walls);
+}
+
+// The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
+template <int d>
+Status Step<d>::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
+  trial_.s_after.assign(given.begin(), given.end());
+  for (std::size_t w = 0; w < water_.walls.size(); ++w)
+    trial_.s_after[w] += trial_.s_before[w] - water_.work.velocity[w];
+  trial_.s_unloaded = trial_.s_after;
+  middle(trial_.v, 0.5 * dt_);
+  equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_after,
+                          water_.centres(water_.moved_poses(trial_.s_after, 0.5 * dt_)), trial_.phi);
+  if (!previous.empty()) equation_.laplacian().add(previous, trial_.phi);
+  equation_.add_sources(trial_.phi);
+  if (!equation_.solve(trial_.phi, closely, carried_impulse())) return {"the pressure solve failed"};
+  answer_to(trial_.phi, trial_.s_after, equation_.on_modes(equation_.held().excess(trial_.v, trial_.s_after)));
+  let_bodies_answer(trial_.unanswered);
+  return {};
+}
+
+// The motion that the impulses found so far give the nodes.
+template <int d>
+void Step<d>::move_nodes() {
+  trial_.v_after = trial_.v;
+  equation_.accelerate(trial_.phi, trial_.v_after);
+  wall_motion_->move(trial_.v_after, water_.moved_poses(trial_.s_after, dt_), dt_, trial_.moved);
+}
+
+// The volume that this motion creates.
+template <int d>
+void Step<d>::what_is_left(std::span<const double> previous, std::vector<double>& residual) {
+  in_parallel(trial_.v.size(),
+              [&](std::size_t i) { trial_.x_mid[i] = 0.5 * (water_.work.nodes.x[i] + trial_.moved.x[i]); });
+  equation_.motion_residual(trial_.x_mid, trial_.moved.u, residual);
+  equation_.slide_residual(trial_.x_mid, trial_.moved.u, trial_.s_after,
+                           water_.centres(water_.moved_poses(trial_.s_after, 0.5 * dt_)), trial_.moved.slides,
+                           residual);
+  lag(residual, previous, trial_.phi);
+  equation_.add_sources(residual, trial_.phi);
+}
+
+// What a residual asks for, and how walls answer to it.
+template <int d>
+Status Step<d>::ask(Correction<d>& left) {
+  left.impulse = left.residual;
+  left.walls.assign(water_.walls.size(), Twist<d>::Zero());
+  if (!equation_.solve(left.impulse, roughly)) return {"the pressure solve failed"};
+  left.answer = equation_.respond(left.impulse, left.walls, Eigen::VectorXd::Zero(equation_.mode_count()));
+  return {};
+}
+
+template <int d>
+typename Step<d>::Unrepaired Step<d>::begin_repair() {
+  trial_.repaired.assign(equation_.size(), 0.0);
+  trial_.repair_handed.assign(water_.walls.size(), Wrench<d>::Zero());
+  const double energy = equation_.kinetic_energy(trial_.v), drops = energy_of_drops(trial_.v);
+  trial_.energy_before = energy + drops;
+  return {trial_.s_before, trial_.v, trial_.answer, energy, drops};
+}
+
+// The carried velocity's flux, seen at t_{n-1/2} on the new mesh.
+template <int d>
+void Step<d>::flux_before(std::vector<double>& residual) {
+  middle(trial_.v, -0.5 * water_.work.dt);
+  equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_before,
+                          water_.centres(water_.moved_poses(trial_.s_before, -0.5 * water_.work.dt)), residual);
+}
+
+// It is a projection: what it gives to the water it takes from bodies. Where films are worn to nodes of hardly any mass
+// the truncated one may not be, and counts by a half, a quarter, not at all.
+template <int d>
+void Step<d>::take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
+                          std::span<const Wrench<d>> handed) {
+  const auto& held = equation_.held();
+  auto& s = trial_.s_before;
+  double taken = 1, energy = 0;
+  auto settle = [&] {
+    trial_.v = free;
+    held.hold(trial_.v, s);
+    energy = equation_.kinetic_energy(trial_.v);
+  };
+  auto gains = [&] {
+    double given = work_of(impulses, from.s, s);
+    for (std::size_t w = 0; w < handed.size(); ++w) given += taken * handed[w].dot(0.5 * (from.s[w] + s[w]));
+    return energy + given > from.energy + most_gain * (from.energy + std::abs(given));
+  };
+  settle();
+  while (taken > 0 && gains()) {
+    const double less = taken > 0.25 ? 0.5 : 0.0;
+    taken *= less;
+    for (double& impulse : impulses) impulse *= less;
+    for (std::size_t w = 0; w < s.size(); ++w) s[w] = from.s[w] + less * (s[w] - from.s[w]);
+    for (std::size_t i = 0; i < free.size(); ++i) free[i] = from.free[i] + less * (free[i] - from.free[i]);
+    trial_.answer = from.answer + less * (trial_.answer - from.answer);
+    settle();
+  }
+  for (std::size_t w = 0; w < handed.size(); ++w) trial_.repair_handed[w] += taken * handed[w];
+  for (int i = 0; i < equation_.size(); ++i) trial_.repaired[i] += impulses[i];
+  from = {s, free, trial_.answer, energy, from.drops};
+  trial_.energy_repaired = energy + from.drops;
+}
+
+template <int d>
+void Step<d>::apply(const Correction<d>& correction, double share) {
+  for (std::size_t i = 0; i < trial_.phi.size(); ++i) trial_.phi[i] += share * correction.impulse[i];
+  for (std::size_t w = 0; w < water_.walls.size(); ++w) trial_.s_after[w] += share * correction.walls[w];
+  if (equation_.mode_count() > 0) trial_.answer += share * correction.answer;
+}
+
+// Lets the motions answer to impulses.
+template <int d>
+void Step<d>::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further) {
+  if (equation_.mode_count() > 0) trial_.answer += equation_.respond(impulses, s, further);
+}
+
+// A further impulse on the motions.
+template <int d>
+void Step<d>::apply_body_impulse(const Eigen::VectorXd& impulse) {
+  if (impulse.size() > 0) trial_.known += impulse;
+  let_bodies_answer(impulse);
+}
+
+// Water and bodies answer to an impulse on the motions.
+template <int d>
+void Step<d>::let_bodies_answer(const Eigen::VectorXd& impulse) {
+  if (impulse.isZero(0)) return;
+  std::vector<double> none(trial_.phi.size(), 0.0);
+  trial_.answer += equation_.respond(none, trial_.s_after, impulse);
+  for (std::size_t i = 0; i < trial_.phi.size(); ++i) trial_.phi[i] += none[i];
+}
+
+// The first guess of impulses is the pressure of the last step.
+template <int d>
+std::vector<double> Step<d>::carried_impulse() const {
+  std::vector<double> carried(equation_.size());
+  for (std::size_t i = 0; i < water_.work.nodes.size(); ++i)
+    if (const int k = equation_.unknown()[i]; k >= 0) carried[k] = kick_ * water_.work.nodes.p[i];
+  return carried;
+}
+
+// Of pressure impulses on walls that change their velocities from s_0 to s_1.
+template <int d>
+double Step<d>::work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0,
+                        std::span<const Twist<d>> s_1) const {
+  double work_done = 0;
+  for (std::size_t w = 0; w < s_0.size(); ++w) work_done += equation_.impulse(w, impulses).dot(0.5 * (s_0[w] + s_1[w]));
+  return work_done;
+}
+
+template <int d>
+double Step<d>::energy_of_drops(std::span<const Vec<d>> v) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    if (water_.work.nodes.spray[i]) sum += water_.work.nodes.volume[i] * v[i].squaredNorm();
+  return 0.5 * water_.spec.density * sum;
+}
+
+// What terms of effects make of the volume of nodes; empty: nothing.
+template <int d>
+std::vector<double> Step<d>::meant_volumes() const {
+  if (terms_.source.empty() && terms_.diagonal.empty()) return {};
+  std::vector<double> rate(static_cast<std::size_t>(equation_.size()), 0.0), meant(water_.work.nodes.size(), 0.0);
+  equation_.add_sources(rate, trial_.phi);
+  for (std::size_t i = 0; i < meant.size(); ++i)
+    if (const int k = equation_.unknown()[i]; k >= 0) meant[i] = dt_ * rate[k];
+  return meant;
+}
+
+template <int d>
+Motion<d> Step<d>::taken(const StepResult<d>& found) {
+  for (const auto& effect : water_.effects) effect->commit(view());
+  return {.kick = kick_,
+          .dt = dt_,
+          .found = found,
+          .at_walls = *wall_motion_,
+          .v = trial_.v_after,
+          .around = equation_.around(),
+          .lumped_volume = equation_.lumped_volume(),
+          .unknown = equation_.unknown(),
+          .repaired = trial_.repaired,
+          .unloaded = trial_.free_water,
+          .meant = meant_volumes(),
+          .energy_of_repair = trial_.energy_repaired - trial_.energy_before};
+}
+
+template class Step<2>;
+template class Step<3>;
+
+}  // namespace splashdown::fluid

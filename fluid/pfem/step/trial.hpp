@@ -1,0 +1,68 @@
+// What one solve of a step works with.
+#pragma once
+
+#include <vector>
+
+#include "core/response.hpp"
+#include "core/status.hpp"
+#include "fluid/pfem/contact/wall_motion.hpp"
+#include "fluid/pfem/mesh/conservation/free_water.hpp"
+
+namespace splashdown::fluid {
+
+/// What a residual asks for: impulses A^-1 r, and how walls answer to them.
+template <int d>
+struct Correction {
+  std::vector<double> residual, impulse;
+  std::vector<Twist<d>> walls;
+  Eigen::VectorXd answer;
+
+  /// r^T A^-1 r'
+  double dot(const Correction& other) const { return of(residual).dot(of(other.impulse)); }
+  /// Adds a share of another one.
+  void add(double share, const Correction& other) {
+    of(residual) += share * of(other.residual);
+    of(impulse) += share * of(other.impulse);
+    for (std::size_t w = 0; w < walls.size(); ++w) walls[w] += share * other.walls[w];
+    answer += share * other.answer;
+  }
+
+ private:
+  static auto of(const std::vector<double>& v) {
+    return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+  }
+  static auto of(std::vector<double>& v) {
+    return Eigen::Map<Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
+  }
+};
+
+/// What one solve works with.
+template <int d>
+struct Trial {
+  std::vector<Vec<d>> v;                         ///< of nodes, before the pressure
+  typename FreeWater<d>::Moments free_water;     ///< what it has before the pressure
+  std::vector<Twist<d>> s_before;                ///< of walls, repaired
+  std::vector<Twist<d>> s_unloaded;              ///< of walls, before the pressure
+  std::vector<Vec<d>> x_mid;                     ///< where a motion is judged
+  std::vector<double> r, repaired;               ///< residual, repair impulse
+  std::vector<Wrench<d>> on_walls;               ///< impulses of effects
+  std::vector<double> of_surface;                ///< impulses of a pressure on the surface, of nodes; empty: none
+  std::vector<Wrench<d>> handed, repair_handed;  ///< impulses of held nodes: physical, of the repair
+  Eigen::VectorXd known, answer;                 ///< impulses on the motions besides the pressure's, and what they did
+  Eigen::VectorXd unanswered;                    ///< impulses that the motions have yet to answer
+  double energy_before = 0, energy_repaired = 0,
+         energy_unloaded = 0;            ///< of v: as carried, repaired, before the pressure
+  std::vector<double> phi, uncorrected;  ///< physical impulse, with and without the corrections
+  std::vector<Vec<d>> v_after;           ///< of nodes, with the pressure
+  std::vector<Twist<d>> s_after;         ///< of walls
+  typename WallMotion<d>::Moved moved;   ///< along the walls
+  /// What an effect whose work is booked has changed in a kick.
+  struct Booked {
+    std::size_t effect;
+    std::vector<Vec<d>> change;       ///< of velocities of nodes
+    std::vector<Wrench<d>> on_walls;  ///< impulse
+  };
+  std::vector<Booked> booked;
+};
+
+}  // namespace splashdown::fluid
