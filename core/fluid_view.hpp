@@ -80,7 +80,11 @@ class FluidView {
   virtual double density() const = 0;                           ///< [kg/m^3]
   virtual std::span<const WallSpec<d>> walls() const = 0;       ///< as they were made
   virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n
-  virtual std::span<const Vec<d>> points() const = 0;           ///< at t_n [m]; arrays below are as long
+  /// On the walls in their order: of the step under way once it is solved; before the first one empty or zero.
+  virtual std::span<const WallLoad<d>> loads() const = 0;
+  /// Whether the fluid stands still while all hulls are far from it, and stay so in the next step.
+  virtual bool is_waiting() const { return false; }
+  virtual std::span<const Vec<d>> points() const = 0;  ///< at t_n [m]; arrays below are as long
   /// Simplices of numbers of points, positively oriented.
   virtual std::span<const std::array<int, d + 1>> cells() const = 0;
   /// Facets between points, area vectors out of the fluid: wetted walls and the free surface. Ends of a domain that are neither

@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "chromium, ffmpeg, paraview")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME splashdown-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  g++ cmake pkg-config libbullet-dev libeigen3-dev libfmt-dev libgmp-dev libhypre-dev libmpfr-dev mpi-default-dev libopenblas0-serial
+  g++ cmake pkg-config libbullet-dev libeigen3-dev libfftw3-dev libfmt-dev libgmp-dev libhypre-dev libmpfr-dev mpi-default-dev libopenblas0-serial
   libsuitesparse-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "Light bodies landing on water

@@ -46,6 +46,14 @@ std::function<Isometry<d>(double)> pose_along(const std::vector<Waypoint>& path,
 }
 
 template <int d>
+std::function<Isometry<d>(double)> pose_of(const Oscillation& swing, const Vec<d>& centre) {
+  return [swing, centre](double time) {
+    const auto point = swing.at(time);
+    return body_pose<d>(point.position, point.attitude, centre);
+  };
+}
+
+template <int d>
 std::function<Isometry<d>(double)> steady_motion(const Isometry<d>& start, const Twist<d>& velocity) {
   return [start, velocity](double time) {
     const Rotation<d> angle = velocity.template tail<rigid::rotations<d>>() * time;
@@ -56,7 +64,17 @@ std::function<Isometry<d>(double)> steady_motion(const Isometry<d>& start, const
   };
 }
 
-/// Of the centre of mass on the path's first leg, at its beginning.
+/// Of the centre of mass, where the reference point and the attitude change at such rates.
+template <int d>
+Twist<d> twist_of(const Waypoint& at, const Waypoint& rate, const Vec<d>& centre) {
+  const Rotation<d> spin = angular_velocity<d>(at.attitude, rate.attitude);
+  const Eigen::Vector3d arm = in_space<d>(rotation<d>(at.attitude) * centre);
+  Twist<d> velocity;
+  velocity << vec<d>(rate.position) + rotation_in_space<d>(spin).cross(arm).template head<d>(), spin;
+  return velocity;
+}
+
+/// On the path's first leg, at its beginning.
 template <int d>
 Twist<d> first_velocity(const std::vector<Waypoint>& path, const Vec<d>& centre) {
   const auto& a = path[0];
@@ -65,12 +83,7 @@ Twist<d> first_velocity(const std::vector<Waypoint>& path, const Vec<d>& centre)
   const Attitude rate{.heading_deg = (b.attitude.heading_deg - a.attitude.heading_deg) / seconds,
                       .pitch_deg = (b.attitude.pitch_deg - a.attitude.pitch_deg) / seconds,
                       .roll_deg = (b.attitude.roll_deg - a.attitude.roll_deg) / seconds};
-  const Rotation<d> spin = angular_velocity<d>(a.attitude, rate);
-  const Eigen::Vector3d arm = in_space<d>(rotation<d>(a.attitude) * centre);
-  Twist<d> velocity;
-  velocity << vec<d>((b.position - a.position) / seconds) + rotation_in_space<d>(spin).cross(arm).template head<d>(),
-      spin;
-  return velocity;
+  return twist_of<d>(a, {0, (b.position - a.position) / seconds, rate}, centre);
 }
 
 BodyMotion motion_of(Motion motion) {
@@ -102,7 +115,10 @@ rigid::BodySpec<d> body_spec(const Body& body) {
     spec.free[i] = std::find(body.free.begin(), body.free.end(), names[i]) != body.free.end();
   spec.pose = body_pose<d>(body.position, body.attitude, properties.centre);
   spec.velocity << vec<d>(body.velocity), body.spin_deg.tail<rigid::rotations<d>>() * radians;
-  if (body.motion == Motion::prescribed) {
+  if (body.oscillation) {
+    spec.velocity = twist_of<d>(body.oscillation->at(0), body.oscillation->rate_at(0), properties.centre);
+    spec.path = pose_of<d>(*body.oscillation, properties.centre);
+  } else if (body.motion == Motion::prescribed) {
     if (!body.path.empty()) spec.velocity = first_velocity<d>(body.path, properties.centre);
     spec.path =
         body.path.empty() ? steady_motion<d>(spec.pose, spec.velocity) : pose_along<d>(body.path, properties.centre);

@@ -11,6 +11,7 @@
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"
 #include "fluid/pfem/participant.hpp"
+#include "fluid/vortex/participant.hpp"
 #include "rigid/participant.hpp"
 
 namespace splashdown::apps {
@@ -39,6 +40,18 @@ std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene,
       std::make_unique<fluid::Fluid<d>>(std::move(spec), std::move(effects), formulation<d>(*scene.fluid)));
   world.fluid = &part->fluid();
   return part;
+}
+
+/// The same of a fluid on a grid, which is plane.
+template <int d>
+std::unique_ptr<coupling::FluidPart> build_vortex(const Scene& scene, World<d>& world) {
+  if constexpr (d == 2) {
+    auto part = std::make_unique<vortex::Participant>(std::make_unique<vortex::Fluid>(vortex_spec(scene)));
+    world.fluid = &part->fluid();
+    return part;
+  } else {
+    throw std::invalid_argument("fluid.formulation: \"vortex\" is plane");
+  }
 }
 
 template <int d>
@@ -102,8 +115,10 @@ World<d> build_world(const Scene& scene, std::function<void()> meanwhile, Hooks<
   World<d> world;
   auto parts = parts_of<d>(scene);
   std::ranges::move(hooks.forces, std::back_inserter(parts.forces));
-  auto fluid = scene.fluid ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world) : nullptr;
-  auto bodies = scene.fluid && scene.bodies.empty()
+  auto fluid = scene.fluid    ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world)
+               : scene.vortex ? build_vortex<d>(scene, world)
+                              : nullptr;
+  auto bodies = fluid && scene.bodies.empty()
                     ? nullptr
                     : build_bodies<d>(bodies_with<d>(scene, std::move(parts.forces), hooks), world);
   if (!fluid)

@@ -13,6 +13,7 @@
 #include "coupling/schemes/stepper.hpp"
 #include "fluid/pfem/fluid.hpp"
 #include "fluid/pfem/mesh/sizes/size_sources.hpp"
+#include "fluid/vortex/spec.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {
@@ -21,7 +22,7 @@ namespace splashdown::apps {
 template <int d>
 struct World {
   std::unique_ptr<coupling::Stepper> stepper;  ///< owns the parts
-  const fluid::Fluid<d>* fluid = nullptr;      ///< null: no liquid in the scene
+  const FluidView<d>* fluid = nullptr;         ///< null: no fluid in the scene
   const rigid::Bodies<d>* bodies = nullptr;    ///< null: no bodies in the scene
   std::unique_ptr<Whole<d>> whole = nullptr;   ///< how the scene is told; null: as it is simulated
 };
@@ -36,6 +37,8 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene);
 /// Walls: one a body, in their order, then the tank if there is one.
 template <int d>
 fluid::FluidSpec<d> fluid_spec(const Scene& scene);
+/// Of a fluid on a grid, with the same walls.
+vortex::FluidSpec vortex_spec(const Scene& scene);
 /// What the effects of a scene make.
 template <int d>
 struct Parts {

@@ -48,6 +48,7 @@ class Whole<d>::Fluid final : public FluidView<d> {
   double density() const override { return half_.density(); }
   std::span<const WallSpec<d>> walls() const override { return walls_; }
   std::span<const Isometry<d>> wall_poses() const override { return half_.wall_poses(); }
+  std::span<const WallLoad<d>> loads() const override { return half_.loads(); }  // told as a whole by RecordInput
   std::span<const Vec<d>> points() const override { return half_.points(); }
   std::span<const std::array<int, d + 1>> cells() const override { return half_.cells(); }
   std::span<const Facet<d>> boundary() const override { return half_.boundary(); }

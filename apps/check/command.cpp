@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "apps/build/build.hpp"
 #include "apps/check/body.hpp"
 #include "apps/check/cost.hpp"
 #include "apps/check/questions.hpp"
@@ -69,8 +70,30 @@ void print_ties(const Scene& scene) {
                                share_text("friction", scene.contact->friction)));
 }
 
+void print_grid(const Scene& scene, const Scales& s) {
+  const auto& fluid = *scene.vortex;
+  const auto grid = vortex_spec(scene).grid;
+  fmt::print("fluid on a grid\n");
+  row("density", fmt::format("{:g} kg/m^3", fluid.density));
+  row("grid", fmt::format("{} x {} squares of {:g} m, {} m; {} sides", grid.nx, grid.ny, grid.h,
+                          text<2>(Extents<2>(grid.min, grid.max())), fluid.sides));
+  row("resolution", fmt::format("L = {:.3g} squares", s.length / grid.h));
+  const double reynolds = fluid.viscosity > 0 ? fluid.density * s.speed * s.length / fluid.viscosity : 0;
+  if (reynolds > 0)
+    row("viscosity", fmt::format("Re = rho U L/mu = {:.4g}; boundary layer about {:.2g} squares", reynolds,
+                                 s.length / std::sqrt(reynolds) / grid.h));
+  else
+    row("viscosity", "none: nothing spreads vorticity but the grid");
+  row("bodies",
+      fmt::format(
+          "{}, outline {}", fluid.rate ? fmt::format("penalty of {:g} 1/s", *fluid.rate) : "projection",
+          fluid.smoothing > 0 ? fmt::format("smoothed over {:g} squares either way", fluid.smoothing) : "sharp"));
+  if (scene.tank) row("tank", text<2>(extents<2>(*scene.tank)) + " m, its walls at rest like bodies");
+}
+
 template <int d>
 void print_liquid(const Scene& scene) {
+  if (scene.vortex) print_grid(scene, scales<d>(scene));
   if (!scene.fluid) return;
   const auto& fluid = *scene.fluid;
   fmt::print("liquid\n");
@@ -114,7 +137,7 @@ void print_cost(const Scene& scene, const Cost& cost) {
   fmt::print("cost (predicted)\n");
   row("steps", fmt::format("about {} to t = {:g} s; dt about {}, at most {}", rough(cost.steps), scene.time.end,
                            with_unit(cost.dt, "s"), with_unit(scene.time.dt_max, "s")));
-  if (!scene.fluid) return;
+  if (!scene.has_fluid()) return;
   const std::string about = cost.at_least ? "> " : "about ";
   const bool grows = cost.nodes_most > 1.1 * cost.nodes;  // what two digits show
   row("nodes",

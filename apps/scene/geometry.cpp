@@ -11,6 +11,20 @@
 #include "rigid/shapes/solids.hpp"
 
 namespace splashdown::apps {
+
+Waypoint Oscillation::at(double time) const {
+  const double angle = 2 * std::numbers::pi * frequency * time;
+  Waypoint point{time, centre + amplitude * std::sin(angle + phase_deg * radians), attitude};
+  point.attitude.pitch_deg += pitch_deg * std::sin(angle + pitch_phase_deg * radians);
+  return point;
+}
+
+Waypoint Oscillation::rate_at(double time) const {
+  const double rate = 2 * std::numbers::pi * frequency, angle = rate * time;
+  return {time,
+          rate * std::cos(angle + phase_deg * radians) * amplitude,
+          {.pitch_deg = rate * pitch_deg * std::cos(angle + pitch_phase_deg * radians)}};
+}
 namespace {
 
 using rigid::Surface;

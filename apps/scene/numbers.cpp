@@ -36,7 +36,7 @@ class Numbers {
     const std::string of = "bodies." + name + ".";
     if (body.becomes_free())
       pulses(name + ".peak_g", "g", of + "peak_acceleration_g.raw", of + "peak_acceleration_g", name);
-    if (!scene_.fluid) return;
+    if (!scene_.has_fluid()) return;
     const std::string force = scene_.dimension == 2 ? "N/m" : "N", impulse = scene_.dimension == 2 ? "N s/m" : "N s";
     pulses(name + ".peak_force", force, of + "peak_force", of + "peak_force_filtered", name);
     numbers_.push_back({.name = name + ".impulse",

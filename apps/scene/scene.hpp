@@ -116,6 +116,24 @@ struct Fluid {
   std::vector<Region> regions;
 };
 
+/// A fluid on a grid, without a free surface: [fluid] with formulation = "vortex". Plane scenes only.
+struct VortexFluid {
+  double density = 1000;               ///< [kg/m^3]
+  double viscosity = 0;                ///< dynamic [Pa s]
+  std::string stencil = "five_point";  ///< of diffusion: "five_point" | "fourth_order"
+  Point min = Point::Zero(),
+        max = Point::Zero();  ///< corners of the grid [m]; with a tank they default to a rim around it
+  double size = 0;            ///< of a square [m], divided by `refine`
+  double refine = 1;
+  std::string sides = "free";               ///< of the grid: "free" | "slip"
+  std::vector<std::vector<double>> stream;  ///< rows of time, velocity far away [s, m/s]; empty: at rest
+  double smoothing = 0;                     ///< of bodies' outlines, half the width in squares; 0.5 where one moves
+  std::optional<double> rate;               ///< lambda of the penalty [1/s]; absent: its limit
+  int passes = 0;                           ///< that make free bodies rigid; 0: chosen by their slenderness
+  std::string kernel = "m4";                ///< that gives particles back to the grid: "m4" | "m6"
+  std::string paths = "rk2";                ///< of particles: "rk2" | "rk4"
+};
+
 struct Tank {
   Point min = Point::Zero(), max = Point::Zero();  ///< corners [m]
   double size = 0;                                 ///< element size at the walls [m]; default: fluid.size.far
@@ -140,6 +158,19 @@ struct Waypoint {
   Attitude attitude;
 };
 
+/// Prescribed motion about a mean place, harmonic in time: x + amplitude sin(2 pi f t + phase), the pitch likewise.
+struct Oscillation {
+  double frequency = 0;                 ///< [Hz]
+  Point amplitude = Point::Zero();      ///< of the shape's reference point [m]
+  double phase_deg = 0;                 ///< of translation
+  double pitch_deg = 0;                 ///< amplitude of the pitch
+  double pitch_phase_deg = 0;           ///< of the pitch
+  Point centre = Point::Zero();         ///< mean place of the reference point [m]
+  Attitude attitude;                    ///< mean
+  Waypoint at(double time) const;       ///< pose at a time [s]
+  Waypoint rate_at(double time) const;  ///< its derivative [m/s, deg/s]
+};
+
 /// Freedoms of free motion: translations along and rotations about the world's axes.
 inline std::vector<std::string> freedom_names(int dimension) {
   if (dimension == 2) return {"x", "y", "rotation"};
@@ -161,14 +192,15 @@ struct Body {
   std::optional<Eigen::Matrix3d> inertia;
   Motion motion = Motion::free;
   std::vector<std::string> free = freedom_names(2);
-  Point position = Point::Zero();  ///< of the shape's reference point at t = 0 [m]
-  Attitude attitude;               ///< at t = 0
-  Point velocity = Point::Zero();  ///< of the centre of mass at t = 0; constant if prescribed [m/s]
-  Point spin_deg = Point::Zero();  ///< angular velocity at t = 0, world frame; constant if prescribed [deg/s]
-  std::vector<Waypoint> path;      ///< prescribed motion; empty: constant velocity and spin
-  std::optional<Release> release;  ///< of prescribed motion; free from then on
-  double size = 0;                 ///< element size at the hull [m]; default: fluid.size.surface
-  bool makes_waves = false;        ///< the paddle of [wavemaker]: a part of the tank, whose loads nobody asks about
+  Point position = Point::Zero();          ///< of the shape's reference point at t = 0 [m]
+  Attitude attitude;                       ///< at t = 0
+  Point velocity = Point::Zero();          ///< of the centre of mass at t = 0; constant if prescribed [m/s]
+  Point spin_deg = Point::Zero();          ///< angular velocity at t = 0, world frame; constant if prescribed [deg/s]
+  std::vector<Waypoint> path;              ///< prescribed motion; empty: constant velocity and spin
+  std::optional<Oscillation> oscillation;  ///< prescribed motion; `path` then has points of it, for who looks ahead
+  std::optional<Release> release;          ///< of prescribed motion; free from then on
+  double size = 0;                         ///< element size at the hull [m]; default: fluid.size.surface
+  bool makes_waves = false;  ///< the paddle of [wavemaker]: a part of the tank, whose loads nobody asks about
 
   /// Forces move it, from the start or after its release.
   bool becomes_free() const { return motion == Motion::free || release; }
@@ -263,7 +295,8 @@ struct Scene {
   int dimension = 2;
   std::string title;
   Time time;
-  std::optional<Fluid> fluid;
+  std::optional<Fluid> fluid;         ///< a liquid with a free surface, by particle finite elements
+  std::optional<VortexFluid> vortex;  ///< a fluid on a grid; there is never more than one of the two
   std::optional<Tank> tank;
   std::optional<Gravity> gravity;
   Effects effects;  ///< tables of all others
@@ -274,6 +307,11 @@ struct Scene {
   Output output;
   std::vector<RecordEntry> records;
   std::vector<Limit> limits;  ///< of records, and those that stand alone
+
+  /// Whether there is a fluid of any formulation.
+  bool has_fluid() const { return fluid || vortex; }
+  /// Of the fluid there is [kg/m^3]; 0: there is none.
+  double fluid_density() const { return fluid ? fluid->density : vortex ? vortex->density : 0; }
 };
 
 }  // namespace splashdown::apps

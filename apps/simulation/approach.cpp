@@ -13,7 +13,7 @@ template <int d>
 using Box = Eigen::AlignedBox<double, d>;
 
 template <int d>
-std::vector<char> wet_bodies(const fluid::Fluid<d>& fluid, std::size_t count) {
+std::vector<char> wet_bodies(const FluidView<d>& fluid, std::size_t count) {
   std::vector<char> wet(count, 0);
   for (const auto& facet : fluid.boundary())
     if (facet.wall >= 0 && static_cast<std::size_t>(facet.wall) < count) wet[static_cast<std::size_t>(facet.wall)] = 1;
@@ -23,7 +23,7 @@ std::vector<char> wet_bodies(const fluid::Fluid<d>& fluid, std::size_t count) {
 }  // namespace
 
 template <int d>
-double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies) {
+double approach_dt(const FluidView<d>& fluid, const rigid::Bodies<d>& bodies, double cfl) {
   double dt = std::numeric_limits<double>::infinity();
   if (fluid.is_waiting()) return dt;  // all hulls are far away
   const auto wet = wet_bodies(fluid, bodies.size());
@@ -37,7 +37,7 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
     for (Eigen::Index i = 0; i < hull.vertices.cols(); ++i)
       box.extend(state.pose * rigid::Vec<d>(hull.vertices.col(i)));
     const double own = rigid::farthest_speed<d>(state.velocity, rigid::reach(bodies.spec(b))),
-                 least = fluid.spec().step.cfl * fluid.spec().walls[b].size;
+                 least = cfl * fluid.walls()[b].size;
     for (const auto& facet : fluid.boundary()) {
       if (facet.wall >= 0) continue;
       Box<d> water;
@@ -53,7 +53,7 @@ double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies)
   return dt;
 }
 
-template double approach_dt<2>(const fluid::Fluid<2>&, const rigid::Bodies<2>&);
-template double approach_dt<3>(const fluid::Fluid<3>&, const rigid::Bodies<3>&);
+template double approach_dt<2>(const FluidView<2>&, const rigid::Bodies<2>&, double);
+template double approach_dt<3>(const FluidView<3>&, const rigid::Bodies<3>&, double);
 
 }  // namespace splashdown::apps

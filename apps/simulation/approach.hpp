@@ -7,16 +7,16 @@
 // not count: they meet a hull when they have reached it.
 #pragma once
 
-#include "fluid/pfem/fluid.hpp"
+#include "core/fluid_view.hpp"
 #include "rigid/bodies.hpp"
 
 namespace splashdown::apps {
 
-/// Infinity when all hulls are wet or far from water that waits, or nothing moves. Gaps are between bounding boxes, of the hull and of a facet: never overestimated.
+/// `cfl`: share of a hull's own elements. Infinity when all hulls are wet or far from water that waits, or nothing moves. Gaps are between bounding boxes, of the hull and of a facet: never overestimated.
 template <int d>
-double approach_dt(const fluid::Fluid<d>& fluid, const rigid::Bodies<d>& bodies);
+double approach_dt(const FluidView<d>& fluid, const rigid::Bodies<d>& bodies, double cfl);
 
-extern template double approach_dt<2>(const fluid::Fluid<2>&, const rigid::Bodies<2>&);
-extern template double approach_dt<3>(const fluid::Fluid<3>&, const rigid::Bodies<3>&);
+extern template double approach_dt<2>(const FluidView<2>&, const rigid::Bodies<2>&, double);
+extern template double approach_dt<3>(const FluidView<3>&, const rigid::Bodies<3>&, double);
 
 }  // namespace splashdown::apps

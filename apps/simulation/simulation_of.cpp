@@ -16,7 +16,8 @@ SimulationOf<d>::SimulationOf(const Scene& scene, World<d> world) : scene_(scene
 template <int d>
 double SimulationOf<d>::dt_bound() const {
   const double dt_max = scene_.time.dt_max;
-  return world_.fluid && world_.bodies ? std::min(dt_max, approach_dt(*world_.fluid, *world_.bodies)) : dt_max;
+  return world_.fluid && world_.bodies ? std::min(dt_max, approach_dt(*world_.fluid, *world_.bodies, scene_.time.cfl))
+                                       : dt_max;
 }
 
 template <int d>
@@ -43,7 +44,7 @@ RecordInput<d> SimulationOf<d>::known(const StepMade& step) const {
       const rigid::Twist<d> acceleration = (world_.bodies->trials()[i].velocity - before) / kick;
       in.body_acceleration_n.push_back(acceleration);
       in.body_velocity_n.push_back(before + 0.5 * step.dt_previous * acceleration);
-      in.body_load.push_back(world_.fluid ? world_.fluid->result().loads[i] : fluid::WallLoad<d>{});
+      in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : WallLoad<d>{});
     }
   }
   return world_.whole ? world_.whole->tell(std::move(in)) : in;

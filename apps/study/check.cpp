@@ -55,7 +55,7 @@ BodySummary whole_body(const Scene& scene, std::size_t index) {
 nlohmann::json fullest_summary(const Scene& scene) {
   Summary summary;
   summary.dimension = scene.dimension;
-  if (scene.fluid) {
+  if (scene.has_fluid()) {
     summary.nodes = summary.elements = RangeCount{};
     summary.ledger.emplace().volume_error_bodies = 0;
     summary.ledger->energy_gain_time = summary.ledger->energy_gain_since = 0;

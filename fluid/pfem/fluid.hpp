@@ -58,6 +58,7 @@ class Fluid final : public FluidView<d> {
   const StepResult<d>& solve(std::span<const Twist<d>> walls, std::span<const double> previous = {},
                              const ClosedContacts& contacts = {});
   const StepResult<d>& result() const;  ///< of the last solve
+  std::span<const WallLoad<d>> loads() const override { return result().loads; }
   /// Whether the last solve may be committed. Passes of a coupling may be wild on their way; the last may not.
   Status acceptable() const;
   /// Where the last solve may not be committed for a node at the free surface: lets it fly as a drop, with its volume and
@@ -76,7 +77,7 @@ class Fluid final : public FluidView<d> {
   /// Water at rest from which all walls that move stay away: until it is woken, `wait` takes the place of begin, solve and
   /// commit, and the loads of the last solve stay.
   void set_waiting(bool waits);
-  bool is_waiting() const;  ///< says what was set
+  bool is_waiting() const override;  ///< says what was set
   /// t_n <- t_n + dt. `poses`, `velocities`: of the walls at t_{n+1} and t_{n+1/2}.
   void wait(double dt, std::span<const Isometry<d>> poses, std::span<const Twist<d>> velocities);
 

@@ -20,6 +20,7 @@ struct ForceTables {
 class ForceKind final : public EffectOf<ForceKind, ForceTables> {
  public:
   std::string_view name() const override { return "force"; }
+  bool knows_no_mesh() const override { return true; }
   TablePlace place() const override { return TablePlace::body_array; }
   void read(Reader& reader, Scene& scene) const override;
   std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;

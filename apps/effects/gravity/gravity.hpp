@@ -9,6 +9,7 @@ namespace splashdown::apps {
 class GravityKind final : public EffectOf<GravityKind, Gravity> {
  public:
   std::string_view name() const override { return "gravity"; }
+  bool knows_no_mesh() const override { return true; }
   bool present(const Scene& scene) const override { return scene.gravity.has_value(); }
   void read(Reader& reader, Scene& scene) const override;
   std::optional<std::string> asymmetry(const Scene& scene, const Mirror& mirror) const override;

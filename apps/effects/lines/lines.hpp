@@ -54,6 +54,7 @@ struct Lines {
 class LinesKind final : public EffectOf<LinesKind, Lines> {
  public:
   std::string_view name() const override { return "line"; }
+  bool knows_no_mesh() const override { return true; }
   TablePlace place() const override { return TablePlace::array; }
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;

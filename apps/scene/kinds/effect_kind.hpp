@@ -82,9 +82,11 @@ enum class TablePlace {
 class EffectKind {
  public:
   virtual ~EffectKind() = default;
-  virtual std::string_view name() const = 0;                                   ///< of its table
-  virtual TablePlace place() const { return TablePlace::scene; }               ///< of its table
-  virtual bool present(const Scene& scene) const = 0;                          ///< the scene has the table
+  virtual std::string_view name() const = 0;                      ///< of its table
+  virtual TablePlace place() const { return TablePlace::scene; }  ///< of its table
+  virtual bool present(const Scene& scene) const = 0;             ///< the scene has the table
+  /// Acts on bodies alone, or on any fluid: goes with each formulation.
+  virtual bool knows_no_mesh() const { return false; }
   virtual void read(Reader& reader, Scene& scene) const = 0;                   ///< its table, which is there
   virtual void check(const Scene& /*scene*/, Problems& /*problems*/) const {}  ///< rules that join several keys
   virtual void ask(const AskedScene& /*asked*/, std::vector<std::string>& /*questions*/) const {}

@@ -8,10 +8,11 @@
 
 namespace splashdown::apps {
 
-/// A way to step the water.
+/// A way to compute the fluid.
 struct FormulationKind {
   std::string_view name;
   std::string_view about;  ///< what `check` tells besides the name
+  bool on_grid = false;    ///< squares of a plane without a free surface, not the particle finite element method
 };
 /// The default comes first.
 std::span<const FormulationKind> formulation_kinds();

@@ -23,7 +23,8 @@ toml::table* table_of(toml::table& root, const ChosenSize& chosen) {
 
 bool sizes_are_open(const toml::table& root) {
   const auto* fluid = root["fluid"].as_table();
-  return fluid && (!fluid->contains("size") || (fluid->get("size")->is_table() && !root["fluid"]["size"]["surface"]));
+  return fluid && root["fluid"]["formulation"].value_or(std::string_view()) != "vortex" &&
+         (!fluid->contains("size") || (fluid->get("size")->is_table() && !root["fluid"]["size"]["surface"]));
 }
 
 std::vector<std::string> fill_sizes(toml::table& root, const Scene& read) {

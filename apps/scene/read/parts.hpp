@@ -7,6 +7,10 @@
 namespace splashdown::apps {
 
 void read_fluid(Reader& reader, Fluid& fluid);
+/// The table [fluid] of a fluid on a grid, but for what bodies and the tank decide (finish_vortex).
+void read_vortex(Reader& reader, VortexFluid& fluid);
+/// The rest of it, after the tank and the bodies.
+void finish_vortex(Reader& reader, Scene& scene);
 void read_body(Reader& reader, Body& body, const Scene& scene);
 /// The key `name`: letters, digits, _ and -, so that tables, files and other programs can take it as it is.
 void read_name(Reader& reader, std::string& name, const std::string& example);

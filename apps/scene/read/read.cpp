@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/scene/kinds/effect_kind.hpp"
+#include "apps/scene/kinds/formulation_kinds.hpp"
 #include "apps/scene/read/fill_sizes.hpp"
 #include "apps/scene/read/override.hpp"
 #include "apps/scene/read/parts.hpp"
@@ -23,7 +24,9 @@ double finest(const Scene& scene) {
   return h;
 }
 
-double refine_of(const Scene& scene) { return scene.fluid ? scene.fluid->size.refine : 1; }
+double refine_of(const Scene& scene) {
+  return scene.fluid ? scene.fluid->size.refine : scene.vortex ? scene.vortex->refine : 1;
+}
 
 /// Surface waves as short as the elements stay stable in an explicit scheme, which bounds dt by
 /// 2 / sqrt(pi |g| / h) = 1.13 sqrt(h / |g|). Without such waves: a hundred steps at least.
@@ -33,7 +36,7 @@ double default_dt_max(const Scene& scene) {
 }
 
 bool meets_fluid_freely(const Scene& scene) {
-  return scene.fluid &&
+  return scene.has_fluid() &&
          std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.becomes_free(); });
 }
 
@@ -66,6 +69,19 @@ void read_effects(Reader& around, TablePlace place, Scene& scene, SceneLabels& l
   }
 }
 
+void read_formulation(Reader& reader, Scene& scene, SceneLabels& labels) {
+  std::vector<std::string> valid;
+  for (const auto& kind : formulation_kinds())
+    if (scene.dimension == 2 || !kind.on_grid) valid.emplace_back(kind.name);
+  auto formulation = valid.front();
+  if (!reader.choice("formulation", formulation, valid)) return reader.skip_all();
+  if (named(formulation_kinds(), formulation).on_grid) return read_vortex(reader, scene.vortex.emplace());
+  auto& fluid = scene.fluid.emplace();
+  fluid.formulation = formulation;
+  read_fluid(reader, fluid);
+  read_effects(reader, TablePlace::fluid, scene, labels);
+}
+
 SceneLabels read_tables(Reader& root, Scene& scene) {
   SceneLabels labels;
   root.text("title", scene.title, "Use a short text in quotes.");
@@ -75,10 +91,8 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
   time.number("cfl", scene.time.cfl, share("Use e.g. 0.5."));
   if (time.holds("end") && time.place("end").line == 0 && !root.context().problems.found_in("time.end"))
     root.context().clip_to = scene.time.end;
-  if (auto fluid = root.table("fluid")) {
-    read_fluid(*fluid, scene.fluid.emplace());
-    read_effects(*fluid, TablePlace::fluid, scene, labels);
-  }
+  auto fluid = root.table("fluid");
+  if (fluid) read_formulation(*fluid, scene, labels);
   if (scene.fluid)
     for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i)
       labels.regions.push_back(fmt::format("fluid.region[{}]", i));
@@ -96,6 +110,7 @@ SceneLabels read_tables(Reader& root, Scene& scene) {
     labels.joints.push_back(reader.path());
     scene.joints.push_back(*joint);
   });
+  if (scene.vortex) finish_vortex(*fluid, scene);
   if (auto contact = root.table("contact")) read_contact(*contact, scene.contact.emplace());
   read_effects(root, TablePlace::after_bodies, scene, labels);
   read_effects(root, TablePlace::array, scene, labels);
@@ -167,9 +182,9 @@ std::optional<Scene> read_without_sizes(const toml::table& table, const std::fil
 /// moves: a direction along the hull has no inertia there, and roundoff would be its velocity.
 void give_least_mass(Scene& scene) {
   for (auto& body : scene.bodies) {
-    if (!body.becomes_free() || !scene.fluid || !body.without_mass) continue;
+    if (!body.becomes_free() || !scene.has_fluid() || !body.without_mass) continue;
     body.mass.reset();
-    body.density = least_density * scene.fluid->density;
+    body.density = least_density * scene.fluid_density();
   }
 }
 

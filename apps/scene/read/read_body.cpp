@@ -151,6 +151,27 @@ void read_path(Reader& reader, Body& body) {
   for (const auto& row : rows) body.path.push_back(waypoint(row, d));
 }
 
+/// About what `position` and the angles say; points of it until the end of the run become the body's path.
+void read_oscillation(Reader& reader, Body& body, double end) {
+  auto& swing = body.oscillation.emplace();
+  swing.centre = body.position;
+  swing.attitude = body.attitude;
+  reader.number("frequency", swing.frequency, positive("Hz", "Use e.g. 0.5."), Need::required);
+  reader.point("amplitude", swing.amplitude,
+               any("m", "Use e.g. " + axis_example(reader.context().dimension, 0.1) + "."));
+  const Rule angle = within(-360, 360, "deg", "Use degrees.");
+  reader.number("phase_deg", swing.phase_deg, angle);
+  reader.number("pitch_deg", swing.pitch_deg, angle);
+  reader.number("pitch_phase_deg", swing.pitch_phase_deg, angle);
+  constexpr double points_a_period = 24, most = 1e5;
+  const double count = std::min(most, std::ceil(end * swing.frequency * points_a_period));
+  for (double k = 0; swing.frequency > 0 && k <= count; ++k)
+    body.path.push_back(swing.at(k / (points_a_period * swing.frequency)));
+  if (body.path.empty()) return;
+  body.position = body.path.front().position;
+  body.attitude = body.path.front().attitude;
+}
+
 /// When a prescribed body is let go.
 void read_release(Reader& reader, Release& release) {
   std::string at = "contact";
@@ -216,7 +237,16 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
       reader.number(angle.name, body.attitude.*angle.value,
                     within(-360, 360, "deg", dimension == 2 ? "Use degrees, counter-clockwise." : "Use degrees."));
   }
-  if (follows_path || body.motion == Motion::fixed) {
+  if (body.motion == Motion::prescribed && !follows_path) {
+    if (auto swing = reader.table("oscillation")) read_oscillation(*swing, body, scene.time.end);
+  } else {
+    reader.refuse("oscillation", "only a body with motion = \"prescribed\" and without a path has one",
+                  "Remove it, or the path, or change the motion.");
+  }
+  if (body.oscillation) {
+    reader.refuse("velocity", "the oscillation already says it", "Remove it, or the oscillation.");
+    reader.refuse("spin_deg", "the oscillation already says it", "Remove it, or the oscillation.");
+  } else if (follows_path || body.motion == Motion::fixed) {
     const auto rule = follows_path ? on_path : "a fixed body does not move";
     reader.refuse("velocity", rule, follows_path ? drop : "Remove it, or change the motion.");
     reader.refuse("spin_deg", rule, follows_path ? drop : "Remove it, or change the motion.");

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "apps/scene/kinds/coupling_kinds.hpp"
-#include "apps/scene/kinds/formulation_kinds.hpp"
 #include "apps/scene/read/parts.hpp"
 
 namespace splashdown::apps {
@@ -118,7 +117,6 @@ void read_sizes(Reader& reader, Sizes& size) {
 
 void read_fluid(Reader& reader, Fluid& fluid) {
   reader.number("density", fluid.density, positive("kg/m^3", "Use e.g. 1000 for water."), Need::required);
-  reader.choice("formulation", fluid.formulation, names_of(formulation_kinds()));
   Reader size = reader.table_or_defaults("size");
   read_sizes(size, fluid.size);
   reader.each_table("region", [&](Reader& region) { read_region(region, fluid.regions.emplace_back()); });

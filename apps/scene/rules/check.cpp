@@ -36,6 +36,7 @@ void check_times(const Scene& scene, Problems& problems) {
 template <int d>
 void check_parts(const Scene& scene, const SceneLabels& labels, Problems& problems) {
   if (scene.fluid) check_fluid<d>(scene, labels, problems);
+  if (scene.vortex) check_vortex(scene, labels, problems);
   check_bodies<d>(scene, labels, problems);
   check_joints(scene, labels, problems);
   check_records<d>(scene, labels, problems);
@@ -45,7 +46,7 @@ void check_parts(const Scene& scene, const SceneLabels& labels, Problems& proble
 }  // namespace
 
 void check_scene(const Scene& read, const SceneLabels& labels, Problems& problems) {
-  if (!read.fluid && read.bodies.empty() && !problems.found_in("fluid") && !problems.found_in("body"))
+  if (!read.has_fluid() && read.bodies.empty() && !problems.found_in("fluid") && !problems.found_in("body"))
     problems.add("", "the scene is empty: it has neither [fluid] nor [[body]]", "Add one of them.");
   // What could not be read must not be judged by its default.
   Scene scene = read;

@@ -17,6 +17,8 @@ void check_scene(const Scene& scene, const SceneLabels& labels, Problems& proble
 // Its parts.
 template <int d>
 void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& problems);
+/// Of plane scenes; in space there is no such fluid.
+void check_vortex(const Scene& scene, const SceneLabels& labels, Problems& problems);
 void check_joints(const Scene& scene, const SceneLabels& labels, Problems& problems);
 template <int d>
 void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& problems);

@@ -54,7 +54,7 @@ void check_inertia(const Scene& scene, const Body& body, const std::string& labe
 void check_massless(const Scene& scene, const Body& body, const std::string& label, Problems& problems) {
   if (!body.becomes_free() || !body.without_mass) return;
   const std::string key = label + (body.mass ? ".mass" : ".density");
-  if (!scene.fluid)
+  if (!scene.has_fluid())
     return problems.add(key, "a free body without mass needs a fluid that has inertia for it", "Give it a mass.");
   if (scene.coupling && scene.coupling->interface_term != "rigid")
     problems.add(key, "a free body without mass needs coupling.interface_term = \"rigid\"",

@@ -169,11 +169,11 @@ TEST(World, has_the_parts_its_scene_has) {
 TEST(Approach, a_dry_hull_moves_by_a_share_of_its_elements_or_half_the_gap) {
   // Keel 0.01 m above the water, h = 0.005 m, cfl = 0.5: half the gap is more.
   const auto near = build_world<2>(scene_of(testing::wedge_drop));
-  EXPECT_NEAR(approach_dt(*near.fluid, *near.bodies), 0.005 / 6.15, 1e-12);
+  EXPECT_NEAR(approach_dt(*near.fluid, *near.bodies, 0.5), 0.005 / 6.15, 1e-12);
   const auto touching = build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, 0]")));
-  EXPECT_NEAR(approach_dt(*touching.fluid, *touching.bodies), 0.5 * 0.005 / 6.15, 1e-12);
+  EXPECT_NEAR(approach_dt(*touching.fluid, *touching.bodies, 0.5), 0.5 * 0.005 / 6.15, 1e-12);
   const auto wet = build_world<2>(scene_of(testing::wedge_drop_with("position = [0, 0.01]", "position = [0, -0.05]")));
-  EXPECT_EQ(approach_dt(*wet.fluid, *wet.bodies), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(approach_dt(*wet.fluid, *wet.bodies, 0.5), std::numeric_limits<double>::infinity());
 }
 
 TEST(Approach, water_counts_with_its_own_distance_and_speed) {
@@ -181,7 +181,7 @@ TEST(Approach, water_counts_with_its_own_distance_and_speed) {
     const auto world =
         build_world<2>(scene_of(testing::wedge_drop + "[[fluid.region]]\nshape = \"circle\"\ncentre = [" + x +
                                 ", 0.1]\nradius = 0.05\nvelocity = [0, -" + speed + "]\n"));
-    return approach_dt(*world.fluid, *world.bodies);
+    return approach_dt(*world.fluid, *world.bodies, 0.5);
   };
   EXPECT_NEAR(beside_a_drop("1.5", "400"), 0.005 / 6.15, 1e-12);  // far away, however fast
   EXPECT_NEAR(beside_a_drop("0.5", "1000"), 0.5 * 0.2 / 1006.15, 1e-6);

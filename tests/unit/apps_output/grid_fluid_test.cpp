@@ -77,6 +77,7 @@ class GridFluid final : public FluidView<2> {
   double density() const override { return 1000; }
   std::span<const WallSpec<2>> walls() const override { return walls_; }
   std::span<const Isometry<2>> wall_poses() const override { return poses_; }
+  std::span<const WallLoad<2>> loads() const override { return {}; }
   std::span<const Vec<2>> points() const override { return x_; }
   std::span<const std::array<int, 3>> cells() const override { return cells_; }
   std::span<const Facet<2>> boundary() const override { return boundary_; }

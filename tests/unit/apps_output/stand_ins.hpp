@@ -31,6 +31,7 @@ class DrawnFluid final : public FluidView<d> {
   double density() const override { return 1000; }
   std::span<const WallSpec<d>> walls() const override { return made; }
   std::span<const Isometry<d>> wall_poses() const override { return poses; }
+  std::span<const WallLoad<d>> loads() const override { return {}; }
   std::span<const Vec<d>> points() const override { return x; }
   std::span<const std::array<int, d + 1>> cells() const override { return simplices; }
   std::span<const Facet<d>> boundary() const override { return facets; }

@@ -26,14 +26,18 @@ rule("a fluid knows no bodies" FILES "^fluid/" INCLUDES "^rigid/")
 rule("bodies know no fluid" FILES "^rigid/" INCLUDES "^fluid/")
 rule("coupling says what a fluid and a structure are and includes neither" FILES "^coupling/" INCLUDES "^(fluid|rigid)/")
 rule("of coupling, a fluid and bodies know what they implement, in one file each" FILES "^(fluid|rigid)/"
-  BUT_FILES "^(fluid/pfem|rigid)/participant\\." INCLUDES "^coupling/")
+  BUT_FILES "^(fluid/(pfem|vortex)|rigid)/participant\\." INCLUDES "^coupling/")
 rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
 rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
   BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/accelerators/")
 rule("schemes and types are chosen in apps/build and apps/effects alone" FILES "^apps/" BUT_FILES "^apps/(build|effects/[a-z_]*)/[a-z_]*\\.cpp$"
-  INCLUDES "^((fluid/pfem|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
+  INCLUDES "^((fluid/(pfem|vortex)|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
 
 # Rooms within a room.
+rule("the particle finite element method and vortices on a grid do not know each other" FILES "^fluid/(pfem|effects)/" INCLUDES "^fluid/vortex/")
+rule("vortices on a grid know neither finite elements nor their effects" FILES "^fluid/vortex/" INCLUDES "^fluid/(pfem|effects)/")
+rule("the grid's parts do not know the whole" FILES "^fluid/vortex/.*/" INCLUDES "^fluid/vortex/(fluid|participant|spec)\\.hpp")
+rule("equations on a grid know no bodies" FILES "^fluid/vortex/(poisson|transport)/" INCLUDES "^fluid/vortex/penalised/")
 rule("a fluid's parts do not know the whole" FILES "^fluid/(pfem/.*|effects)/" INCLUDES "^fluid/pfem/(fluid|fluid_state|participant)\\.hpp")
 rule("what a step is made of knows neither the water as a whole nor the step" FILES "^fluid/(pfem/(contact|initial|linear|mesh|pressure)|effects)/"
   INCLUDES "^fluid/pfem/(water|step)/")
@@ -89,6 +93,7 @@ rule("Boost's distributions and sequences stay in apps/price, study/design and s
 rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/pfem/linear" FILES "." BUT_FILES "^fluid/pfem/linear/.*\\.cpp$"
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
 rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")
+rule("FFTW stays in fluid/vortex/poisson" FILES "." BUT_FILES "^fluid/vortex/poisson/.*\\.cpp$" INCLUDES "^fftw")
 rule("Bullet stays in rigid/bullet_engine.cpp" FILES "." BUT_FILES "^rigid/bullet_engine\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
 rule("XML and zlib stay in apps/record/frames" FILES "." BUT_FILES "^apps/record/frames/.*\\.cpp$" INCLUDES "^(pugixml|zlib)\\.")
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")

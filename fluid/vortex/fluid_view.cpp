@@ -1,0 +1,194 @@
+// What people look at in a fluid on a grid.
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry.hpp"
+#include "core/leapfrog.hpp"
+#include "core/parallel.hpp"
+#include "fluid/vortex/fluid.hpp"
+
+namespace splashdown::vortex {
+namespace {
+
+constexpr double off_the_hull = 1.5;  // squares: pressures on hulls are read where no face is covered
+
+/// Mean of the two faces of each direction at a node, weighted between two instants.
+Vec<2> at_node(const Grid& g, const FaceField& f, int i, int j) {
+  const std::size_t k = g.at(i, j);
+  const auto row = static_cast<std::size_t>(g.nx + 1);
+  const double u = j == 0 ? f.u[k] : j == g.ny ? f.u[k - row] : 0.5 * (f.u[k] + f.u[k - row]);
+  const double v = i == 0 ? f.v[k] : i == g.nx ? f.v[k - 1] : 0.5 * (f.v[k] + f.v[k - 1]);
+  return {u, v};
+}
+
+}  // namespace
+
+void Fluid::add_samples() {
+  const auto& g = spec_.grid;
+  for (int j = 0; j <= g.ny; ++j)
+    for (int i = 0; i <= g.nx; ++i) points_.push_back(g.node(i, j));
+  const auto corner = [&](int i, int j) { return static_cast<int>(g.at(i, j)); };
+  for (int j = 0; j < g.ny; ++j)
+    for (int i = 0; i < g.nx; ++i) {
+      cells_.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+      cells_.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+    }
+  for (std::size_t w = 0; w < spec_.walls.size(); ++w) {
+    const auto& outline = spec_.walls[w].surface;
+    std::vector<int> first(static_cast<std::size_t>(outline.vertices.cols()), -1);  // the sample at a vertex
+    std::vector<std::array<int, 2>> open;  // facet to a vertex whose sample may not exist yet
+    for (Eigen::Index f = 0; f < outline.facets.cols(); ++f) {
+      const Vec<2> a = outline.vertices.col(outline.facets(0, f)), b = outline.vertices.col(outline.facets(1, f));
+      const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / g.h)));
+      const Vec<2> out = Vec<2>((b - a).y(), -(b - a).x()).normalized();
+      for (int k = 0; k < pieces; ++k) {
+        const int number = static_cast<int>(g.nodes() + samples_.size());
+        if (k == 0) first[static_cast<std::size_t>(outline.facets(0, f))] = number;
+        samples_.push_back({a + k * (b - a) / pieces, out, static_cast<int>(w)});
+        if (k > 0) boundary_.push_back({{number, number - 1}, static_cast<int>(w)});
+        if (k + 1 == pieces) open.push_back({number, outline.facets(1, f)});
+      }
+    }
+    for (const auto& [from, vertex] : open)
+      boundary_.push_back({{first[static_cast<std::size_t>(vertex)], from}, static_cast<int>(w)});
+  }
+  points_.resize(g.nodes() + samples_.size());
+  place_samples();
+}
+
+void Fluid::place_samples() {
+  for (std::size_t s = 0; s < samples_.size(); ++s)
+    points_[spec_.grid.nodes() + s] = poses_[static_cast<std::size_t>(samples_[s].wall)] * samples_[s].at;
+}
+
+PointPlace Fluid::place(std::size_t point) const {
+  const std::size_t nodes = spec_.grid.nodes();
+  return {.wall = point < nodes ? -1 : samples_[point - nodes].wall};
+}
+
+Vec<2> Fluid::velocity_n(std::size_t point) const {
+  const auto& g = spec_.grid;
+  const auto mean = [&](const auto& before, const auto& after) {
+    return is_begun_ ? velocity_at_t_n(before, after, dt_before_, dt_) : before;
+  };
+  if (point >= g.nodes()) {
+    const auto w = static_cast<std::size_t>(samples_[point - g.nodes()].wall);
+    const Twist<2> twist = is_begun_ && !trial_twists_.empty() ? mean(twists_[w], trial_twists_[w]) : twists_[w];
+    return rigid_velocity<2>(twist, points_[point] - poses_[w].translation());
+  }
+  const int j = static_cast<int>(point / static_cast<std::size_t>(g.nx + 1)),
+            i = static_cast<int>(point) - j * (g.nx + 1);
+  const Vec<2> before = at_node(g, velocity_, i, j);
+  return is_begun_ ? mean(before, at_node(g, trial_velocity_, i, j)) : before;
+}
+
+/// Total head by div grad H = div(u x omega + f), then p = rho (H - u^2/2 + ...): the momentum equation's part with divergence.
+void Fluid::solve_pressure() const {
+  const auto& g = spec_.grid;
+  const auto row = static_cast<std::size_t>(g.nx + 1);
+  pressure_.assign(points_.size(), 0.0);
+  FaceField force;
+  force.reset(g.nodes());
+  const double ratio = kick_before_ > 0 ? kick_ / kick_before_ : 0;
+  if (is_begun_)
+    for (std::size_t w = 0; w < penalised_.size() && !trial_twists_.empty(); ++w)
+      penalised_[w].add_forces(trial_twists_[w], kick_, ratio, force);
+  const auto& now = velocity_;
+  const auto& next = is_begun_ ? trial_velocity_ : velocity_;
+  const auto& omega = is_begun_ ? trial_omega_ : omega_;
+  for (int j = 1; j < g.ny - 1; ++j)
+    for (int i = 1; i < g.nx - 1; ++i) {
+      const std::size_t k = g.at(i, j);
+      const auto v = [&](std::size_t at) { return 0.5 * (now.v[at] + next.v[at]); };
+      const auto u = [&](std::size_t at) { return 0.5 * (now.u[at] + next.u[at]); };
+      const auto w = [&](std::size_t at) { return 0.5 * (omega_[at] + omega[at]); };
+      force.u[k] += 0.125 * (w(k) + w(k + row)) * (v(k) + v(k - 1) + v(k + row) + v(k + row - 1));
+      force.v[k] -= 0.125 * (w(k) + w(k + 1)) * (u(k) + u(k + 1) + u(k - row) + u(k - row + 1));
+    }
+  NodeField source(g.nodes(), 0.0), head;
+  for (int j = 1; j < g.ny; ++j)
+    for (int i = 1; i < g.nx; ++i) {  // minus the mean divergence of the four squares around a node
+      const std::size_t k = g.at(i, j);
+      const auto &a = force.u, &b = force.v;
+      source[k] = -0.25 / g.h *
+                  (a[k + 1] + a[k + 1 - row] - a[k - 1] - a[k - 1 - row] + b[k + row] + b[k + row - 1] - b[k - row] -
+                   b[k - row - 1]);
+    }
+  StreamFunction solver(g, SideKind::free);
+  solver.solve(source, 0, head);
+  const Vec<2> far = stream(time_),
+               change =
+                   is_begun_
+                       ? Vec<2>((stream(time_ + 0.5 * dt_) - stream(std::max(0., time_ - 0.5 * dt_before_))) / kick_)
+                       : Vec<2>(Vec<2>::Zero());
+  const Vec<2> top = g.max();
+  for (std::size_t k = 0; k < g.nodes(); ++k)
+    pressure_[k] = spec_.density * (head[k] - 0.5 * (velocity_n(k).squaredNorm() - far.squaredNorm()) +
+                                    (spec_.gravity - change).dot(points_[k] - top));
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const auto& pose = poses_[static_cast<std::size_t>(samples_[s].wall)];
+    pressure_[g.nodes() + s] = node_pressure(pose * Vec<2>(samples_[s].at + off_the_hull * g.h * samples_[s].out));
+  }
+}
+
+std::span<const double> Fluid::pressure() const {
+  if (pressure_.empty()) solve_pressure();
+  return pressure_;
+}
+
+/// Bilinear between nodes.
+double Fluid::node_pressure(const Vec<2>& point) const {
+  const auto& g = spec_.grid;
+  const Vec<2> at = (point - g.min) / g.h;
+  const int i = std::clamp(static_cast<int>(std::floor(at.x())), 0, g.nx - 1),
+            j = std::clamp(static_cast<int>(std::floor(at.y())), 0, g.ny - 1);
+  const double s = std::clamp(at.x() - i, 0., 1.), t = std::clamp(at.y() - j, 0., 1.);
+  const auto p = [&](int k, int l) { return pressure_[g.at(i + k, j + l)]; };
+  return (1 - t) * ((1 - s) * p(0, 0) + s * p(1, 0)) + t * ((1 - s) * p(0, 1) + s * p(1, 1));
+}
+
+/// How much of the face nearest to a point bodies cover.
+double Fluid::filled(const Vec<2>& point) const {
+  const auto& g = spec_.grid;
+  double sum = 0;
+  for (const auto& wall : penalised_) {
+    const auto& [box, chi] = wall.chi();
+    if (chi.u.empty()) continue;
+    const int i = static_cast<int>(std::lround((point.x() - g.min.x()) / g.h)) - box.i0;
+    const int j = static_cast<int>(std::floor((point.y() - g.min.y()) / g.h)) - box.j0;
+    if (i >= 0 && j >= 0 && i < box.width && j < box.height) sum += chi.u[box.at(i, j)];
+  }
+  return sum;
+}
+
+std::optional<double> Fluid::pressure_at(const Vec<2>& point) const {
+  const auto& g = spec_.grid;
+  if ((point.array() < g.min.array()).any() || (point.array() > g.max().array()).any() || filled(point) > 0.5)
+    return {};
+  pressure();
+  return node_pressure(point);
+}
+
+std::vector<Diagnostic> Fluid::diagnostics() const {
+  double circulation = 0, enstrophy = 0;
+  for (const double w : omega_) {
+    circulation += w;
+    enstrophy += w * w;
+  }
+  const double cell = spec_.grid.h * spec_.grid.h;
+  return {{"circulation", circulation * cell}, {"enstrophy", enstrophy * cell}};
+}
+
+Eigen::MatrixXd Fluid::added_mass(std::span<const std::size_t> walls) const {
+  const auto count = static_cast<Eigen::Index>(walls.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * count, 3 * count);
+  Projections projections;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto& wall = penalised_[walls[static_cast<std::size_t>(k)]];
+    if (!wall.moments().is_inside_out() && !wall.chi().field.u.empty())
+      all.block<3, 3>(3 * k, 3 * k) = wall.added_mass(spec_.density, projections);
+  }
+  return all;
+}
+
+}  // namespace splashdown::vortex

@@ -1,0 +1,102 @@
+// A free body in a fluid on a grid, coupled as scenes couple it.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "coupling/accelerators/quasi_newton.hpp"
+#include "coupling/schemes/steppers.hpp"
+#include "fluid/vortex/participant.hpp"
+#include "rigid/forces/gravity.hpp"
+#include "rigid/participant.hpp"
+#include "shapes.hpp"
+
+namespace splashdown::vortex::scenes {
+
+inline constexpr double g = 1;
+
+/// A body of a mean density over the fluid's, at rest in still fluid that weighs; its frame's origin is its centroid.
+struct FreeBody {
+  Surface<2> outline = circle(0.5);
+  double density = 1;  // over the fluid's
+  double angle = 0;
+  double h = 1. / 24;
+  double smoothing = 0.5;
+  double half = 2;  // of the grid [m]
+  double reynolds = 200;
+  int passes = 0;
+  Vec<2> offset = Vec<2>::Zero();  // of the centre of mass from the centroid
+
+  FluidSpec fluid() const {
+    FluidSpec spec;
+    spec.density = 1;
+    spec.viscosity = 1 / reynolds;
+    spec.grid = square_grid(4 * static_cast<int>(std::lround(half / (2 * h))), half);
+    spec.gravity = {0, -g};
+    spec.penalisation.smoothing = smoothing;
+    spec.penalisation.passes = passes;
+    WallSpec<2> wall;
+    wall.name = "body";
+    wall.surface = surface();
+    wall.pose = pose();
+    spec.walls = {wall};
+    return spec;
+  }
+  Surface<2> surface() const {
+    auto moved = outline;
+    moved.vertices.colwise() -= offset;
+    return moved;
+  }
+  Isometry<2> pose() const {
+    Isometry<2> at = Isometry<2>::Identity();
+    at.linear() = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    at.translation() = at.linear() * offset;
+    return at;
+  }
+  BodySpec<2> body() const {
+    const auto m = moments_of(outline);
+    BodySpec<2> spec;
+    spec.name = "body";
+    spec.surface = surface();
+    spec.mass = density * m.area;
+    spec.inertia(0, 0) = density * m.polar;
+    spec.free.fill(true);
+    spec.pose = pose();
+    return spec;
+  }
+};
+
+/// Both parts and their stepper.
+struct Coupled {
+  const Fluid* fluid;
+  const rigid::Bodies<2>* bodies;
+  std::unique_ptr<coupling::Coupled> stepper;
+
+  /// The accepted attempt of a step; throws the cause.
+  coupling::StepReport step(double dt) {
+    const auto report = stepper->attempt(dt);
+    if (!report.ok()) throw std::runtime_error(report.cause);
+    stepper->commit();
+    return report;
+  }
+};
+
+inline Coupled coupled(const FreeBody& scene, std::unique_ptr<coupling::Accelerator> accelerator = nullptr,
+                       coupling::CouplingLimits limits = {}) {
+  Coupled made;
+  auto fluid = std::make_unique<Participant>(std::make_unique<Fluid>(scene.fluid()));
+  std::vector<std::unique_ptr<rigid::Force<2>>> forces;
+  forces.push_back(std::make_unique<rigid::Gravity<2>>(Vec<2>(0, -g)));
+  auto bodies = std::make_unique<rigid::Participant<2>>(
+      std::make_unique<rigid::Bodies<2>>(std::vector{scene.body()}, std::move(forces)));
+  made.fluid = &fluid->fluid();
+  made.bodies = &bodies->bodies();
+  if (accelerator)
+    made.stepper = std::make_unique<coupling::Partitioned>(
+        std::move(fluid), std::move(bodies), std::make_unique<coupling::NoTerm>(), std::move(accelerator), limits);
+  else
+    made.stepper = std::make_unique<coupling::Simultaneous>(std::move(fluid), std::move(bodies));
+  return made;
+}
+
+}  // namespace splashdown::vortex::scenes
