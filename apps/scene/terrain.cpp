@@ -1,11 +1,15 @@
 #include "apps/scene/terrain.hpp"
 
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/rules/check.hpp"
 #include "apps/scene/rules/problems.hpp"
+#include "core/surface/cut.hpp"
+#include "rigid/shapes/mass_properties.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -43,48 +47,78 @@ Outline clipped(const rigid::Surface<2>& hull, const Extents<2>& box) {
   return distinct;
 }
 
-void cut(const Tank& tank, Body& body) {
-  const auto inside = extents<2>(tank);
-  const auto hull = outline<2>(body);
-  const double roundoff = 1e-9 * inside.diagonal().norm();
-  const Extents<2> wide(inside.min().array() - roundoff, inside.max().array() + roundoff);
-  if (wide.contains(extents<2>(hull)) || !inside.intersects(extents<2>(hull))) return;
-  const auto part = clipped(hull, inside);
-  if (part.size() < 3) return;
+/// Of a hull in the world, in the frame of the body's shape; nothing where none of it lies in the box.
+std::optional<Shape> part_in(const Body& body, const rigid::Surface<2>& hull, const Extents<2>& box) {
+  const auto part = clipped(hull, box);
+  if (part.size() < 3) return {};
   PolygonShape shape;
   for (const auto& x : part) {
     shape.points.emplace_back(Point::Zero());
     shape.points.back().head<2>() = shape_pose<2>(body).inverse() * x;
   }
   shape_of<2>(shape);  // throws for what is no outline
-  body.shape = std::move(shape);
+  return shape;
 }
 
+std::optional<Shape> part_in(const Body& body, const rigid::Surface<3>& hull, const Extents<3>& box) {
+  rigid::Surface<3> part = cut_at_box(hull, box);
+  if (part.facets.cols() == 0) return {};
+  part.vertices = shape_pose<3>(body).inverse() * part.vertices;
+  SurfaceShape shape;
+  if (const auto* file = std::get_if<SurfaceShape>(&body.shape)) shape = *file;
+  shape.read = std::make_shared<rigid::Shape<3>>(rigid::Shape<3>{part, rigid::mass_properties<3>(part)});
+  return shape;
+}
+
+template <int d>
+void cut(const Tank& tank, Body& body) {
+  const auto inside = extents<d>(tank);
+  const auto hull = outline<d>(body);
+  const double roundoff = 1e-9 * inside.diagonal().norm();
+  const Extents<d> wide(inside.min().array() - roundoff, inside.max().array() + roundoff);
+  if (wide.contains(extents<d>(hull)) || !inside.intersects(extents<d>(hull))) return;
+  if (auto part = part_in(body, hull, inside)) body.shape = std::move(*part);
+}
+
+/// A file in another unit, most of the time: not cut, so that its place is asked about.
+template <int d>
+bool is_out_of_scale(const Tank& tank, const Body& body) {
+  constexpr double most = 100;  // times the tank
+  return extents<d>(outline<d>(body)).sizes().maxCoeff() > most * extents<d>(tank).sizes().maxCoeff();
+}
+
+template <int d>
 bool is_good(const Shape& shape) {
   try {
-    shape_of<2>(shape);
+    shape_of<d>(shape);
     return true;
   } catch (const std::invalid_argument&) {
     return false;
   }
 }
 
-}  // namespace
-
-void cut_terrain(Scene& scene, const SceneLabels& labels, Problems& problems) {
-  if (!scene.tank || scene.dimension != 2 || problems.found_in("tank")) return;
-  if (!((scene.tank->max - scene.tank->min).head<2>().minCoeff() > 0)) return;
+template <int d>
+void cut_bodies(Scene& scene, const SceneLabels& labels, Problems& problems) {
+  if (!(extents<d>(*scene.tank).sizes().minCoeff() > 0)) return;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     auto& body = scene.bodies[i];
-    if (body.motion != Motion::fixed || problems.found_in(labels.bodies[i]) || !is_good(body.shape)) continue;
+    if (body.motion != Motion::fixed || problems.found_in(labels.bodies[i]) || !is_good<d>(body.shape)) continue;
+    if (is_out_of_scale<d>(*scene.tank, body)) continue;
     try {
-      cut(*scene.tank, body);
-    } catch (const std::invalid_argument& error) {
+      cut<d>(*scene.tank, body);
+    } catch (const std::exception& error) {
       problems.add(labels.bodies[i] + ".shape",
                    std::string("what of it lies in the tank is no single body: ") + error.what(),
                    "Give each part a body of its own, or enlarge the tank.");
     }
   }
+}
+
+}  // namespace
+
+void cut_terrain(Scene& scene, const SceneLabels& labels, Problems& problems) {
+  if (!scene.tank || problems.found_in("tank")) return;
+  scene.dimension == 2 ? cut_bodies<2>(scene, labels, problems) : cut_bodies<3>(scene, labels, problems);
 }
 
 }  // namespace splashdown::apps

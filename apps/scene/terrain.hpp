@@ -8,8 +8,9 @@ namespace splashdown::apps {
 class Problems;
 struct SceneLabels;
 
-/// Cuts fixed bodies of the plane at the tank: their shapes become what lies in it. Those that lie in it altogether, or nowhere, stay
-/// as they are, and all in space. A problem where what is left falls into parts. Bodies that could not be read are left alone.
+/// Cuts fixed bodies at the tank: their shapes become what lies in it. Those that lie in it altogether, or nowhere, stay as they are,
+/// and those a hundred times as large. A problem where what is left in the plane falls into parts. Bodies that could not be read are
+/// left alone.
 void cut_terrain(Scene& scene, const SceneLabels& labels, Problems& problems);
 
 }  // namespace splashdown::apps

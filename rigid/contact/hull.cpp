@@ -1,5 +1,6 @@
 #include "rigid/contact/hull.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,6 +63,29 @@ std::vector<Eigen::Vector3d> arc(const Eigen::Vector3d& from, const Eigen::Vecto
   return all;
 }
 
+// (w - v) . (c - v) = |w - v|^2 / 2 for all neighbours w, by least squares.
+template <int d>
+Round<d> round_through(const Eigen::Matrix<double, d, Eigen::Dynamic>& x, int v, const std::vector<int>& neighbours,
+                       const Vec<d>& outward) {
+  constexpr double longest_edge = 0.2;  // of the radius: what bulges between vertices is 0.5 % of it
+  constexpr double off_the_sphere =
+      1e-3;  // of what an edge's end is below the tangent: files in single precision are closer
+  const auto count = static_cast<Eigen::Index>(neighbours.size());
+  Eigen::Matrix<double, Eigen::Dynamic, d> edges(count, d);
+  for (Eigen::Index i = 0; i < count; ++i)
+    edges.row(i) = (x.col(neighbours[static_cast<std::size_t>(i)]) - x.col(v)).transpose();
+  const Eigen::VectorXd half_squares = 0.5 * edges.rowwise().squaredNorm();
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, d>> fit(edges);
+  if (fit.rank() < d) return {};
+  const Vec<d> to_centre = fit.solve(half_squares);
+  const Eigen::VectorXd off = (edges * to_centre - half_squares).cwiseAbs();
+  const double radius = to_centre.norm();
+  if (to_centre.dot(outward) >= 0 || std::sqrt(2 * half_squares.maxCoeff()) > longest_edge * radius ||
+      (off.array() > off_the_sphere * half_squares.array()).any())
+    return {};
+  return {x.col(v) + to_centre, radius};
+}
+
 }  // namespace
 
 template <int d>
@@ -73,6 +97,7 @@ template <int d>
 Hull<d>::Hull(const Surface<d>& surface)
     : surface_(&surface), tree_(surface.vertices, surface.facets), boxes_(std::make_unique<Boxes>()) {
   find_neighbours();
+  find_round_vertices();
   if constexpr (d == 3) find_edges();
   std::vector<Box<d>> boxes;
   for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
@@ -101,6 +126,17 @@ void Hull<d>::find_neighbours() {
     for (int a = 0; a < d; ++a)
       for (int b = 0; b < d; ++b)
         if (a != b) neighbours_[static_cast<std::size_t>(facets(a, f))].push_back(facets(b, f));
+}
+
+template <int d>
+void Hull<d>::find_round_vertices() {
+  const auto& x = surface_->vertices;
+  std::vector<Vec<d>> outward(static_cast<std::size_t>(x.cols()), Vec<d>::Zero());
+  for (Eigen::Index f = 0; f < surface_->facets.cols(); ++f)
+    for (int k = 0; k < d; ++k)
+      outward[static_cast<std::size_t>(surface_->facets(k, f))] += area_vector(facet_corners(*surface_, f));
+  for (int v = 0; v < x.cols(); ++v)
+    round_.push_back(round_through<d>(x, v, neighbours(v), outward[static_cast<std::size_t>(v)]));
 }
 
 template <>

@@ -19,6 +19,13 @@ struct Edge {
   std::vector<Eigen::Vector3d> normals;  ///< unit, from one facet's to the other's
 };
 
+/// The circle or sphere through a vertex on which its neighbours lie, too: what the facets there stand for.
+template <int d>
+struct Round {
+  Vec<d> centre = Vec<d>::Zero();
+  double radius = 0;  ///< 0: there is none, or the hull is hollow there
+};
+
 /// The surface of a body, searched in trees. Body frame. Const calls may come from all threads.
 template <int d>
 class Hull {
@@ -33,6 +40,8 @@ class Hull {
   const Surface<d>& surface() const { return *surface_; }
   /// Vertices joined to this one by an edge.
   const std::vector<int>& neighbours(int vertex) const { return neighbours_[static_cast<std::size_t>(vertex)]; }
+  /// Of a vertex on a convex curve or on a sphere.
+  const Round<d>& round(int vertex) const { return round_[static_cast<std::size_t>(vertex)]; }
   const std::vector<Edge>& edges() const { return edges_; }  ///< in 3D; none in 2D
 
   /// From the surface; infinity beyond `reach`.
@@ -48,9 +57,11 @@ class Hull {
   struct Boxes;
   void find_neighbours();
   void find_edges();
+  void find_round_vertices();
   const Surface<d>* surface_;
   std::vector<std::vector<int>> neighbours_;  // of vertices
   std::vector<Edge> edges_;
+  std::vector<Round<d>> round_;  // of vertices
   bool convex_ = false;
   FacetTree<d> tree_;
   std::unique_ptr<Boxes> boxes_;

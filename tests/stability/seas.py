@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Random seas in the plane, and what their theories say of the runs.
 
-    seas.py BINARY regular|paddle|irregular|zones|touchdown [--members 4] [--first SEED] [--elements 40] [--periods N] [--keep DIR]
+    seas.py BINARY regular|paddle|hinged|spectrum|irregular|zones|touchdown [--members 4] [--first SEED] [--elements 40] [--periods N] [--keep DIR]
 
 regular    [waves] of any depth and steepness: over the second half of the run the wave has the length, the height and the level of the
            stream function
 paddle     [wavemaker], piston or flap, in a flume with a beach: the height of linear wavemaker theory, nothing behind the paddle
+hinged     the same with flaps whose hinge is above the floor
+spectrum   an irregular sea of a piston or a flap: height and peak period of what theory sees at the same gauge, with the same ramp
 irregular  JONSWAP and Pierson-Moskowitz: significant height and peak period of what was asked for, in the middle of the tank
 zones      a box heaves in the middle of a sea that is almost calm: what the zones throw back of its waves, half to twice as long as theirs
 touchdown  [waves.touchdown]: where on the wave a falling body touches the water first
@@ -151,11 +153,13 @@ def period_of(signal):
     return (ups[-1] - ups[0]) / (len(ups) - 1)
 
 
-def paddle(binary, seed, options, folder):
+def paddle(binary, seed, options, folder, hinged=False):
     """Height within 3 % of the theory; no water behind the paddle; volume within 1e-8."""
     r = random.Random(seed)
     depth, kd = 10 ** r.uniform(-0.7, 0.6), r.uniform(0.6, 3.5)
     kind, end = r.choice(["piston", "flap"]), r.choice(["lower", "upper"])
+    hinge = r.uniform(0.1, 0.6) * depth if hinged else 0
+    kind = "flap" if hinged else kind
     k = kd / depth
     length, omega = 2 * math.pi / k, math.sqrt(G * k * math.tanh(kd))
     period, height = 2 * math.pi / omega, length * min(10 ** r.uniform(-2, -1.3), 0.5 * 0.142 * math.tanh(kd))
@@ -173,6 +177,7 @@ type = "{kind}"
 end = "{end}"
 height = {height:.9g}
 period = {period:.9g}
+{f"hinge = {hinge:.9g}" if hinged else ""}
 """ + tank(low, high, depth, 2.5 * height + 0.05 * length, 0 if sign > 0 else None).replace(f"max = [{high:.9g}, 0]", "max = [0, 0]" if sign < 0 else f"max = [{high:.9g}, 0]")
     text += f"""[fluid.absorber]
 ends = "{'upper' if sign > 0 else 'lower'}"
@@ -190,8 +195,57 @@ far = {length / 10:.6g}
     volume = max(abs(float(x["volume"]) + float(x["volume_spray"]) - float(rows[0]["volume"])) for x in rows) / float(rows[0]["volume"])
     spray = max(float(x["volume_spray"]) for x in rows) / float(rows[0]["volume"])
     gone = max(abs(float(rows[-1]["volume_remesh_deleted"])), float(rows[-1]["volume_remesh_created"])) / float(rows[0]["volume"])
-    return abs(ratio) <= 0.03 and volume <= 1e-8 and spray <= 1e-4, (f"{kind:6s} {end} H/L {height / length:.3f} kd {kd:4.2f}: height {100 * ratio:+.2f} % of the theory, "
+    return abs(ratio) <= 0.03 and volume <= 1e-8 and spray <= 1e-4, (f"{kind:6s} {end} {f'hinge {hinge / depth:.2f} d ' if hinged else ''}H/L {height / length:.3f} kd {kd:4.2f}: height {100 * ratio:+.2f} % of the theory, "
                                                    f"echo {100 * echo:.1f} %, volume {volume:.0e}, remeshed {gone:.0e}, spray {spray:.0e}")
+
+
+def hinged(binary, seed, options, folder):
+    """Height within 3 % of the theory; no water behind the paddle; volume within 1e-8."""
+    return paddle(binary, seed, options, folder, hinged=True)
+
+
+def spectrum(binary, seed, options, folder):
+    """Significant height and peak period within 3 % of the sea that theory has there."""
+    r = random.Random(seed)
+    peak, gamma = 10 ** r.uniform(-0.2, 0.9), r.choice([1, 3.3, 5])
+    omega, kind = 2 * math.pi / peak, r.choice(["piston", "flap"])
+    depth = G * peak * peak / (2 * math.pi) * r.uniform(0.15, 0.5)
+    k = wave_number(omega, depth)
+    length, speed = 2 * math.pi / k, group_speed(omega, k, depth)
+    height = length * r.uniform(0.005, 0.02)
+    repeat = options.periods or 40
+    place = 2 * length
+    begin = 2 * peak + 3 * place / speed  # the slow ones are there, too
+    text = f"""[time]
+end = {begin + repeat * peak:.9g}
+[wavemaker]
+type = "{kind}"
+significant_height = {height:.9g}
+peak_period = {peak:.9g}
+gamma = {gamma}
+repeat = {repeat}
+seed = {seed}
+""" + tank(-length, 5 * length, depth, 3 * height + 0.05 * length, 0)
+    text += f"""[fluid.absorber]
+ends = "upper"
+width = {2.5 * length:.6g}
+rate = {omega:.6g}
+[fluid.size]
+surface = {length / options.elements:.6g}
+far = {length / 8:.6g}
+""" + gauges([place])
+    signals, _, _ = tables(binary, text, folder)
+    stop = signals["g0"][-1][0]
+    numbers = []
+    for name in ("g0", "g0.undisturbed"):
+        seen = between(signals[name], stop - repeat * peak, stop)
+        level = mean(seen)
+        rough = 4 * math.sqrt(mean(seen, lambda t, y: (y - level) ** 2))
+        s = [(n / (repeat * peak), abs(fundamental(seen, 2 * math.pi * n / (repeat * peak))) ** 2) for n in range(int(0.6 * repeat), int(2 * repeat))]
+        numbers.append((rough, sum(a ** 4 for _, a in s) / sum(f * a ** 4 for f, a in s)))
+    (h, t), (h0, t0) = numbers
+    return abs(h / h0 - 1) <= 0.03 and abs(t / t0 - 1) <= 0.03, (f"{kind:6s} Hs/L {height / length:.3f} kd {k * depth:4.2f} gamma {gamma}: Hs {100 * (h / h0 - 1):+.2f} %, "
+                                                   f"Tp {100 * (t / t0 - 1):+.2f} %")
 
 
 def irregular(binary, seed, options, folder):
@@ -343,7 +397,7 @@ size = {size / 20:.6g}
 
 
 if __name__ == "__main__":
-    LAWS = (regular, paddle, irregular, zones, touchdown)
+    LAWS = (regular, paddle, hinged, spectrum, irregular, zones, touchdown)
     PARSER = arguments(__doc__, LAWS)
     PARSER.add_argument("--periods", type=int, default=0)
     try_members(PARSER.parse_args(), LAWS)

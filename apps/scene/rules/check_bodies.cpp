@@ -126,14 +126,10 @@ void check_inside_tank(const Scene& scene, const Body& body, const rigid::Surfac
     moved.vertices = shape_pose<d>(place.position, place.attitude) * shape.vertices;
     const auto box = extents<d>(moved);
     if (wide.contains(box)) continue;
-    return problems.add(
-        label + (body.path.empty() ? ".position" : ".path"),
-        fmt::format("the body spans {} m and leaves the tank {} m", text<d>(box), text<d>(tank)),
-        unit_question(body.shape, box.sizes().maxCoeff(), tank.sizes().maxCoeff()) +
-            (d == 3 && body.motion == Motion::fixed
-                 ? "Cut terrain at the tank's walls, e.g. Blender: Boolean > Intersect with a box of the "
-                   "tank's size; it may touch them. Or enlarge the tank."
-                 : "Move the body or enlarge the tank."));
+    return problems.add(label + (body.path.empty() ? ".position" : ".path"),
+                        fmt::format("the body spans {} m and leaves the tank {} m", text<d>(box), text<d>(tank)),
+                        unit_question(body.shape, box.sizes().maxCoeff(), tank.sizes().maxCoeff()) +
+                            "Move the body or enlarge the tank.");
   }
 }
 

@@ -18,6 +18,15 @@ double developed(double way, double length) {
   return q * q * (3 - 2 * q);
 }
 
+/// A way or an angle at the end of a step; from zero where the motion turns.
+template <int n>
+Vec<n> gone_on(const Vec<n>& before, const Vec<n>& rate, double dt, double most) {
+  Vec<n> now = before + dt * rate;
+  if (!(now.dot(rate) > 0)) now.setZero();
+  if (now.norm() > most) now *= most / now.norm();
+  return now;
+}
+
 }  // namespace
 
 template <int d>
@@ -45,7 +54,7 @@ Wrench<d> FormDrag<d>::drag(std::size_t hull, const Twist<d>& through, double de
     const Vec<d> v = rigid_velocity<d>(through, f.arm);
     const double leaves = v.dot(f.area);
     if (leaves <= 0) continue;
-    const double share = developed(way(hull).dot(v) / v.norm(), length);
+    const double share = developed(rigid_velocity<d>(way(hull), f.arm).dot(v) / v.norm(), length);
     sum -= wrench_of<d>(f.arm, Vec<d>(factor * share * leaves * v));
   }
   return sum;
@@ -76,8 +85,8 @@ template <int d>
 void FormDrag<d>::act(std::size_t w, const StepView<d>& step, const Carried<d>& carried,
                       const Predicted<d>& predicted) {
   const Hull& hull = now_[w];
-  Eigen::Map<Vec<d>> next(&next_[d * w]);
-  next.setZero();
+  Eigen::Map<Twist<d>> all_ways(&next_[freedoms<d> * w]);
+  all_ways.setZero();
   Surroundings<d> water(step, hull.centre, spheres_[w].radius, static_cast<int>(w), mirror_);
   if (hull.wetted.empty() || water.empty()) return;
   const Vec<d> arm = hull.centre - step.poses[w].translation();
@@ -89,9 +98,11 @@ void FormDrag<d>::act(std::size_t w, const StepView<d>& step, const Carried<d>& 
     water.face(through.template head<d>());
   }
   through = own - water.ahead(carried.v);
-  const Vec<d> v = through.template head<d>(), gone = way(w) + step.dt * v;
-  next = gone.dot(v) > 0 ? gone : Vec<d>::Zero().eval();
-  if (const double far = 2 * hulls_[w].develops * spheres_[w].breadth; next.norm() > far) next *= far / next.norm();
+  const Vec<d> v = through.template head<d>();
+  const double far = 2 * hulls_[w].develops * spheres_[w].breadth;
+  all_ways << gone_on<d>(way(w).template head<d>(), v, step.dt, far),
+      gone_on<rotations<d>>(way(w).template tail<rotations<d>>(), through.template tail<rotations<d>>(), step.dt,
+                            far / (0.5 * spheres_[w].breadth));
   closing_ = closing(w, through, own, carried.v);
   const double missing = 1 - by_itself * (1 - std::min(1.0, closing_ / closed));
   Wrench<d> impulse = step.kick * missing * drag(w, through, step.density);

@@ -26,7 +26,7 @@ struct FormDragSpec {
 /// Explicit; the reaction goes to the water around the hull, most of it behind: momentum is kept, moments included. Acts in
 /// directions that carry added mass alone, of rho b^d: C |v| kick / b of a body's velocity at most is lost in a kick.
 ///
-/// Round hulls separate after a way s through the water since the last turn of the motion,
+/// Round hulls separate after a way s through the water since the last turn of the motion, of each strip its own where they turn,
 ///
 ///   g(x) = y^2 (3 - 2 y),  y = min(1, x / x_1)
 ///
@@ -38,12 +38,12 @@ class FormDrag final : public Effect<d> {
   /// `hulls`: of the first walls, in their order. Takes the values as they are: readers check them. With a mirror fluid,
   /// wetted facets, loads and work are those of the half before it.
   explicit FormDrag(std::vector<FormDragSpec> hulls, std::optional<Mirror> mirror = {})
-      : hulls_(std::move(hulls)), mirror_(mirror), ways_(d * hulls_.size(), 0.0), next_(ways_) {}
+      : hulls_(std::move(hulls)), mirror_(mirror), ways_(freedoms<d> * hulls_.size(), 0.0), next_(ways_) {}
   std::string name() const override { return "form_drag"; }
   Status begin(const StepView<d>& step) override;
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
   void commit(const StepView<d>& step) override;
-  /// The way of each hull through the water since its last turn [m].
+  /// The way of each hull through the water since its last turn [m], and the angle [rad].
   std::span<double> memory() override { return ways_; }
   bool books_work() const override { return true; }
   /// power: on water and hulls together [W]; closing: q of the last hull; fx, fy, fz: on all hulls [N; 2D: N/m]
@@ -58,7 +58,7 @@ class FormDrag final : public Effect<d> {
     Vec<d> centre = Vec<d>::Zero();  // world frame
     std::vector<Wetted> wetted;
   };
-  Vec<d> way(std::size_t hull) const { return Eigen::Map<const Vec<d>>(&ways_[d * hull]); }
+  Twist<d> way(std::size_t hull) const { return Eigen::Map<const Twist<d>>(&ways_[freedoms<d> * hull]); }
   /// On the hull about its centre [N, N m], moving so through the water.
   Wrench<d> drag(std::size_t hull, const Twist<d>& through, double density) const;
   /// q of a hull that moves with `own`.

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <numbers>
 
+#include "core/surface/cut.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
@@ -261,6 +263,37 @@ TEST_F(SurfaceFileTest, a_file_that_was_cut_off_is_told_with_its_length) {
 TEST_F(SurfaceFileTest, a_file_that_is_none_is_told_with_the_cause) {
   EXPECT_TRUE(says(told(path() / "none.stl"), "cannot be read: No such file"));
   EXPECT_TRUE(says(told(write("hull.step", "")), "must be an .stl or .obj file, not '.step'"));
+}
+
+double enclosed(const Surface<3>& s) {
+  double sum = 0;
+  for (int f = 0; f < s.facets.cols(); ++f) {
+    const Vec<3> a = s.vertices.col(s.facets(0, f)), b = s.vertices.col(s.facets(1, f)),
+                 c = s.vertices.col(s.facets(2, f));
+    sum += a.dot(b.cross(c)) / 6;
+  }
+  return sum;
+}
+
+TEST_F(SurfaceFileTest, a_solid_is_cut_at_a_box_and_closed_there) {
+  const Eigen::AlignedBox3d tank(Vec<3>(-0.5, -0.7, -3), Vec<3>(3, 3, 0.1));
+  const auto part = cut_at_box(cube(), tank);
+  EXPECT_NEAR(enclosed(part), 1.5 * 1.7 * 1.1, 1e-12);
+  EXPECT_EQ(part.vertices.rowwise().minCoeff(), Vec<3>(-0.5, -0.7, -1)) << "exactly in the sides";
+  EXPECT_EQ(part.vertices.rowwise().maxCoeff(), Vec<3>(1, 1, 0.1));
+  EXPECT_EQ(told(ascii(part)), "was accepted");
+  EXPECT_EQ(cut_at_box(cube({9, 0, 0}), tank).facets.cols(), 0) << "nothing of it is there";
+  EXPECT_NEAR(enclosed(cut_at_box(cube({0, 0, 0}, 40), tank)), 3.5 * 3.7 * 3.1, 1e-12) << "it fills the tank";
+  EXPECT_NEAR(enclosed(cut_at_box(cube(), {Vec<3>(-1, -1, -1), Vec<3>(0, 1, 1)})), 4, 1e-12) << "sides in common";
+}
+
+TEST_F(SurfaceFileTest, a_slope_that_is_cut_has_the_volume_below_it) {
+  // A cone of height 2 on its base, upside down: radius and depth go to zero at the origin.
+  const auto hill = scenes::cone(2, 2, 64);
+  const Eigen::AlignedBox3d slab(Vec<3>(-5, -5, 0.5), Vec<3>(5, 5, 1));
+  const double base = 0.5 * 64 * 4 * std::sin(2 * std::numbers::pi / 64) / 4;  // of its section at height 1
+  EXPECT_NEAR(enclosed(cut_at_box(hill, slab)), base / 3 * (1 - 0.125), 1e-9);
+  EXPECT_EQ(told(ascii(cut_at_box(hill, slab))), "was accepted");
 }
 
 // A file of 500 MB by its length, of nothing on the disk.

@@ -331,6 +331,28 @@ TEST(FormDrag, of_a_round_hull_begins_anew_where_the_motion_turns) {
   EXPECT_NEAR(force(-1, 10), -1.2 * 500 * 1.6, 1e-6);
 }
 
+// Strips have ways of their own: those at the ends of a hull that turns separate first.
+TEST(FormDrag, of_a_round_hull_that_turns_grows_from_its_ends) {
+  Cloud<2> cloud;
+  cloud.motion[0][2] = 3;
+  auto effect = drag<2>(2, 1.8), at_once = drag<2>(2, 0);
+  const auto moment_after = [&](FormDrag<2>& of, double angle) {
+    cloud.kick = angle / cloud.motion[0][2];
+    Wrench<2> impulse;
+    cloud.predict(of, impulse);
+    cloud.commit(of);
+    cloud.kick = 1e-9;
+    cloud.predict(of, impulse);
+    return impulse[2] / cloud.kick;
+  };
+  const double all = moment_after(at_once, 1), half = moment_after(effect, 2);
+  EXPECT_LT(half / all, 0.9);
+  EXPECT_GT(half / all, 0.1);
+  EXPECT_NEAR(moment_after(effect, 20), all, 1e-3 * std::abs(all));
+  cloud.motion[0][2] = -3;
+  EXPECT_EQ(moment_after(effect, -1e-9), 0) << "it begins anew where it turns back";
+}
+
 TEST(FormDrag, remembers_what_it_is_given_back) {
   Cloud<2> cloud;
   cloud.motion[0][0] = 1;

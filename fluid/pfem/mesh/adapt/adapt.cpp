@@ -256,11 +256,14 @@ class Adapter {
   WallTie tie_between(const Edge& e, bool& surface) const {
     const WallTie &a = nodes_.tie[e.a], &b = nodes_.tie[e.b];
     WallTie tie;
+    int only = -1, walls = 0;  // of the facets; a node where two walls meet is tied to one of them
     edges_.around(mesh_.boundary, e.a, e.b, [&](int f) {
       const int wall = mesh_.boundary[f].wall;
       if (wall < 0) surface = true;
       if (wall >= 0 && a.wall == wall && b.wall == wall) tie.wall = wall;
+      if (walls == 0 || wall != only) only = wall, ++walls;
     });
+    if (tie.wall < 0 && walls == 1) tie.wall = only;
     if (tie.wall < 0 && lies_in_mirror(e)) tie.wall = tank_in_mirror(e);
     if (tie.wall >= 0 && a.sharp() && b.sharp()) {
       constexpr double along = 0.1;  // distance of the edge's middle from a crease that it follows, over its length

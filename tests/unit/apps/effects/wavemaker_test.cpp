@@ -54,6 +54,15 @@ const Mistake mistakes[] = {
     {"no_room", "min = [-0.5, -0.4]", "min = [-0.05, -0.4]", 5, "tank.min", "Let the tank begin at x = -0.1"},
     {"runs_over", "max = [9, 0.3]", "max = [9, 0.04]", 6, "tank.max", "Let it reach 0.1 m above."},
     {"damped", "ends = \"upper\"", "ends = \"both\"", 14, "fluid.absorber.ends = \"both\"", "Use ends = \"upper\"."},
+    {"irregular_and_regular", "period = 1.2\nheight = 0.05",
+     "significant_height = 0.05\npeak_period = 1.2\nheight = 0.05", 21, "wavemaker.height", "Remove it, or the two."},
+    {"irregular_without_period", "period = 1.2\nheight = 0.05", "significant_height = 0.05", 17,
+     "wavemaker.peak_period", "Use the period of the largest waves."},
+    {"irregular_breaks", "period = 1.2\nheight = 0.05", "significant_height = 0.3\npeak_period = 1.2", 19,
+     "wavemaker.significant_height = 0.3", "Use at most 0.19 m, or a longer period."},
+    {"hinge_of_a_piston", "height = 0.05", "height = 0.05\nhinge = 0.1", 21, "wavemaker.hinge",
+     "Remove it, or use type = \"flap\"."},
+    {"hinge_too_high", "\"piston\"", "\"flap\"\nhinge = 0.38", 19, "wavemaker.hinge = 0.38", "Use at most 0.32 m."},
     {"above_floor", "min = [0, -0.4]", "min = [0, -0.3]", 17, "wavemaker: needs", "from the tank's floor up"},
     {"no_gravity", "[gravity]\n", "", 16, "wavemaker: needs", "[gravity] straight down"}};
 
@@ -104,6 +113,48 @@ TEST(Wavemaker, turns_about_its_foot_as_a_flap_at_either_end) {
     }
     EXPECT_TRUE(towards_water);
   }
+}
+
+TEST(Wavemaker, above_a_sill_turns_about_a_place_on_its_top) {
+  for (const bool upper : {false, true}) {
+    std::string text = testing::replaced(flume, "\"piston\"",
+                                         upper ? "\"flap\"\nend = \"upper\"\nhinge = 0.15" : "\"flap\"\nhinge = 0.15");
+    if (upper) {
+      text = testing::replaced(text, "min = [-0.5, -0.4]\nmax = [9, 0.3]", "min = [-9, -0.4]\nmax = [0.5, 0.3]");
+      text = testing::replaced(text, "min = [0, -0.4]\nmax = [9, 0]", "min = [-9, -0.4]\nmax = [0, 0]");
+      text = testing::replaced(text, "ends = \"upper\"", "ends = \"lower\"");
+    }
+    const Scene scene = scene_of(text);
+    ASSERT_EQ(scene.bodies.size(), 2U);
+    const auto &flap = scene.bodies[0], &sill = scene.bodies[1];
+    const auto wall = extents<2>(outline<2>(sill));
+    EXPECT_EQ(sill.name, "sill");
+    EXPECT_NEAR(wall.min().y(), -0.4, 1e-12);
+    EXPECT_NEAR(wall.max().y(), -0.25, 1e-12);
+    const auto hull = shape_of<2>(flap.shape).surface;
+    for (const auto& point : flap.path) {
+      const auto at = shape_pose<2>(point.position, point.attitude) * hull.vertices;
+      EXPECT_NEAR(at.row(1).minCoeff(), -0.25, 1e-12) << "neither in the sill nor above it";
+      EXPECT_NEAR(at(0, 0), 0, 1e-12);
+      EXPECT_LT(wall.min().x(), 0);
+      EXPECT_GT(wall.max().x(), 0);
+    }
+  }
+}
+
+TEST(Wavemaker, sends_the_sea_of_its_seed) {
+  const std::string irregular =
+      testing::replaced(flume, "period = 1.2\nheight = 0.05", "significant_height = 0.04\npeak_period = 1.2");
+  const Scene scene = scene_of(irregular), same = scene_of(irregular), other = scene_of(irregular + "seed = 2\n");
+  const auto& path = scene.bodies.front().path;
+  ASSERT_EQ(path.size(), same.bodies.front().path.size());
+  double differs = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    EXPECT_EQ(path[i].position.x(), same.bodies.front().path[i].position.x());
+    differs = std::max(differs, std::abs(path[i].position.x() - other.bodies.front().path[i].position.x()));
+  }
+  EXPECT_GT(differs, 0.01);
+  EXPECT_NEAR(scene.fluid->size.surface, 1.936 / 60, 0.001);
 }
 
 TEST(Wavemaker, gives_its_waves_forty_elements_where_sizes_are_left_open) {

@@ -147,6 +147,20 @@ velocity_gradient = [[1, 0, 0], [0, 1, 0], [0, 0, -2]]
   EXPECT_EQ(once, read_scene_text(once, "scene.resolved.toml").resolved);
 }
 
+TEST(SpatialScene, cuts_fixed_bodies_at_the_tank) {
+  const auto scene = scene_of(std::string(landing) + R"([[body]]
+name = "floor"
+shape = {type = "box", size = [9, 9, 1]}
+motion = "fixed"
+position = [0.3, 0, -1.4]
+heading_deg = 20
+)");
+  const auto& floor = scene.bodies.back();
+  const auto box = extents<3>(outline<3>(floor));
+  EXPECT_TRUE(box.isApprox(Extents<3>(rigid::Vec<3>(-2, -2, -1), rigid::Vec<3>(2, 2, -0.9)), 1e-12));
+  EXPECT_NEAR(shape_of<3>(floor.shape).at_unit_density.mass, 1.6, 1e-9);
+}
+
 class SpatialSceneIsRefused : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(SpatialSceneIsRefused, with_place_key_and_rule) {

@@ -184,6 +184,44 @@ TEST(Adapt, does_not_merge_across_a_gap_between_walls) {
   EXPECT_EQ(adapt<2>(nodes, mesh, at).removed, 0);
 }
 
+// A hull stands on the floor: the node at its foot is the hull's, the next one along the floor is the tank's.
+TEST(Adapt, keeps_facets_between_nodes_of_two_walls_on_the_wall_that_they_wet) {
+  std::vector<Wall<2>> walls;
+  const std::vector<Isometry<2>> poses(2, Isometry<2>::Identity());
+  walls.emplace_back(scenes::wall("tank", scenes::turned_inside_out(scenes::rectangle({-1, 0}, {1, 1})), 0.1));
+  walls.emplace_back(scenes::wall("hull", scenes::rectangle({-0.5, 0}, {0, 0.5}), 0.1));
+  const WallsAt<2> at{walls, poses};
+  Nodes<2> nodes;
+  Mesh<2> mesh;
+  const std::vector<Vec<2>> corners{{0, 0}, {0.4, 0}, {0.4, 0.2}, {0, 0.2}};
+  const auto floor = tie_at<2>(corners[1], at);
+  ASSERT_EQ(floor.wall, 0);
+  nodes.add(corners[0], Vec<2>::Zero(), 0, {1, -1, 1}, false, 0.1);
+  nodes.add(corners[1], Vec<2>::Zero(), 0, floor, true, 0.1);
+  nodes.add(corners[2], Vec<2>::Zero(), 0, {}, true, 0.1);
+  nodes.add(corners[3], Vec<2>::Zero(), 0, tie_at<2>(corners[3], at), true, 0.1);
+  ASSERT_LT((walls[1].vertex(poses[1], 1) - corners[0]).norm(), eps);
+  const int wets[] = {0, -1, -1, 1};
+  for (int i = 0; i < 4; ++i) mesh.boundary.push_back({{i, (i + 1) % 4}, wets[i]});
+  mesh = recognise<2>(nodes, mesh.boundary, at);
+  int on_floor = 0;
+  for (int sweep = 0; sweep < 4; ++sweep) {
+    adapt<2>(nodes, mesh, at);
+    for (std::size_t i = 4; i < nodes.size(); ++i) {
+      if (std::abs(nodes.x[i].y()) > 1e-9) continue;
+      ++on_floor;
+      EXPECT_EQ(nodes.tie[i].wall, 0) << nodes.x[i].transpose();
+      EXPECT_FALSE(nodes.surface[i]) << nodes.x[i].transpose();
+    }
+    mesh = recognise<2>(nodes, mesh.boundary, at);
+  }
+  EXPECT_GT(on_floor, 0);
+  for (const auto& f : mesh.boundary)
+    if (std::abs(nodes.x[f.nodes[0]].y()) + std::abs(nodes.x[f.nodes[1]].y()) < 1e-9) {
+      EXPECT_EQ(f.wall, 0);
+    }
+}
+
 TEST(Adapt, does_not_merge_across_a_thin_jet) {
   // A sheet a tenth of an element thick: its two sides are closer than any merge threshold.
   std::vector<Vec<2>> p;
