@@ -63,6 +63,9 @@ rigid::BodySpec<d> body_spec(const Body& body);
 std::vector<rigid::JointSpec> joint_specs(const Scene& scene);
 template <int d>
 std::optional<rigid::ContactSpec<d>> contact_spec(const Scene& scene);
+/// Of the body of a record of section loads.
+template <int d>
+MassDistribution<d> spread_mass(const Body& body, const SectionEntry& entry);
 template <int d>
 RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem::path& directory);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "apps/build/build.hpp"
 #include "apps/build/symmetry.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
@@ -81,6 +83,31 @@ struct AddRecord {
   void operator()(const AddedMassEntry& entry) const {
     settings.added_mass.push_back({scene.bodies[entry.body].name, entry.interval, entry.times});
   }
+  void operator()(const SectionEntry& entry) const {
+    const auto& body = scene.bodies[entry.body];
+    const auto spec = body_spec<d>(body);
+    const rigid::Vec<d> axis = rigid::Vec<d>::Unit(entry.axis);
+    SectionRecord<d> record;
+    record.name = entry.name;
+    record.body = body.name;
+    record.axis = entry.axis;
+    record.centre = axis.dot(mass_properties<d>(body).centre);
+    record.every = entry.interval;
+    record.times = entry.times;
+    if (scene.gravity) record.gravity = vec<d>(scene.gravity->acceleration);
+    std::vector<double> places;
+    for (const double station : entry.stations) places.push_back(station - record.centre);
+    std::ranges::sort(places);
+    if (places.empty()) {
+      const auto along = spec.surface.vertices.row(entry.axis);
+      const double low = along.minCoeff(), step = (along.maxCoeff() - low) / entry.sections;
+      for (int k = 0; k <= entry.sections; ++k) places.push_back(low + k * step);
+    }
+    const auto mass = spread_mass<d>(body, entry);
+    for (const double place : places) record.stations.push_back({place, mass_ahead<d>(mass, axis, place)});
+    settings.sections.push_back(std::move(record));
+  }
+  void operator()(const PassesEntry& entry) const { settings.passes = PassesRecord{entry.interval, entry.times}; }
   void operator()(const PatchEntry& entry) const {
     const auto& body = scene.bodies[entry.body];
     const auto hull = body_spec<d>(body).surface;
@@ -100,6 +127,14 @@ struct AddRecord {
 }  // namespace
 
 template <int d>
+MassDistribution<d> spread_mass(const Body& body, const SectionEntry& entry) {
+  const auto properties = mass_properties<d>(body);
+  std::vector<PointMass<d>> points;
+  for (const auto& part : entry.parts) points.push_back({part.mass, vec<d>(part.point) - properties.centre});
+  return distributed<d>(body_spec<d>(body).surface, properties.mass, std::move(points));
+}
+
+template <int d>
 RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem::path& directory) {
   RecorderSettings<d> settings;
   settings.directory = directory;
@@ -117,6 +152,8 @@ RecorderSettings<d> recorder_settings(const Scene& scene, const std::filesystem:
   return settings;
 }
 
+template MassDistribution<2> spread_mass<2>(const Body&, const SectionEntry&);
+template MassDistribution<3> spread_mass<3>(const Body&, const SectionEntry&);
 template RecorderSettings<2> recorder_settings<2>(const Scene&, const std::filesystem::path&);
 template RecorderSettings<3> recorder_settings<3>(const Scene&, const std::filesystem::path&);
 

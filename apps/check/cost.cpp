@@ -237,8 +237,9 @@ std::vector<double> speeds_in_parts(const Scene& scene, int parts) {
   for (const auto& body : scene.bodies) {
     const double above = extents<d>(outline<d>(body)).min()[d - 1] - still_water_level<d>(scene).value_or(0);
     Vec<d> before = Vec<d>::Zero();
+    const auto guessed = guessed_body<d>(scene, body);
     for (int i = 0; i < parts; ++i) {
-      const Vec<d> after = guessed_motion<d>(scene, body, scene.time.end * (i + 1) / parts);
+      const Vec<d> after = guessed_motion<d>(scene, guessed, scene.time.end * (i + 1) / parts);
       auto& speed = speeds[static_cast<std::size_t>(i)];
       if (above + after[d - 1] <= 0)
         speed = std::min(s.speed, std::max(speed, (after - before).norm() / (scene.time.end / parts)));
@@ -248,36 +249,80 @@ std::vector<double> speeds_in_parts(const Scene& scene, int parts) {
   return speeds;
 }
 
-/// Of the run, each as long as the speed of its time lets it be in the smallest elements.
+/// Each body's wetted ends at a time; none where it is dry.
 template <int d>
-double steps_at_speed(const Scene& scene) {
-  constexpr int parts = 24;
-  const auto speeds = speeds_in_parts<d>(scene, parts);
-  const double fixed = finest_fixed<d>(scene), part = scene.time.end / parts;
-  double count = 0;
-  for (int i = 0; i < parts; ++i) {
-    double h = fixed, dt = scene.time.dt_max;
-    for (const auto& body : scene.bodies)
-      h = std::min(h, size_on_hull(scene, body, wetted_half<d>(scene, body, part * (i + 0.5))));
-    if (const double speed = speeds[static_cast<std::size_t>(i)]; speed > 0)
-      dt = std::min(dt, scene.time.cfl * h / speed);
-    count += part / dt;
-  }
-  return count;
-}
+struct WettedAt {
+  double time = 0;
+  std::vector<std::optional<WettedEnds<d>>> ends;
+};
 
-/// Elements that the contact line meets on the hull in the course of the run.
+/// Steps of the run: the smallest elements limit them by the speed of bodies and water, those that a contact line runs over by its own
+/// speed along the hull. A hull that is nearly flat on the water wets its length in a blink.
 template <int d>
-double elements_run_over(const Scene& scene, const Body& body) {
-  const double from = wetted_half<d>(scene, body, 0), to = wetted_half<d>(scene, body, scene.time.end);
-  constexpr int parts = 1000;
-  double count = 0;
-  for (int i = 0; i < parts && from < to; ++i) {
-    const double half = from + (to - from) * (i + 0.5) / parts;
-    count += (to - from) / parts / std::min(size_on_hull(scene, body, half), size_at_root<d>(scene, body, half));
+class StepCount {
+ public:
+  explicit StepCount(const Scene& scene) : scene_(scene), fixed_(finest_fixed<d>(scene)) {
+    for (const auto& body : scene.bodies) bodies_.push_back(guessed_body<d>(scene, body));
   }
-  return count;
-}
+
+  double count() const {
+    constexpr int parts = 24;
+    const auto speeds = speeds_in_parts<d>(scene_, parts);
+    double count = 0;
+    auto from = wetted_at(0);
+    for (int i = 0; i < parts; ++i) {
+      auto to = wetted_at(scene_.time.end * (i + 1) / parts);
+      count += between(from, to, speeds[static_cast<std::size_t>(i)], most_halvings);
+      from = std::move(to);
+    }
+    return count;
+  }
+
+ private:
+  static constexpr int most_halvings = 8;
+  static constexpr double share_of_hull = 1. / 16;  // times are halved until less of it is wetted between them
+
+  WettedAt<d> wetted_at(double time) const {
+    WettedAt<d> wetted{time, {}};
+    for (const auto& body : bodies_) wetted.ends.push_back(wetted_ends<d>(scene_, body, time));
+    return wetted;
+  }
+
+  static double width_of(const WettedEnds<d>& ends) {
+    return (ends.template tail<d - 1>() - ends.template head<d - 1>()).maxCoeff();
+  }
+
+  /// How far a contact line runs along the hull: from where it was dry, one that begins somewhere within [m].
+  double run_of(std::size_t body, const WettedAt<d>& from, const WettedAt<d>& to) const {
+    if (!to.ends[body]) return 0;
+    return from.ends[body] ? (*to.ends[body] - *from.ends[body]).cwiseAbs().maxCoeff() : width_of(*to.ends[body]);
+  }
+
+  double between(const WettedAt<d>& from, const WettedAt<d>& to, double speed, int halvings) const {
+    double h = fixed_, dt = scene_.time.dt_max;
+    const double time = to.time - from.time;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const double run = run_of(b, from, to);
+      if (halvings > 0 && run > share_of_hull * extents<d>(bodies_[b].hull).sizes().template head<d - 1>().maxCoeff()) {
+        const auto half = wetted_at(0.5 * (from.time + to.time));
+        return between(from, half, speed, halvings - 1) + between(half, to, speed, halvings - 1);
+      }
+      const auto& body = scene_.bodies[b];
+      const double wet =
+          0.25 * ((from.ends[b] ? width_of(*from.ends[b]) : 0) + (to.ends[b] ? width_of(*to.ends[b]) : 0));
+      const double on_hull = size_on_hull(scene_, body, wet);
+      h = std::min(h, on_hull);
+      if (run > 0)
+        dt = std::min(dt, scene_.time.cfl * std::min(on_hull, size_at_root<d>(scene_, body, wet)) * time / run);
+    }
+    if (speed > 0) dt = std::min(dt, scene_.time.cfl * h / speed);
+    return time / dt;
+  }
+
+  const Scene& scene_;
+  double fixed_;
+  std::vector<GuessedBody<d>> bodies_;
+};
 
 template <int d>
 Count nodes_at(const Scene& scene, double time) {
@@ -331,9 +376,7 @@ Cost predicted_cost(const Scene& scene) {
     cost.without_hollows = scene.fluid->size.hollow && std::ranges::none_of(scene.bodies, [](const Body& body) {
                              return jet_thickness<d>(body, 1).has_value();
                            });
-    cost.steps = steps_at_speed<d>(scene);
-    for (const auto& body : scene.bodies)
-      cost.steps = std::max(cost.steps, elements_run_over<d>(scene, body) / scene.time.cfl);
+    cost.steps = StepCount<d>(scene).count();
   } else {
     cost.steps = scene.time.end / scene.time.dt_max;
   }

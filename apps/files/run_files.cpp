@@ -9,8 +9,8 @@ namespace splashdown::apps {
 
 namespace {
 
-constexpr const char* tables[] = {"bodies.csv",           "fluid.csv",     "forces.csv", "probes.csv",
-                                  "surface_pressure.csv", "added_mass.csv"};
+constexpr const char* tables[] = {"bodies.csv",           "fluid.csv",      "forces.csv", "probes.csv",
+                                  "surface_pressure.csv", "added_mass.csv", "passes.csv", "section_loads.csv"};
 
 }  // namespace
 

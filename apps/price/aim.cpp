@@ -20,6 +20,7 @@
 #include "apps/run/command.hpp"
 #include "apps/run/folder/folder.hpp"
 #include "apps/scene/read/read.hpp"
+#include "apps/statistics/verdict/limits.hpp"
 #include "apps/study/folder.hpp"
 
 namespace splashdown::apps {
@@ -345,11 +346,15 @@ std::string mean_text(const Aim& aim, const RunOptions& options, const fs::path&
   if (!found) return {};
   if (!options.no_report) write_report(folder);
   const double all = wall() - aim.begun;
-  return fmt::format(
-      "reached     {} in all, {} of them for runs in {}/{}; the mean of {} runs at refine {:.3g} has {}{}\n"
-      "            it stands in summary.json, mean_of_runs\n",
-      about_time(all), about_time(found->seconds), folder.string(), replicates_folder, found->runs, found->refine,
-      accuracy_text(found->band), found->band.first > order.accuracy ? ", wider than was planned" : "");
+  std::string limits;
+  for (const auto& limit : found->limits) limits += fmt::format("limit       {}\n", text_of(limit));
+  return limits +
+         fmt::format(
+             "reached     {} in all, {} of them for runs in {}/{}; the mean of {} runs at refine {:.3g} has {}{}\n"
+             "            it stands in summary.json, mean_of_runs\n",
+             about_time(all), about_time(found->seconds), folder.string(), replicates_folder, found->runs,
+             found->refine, accuracy_text(found->band),
+             found->band.first > order.accuracy ? ", wider than was planned" : "");
 }
 
 int tell_mean(const Aim& aim, const RunOptions& options, const fs::path& folder) {

@@ -135,7 +135,7 @@ PriceQuantity quantity_of(const std::string& name, const Json& json) {
   return quantity;
 }
 
-std::string value_text(double value, const std::string& unit) {
+std::string listed_value(double value, const std::string& unit) {
   return unit == "-" ? fmt::format("{:.4g}", value) : with_unit(value, unit);  // without a unit no prefix
 }
 
@@ -223,7 +223,7 @@ std::string means_text(const Price& price, std::size_t width, std::size_t band_w
     if (!best || (finest && *finest <= best->second.band)) continue;
     const auto& [refine, mean] = *best;
     text += fmt::format("  {:<{}}  {:>12}  {:>{}}  mean of {} runs at refine {:.3g}, which scatter by {}\n",
-                        quantity.what.name, width, value_text(mean.value, quantity.what.unit),
+                        quantity.what.name, width, listed_value(mean.value, quantity.what.unit),
                         band_text(mean.band, mean.value, quantity.what.unit), band_width, mean.runs, refine,
                         relative(mean.deviation, mean.value));
   }
@@ -361,7 +361,7 @@ std::string price_text(const Price& price) {
   for (const auto& quantity : price.quantities) {
     const auto order = quantity.fit ? quantity.fit->order() : std::nullopt;
     text += fmt::format("  {:<{}}  {:>12}  {:>{}}  {:>5}  {:>7}{}\n", quantity.what.name, width,
-                        value_text(quantity.value, quantity.what.unit), finest_band_text(quantity), band_width,
+                        listed_value(quantity.value, quantity.what.unit), finest_band_text(quantity), band_width,
                         order ? fmt::format("{:.2f}", *order) : "-", relative(quantity.scatter, quantity.value),
                         not_counted(quantity));
   }

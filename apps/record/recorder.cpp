@@ -20,6 +20,7 @@
 #include "apps/record/points.hpp"
 #include "apps/record/probes.hpp"
 #include "apps/record/schedule.hpp"
+#include "apps/record/sections/section_loads.hpp"
 #include "apps/record/tables/energy.hpp"
 #include "apps/record/tables/evidence.hpp"
 #include "apps/record/tables/rows.hpp"
@@ -50,6 +51,9 @@ struct Recorder<d>::State {
   double still_water_level = std::numeric_limits<double>::quiet_NaN();
   Schedule rows, frames_due;
   std::vector<Schedule> surface_due, added_mass_due;
+  std::optional<PassRows> passes;
+  std::vector<Schedule> sections_due;
+  std::vector<SectionExtremes> sections;
   FrameSeries frames;
   RunStatistics run;
   double max_speed_peak = 0;
@@ -81,13 +85,17 @@ struct Recorder<d>::State {
         met_water(settings.pressure_probes.size() + settings.gauges.size(), 0) {
     for (const auto& record : settings.surface_pressure) surface_due.push_back(schedule_of(record));
     for (const auto& record : settings.added_mass) added_mass_due.push_back(schedule_of(record));
+    for (const auto& record : settings.sections) sections_due.push_back(schedule_of(record));
+    sections.resize(settings.sections.size());
+    if (settings.passes) passes.emplace(schedule_of(*settings.passes));
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
             max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, met_water, body_names, speed,
-            has_fluid, cereal::binary_data(&ledger, sizeof ledger));
+            has_fluid, sections_due, sections, cereal::binary_data(&ledger, sizeof ledger));
+    if (passes) archive(*passes);
   }
 
   CsvFile& file(const std::string& name, const std::string& header) {
@@ -98,7 +106,8 @@ struct Recorder<d>::State {
 
   /// Whether what was loaded belongs to records like these.
   bool fits_settings() const {
-    return body_names.size() == bodies.size() && surface_due.size() == settings.surface_pressure.size() &&
+    return sections_due.size() == settings.sections.size() && sections.size() == settings.sections.size() &&
+           body_names.size() == bodies.size() && surface_due.size() == settings.surface_pressure.size() &&
            added_mass_due.size() == settings.added_mass.size() && equipment.size() == settings.equipment.size() &&
            met_water.size() == settings.pressure_probes.size() + settings.gauges.size() && hulls.fits_settings() &&
            points.fits(settings.pressure_probes.size());
@@ -304,12 +313,27 @@ void Recorder<d>::record(const RecordInput<d>& input) {
     if (s.surface_due[r].due(input.time)) s.write_surface_pressure(input, r);
   for (std::size_t r = 0; input.fluid && r < s.added_mass_due.size(); ++r)
     if (s.added_mass_due[r].due(input.time)) s.write_added_mass(input, s.settings.added_mass[r].body);
+  for (std::size_t r = 0; input.fluid && r < s.sections.size(); ++r) {
+    const auto& record = s.settings.sections[r];
+    const auto loads = section_loads<d>(record, input);
+    s.sections[r].offer(input.time, loads);
+    if (s.sections_due[r].due(input.time))
+      write_rows(s.file("section_loads.csv", section_loads_header), input.time, record.name, loads);
+  }
+  if (s.passes && s.passes->due(input.time))
+    s.passes->accepted(s.file("passes.csv", passes_header), static_cast<std::size_t>(s.run.steps) - 1,
+                       {input.time, input.dt, input.pass_residuals});
   if (s.settings.frames && (s.frames_due.due(input.time) || input.last)) try {
       s.frames.add(take_frame(input));
     } catch (const std::exception&) {
       if (files_in_place()) throw;  // else the next step says so, before anything of it is counted
     }
   for (auto& [name, file] : s.files) file.write();
+}
+
+template <int d>
+void Recorder<d>::refused(RefusedAttempt attempt) {
+  if (s_->passes) s_->passes->refused(std::move(attempt));
 }
 
 template <int d>
@@ -347,6 +371,8 @@ template <int d>
 void Recorder<d>::finish() {
   s_->write_peak();
   if (s_->started) s_->hulls.write();
+  if (s_->started && s_->passes && s_->passes->waits())
+    s_->passes->given_up(s_->file("passes.csv", passes_header), static_cast<std::size_t>(s_->run.steps));
   for (auto& [name, file] : s_->files) file.sync();
 }
 
@@ -388,6 +414,11 @@ void Recorder<d>::summarise(Summary& summary) const {
     auto& equipment = summary.equipment[point.name] = {s.equipment[i].summary(standard_gravity), point.body, {}};
     if (const auto* body = statistics_of(point.body); body && body->moves_freely())
       equipment.grades = evidence_of(body->evidence(), equipment, s.equipment[i]);
+  }
+  for (std::size_t r = 0; r < s.sections.size(); ++r) {
+    const auto& record = s.settings.sections[r];
+    summary.sections[record.name] = {record.body, std::string(1, "xyz"[record.axis]), s.sections[r].shear(),
+                                     s.sections[r].hogging(), s.sections[r].sagging()};
   }
   s.hulls.summarise(summary);
   if (s.has_fluid) add_dry_records(s.settings, s.met_water, summary);

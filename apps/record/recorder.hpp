@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/record/passes.hpp"
 #include "apps/record/settings.hpp"
 #include "apps/statistics/summary.hpp"
 #include "core/bodies_view.hpp"
@@ -32,6 +33,7 @@ struct RecordInput {
   double dt = 0;                              ///< of the step that starts at t_n [s]
   int passes = 0;                             ///< coupling passes of this step
   double residual = 0;                        ///< of the coupling, relative [-]
+  std::vector<double> pass_residuals = {};    ///< the same after each pass [-]
   double wall_seconds = 0;                    ///< spent since the start of the run
   bool last = false;                          ///< rows and a frame are due whatever the intervals say
 };
@@ -44,6 +46,8 @@ class Recorder {
   ~Recorder();
 
   void record(const RecordInput<d>& input);
+  /// An attempt at the step that record() is called for next, if any is accepted.
+  void refused(RefusedAttempt attempt);
   /// A picture of the state besides the frames: snapshots/NAME.vtu and NAME_WALL.vtu.
   void snapshot(const std::string& name, const RecordInput<d>& input);
   /// Writes what is held back (the snapshot of the peak load) and flushes everything to disk.

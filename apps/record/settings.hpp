@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/record/sections/section_mass.hpp"
 #include "apps/scene/patch_region.hpp"
 #include "core/types.hpp"
 
@@ -74,6 +75,28 @@ struct AddedMassRecord {
   std::vector<double> times;    ///< [s]: first step at or after each
 };
 
+/// Residual of each pass of the coupling, written to passes.csv.
+struct PassesRecord {
+  std::optional<double> every;  ///< [s]; 0: each step
+  std::vector<double> times;    ///< [s]: first step at or after each
+};
+
+/// Loads between the parts of a body at sections across an axis of its shape, written to section_loads.csv.
+template <int d>
+struct SectionRecord {
+  struct Station {
+    double place = 0;  ///< along the axis from the centre of mass [m]
+    SectionMass mass;  ///< ahead of it
+  };
+  std::string name, body;
+  int axis = 0;  ///< 0: x
+  std::vector<Station> stations;
+  double centre = 0;                ///< of mass, along the axis in the frame of the shape [m]
+  Vec<d> gravity = Vec<d>::Zero();  ///< world frame [m/s^2]
+  std::optional<double> every;      ///< [s]; 0: each step
+  std::vector<double> times;        ///< [s]: first step at or after each
+};
+
 template <int d>
 struct RecorderSettings {
   std::filesystem::path directory;
@@ -87,6 +110,8 @@ struct RecorderSettings {
   std::vector<HullMapRecord<d>> hull_maps;
   std::vector<SurfacePressureRecord> surface_pressure;
   std::vector<AddedMassRecord> added_mass;
+  std::optional<PassesRecord> passes;
+  std::vector<SectionRecord<d>> sections;
   /// Centres of mass of the bodies in the frames of their shapes [m], in which files give points of hulls; without: zero.
   std::map<std::string, Vec<d>> centre_of_mass;
   /// By body: horizontal axes along which symmetry of the scene forbids a load.

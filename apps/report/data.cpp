@@ -162,9 +162,10 @@ RunData read_run(const std::filesystem::path& directory) {
   run.bodies = read_csv(directory / "bodies.csv", "body");
   run.probes = read_csv(directory / "probes.csv", "probe");
   run.record_kinds = read_record_kinds(directory / "scene.resolved.toml");
+  run.section_loads = read_csv(directory / "section_loads.csv", "record");
   run.surface_pressure = read_csv(directory / "surface_pressure.csv", "body");
-  auto fluid = read_csv(directory / "fluid.csv");
-  if (!fluid.empty()) run.fluid = std::move(fluid.front().second);
+  for (const auto& [name, table] : {std::pair{"fluid.csv", &run.fluid}, {"passes.csv", &run.passes}})
+    if (auto rows = read_csv(directory / name); !rows.empty()) *table = std::move(rows.front().second);
   if (run.summary.is_null() && run.bodies.empty() && run.fluid.empty())
     throw std::runtime_error(directory.string() +
                              ": holds neither a run (summary.json, bodies.csv or fluid.csv) nor a study (study.json)");

@@ -33,8 +33,8 @@ nlohmann::ordered_json read_json(const std::filesystem::path& path);  ///< throw
 struct RunData {
   std::filesystem::path directory;
   nlohmann::ordered_json summary;  ///< null if the run left none
-  NamedTables bodies, probes, surface_pressure;
-  Table fluid;
+  NamedTables bodies, probes, surface_pressure, section_loads;
+  Table fluid, passes;
 
   /// " / Pa", " / m" ...; nothing if the scene does not say what the probe is.
   std::string unit_of_probe(const std::string& name) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -13,6 +14,8 @@
 #include "apps/report/curves/acceleration.hpp"
 #include "apps/report/curves/behind.hpp"
 #include "apps/report/curves/filtered_curves.hpp"
+#include "apps/report/curves/passes.hpp"
+#include "apps/report/curves/section_figures.hpp"
 #include "apps/report/curves/style.hpp"
 #include "apps/report/words.hpp"
 #include "apps/scene/channel_classes.hpp"
@@ -365,7 +368,13 @@ std::vector<FigureGroup> figures_of(const RunData& run) {
   for (const auto& [name, table] : run.bodies)
     if (!table.empty()) groups.push_back({"Body " + name, BodyPlotter(run, name, table).figures()});
   groups.push_back(surface_figures(run));
+  FigureGroup sections{"Section loads", {}};
+  for (const auto& [name, table] : run.section_loads)
+    std::ranges::move(section_figures(name, table, run.dimension(), run.end_time()),
+                      std::back_inserter(sections.figures));
+  groups.push_back(std::move(sections));
   groups.push_back(probe_figures(run));
+  groups.push_back({"The coupling", pass_figures(run.passes, run.end_time())});
   groups.push_back(fluid_figures(run));
   std::erase_if(groups, [](const FigureGroup& group) { return group.figures.empty(); });
   return groups;

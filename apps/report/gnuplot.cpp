@@ -83,9 +83,11 @@ std::string plot_command(const Figure& figure) {
 std::string range_command(const Figure& figure, bool right_axis) {
   const auto [low, high] = axis_range(figure, right_axis);
   const std::string axis = right_axis ? "y2" : "y";
-  if (low > high) return fmt::format("set {}range [*:*]\n", axis);
-  return fmt::format("set {}range [{:.7g}:{:.7g}]\n{}", axis, low, high,
-                     figure.counts && !right_axis && high < 11 ? "set ytics 1\n" : "");
+  const auto scale =
+      right_axis ? std::string() : fmt::format("{} y\n", figure.log_y ? "set logscale" : "unset logscale");
+  if (low > high) return scale + fmt::format("set {}range [*:*]\n", axis);
+  return scale + fmt::format("set {}range [{:.7g}:{:.7g}]\n{}", axis, low, high,
+                             figure.counts && !right_axis && high < 11 ? "set ytics 1\n" : "");
 }
 
 /// What is neither curve nor axis.
@@ -105,7 +107,7 @@ std::string decorations(const Figure& figure) {
           "at "
           "graph 0.01,first {0:.7g} offset 0,0.5 textcolor rgb '{2}'\n",
           level.y, gnuplot_text(level.text), level_colour);
-  if (figure.zero_line)
+  if (figure.zero_line && !figure.log_y)
     script += "set xzeroaxis lt 1 lw 0.8 lc rgb '#8796a5'\n";
   else
     script += "unset xzeroaxis\n";
@@ -154,15 +156,21 @@ GnuplotResult wait_for(const Process& process) {
 AxisRange axis_range(const Figure& figure, bool right_axis) {
   AxisRange range{INFINITY, -INFINITY};
   const auto look = [&](double y) {
-    if (std::isfinite(y)) range = {std::min(range.low, y), std::max(range.high, y)};
+    if (std::isfinite(y) && (y > 0 || !figure.log_y || right_axis))
+      range = {std::min(range.low, y), std::max(range.high, y)};
   };
   for (const auto& curve : figure.curves)
     if (curve.right_axis == right_axis)
       for (const double y : curve.y) look(y);
   if (range.low > range.high) return range;
+  if (figure.log_y && !right_axis) {
+    const double low = std::floor(std::log10(range.low)), high = std::ceil(std::log10(range.high));
+    return {std::pow(10, high > low ? low : low - 1), std::pow(10, high)};
+  }
   if (!right_axis)
     for (const auto& band : figure.between)
-      for (const double y : band.high) look(y);
+      for (const auto* side : {&band.low, &band.high})
+        for (const double y : *side) look(y);
   const double highest = range.high;
   for (const auto& level : figure.levels)
     if (!right_axis && level.y < level_in_view * highest) look(level.y);

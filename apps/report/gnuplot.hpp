@@ -54,6 +54,7 @@ struct Figure {
   bool over_time = false;  ///< x is the run's time, in the unit of all such figures of the run
   bool zero_line = true;
   bool counts = false;  ///< the left axis counts something: from zero, whole numbers
+  bool log_y = false;   ///< the left axis is logarithmic, in whole decades; what is not positive is left out
   std::string caption;  ///< HTML below the figure
 };
 

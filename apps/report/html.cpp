@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "apps/report/answers/answers.hpp"
+#include "apps/report/inputs/inputs.hpp"
 #include "apps/report/page.hpp"
 #include "apps/statistics/attitude.hpp"
 #include "apps/statistics/verdict/share.hpp"
@@ -241,6 +243,30 @@ std::string pressure_table(const RunData& run) {
          rows + "</tbody></table></div>\n";
 }
 
+/// Largest loads between the parts of bodies.
+std::string section_table(const RunData& run) {
+  const auto& sections = member(run.summary, "section_loads");
+  if (sections.empty()) return {};
+  std::string html =
+      "<h2>Largest section loads</h2>\n<div "
+      "class=\"scroll\"><table><thead><tr><th>record</th><th>what</th><th>value</th>"
+      "<th>station</th><th>at</th></tr></thead><tbody>\n";
+  const int d = run.dimension();
+  for (const auto& [name, section] : sections.items())
+    for (const auto& [key, what, unit] : {std::tuple{"shear", "shear force", force_unit(d)},
+                                          {"hogging", "hogging moment", moment_unit(d)},
+                                          {"sagging", "sagging moment", moment_unit(d)}}) {
+      const auto& peak = member(section, key);
+      if (const double value = number_at(peak, {"value"}); std::isfinite(value) && value != 0)
+        html +=
+            fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", html_escaped(name), what,
+                        digits_with_unit(value, unit, 3), digits_with_unit(number_at(peak, {"station"}), "m", 3),
+                        seconds_text(number_at(peak, {"time"})));
+    }
+  return html +
+         "</tbody></table></div>\n<p class=\"where\">Of all steps, raw; positive shear pushes the part ahead up.</p>\n";
+}
+
 std::string ledger_table(const RunData& run) {
   const auto& ledger = member(run.summary, "ledger");
   if (ledger.empty()) return {};
@@ -272,33 +298,6 @@ std::string ledger_table(const RunData& run) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string effects_table(const RunData& run) {
-  const auto& effects = member(run.summary, "effects");
-  const auto &active = member(effects, "active"), &inactive = member(effects, "inactive");
-  if (active.empty() && inactive.empty()) return {};
-  std::string html =
-      "<h2>Effects</h2>\n<div class=\"scroll\"><table><thead><tr><th>effect</th><th></th><th class=\"text\">the number "
-      "that says whether it matters</th><th>wall time</th><th>share</th></tr></thead><tbody>\n";
-  for (const auto& [name, effect] : active.items())
-    html += fmt::format("<tr><td><b>{}</b></td><td>on</td><td class=\"text\">{}</td><td>{}</td><td>{}</td></tr>\n",
-                        html_escaped(name), html_escaped(text_at(effect, "reason")),
-                        seconds_text(number_at(effect, {"seconds"})), percent(number_at(effect, {"share"})));
-  for (const auto& [name, reason] : inactive.items())
-    html += fmt::format("<tr><td>{}</td><td>off</td><td class=\"text\">{}</td><td>–</td><td>–</td></tr>\n",
-                        html_escaped(name), reason.is_string() ? html_escaped(reason.get<std::string>()) : "");
-  return html + "</tbody></table></div>\n";
-}
-
-/// The scene with all values in force, to copy.
-std::string scene_text(const RunData& run) {
-  const auto text = read_text(run.directory / "scene.resolved.toml");
-  if (text.empty()) return {};
-  return "<h2>Scene</h2>\n<details class=\"scene\"><summary>all values in force, as a scene to copy: <code>splashdown "
-         "run "
-         "scene.resolved.toml</code> repeats this run</summary><pre>" +
-         html_escaped(text) + "</pre></details>\n";
-}
-
 std::string refusals_table(const RunData& run) {
   const auto& causes = member(member(run.summary, "coupling"), "rejected_causes");
   if (causes.empty()) return {};
@@ -318,7 +317,7 @@ std::string html_of(const ReportPage& page) {
   const auto& run = page.run;
   return html_page(title, html_header(title, run.directory, page.banner, page.warnings) + answer_card(run) +
                               quiet_line(run) + page.replay + figures(page) + mean_table(run) + body_table(run) +
-                              equipment_table(run) + pressure_table(run) + effects_table(run) + scene_text(run) +
+                              equipment_table(run) + pressure_table(run) + section_table(run) + inputs_of(run) +
                               ledger_table(run) + refusals_table(run) + phase_bar(run) +
                               "<footer>Made by Splashdown from the files in this folder. The figures' scripts are "
                               "in <code>report/</code>.</footer>\n" +

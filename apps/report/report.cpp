@@ -99,6 +99,9 @@ ReportResult write_report(const std::filesystem::path& directory) {
   auto replay = replay_of(directory);
   page.replay = std::move(replay.html);
   std::ranges::move(replay.warnings, std::back_inserter(result.warnings));
+  if (data.summary.is_object() && data.summary.contains("not_foreseen"))
+    for (const auto& text : data.summary["not_foreseen"])
+      if (text.is_string()) page.warnings.push_back("Not known: " + html_escaped(text.get<std::string>()) + ".");
   for (const auto& warning : result.warnings) page.warnings.push_back(html_escaped(warning));
   write_file_atomically(result.page, html_of(page));
   return result;

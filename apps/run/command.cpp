@@ -92,6 +92,8 @@ Summary conclude(const Run<d>& run, const LoopEnd& end, const Scene& scene, cons
                  const fs::path& directory) {
   auto summary = run.summary(end);
   summary.scene = scene.title.empty() ? directory.filename().string() : scene.title;
+  summary.command = command_of(options);
+  for (const auto& text : summary.not_foreseen) say(options, "note: not known: " + text);
   complete(summary.next, options, scene, summary.wall_seconds);
   write_summary(directory, summary);
   if (options.no_report) return summary;

@@ -4,15 +4,20 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/scene/scene.hpp"
 #include "apps/statistics/foreseen.hpp"
 
 namespace splashdown::apps {
 
-/// By body. Nothing that fails here stops a run: what cannot be computed is left out.
+struct Foresight {
+  std::map<std::string, Foreseen> bodies;  ///< by name
+  std::vector<std::string> untold;         ///< what could not be computed, and why
+};
+/// Nothing that fails here stops a run: what cannot be computed is left out, and said.
 template <int d>
-std::map<std::string, Foreseen> foreseen(const Scene& scene);
+Foresight foreseen(const Scene& scene);
 
 template <int d>
 std::optional<StillWater> still_water(const Scene& scene);

@@ -72,13 +72,20 @@ std::string command_of(const RunOptions& options, const Change& change) {
     text += word.starts_with(refine_key) ? " --refine " + shell_word(word.substr(std::string(refine_key).size()))
                                          : " --set " + shell_word(word);
   if (options.threads) text += fmt::format(" --threads {}", *options.threads);
-  text += " " + change.options;
+  if (!change.options.empty()) text += " " + change.options;
   if (options.large) text += " --large";
   if (options.no_report) text += " --no-report";
   return text + (change.resumes ? " --resume" : "");
 }
 
 }  // namespace
+
+std::string command_of(const RunOptions& options) {
+  Change change;
+  change.said = said_values(options.overrides);
+  if (options.until) change.options = fmt::format("--until {:g}", *options.until);
+  return command_of(options, change);
+}
 
 void complete(std::optional<NextStep>& next, const RunOptions& options, const Scene& scene, double wall_seconds) {
   if (!next) return;

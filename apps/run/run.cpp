@@ -103,10 +103,12 @@ void Run<d>::record(const StepMade& step) {
 }
 
 template <int d>
-void Run<d>::refused(double time, double dt, const std::string& cause) {
+void Run<d>::refused(double time, double dt, const coupling::StepReport& why) {
+  recorder_.refused({time, dt, why.pass_residuals});
   if (refused_at_ == time) return;  // the same step, halved once more
   refused_at_ = time;
-  progress_.say(fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s, tried again with half: {}", time, dt, cause));
+  progress_.say(
+      fmt::format("step refused at t = {:.6g} s, dt = {:.3g} s, tried again with half: {}", time, dt, why.cause));
 }
 
 template <int d>
@@ -217,7 +219,9 @@ Summary Run<d>::summary(const LoopEnd& end) const {
     coupling.rejected_causes = s.rejected_causes;
     coupling.rejected_steps = s.rejected_steps;
   }
-  s.foreseen = foreseen<d>(scene_);
+  auto known = foreseen<d>(scene_);
+  s.foreseen = std::move(known.bodies);
+  s.not_foreseen = std::move(known.untold);
   s.still_water = still_water<d>(scene_);
   recorder_.summarise(s);
   s.expected = expectations_of(scene_);

@@ -50,7 +50,7 @@ class Run final : private LoopHost {
   double dt_bound() const override { return simulation_.dt_bound(); }
   void record(const StepMade& step) override;
   std::optional<Obstacle> obstacle() override { return simulation_.obstacle(); }
-  void refused(double time, double dt, const std::string& cause) override;
+  void refused(double time, double dt, const coupling::StepReport& why) override;
   void released(double time, const std::string& cause) override;
   bool checkpoint_due() override;
   void checkpoint() override;

@@ -288,8 +288,28 @@ struct AddedMassEntry {
   std::optional<double> interval;  ///< [s]; 0: every step
   std::vector<double> times;       ///< first step at or after each [s]
 };
+/// The residual of each pass of the coupling.
+struct PassesEntry {
+  std::optional<double> interval;  ///< [s]; 0: every step
+  std::vector<double> times;       ///< first step at or after each [s]
+};
+/// Loads between the parts of a body at sections across an axis; shape's frame.
+struct SectionEntry {
+  struct Part {
+    double mass = 0;              ///< [kg, kg/m]
+    Point point = Point::Zero();  ///< [m]
+  };
+  std::string name;
+  std::size_t body = 0;
+  int axis = 0;                  ///< 0: x
+  std::vector<double> stations;  ///< along the axis [m]; empty: `sections` equal parts of the hull
+  int sections = 20;
+  std::vector<Part> parts;         ///< heavy parts; the rest of the mass fills the hull
+  std::optional<double> interval;  ///< [s]; 0: every step
+  std::vector<double> times;       ///< first step at or after each [s]
+};
 using RecordEntry = std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry, AddedMassEntry,
-                                 PatchEntry, MaximumPressureEntry>;
+                                 PatchEntry, MaximumPressureEntry, PassesEntry, SectionEntry>;
 
 struct Scene {
   int dimension = 2;

@@ -35,6 +35,7 @@ RecordInput<d> SimulationOf<d>::known(const StepMade& step) const {
   in.dt = step.dt;
   in.passes = step.report.passes;
   in.residual = step.report.residual;
+  in.pass_residuals = step.report.pass_residuals;
   in.last = step.last;
   if (world_.bodies) {
     const double kick = splashdown::kick(step.dt_previous, step.dt);

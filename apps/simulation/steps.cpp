@@ -45,7 +45,7 @@ Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterio
     ++state.rejected[kind_of(report.cause)];
     if (stepper.time() >= state.refused_end) state.refused_end = stepper.time() + dt, state.refused_on_the_way = 0;
     ++state.refused_on_the_way;
-    host.refused(stepper.time(), dt, report.cause);
+    host.refused(stepper.time(), dt, report);
     if (state.is_stuck())
       report.cause += fmt::format(" ({} refusals on the way to {:.9g} s, {:.1e} s from here)", state.refused_on_the_way,
                                   state.refused_end, state.refused_end - stepper.time());

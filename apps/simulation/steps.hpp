@@ -57,8 +57,8 @@ class StepHost {
   virtual double dt_bound() const = 0;
   /// Whether the step that was tried last may not be committed.
   virtual std::optional<Obstacle> obstacle() = 0;
-  virtual void refused(double /*time*/, double /*dt*/, const std::string& /*cause*/) {}  ///< it is tried again
-  virtual void released(double /*time*/, const std::string& /*cause*/) {}                ///< a fragment of the fluid
+  virtual void refused(double /*time*/, double /*dt*/, const coupling::StepReport& /*why*/) {}  ///< an attempt
+  virtual void released(double /*time*/, const std::string& /*cause*/) {}  ///< a fragment of the fluid
 };
 
 /// The next step as it is wanted.

@@ -32,6 +32,7 @@ struct StillWater {
 };
 
 struct Foreseen {
+  std::optional<double> mass;  ///< [kg, kg/m]
   std::optional<LoadBand> load;
   std::optional<AtRest> rest;
 };

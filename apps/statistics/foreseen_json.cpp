@@ -26,6 +26,7 @@ Json json_of(const AtRest& rest) {
 
 Json foreseen_json(const Foreseen& foreseen) {
   Json json = Json::object();
+  if (foreseen.mass) json["mass"] = *foreseen.mass;
   if (foreseen.load)
     json["load_by_theory"] = {
         {"time", foreseen.load->time}, {"karman", foreseen.load->low}, {"wagner", foreseen.load->high}};

@@ -158,17 +158,6 @@ Json json_of(const BodySummary& body) {
   return json;
 }
 
-Json json_of(const LimitAnswer& limit) {
-  Json json = {{"answer", limit.answer},
-               {"quantity", limit.quantity},
-               {limit.above ? "above" : "below", number(limit.limit)},
-               {"value", number(limit.value)},
-               {"band", number(limit.band)},
-               {"unit", limit.unit}};
-  if (!limit.reason.empty()) json["reason"] = limit.reason;
-  return json;
-}
-
 Json json_of(const LedgerSummary& ledger) {
   return {{"volume_initial", number(ledger.volume_initial)},
           {"volume_final", number(ledger.volume_final)},
@@ -241,9 +230,22 @@ bool Peak::offer(double v, double t) {
   return true;
 }
 
+nlohmann::ordered_json json_of(const LimitAnswer& limit) {
+  Json json = {{"answer", limit.answer},
+               {"quantity", limit.quantity},
+               {limit.above ? "above" : "below", number(limit.limit)},
+               {"value", number(limit.value)},
+               {"band", number(limit.band)},
+               {"unit", limit.unit}};
+  if (limit.runs > 0) json["runs"] = limit.runs;
+  if (!limit.reason.empty()) json["reason"] = limit.reason;
+  return json;
+}
+
 std::string to_json(const Summary& summary) {
   Json json;
   json["scene"] = summary.scene;
+  if (!summary.command.empty()) json["command"] = summary.command;
   json["dimension"] = summary.dimension;
   json["status"] = summary.status;
   if (!summary.cause.empty()) json["cause"] = summary.cause;
@@ -269,6 +271,7 @@ std::string to_json(const Summary& summary) {
                      {"max_speed_peak", number(summary.fluid->max_speed_peak)}};
   if (const auto& water = summary.still_water)
     json["still_water"] = {{"density", water->density}, {"gravity", water->gravity}, {"level", water->level}};
+  if (!summary.not_foreseen.empty()) json["not_foreseen"] = summary.not_foreseen;
   json["bodies"] = Json::object();
   for (const auto& [name, body] : summary.bodies) {
     json["bodies"][name] = json_of(body);
@@ -289,6 +292,13 @@ std::string to_json(const Summary& summary) {
                              {"impulse", number(patch.impulse)},
                              {"impulse_repair", number(patch.impulse_repair)}};
     if (patch.grade) json["patches"][name]["grades"]["peak_pressure"] = json_of(*patch.grade);
+  }
+  for (const auto& [name, section] : summary.sections) {
+    auto& entry = json["section_loads"][name] = {{"body", section.body}, {"axis", section.axis}};
+    for (const auto& [key, peak] :
+         {std::pair{"shear", section.shear}, {"hogging", section.hogging}, {"sagging", section.sagging}})
+      entry[key] = {
+          {"value", number(peak.value)}, {"time", time_or_null(peak.time)}, {"station", number(peak.station)}};
   }
   for (const auto& limit : summary.limits) json["limits"][limit.name] = json_of(limit);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -134,6 +135,16 @@ struct PatchSummary {
   std::optional<NumberGrade> grade;
 };
 
+/// The largest load at a section of a body over all steps.
+struct SectionPeak {
+  double value = 0, time = -1, station = 0;  ///< [N, N m], [s], along the axis in the frame of the shape [m]
+};
+struct SectionSummary {
+  std::string body;
+  std::string axis;                     ///< "x"
+  SectionPeak shear, hogging, sagging;  ///< largest magnitude; largest bending moment of either sign
+};
+
 /// Of a probe of pressure.
 struct PointSummary {
   Peak pressure;     ///< [Pa]
@@ -156,6 +167,7 @@ struct LimitAnswer {
   std::string answer;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< [unit]
   double band = std::numeric_limits<double>::quiet_NaN();   ///< to either side [unit]
+  int runs = 0;                                             ///< whose mean it goes by; 0: the run's own number
   std::string reason;                                       ///< why it is neither yes nor no; empty: the band
 };
 
@@ -237,10 +249,11 @@ struct Expectations {
 };
 
 struct Summary {
-  std::string scene;   ///< name of the scene, for headings
-  std::string status;  ///< "done", "failed" or "interrupted" (by a signal or a spent budget)
-  std::string cause;   ///< why it failed; empty otherwise
-  std::string cure;    ///< what helps against that cause where smaller steps and elements do not; empty: they may
+  std::string scene;    ///< name of the scene, for headings
+  std::string command;  ///< that made the run; empty: not known
+  std::string status;   ///< "done", "failed" or "interrupted" (by a signal or a spent budget)
+  std::string cause;    ///< why it failed; empty otherwise
+  std::string cure;     ///< what helps against that cause where smaller steps and elements do not; empty: they may
   Verdict verdict;
   int dimension = 2;
   double simulated_time = 0;  ///< [s]
@@ -254,6 +267,7 @@ struct Summary {
   std::vector<ActiveEffect> effects;
   std::vector<InactiveEffect> inactive_effects;
   std::map<std::string, Foreseen> foreseen;   ///< by body
+  std::vector<std::string> not_foreseen;      ///< of it, what could not be computed, and why
   std::optional<StillWater> still_water;      ///< absent: no water, or no gravity that points down
   std::optional<RangeCount> nodes, elements;  ///< absent without a fluid
   std::optional<CouplingSummary> coupling;    ///< absent unless fluid and bodies are coupled
@@ -263,6 +277,7 @@ struct Summary {
   std::map<std::string, EquipmentSummary> equipment;
   std::map<std::string, PatchSummary> patches;
   std::map<std::string, PointSummary> probes;
+  std::map<std::string, SectionSummary> sections;
   std::vector<LimitAnswer> limits;
   std::optional<NextStep> next;          ///< absent: every headline is resolved, or nothing is known that helps
   std::optional<Expectations> expected;  ///< absent: not known
@@ -271,6 +286,8 @@ struct Summary {
 };
 
 std::string to_json(const Summary& summary);
+/// The entry of a limit in it.
+nlohmann::ordered_json json_of(const LimitAnswer& limit);
 /// Writes DIR/summary.json, whole or not at all.
 void write_summary(const std::filesystem::path& directory, const Summary& summary);
 

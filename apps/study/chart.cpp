@@ -20,6 +20,8 @@ constexpr std::array markers = {7, 5, 9, 13, 11, 15, 6};
 
 constexpr int panel_width = 330, panel_height = 250;                   // pixels
 constexpr int left = 80, right = 20, top = 96, gap = 16, bottom = 66;  // around the panels
+constexpr std::size_t longest_word = 24;                               // letters of an x axis of words
+constexpr int pixels_a_letter = 5;
 constexpr double band = 0.25;  // share of a panel's height for the runs that broke down
 
 /// As gnuplot's point types 2, 1 and 3 look.
@@ -71,17 +73,30 @@ std::string tics(const char* axis, const Scale& scale) {
   return fmt::format("set {0}tics ({1})\nset format {0} '%g'\n", axis, list);
 }
 
+/// At most so many letters, whole ones.
+std::string shortened(const std::string& word) {
+  if (word.size() <= longest_word) return word;
+  std::size_t end = longest_word - 1;
+  while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0) == 0x80) --end;  // within a letter of UTF-8
+  return word.substr(0, end) + "…";
+}
+
 class Chart {
  public:
   Chart(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes)
       : study_(study), chart_(*study.chart), runs_(runs), outcomes_(outcomes) {
+    const auto& values = study.axes[chart_.x].values;
+    if (of_words()) {
+      x_ = {{0.5, static_cast<double>(values.size()) + 0.5}, false};
+      return;
+    }
     Range x;
-    for (const auto& value : study.axes[chart_.x].values) x.add(value.number.value_or(NAN));
+    for (const auto& value : values) x.add(*value.number);
     x_ = widened(x, chart_.log_x, 0.08, 0.08);
   }
 
   int width() const { return left + right + static_cast<int>(columns()) * (panel_width + gap) - gap; }
-  int height() const { return top + bottom + static_cast<int>(chart_.y.size()) * (panel_height + gap) - gap; }
+  int height() const { return top + below() + static_cast<int>(chart_.y.size()) * (panel_height + gap) - gap; }
 
   /// Data blocks, then one panel after the other, then the key.
   std::string body() const {
@@ -101,6 +116,22 @@ class Chart {
   }
 
  private:
+  bool of_words() const { return !study_.axes[chart_.x].is_of_numbers(); }
+  /// Room for the words of the x axis, which stand aslant.
+  int below() const {
+    if (!of_words()) return bottom;
+    std::size_t longest = 0;
+    for (const auto& value : study_.axes[chart_.x].values) longest = std::max(longest, value.text.size());
+    return bottom + static_cast<int>(std::min<std::size_t>(longest, longest_word)) * pixels_a_letter;
+  }
+  /// Words of the x axis below their dots, or marks alone.
+  std::string words(bool shown) const {
+    std::string list;
+    const auto& values = study_.axes[chart_.x].values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      list += fmt::format("{}{} {}", i ? ", " : "", gnuplot_text(shown ? shortened(values[i].text) : ""), i + 1);
+    return "set xtics rotate by 40 right noenhanced (" + list + ")\n";
+  }
   std::size_t columns() const { return chart_.panels ? study_.axes[*chart_.panels].values.size() : 1; }
   std::size_t series() const { return chart_.series ? study_.axes[*chart_.series].values.size() : 1; }
 
@@ -139,7 +170,9 @@ class Chart {
 
   /// Neighbouring curves stand a little beside each other where they coincide.
   double x_of(std::size_t i, std::size_t curve) const {
-    const double x = *study_.axes[chart_.x].values[runs_[i].value[chart_.x]].number;
+    const auto place = runs_[i].value[chart_.x];
+    if (of_words()) return double(place) + 1 + 0.7 * ((double(curve) + 0.5) / double(series()) - 0.5);
+    const double x = *study_.axes[chart_.x].values[place].number;
     return x_.moved(x, 0.008 * (double(curve) - 0.5 * double(series() - 1)));
   }
 
@@ -156,8 +189,8 @@ class Chart {
     text += fmt::format("set {} x\nset {} y\nset xrange [{:.8g}:{:.8g}]\nset yrange [{:.8g}:{:.8g}]\n",
                         x_.log ? "logscale" : "nologscale", y.log ? "logscale" : "nologscale", x_.range.low,
                         x_.range.high, y.range.low, y.range.high);
-    text += tics("x", x_) + tics("y", y);
-    if (!last_row) text += "set format x ''\n";
+    text += (of_words() ? words(last_row) : tics("x", x_)) + tics("y", y);
+    if (!last_row && !of_words()) text += "set format x ''\n";
     if (column > 0) text += "set format y ''\n";
     text += column == 0 ? fmt::format("set ylabel {} offset 0.5,0 textcolor rgb '#24313d' noenhanced\n",
                                       gnuplot_text(column_label(study_, chart_.y[row])))
@@ -204,8 +237,8 @@ class Chart {
       std::ranges::sort(points);
       std::string text;
       for (const auto& [x, value] : points) text += fmt::format("{:.8g} {:.8g}\n", x, value);
-      // A line through random values of several axes would say that they are neighbours.
-      const char* const form = study_.axes[chart_.x].sampled ? "points" : "linespoints";
+      // A line through random values of several axes, or through words, would say that they are neighbours.
+      const char* const form = study_.axes[chart_.x].sampled || of_words() ? "points" : "linespoints";
       add(text, fmt::format("with {} {}", form, style_of(curve)));
       for (const auto& [status, where] : crosses)
         add(where, fmt::format("with points pt {} ps 0.8 lw 2 lc rgb '{}'",

@@ -7,6 +7,8 @@
 
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
+#include "apps/record/passes.hpp"
+#include "apps/record/sections/section_loads.hpp"
 #include "apps/record/tables/rows.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/statistics/attitude.hpp"
@@ -134,6 +136,8 @@ std::optional<Names> columns_of(const std::string& table, const Scene& scene) {
   if (file == "probes.csv") return split(probes_header);
   if (file == "surface_pressure.csv") return split(surface_pressure_header(scene.dimension));
   if (file == "added_mass.csv") return split(added_mass_header(scene.dimension));
+  if (file == "section_loads.csv") return split(section_loads_header);
+  if (file == "passes.csv") return split(passes_header);
   const bool effects = !scene.effects.empty();  // have columns of their own
   if (file == "fluid.csv" && !effects) return split(fluid_header({}));
   return {};

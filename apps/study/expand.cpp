@@ -132,6 +132,10 @@ Study without_empty_axes(Study study) {
 
 }  // namespace
 
+bool Axis::is_of_numbers() const {
+  return std::ranges::all_of(values, [](const AxisValue& value) { return value.number.has_value(); });
+}
+
 std::optional<std::size_t> Axis::find(const std::string& text) const {
   const auto found = std::ranges::find(values, text, &AxisValue::text);
   if (found == values.end()) return {};

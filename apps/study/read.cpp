@@ -153,11 +153,7 @@ std::optional<std::size_t> read_axis_name(Reader& reader, std::string_view key, 
 void read_chart(Reader& reader, Study& study) {
   auto& chart = study.chart.emplace();
   Problems& problems = reader.context().problems;
-  if (const auto x = read_axis_name(reader, "x", study, Need::required)) {
-    chart.x = *x;
-    if (!std::ranges::all_of(study.axes[*x].values, [](const auto& v) { return v.number.has_value(); }))
-      problems.add(reader.key("x"), "must be an axis of numbers", "Use [[axis]] with numbers as values.");
-  }
+  if (const auto x = read_axis_name(reader, "x", study, Need::required)) chart.x = *x;
   chart.series = read_axis_name(reader, "series", study, Need::optional);
   chart.panels = read_axis_name(reader, "panels", study, Need::optional);
   auto valid = number_columns();
@@ -170,10 +166,9 @@ void read_chart(Reader& reader, Study& study) {
   std::string scale_x = "log", scale_y = "log";
   reader.choice("scale_x", scale_x, {"log", "linear"});
   reader.choice("scale_y", scale_y, {"log", "linear"});
-  chart.log_x = scale_x == "log";
+  chart.log_x = scale_x == "log" && !study.axes.empty() && study.axes[chart.x].is_of_numbers();
   chart.log_y = scale_y == "log";
-  if (chart.log_x && std::ranges::any_of(study.axes.empty() ? std::vector<AxisValue>{} : study.axes[chart.x].values,
-                                         [](const auto& v) { return v.number && *v.number <= 0; }))
+  if (chart.log_x && std::ranges::any_of(study.axes[chart.x].values, [](const auto& v) { return *v.number <= 0; }))
     problems.add(reader.key("x"), "has values that a logarithmic scale cannot show", "Use scale_x = \"linear\".");
 }
 

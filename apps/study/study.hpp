@@ -33,6 +33,8 @@ struct Axis {
   /// Axes of two values, the product of whose signs is this one's: it is not free. Empty: it is.
   std::vector<std::size_t> product;
 
+  /// Whether its values have places on a line; words stand beside each other in their order.
+  bool is_of_numbers() const;
   /// Index of the value with this text; nothing if there is none.
   std::optional<std::size_t> find(const std::string& text) const;
 };
@@ -57,7 +59,7 @@ struct StudyQuantity {
 };
 
 /// Rows of panels, one a quantity; columns of panels, one a value of `panels`; in each a curve a value of
-/// `series`. Axes by index.
+/// `series`, or dots of its colour over an axis of words. Axes by index.
 struct StudyChart {
   std::size_t x = 0;
   std::optional<std::size_t> series, panels;

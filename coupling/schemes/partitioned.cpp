@@ -98,6 +98,7 @@ StepReport Partitioned::iterate(const Step& step) {
     calmest = std::min(calmest, space.scaled(answer).norm());
     const double error = (image - now).norm();
     report.residual = error / std::max(scale, calmest);
+    report.pass_residuals.push_back(report.residual);
     if (!std::isfinite(report.residual)) {
       report.cause = no_agreement("diverged", report.passes, report.residual, term_->name());
       return report;

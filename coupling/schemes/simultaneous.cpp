@@ -46,6 +46,7 @@ StepReport Simultaneous::pass_by_pass(Response response, double dt) {
     const Stopwatch moving(structure_seconds_);
     const Velocities& found = structure_->adopt(fluid_->solution().velocities);
     report.residual = relative(response.free, found, dt);
+    report.pass_residuals.push_back(report.residual);
     if (!structure_->update_contacts(fluid_->solution().impulse)) return report;
     if (report.passes == max_passes_) {
       report.cause = "contacts between bodies keep opening and closing";

@@ -10,10 +10,11 @@ namespace splashdown::coupling {
 
 /// What an attempt came to.
 struct StepReport {
-  std::string cause;      ///< why the step must be refused; empty: it may be committed
-  int passes = 0;         ///< coupling passes
-  double residual = 0;    ///< of the interface velocities, relative [-]
-  bool of_fluid = false;  ///< the sides agree, and it is the fluid that may not go on like this
+  std::string cause;                        ///< why the step must be refused; empty: it may be committed
+  int passes = 0;                           ///< coupling passes
+  double residual = 0;                      ///< of the interface velocities, relative [-]
+  bool of_fluid = false;                    ///< the sides agree, and it is the fluid that may not go on like this
+  std::vector<double> pass_residuals = {};  ///< `residual` as each pass left it; none of steps of one part
   /// Whether the attempt may be committed.
   bool ok() const { return cause.empty(); }
 };

@@ -48,7 +48,7 @@ def gauges(places):
 
 def tables(binary, text, folder):
     """Signals by gauge as lists of (time, value), summary, rows of fluid.csv."""
-    out = tables(binary, text, folder)
+    out = run(binary, text, folder)
     signals = defaultdict(list)
     with open(os.path.join(out, "probes.csv")) as rows:
         for row in csv.DictReader(rows):

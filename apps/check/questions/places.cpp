@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/build/build.hpp"
 #include "apps/check/questions/prepared_scene.hpp"
 #include "apps/check/ties.hpp"
 #include "apps/check/words.hpp"
@@ -64,6 +65,18 @@ struct AskAboutRecord {
   }
   void operator()(const SurfacePressureEntry& entry) const { instants("surface_pressure", entry.interval); }
   void operator()(const AddedMassEntry& entry) const { instants("added_mass", entry.interval); }
+  void operator()(const SectionEntry& entry) const {
+    instants("section_loads", entry.interval);
+    const auto& body = prepared.scene.bodies[entry.body];
+    if (const auto mass = spread_mass<d>(body, entry); lowest_density<d>(mass) < -1e-6 * std::abs(mass.mean))
+      list.push_back(
+          fmt::format("record {}: no mass that fills the hull of '{}' evenly or ever more to one side has its centre "
+                      "of mass where it is; "
+                      "section loads then hold for a mass that is negative somewhere. Say where the heavy parts are: "
+                      "[[record.mass]]",
+                      entry.name, body.name));
+  }
+  void operator()(const PassesEntry& entry) const { instants("passes", entry.interval); }
   void operator()(const ElevationEntry&) const {}
 
  private:

@@ -7,6 +7,9 @@
 #include "apps/files/folder_lock.hpp"
 #include "apps/price/means/replicates.hpp"
 #include "apps/process/interrupt.hpp"
+#include "apps/scene/numbers.hpp"
+#include "apps/scene/read/read.hpp"
+#include "apps/statistics/verdict/limits.hpp"
 #include "apps/study/folder.hpp"
 
 namespace splashdown::apps {
@@ -46,7 +49,7 @@ std::optional<MeanFound> best_of(const Price& price) {
   for (const auto& size : price.sizes()) {
     const auto band = price.reached_by_mean(1 / size.h);
     if (band && (!best || band->first < best->band.first))
-      best = {.refine = 1 / size.h, .runs = size.made, .seconds = 0, .band = *band};
+      best = {.refine = 1 / size.h, .runs = size.made, .seconds = 0, .band = *band, .limits = {}};
   }
   return best;
 }
@@ -78,12 +81,26 @@ Json json_of(const Price& price, const MeanFound& found) {
   return json;
 }
 
-/// Beside what the run itself wrote.
-void add_to_summary(const fs::path& folder, const Json& mean) {
-  std::ifstream in(folder / "summary.json");
+/// Means by the paths of their numbers, as limits know them.
+MeanNumbers numbers_of_means(const Price& price, double refine) {
+  MeanNumbers numbers;
+  for (const auto& quantity : price.quantities)
+    if (const auto mean = quantity.mean(refine); mean && !quantity.what.path.empty())
+      numbers[quantity.what.path] = {mean->value, mean->band, mean->runs};
+  return numbers;
+}
+
+/// Beside what the run itself wrote; the answers to limits go by the means.
+void add_to_summary(const MeanOrder& order, const Price& price, MeanFound& found) {
+  const auto scene = read_scene(order.options.scene, order.options.overrides).scene;
+  std::ifstream in(order.folder / "summary.json");
   auto summary = Json::parse(in);
-  summary["mean_of_runs"] = mean;
-  write_file_atomically(folder / "summary.json", summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  summary["mean_of_runs"] = json_of(price, found);
+  found.limits = answered(scene.limits, numbers_of(scene), nlohmann::json::parse(summary.dump()), scene.time.end,
+                          numbers_of_means(price, found.refine));
+  for (const auto& limit : found.limits) summary["limits"][limit.name] = json_of(limit);
+  write_file_atomically(order.folder / "summary.json",
+                        summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
@@ -120,7 +137,7 @@ std::optional<MeanFound> make_mean(const MeanOrder& order) {
   auto found = best_of(all);
   if (!found) return {};
   for (const auto& run : ladder.made()) found->seconds += run.seconds;
-  add_to_summary(order.folder, json_of(all, *found));
+  add_to_summary(order, all, *found);
   return found;
 }
 

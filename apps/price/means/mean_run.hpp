@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/price/price.hpp"
 #include "apps/run/command.hpp"
+#include "apps/statistics/summary.hpp"
 
 namespace splashdown::apps {
 
@@ -25,8 +27,9 @@ struct MeanOrder {
 struct MeanFound {
   double refine = 0;
   int runs = 0;
-  double seconds = 0;  ///< of the further runs
-  Decided band;        ///< relative
+  double seconds = 0;               ///< of the further runs
+  Decided band;                     ///< relative
+  std::vector<LimitAnswer> limits;  ///< of the scene, by the means where there are some
 };
 
 /// Makes further runs in the folder's `replicates` until a mean has the accuracy, and writes `mean_of_runs` into its summary.json.

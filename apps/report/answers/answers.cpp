@@ -25,6 +25,7 @@ std::string limit_text(const std::string& name, const Json& limit) {
   auto words = fmt::format("{} {} {}?", name, side, text(number_at(limit, {side})));
   if (std::isfinite(value)) words += " " + text(value);
   if (std::isfinite(band)) words += " ± " + text(band);
+  if (const double runs = number_at(limit, {"runs"}); runs > 0) words += ", mean of " + count_text(runs) + " runs";
   if (const auto reason = text_at(limit, "reason"); !reason.empty()) words += "; " + reason;
   return html_escaped(words);
 }
@@ -39,6 +40,23 @@ std::string limit_tiles(const RunData& run) {
   return html;
 }
 
+/// What several runs know of a number better than one, by its name.
+struct OfRuns {
+  double value = NAN, band = NAN, runs = 0;
+  bool known() const { return std::isfinite(value) && std::isfinite(band) && runs > 1; }
+};
+OfRuns mean_of(const RunData& run, const std::string& name) {
+  const auto& mean = member(member(member(run.summary, "mean_of_runs"), "quantities"), name.c_str());
+  return {number_at(mean, {"value"}), number_at(mean, {"band"}), number_at(mean, {"runs"})};
+}
+
+/// The band of a mean in place of the grade of the run's own number, which stands below it.
+void add_mean(const OfRuns& mean, const std::string& band, const std::string& own, Lines& lines) {
+  lines.add(fmt::format("mean of {} runs ± {}", count_text(mean.runs), band),
+            css_class(mean.band <= 0.1 * std::abs(mean.value) ? Mood::good : Mood::fair));
+  lines.add("this run alone: " + own);
+}
+
 /// A peak, by the class that the verdict goes by; raw where the record is too short for it.
 struct Shown {
   const Json& peak;
@@ -51,43 +69,51 @@ Shown shown(const Json& peaks) {
   return {member(peaks, "raw"), "raw", ", raw"};
 }
 
-/// `grades`: of the classes of the peaks.
-std::string acceleration_tile(const std::string& what, const Json& peaks, const Json& grades) {
+/// `grades`: of the classes of the peaks; `mean`: of the class that is shown.
+std::string acceleration_tile(const std::string& what, const Json& peaks, const Json& grades, const OfRuns& mean) {
   const auto [peak, key, filter] = shown(peaks);
   const double value = number_at(peak, {"value"});
   constexpr double least = 1e-6;  // g: what roundoff leaves of a motion that is prescribed
   if (!(value > least)) return {};
   Lines lines;
   lines.add(html_escaped("peak acceleration" + what) + filter + ", at " + seconds_text(number_at(peak, {"time"})));
-  lines.add(grade_words(member(grades, key)));
+  if (mean.known())
+    add_mean(mean, digits(mean.band, 2) + " g", digits(value, 3) + " g", lines);
+  else
+    lines.add(grade_words(member(grades, key)));
   const auto& pulse = shown_pulse(peaks);
   std::string text;
   if (const double dv = number_at(pulse, {"delta_v"}); std::isfinite(dv)) text = "Δv " + digits_with_unit(dv, "m/s", 3);
   if (const double rise = number_at(pulse, {"rise_time"}); std::isfinite(rise))
     text += (text.empty() ? "" : ", ") + std::string("rises in ") + seconds_text(rise);
   lines.add(text);
-  return tile(digits(value, 3) + " g", lines);
+  return tile(digits(mean.known() ? mean.value : value, 3) + " g", lines);
 }
 
 std::string acceleration_tiles(const RunData& run) {
   std::string html;
   for (const auto& [name, point] : member(run.summary, "equipment").items())
-    html += acceleration_tile(" at " + name, point, member(point, "grades"));
+    html += acceleration_tile(" at " + name, point, member(point, "grades"),
+                              mean_of(run, name + ".peak_g_" + shown(point).grade));
   const auto& bodies = member(run.summary, "bodies");
   for (const auto& [name, body] : bodies.items())
     html +=
         acceleration_tile(bodies.size() > 1 ? " of " + name : " of the centre of mass",
-                          member(body, "peak_acceleration_g"), member(member(body, "grades"), "peak_acceleration_g"));
+                          member(body, "peak_acceleration_g"), member(member(body, "grades"), "peak_acceleration_g"),
+                          mean_of(run, name + ".peak_g_" + shown(member(body, "peak_acceleration_g")).grade));
   return html;
 }
 
-std::string pressure_tile(const std::string& what, const Json& peak, const Json& grade) {
+std::string pressure_tile(const std::string& what, const Json& peak, const Json& grade, const OfRuns& mean) {
   const double value = number_at(peak, {"value"});
   if (!(value > 0)) return {};
   Lines lines;
   lines.add(html_escaped(what) + ", at " + seconds_text(number_at(peak, {"time"})));
-  lines.add(grade_words(grade));
-  return tile(digits_with_unit(value, "Pa", 3), lines);
+  if (mean.known())
+    add_mean(mean, digits_with_unit(mean.band, "Pa", 2), digits_with_unit(value, "Pa", 3), lines);
+  else
+    lines.add(grade_words(grade));
+  return tile(digits_with_unit(mean.known() ? mean.value : value, "Pa", 3), lines);
 }
 
 /// The largest of the patches; in the plane, where it converges, that of each hull.
@@ -105,11 +131,13 @@ std::string pressure_tiles(const RunData& run) {
     html += pressure_tile(
         (patches.size() > 1 ? fmt::format("highest of {} patches: mean over ", patches.size()) : "peak, mean over ") +
             highest,
-        member(patches[highest], "peak_pressure"), member(member(patches[highest], "grades"), "peak_pressure"));
+        member(patches[highest], "peak_pressure"), member(member(patches[highest], "grades"), "peak_pressure"),
+        mean_of(run, highest + ".peak_pressure"));
   if (run.dimension() == 2)
     for (const auto& [name, body] : member(run.summary, "bodies").items())
-      html += pressure_tile("highest pressure on " + name, member(body, "maximum_pressure"),
-                            member(member(body, "grades"), "maximum_pressure"));
+      html +=
+          pressure_tile("highest pressure on " + name, member(body, "maximum_pressure"),
+                        member(member(body, "grades"), "maximum_pressure"), mean_of(run, name + ".maximum_pressure"));
   return html;
 }
 
@@ -125,9 +153,15 @@ std::string load_tiles(const RunData& run) {
     lines.add(fmt::format("peak load, all directions together{}{}, at {}",
                           bodies.size() > 1 ? ", on " + html_escaped(name) : "", filtered ? ", CFC 60" : ", raw",
                           seconds_text(number_at(peak, {"time"}))));
-    lines.add(
-        grade_words(filtered ? member(member(grades, "peak_force_filtered"), "cfc60") : member(grades, "peak_force")));
-    html += tile(digits_with_unit(number_at(peak, {"value"}), force_unit(run.dimension()), 3), lines);
+    const auto mean = mean_of(run, name + (filtered ? ".peak_force_cfc60" : ".peak_force_raw"));
+    const auto unit = force_unit(run.dimension());
+    const double value = number_at(peak, {"value"});
+    if (mean.known())
+      add_mean(mean, digits_with_unit(mean.band, unit, 2), digits_with_unit(value, unit, 3), lines);
+    else
+      lines.add(grade_words(filtered ? member(member(grades, "peak_force_filtered"), "cfc60")
+                                     : member(grades, "peak_force")));
+    html += tile(digits_with_unit(mean.known() ? mean.value : value, unit, 3), lines);
   }
   return html;
 }

@@ -38,11 +38,14 @@ std::string on_page(const std::string& colour) {
 
 Json range_json(const AxisRange& range) { return range.low <= range.high ? Json{range.low, range.high} : Json(); }
 
-Json curve_json(const Curve& curve, const AxisRange& range) {
+Json curve_json(const Curve& curve, const AxisRange& range, bool log) {
   auto x = curve.x, y = curve.y;
+  if (log)
+    std::ranges::replace_if(
+        y, [](double v) { return !(v > 0); }, NAN);
   if (!curve.points && curve.links.empty()) {
     thin(x, y, most_points);
-    if (!curve.steps) straighten(x, y, tolerance_of_axis * (range.high - range.low));
+    if (!curve.steps && !log) straighten(x, y, tolerance_of_axis * (range.high - range.low));
   }
   Json json = {{"label", curve.label}, {"colour", on_page(curve.colour)}, {"width", curve.width}};
   if (curve.right_axis) json["right"] = true;
@@ -59,10 +62,11 @@ Json chart_json(const Figure& figure) {
   Json json = {{"name", figure.name},         {"x", figure.x_label},      {"y", figure.y_label},
                {"y2", figure.y2_label},       {"time", figure.over_time}, {"range", range_json(range)},
                {"range2", range_json(range2)}};
+  if (figure.log_y) json["log"] = true;
   json["curves"] = Json::array();
   for (const auto& curve : figure.curves)
     if (std::ranges::any_of(curve.y, [](double v) { return std::isfinite(v); }))
-      json["curves"].push_back(curve_json(curve, curve.right_axis ? range2 : range));
+      json["curves"].push_back(curve_json(curve, curve.right_axis ? range2 : range, figure.log_y));
   for (const auto& mark : figure.marks) json["marks"].push_back({mark.x, mark.y, mark.text});
   for (const auto& stretch : figure.stretches) json["stretches"].push_back({stretch.from, stretch.to, stretch.text});
   for (const auto& level : figure.levels) json["levels"].push_back({level.y, level.text});
@@ -87,9 +91,9 @@ std::string charts_json(const std::vector<Figure>& figures, double seconds) {
   return json.dump();
 }
 
-Charts charts_of(const std::vector<Figure>& figures, double seconds) {
+Charts charts_of(const std::vector<Figure>& figures, double seconds, bool later) {
   Charts charts;
-  if (std::ranges::none_of(figures, has_chart)) return charts;
+  if (!later && std::ranges::none_of(figures, has_chart)) return charts;
   auto library = library_text(dygraphs / "dygraph.min.js"), style = library_text(dygraphs / "dygraph.min.css");
   if (library.empty() || style.empty()) {
     charts.warnings.emplace_back(

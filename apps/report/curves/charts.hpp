@@ -20,10 +20,11 @@ struct Charts {
   std::vector<std::string> warnings;
 };
 
-/// `seconds`: of the unit of figures over time.
-Charts charts_of(const std::vector<Figure>& figures, double seconds);
+/// `seconds`: of the unit of figures over time. `later`: other scripts of the page draw more (event 'splashdown:draw', charts.js), so that
+/// what draws is there even without a figure.
+Charts charts_of(const std::vector<Figure>& figures, double seconds, bool later = false);
 
-/// JSON: {"seconds", "charts": [{"name", "x", "y", "y2", "time", "range", "range2", "curves": [{"label", "colour", "width", "x", "y"}],
+/// JSON: {"seconds", "charts": [{"name", "x", "y", "y2", "time", "log", "range", "range2", "curves": [{"label", "colour", "width", "x", "y"}],
 /// "marks", "stretches", "levels", "between"}]}; colours are CSS variables where the page has one.
 std::string charts_json(const std::vector<Figure>& figures, double seconds);
 

@@ -1,7 +1,7 @@
 // Draws the curves that charts.cpp packed in place of their pictures. Expects dygraphs (global Dygraph, 2.2).
 //
 // Figures over time share their range and a cursor. The cursor's time is told to all by the event 'splashdown:time' [s], which the
-// replay sends and follows too.
+// replay sends and follows too. The event 'splashdown:draw' {figure, chart} has one more drawn, in the element's .live.
 (async function () {
   'use strict';
   if (typeof DecompressionStream === 'undefined') return;  // pictures stay
@@ -48,7 +48,7 @@
     return [head.map(quoted), ...xs.map((x) => [x, ...chart.curves.map((curve) => cell(value_at(curve, x)))])].map((row) => row.join(',')).join('\n') + '\n';
   }
 
-  const charts = data.charts.map((chart) => new Chart(chart));
+  let charts = data.charts.map((chart) => new Chart(chart));
   const differs = (range, all) => !!all && range.some((v, k) => Math.abs(v - all[k]) > 1e-6 * (all[1] - all[0]));
   let linking = false, span = null;  // zoom of all figures over time; null: all
   function zoom_all(from) {
@@ -59,9 +59,9 @@
     linking = false;
   }
 
-  function Chart(chart) {
+  function Chart(chart, figure) {
     this.chart = chart;
-    this.figure = document.querySelector('figure[data-chart="' + chart.name + '"]');
+    this.figure = figure || document.querySelector('figure[data-chart="' + chart.name + '"]');
   }
   // Shaded pieces, what lies between theories and limits, behind the curves.
   Chart.prototype.behind = function (context, area, graph) {
@@ -83,7 +83,7 @@
       context.fill();
     }
     context.strokeStyle = colour('--c-axis');
-    context.beginPath(); context.moveTo(area.x, down(0)); context.lineTo(area.x + area.w, down(0)); context.stroke();
+    if (!chart.log) { context.beginPath(); context.moveTo(area.x, down(0)); context.lineTo(area.x + area.w, down(0)); context.stroke(); }
     for (const [y, what] of chart.levels || []) {
       context.strokeStyle = context.fillStyle = colour('--c-red');
       context.setLineDash([6, 4]);
@@ -128,7 +128,7 @@
       labels: ['x', ...chart.curves.map((_, k) => 'c' + k)], legend: 'never', connectSeparatedPoints: true, highlightCircleSize: 0, xlabel: plain(chart.x), ylabel: plain(chart.y),
       y2label: right ? plain(chart.y2) : undefined, xLabelHeight: 18, yLabelWidth: 18, rightGap: 12, digitsAfterDecimal: 4, maxNumberWidth: 9,
       dateWindow: chart.time ? span : null,
-      axes: { x: { axisLabelWidth: 56, pixelsPerLabel: 60 }, y: { axisLabelWidth: 52, valueRange: chart.range, pixelsPerLabel: 34 }, y2: { axisLabelWidth: 48, valueRange: right ? chart.range2 : undefined, drawGrid: false } },
+      axes: { x: { axisLabelWidth: 56, pixelsPerLabel: 60 }, y: { axisLabelWidth: 52, valueRange: chart.range, pixelsPerLabel: 34, logscale: !!chart.log }, y2: { axisLabelWidth: 48, valueRange: right ? chart.range2 : undefined, drawGrid: false } },
       underlayCallback: (context, area, graph) => this.behind(context, area, graph),
       drawCallback: (graph, first) => { if (!first) { zoom_all(this); this.place(this.at); } this.reset.hidden = !differs(graph.xAxisRange(), graph.xAxisExtremes()) && !differs(graph.yAxisRange(0), chart.range); },
     }, this.look_before(tools)));
@@ -199,6 +199,12 @@
   document.addEventListener('splashdown:time', ({ detail }) => {
     const x = detail.x === undefined ? detail.time / data.seconds : detail.x;
     for (const one of charts) if (one.chart.time) one.place(x);
+  });
+  document.addEventListener('splashdown:draw', ({ detail }) => {
+    charts = charts.filter((one) => !one.figure || one.figure.isConnected);  // without those that were replaced
+    const one = new Chart(detail.chart, detail.figure);
+    charts.push(one);
+    one.build();
   });
   dark.addEventListener('change', () => charts.forEach((one) => one.graph && one.graph.updateOptions(one.look())));
   // One after the other: the page answers meanwhile.

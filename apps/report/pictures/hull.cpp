@@ -11,6 +11,7 @@
 #include "apps/record/frames/frames.hpp"
 #include "apps/record/frames/vtu_grid.hpp"
 #include "apps/report/pictures/picture.hpp"
+#include "apps/report/pictures/vectors.hpp"
 #include "apps/report/words.hpp"
 
 namespace splashdown::apps {
@@ -30,14 +31,6 @@ std::vector<std::pair<std::string, std::filesystem::path>> hull_files(const std:
 }
 
 bool is_surface(const Grid& hull) { return !hull.cells.empty() && hull.cells.front().size() == 3; }
-
-double dot(const Point3& a, const Point3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point3 minus(const Point3& a, const Point3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Point3 cross(const Point3& a, const Point3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// Directions of a picture in the frame of the hull's shape; right x up points at the viewer.
 struct View {

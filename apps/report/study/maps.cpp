@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_curves = series_colours.size();
+constexpr std::size_t most_curves = series_colours.size(), most_bars = 200;
 
 std::string report_of(const fs::path& directory, const Json& run) {
   const auto name = text_at(run, "run");
@@ -42,6 +42,32 @@ bool is_of_numbers(const Json& study, const std::string& axis) {
   });
 }
 
+/// Where the values of an axis stand, in the order in which a map or a table of bars has them.
+class Places {
+ public:
+  Places(const Json& study, const std::string& axis) : axis_(axis), of_numbers_(is_of_numbers(study, axis)) {
+    for (const auto& entry : entries(study, "axes"))
+      if (text_at(entry, "name") == axis)
+        for (const auto& value : entries(entry, "values"))
+          if (value.is_string()) words_.push_back(value.get<std::string>());
+  }
+  /// The number itself, or that of the word.
+  double of(const Json& run) const {
+    if (of_numbers_) return number_at(run, {"axes", axis_.c_str()});
+    return static_cast<double>(std::ranges::find(words_, text_at(member(run, "axes"), axis_.c_str())) - words_.begin());
+  }
+  std::string text(double place) const {
+    if (of_numbers_) return fmt::format("{:g}", place);
+    const auto word = static_cast<std::size_t>(place);
+    return word < words_.size() ? html_escaped(words_[word]) : "–";
+  }
+
+ private:
+  std::string axis_;
+  bool of_numbers_;
+  std::vector<std::string> words_;
+};
+
 std::string axis_label(const Json& study, const std::string& name) {
   for (const auto& axis : entries(study, "axes"))
     if (text_at(axis, "name") == name) return text_at(axis, "label");
@@ -51,6 +77,15 @@ std::string axis_label(const Json& study, const std::string& name) {
 std::vector<StudyColumn> own_quantities(const Json& study) {
   auto columns = study_columns(study);
   std::erase_if(columns, [](const StudyColumn& column) { return !column.own; });
+  return columns;
+}
+
+/// Of schemes and other words: the study's own, then what each costs.
+std::vector<StudyColumn> compared_quantities(const Json& study) {
+  auto columns = study_columns(study);
+  std::erase_if(columns, [](const StudyColumn& column) {
+    return !column.own && column.name != "passes_mean" && column.name != "wall_seconds";
+  });
   return columns;
 }
 
@@ -73,12 +108,12 @@ std::string map_cell(const fs::path& directory, const Json& run, const std::stri
 
 std::string heat_map(const fs::path& directory, const Json& study, const StudyColumn& quantity,
                      const std::pair<std::string, std::string>& axes) {
+  const Places across(study, axes.first), down(study, axes.second);
   std::map<double, std::map<double, const Json*>> rows;  // by the second axis, then the first
   std::map<double, int> heads;
   double low = INFINITY, high = -INFINITY;
   for (const auto& run : entries(study, "runs")) {
-    const double x = number_at(run, {"axes", axes.first.c_str()}), y = number_at(run, {"axes", axes.second.c_str()}),
-                 value = number_at(run, {"numbers", quantity.name.c_str()});
+    const double x = across.of(run), y = down.of(run), value = number_at(run, {"numbers", quantity.name.c_str()});
     rows[y][x] = &run;
     heads[x] = 1;
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
@@ -88,10 +123,10 @@ std::string heat_map(const fs::path& directory, const Json& study, const StudyCo
       "{}</th>",
       html_escaped(quantity.label), html_escaped(axis_label(study, axes.second)),
       html_escaped(axis_label(study, axes.first)));
-  for (const auto& [x, unused] : heads) html += fmt::format("<th>{:g}</th>", x);
+  for (const auto& [x, unused] : heads) html += "<th>" + across.text(x) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    html += fmt::format("<tr><th>{:g}</th>", row->first);
+    html += "<tr><th>" + down.text(row->first) + "</th>";
     for (const auto& [x, unused] : heads) {
       const auto run = row->second.find(x);
       html += run == row->second.end() ? "<td class=\"none\"></td>"
@@ -102,7 +137,70 @@ std::string heat_map(const fs::path& directory, const Json& study, const StudyCo
   return html + "</tbody></table></div></figure>\n";
 }
 
+/// How the cells of a quantity show it: by bars from zero, or by marks between the lowest and the highest.
+class BarScale {
+ public:
+  BarScale(const Json& study, const std::string& quantity) {
+    for (const auto& run : entries(study, "runs"))
+      if (const double value = number_at(run, {"numbers", quantity.c_str()}); std::isfinite(value))
+        low_ = std::min(low_, value), high_ = std::max(high_, value);
+    log_ = low_ > 0 && high_ > decades_of_bars * low_;
+    marks_ = log_ || low_ < 0;
+  }
+  bool is_log() const { return log_; }
+  /// HTML of a cell.
+  std::string cell(double value, const std::string& text) const {
+    if (!std::isfinite(value)) return "<td class=\"none\">" + text + "</td>";
+    const double share = log_        ? std::log(value / low_) / std::log(high_ / low_)
+                         : marks_    ? (high_ > low_ ? (value - low_) / (high_ - low_) : 0.5)
+                         : high_ > 0 ? value / high_
+                                     : 0;
+    return fmt::format("<td class=\"{}\" style=\"--s:{:.1f}%\"><span>{}</span></td>", marks_ ? "mark" : "bar",
+                       marks_ ? 2 + 96 * share : 100 * share, text);
+  }
+
+ private:
+  static constexpr double decades_of_bars = 100;  // a bar a hundredth as long as another is not seen
+  double low_ = INFINITY, high_ = -INFINITY;
+  bool log_ = false, marks_ = false;
+};
+
 }  // namespace
+
+std::string study_bars(const fs::path& directory, const Json& study) {
+  const auto axes = varied_axes(study);
+  if (axes.empty() || axes.size() == 2 ||
+      std::ranges::any_of(axes, [&](const std::string& axis) { return is_of_numbers(study, axis); }))
+    return {};
+  const auto quantities = compared_quantities(study);
+  if (quantities.empty() || entries(study, "runs").size() > most_bars) return {};
+  std::string head, rows;
+  for (const auto& axis : axes) head += "<th>" + html_escaped(axis_label(study, axis)) + "</th>";
+  std::vector<BarScale> scales;
+  for (const auto& quantity : quantities) {
+    scales.emplace_back(study, quantity.name);
+    head +=
+        "<th class=\"text\">" + html_escaped(quantity.label) + (scales.back().is_log() ? ", log scale" : "") + "</th>";
+  }
+  for (const auto& run : entries(study, "runs")) {
+    const auto link = report_of(directory, run), status = text_at(run, "status");
+    rows += "<tr>";
+    for (const auto& axis : axes) {
+      const auto text = html_escaped(axis_text(run, axis));
+      rows += link.empty() ? "<td>" + text + "</td>"
+                           : fmt::format("<td><a href=\"{}\">{}</a></td>", html_escaped(link), text);
+    }
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+      const double value = number_at(run, {"numbers", quantities[k].name.c_str()});
+      rows += scales[k].cell(value, std::isfinite(value)    ? digits(value, 3)
+                                    : status == "converged" ? std::string("–")
+                                                            : "× " + html_escaped(status));
+    }
+    rows += "</tr>\n";
+  }
+  return "<h2>Side by side</h2>\n<div class=\"scroll\"><table class=\"bars\"><thead><tr>" + head +
+         "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
 
 std::vector<StudyColumn> study_columns(const Json& study) {
   const auto& units = member(study, "units");
@@ -122,10 +220,11 @@ std::vector<StudyColumn> study_columns(const Json& study) {
 
 std::string heat_maps(const fs::path& directory, const Json& study) {
   const auto axes = varied_axes(study);
-  if (has_random_axes(study) || axes.size() != 2 || !is_of_numbers(study, axes[0]) || !is_of_numbers(study, axes[1]))
+  if (has_random_axes(study) || axes.size() != 2 || is_of_numbers(study, axes[0]) != is_of_numbers(study, axes[1]))
     return {};
   std::string html;
-  for (const auto& quantity : own_quantities(study)) html += heat_map(directory, study, quantity, {axes[0], axes[1]});
+  for (const auto& quantity : is_of_numbers(study, axes[0]) ? own_quantities(study) : compared_quantities(study))
+    html += heat_map(directory, study, quantity, {axes[0], axes[1]});
   return html.empty() ? html : "<h2>Maps</h2>\n<div class=\"grid\">" + html + "</div>\n";
 }
 

@@ -1,4 +1,4 @@
-// What a study found, as a picture of its own quantities: a heat map over two axes of numbers, or lines over one.
+// What a study found, as a picture of its own quantities: a heat map over two axes, lines over one of numbers, bars over words.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,11 @@ struct StudyColumn {
 /// Those in which any run has a number: the study's own first.
 std::vector<StudyColumn> study_columns(const nlohmann::ordered_json& study);
 
-/// A table a quantity, coloured, each cell leading to its run's report; HTML. Nothing without two axes of numbers.
+/// A table a quantity, coloured, each cell leading to its run's report; HTML. Nothing without two axes of numbers, or two of words.
 std::string heat_maps(const std::filesystem::path& directory, const nlohmann::ordered_json& study);
+
+/// A row a run with a bar a quantity, each leading to the run's report; HTML. Nothing where an axis is of numbers, or there is a map.
+std::string study_bars(const std::filesystem::path& directory, const nlohmann::ordered_json& study);
 
 /// A figure a quantity over the first axis of numbers, a curve for each combination of the others, each point leading to its run's report.
 /// None where there is a heat map, or no such axis.

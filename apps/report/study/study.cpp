@@ -12,6 +12,7 @@
 #include "apps/report/data.hpp"
 #include "apps/report/gnuplot.hpp"
 #include "apps/report/page.hpp"
+#include "apps/report/pairs/pairs.hpp"
 #include "apps/report/study/campaign.hpp"
 #include "apps/report/study/maps.hpp"
 #include "apps/report/words.hpp"
@@ -204,8 +205,9 @@ std::string runs_table(const StudyData& study) {
     const auto name = html_escaped(text_at(run, "run"));
     const bool has_page = fs::exists(study.directory / text_at(run, "run") / "report.html");
     linked |= has_page;
-    rows +=
-        has_page ? fmt::format("<tr><td><a href=\"{0}/report.html\">{0}</a></td>", name) : "<tr><td>" + name + "</td>";
+    rows += has_page ? fmt::format("<tr><td>{1}<a href=\"{0}/report.html\">{0}</a></td>", name,
+                                   pick_cell(text_at(run, "run")))
+                     : "<tr><td>" + pick_cell(text_at(run, "run")) + name + "</td>";
     for (const auto& axis : entries(study.root, "axes")) {
       const auto& value = run.at("axes").at(text_at(axis, "name"));
       rows += "<td>" +
@@ -248,16 +250,17 @@ ReportResult write_study_report(const fs::path& directory) {
   ReportResult result{directory / "report.html", {}};
   const auto chart = chart_of(directory, result.warnings);
   const auto lines = chart.empty() ? study_lines(directory, study.root) : std::vector<Figure>();
-  const auto charts = charts_of(lines, 1);
+  const auto charts = charts_of(lines, 1, list_at(study.root, "runs").size() > 1);
   result.warnings.insert(result.warnings.end(), charts.warnings.begin(), charts.warnings.end());
+  const auto pairs = pairs_of(directory, study.root, !charts.html.empty());
   std::vector<std::string> notes;
   for (const auto& warning : result.warnings) notes.push_back(html_escaped(warning));
   write_file_atomically(
       result.page,
       html_page(study.title(), html_header(study.title(), directory, banner_of(study), notes) + chart +
-                                   lines_of(lines, charts) + heat_maps(directory, study.root) +
-                                   campaign_section(study.root) + runs_table(study) + causes_table(study) +
-                                   axes_table(study) +
+                                   lines_of(lines, charts) + study_bars(directory, study.root) +
+                                   heat_maps(directory, study.root) + campaign_section(study.root) + runs_table(study) +
+                                   pairs + causes_table(study) + axes_table(study) +
                                    "<footer>Made by Splashdown from <code>study.json</code> in this folder; the same "
                                    "as a table: <code>study.csv</code>.</footer>\n" +
                                    charts.html));

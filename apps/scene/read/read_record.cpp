@@ -82,6 +82,32 @@ void read_added_mass(Reader& reader, Scene& scene) {
   scene.records.emplace_back(std::move(entry));
 }
 
+void read_passes(Reader& reader, Scene& scene) {
+  PassesEntry entry;
+  read_instants(reader, entry);
+  scene.records.emplace_back(std::move(entry));
+}
+
+void read_section_loads(Reader& reader, Scene& scene) {
+  SectionEntry entry;
+  read_name(reader, entry.name, "hull");
+  entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
+  const int dimension = reader.context().dimension;
+  std::string axis = "x";
+  reader.choice("axis", axis, dimension == 2 ? Reader::Names{"x", "y"} : Reader::Names{"x", "y", "z"});
+  entry.axis = axis[0] - 'x';
+  reader.numbers("stations", entry.stations, any("m", "Use places along the axis, in the frame of the body's shape."));
+  if (entry.stations.empty())
+    reader.integer("sections", entry.sections, within(1, 1000, "", "Use e.g. 20: so many equal parts of the hull."));
+  reader.each_table("mass", [&](Reader& part) {
+    auto& [mass, point] = entry.parts.emplace_back();
+    part.number("mass", mass, positive(dimension == 2 ? "kg/m" : "kg", "Use that of the heavy part."), Need::required);
+    part.point("point", point, place_rule(dimension), Need::required);
+  });
+  read_instants(reader, entry);
+  scene.records.emplace_back(std::move(entry));
+}
+
 /// A kind of record and who reads its keys.
 struct RecordKind {
   std::string_view name;
@@ -93,7 +119,9 @@ constexpr RecordKind record_kinds[] = {{"pressure", read_pressure},
                                        {"surface_pressure", read_surface_pressure},
                                        {"surface_elevation", read_elevation},
                                        {"acceleration", read_acceleration},
-                                       {"added_mass", read_added_mass}};
+                                       {"added_mass", read_added_mass},
+                                       {"passes", read_passes},
+                                       {"section_loads", read_section_loads}};
 
 }  // namespace
 

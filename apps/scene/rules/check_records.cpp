@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "apps/scene/patch.hpp"
 #include "apps/scene/rules/check.hpp"
@@ -81,6 +82,29 @@ class RecordChecker {
     if (!problems_.found_in(label_) && !added_mass_of_.insert(entry.body).second)
       problems_.add(label_ + ".body", "has an added_mass record already", "Remove one of them.");
   }
+  void operator()(const PassesEntry& entry) {
+    within_run(entry.times);
+    if (!scene_.coupling)
+      problems_.add(label_ + ".kind", "needs a body that moves freely in a [fluid]: nothing else takes passes",
+                    "Remove the record.");
+    else if (std::exchange(has_passes_, true))
+      problems_.add(label_ + ".kind", "is there already", "Remove one of them.");
+  }
+  void operator()(const SectionEntry& entry) {
+    needs_fluid();
+    unique(entry.name);
+    within_run(entry.times);
+    if (problems_.found_in(label_)) return;
+    double heavy = 0;
+    for (const auto& part : entry.parts) heavy += part.mass;
+    const auto& body = scene_.bodies[entry.body];
+    try {
+      if (const double mass = mass_properties<d>(body).mass; heavy > mass * (1 + 1e-9))
+        problems_.add(label_ + ".mass", fmt::format("{:g} kg, more than the {:g} kg of '{}'", heavy, mass, body.name),
+                      "Its heavy parts are part of its mass.");
+    } catch (const std::invalid_argument&) {  // the body's own check has reported it
+    }
+  }
 
  private:
   void needs_fluid() {
@@ -108,6 +132,7 @@ class RecordChecker {
   std::string label_;
   std::set<std::string> names_;
   std::set<std::size_t> added_mass_of_, maximum_pressure_of_;
+  bool has_passes_ = false;
 };
 
 }  // namespace

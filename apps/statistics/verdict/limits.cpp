@@ -26,6 +26,7 @@ double entry(const nlohmann::json& summary, const std::string& path) {
 /// What a run knows of a number.
 struct Known {
   double value = none, band = none, time = none;
+  int runs = 0;        ///< that it is the mean of; 0: it is the run's own
   std::string reason;  ///< why nothing can be said of it, whatever its value
 };
 
@@ -52,7 +53,7 @@ const nlohmann::json* grade_at(const nlohmann::json& summary, const std::string&
   return summary.contains(pointer) ? &summary.at(pointer) : nullptr;
 }
 
-Known known_of(const NamedNumber& number, const nlohmann::json& summary) {
+Known known_of(const NamedNumber& number, const nlohmann::json& summary, const MeanNumbers& means) {
   Known known;
   std::string path;
   for (const auto& one : number.paths) {
@@ -70,11 +71,15 @@ Known known_of(const NamedNumber& number, const nlohmann::json& summary) {
   }
   known.time = entry(summary, without_value(path) + ".time");
   const nlohmann::json* grade = grade_at(summary, grade_path(path));
-  if (!grade) return known;
-  if (grade->value("grade", "") == name_of(Grade::unphysical))
+  if (grade && grade->value("grade", "") == name_of(Grade::unphysical))
     known.reason = "the run is unphysical, see the verdict";
-  else if (grade->at("band_percent").is_number())
+  else if (grade && grade->at("band_percent").is_number())
     known.band = std::abs(known.value) * grade->at("band_percent").get<double>() / 100;
+  if (const auto mean = means.find(path); mean != means.end() && known.reason.empty()) {
+    known.value = mean->second.value;
+    known.band = mean->second.band;
+    known.runs = mean->second.runs;
+  }
   return known;
 }
 
@@ -103,8 +108,13 @@ double band_of(const Limit& limit, const std::map<std::string, Known>& numbers, 
 
 class Answering {
  public:
-  Answering(std::span<const NamedNumber> numbers, const Summary& summary, double end)
-      : numbers_(numbers), summary_(summary), json_(nlohmann::json::parse(to_json(summary))), end_(end) {}
+  Answering(std::span<const NamedNumber> numbers, const nlohmann::json& summary, double end, const MeanNumbers& means)
+      : numbers_(numbers),
+        json_(summary),
+        means_(means),
+        done_(summary.value("status", "") == "done"),
+        simulated_time_(entry(summary, "simulated_time")),
+        end_(end) {}
 
   LimitAnswer to(const Limit& limit) const {
     LimitAnswer answer{.name = limit.name,
@@ -121,8 +131,10 @@ class Answering {
     } catch (const std::runtime_error& error) {
       answer.reason = error.what();
     }
-    for (const auto& [name, number] : known)
+    for (const auto& [name, number] : known) {
       if (answer.reason.empty()) answer.reason = number.reason;
+      answer.runs = std::max(answer.runs, number.runs);
+    }
     if (answer.reason.empty() && !std::isfinite(answer.band)) answer.reason = "it has no band";
     if (!answer.reason.empty()) return answer;
     const bool above = answer.value - answer.band > limit.value, below = answer.value + answer.band < limit.value;
@@ -144,38 +156,44 @@ class Answering {
 
   std::map<std::string, Known> numbers_in(const Limit& limit) const {
     std::map<std::string, Known> known;
-    if (const auto* number = find(limit.quantity)) return {{limit.quantity, known_of(*number, json_)}};
+    if (const auto* number = find(limit.quantity)) return {{limit.quantity, known_of(*number, json_, means_)}};
     for (const auto& name : quantity::names_in(limit.quantity))
-      if (const auto* number = find(name)) known.emplace(name, known_of(*number, json_));
+      if (const auto* number = find(name)) known.emplace(name, known_of(*number, json_, means_));
     return known;
   }
 
   /// Why larger values may come yet; empty: they may not.
   std::string unfinished(const std::map<std::string, Known>& known) const {
-    if (summary_.status != "done" || summary_.simulated_time < (1 - roundoff) * end_)
-      return fmt::format("the run ended at {:.4g} s of {:.4g} s", summary_.simulated_time, end_);
+    if (!done_ || simulated_time_ < (1 - roundoff) * end_)
+      return fmt::format("the run ended at {:.4g} s of {:.4g} s", simulated_time_, end_);
     for (const auto& [name, number] : known) {
       const auto first = entry(json_, "bodies." + find(name)->body + ".first_contact_time");
       const double since = std::isfinite(first) ? first : 0;
-      if (find(name)->peak && number.time >= summary_.simulated_time - last_share * (summary_.simulated_time - since))
+      if (find(name)->peak && number.time >= simulated_time_ - last_share * (simulated_time_ - since))
         return "it was still rising when the run ended";
     }
     return {};
   }
 
   std::span<const NamedNumber> numbers_;
-  const Summary& summary_;
-  nlohmann::json json_;
-  double end_;
+  const nlohmann::json& json_;
+  const MeanNumbers& means_;
+  bool done_;
+  double simulated_time_, end_;
 };
 
 }  // namespace
 
 std::vector<LimitAnswer> answered(std::span<const Limit> limits, std::span<const NamedNumber> numbers,
                                   const Summary& summary, double end) {
+  if (limits.empty()) return {};
+  return answered(limits, numbers, nlohmann::json::parse(to_json(summary)), end, {});
+}
+
+std::vector<LimitAnswer> answered(std::span<const Limit> limits, std::span<const NamedNumber> numbers,
+                                  const nlohmann::json& summary, double end, const MeanNumbers& means) {
   std::vector<LimitAnswer> answers;
-  if (limits.empty()) return answers;
-  const Answering answering(numbers, summary, end);
+  const Answering answering(numbers, summary, end, means);
   for (const auto& limit : limits) answers.push_back(answering.to(limit));
   return answers;
 }
@@ -194,6 +212,7 @@ std::string text_of(const LimitAnswer& limit) {
                           value_text(limit.limit, limit.unit), limit.answer);
   if (std::isfinite(limit.value)) text += ", " + value_text(limit.value, limit.unit);
   if (std::isfinite(limit.band)) text += " +- " + value_text(limit.band, limit.unit);
+  if (limit.runs > 0) text += fmt::format(", mean of {} runs", limit.runs);
   if (!limit.reason.empty()) text += "; " + limit.reason;
   return text;
 }

@@ -12,7 +12,11 @@
 // A peak that is above before such a run ends is above: it never falls.
 #pragma once
 
+#include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "apps/scene/limit.hpp"
 #include "apps/statistics/summary.hpp"
@@ -22,6 +26,17 @@ namespace splashdown::apps {
 /// The summary must have been judged. `end`: the scene's [s].
 std::vector<LimitAnswer> answered(std::span<const Limit> limits, std::span<const NamedNumber> numbers,
                                   const Summary& summary, double end);
+
+/// A number that several runs know better than one.
+struct MeanNumber {
+  double value = 0, band = 0;  ///< to either side, unit of the number
+  int runs = 0;
+};
+/// By its path in summary.json.
+using MeanNumbers = std::map<std::string, MeanNumber>;
+/// The same of a run whose summary.json is this, with means in place of its own numbers where there are some.
+std::vector<LimitAnswer> answered(std::span<const Limit> limits, std::span<const NamedNumber> numbers,
+                                  const nlohmann::json& summary, double end, const MeanNumbers& means);
 
 /// "13.2 kPa": metric prefixes only where the unit takes them.
 std::string value_text(double value, const std::string& unit);

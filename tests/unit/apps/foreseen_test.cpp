@@ -87,7 +87,7 @@ TEST(ImpactTheory, has_nothing_to_say_of_other_shapes_and_of_hulls_that_are_turn
 // A box of L x B x H, of a third of water's density: draft T = H/3, GM = B^2/(12 T) + T/2 - H/2 about each axis.
 TEST(Statics, of_a_box_are_those_of_its_sides) {
   const Case box{"box", "{type = \"box\", size = [2, 1, 0.3]}", 3, 0, 0};
-  const auto all = foreseen<3>(entering(box, "density = 333.3333333333\n"));
+  const auto all = foreseen<3>(entering(box, "density = 333.3333333333\n")).bodies;
   ASSERT_TRUE(all.contains("hull") && all.at("hull").rest);
   const auto& rest = *all.at("hull").rest;
   EXPECT_FALSE(rest.sinks);
@@ -97,7 +97,7 @@ TEST(Statics, of_a_box_are_those_of_its_sides) {
   ASSERT_GT(rest.levers.size(), 2u);
   EXPECT_NEAR(rest.heels[1], 15, 1e-9);
   EXPECT_GT(rest.levers[1], 0);
-  EXPECT_TRUE(foreseen<3>(entering(box, "density = 1200\n")).at("hull").rest->sinks);
+  EXPECT_TRUE(foreseen<3>(entering(box, "density = 1200\n")).bodies.at("hull").rest->sinks);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ class FakeHost final : public LoopHost {
   FakeHost(const FakeStepper& stepper, const LoopState& loop) : stepper_(stepper), loop_(loop) {}
   double dt_bound() const override { return bound_at ? std::min(bound, bound_at(stepper_.time())) : bound; }
   void record(const StepMade& step) override { rows.push_back(step); }
-  void refused(double, double, const std::string&) override {}
+  void refused(double, double, const coupling::StepReport&) override {}
   std::optional<Obstacle> obstacle() override { return in_the_way ? in_the_way(stepper_.time()) : std::nullopt; }
   void released(double, const std::string&) override { ++fragments; }
   bool checkpoint_due() override { return checkpoint_every > 0 && rows.size() % checkpoint_every == 0; }

@@ -110,7 +110,6 @@ const std::vector<Mistake> studies = {
     {"limit_of_nothing", "quantity = \"last(vy)\"\ntable = \"bodies.csv:wedge\"\nreference = {scheme = \"exact\"}",
      "quantity = \"last(vy)\"\nlimit = 1", 23, "quantity.speed.limit", "nothing to limit"},
     {"chart_of_no_axis", "x = \"ratio\"", "x = \"rato\"", 31, "chart.x = \"rato\"", "Did you mean 'ratio'?"},
-    {"chart_over_words", "x = \"ratio\"", "x = \"scheme\"", 31, "chart.x = \"scheme\"", "axis of numbers"},
     {"chart_of_no_column", "\"passes_mean\"", "\"passes\"", 33, "chart.y", "'passes_mean'"},
     {"logarithm_of_zero", "[1, 0.5, 0.1]", "[1, 0.5, 0]", 31, "chart.x", "linear"},
     // What the scene's own rules say about a value, at the value's place.

@@ -203,6 +203,22 @@ TEST_F(StudyTest, a_legend_of_numbers_says_what_they_are) {
   EXPECT_EQ(words.find("scheme = plain"), std::string::npos);
 }
 
+// Schemes have no distance between each other: dots above their words, in the order of the file, and no lines.
+TEST_F(StudyTest, an_axis_of_words_is_charted_by_dots_above_them) {
+  const auto study =
+      read(testing::replaced(good_study, "x = \"ratio\"\nseries = \"scheme\"", "x = \"scheme\"\nseries = \"ratio\""));
+  EXPECT_FALSE(study.chart->log_x);
+  const auto runs = expand(study);
+  std::vector<Outcome> outcomes(runs.size());
+  for (auto& outcome : outcomes)
+    outcome = {.status = Outcome::Status::converged, .numbers = {{"passes_mean", 3}}, .limits = {}};
+  const auto script = chart_script(study, runs, outcomes);
+  EXPECT_NE(script.find("'plain' 1, 'exact' 2"), std::string::npos) << script;
+  EXPECT_NE(script.find("set xrange [0.5:2.5]"), std::string::npos);
+  EXPECT_NE(script.find("with points"), std::string::npos);
+  EXPECT_EQ(script.find("using 1:2 with linespoints"), std::string::npos);
+}
+
 TEST_F(StudyTest, slurm_gets_one_task_a_run_that_is_not_finished) {
   const auto study = read();
   const auto runs = resolved(study);

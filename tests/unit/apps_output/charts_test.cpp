@@ -11,6 +11,7 @@
 #include "apps/report/curves/behind.hpp"
 #include "apps/report/curves/reduction.hpp"
 #include "apps/report/look/theme.hpp"
+#include "apps/report/pairs/pairs.hpp"
 #include "apps/report/study/maps.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -170,6 +171,80 @@ TEST(StudyMaps, two_axes_of_numbers_make_a_map_whose_cells_lead_to_runs_and_one_
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].curves[0].y, (std::vector<double>{1, 2}));
   EXPECT_EQ(study_columns(two).front().name, "peak") << "own quantities come first";
+}
+
+/// Two axes of words, of which the second has one value or two.
+nlohmann::ordered_json study_of_words(const std::vector<std::string>& schemes, const std::vector<std::string>& terms) {
+  nlohmann::ordered_json study = {{"units", {{"error", "-"}}},
+                                  {"columns",
+                                   {{{"name", "passes_mean"}, {"label", "passes"}},
+                                    {{"name", "steps"}, {"label", "steps"}},
+                                    {{"name", "error"}, {"label", "error"}}}}};
+  study["axes"] = {{{"name", "scheme"}, {"label", "scheme"}, {"values", schemes}},
+                   {{"name", "term"}, {"label", "term"}, {"values", terms}}};
+  double number = 1;
+  for (const auto& scheme : schemes)
+    for (const auto& term : terms) {
+      study["runs"].push_back(
+          {{"run", "r" + std::to_string(study["runs"].size())},
+           {"status", "converged"},
+           {"axes", {{"scheme", scheme}, {"term", term}}},
+           {"numbers", {{"passes_mean", number}, {"steps", 10}, {"error", std::pow(10., number)}}}});
+      ++number;
+    }
+  return study;
+}
+
+TEST(StudyBars, of_schemes_are_as_long_as_their_numbers_and_lead_to_the_runs) {
+  ScratchFolder folder;
+  folder.write("r1/report.html", "");
+  const auto study = study_of_words({"aitken", "probe<", "none", "broyden"}, {"rigid"});
+  const auto bars = study_bars(folder.path(), study);
+  EXPECT_NE(bars.find("<a href=\"./r1/report.html\">probe&lt;</a>"), std::string::npos) << bars;
+  EXPECT_NE(bars.find("class=\"bar\" style=\"--s:50.0%\"><span>2.00</span>"), std::string::npos)
+      << "two of four passes";
+  EXPECT_NE(bars.find("error, log scale"), std::string::npos) << "three decades";
+  EXPECT_NE(bars.find("class=\"mark\" style=\"--s:34.0%\"><span>100</span>"), std::string::npos) << bars;
+  EXPECT_EQ(bars.find("steps"), std::string::npos) << "neither the study's own nor a cost";
+  EXPECT_TRUE(heat_maps(folder.path(), study).empty());
+  EXPECT_TRUE(study_lines(folder.path(), study).empty());
+}
+
+TEST(StudyMaps, two_axes_of_words_make_a_map_in_their_order) {
+  const ScratchFolder folder;
+  const auto study = study_of_words({"zeta", "alpha"}, {"rigid", "none"});
+  EXPECT_TRUE(study_bars(folder.path(), study).empty());
+  const auto map = heat_maps(folder.path(), study);
+  const auto zeta = map.find("<th>zeta</th>"), alpha = map.find("<th>alpha</th>");
+  ASSERT_NE(zeta, std::string::npos) << map;
+  EXPECT_LT(zeta, alpha) << "not by the alphabet";
+  EXPECT_NE(map.find("passes"), std::string::npos) << "what schemes cost";
+}
+
+TEST(Pairs, have_the_numbers_and_curves_of_all_runs_and_one_run_has_none) {
+  ScratchFolder folder;
+  const auto study = study_of_words({"aitken", "probe"}, {"rigid"});
+  std::string rows = "time,body,x,y,z,vy,ay,fy,submergence\n";
+  for (int i = 0; i <= 2000; ++i)
+    rows += std::to_string(0.001 * i) + ",hull,0,0,0,-1,2," + std::to_string(i == 700 ? 50 : 1) + ",0.1\n";
+  folder.write("r0/bodies.csv", rows);
+  folder.write("r0/report.html", "");
+  const auto json = nlohmann::json::parse(pairs_json(folder.path(), study));
+  ASSERT_EQ(json["runs"].size(), 2u);
+  EXPECT_EQ(json["runs"][0]["link"], "./r0/report.html");
+  EXPECT_EQ(json["runs"][1]["link"], "");
+  EXPECT_EQ(json["runs"][1]["numbers"]["error"], 100);
+  EXPECT_EQ(json["curves"].size(), 4u);
+  const auto load = json["runs"][0]["curves"]["0"];
+  EXPECT_LT(load[0].size(), 20u) << "straight stretches have two ends";
+  const auto y = load[1].get<std::vector<double>>();
+  EXPECT_EQ(std::ranges::max(y), 50) << "a peak stays";
+  EXPECT_TRUE(json["runs"][1]["curves"].empty());
+  const auto html = pairs_of(folder.path(), study, true);
+  EXPECT_NE(html.find("<section id=\"pairs\" hidden>"), std::string::npos);
+  EXPECT_EQ(html.find("http"), std::string::npos) << "nothing is fetched";
+  EXPECT_TRUE(pairs_of(folder.path(), study_of_words({"aitken"}, {"rigid"}), true).empty());
+  EXPECT_EQ(pick_cell("a\"b").find("a\"b"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "apps/record/frames/frames.hpp"
+#include "apps/record/passes.hpp"
+#include "apps/record/sections/section_loads.hpp"
 #include "apps/record/tables/rows.hpp"
 
 namespace splashdown::apps {
@@ -52,6 +54,8 @@ TEST(Documented, columns_of_tables_are_those_that_are_written) {
   EXPECT_EQ(documented("bodies.csv"), columns(bodies_header));
   EXPECT_EQ(documented("fluid.csv"), columns(fluid_header({})));
   EXPECT_EQ(documented("probes.csv"), columns(probes_header));
+  EXPECT_EQ(documented("passes.csv"), columns(passes_header));
+  EXPECT_EQ(documented("section_loads.csv"), columns(section_loads_header));
 }
 
 TEST(Documented, codes_of_nodes_are_those_of_the_frames) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
 namespace splashdown::apps {
@@ -153,6 +154,29 @@ TEST(Limits, of_an_expression_have_the_bands_of_its_numbers_together) {
   EXPECT_NEAR(ratio.band, 20 * 0.1 + 20 * (1 / 0.9 - 1), 1e-9);
   EXPECT_EQ(ratio.answer, "within the band");
   EXPECT_EQ(ask(landing.summary(), "hull.peak_force - hull.impulse", true, 0).reason, "it has no band");
+}
+
+// The mean of several runs has a value and a band of its own; what else is asked of the run stays.
+TEST(Limits, go_by_the_mean_of_runs_where_there_is_one) {
+  const Limit limit{.name = "limit", .quantity = "belly.peak_pressure", .unit = "Pa", .above = true, .value = 2100};
+  const auto ask_with = [&](const Summary& summary, const MeanNumbers& means) {
+    return answered({&limit, 1}, numbers, nlohmann::json::parse(to_json(summary)), end, means).at(0);
+  };
+  Landing landing;
+  const MeanNumbers below = {{"patches.belly.peak_pressure.value", {1950, 40, 8}}},
+                    above = {{"patches.belly.peak_pressure.value", {2300, 60, 8}}};
+  EXPECT_EQ(ask_with(landing.summary(), {}).answer, "within the band") << "2000 +- 200";
+  EXPECT_EQ(ask_with(landing.summary(), {}).runs, 0);
+  const auto kept = ask_with(landing.summary(), below);
+  EXPECT_EQ(kept.answer, "no");
+  EXPECT_EQ(kept.runs, 8);
+  EXPECT_EQ(kept.band, 40);
+  EXPECT_EQ(text_of(kept), "limit: above 2.1 kPa? no, 1.95 kPa +- 40 Pa, mean of 8 runs");
+  EXPECT_EQ(ask_with(landing.summary(), above).answer, "yes");
+  auto stopped = landing.summary();
+  stopped.simulated_time = 0.4;
+  EXPECT_EQ(ask_with(stopped, below).answer, "within the band") << "larger may come yet";
+  EXPECT_EQ(ask_with(stopped, above).answer, "yes") << "a peak never falls";
 }
 
 TEST(Limits, are_one_line_with_value_band_and_unit) {

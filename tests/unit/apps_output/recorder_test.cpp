@@ -24,6 +24,8 @@ RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
   settings.equipment = {{"seat", "wedge", {0.1, 0}}};
   settings.surface_pressure = {{"wedge", {}, {0.01, 0.02}}};
   settings.added_mass = {{"wedge", 0.004, {}}};
+  settings.passes.emplace();
+  settings.sections = {{.name = "frames", .body = "wedge", .stations = {{0.1, {}}}, .every = 0.004, .times = {}}};
   const auto hull = StandInDrop::hull();
   const auto region = box_region<2>({-0.05, -1}, {0.05, 1});
   settings.patches = {{"bottom", "wedge", region, patch_area<2>(region, hull)}};
@@ -36,8 +38,9 @@ class ResumedAt : public testing::TestWithParam<int> {};
 
 TEST_P(ResumedAt, leaves_what_an_undisturbed_run_leaves) {
   expect_resumable<2>(settings_in, GetParam(),
-                      {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv", "frames.pvd",
-                       "hull_wedge.vtu", "frames/000003.vtu", "snapshots/start.vtu", "snapshots/peak.vtu"});
+                      {"bodies.csv", "fluid.csv", "probes.csv", "surface_pressure.csv", "added_mass.csv", "passes.csv",
+                       "section_loads.csv", "frames.pvd", "hull_wedge.vtu", "frames/000003.vtu", "snapshots/start.vtu",
+                       "snapshots/peak.vtu"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, ResumedAt, testing::Values(0, 10, 29, 30, 31, 50));

@@ -152,6 +152,8 @@ const RecordInput<2>& StandInDrop::at(double time, double dt) {
   input_.dt = dt;
   input_.passes = time > 0.014 && time < 0.016 ? 2 : 1;
   input_.residual = 1e-9;
+  input_.pass_residuals = {1e-9};
+  if (input_.passes == 2) input_.pass_residuals = {1e-4, 1e-9};
   input_.wall_seconds = 400 * time;
   input_.last = false;
   return input_;

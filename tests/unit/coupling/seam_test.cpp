@@ -85,6 +85,27 @@ TEST(Simultaneous, solves_any_fluid_in_one_pass) {
   }
 }
 
+// x -> -mu x + (1 + mu) x*: with a factor w each pass leaves 1 - w (1 + mu) of the residual.
+TEST(Report, has_the_residual_of_each_pass_and_they_shrink_as_theory_says) {
+  for (const double w : {1.0, 0.5}) {
+    const auto pair =
+        partitioned({.mu = 0.5, .force = 13}, std::make_unique<NoTerm>(), std::make_unique<ConstantRelaxation>(w));
+    const auto report = pair.stepper->attempt(0.01);
+    ASSERT_TRUE(report.ok()) << report.cause;
+    const auto& residuals = report.pass_residuals;
+    ASSERT_EQ(residuals.size(), static_cast<std::size_t>(report.passes));
+    EXPECT_EQ(residuals.back(), report.residual);
+    for (std::size_t k = 1; k < residuals.size() && residuals[k] > 1e-6; ++k)
+      EXPECT_NEAR(residuals[k] / residuals[k - 1], std::abs(1 - w * 1.5), 1e-6);
+  }
+  const auto one_pass = simultaneous({.mu = 3, .force = 13});
+  const auto report = one_pass.stepper->attempt(0.01);
+  EXPECT_EQ(report.pass_residuals, std::vector<double>{report.residual});
+  const auto refused = partitioned({.mu = 3, .force = 13}, std::make_unique<NoTerm>(),
+                                   std::make_unique<ConstantRelaxation>(0.1), {.max_passes = 4});
+  EXPECT_EQ(refused.stepper->attempt(0.01).pass_residuals.size(), 4u);
+}
+
 // What may be cured by letting a fragment of the fluid go: nothing that the sides do not agree on.
 TEST(Report, says_whether_it_is_the_fluid_that_may_not_go_on) {
   for (const char* cause : {"", "an element turns over"}) {
