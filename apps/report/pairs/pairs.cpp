@@ -12,7 +12,7 @@
 #include "apps/report/data.hpp"
 #include "apps/report/look/scripts.hpp"
 #include "apps/report/pairs/pairs_script.hpp"
-#include "apps/report/study_maps.hpp"
+#include "apps/report/study/maps.hpp"
 #include "apps/report/words.hpp"
 
 namespace splashdown::apps {

@@ -250,7 +250,7 @@ ReportResult write_study_report(const fs::path& directory) {
   ReportResult result{directory / "report.html", {}};
   const auto chart = chart_of(directory, result.warnings);
   const auto lines = chart.empty() ? study_lines(directory, study.root) : std::vector<Figure>();
-  const auto charts = charts_of(lines, 1, list_at(study.root, "runs").size() > 1);
+  const auto charts = charts_of(lines, 1, entries(study.root, "runs").size() > 1);
   result.warnings.insert(result.warnings.end(), charts.warnings.begin(), charts.warnings.end());
   const auto pairs = pairs_of(directory, study.root, !charts.html.empty());
   std::vector<std::string> notes;
