@@ -93,7 +93,7 @@ TEST(Shares, of_saltellis_plan_change_one_axis_at_a_time) {
         EXPECT_EQ(shares[a][(2 + changed) * n + i], shares[a][(changed == a ? n : 0) + i]);
 }
 
-TEST(Sobol_indices, of_ishigamis_function_are_within_three_per_cent) {
+TEST(SobolIndices, of_ishigamis_function_are_within_three_per_cent) {
   // Ishigami and Homma 1990, a = 7, b = 0.1: variances of the terms in closed form.
   const double a = 7, b = 0.1, pi4 = std::pow(std::numbers::pi, 4), pi8 = pi4 * pi4;
   const double v1 = 0.5 * std::pow(1 + b * pi4 / 5, 2), v2 = a * a / 8, v13 = b * b * pi8 * (1. / 18 - 1. / 50),
@@ -182,7 +182,7 @@ TEST(Bands, hold_the_truth_in_95_per_cent_of_campaigns) {
   EXPECT_GE(median, 930);
 }
 
-TEST(Two_modes, are_told_where_there_are_two_and_seldom_where_there_is_one) {
+TEST(TwoModes, are_told_where_there_are_two_and_seldom_where_there_is_one) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> any(0, 1);
