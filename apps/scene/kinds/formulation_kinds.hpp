@@ -5,13 +5,16 @@
 #include <string_view>
 
 #include "apps/scene/kinds/named.hpp"
+#include "apps/scene/read/reader.hpp"
+#include "apps/scene/scene.hpp"
 
 namespace splashdown::apps {
 
 /// A way to step the water.
 struct FormulationKind {
   std::string_view name;
-  std::string_view about;  ///< what `check` tells besides the name
+  std::string_view about;                               ///< what `check` tells besides the name
+  void (*read)(Reader& table, Fluid& fluid) = nullptr;  ///< reads [fluid.NAME]; null: it has no keys of its own
 };
 /// The default comes first.
 std::span<const FormulationKind> formulation_kinds();
