@@ -17,8 +17,8 @@ fluid::Formulation<d> fractional_step(const Fluid&) {
 }
 
 template <int d>
-fluid::Formulation<d> monolithic_step(const Fluid&) {
-  return fluid::monolithic<d>();
+fluid::Formulation<d> monolithic_step(const Fluid& fluid) {
+  return fluid::monolithic<d>({.tolerance = fluid.monolithic.tolerance, .speed = fluid.monolithic.speed});
 }
 
 }  // namespace

@@ -109,9 +109,17 @@ struct Sizes {
   double corner = 1;       ///< h at a hull's corners over what it is on the hull, at most
 };
 
+/// Of the monolithic formulation.
+struct Monolithic {
+  std::string stabilisation = "transient";  ///< or "convective": tau = h/(2 `speed`)
+  double speed = 0;                         ///< [m/s]
+  double tolerance = 1e-6;                  ///< of what the pressure does to velocities
+};
+
 struct Fluid {
   double density = 1000;                   ///< [kg/m^3]
   std::string formulation = "fractional";  ///< of `formulation_kinds`
+  Monolithic monolithic;                   ///< used by that formulation alone
   Sizes size;
   std::vector<Region> regions;
 };

@@ -9,11 +9,11 @@ namespace splashdown::fluid {
 template <int d>
 struct Water;
 template <int d>
-class Step;
+class WaterStep;
 
 /// Makes the step; the water must outlive it.
 template <int d>
-using Formulation = std::function<std::unique_ptr<Step<d>>(Water<d>& water)>;
+using Formulation = std::function<std::unique_ptr<WaterStep<d>>(Water<d>& water)>;
 
 /// Pressure and a fixed number of corrections on one factor (step/fractional).
 template <int d>
@@ -22,7 +22,7 @@ Formulation<d> fractional();
 /// Of the monolithic formulation.
 struct MonolithicSpec {
   double tolerance = 1e-6;  ///< of what the pressure does to velocities: what its solve may leave
-  double share = 0.5;       ///< tau over the interval in which the pressure acts
+  double speed = 0;         ///< U of tau = h / 2 U [m/s]; 0: half the interval in which the pressure acts
 };
 
 /// Velocity and pressure as one stabilised system, solved to a tolerance (step/monolithic).

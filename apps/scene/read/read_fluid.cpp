@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "apps/scene/kinds/coupling_kinds.hpp"
@@ -117,6 +119,16 @@ void read_sizes(Reader& reader, Sizes& size) {
 
 void read_fluid(Reader& reader, Fluid& fluid) {
   reader.number("density", fluid.density, positive("kg/m^3", "Use e.g. 1000 for water."), Need::required);
+  for (const FormulationKind& kind : formulation_kinds()) {
+    if (!kind.read) continue;
+    if (kind.name == fluid.formulation) {
+      Reader own = reader.table_or_defaults(kind.name);
+      kind.read(own, fluid);
+    } else {
+      reader.refuse(kind.name, fmt::format("belongs to formulation = \"{}\"", kind.name),
+                    "Ask for that formulation, or remove the table.");
+    }
+  }
   Reader size = reader.table_or_defaults("size");
   read_sizes(size, fluid.size);
   reader.each_table("region", [&](Reader& region) { read_region(region, fluid.regions.emplace_back()); });

@@ -1,13 +1,13 @@
-// Generalised conjugate residuals (Eisenstat, Elman, Schultz 1983) with a preconditioner, where the operator is known by what it does
-// alone and need not be symmetric.
+// Generalised conjugate residuals (Eisenstat, Elman, Schultz 1983) with a preconditioner, where the operator is known by what it
+// does alone and need not be symmetric.
 //
-// J x = r; of an iterate x the residual r and z = A^-1 r are known. Its trial x + z leaves r_t, hence J z = r - r_t. Made orthogonal to
-// what the steps so far have taken, q_j = J p_j, in the norm of A^-1,
+// J x = r; of an iterate x the residual r and z = A^-1 r are known. Its trial x + z leaves r_t, hence J z = r - r_t. Made
+// orthogonal to what the steps so far have taken, q_j = J p_j, in the norm of A^-1,
 //
 //   p = z - sum_j b_j p_j,   q = J z - sum_j b_j q_j,   x <- x + a p,   r <- r - a q,   a = (r, q) / (q, q)
 //
-// leaves the least that combinations of the steps can leave. One J and one A^-1 a step, as conjugate_residual.hpp, whose interface it
-// has; it remembers all steps.
+// leaves the least that combinations of the steps can leave. One J and one A^-1 a step, as conjugate_residual.hpp, whose
+// interface it has; it remembers all steps.
 #pragma once
 
 #include <utility>

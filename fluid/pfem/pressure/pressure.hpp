@@ -83,6 +83,7 @@ enum class SurfaceUnknowns { without_spikes, all };
 template <int d>
 class PressureEquation {
  public:
+  /// `on_surface`: the same on all meshes.
   explicit PressureEquation(SurfaceUnknowns on_surface = SurfaceUnknowns::without_spikes) : on_surface_(on_surface) {}
   /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `centres`: reference
   /// points of the walls, world frame [m]; `structure`: of all walls; `held`: nodes whose mass moves with walls. False if the
@@ -111,8 +112,8 @@ class PressureEquation {
   void slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
                       std::span<const Vec<d>> centres, std::span<const int> slides, std::vector<double>& r) const;
 
-  /// r -= sum_e theta_e int_e grad q . (change + grad phi / rho): PSPG, for impulses phi and the change of nodal velocities that they
-  /// have made [m/s]; `theta`: of cells.
+  /// r -= sum_e theta_e int_e grad q . (change + grad phi / rho): PSPG, for impulses phi and the change of nodal velocities
+  /// that they have made [m/s]; `theta`: of cells.
   void stabilise(std::span<const double> phi, std::span<const Vec<d>> change, std::span<const double> theta,
                  std::vector<double>& r) const;
 

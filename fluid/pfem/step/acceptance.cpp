@@ -21,7 +21,7 @@ std::string position_text(const Vec<d>& x) {
 }  // namespace
 
 template <int d>
-Status Step<d>::finite(const StepResult<d>& found) const {
+Status WaterStep<d>::finite(const StepResult<d>& found) const {
   double sum = 0;
   for (const auto& v : trial_.v_after) sum += v.sum();
   for (const auto& l : found.loads) sum += l.total().sum();
@@ -29,7 +29,7 @@ Status Step<d>::finite(const StepResult<d>& found) const {
 }
 
 template <int d>
-Refusal Step<d>::refusal(const StepResult<d>& found) const {
+Refusal WaterStep<d>::refusal(const StepResult<d>& found) const {
   if (!found.status.ok()) return {found.status};
   if (auto turned = inverted_element(found); !turned.status.ok()) return turned;
   return energy_from_nowhere(found);
@@ -38,7 +38,7 @@ Refusal Step<d>::refusal(const StepResult<d>& found) const {
 // Elements that carry pressure deform by a fraction of themselves; `stable_dt` sees to it but for what remeshing
 // and contact bring.
 template <int d>
-Refusal Step<d>::inverted_element(const StepResult<d>& found) const {
+Refusal WaterStep<d>::inverted_element(const StepResult<d>& found) const {
   constexpr double most = 4;  // change of an edge over its length: far beyond any CFL number in use
   const double per_rate = dt_ / most;
   const auto margin = [&](std::size_t c) {
@@ -77,7 +77,7 @@ Refusal Step<d>::inverted_element(const StepResult<d>& found) const {
 // I_w: impulse on wall w; v_0: before the repair, v*: before the pressure, v: after the pressure; u: after the motion along
 // walls, which may take nodes along; the lesser of T(v), T(u).
 template <int d>
-Refusal Step<d>::energy_from_nowhere(const StepResult<d>& found) const {
+Refusal WaterStep<d>::energy_from_nowhere(const StepResult<d>& found) const {
   double given = 0;
   for (std::size_t w = 0; w < water_.walls.size(); ++w)
     given +=
@@ -105,7 +105,7 @@ Refusal Step<d>::energy_from_nowhere(const StepResult<d>& found) const {
           may_fly_alone(static_cast<int>(fastest)) ? static_cast<int>(fastest) : -1};
 }
 
-template class Step<2>;
-template class Step<3>;
+template class WaterStep<2>;
+template class WaterStep<3>;
 
 }  // namespace splashdown::fluid

@@ -8,7 +8,7 @@ namespace splashdown::fluid {
 
 // Loads, pressures and energies of the solution.
 template <int d>
-void Step<d>::evaluate(StepResult<d>& found) {
+void WaterStep<d>::evaluate(StepResult<d>& found) {
   const auto scope = water_.timer.scope(Phase::pressure);
   found.wall_velocities = trial_.s_after;
   found.velocity = trial_.moved.u;
@@ -20,7 +20,7 @@ void Step<d>::evaluate(StepResult<d>& found) {
 }
 
 template <int d>
-void Step<d>::evaluate_loads(StepResult<d>& found) const {
+void WaterStep<d>::evaluate_loads(StepResult<d>& found) const {
   found.loads.assign(water_.walls.size(), {});
   std::vector<Wrench<d>> answered;  // with the pressure
   for (std::size_t w = 0; w < water_.walls.size(); ++w) {
@@ -46,7 +46,7 @@ void Step<d>::evaluate_loads(StepResult<d>& found) const {
 //
 // over the cells around a node: loads and motions are those of phi.
 template <int d>
-void Step<d>::evaluate_pressure(StepResult<d>& found) const {
+void WaterStep<d>::evaluate_pressure(StepResult<d>& found) const {
   const std::size_t count = water_.work.nodes.size();
   found.carried.assign(count, 0.0);
   found.repair_pressure.assign(count, 0.0);
@@ -78,7 +78,7 @@ void Step<d>::evaluate_pressure(StepResult<d>& found) const {
 }
 
 template <int d>
-void Step<d>::evaluate_energies(StepResult<d>& found) const {
+void WaterStep<d>::evaluate_energies(StepResult<d>& found) const {
   const Nodes<d>& nodes = water_.work.nodes;
   Ledger& ledger = found.ledger;
   ledger = water_.work.ledger;
@@ -100,7 +100,7 @@ void Step<d>::evaluate_energies(StepResult<d>& found) const {
 // T(a + dv/2) - T(a - dv/2) with the mean a of the velocities before and after the step: what the change dv brings beside the
 // pressure, with the mass that the pressure moves. Walls give the rest.
 template <int d>
-void Step<d>::evaluate_work(StepResult<d>& found) const {
+void WaterStep<d>::evaluate_work(StepResult<d>& found) const {
   found.power_of_effects.clear();
   if (trial_.booked.empty()) return;
   std::vector<Vec<d>> low(trial_.v.size()), high(trial_.v.size());
@@ -117,7 +117,7 @@ void Step<d>::evaluate_work(StepResult<d>& found) const {
   }
 }
 
-template class Step<2>;
-template class Step<3>;
+template class WaterStep<2>;
+template class WaterStep<3>;
 
 }  // namespace splashdown::fluid

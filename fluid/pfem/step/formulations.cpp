@@ -7,12 +7,13 @@ namespace splashdown::fluid {
 
 template <int d>
 Formulation<d> fractional() {
-  return [](Water<d>& water) -> std::unique_ptr<Step<d>> { return std::make_unique<Fractional<d>>(water); };
+  return [](Water<d>& water) -> std::unique_ptr<WaterStep<d>> { return std::make_unique<Fractional<d>>(water); };
 }
 
 template <int d>
 Formulation<d> monolithic(const MonolithicSpec& spec) {
-  return [spec](Water<d>& water) -> std::unique_ptr<Step<d>> { return std::make_unique<Monolithic<d>>(water, spec); };
+  return
+      [spec](Water<d>& water) -> std::unique_ptr<WaterStep<d>> { return std::make_unique<Monolithic<d>>(water, spec); };
 }
 
 template Formulation<2> fractional<2>();

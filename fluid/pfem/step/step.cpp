@@ -10,7 +10,7 @@
 namespace splashdown::fluid {
 
 template <int d>
-Status Step<d>::begin(double kick, double dt, const InterfaceModel& structure) {
+Status WaterStep<d>::begin(double kick, double dt, const InterfaceModel& structure) {
   kick_ = kick;
   dt_ = dt;
   if (!water_.prepared) water_.prepare();
@@ -32,7 +32,7 @@ Status Step<d>::begin(double kick, double dt, const InterfaceModel& structure) {
 
 // The matrix stands without them: their diagonal is its own reason to factor once more.
 template <int d>
-Status Step<d>::add_pressure_terms() {
+Status WaterStep<d>::add_pressure_terms() {
   terms_ = {};
   for (std::size_t t = 0; t < water_.effects.size(); ++t) {
     const auto scope = water_.timer.scope(first_effect + t);
@@ -44,8 +44,8 @@ Status Step<d>::add_pressure_terms() {
 }
 
 template <int d>
-StepResult<d> Step<d>::solve(std::span<const Twist<d>> given, std::span<const double> previous,
-                             const ClosedContacts& contacts) {
+StepResult<d> WaterStep<d>::solve(std::span<const Twist<d>> given, std::span<const double> previous,
+                                  const ClosedContacts& contacts) {
   StepResult<d> found;
   found.status = find_motion(given, previous, contacts);
   if (found.status.ok()) evaluate(found);
@@ -53,8 +53,8 @@ StepResult<d> Step<d>::solve(std::span<const Twist<d>> given, std::span<const do
 }
 
 template <int d>
-Status Step<d>::find_motion(std::span<const Twist<d>> given, std::span<const double> previous,
-                            const ClosedContacts& contacts) {
+Status WaterStep<d>::find_motion(std::span<const Twist<d>> given, std::span<const double> previous,
+                                 const ClosedContacts& contacts) {
   if (previous.size() != equation_.laplacian().pieces().size())
     throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
   trial_.v = water_.work.nodes.v;
@@ -83,8 +83,8 @@ Status Step<d>::find_motion(std::span<const Twist<d>> given, std::span<const dou
 // The Laplacian acts on the change since the previous pass, so that it vanishes when passes agree. The repair
 // keeps it: it stands for the body's answer, and what it leaves of the flux the pressure finds.
 template <int d>
-void Step<d>::lag(std::vector<double>& residual, std::span<const double> previous,
-                  std::span<const double> present) const {
+void WaterStep<d>::lag(std::vector<double>& residual, std::span<const double> previous,
+                       std::span<const double> present) const {
   if (previous.empty()) return;
   std::vector<double> change = equation_.laplacian().means(present);
   for (std::size_t k = 0; k < change.size(); ++k) change[k] = previous[k] - change[k];
@@ -93,7 +93,7 @@ void Step<d>::lag(std::vector<double>& residual, std::span<const double> previou
 
 // Closed contacts take what would open or close them of the bodies' answer to the repair: it is not a motion but an impulse.
 template <int d>
-void Step<d>::restrict_repair(const ClosedContacts& contacts) {
+void WaterStep<d>::restrict_repair(const ClosedContacts& contacts) {
   equation_.allow(contacts.directions, contacts.workless);
   const Eigen::VectorXd kept = contacts.allowed(trial_.answer);
   trial_.unanswered = equation_.inertia() * (trial_.answer - kept);
@@ -102,7 +102,7 @@ void Step<d>::restrict_repair(const ClosedContacts& contacts) {
 }
 
 template <int d>
-Status Step<d>::predict(const ClosedContacts& contacts) {
+Status WaterStep<d>::predict(const ClosedContacts& contacts) {
   std::vector<Vec<d>> carried;
   if (!water_.effects.empty()) {
     const auto scope = water_.timer.scope(momentum);
@@ -137,7 +137,7 @@ Status Step<d>::predict(const ClosedContacts& contacts) {
 }
 
 template <int d>
-void Step<d>::push_surface() {
+void WaterStep<d>::push_surface() {
   trial_.of_surface.clear();
   if (terms_.surface_pressure.empty()) return;
   const auto scope = water_.timer.scope(Phase::pressure);
@@ -148,7 +148,7 @@ void Step<d>::push_surface() {
 
 // The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
 template <int d>
-Status Step<d>::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
+Status WaterStep<d>::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
   trial_.s_after.assign(given.begin(), given.end());
   for (std::size_t w = 0; w < water_.walls.size(); ++w)
     trial_.s_after[w] += trial_.s_before[w] - water_.work.velocity[w];
@@ -166,7 +166,7 @@ Status Step<d>::solve_pressure(std::span<const Twist<d>> given, std::span<const 
 
 // The motion that the impulses found so far give the nodes.
 template <int d>
-void Step<d>::move_nodes() {
+void WaterStep<d>::move_nodes() {
   trial_.v_after = trial_.v;
   equation_.accelerate(trial_.phi, trial_.v_after);
   wall_motion_->move(trial_.v_after, water_.moved_poses(trial_.s_after, dt_), dt_, trial_.moved);
@@ -174,7 +174,7 @@ void Step<d>::move_nodes() {
 
 // The volume that this motion creates.
 template <int d>
-void Step<d>::what_is_left(std::span<const double> previous, std::vector<double>& residual) {
+void WaterStep<d>::what_is_left(std::span<const double> previous, std::vector<double>& residual) {
   in_parallel(trial_.v.size(),
               [&](std::size_t i) { trial_.x_mid[i] = 0.5 * (water_.work.nodes.x[i] + trial_.moved.x[i]); });
   equation_.motion_residual(trial_.x_mid, trial_.moved.u, residual);
@@ -187,7 +187,7 @@ void Step<d>::what_is_left(std::span<const double> previous, std::vector<double>
 
 // What a residual asks for, and how walls answer to it.
 template <int d>
-Status Step<d>::ask(Correction<d>& left) {
+Status WaterStep<d>::ask(Correction<d>& left) {
   left.impulse = left.residual;
   left.walls.assign(water_.walls.size(), Twist<d>::Zero());
   if (!equation_.solve(left.impulse, roughly)) return {"the pressure solve failed"};
@@ -196,7 +196,7 @@ Status Step<d>::ask(Correction<d>& left) {
 }
 
 template <int d>
-typename Step<d>::Unrepaired Step<d>::begin_repair() {
+typename WaterStep<d>::Unrepaired WaterStep<d>::begin_repair() {
   trial_.repaired.assign(equation_.size(), 0.0);
   trial_.repair_handed.assign(water_.walls.size(), Wrench<d>::Zero());
   const double energy = equation_.kinetic_energy(trial_.v), drops = energy_of_drops(trial_.v);
@@ -206,7 +206,7 @@ typename Step<d>::Unrepaired Step<d>::begin_repair() {
 
 // The carried velocity's flux, seen at t_{n-1/2} on the new mesh.
 template <int d>
-void Step<d>::flux_before(std::vector<double>& residual) {
+void WaterStep<d>::flux_before(std::vector<double>& residual) {
   middle(trial_.v, -0.5 * water_.work.dt);
   equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_before,
                           water_.centres(water_.moved_poses(trial_.s_before, -0.5 * water_.work.dt)), residual);
@@ -215,8 +215,8 @@ void Step<d>::flux_before(std::vector<double>& residual) {
 // It is a projection: what it gives to the water it takes from bodies. Where films are worn to nodes of hardly any mass
 // the truncated one may not be, and counts by a half, a quarter, not at all.
 template <int d>
-void Step<d>::take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
-                          std::span<const Wrench<d>> handed) {
+void WaterStep<d>::take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
+                               std::span<const Wrench<d>> handed) {
   const auto& held = equation_.held();
   auto& s = trial_.s_before;
   double taken = 1, energy = 0;
@@ -247,7 +247,7 @@ void Step<d>::take_repair(Unrepaired& from, std::vector<double>& impulses, std::
 }
 
 template <int d>
-void Step<d>::apply(const Correction<d>& correction, double share) {
+void WaterStep<d>::apply(const Correction<d>& correction, double share) {
   for (std::size_t i = 0; i < trial_.phi.size(); ++i) trial_.phi[i] += share * correction.impulse[i];
   for (std::size_t w = 0; w < water_.walls.size(); ++w) trial_.s_after[w] += share * correction.walls[w];
   if (equation_.mode_count() > 0) trial_.answer += share * correction.answer;
@@ -255,20 +255,20 @@ void Step<d>::apply(const Correction<d>& correction, double share) {
 
 // Lets the motions answer to impulses.
 template <int d>
-void Step<d>::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further) {
+void WaterStep<d>::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further) {
   if (equation_.mode_count() > 0) trial_.answer += equation_.respond(impulses, s, further);
 }
 
 // A further impulse on the motions.
 template <int d>
-void Step<d>::apply_body_impulse(const Eigen::VectorXd& impulse) {
+void WaterStep<d>::apply_body_impulse(const Eigen::VectorXd& impulse) {
   if (impulse.size() > 0) trial_.known += impulse;
   let_bodies_answer(impulse);
 }
 
 // Water and bodies answer to an impulse on the motions.
 template <int d>
-void Step<d>::let_bodies_answer(const Eigen::VectorXd& impulse) {
+void WaterStep<d>::let_bodies_answer(const Eigen::VectorXd& impulse) {
   if (impulse.isZero(0)) return;
   std::vector<double> none(trial_.phi.size(), 0.0);
   trial_.answer += equation_.respond(none, trial_.s_after, impulse);
@@ -277,7 +277,7 @@ void Step<d>::let_bodies_answer(const Eigen::VectorXd& impulse) {
 
 // The first guess of impulses is the pressure of the last step.
 template <int d>
-std::vector<double> Step<d>::carried_impulse() const {
+std::vector<double> WaterStep<d>::carried_impulse() const {
   std::vector<double> carried(equation_.size());
   for (std::size_t i = 0; i < water_.work.nodes.size(); ++i)
     if (const int k = equation_.unknown()[i]; k >= 0) carried[k] = kick_ * water_.work.nodes.p[i];
@@ -286,15 +286,15 @@ std::vector<double> Step<d>::carried_impulse() const {
 
 // Of pressure impulses on walls that change their velocities from s_0 to s_1.
 template <int d>
-double Step<d>::work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0,
-                        std::span<const Twist<d>> s_1) const {
+double WaterStep<d>::work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0,
+                             std::span<const Twist<d>> s_1) const {
   double work_done = 0;
   for (std::size_t w = 0; w < s_0.size(); ++w) work_done += equation_.impulse(w, impulses).dot(0.5 * (s_0[w] + s_1[w]));
   return work_done;
 }
 
 template <int d>
-double Step<d>::energy_of_drops(std::span<const Vec<d>> v) const {
+double WaterStep<d>::energy_of_drops(std::span<const Vec<d>> v) const {
   double sum = 0;
   for (std::size_t i = 0; i < v.size(); ++i)
     if (water_.work.nodes.spray[i]) sum += water_.work.nodes.volume[i] * v[i].squaredNorm();
@@ -303,7 +303,7 @@ double Step<d>::energy_of_drops(std::span<const Vec<d>> v) const {
 
 // What terms of effects make of the volume of nodes; empty: nothing.
 template <int d>
-std::vector<double> Step<d>::meant_volumes() const {
+std::vector<double> WaterStep<d>::meant_volumes() const {
   if (terms_.source.empty() && terms_.diagonal.empty()) return {};
   std::vector<double> rate(static_cast<std::size_t>(equation_.size()), 0.0), meant(water_.work.nodes.size(), 0.0);
   equation_.add_sources(rate, trial_.phi);
@@ -313,7 +313,7 @@ std::vector<double> Step<d>::meant_volumes() const {
 }
 
 template <int d>
-Motion<d> Step<d>::taken(const StepResult<d>& found) {
+Motion<d> WaterStep<d>::taken(const StepResult<d>& found) {
   for (const auto& effect : water_.effects) effect->commit(view());
   return {.kick = kick_,
           .dt = dt_,
@@ -329,7 +329,7 @@ Motion<d> Step<d>::taken(const StepResult<d>& found) {
           .energy_of_repair = trial_.energy_repaired - trial_.energy_before};
 }
 
-template class Step<2>;
-template class Step<3>;
+template class WaterStep<2>;
+template class WaterStep<3>;
 
 }  // namespace splashdown::fluid

@@ -1,5 +1,5 @@
-// A step of the water: what moves it from t_n to t_{n+1}. Formulations differ in how the repair and the pressure find a motion that
-// creates no volume; mesh, contact, effects, bodies, loads and books are the same.
+// A step of the water: what moves it from t_n to t_{n+1}. Formulations differ in how the repair and the pressure find a motion
+// that creates no volume; mesh, contact, effects, bodies, loads and books are the same.
 //
 //   begin    remesh at t_n, fill and factor the pressure matrix
 //   solve    repair, predict, pressure, correct, for given wall velocities; repeatable
@@ -35,13 +35,14 @@ inline constexpr double closely = 1e-4, roughly = 1e-2;
 
 /// One step at a time, on the water it was made for, which must outlive it.
 template <int d>
-class Step {
+class WaterStep {
  public:
-  explicit Step(Water<d>& water, SurfaceUnknowns on_surface = SurfaceUnknowns::without_spikes)
+  /// `on_surface`: which nodes of the free surface have a pressure of their own.
+  explicit WaterStep(Water<d>& water, SurfaceUnknowns on_surface = SurfaceUnknowns::without_spikes)
       : water_(water), equation_(on_surface) {}
-  virtual ~Step() = default;
-  Step(const Step&) = delete;
-  Step& operator=(const Step&) = delete;
+  virtual ~WaterStep() = default;
+  WaterStep(const WaterStep&) = delete;
+  WaterStep& operator=(const WaterStep&) = delete;
 
   /// Fixes `kick` and `dt` [s] and how walls answer. Refused where the pressure matrix cannot be factored.
   Status begin(double kick, double dt, const InterfaceModel& structure);
@@ -173,7 +174,7 @@ class Step {
   bool may_fly_alone(int node) const { return water_.work.nodes.surface[node] && water_.work.nodes.tie[node].wall < 0; }
 };
 
-extern template class Step<2>;
-extern template class Step<3>;
+extern template class WaterStep<2>;
+extern template class WaterStep<3>;
 
 }  // namespace splashdown::fluid

@@ -1,5 +1,5 @@
-// The water: its nodes, its mesh, the walls around it and the books on it. It is remeshed at t_n and takes in the motion that a step
-// has found; what moves it, it does not know.
+// The water: its nodes, its mesh, the walls around it and the books on it. It is remeshed at t_n and takes in the motion that
+// a step has found; what moves it, it does not know.
 //
 //   remesh    sizes, contact, nodes, the triangulation, which of its cells are water: `now` becomes `work`
 //   accept    nodes at t_{n+1}, what they carry, what the mesh has made of their volume: `work` becomes `now`

@@ -7,14 +7,14 @@ namespace splashdown::fluid {
 
 /// Two passes of the repair and `corrections` of the pressure, all on the one factor.
 template <int d>
-class Fractional final : public Step<d> {
+class Fractional final : public WaterStep<d> {
  public:
-  using Step<d>::Step;
+  using WaterStep<d>::WaterStep;
 
  private:
-  using Step<d>::water_, Step<d>::equation_, Step<d>::trial_;
-  using Step<d>::begin_repair, Step<d>::flux_before, Step<d>::answer_to, Step<d>::take_repair;
-  using Step<d>::move_nodes, Step<d>::what_is_left, Step<d>::ask, Step<d>::apply;
+  using WaterStep<d>::water_, WaterStep<d>::equation_, WaterStep<d>::trial_;
+  using WaterStep<d>::begin_repair, WaterStep<d>::flux_before, WaterStep<d>::answer_to, WaterStep<d>::take_repair;
+  using WaterStep<d>::move_nodes, WaterStep<d>::what_is_left, WaterStep<d>::ask, WaterStep<d>::apply;
 
   Status repair() override;
   Status correct(std::span<const double> previous) override;

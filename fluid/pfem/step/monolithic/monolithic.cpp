@@ -1,6 +1,8 @@
 #include "fluid/pfem/step/monolithic/monolithic.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "fluid/pfem/linear/generalised_conjugate_residual.hpp"
 
@@ -21,10 +23,20 @@ std::vector<Vec<d>> difference(std::span<const Vec<d>> a, std::span<const Vec<d>
 
 }  // namespace
 
-// Without viscosity and in a frame that moves with the water tau is half the interval over which the pressure acts.
+// Without viscosity and in a frame that moves with the water tau is half the interval over which the pressure acts. The convective
+// one has the diameter of the ball of an element's volume.
 template <int d>
 std::vector<double> Monolithic<d>::shares() const {
-  return std::vector<double>(water_.work.mesh.cells.size(), spec_.share);
+  constexpr double half = 0.5;
+  const auto& cells = water_.work.mesh.cells;
+  std::vector<double> theta(cells.size(), half);
+  if (!(spec_.speed > 0)) return theta;
+  constexpr double unit_ball = d == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
+  in_parallel(cells.size(), [&](std::size_t c) {
+    const double volume = std::max(0.0, fluid::volume<d>(corners(water_.work.nodes.x, cells[c])));
+    theta[c] = std::pow(volume / unit_ball, 1.0 / d) / (spec_.speed * kick_);
+  });
+  return theta;
 }
 
 template <int d>

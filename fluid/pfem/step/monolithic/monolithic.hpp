@@ -1,11 +1,12 @@
-// Velocity and pressure as one system, with equal-order elements and PSPG (Tezduyar, Mittal, Ray, Shih 1992), velocities eliminated.
+// Velocity and pressure as one system, with equal-order elements and PSPG (Tezduyar, Mittal, Ray, Shih 1992), velocities
+// eliminated.
 //
 //   M (v+ - v*) + G phi = 0,   D(x_m) u(v+) = sum_e theta_e int_e grad q . ((v+ - v*) + grad phi / rho),   x_m = x_n + dt u / 2
 //
-// theta_e = tau_e / kick. The right side vanishes for the exact solution; it makes pressures definite that change their sign from
-// node to node. With phi natural on all of the free surface q = 1 is a test function, so that it moves volume about and makes none.
-// The system is solved to a tolerance by generalised conjugate residuals on the factor of the pressure matrix, and once more where the
-// middle of the motion has moved (Picard).
+// theta_e = tau_e / kick. The right side vanishes for the exact solution; it makes pressures definite that change their sign
+// from node to node. With phi natural on all of the free surface q = 1 is a test function, so that it moves volume about and
+// makes none. The system is solved to a tolerance by generalised conjugate residuals on the factor of the pressure matrix, and
+// once more where the middle of the motion has moved (Picard).
 #pragma once
 
 #include "fluid/pfem/formulations.hpp"
@@ -15,14 +16,15 @@ namespace splashdown::fluid {
 
 /// The repair is the same system, at the middle of the motion that led to t_n.
 template <int d>
-class Monolithic final : public Step<d> {
+class Monolithic final : public WaterStep<d> {
  public:
-  Monolithic(Water<d>& water, const MonolithicSpec& spec) : Step<d>(water, SurfaceUnknowns::all), spec_(spec) {}
+  /// The water must outlive it.
+  Monolithic(Water<d>& water, const MonolithicSpec& spec) : WaterStep<d>(water, SurfaceUnknowns::all), spec_(spec) {}
 
  private:
-  using Step<d>::water_, Step<d>::equation_, Step<d>::trial_, Step<d>::kick_;
-  using Step<d>::begin_repair, Step<d>::flux_before, Step<d>::answer_to, Step<d>::take_repair;
-  using Step<d>::move_nodes, Step<d>::what_is_left, Step<d>::ask, Step<d>::apply;
+  using WaterStep<d>::water_, WaterStep<d>::equation_, WaterStep<d>::trial_, WaterStep<d>::kick_;
+  using WaterStep<d>::begin_repair, WaterStep<d>::flux_before, WaterStep<d>::answer_to, WaterStep<d>::take_repair;
+  using WaterStep<d>::move_nodes, WaterStep<d>::what_is_left, WaterStep<d>::ask, WaterStep<d>::apply;
 
   Status repair() override;
   Status correct(std::span<const double> previous) override;
