@@ -302,10 +302,13 @@ class StepCount {
     double h = fixed_, dt = scene_.time.dt_max;
     const double time = to.time - from.time;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const double run = run_of(b, from, to);
-      if (halvings > 0 && run > share_of_hull * extents<d>(bodies_[b].hull).sizes().template head<d - 1>().maxCoeff()) {
-        const auto half = wetted_at(0.5 * (from.time + to.time));
-        return between(from, half, speed, halvings - 1) + between(half, to, speed, halvings - 1);
+      double run = run_of(b, from, to);
+      if (run > share_of_hull * extents<d>(bodies_[b].hull).sizes().template head<d - 1>().maxCoeff()) {
+        if (halvings > 0) {
+          const auto half = wetted_at(0.5 * (from.time + to.time));
+          return between(from, half, speed, halvings - 1) + between(half, to, speed, halvings - 1);
+        }
+        run = 0;  // a flat bottom, wet all at once: no contact line runs over it
       }
       const auto& body = scene_.bodies[b];
       const double wet =

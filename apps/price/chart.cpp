@@ -45,6 +45,14 @@ std::vector<Work> beyond(const Price& price) {
   return points;
 }
 
+/// Of the list, where several runs take the place of one.
+std::vector<Work> means_of_runs(const Price& price) {
+  std::vector<Work> points;
+  for (const auto& row : price.rows)
+    if (row.runs > 1 && row.seconds) points.push_back({*row.seconds, row.accuracy_percent});
+  return points;
+}
+
 /// Those that no other one beats in both.
 std::vector<Work> pareto(const std::vector<Work>& points) {
   std::vector<Work> best;
@@ -78,6 +86,8 @@ std::string script_of(const Price& price) {
   const auto all = made(price);
   add(all, fmt::format("with lines lw 3 lc rgb '{}' title 'all of them'", ink));
   add(beyond(price), fmt::format("with lines lw 2 dt 2 lc rgb '{}' title 'extrapolated'", ink));
+  add(means_of_runs(price),
+      fmt::format("with linespoints lw 2 dt 3 pt 12 ps 1.2 lc rgb '{}' title 'means of runs'", ink));
   add(pareto(all), fmt::format("with points pt 6 ps 1.8 lw 2 lc rgb '{}' title 'Pareto set'", ink));
   if (plots.empty()) return {};
   return "set encoding utf8\n"
@@ -85,7 +95,7 @@ std::string script_of(const Price& price) {
          "set output 'price.svg'\n"
          "set border 3 lw 0.8 lc rgb '#8796a5'\nset tics nomirror out scale 0.5 textcolor rgb '#51606e'\n"
          "set grid lw 0.6 lt 1 lc rgb '#dfe5ea'\nset logscale xy\nset format x '%g'\nset format y '%g'\n"
-         "set xlabel 'wall time of a run (s)'\nset ylabel 'band (% of the value)'\n"
+         "set xlabel 'wall time (s)'\nset ylabel 'band (% of the value)'\n"
          "set key outside right top samplen 2 font ',12'\n" +
          data + plots + "\nunset output\n";
 }

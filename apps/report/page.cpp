@@ -43,7 +43,7 @@ h1,h2{overflow-wrap:anywhere}
 figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:14px 16px 12px}
 figure svg,figure img{display:block;width:100%;height:auto}
 figure.heat{padding-bottom:16px}.scroll+figure,figure+.scroll{margin-top:16px}
-.views .row{display:flex;flex-wrap:wrap;gap:12px 28px;align-items:flex-end}.views .row>div{min-width:0;flex:0 1 auto}.views svg{width:100%}
+.views .row{display:flex;flex-wrap:wrap;gap:12px 28px;align-items:flex-end}.views .row>div{max-width:100%}.views svg{max-width:100%}
 .copy{position:relative}.copy pre{background:var(--code);border-radius:6px;padding:10px 64px 10px 12px;white-space:pre-wrap;overflow-wrap:anywhere}.details .copy pre{white-space:pre}
 .copy button{position:absolute;right:8px;top:8px;font:12px system-ui,sans-serif;color:var(--link);background:var(--paper);border:1px solid var(--line);border-radius:5px;padding:2px 8px;cursor:pointer}
 .pick{margin-right:8px}.pair{display:flex;flex-wrap:wrap;gap:8px 24px;margin:0 0 12px}.pair i{display:inline-block;width:11px;height:11px;border-radius:3px;margin-right:7px}
@@ -52,8 +52,8 @@ figcaption{color:var(--soft);font-size:14px;margin-top:8px}
 figcaption b{color:var(--ink)}
 .heat td{background:color-mix(in srgb,var(--heat) var(--s,0%),var(--paper));text-align:center}.heat td a{color:var(--ink);text-decoration:none}.heat td a:hover{text-decoration:underline}
 .heat td.none{color:var(--bad);background:var(--ground)}.heat figcaption{margin:0 0 8px}.heat tbody th{color:var(--soft);font-weight:600}
-.bars td{text-align:left}.bars td.bar{background:linear-gradient(90deg,color-mix(in srgb,var(--heat) 45%,var(--paper)) var(--s),transparent var(--s))}
-.bars td.mark{background:linear-gradient(90deg,transparent calc(var(--s) - 4px),var(--heat) calc(var(--s) - 4px),var(--heat) calc(var(--s) + 4px),transparent calc(var(--s) + 4px))}
+.bars td{text-align:left}.bars td.length{background:linear-gradient(90deg,color-mix(in srgb,var(--heat) 45%,var(--paper)) var(--s),transparent var(--s))}
+.bars td.spot{background:linear-gradient(90deg,transparent calc(var(--s) - 4px),var(--heat) calc(var(--s) - 4px),var(--heat) calc(var(--s) + 4px),transparent calc(var(--s) + 4px))}
 .bars td.none{color:var(--bad)}.bars td span{background:color-mix(in srgb,var(--paper) 70%,transparent);border-radius:4px;padding:1px 4px}
 .scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:8px}
 table{border-collapse:collapse;width:100%;font-size:14px;font-variant-numeric:tabular-nums}

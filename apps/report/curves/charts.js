@@ -15,6 +15,15 @@
   const text = (value) => (value === null ? '–' : String(+value.toPrecision(4)).replace('-', '−'));
   function made(tag, cls, parent) { const e = document.createElement(tag); e.className = cls; parent.appendChild(e); return e; }
 
+  // Whole decades of a logarithmic axis, as many as have room.
+  function decades(low, high, pixels) {
+    const from = Math.ceil(Math.log10(low) - 1e-9), to = Math.floor(Math.log10(high) + 1e-9), ticks = [];
+    const stride = Math.max(1, Math.ceil((to - from) * 34 / pixels));
+    for (let k = from; k <= to; k += stride) ticks.push({ v: 10 ** k, label: Math.abs(k) < 4 ? String(+(10 ** k).toPrecision(1)) : '1e' + String(k).replace('-', '−') });
+    if (ticks.length < 3) for (let k = from - 1; k <= to; ++k) for (const v of [2 * 10 ** k, 5 * 10 ** k]) if (v >= low && v <= high) ticks.push({ v, label: text(v) });
+    return ticks;
+  }
+
   // Of a curve at x, on the straight line between its points; null outside and in gaps.
   function value_at(curve, x) {
     const n = curve.x.length;
@@ -128,7 +137,7 @@
       labels: ['x', ...chart.curves.map((_, k) => 'c' + k)], legend: 'never', connectSeparatedPoints: true, highlightCircleSize: 0, xlabel: plain(chart.x), ylabel: plain(chart.y),
       y2label: right ? plain(chart.y2) : undefined, xLabelHeight: 18, yLabelWidth: 18, rightGap: 12, digitsAfterDecimal: 4, maxNumberWidth: 9,
       dateWindow: chart.time ? span : null,
-      axes: { x: { axisLabelWidth: 56, pixelsPerLabel: 60 }, y: { axisLabelWidth: 52, valueRange: chart.range, pixelsPerLabel: 34, logscale: !!chart.log }, y2: { axisLabelWidth: 48, valueRange: right ? chart.range2 : undefined, drawGrid: false } },
+      axes: { x: { axisLabelWidth: 56, pixelsPerLabel: 60 }, y: { axisLabelWidth: 52, valueRange: chart.range, pixelsPerLabel: 34, ...(chart.log ? { logscale: true, ticker: decades } : {}) }, y2: { axisLabelWidth: 48, valueRange: right ? chart.range2 : undefined, drawGrid: false } },
       underlayCallback: (context, area, graph) => this.behind(context, area, graph),
       drawCallback: (graph, first) => { if (!first) { zoom_all(this); this.place(this.at); } this.reset.hidden = !differs(graph.xAxisRange(), graph.xAxisExtremes()) && !differs(graph.yAxisRange(0), chart.range); },
     }, this.look_before(tools)));

@@ -167,7 +167,7 @@ HullView drawn(const DrawnHull& hull, const Mesh& mesh, const Paper& paper, cons
   const Point3 origin{0, 0, 0};
   HullView view;
   view.svg = fmt::format(
-      "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" style=\"max-width:{:.0f}px\" fill=\"none\">"
+      "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\" style=\"width:{:.0f}px\" fill=\"none\">"
       "<path d=\"{}\" fill=\"var(--c-theory)\" stroke=\"var(--c-ink)\" stroke-width=\"1.4\" stroke-linejoin=\"round\"/>"
       "<path d=\"{}\" stroke=\"var(--c-axis)\" stroke-width=\".7\"/>{}"
       "<path d=\"M{:.1f} {:.1f}h12m-6 -6v12\" stroke=\"var(--c-red)\" stroke-width=\"1.4\"/></svg>",

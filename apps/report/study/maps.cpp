@@ -155,7 +155,7 @@ class BarScale {
                          : marks_    ? (high_ > low_ ? (value - low_) / (high_ - low_) : 0.5)
                          : high_ > 0 ? value / high_
                                      : 0;
-    return fmt::format("<td class=\"{}\" style=\"--s:{:.1f}%\"><span>{}</span></td>", marks_ ? "mark" : "bar",
+    return fmt::format("<td class=\"{}\" style=\"--s:{:.1f}%\"><span>{}</span></td>", marks_ ? "spot" : "length",
                        marks_ ? 2 + 96 * share : 100 * share, text);
   }
 

@@ -210,8 +210,10 @@ TEST_F(StudyTest, an_axis_of_words_is_charted_by_dots_above_them) {
   EXPECT_FALSE(study.chart->log_x);
   const auto runs = expand(study);
   std::vector<Outcome> outcomes(runs.size());
-  for (auto& outcome : outcomes)
-    outcome = {.status = Outcome::Status::converged, .numbers = {{"passes_mean", 3}}, .limits = {}};
+  for (auto& outcome : outcomes) {
+    outcome.status = Outcome::Status::converged;
+    outcome.numbers["passes_mean"] = 3;
+  }
   const auto script = chart_script(study, runs, outcomes);
   EXPECT_NE(script.find("'plain' 1, 'exact' 2"), std::string::npos) << script;
   EXPECT_NE(script.find("set xrange [0.5:2.5]"), std::string::npos);

@@ -201,10 +201,10 @@ TEST(StudyBars, of_schemes_are_as_long_as_their_numbers_and_lead_to_the_runs) {
   const auto study = study_of_words({"aitken", "probe<", "none", "broyden"}, {"rigid"});
   const auto bars = study_bars(folder.path(), study);
   EXPECT_NE(bars.find("<a href=\"./r1/report.html\">probe&lt;</a>"), std::string::npos) << bars;
-  EXPECT_NE(bars.find("class=\"bar\" style=\"--s:50.0%\"><span>2.00</span>"), std::string::npos)
+  EXPECT_NE(bars.find("class=\"length\" style=\"--s:50.0%\"><span>2.00</span>"), std::string::npos)
       << "two of four passes";
   EXPECT_NE(bars.find("error, log scale"), std::string::npos) << "three decades";
-  EXPECT_NE(bars.find("class=\"mark\" style=\"--s:34.0%\"><span>100</span>"), std::string::npos) << bars;
+  EXPECT_NE(bars.find("class=\"spot\" style=\"--s:34.0%\"><span>100</span>"), std::string::npos) << bars;
   EXPECT_EQ(bars.find("steps"), std::string::npos) << "neither the study's own nor a cost";
   EXPECT_TRUE(heat_maps(folder.path(), study).empty());
   EXPECT_TRUE(study_lines(folder.path(), study).empty());

@@ -5,7 +5,8 @@
 
 Of each, on wide and narrow screens, light and dark: usable within three seconds, nothing wider than the screen, text that stands out from
 its ground, no complaint on the console, no request to the network. Of the runs: a curve's value under the mouse is that of the table,
-cursor and replay follow each other, the CSV link has the curve, the replay plays, prints have pictures. Exit code 77: there is no chromium.
+cursor and replay follow each other, the CSV link has the curve, the replay plays, prints have pictures. Of the study: two runs that are picked
+stand side by side. Exit code 77: there is no chromium.
 Standard library only."""
 import csv
 import os
@@ -132,6 +133,28 @@ def check_curve(browser, name, folder):
     check(f"{name}: prints have the picture", browser.ask(f"getComputedStyle({figure}.querySelector('.still')).display") != "none")
 
 
+def check_pairs(browser, name, folder):
+    """Two boxes ticked in the table of runs: their numbers, the change between them, their links and their curves."""
+    browser.wait_for("document.querySelector('#pairs').dataset.pair")
+    names = browser.ask("[...document.querySelectorAll('.pick input')].map((b) => b.dataset.run)")
+    first, second = names[1], names[2]
+    for run in (first, second):
+        browser.ask(f"(() => {{ const b = document.querySelector('.pick input[data-run=\"{run}\"]'); if (!b.checked) b.click(); }})()")
+    browser.wait_for(f"document.querySelector('#pairs').dataset.pair === '{first} {second}' || document.querySelector('#pairs').dataset.pair === '{second} {first}'")
+    check(f"{name}: two boxes are ticked", browser.ask("document.querySelectorAll('.pick input:checked').length") == 2)
+    cells = browser.ask("[...[...document.querySelectorAll('#pairs tbody tr')].find((r) => r.cells[0].textContent.startsWith('peak')).cells].map((c) => c.textContent)")
+    with open(os.path.join(folder, "study.csv"), encoding="utf-8") as file:
+        table = {row["run"]: float(row["peak"]) for row in csv.DictReader(file)}
+    order = browser.ask("document.querySelector('#pairs').dataset.pair").split(" ")
+    for k, run in enumerate(order):
+        check(f"{name}: numbers of a pair are those of study.csv", abs(float(cells[k + 1]) - table[run]) <= 1e-3 * abs(table[run]), f"{cells[k + 1]}, {table[run]}")
+    change = 100 * (table[order[1]] - table[order[0]]) / table[order[0]]
+    check(f"{name}: the change is that between them", abs(float(cells[3].replace("−", "-").replace(" %", "")) - change) <= 0.01 * abs(change) + 1e-2, f"{cells[3]}, {change}")
+    links = browser.ask("[...document.querySelectorAll('#pairs thead a')].map((a) => a.getAttribute('href'))")
+    check(f"{name}: a pair leads to its runs", links == [f"./{run}/report.html" for run in order], links)
+    check(f"{name}: curves lie over each other", browser.ask("document.querySelectorAll('#pairs .plot canvas').length") > 4)
+
+
 def make(binary, examples, folder):
     for name, (command, scene, *options) in RUNS.items():
         extra = ["--quiet"] if command == "run" else []
@@ -157,6 +180,9 @@ def main():
                 if name in ("plane", "space"):
                     browser.look(1200, "light")
                     check_curve(browser, name, os.path.join(folder, name))
+                if name == "study":
+                    browser.look(1200, "light")
+                    check_pairs(browser, name, os.path.join(folder, name))
     print(f"{len(failures)} failures")
     sys.exit(len(failures) > 0)
 
