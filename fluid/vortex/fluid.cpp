@@ -203,7 +203,8 @@ void Fluid::book(double kick) {
 void Fluid::commit(std::span<const Isometry<2>> poses) {
   {
     const Stopwatch watch(bodies_seconds_);
-    for (std::size_t w = 0; w < penalised_.size(); ++w) penalised_[w].settle(trial_twists_[w], trial_omega_, steps_ > 0);
+    for (std::size_t w = 0; w < penalised_.size(); ++w)
+      penalised_[w].settle(trial_twists_[w], trial_omega_, steps_ > 0);
   }
   std::copy(poses.begin(), poses.end(), poses_.begin());
   twists_ = trial_twists_;

@@ -31,7 +31,7 @@ coupling::Status Participant::begin(const coupling::Step& step, const coupling::
   step_ = step;
   modal_ = structure.modal;
   std::vector<char> answers(walls, 0);
-  for (std::size_t w = 0; w < moved; ++w)
+  for (std::size_t w = 0; w < moved && modal_.modes.cols() > 0; ++w)
     answers[w] = modal_.modes.middleRows(first_of(w), each).cwiseAbs().maxCoeff() > 0;
   // Without modes nobody says whom the fluid moves: it may be all of them.
   if (moved == 0 && !structure.interface_operators.empty())

@@ -38,6 +38,7 @@ void finish_vortex(Reader& reader, Scene& scene) {
     grid->point("max", fluid.max, place, need);
     grid->choice("sides", fluid.sides, {"free", "slip"});
   }
+  for (auto& body : scene.bodies) body.size = fluid.size;
   const bool moves = std::ranges::any_of(scene.bodies, [](const Body& body) { return body.motion != Motion::fixed; });
   fluid.smoothing = moves ? 0.5 : 0.0;
   Reader penalisation = reader.table_or_defaults("penalisation");

@@ -79,6 +79,20 @@ TEST(VortexSeam, results_do_not_depend_on_threads) {
   EXPECT_EQ(states[0], states[1]);
 }
 
+// Until it is released a body has coordinates, and no modes.
+TEST(VortexSeam, a_body_that_is_held_has_no_modes) {
+  Participant fluid(std::make_unique<Fluid>(FreeBody{.h = 1. / 16, .half = 1.5}.fluid()));
+  coupling::InterfaceModel model;
+  model.modal.modes.resize(3, 0);
+  model.modal.inertia.resize(0, 0);
+  ASSERT_TRUE(fluid.begin({0.01, 0.02}, model).ok());
+  coupling::Velocities moves(3);
+  moves << 1, 0, 0;
+  ASSERT_TRUE(fluid.solve({.velocities = moves}).ok());
+  EXPECT_EQ(fluid.solution().velocities, moves);
+  EXPECT_LT(fluid.solution().impulse[0], 0);
+}
+
 TEST(VortexSeam, refuses_walls_and_operators_that_it_does_not_know) {
   Participant fluid(std::make_unique<Fluid>(FreeBody{}.fluid()));
   coupling::InterfaceModel model;
