@@ -20,6 +20,7 @@ struct Placed {
   Vec<d> low, high;
   double size, moves;  // moves: farthest that its velocity takes a point of it within the step
 
+  /// Where the state says; `dt` [s]: of the step.
   Placed(const Hull<d>& of, const BodyState<d>& state, double dt) : hull(&of), pose(state.pose) {
     x = (pose.linear() * of.surface().vertices).colwise() + pose.translation();
     low = x.rowwise().minCoeff();
@@ -28,15 +29,19 @@ struct Placed {
     moves =
         dt * (state.velocity.template head<d>().norm() + size * state.velocity.template tail<rotations<d>>().norm());
   }
+  /// In the world.
   FacetCorners<d> corners(int facet) const {
     FacetCorners<d> c;
     for (int k = 0; k < d; ++k) c[static_cast<std::size_t>(k)] = x.col(hull->surface().facets(k, facet));
     return c;
   }
+  /// A point of the world in the hull's frame.
   Vec<d> seen(const Vec<d>& world) const { return pose.inverse() * world; }
+  /// By the box around the hull.
   bool has_near(const Vec<d>& world, double reach) const {
     return ((world - low).array() >= -reach).all() && ((high - world).array() >= -reach).all();
   }
+  /// By the boxes around both.
   bool is_near(const Placed& other, double reach) const {
     return ((other.high - low).array() >= -reach).all() && ((high - other.low).array() >= -reach).all();
   }
@@ -47,6 +52,7 @@ template <int d>
 struct Touch {
   Vec<d> point, foot, normal;
   double gap;
+  /// Between the two points.
   double distance() const { return (point - foot).norm(); }
 };
 

@@ -5,12 +5,13 @@
 
 Each scene has one `splashdown advise` and one `splashdown ablate --all --refine draft`. A scene that takes more than --minutes is stopped, and told
 with what there is of it. The same command continues it; what is finished is reused. Without SCENE all of SCENES, the short ones first.
-Rewrites what stands between the marks of the page. Ends with 1 if advice and runs disagree where no exception is explained, or if a shipped
+Writes between the marks of the page, where tables of other scenes stay. Ends with 1 if advice and runs disagree where no exception is explained, or if a shipped
 scene is not in SCENES.
 """
 import argparse
 import json
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -115,12 +116,18 @@ def numbers(effect):
                      for n in effect["numbers"] if n["value"] is not None)
 
 
+def ran(variant):
+    """Whether there is a result, or a cause why there can be none; not where time was over before."""
+    line = variant.get("line") or ""
+    return bool(line) and not any(word in line for word in ("no result: waiting", "no result: interrupted", "no result: running"))
+
+
 def rows_of(scene, advice, ablation):
     """Rows of the scene's table, and what disagrees."""
     rows, wrong = [], []
     by_effect = {e["name"]: e for e in advice["effects"]}
     for variant in ablation["variants"]:
-        if variant["kind"] == "scene" or not variant.get("line"):
+        if variant["kind"] == "scene" or not ran(variant):
             continue
         effect = by_effect.get(variant["what"]) if variant["kind"] != "choice" else None
         name = variant["what"] if effect else f"{variant['what']}: {variant['variant']}"
@@ -138,6 +145,12 @@ def rows_of(scene, advice, ablation):
     return rows, wrong
 
 
+def left_out(ablation):
+    """A line for what the time was too short for."""
+    names = [v["what"] for v in ablation["variants"] if v["kind"] != "scene" and not ran(v)]
+    return ["", f"Not run for want of time: {', '.join(names)}."] if names else []
+
+
 def table_of(scene, advice, ablation):
     rows, wrong = rows_of(scene, advice, ablation)
     absent = [f"| {e['name']} | {e['advice']} | {numbers(e)} |" for e in advice["effects"] if not e["available"]]
@@ -145,7 +158,7 @@ def table_of(scene, advice, ablation):
         absent = ["", "| not to be had yet | advice | numbers |", "|---|---|---|", *absent]
     text = [f"### {scene.removesuffix('/scene').replace('/scene_', ', ')}", "", advice["entry"] or "No body enters the water.", "",
             "| effect or choice | there | advice | peak load, expected | motion, expected | runs | agree |", "|---|---|---|---|---|---|---|",
-            *rows, *absent, ""]
+            *rows, *left_out(ablation), *absent, ""]
     return "\n".join(text), wrong
 
 
@@ -155,12 +168,22 @@ def shipped():
         yield f"{path.parent.name}/{path.stem}"
 
 
-def write_page(page, texts, unfinished):
-    """Replaces the tables of the page."""
+def by_heading(text):
+    """Tables of a page by their headings."""
+    parts = re.split(r"^(?=### )", text, flags=re.M)
+    return {part.split("\n", 1)[0]: part.rstrip() + "\n" for part in parts if part.startswith("### ")}
+
+
+def write_page(page, texts):
+    """Puts the tables into the page. One with more results than the new one of its scene stays, and so do those of scenes that were not made."""
     before, rest = page.read_text().split(BEGIN)
-    if unfinished:
-        texts = [*texts, "### Not finished", "", "These scenes need more time than the run of the tables had:", "", *unfinished, ""]
-    page.write_text(before + BEGIN + "\n\n" + "\n".join(texts) + "\n" + END + rest.split(END)[1])
+    tables, after = rest.split(END)
+    found = by_heading(tables)
+    for heading, text in by_heading("\n".join(texts)).items():
+        results = text.count("\n| ")
+        if heading not in found or results >= found[heading].count("\n| "):
+            found[heading] = text
+    page.write_text(before + BEGIN + "\n\n" + "\n".join(found.values()) + "\n" + END + after)
 
 
 def main():
@@ -180,8 +203,8 @@ def main():
         folder = given.out / scene.replace("/", "_")
         ablation, why = ablated(given.splashdown, ["ablate", path, "--all", "--refine", "draft", "--jobs", given.jobs, "--quiet",
                                                    "--out", folder, *extra], folder, 60 * given.minutes)
-        if ablation is None or all(v["kind"] == "scene" or not v.get("line") for v in ablation["variants"]):
-            unfinished.append(f"- {scene}")
+        if ablation is None or not any(v["kind"] != "scene" and ran(v) for v in ablation["variants"]):
+            unfinished.append(scene)
             print(f"{scene}: nothing after {time.time() - begin:.0f} s: {why}", flush=True)
             continue
         text, differs = table_of(scene, advice, ablation)
@@ -189,9 +212,9 @@ def main():
         wrong += differs
         print(text, f"{time.time() - begin:.0f} s", flush=True)
         if given.page:
-            write_page(given.page, texts, unfinished)
-    if given.page:
-        write_page(given.page, texts, unfinished)
+            write_page(given.page, texts)
+    if unfinished:
+        print("nothing of:", ", ".join(unfinished), file=sys.stderr)
     for line in wrong:
         print("not explained:", line, file=sys.stderr)
     for scene in missing:

@@ -18,6 +18,7 @@ class FormDragKind final : public EffectOf<FormDragKind, FormDrag> {
   TablePlace place() const override { return TablePlace::fluid; }
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
+  void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
   std::optional<Advice> advise(const Outlook& look) const override;
 

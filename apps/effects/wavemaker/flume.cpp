@@ -7,6 +7,7 @@
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/scales.hpp"
 #include "fluid/effects/waves/dispersion.hpp"
+#include "fluid/effects/waves/wavemaker.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -135,18 +136,18 @@ std::optional<Flume> flume_of(const Scene& scene, const Wavemaker& table) {
 
 double Forecast::length() const { return 2 * pi / wave_number; }
 
-std::optional<fluid::PaddleSea> sea_of(const Wavemaker& table, const Flume& flume) {
+std::shared_ptr<const fluid::PaddleSea> sea_of(const Wavemaker& table, const Flume& flume) {
   if (!table.significant_height) return {};
   const auto waves = fluid::sea_waves({.significant_height = *table.significant_height,
                                        .peak_period = table.peak_period,
                                        .gamma = table.gamma,
                                        .seed = static_cast<std::uint64_t>(table.seed),
                                        .repeat = table.repeat});
-  return fluid::PaddleSea(waves, {.type = paddle_of(table),
-                                  .hinge = table.hinge,
-                                  .depth = flume.depth,
-                                  .gravity = flume.gravity,
-                                  .ramp = ramp_of(table)});
+  return std::make_shared<fluid::PaddleSea>(waves, fluid::PaddleSpec{.type = paddle_of(table),
+                                                                     .hinge = table.hinge,
+                                                                     .depth = flume.depth,
+                                                                     .gravity = flume.gravity,
+                                                                     .ramp = ramp_of(table)});
 }
 
 Forecast forecast(const Wavemaker& table, const Flume& flume) {

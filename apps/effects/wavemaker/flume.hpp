@@ -1,11 +1,15 @@
 // The paddle of [wavemaker] in its flume: where it stands, how it moves, what it sends out by theory.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "apps/effects/wavemaker/wavemaker.hpp"
-#include "fluid/effects/waves/wavemaker.hpp"
+
+namespace splashdown::fluid {
+class PaddleSea;
+}
 
 namespace splashdown::apps {
 
@@ -32,8 +36,8 @@ struct Forecast {
 };
 Forecast forecast(const Wavemaker& table, const Flume& flume);
 
-/// The irregular sea; nothing for regular waves.
-std::optional<fluid::PaddleSea> sea_of(const Wavemaker& table, const Flume& flume);
+/// The irregular sea; null for regular waves.
+std::shared_ptr<const fluid::PaddleSea> sea_of(const Wavemaker& table, const Flume& flume);
 
 /// Of the paddle from the hinge or the floor up [m].
 double paddle_height(const Wavemaker& table, const Flume& flume);

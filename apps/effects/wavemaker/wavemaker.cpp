@@ -11,6 +11,7 @@
 #include "apps/scene/read/reader.hpp"
 #include "apps/scene/scales.hpp"
 #include "fluid/effects/waves/dispersion.hpp"
+#include "fluid/effects/waves/wavemaker.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -185,7 +186,7 @@ std::vector<KnownSignal> WavemakerKind::signals(const Scene& scene) const {
   const auto& table = *scene.effects.find<Wavemaker>();
   const auto flume = flume_of(scene, table);
   if (!flume || !table.significant_height) return {};
-  const auto sea = std::make_shared<const fluid::PaddleSea>(*sea_of(table, *flume));
+  const auto sea = sea_of(table, *flume);
   const double level = scene.tank->min[scene.dimension - 1] + flume->depth;
   std::vector<KnownSignal> list;
   for (const auto& record : scene.records)

@@ -38,7 +38,7 @@ class PaddleSea {
 
   /// Of the paddle's face at the still level at time t [s], towards the water [m].
   double displacement(double t) const;
-  /// Of the surface above the still level [m], `x` [m] away from the paddle's place at rest and some depths at least. The motion's
+  /// Of the surface above the still level [m], `x` [m] away from the paddle's place at rest, some depths at least. The motion's
   /// growth comes with the speed of the energy.
   double elevation(double x, double t) const;
   /// Its shortest wave's period [s].
