@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/check/cost.hpp"
 #include "apps/scene/outlook/impact_theory.hpp"
 #include "scenes.hpp"
 
@@ -82,6 +83,23 @@ TEST(ImpactTheory, has_nothing_to_say_of_other_shapes_and_of_hulls_that_are_turn
   const Case box{"box", "{type = \"box\", width = 1, height = 1}", 2, 0, 0};
   EXPECT_FALSE(theory_of_scene(entering(box, "motion = \"prescribed\"\n")));
   EXPECT_FALSE(theory_of_scene(entering(cases[0], "motion = \"prescribed\"\npitch_deg = 10\n")));
+}
+
+// A contact line meets each element of the hull once, and passes cfl of one a step: 1 m of bottom with elements of 1 cm takes 200 steps.
+// A bottom that lies flat is wet at once; what is left are the steps of its speed.
+TEST(Cost, has_the_steps_that_the_contact_line_takes_along_a_pitched_hull) {
+  const Case box{"box", "{type = \"box\", width = 1, height = 0.5}", 2, 0, 0};
+  const auto steps = [&](const std::string& pitch) {
+    auto scene = entering(box, "motion = \"prescribed\"\nsize = 0.01\npitch_deg = " + pitch + "\n");
+    scene.bodies[0].position.y() = 0.32;
+    scene.time.end = 0.2;
+    scene.fluid->size.wetted_fraction = 0;
+    return predicted_cost<2>(scene).steps;
+  };
+  const double at_speed = 0.2 * speed / (0.5 * 0.01), along = 1 / (0.5 * 0.01);
+  EXPECT_GT(steps("5"), along);
+  EXPECT_LT(steps("5"), along + at_speed);
+  EXPECT_LT(steps("0"), 1.1 * at_speed);
 }
 
 // A box of L x B x H, of a third of water's density: draft T = H/3, GM = B^2/(12 T) + T/2 - H/2 about each axis.
