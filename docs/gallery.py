@@ -61,6 +61,25 @@ SPEED = r"""
 set xlabel 'time / s'; set ylabel 'speed / (m/s)'
 plot 'bodies.csv' using 1:(-$11) with lines ls 1 title 'with form drag', 1.13 with lines ls 4 title 'drag = weight in water'
 """
+CYLINDER_DRAG = r"""
+set xlabel 'U t / R'; set ylabel 'C_D'; set xrange [0.05:3]; set yrange [0:2]
+plot 'bodies.csv' using 1:22 with lines ls 1 title '50 squares across', \
+  '../../../examples/impulsive_cylinder/reference.csv' using 1:2 with points ls 4 pt 6 title 'Koumoutsakos & Leonard'
+"""
+CYLINDER_FORCE = r"""
+set xlabel 't / T'; set ylabel 'F / (rho U_m^2 D)'; set xrange [0:1]; set yrange [-2.2:2.2]
+plot 'bodies.csv' using ($1/5 - 3):22 with lines ls 1 title '16 squares across', \
+  '../../../examples/oscillating_cylinder/reference.csv' using 1:2 with points ls 4 pt 6 title 'Duetsch et al.'
+"""
+SINKING = r"""
+set xlabel 'time / s'; set ylabel 'speed / (m/s)'
+plot 'bodies.csv' using 1:(-$11) with lines ls 1 title '16 squares across', \
+  '../../../examples/sedimenting_cylinder/reference.csv' using 1:2 with points ls 4 pt 6 title 'finite elements'
+"""
+FLIGHT = r"""
+set xlabel 'x / m'; set ylabel 'y / m'
+plot 'bodies.csv' using 3:4 with lines ls 1 title 'centre of the plate'
+"""
 STYLE = r"""
 set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
 set terminal svg size 640,340 noenhanced font 'Helvetica,15'
@@ -104,6 +123,10 @@ CASES = [
     Case("wave_landing", "scene.toml --until 0.33", "end", 3, (-0.6, 1.15, -0.4, 0.7)),
     Case("terminal_speed", "scene.toml", SPEED, 20),
     Case("planing_plate", "scene.toml", "end", 20, (9.2, 12.2, -0.8, 1.0)),
+    Case("impulsive_cylinder", "scene.toml", CYLINDER_DRAG, 2),
+    Case("oscillating_cylinder", "scene.toml", CYLINDER_FORCE, 2),
+    Case("sedimenting_cylinder", "scene.toml", SINKING, 12),
+    Case("plate_trajectories", "scene.toml", FLIGHT, 40),
     Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),
 ]
 

@@ -46,7 +46,7 @@ std::unique_ptr<coupling::FluidPart> build_fluid(const Scene& scene,
 template <int d>
 std::unique_ptr<coupling::FluidPart> build_vortex(const Scene& scene, World<d>& world) {
   if constexpr (d == 2) {
-    auto part = std::make_unique<vortex::Participant>(std::make_unique<vortex::Fluid>(vortex_spec(scene)));
+    auto part = std::make_unique<vortex::Participant>(std::make_unique<vortex::GridFlow>(vortex_spec(scene)));
     world.fluid = &part->fluid();
     return part;
   } else {

@@ -38,7 +38,7 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene);
 template <int d>
 fluid::FluidSpec<d> fluid_spec(const Scene& scene);
 /// Of a fluid on a grid, with the same walls.
-vortex::FluidSpec vortex_spec(const Scene& scene);
+vortex::GridFlowSpec vortex_spec(const Scene& scene);
 /// What the effects of a scene make.
 template <int d>
 struct Parts {

@@ -36,9 +36,9 @@ std::function<Vec<2>(double)> stream_of(const std::vector<std::vector<double>>& 
 
 }  // namespace
 
-vortex::FluidSpec vortex_spec(const Scene& scene) {
+vortex::GridFlowSpec vortex_spec(const Scene& scene) {
   const auto& fluid = *scene.vortex;
-  vortex::FluidSpec spec;
+  vortex::GridFlowSpec spec;
   spec.density = fluid.density;
   spec.viscosity = fluid.viscosity / fluid.density;
   const Vec<2> size = vec<2>(fluid.max - fluid.min);

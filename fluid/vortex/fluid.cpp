@@ -27,7 +27,7 @@ double speed_of(const WallSpec<2>& wall, const Twist<2>& twist) {
 
 }  // namespace
 
-Fluid::Fluid(FluidSpec spec)
+GridFlow::GridFlow(GridFlowSpec spec)
     : spec_(std::move(spec)),
       stream_function_(spec_.grid, spec_.sides, spec_.diffusion_order),
       advection_(spec_.grid, spec_.remeshing, spec_.paths) {
@@ -51,7 +51,7 @@ Fluid::Fluid(FluidSpec spec)
   add_samples();
 }
 
-void Fluid::check() const {
+void GridFlow::check() const {
   const auto& g = spec_.grid;
   if (g.nx < 16 || g.ny < 16 || g.nx % FarField::coarsening != 0 || g.ny % FarField::coarsening != 0 || !(g.h > 0))
     throw std::invalid_argument("vortex fluid: a grid needs 16 squares or more each way, in fours, not " +
@@ -60,12 +60,12 @@ void Fluid::check() const {
     throw std::invalid_argument("vortex fluid: vorticity needs one number a node");
 }
 
-void Fluid::solve_velocity(NodeField& omega, double spread, double at_time, FaceField& velocity) {
+void GridFlow::solve_velocity(NodeField& omega, double spread, double at_time, FaceField& velocity) {
   stream_function_.solve(omega, spread, psi_);
   velocities_of(spec_.grid, psi_, stream(at_time), velocity);
 }
 
-double Fluid::largest_speed() const {
+double GridFlow::largest_speed() const {
   const auto& g = spec_.grid;
   double squared = 0;
   const auto row = static_cast<std::size_t>(g.nx + 1);
@@ -75,7 +75,7 @@ double Fluid::largest_speed() const {
   return std::sqrt(squared);
 }
 
-double Fluid::stable_dt() const {
+double GridFlow::stable_dt() const {
   double speed = std::max(speed_, stream(time_).norm());
   for (std::size_t w = 0; w < spec_.walls.size(); ++w) speed = std::max(speed, speed_of(spec_.walls[w], twists_[w]));
   const double h = spec_.grid.h, infinity = std::numeric_limits<double>::infinity();
@@ -83,9 +83,9 @@ double Fluid::stable_dt() const {
                   spec_.viscosity > 0 ? diffusion_limit * h * h / spec_.viscosity : infinity);
 }
 
-/// A pass leaves 1 - M_f/(M_f + M_a) of an error in a rigid motion: slender bodies, beside whose filling much moves with them, take
-/// more, and most before there is a prediction.
-int Fluid::passes_of(std::size_t wall, bool answers) const {
+/// A pass leaves 1 - M_f/(M_f + M_a) of an error in a rigid motion: slender bodies, beside whose filling much moves
+/// with them, take more, and most before there is a prediction.
+int GridFlow::passes_of(std::size_t wall, bool answers) const {
   constexpr int at_start = 8, few = 4, slender = 8;
   const auto& m = penalised_[wall].moments();
   if (m.is_inside_out()) return 1;
@@ -100,7 +100,7 @@ int Fluid::passes_of(std::size_t wall, bool answers) const {
   return p.passes > 0 ? p.passes : is_slender ? slender : few;
 }
 
-Status Fluid::begin(double kick, double dt, std::span<const char> answers) {
+Status GridFlow::begin(double kick, double dt, std::span<const char> answers) {
   kick_ = kick;
   dt_ = dt;
   is_begun_ = false;
@@ -141,7 +141,7 @@ Status Fluid::begin(double kick, double dt, std::span<const char> answers) {
   return {};
 }
 
-void Fluid::solve(std::span<const Twist<2>> twists) {
+void GridFlow::solve(std::span<const Twist<2>> twists) {
   trial_twists_.assign(twists.begin(), twists.end());
   trial_twists_.resize(penalised_.size(), Twist<2>::Zero());
   pressure_.clear();
@@ -153,7 +153,7 @@ void Fluid::solve(std::span<const Twist<2>> twists) {
 }
 
 /// Perturbations of the stream, outside of the bodies [J/m].
-double Fluid::kinetic_energy() const {
+double GridFlow::kinetic_energy() const {
   const Vec<2> far = stream(time_);
   const auto& g = spec_.grid;
   const auto row = static_cast<std::size_t>(g.nx + 1);
@@ -180,7 +180,7 @@ double Fluid::kinetic_energy() const {
 }
 
 /// What displaced fluid lacks of potential energy [J/m].
-double Fluid::buoyant_energy() const {
+double GridFlow::buoyant_energy() const {
   double sum = 0;
   for (std::size_t w = 0; w < penalised_.size(); ++w) {
     const auto& m = penalised_[w].moments();
@@ -189,7 +189,7 @@ double Fluid::buoyant_energy() const {
   return sum;
 }
 
-void Fluid::book(double kick) {
+void GridFlow::book(double kick) {
   const Vec<2> far = stream(time_);
   for (std::size_t w = 0; w < loads_.size(); ++w) {
     const Wrench<2> impulse = kick * loads_[w].total();
@@ -200,7 +200,7 @@ void Fluid::book(double kick) {
   ledger_.potential_energy = buoyant_energy() - buoyant_at_start_;
 }
 
-void Fluid::commit(std::span<const Isometry<2>> poses) {
+void GridFlow::commit(std::span<const Isometry<2>> poses) {
   {
     const Stopwatch watch(bodies_seconds_);
     for (std::size_t w = 0; w < penalised_.size(); ++w)
@@ -223,7 +223,7 @@ void Fluid::commit(std::span<const Isometry<2>> poses) {
   place_samples();
 }
 
-std::vector<std::pair<std::string, double>> Fluid::phase_seconds() const {
+std::vector<std::pair<std::string, double>> GridFlow::phase_seconds() const {
   return {{"advection", advection_seconds_}, {"poisson", poisson_seconds_}, {"penalisation", bodies_seconds_}};
 }
 
@@ -241,7 +241,7 @@ void get(std::istream& in, std::span<double> numbers) {
 
 }  // namespace
 
-void Fluid::save(std::ostream& out) const {
+void GridFlow::save(std::ostream& out) const {
   const double numbers[] = {time_,
                             kick_before_,
                             dt_before_,
@@ -259,7 +259,7 @@ void Fluid::save(std::ostream& out) const {
   for (const auto* field : {&omega_, &velocity_.u, &velocity_.v, &before_.u, &before_.v}) put(out, *field);
 }
 
-void Fluid::load(std::istream& in) {
+void GridFlow::load(std::istream& in) {
   double numbers[8];
   get(in, numbers);
   if (!(numbers[0] >= 0 && numbers[1] >= 0 && numbers[2] >= 0 && numbers[3] >= 0 && numbers[3] < 1e15))

@@ -1,11 +1,13 @@
 // A viscous incompressible fluid on a grid, in vorticity (vortex in cell), with rigid bodies inside it by penalisation:
 //
-//   d omega/dt + div(u omega) = nu Laplace omega + curl(f),   u = stream + curl psi,   -Laplace psi = omega,   f = theta (s - u)/dt
+//   d omega/dt + div(u omega) = nu Laplace omega + curl(f),   u = stream + curl psi,   -Laplace psi = omega
+//   f = theta (s - u)/dt
 //
-// A step from t_{n-1/2} to t_{n+1/2} (the structure's clock): half of the last step's f, advection with u in the middle of the step
-// (advection.hpp), the other half, diffusion and one solve for psi (stream_function.hpp), the passes that make bodies rigid where they
-// are at t_{n+1/2} (wall.hpp). Morency & Beaugendre, Model. Simul. Eng. 2018, 9638430; Coquerelle & Cottet, J. Comput. Phys. 227, 2008.
-// Assumed: plane, laminar, no free surface. Second order in the flow, first at sharp bodies. A million squares: 50 ns each, a step.
+// A step from t_{n-1/2} to t_{n+1/2} (the structure's clock): half of the last step's f, advection with u in the
+// middle of the step (advection.hpp), the other half, diffusion and one solve for psi (stream_function.hpp), the
+// passes that make bodies rigid where they are at t_{n+1/2} (wall.hpp). Morency & Beaugendre, Model. Simul. Eng.
+// 2018, 9638430; Coquerelle & Cottet, J. Comput. Phys. 227, 2008. Assumed: plane, laminar, no free surface. Second
+// order in the flow, first at sharp bodies. A million squares: 50 ns each, a step.
 #pragma once
 
 #include <array>
@@ -22,18 +24,20 @@
 
 namespace splashdown::vortex {
 
-class Fluid final : public FluidView<2> {
+/// The flow with its bodies, and how it is looked at.
+class GridFlow final : public FluidView<2> {
  public:
   /// Throws std::invalid_argument, with rule and value, for a grid or walls that it cannot have.
-  explicit Fluid(FluidSpec spec);
+  explicit GridFlow(GridFlowSpec spec);
 
-  const FluidSpec& spec() const { return spec_; }
+  /// What it was made from.
+  const GridFlowSpec& spec() const { return spec_; }
   const NodeField& vorticity() const { return omega_; }  ///< at t_{n-1/2} [1/s]
   double time() const { return time_; }                  ///< t_n [s]
   /// Largest step [s]: no fluid and no hull crosses more than cfl squares, and diffusion stays below a fifth of h^2/nu.
   double stable_dt() const;
-  /// Moves the flow to t_{n+1/2} and makes the passes. `answers`: of each wall, whether the fluid moves it. Refused where particles or
-  /// hulls cross more than a square, or where a hull leaves the grid.
+  /// Moves the flow to t_{n+1/2} and makes the passes. `answers`: of each wall, whether the fluid moves it. Refused
+  /// where particles or hulls cross more than a square, or where a hull leaves the grid.
   Status begin(double kick, double dt, std::span<const char> answers);
   /// Of the begun step, a wall each.
   std::span<const ImpulseLaw> laws() const { return laws_; }
@@ -41,6 +45,7 @@ class Fluid final : public FluidView<2> {
   void solve(std::span<const Twist<2>> twists);
   /// Accepts it. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<2>> poses);
+  /// Seconds spent so far in advection, Poisson's equation and bodies.
   std::vector<std::pair<std::string, double>> phase_seconds() const;
   void save(std::ostream& out) const;  ///< the state at t_n, bit for bit
   void load(std::istream& in);         ///< throws std::runtime_error for other bytes
@@ -55,12 +60,15 @@ class Fluid final : public FluidView<2> {
   std::span<const Facet<2>> boundary() const override { return boundary_; }
   PointPlace place(std::size_t point) const override;
   std::optional<double> drop_volume(std::size_t) const override { return {}; }
-  /// From the momentum equation with what the passes found, when it is asked for: another solve. Zero far away at the grid's top.
+  /// From the momentum equation with what the passes found, when it is asked for: another solve. Zero far away at the
+  /// grid's top.
   std::span<const double> pressure() const override;
   std::span<const double> repair_pressure() const override { return {}; }
   const Ledger& ledger() const override { return ledger_; }
   Vec<2> velocity_n(std::size_t point) const override;
+  /// Bilinear between nodes; nothing in bodies and beyond the grid.
   std::optional<double> pressure_at(const Vec<2>& point) const override;
+  /// Of gravity [J/kg].
   double potential(const Vec<2>& point) const override { return -spec_.gravity.dot(point); }
   std::vector<Diagnostic> diagnostics() const override;
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;
@@ -85,7 +93,7 @@ class Fluid final : public FluidView<2> {
   double node_pressure(const Vec<2>& point) const;
   double filled(const Vec<2>& point) const;
 
-  FluidSpec spec_;
+  GridFlowSpec spec_;
   StreamFunction stream_function_;
   Advection advection_;
   Projections projections_;

@@ -23,7 +23,7 @@ Vec<2> at_node(const Grid& g, const FaceField& f, int i, int j) {
 
 }  // namespace
 
-void Fluid::add_samples() {
+void GridFlow::add_samples() {
   const auto& g = spec_.grid;
   for (int j = 0; j <= g.ny; ++j)
     for (int i = 0; i <= g.nx; ++i) points_.push_back(g.node(i, j));
@@ -56,17 +56,17 @@ void Fluid::add_samples() {
   place_samples();
 }
 
-void Fluid::place_samples() {
+void GridFlow::place_samples() {
   for (std::size_t s = 0; s < samples_.size(); ++s)
     points_[spec_.grid.nodes() + s] = poses_[static_cast<std::size_t>(samples_[s].wall)] * samples_[s].at;
 }
 
-PointPlace Fluid::place(std::size_t point) const {
+PointPlace GridFlow::place(std::size_t point) const {
   const std::size_t nodes = spec_.grid.nodes();
   return {.wall = point < nodes ? -1 : samples_[point - nodes].wall};
 }
 
-Vec<2> Fluid::velocity_n(std::size_t point) const {
+Vec<2> GridFlow::velocity_n(std::size_t point) const {
   const auto& g = spec_.grid;
   const auto mean = [&](const auto& before, const auto& after) {
     return is_begun_ ? velocity_at_t_n(before, after, dt_before_, dt_) : before;
@@ -82,8 +82,9 @@ Vec<2> Fluid::velocity_n(std::size_t point) const {
   return is_begun_ ? mean(before, at_node(g, trial_velocity_, i, j)) : before;
 }
 
-/// Total head by div grad H = div(u x omega + f), then p = rho (H - u^2/2 + ...): the momentum equation's part with divergence.
-void Fluid::solve_pressure() const {
+/// Total head by div grad H = div(u x omega + f), then p = rho (H - u^2/2 + ...): the momentum equation's part with
+/// divergence.
+void GridFlow::solve_pressure() const {
   const auto& g = spec_.grid;
   const auto row = static_cast<std::size_t>(g.nx + 1);
   pressure_.assign(points_.size(), 0.0);
@@ -131,13 +132,13 @@ void Fluid::solve_pressure() const {
   }
 }
 
-std::span<const double> Fluid::pressure() const {
+std::span<const double> GridFlow::pressure() const {
   if (pressure_.empty()) solve_pressure();
   return pressure_;
 }
 
 /// Bilinear between nodes.
-double Fluid::node_pressure(const Vec<2>& point) const {
+double GridFlow::node_pressure(const Vec<2>& point) const {
   const auto& g = spec_.grid;
   const Vec<2> at = (point - g.min) / g.h;
   const int i = std::clamp(static_cast<int>(std::floor(at.x())), 0, g.nx - 1),
@@ -148,7 +149,7 @@ double Fluid::node_pressure(const Vec<2>& point) const {
 }
 
 /// How much of the face nearest to a point bodies cover.
-double Fluid::filled(const Vec<2>& point) const {
+double GridFlow::filled(const Vec<2>& point) const {
   const auto& g = spec_.grid;
   double sum = 0;
   for (const auto& wall : penalised_) {
@@ -161,7 +162,7 @@ double Fluid::filled(const Vec<2>& point) const {
   return sum;
 }
 
-std::optional<double> Fluid::pressure_at(const Vec<2>& point) const {
+std::optional<double> GridFlow::pressure_at(const Vec<2>& point) const {
   const auto& g = spec_.grid;
   if ((point.array() < g.min.array()).any() || (point.array() > g.max().array()).any() || filled(point) > 0.5)
     return {};
@@ -169,7 +170,7 @@ std::optional<double> Fluid::pressure_at(const Vec<2>& point) const {
   return node_pressure(point);
 }
 
-std::vector<Diagnostic> Fluid::diagnostics() const {
+std::vector<Diagnostic> GridFlow::diagnostics() const {
   double circulation = 0, enstrophy = 0;
   for (const double w : omega_) {
     circulation += w;
@@ -179,7 +180,7 @@ std::vector<Diagnostic> Fluid::diagnostics() const {
   return {{"circulation", circulation * cell}, {"enstrophy", enstrophy * cell}};
 }
 
-Eigen::MatrixXd Fluid::added_mass(std::span<const std::size_t> walls) const {
+Eigen::MatrixXd GridFlow::added_mass(std::span<const std::size_t> walls) const {
   const auto count = static_cast<Eigen::Index>(walls.size());
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * count, 3 * count);
   Projections projections;

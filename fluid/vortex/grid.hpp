@@ -1,5 +1,6 @@
-// A uniform Cartesian grid of squares, staggered (Harlow & Welch, Phys. Fluids 8, 1965): stream function and vorticity at nodes,
-// velocities on the faces between them. With u = d psi/dy, v = -d psi/dx by differences across a face,
+// A uniform Cartesian grid of squares, staggered (Harlow & Welch, Phys. Fluids 8, 1965): stream function and
+// vorticity at nodes, velocities on the faces between them. With u = d psi/dy, v = -d psi/dx by differences across a
+// face,
 //
 //   div(u, v) = 0 in each square   and   curl(u, v) = -Laplace_5 psi at each inner node
 //
@@ -34,8 +35,9 @@ struct Grid {
 /// Numbers at the nodes, row by row.
 using NodeField = std::vector<double>;
 
-/// Numbers on faces: u between nodes (i, j) and (i, j+1), (nx+1) x ny of them; v between (i, j) and (i+1, j), nx x (ny+1). Rows of
-/// both are nx+1 long, so that both are indexed like nodes; the last v of a row and the last row of u are not used and zero.
+/// Numbers on faces: u between nodes (i, j) and (i, j+1), (nx+1) x ny of them; v between (i, j) and (i+1, j), nx x
+/// (ny+1). Rows of both are nx+1 long, so that both are indexed like nodes; the last v of a row and the last row of u
+/// are not used and zero.
 struct FaceField {
   std::vector<double> u, v;  ///< along x, along y
   /// All zero.

@@ -1,8 +1,9 @@
-// The fluid on a grid as a part of a coupling: coordinates of wall k are its twist about the wall's reference point, in the world
-// frame, its placement the first two rows of its pose. The structure's walls come first among the fluid's; all others stand still.
+// The fluid on a grid as a part of a coupling: coordinates of wall k are its twist about the wall's reference point,
+// in the world frame, its placement the first two rows of its pose. The structure's walls come first among the
+// fluid's; all others stand still.
 //
-// A begun step answers any twists by a small linear law, I(s) = constant - answer s (penalised/wall.hpp), so that passes of any scheme
-// cost nothing, and the exact term is (M + Z^T answer Z) y = Z^T (constant - answer s_free).
+// A begun step answers any twists by a small linear law, I(s) = constant - answer s (penalised/wall.hpp), so that
+// passes of any scheme cost nothing, and the exact term is (M + Z^T answer Z) y = Z^T (constant - answer s_free).
 #pragma once
 
 #include <memory>
@@ -12,13 +13,13 @@
 
 namespace splashdown::vortex {
 
-/// Fluid behind the seam.
+/// GridFlow behind the seam.
 class Participant final : public coupling::FluidPart, private coupling::Linearised {
  public:
   /// Takes the fluid over; not null.
-  explicit Participant(std::unique_ptr<Fluid> fluid) : fluid_(std::move(fluid)) {}
+  explicit Participant(std::unique_ptr<GridFlow> fluid) : fluid_(std::move(fluid)) {}
   /// The fluid, to be looked at.
-  const Fluid& fluid() const { return *fluid_; }
+  const GridFlow& fluid() const { return *fluid_; }
 
   double time() const override { return fluid_->time(); }
   double stable_dt() const override { return fluid_->stable_dt(); }
@@ -42,7 +43,7 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;
   coupling::Velocities exact(const coupling::Pass& pass) const;
 
-  std::unique_ptr<Fluid> fluid_;
+  std::unique_ptr<GridFlow> fluid_;
   coupling::Step step_;
   coupling::ModalInertia modal_;
   coupling::Solution solution_;

@@ -20,7 +20,8 @@ struct Penalisation {
   int prescribed_passes = 1;        ///< for all others
 };
 
-struct FluidSpec {
+/// Parameters, walls and the state at t = 0.
+struct GridFlowSpec {
   double density = 1000;                 ///< [kg/m^3]
   double viscosity = 0;                  ///< kinematic [m^2/s]
   Grid grid;                             ///< nx and ny multiples of FarField::coarsening

@@ -1,7 +1,7 @@
 // Where a closed outline covers the faces of a grid, and what it encloses.
 //
-// Sharp: a face is inside or not. Smoothed over a width e on either side, with the distance phi to the outline (Peskin's cosine,
-// Acta Numerica 11, 2002, integrated): chi = (1 - phi/e - sin(pi phi/e)/pi)/2 where |phi| < e.
+// Sharp: a face is inside or not. Smoothed over a width e on either side, with the distance phi to the outline
+// (Peskin's cosine, Acta Numerica 11, 2002, integrated): chi = (1 - phi/e - sin(pi phi/e)/pi)/2 where |phi| < e.
 #pragma once
 
 #include <vector>
@@ -19,6 +19,7 @@ struct OutlineMoments {
   double length = 0;                               ///< of the outline [m]
   bool is_inside_out() const { return area < 0; }  ///< solid outside, as a tank is
 };
+/// Exact for polygons.
 OutlineMoments moments_of(const Surface<2>& outline);
 
 /// A rectangle of nodes (i0 + i, j0 + j), 0 <= i < width, 0 <= j < height, and of the faces between them.
@@ -29,13 +30,16 @@ struct FaceBox {
   std::size_t at(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
   }
+  /// The same nodes.
   bool operator==(const FaceBox&) const = default;
 };
 
-/// The box around an outline at a pose with `margin` nodes on each side, its sizes multiples of eight; it may reach out of the grid.
+/// The box around an outline at a pose with `margin` nodes on each side, its sizes multiples of eight; it may reach
+/// out of the grid.
 FaceBox box_around(const Grid& grid, const Surface<2>& outline, const Isometry<2>& pose, double width, int margin);
 
-/// chi on the faces of a box, by indices of the box. `width`: of the smoothing [m], 0: sharp. `inside_out`: of what lies outside.
+/// chi on the faces of a box, by indices of the box. `width`: of the smoothing [m], 0: sharp. `inside_out`: of what
+/// lies outside.
 void cover(const Grid& grid, const FaceBox& box, const Surface<2>& outline, const Isometry<2>& pose, double width,
            bool inside_out, FaceField& chi);
 

@@ -187,7 +187,8 @@ ImpulseLaw PenalisedWall::law(double density, double kick, double ratio, const V
     law.answer.col(m) = density * impulse_of(answer, about);
   }
   law.answer = (0.5 * (law.answer + law.answer.transpose())).eval();
-  // The fluid that fills it moves with it, and is no part of the body: its inertia as the grid sums it, its weight as it is.
+  // The fluid that fills it moves with it, and is no part of the body: its inertia as the grid sums it, its weight as
+  // it is.
   Eigen::Matrix3d inside = Eigen::Matrix3d::Zero();
   visit(chi_, [&](std::size_t k, const Vec<2>& u, const Vec<2>& v) {
     const Eigen::Vector3d nu(1, 0, about.y() - u.y()), nv(0, 1, v.x() - about.x());

@@ -1,10 +1,12 @@
-// A rigid wall inside the fluid: what it covers, the passes that make the fluid in it rigid, and what they cost in impulse.
+// A rigid wall inside the fluid: what it covers, the passes that make the fluid in it rigid, and what they cost in
+// impulse.
 //
 //   f_k = -theta (u_k - N s),   u_{k+1} = u_k + P f_k,   f = sum f_k = f_0 + F s,   J = -rho int N^T f
 //
-// theta = chi, or lambda dt chi/(1 + lambda dt) with a finite rate (Angot, Bruneau & Fabrie, Numer. Math. 81, 1999). f is linear in the
-// twist s, so that one set of passes with the fluid's velocity and one for each of three twists answers every s. With the last step's f
-// as a prediction (half before the flow moves, half after, carried along with the body) few passes are enough.
+// theta = chi, or lambda dt chi/(1 + lambda dt) with a finite rate (Angot, Bruneau & Fabrie, Numer. Math. 81, 1999).
+// f is linear in the twist s, so that one set of passes with the fluid's velocity and one for each of three twists
+// answers every s. With the last step's f as a prediction (half before the flow moves, half after, carried along with
+// the body) few passes are enough.
 #pragma once
 
 #include <array>
@@ -22,6 +24,7 @@ namespace splashdown::vortex {
 /// Projections of boxes of all sizes that have been asked for.
 class Projections {
  public:
+  /// That of a box of so many nodes.
   BoxProjection& of(int width, int height);
 
  private:
@@ -40,8 +43,10 @@ struct ImpulseLaw {
   Eigen::Matrix3d answer = Eigen::Matrix3d::Zero();  ///< symmetric: added mass as far as the passes see it
 };
 
+/// One wall: its cover, its forces of the last step and the passes of the one under way.
 class PenalisedWall {
  public:
+  /// `smoothing`: half width of chi's ramp, in squares; `stream`: velocity of the fluid inside at t = 0 [m/s].
   PenalisedWall(const Grid& grid, const WallSpec<2>& spec, double smoothing, const Vec<2>& stream);
 
   /// Adds half of the last step's forces to the vorticity, for a step that is `ratio` times as long.
@@ -56,20 +61,24 @@ class PenalisedWall {
   ImpulseLaw law(double density, double kick, double ratio, const Vec<2>& gravity) const;
   /// Added mass by conjugate gradients to 1e-6: theta P theta f = theta N a.
   Eigen::Matrix3d added_mass(double density, Projections& projections) const;
-  /// Forces of the step under way per kick [m/s^2], for a twist that it ends with: those of the passes and their prediction.
+  /// Forces of the step under way per kick [m/s^2], for a twist that it ends with: those of the passes and their
+  /// prediction.
   void add_forces(const Twist<2>& twist, double kick, double ratio, FaceField& forces) const;
-  /// The step ends with this twist: the vorticity gets curl f. `predicts`: f is a prediction of the next step's, which that of an
-  /// impact is not.
+  /// The step ends with this twist: the vorticity gets curl f. `predicts`: f is a prediction of the next step's,
+  /// which that of an impact is not.
   void settle(const Twist<2>& twist, NodeField& omega, bool predicts);
   /// Where both cover more than a whole face, each gets its share.
   void divide_with(PenalisedWall& other);
 
+  /// Of its outline, in its own frame.
   const OutlineMoments& moments() const { return moments_; }
   /// What it covers in the step under way.
   const BoxField& chi() const { return chi_; }
   /// Twist of the fluid inside at t_{n-1/2}.
   const Twist<2>& filling() const { return filling_; }
+  /// Writes the state at t_n, bit for bit.
   void save(std::ostream& out) const;
+  /// Reads it; std::runtime_error for what does not fit the grid.
   void load(std::istream& in);
 
  private:

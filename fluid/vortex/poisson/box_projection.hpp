@@ -1,5 +1,5 @@
-// The part without divergence of a field of forces in a box, in a plane without end: P f = curl psi, -Laplace_5 psi = curl f. With the
-// lattice's fundamental solution P is a projector to roundoff, P P = P, and symmetric.
+// The part without divergence of a field of forces in a box, in a plane without end: P f = curl psi, -Laplace_5 psi =
+// curl f. With the lattice's fundamental solution P is a projector to roundoff, P P = P, and symmetric.
 #pragma once
 
 #include <vector>
@@ -8,6 +8,7 @@
 
 namespace splashdown::vortex {
 
+/// P on a box of one size.
 class BoxProjection {
  public:
   BoxProjection(int width, int height);  ///< nodes of the box

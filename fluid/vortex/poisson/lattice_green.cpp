@@ -17,7 +17,8 @@ struct Rule {
   std::vector<double> points, weights;  // on [0, pi]
 };
 
-/// Gauss-Legendre by the eigenvalues of Jacobi's matrix (Golub & Welsch 1969). The integrand turns at most near/2 times.
+/// Gauss-Legendre by the eigenvalues of Jacobi's matrix (Golub & Welsch 1969). The integrand turns at most near/2
+/// times.
 Rule gauss() {
   constexpr int n = 96;
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n), side(n - 1);

@@ -2,7 +2,8 @@
 //
 //   G(m, n) = -1/(2 pi) int_0^pi (1 - e^{-|m| s} cos(n b)) / sinh s  db,   cosh s = 2 - cos b,   G(0, 0) = 0
 //
-// by Gauss's rule near the origin, beyond by the series of Martinsson & Rodin (Proc. R. Soc. A 458, 2002, eq. 2.6). Accuracy 1e-10.
+// by Gauss's rule near the origin, beyond by the series of Martinsson & Rodin (Proc. R. Soc. A 458, 2002, eq. 2.6).
+// Accuracy 1e-10.
 #pragma once
 
 namespace splashdown::vortex {

@@ -1,6 +1,6 @@
-// The discrete sine transform of the inner nodes of a rectangle (DST-I, its own inverse up to 4 nx ny): it makes the five-point
-// Laplacian with zero on the sides diagonal. Rows and blocks of columns are transformed one by one, on all threads; the result does not
-// depend on their number.
+// The discrete sine transform of the inner nodes of a rectangle (DST-I, its own inverse up to 4 nx ny): it makes the
+// five-point Laplacian with zero on the sides diagonal. Rows and blocks of columns are transformed one by one, on all
+// threads; the result does not depend on their number.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,9 @@ class SineTransform {
  public:
   SineTransform(int nx, int ny);  ///< squares in each direction: (nx - 1) (ny - 1) inner nodes
   ~SineTransform();
+  /// Takes plans and work space over.
   SineTransform(SineTransform&&) noexcept;
+  /// The same.
   SineTransform& operator=(SineTransform&&) noexcept;
 
   int pitch() const;  ///< distance of rows in `data`

@@ -2,8 +2,8 @@
 //
 //   omega <- exp(nu dt L) omega,   -Laplace_5 psi = omega,   psi given on the sides
 //
-// L is the five-point Laplacian, or of fourth order its twin with -(h^2/12) (d_x^4 + d_y^4); vorticity on the sides is zero.
-// Sides of a plane without end: far_field.hpp. Sides that nothing passes but the stream: psi = 0.
+// L is the five-point Laplacian, or of fourth order its twin with -(h^2/12) (d_x^4 + d_y^4); vorticity on the sides
+// is zero. Sides of a plane without end: far_field.hpp. Sides that nothing passes but the stream: psi = 0.
 #pragma once
 
 #include <optional>
@@ -21,6 +21,7 @@ enum class SideKind {
   slip   ///< only the stream passes, without friction
 };
 
+/// Solver for one grid.
 class StreamFunction {
  public:
   /// `order`: of diffusion, 2 or 4.

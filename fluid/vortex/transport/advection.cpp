@@ -8,8 +8,9 @@
 namespace splashdown::vortex {
 namespace {
 
-/// What nodes -reach ... reach from a particle get of it, by how far it has moved, at most a square either way: M'4, M'6 as polynomials of
-/// its way ahead and its way back (kernels.hpp), one of which is zero. Each is zero with its way, so that sums need no branch.
+/// What nodes -reach ... reach from a particle get of it, by how far it has moved, at most a square either way: M'4,
+/// M'6 as polynomials of its way ahead and its way back (kernels.hpp), one of which is zero. Each is zero with its
+/// way, so that sums need no branch.
 template <int reach>
 struct Shares;
 

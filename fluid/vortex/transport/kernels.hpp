@@ -1,5 +1,5 @@
-// Kernels that give particles back to a grid. The sums of their values over integers is one for any shift, so that circulation is kept
-// to roundoff, and so are moments below the order.
+// Kernels that give particles back to a grid. The sums of their values over integers is one for any shift, so that
+// circulation is kept to roundoff, and so are moments below the order.
 #pragma once
 
 #include <cmath>

@@ -27,8 +27,8 @@ struct FreeBody {
   int passes = 0;
   Vec<2> offset = Vec<2>::Zero();  // of the centre of mass from the centroid
 
-  FluidSpec fluid() const {
-    FluidSpec spec;
+  GridFlowSpec fluid() const {
+    GridFlowSpec spec;
     spec.density = 1;
     spec.viscosity = 1 / reynolds;
     spec.grid = square_grid(4 * static_cast<int>(std::lround(half / (2 * h))), half);
@@ -68,7 +68,7 @@ struct FreeBody {
 
 /// Both parts and their stepper.
 struct Coupled {
-  const Fluid* fluid;
+  const GridFlow* fluid;
   const rigid::Bodies<2>* bodies;
   std::unique_ptr<coupling::Coupled> stepper;
 
@@ -84,7 +84,7 @@ struct Coupled {
 inline Coupled coupled(const FreeBody& scene, std::unique_ptr<coupling::Accelerator> accelerator = nullptr,
                        coupling::CouplingLimits limits = {}) {
   Coupled made;
-  auto fluid = std::make_unique<Participant>(std::make_unique<Fluid>(scene.fluid()));
+  auto fluid = std::make_unique<Participant>(std::make_unique<GridFlow>(scene.fluid()));
   std::vector<std::unique_ptr<rigid::Force<2>>> forces;
   forces.push_back(std::make_unique<rigid::Gravity<2>>(Vec<2>(0, -g)));
   auto bodies = std::make_unique<rigid::Participant<2>>(

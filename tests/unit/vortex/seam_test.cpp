@@ -81,7 +81,7 @@ TEST(VortexSeam, results_do_not_depend_on_threads) {
 
 // Until it is released a body has coordinates, and no modes.
 TEST(VortexSeam, a_body_that_is_held_has_no_modes) {
-  Participant fluid(std::make_unique<Fluid>(FreeBody{.h = 1. / 16, .half = 1.5}.fluid()));
+  Participant fluid(std::make_unique<GridFlow>(FreeBody{.h = 1. / 16, .half = 1.5}.fluid()));
   coupling::InterfaceModel model;
   model.modal.modes.resize(3, 0);
   model.modal.inertia.resize(0, 0);
@@ -94,7 +94,7 @@ TEST(VortexSeam, a_body_that_is_held_has_no_modes) {
 }
 
 TEST(VortexSeam, refuses_walls_and_operators_that_it_does_not_know) {
-  Participant fluid(std::make_unique<Fluid>(FreeBody{}.fluid()));
+  Participant fluid(std::make_unique<GridFlow>(FreeBody{}.fluid()));
   coupling::InterfaceModel model;
   model.interface_operators = {{.laplacian = 1, .robin = 0}};
   EXPECT_THROW(fluid.begin({0.01, 0.02}, model), std::invalid_argument);

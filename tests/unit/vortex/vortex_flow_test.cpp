@@ -11,8 +11,8 @@ namespace {
 using scenes::LambOseen;
 
 /// A fluid without walls, stepped with constant dt to a time, the first step half as long as leapfrog has it.
-Fluid after(FluidSpec spec, double end, int steps) {
-  Fluid fluid(std::move(spec));
+GridFlow after(GridFlowSpec spec, double end, int steps) {
+  GridFlow fluid(std::move(spec));
   double before = 0;
   for (int k = 0; k < steps; ++k) {
     const double dt = end / steps;
@@ -28,7 +28,7 @@ constexpr double core = 0.12, end = 0.2, nu = 2e-3;
 
 /// Largest error of the velocity of a vortex of circulation 1 that has diffused; n squares across.
 double error_of_vortex(int n, Remeshing kernel, int order, const Vec<2>& stream) {
-  FluidSpec spec;
+  GridFlowSpec spec;
   spec.density = 1;
   spec.viscosity = nu;
   spec.grid = scenes::square_grid(n);
@@ -62,7 +62,7 @@ TEST(VortexFlow, a_vortex_diffuses_and_drifts_with_second_order) {
 // Taylor & Green 1937 between walls without friction: vorticity is a function of psi, convection does nothing.
 TEST(VortexFlow, taylor_and_greens_cells_decay) {
   const int n = 64;
-  FluidSpec spec;
+  GridFlowSpec spec;
   spec.density = 1;
   spec.viscosity = 5e-3;
   spec.grid = {.min = {0, 0}, .h = 1. / n, .nx = n, .ny = n};
@@ -81,7 +81,7 @@ TEST(VortexFlow, taylor_and_greens_cells_decay) {
 
 /// Two Gaussian vortices of opposite sense: their impulse is kept where no wall is near, their pair moves at about Gamma/(2 pi b).
 TEST(VortexFlow, a_pair_moves_at_its_own_speed_and_keeps_its_impulse) {
-  FluidSpec spec;
+  GridFlowSpec spec;
   spec.density = 1;
   spec.viscosity = 0;
   spec.grid = scenes::square_grid(160);
@@ -90,7 +90,7 @@ TEST(VortexFlow, a_pair_moves_at_its_own_speed_and_keeps_its_impulse) {
   spec.vorticity = scenes::sampled(spec.grid, [&](const Vec<2>& x) {
     return one.omega(x - Vec<2>(-0.3, b / 2)) - one.omega(x - Vec<2>(-0.3, -b / 2));
   });
-  const auto moments = [&](const Fluid& fluid) {  // impulse along x; place of the pair
+  const auto moments = [&](const GridFlow& fluid) {  // impulse along x; place of the pair
     double impulse = 0, upper = 0, place = 0;
     const auto& g = spec.grid;
     for (std::size_t k = 0; k < g.nodes(); ++k) {
@@ -103,7 +103,7 @@ TEST(VortexFlow, a_pair_moves_at_its_own_speed_and_keeps_its_impulse) {
   };
   const int steps = 200;
   const double time = 2;
-  const auto begin = moments(Fluid(spec)), last = moments(after(spec, time, steps));
+  const auto begin = moments(GridFlow(spec)), last = moments(after(spec, time, steps));
   // The kernel keeps second moments; what paths add to an impulse is of second order, a hundredth of h^2 a step.
   EXPECT_NEAR(last.first, begin.first, 2e-3 * begin.first);
   const double moved = time - 0.5 * time / steps, speed = gamma / (2 * std::numbers::pi * b);
@@ -112,7 +112,7 @@ TEST(VortexFlow, a_pair_moves_at_its_own_speed_and_keeps_its_impulse) {
 }
 
 TEST(VortexFlow, goes_on_from_what_was_saved_with_the_same_bits) {
-  FluidSpec spec;
+  GridFlowSpec spec;
   spec.density = 1;
   spec.viscosity = 1e-3;
   spec.grid = scenes::square_grid(64);
@@ -121,18 +121,18 @@ TEST(VortexFlow, goes_on_from_what_was_saved_with_the_same_bits) {
   wall.name = "cylinder";
   wall.surface = scenes::circle(0.2, 60);
   spec.walls = {wall};
-  const auto saved = [](const Fluid& fluid) {
+  const auto saved = [](const GridFlow& fluid) {
     std::ostringstream out;
     fluid.save(out);
     return out.str();
   };
-  const auto step = [](Fluid& fluid, double before) {
+  const auto step = [](GridFlow& fluid, double before) {
     EXPECT_EQ(fluid.begin(0.5 * (before + 0.01), 0.01, {}).cause, "");
     fluid.solve({});
     const Isometry<2> pose = fluid.wall_poses()[0];
     fluid.commit({&pose, 1});
   };
-  Fluid straight(spec), resumed(spec);
+  GridFlow straight(spec), resumed(spec);
   for (int k = 0; k < 5; ++k) step(straight, k == 0 ? 0 : 0.01);
   const auto state = saved(straight);
   std::istringstream in(state);
