@@ -263,7 +263,7 @@ class Adapter {
       if (wall >= 0 && a.wall == wall && b.wall == wall) tie.wall = wall;
       if (walls == 0 || wall != only) only = wall, ++walls;
     });
-    if (tie.wall < 0 && walls == 1) tie.wall = only;
+    if (tie.wall < 0 && walls == 1 && a.wall >= 0 && b.wall >= 0) tie.wall = only;  // between nodes of two walls
     if (tie.wall < 0 && lies_in_mirror(e)) tie.wall = tank_in_mirror(e);
     if (tie.wall >= 0 && a.sharp() && b.sharp()) {
       constexpr double along = 0.1;  // distance of the edge's middle from a crease that it follows, over its length
