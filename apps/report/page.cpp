@@ -52,7 +52,7 @@ figcaption{color:var(--soft);font-size:14px;margin-top:8px}
 figcaption b{color:var(--ink)}
 .heat td{background:color-mix(in srgb,var(--heat) var(--s,0%),var(--paper));text-align:center}.heat td a{color:var(--ink);text-decoration:none}.heat td a:hover{text-decoration:underline}
 .heat td.none{color:var(--bad);background:var(--ground)}.heat figcaption{margin:0 0 8px}.heat tbody th{color:var(--soft);font-weight:600}
-.bars td{text-align:left}.bars td.length{background:linear-gradient(90deg,color-mix(in srgb,var(--heat) 45%,var(--paper)) var(--s),transparent var(--s))}
+.bars td{text-align:left}.bars td.length{background:linear-gradient(90deg,color-mix(in srgb,var(--heat) 45%,var(--paper)) calc(.92*var(--s)),transparent calc(.92*var(--s)))}
 .bars td.spot{background:linear-gradient(90deg,transparent calc(var(--s) - 4px),var(--heat) calc(var(--s) - 4px),var(--heat) calc(var(--s) + 4px),transparent calc(var(--s) + 4px))}
 .bars td.none{color:var(--bad)}.bars td span{background:color-mix(in srgb,var(--paper) 70%,transparent);border-radius:4px;padding:1px 4px}
 .scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:8px}

@@ -198,7 +198,7 @@ std::string study_bars(const fs::path& directory, const Json& study) {
     }
     rows += "</tr>\n";
   }
-  return "<h2>Side by side</h2>\n<div class=\"scroll\"><table class=\"bars\"><thead><tr>" + head +
+  return "<h2>Compared</h2>\n<div class=\"scroll\"><table class=\"bars\"><thead><tr>" + head +
          "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
