@@ -25,7 +25,9 @@ scenes::Watched<2> jet(const Way& way, double elements, double speed) {
   fluid::FluidSpec<2> spec;
   spec.size = {.surface = width / elements, .far = width / elements};
   spec.step.dt_max = 0.3 * width / elements / speed;
-  spec.walls.push_back({.name = "plate", .surface = fluid::scenes::rectangle({-5 * width, -width}, {5 * width, 0})});
+  spec.walls.push_back({.name = "plate",
+                        .surface = fluid::scenes::rectangle({-20 * width, -width}, {20 * width, 0}),
+                        .size = width / elements});
   spec.liquids.push_back({fluid::scenes::rectangle({-0.5 * width, 0}, {0.5 * width, 5 * width}),
                           [speed](const auto&) { return Vec(0, -speed); }});
   return scenes::Watched<2>(

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "fluid/pfem/linear/generalised_conjugate_residual.hpp"
 #include "fluid/pfem/parallel.hpp"
 
 namespace splashdown::fluid {
@@ -186,6 +187,39 @@ TEST(LinearSolver, solves_nothing_before_it_has_a_factor) {
   LinearSolver solver;
   std::vector<double> b(3, 1.0);
   EXPECT_FALSE(solver.solve(b));
+}
+
+// A residual and what a preconditioner makes of it.
+struct Left {
+  Eigen::VectorXd residual, step;
+  double dot(const Left& other) const { return residual.dot(other.step); }
+  void add(double share, const Left& other) { residual += share * other.residual, step += share * other.step; }
+};
+
+// In exact arithmetic as many steps as the preconditioned operator has eigenvalues, twenty at most. To 1e-10 in the norm of the
+// inverse; the condition of its square root is below 1e2.
+TEST(GeneralisedConjugateResidual, solves_what_is_not_symmetric_in_as_many_steps_as_it_has_rows) {
+  const int n = 20;
+  const Eigen::MatrixXd A = laplacian(n, 1), turn = Eigen::MatrixXd::Random(n, n);
+  const Eigen::MatrixXd J = A + 0.5 * (turn - turn.transpose());
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(n);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(A);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  const auto left_by = [&](const Eigen::VectorXd& at) -> Left {
+    const Eigen::VectorXd r = b - J * at;
+    return {r, factor.solve(r)};
+  };
+  GeneralisedConjugateResidual<Left> iteration(left_by(x));
+  const double first = iteration.size(), enough = 1e-20 * first;
+  double before = first;
+  for (int k = 0; k < n && iteration.size() > enough; ++k) {
+    iteration.step(left_by(x + iteration.left().step));
+    x += iteration.last().step;
+    EXPECT_LE(iteration.size(), (1 + 1e-9) * before);
+    before = iteration.size();
+  }
+  EXPECT_LE(iteration.size(), enough);
+  EXPECT_LE((b - J * x).norm(), 1e-8 * b.norm());
 }
 
 }  // namespace

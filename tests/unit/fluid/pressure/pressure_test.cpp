@@ -30,6 +30,32 @@ TYPED_TEST(Pressure, hydrostatic_pressure_is_linear_and_stops_the_fall) {
   for (const auto& u : v) EXPECT_LE(u.norm(), 1e4 * eps * g * kick);
 }
 
+// PSPG compares the gradient of a pressure in the elements with what it does at the nodes: for a linear one they are the same.
+// What it does to others moves volume from node to node: no sum of it where all nodes of the surface have an unknown.
+TYPED_TEST(Pressure, stabilisation_leaves_a_linear_pressure_alone_and_makes_no_volume) {
+  constexpr int d = TypeParam::value;
+  Problem<d> p;
+  p.equation = PressureEquation<d>(SurfaceUnknowns::all);
+  ASSERT_TRUE(p.build());
+  ASSERT_EQ(p.equation.size(), static_cast<int>(p.cube.nodes.size()));
+  const std::vector<double> theta(p.cube.mesh.cells.size(), 0.5);
+  const auto left = [&](const std::vector<double>& phi) {
+    std::vector<Vec<d>> change(p.cube.nodes.size(), Vec<d>::Zero());
+    p.equation.accelerate(phi, change);
+    std::vector<double> r(phi.size(), 0.0);
+    p.equation.stabilise(phi, change, theta, r);
+    return r;
+  };
+  std::vector<double> linear(p.cube.nodes.size());
+  for (std::size_t i = 0; i < linear.size(); ++i)
+    linear[p.equation.unknown()[i]] = density * (1 - p.cube.nodes.x[i][d - 1]);
+  for (const double r : left(linear)) EXPECT_NEAR(r, 0, 1e3 * eps);
+  const auto any = left(p.any_phi());
+  const double scale = eigen(any).template lpNorm<1>();
+  EXPECT_NEAR(scenes::sum(any), 0, 1e3 * eps * scale);
+  EXPECT_GT(scale, 0);
+}
+
 TYPED_TEST(Pressure, a_column_lifted_by_its_walls_weighs_more) {
   constexpr int d = TypeParam::value;
   Problem<d> p;
