@@ -36,6 +36,8 @@ struct SunkenBox {
     fluid.made = {{"box", box.hull, pose}};
     fluid.poses = {pose};
     fluid.x = box.x;
+    fluid.v.assign(box.x.size(), Vec<d>::Zero());
+    fluid.places.assign(box.x.size(), {});
     fluid.p = box.p;
     fluid.facets = box.boundary;
     BodySpec<d> body;
