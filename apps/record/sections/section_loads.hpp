@@ -8,7 +8,7 @@
 // smoothing of the pressure that is told) is spread evenly over the wet facets, so that the whole is the load of the body.
 // Ahead of the body F and M are zero. Behind it they are minus what else acts on the body: joints, lines, contacts, air, whoever holds it;
 // and in M the change of w with moments of inertia that are not those of the mass that is spread (section_mass.hpp).
-// Signs of shear and bending: IACS Common Structural Rules for Bulk Carriers and Oil Tankers, Part 1, Chapter 4, Section 1.
+// Bending is positive where it hogs, as in the rules of ship classification.
 #pragma once
 
 #include <Eigen/Core>
