@@ -76,6 +76,10 @@ std::optional<Immersion> balanced(const InclinedHull<d>& hull, double volume, do
 /// Turns by a slope: a point at the horizontal distance p rises by slope . p. In space about ez x slope.
 template <int d>
 Mat<d> tilt(const Slope<d>& slope);
+template <>
+Mat<2> tilt<2>(const Slope<2>& slope);
+template <>
+Mat<3> tilt<3>(const Slope<3>& slope);
 
 /// What describes a hull that floats like this.
 template <int d>

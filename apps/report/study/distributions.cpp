@@ -70,7 +70,7 @@ struct Column {
 std::string histogram(const Column& column) {
   auto sorted = column.values;
   std::ranges::sort(sorted);
-  const auto [low, high] = column.range();
+  const double low = sorted.front(), high = sorted.back();
   const double half = sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4];
   const double width = 2 * half / std::cbrt(static_cast<double>(sorted.size()));
   const auto classes = static_cast<std::size_t>(width > 0 ? std::clamp(std::ceil((high - low) / width), 1., 60.) : 1);
