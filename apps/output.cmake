@@ -8,7 +8,7 @@ find_package(ZLIB REQUIRED)
 find_package(pugixml REQUIRED)
 
 set(output_sources
-  text/number_text.cpp text/shell.cpp files/csv.cpp files/run_files.cpp
+  text/number_text.cpp files/csv.cpp files/run_files.cpp
   record/hulls.cpp record/passes.cpp record/points.cpp record/probes.cpp record/recorder.cpp record/view.cpp
   record/frames/base64.cpp record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu.cpp record/frames/vtu_blocks.cpp record/frames/vtu_grid.cpp
   record/sections/section_loads.cpp record/sections/section_mass.cpp

@@ -8,7 +8,7 @@
 #include "apps/process/child_process.hpp"
 #include "apps/process/interrupt.hpp"
 #include "apps/study/run.hpp"
-#include "apps/text/shell.hpp"
+#include "apps/text/shell_word.hpp"
 
 namespace splashdown::apps {
 
@@ -19,7 +19,7 @@ std::string parallel_commands(const Study& study, const std::vector<StudyRun>& r
   std::string lines;
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (!outcomes[i].finished())
-      lines += "cd " + shell_word(fs::current_path().string()) + " && " +
+      lines += "cd " + shell_quoted(fs::current_path().string()) + " && " +
                shell_line(command_of(study, runs[i], folder / runs[i].name)) + "\n";
   return lines;
 }

@@ -13,7 +13,7 @@
 #include "apps/process/child_process.hpp"
 #include "apps/study/run.hpp"
 #include "apps/text/plain_text.hpp"
-#include "apps/text/shell.hpp"
+#include "apps/text/shell_word.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -53,17 +53,18 @@ std::vector<std::string> slurm_scripts(const Study& study, const std::vector<Stu
       const auto& run = runs[waiting[first + k]];
       commands += fmt::format("  {}) exec {} ;;\n", k, shell_line(command_of(study, run, folder / run.name)));
     }
-    scripts.push_back(fmt::format(
-        "#!/bin/bash\n"
-        "# Runs of {}: one task each. A task that is submitted again continues from its checkpoint.\n"
-        "#SBATCH --job-name=splashdown\n"
-        "#SBATCH --array=0-{}%{}\n"
-        "#SBATCH --ntasks=1 --cpus-per-task=1\n"
-        "#SBATCH --signal=B:TERM@60\n"
-        "#SBATCH --requeue\n"
-        "cd {} || exit 2\n"
-        "case $SLURM_ARRAY_TASK_ID in\n{}esac\n",
-        one_line(study.file.string()), count - 1, limits.at_a_time, shell_word(fs::current_path().string()), commands));
+    scripts.push_back(
+        fmt::format("#!/bin/bash\n"
+                    "# Runs of {}: one task each. A task that is submitted again continues from its checkpoint.\n"
+                    "#SBATCH --job-name=splashdown\n"
+                    "#SBATCH --array=0-{}%{}\n"
+                    "#SBATCH --ntasks=1 --cpus-per-task=1\n"
+                    "#SBATCH --signal=B:TERM@60\n"
+                    "#SBATCH --requeue\n"
+                    "cd {} || exit 2\n"
+                    "case $SLURM_ARRAY_TASK_ID in\n{}esac\n",
+                    one_line(study.file.string()), count - 1, limits.at_a_time,
+                    shell_quoted(fs::current_path().string()), commands));
   }
   return scripts;
 }
@@ -100,7 +101,7 @@ std::string submit(const Study& study, const std::vector<std::string>& scripts, 
   const auto last =
       sbatch({"--job-name=splashdown-collect", fmt::format("--dependency=afterany:{}", fmt::join(arrays, ":")),
               "--output=" + (folder / "collect.log").string(), "--wrap",
-              "cd " + shell_word(fs::current_path().string()) + " && " + gather},
+              "cd " + shell_quoted(fs::current_path().string()) + " && " + gather},
              folder);
   if (arrays.size() == 1) return fmt::format("job array {} is submitted, job {} gathers its results", arrays[0], last);
   return fmt::format("job arrays {} are submitted, one after the other; job {} gathers their results",
