@@ -137,20 +137,21 @@ void about_fit(const PreparedScene<d>& prepared, Questions& list) {
   }
 }
 
-/// As for bodies: at a twentieth of the speed of sound water is no longer incompressible where it hits.
+/// As for bodies: at a twentieth of the speed of sound water is no longer incompressible where it hits. Without gravity speed is a mere
+/// unit of time, and a slip of it changes nothing but that: then, as in bird strikes, only what comes near to sound is asked about.
 template <int d>
 void about_speed_of_liquid(const PreparedScene<d>& prepared, Questions& list) {
-  const double fastest = 1480. / 20;
+  const bool falls = prepared.scene.gravity.has_value();
+  const double fastest = 1480. / (falls ? 20 : 3);
   for (std::size_t i = 0; i < prepared.scene.fluid->regions.size(); ++i) {
     const auto& region = prepared.scene.fluid->regions[i];
     const double reach = extents<d>(outline<d>(region)).sizes().norm() / 2;
     const double speed = region.velocity.norm(), sheared = region.velocity_gradient.norm() * reach;
     const double most = std::max(speed, sheared / std::sqrt(2.));
     if (most > 2 * fastest || speed > fastest)
-      list.push_back(
-          fmt::format("fluid.region[{}].{}: {:.3g} m/s is above a twentieth of the speed of sound in water: did you "
-                      "mean {:.3g}?",
-                      i, speed > fastest ? "velocity" : "velocity_gradient", most, most / 1000));
+      list.push_back(fmt::format(
+          "fluid.region[{}].{}: {:.3g} m/s is above a {} of the speed of sound in water: did you mean {:.3g}?", i,
+          speed > fastest ? "velocity" : "velocity_gradient", most, falls ? "twentieth" : "third", most / 1000));
   }
 }
 

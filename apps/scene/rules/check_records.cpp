@@ -108,7 +108,8 @@ class RecordChecker {
 
  private:
   void needs_fluid() {
-    if (!scene_.has_fluid()) problems_.add(label_ + ".kind", "needs a [fluid]", "Add one or remove the record.");
+    if (!scene_.has_fluid() && !problems_.found_in("fluid.formulation"))
+      problems_.add(label_ + ".kind", "needs a [fluid]", "Add one or remove the record.");
   }
   void unique(const std::string& name) {
     if (!name.empty() && !names_.insert(name).second)

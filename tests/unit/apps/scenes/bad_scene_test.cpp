@@ -219,7 +219,7 @@ const std::vector<Mistake> scenes = {
     {"scheme_unknown", "[output]", "[coupling]\nscheme = \"iterate\"\n[output]", 27, "coupling.scheme = \"iterate\"",
      "Did you mean 'iterated'?"},
     {"formulation_unknown", "density = 1000", "density = 1000\nformulation = \"euler\"", 11,
-     "fluid.formulation = \"euler\"", "'fractional' or 'monolithic'"},
+     "fluid.formulation = \"euler\"", "'fractional', 'monolithic' or 'vortex'"},
     {"table_of_another_formulation", "[fluid.size]", "[fluid.monolithic]\ntolerance = 1e-8\n[fluid.size]", 11,
      "fluid.monolithic", "belongs to formulation = \"monolithic\""},
     {"convective_without_speed", "density = 1000",
