@@ -5,6 +5,7 @@
 #include "apps/files/csv.hpp"
 #include "apps/study/campaign/results.hpp"
 #include "apps/text/number_text.hpp"
+#include "apps/text/plain_text.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -119,7 +120,7 @@ Json json_of_effects(const Campaign& campaign) {
 /// With a space before it; empty for pure numbers.
 std::string unit_of(const Study& study, const std::string& quantity) {
   const auto found = std::ranges::find(study.quantities, quantity, &StudyQuantity::name);
-  return found == study.quantities.end() || found->unit == "-" ? "" : " " + found->unit;
+  return found == study.quantities.end() || found->unit == "-" ? "" : " " + one_line(found->unit);
 }
 
 std::string resolution_text(int resolution) {

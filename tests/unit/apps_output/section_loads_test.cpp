@@ -190,6 +190,7 @@ TEST(SectionLoads, are_written_in_the_frame_of_the_shape_and_their_largest_are_k
   settings.directory = folder.path();
   auto record = box.record(0, {{100, {0.3, 0}}, {100, {-0.3, 0}}});
   record.centre = 2;
+  record.every = 0;
   settings.sections = {record};
   Recorder<2> recorder(settings);
   recorder.record(box.input);
@@ -201,7 +202,7 @@ TEST(SectionLoads, are_written_in_the_frame_of_the_shape_and_their_largest_are_k
   double largest = 0;
   for (const auto& load : section_loads<2>(record, box.input)) largest = std::max(largest, std::abs(load.shear));
   EXPECT_EQ(std::abs(kept.shear.value), largest);
-  EXPECT_LT(kept.sagging.value, 0);
+  EXPECT_GT(kept.hogging.value, 0) << "weights stand further out than what carries them";
 }
 
 }  // namespace
