@@ -238,7 +238,8 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
                     within(-360, 360, "deg", dimension == 2 ? "Use degrees, counter-clockwise." : "Use degrees."));
   }
   if (body.motion == Motion::prescribed && !follows_path) {
-    if (auto swing = reader.table("oscillation")) read_oscillation(*swing, body, scene.time.end);
+    auto swing = reader.holds("oscillation") ? reader.table("oscillation") : std::nullopt;
+    swing ? read_oscillation(*swing, body, scene.time.end) : reader.skip("oscillation");
   } else {
     reader.refuse("oscillation", "only a body with motion = \"prescribed\" and without a path has one",
                   "Remove it, or the path, or change the motion.");

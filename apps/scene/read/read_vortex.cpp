@@ -12,7 +12,8 @@ void read_vortex(Reader& reader, VortexFluid& fluid) {
   Reader viscosity = reader.table_or_defaults("viscosity");
   viscosity.number("dynamic", fluid.viscosity,
                    not_negative("Pa s", "Use e.g. 1e-3 for water, or rho U L/Re for a Reynolds number."));
-  viscosity.choice("stencil", fluid.stencil, {"five_point", "fourth_order"});
+  // No choice for the schema, whose rules for a word without its key would hold for [fluid.viscosity] of all formulations.
+  viscosity.reference("stencil", fluid.stencil, {"five_point", "fourth_order"});
   Reader stream = reader.table_or_defaults("stream");
   stream.curve("velocity", fluid.stream, 3,
                any("m/s", "Use e.g. [1.0, 0.0], or rows [time, x, y] with ascending times."));
