@@ -23,7 +23,7 @@ if [[ ! -x build/$preset/splashdown && -z $tests ]]; then
   cpu_minutes=12  # measured with g++ 12 on two busy cores, the run included (tests/bare_machine/run.sh root): 708 s
   echo "Splashdown has to be compiled first: about $((cpu_minutes / jobs + 1)) minutes with $jobs compilers at a time of up to 3 GB of memory each,"
   echo "and 0.5 GB of disk in build/$preset."
-  ((${#missing[@]} == 0)) || echo "Before that packages are installed: 0.1 GB to load and 0.62 GB of disk on a system that has compilers."
+  ((${#missing[@]} == 0)) || echo "Before that packages are installed: 0.1 GB to load and 0.65 GB of disk on a system that has compilers."
 fi
 
 ((${#missing[@]} == 0)) || install_packages "${missing[@]}"

@@ -11,7 +11,7 @@ set -euo pipefail
 [[ -n ${SPLASHDOWN_OWN_MOUNTS:-} || $(id -u) != 0 ]] || SPLASHDOWN_OWN_MOUNTS=yes exec unshare --mount --propagation private "$0" "$@"
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 release=bookworm
-most_megabytes=630    # README: 0.62 GB
+most_megabytes=650    # README: 0.65 GB
 most_cpu_minutes=8    # four on each of two cores
 at=/srv/splashdown                    # the sources in the machines
 work= keep= variants=()
