@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/quantity/expression.hpp"
+#include "apps/scene/kinds/named.hpp"
 #include "apps/scene/read/reader.hpp"
 #include "apps/study/read_axes.hpp"
 #include "apps/study/study.hpp"
@@ -126,15 +127,16 @@ void read_samples(Reader& reader, Samples& samples) {
   if (!given)
     reader.context().problems.add_missing(reader.key("number"), "how many combinations are drawn", "Use e.g. 20.");
   reader.integer("seed", samples.seed, within(0, 1e9, "", "Use a whole number; another one draws other values."));
-  static const std::vector<std::pair<std::string, Plan>> plans = {{"latin_hypercube", Plan::latin_hypercube},
-                                                                  {"sobol", Plan::sobol},
-                                                                  {"random", Plan::random},
-                                                                  {"saltelli", Plan::saltelli}};
-  std::vector<std::string> names;
-  for (const auto& [name, plan] : plans) names.push_back(name);
-  std::string plan = names.front();
-  if (reader.choice("plan", plan, names))
-    samples.plan = std::ranges::find(plans, plan, &std::pair<std::string, Plan>::first)->second;
+  struct NamedPlan {
+    std::string_view name;
+    Plan plan;
+  };
+  static constexpr NamedPlan plans[] = {{"latin_hypercube", Plan::latin_hypercube},
+                                        {"sobol", Plan::sobol},
+                                        {"random", Plan::random},
+                                        {"saltelli", Plan::saltelli}};
+  std::string plan(plans[0].name);
+  if (reader.choice("plan", plan, names_of(plans))) samples.plan = named(plans, plan).plan;
 }
 
 /// The axis of a name, or a problem.

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/scene/kinds/named.hpp"
 #include "apps/study/design/distribution.hpp"
 #include "apps/study/design/replicates.hpp"
 #include "apps/study/table.hpp"
@@ -45,13 +46,15 @@ void refuse_distribution(Reader& reader, const std::string& fault) {
 
 void read_distribution(Reader& reader, Distribution& distribution) {
   using enum Distribution::Type;
-  static const std::vector<std::pair<std::string, Distribution::Type>> types = {
+  struct Law {
+    std::string_view name;
+    Distribution::Type type;
+  };
+  static constexpr Law laws[] = {
       {"normal", normal}, {"lognormal", lognormal}, {"weibull", weibull}, {"uniform", uniform}, {"table", table}};
-  std::vector<std::string> names;
-  for (const auto& [name, type] : types) names.push_back(name);
   std::string name;
-  if (!reader.choice("type", name, names, Need::required)) return reader.skip_all();
-  distribution.type = std::ranges::find(types, name, &std::pair<std::string, Distribution::Type>::first)->second;
+  if (!reader.choice("type", name, names_of(laws), Need::required)) return reader.skip_all();
+  distribution.type = named(laws, name).type;
   const auto pair = [&](const char* first, const char* second) {
     reader.number(first, distribution.first, any("", "Use a number."), Need::required);
     reader.number(second, distribution.second, any("", "Use a number."), Need::required);

@@ -145,14 +145,6 @@ std::vector<std::string> all_number_columns(const Study& study) {
   return columns;
 }
 
-/// Names of the limits that any run has answered.
-std::vector<std::string> limit_names(const std::vector<Outcome>& outcomes) {
-  std::set<std::string> names;
-  for (const auto& outcome : outcomes)
-    for (const auto& [name, answer] : outcome.limits) names.insert(name);
-  return {names.begin(), names.end()};
-}
-
 std::string csv_of(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes) {
   const auto numbers = all_number_columns(study), limits = limit_names(outcomes);
   std::string text = "run";
@@ -224,6 +216,13 @@ nlohmann::ordered_json json_of(const Study& study, const std::vector<StudyRun>& 
 }
 
 }  // namespace
+
+std::vector<std::string> limit_names(const std::vector<Outcome>& outcomes) {
+  std::set<std::string> names;
+  for (const auto& outcome : outcomes)
+    for (const auto& [name, answer] : outcome.limits) names.insert(name);
+  return {names.begin(), names.end()};
+}
 
 const char* word(Outcome::Status status) {
   switch (status) {

@@ -40,6 +40,9 @@ std::string counts_text(const std::vector<Outcome>& outcomes);
 std::vector<std::string> outcome_columns();
 std::vector<std::string> number_columns();
 
+/// Names of the limits that any run has answered.
+std::vector<std::string> limit_names(const std::vector<Outcome>& outcomes);
+
 /// What a column says, in words, with its unit.
 std::string column_label(const Study& study, const std::string& column);
 

@@ -80,14 +80,6 @@ void add_probability(Campaign& campaign, const Group& group, const std::string& 
   if (found.answered() > 0) campaign.probabilities.push_back(found);
 }
 
-std::vector<std::string> limits_in(const std::vector<Outcome>& outcomes) {
-  std::vector<std::string> names;
-  for (const auto& outcome : outcomes)
-    for (const auto& [name, answer] : outcome.limits)
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  return names;
-}
-
 void add_effects(Campaign& campaign, const Study& study, const std::vector<StudyRun>& runs,
                  const std::vector<Outcome>& outcomes) {
   const auto factors = factors_of(study);
@@ -143,7 +135,7 @@ std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyR
   if (!has_chance(study) && factors_of(study).size() < 2) return {};
   Campaign campaign;
   campaign.groups = groups_of(study, runs);
-  const auto limits = limits_in(outcomes);
+  const auto limits = limit_names(outcomes);
   for (const auto& group : campaign.groups) {
     for (const auto& quantity : study.quantities) add_statistics(campaign, group, quantity.name, outcomes);
     for (const auto& limit : limits) add_probability(campaign, group, limit, outcomes);
