@@ -37,7 +37,10 @@ bool holds_motion(const Plane& plane, const Body& body) {
 template <int d>
 bool holds_region(const Plane& plane, const Scene& scene, const Region& region) {
   const auto* box = std::get_if<BoxRegion>(&region.shape);
-  if (std::holds_alternative<PolygonRegion>(region.shape) || (box && box->surface_amplitude != 0)) return false;
+  const bool drawn = std::holds_alternative<PolygonRegion>(region.shape) ||
+                     std::holds_alternative<UnionRegion>(region.shape) ||
+                     (d == 2 && std::holds_alternative<SplineRegion>(region.shape));
+  if (drawn || (box && box->surface_amplitude != 0)) return false;
   if (region.velocity[plane.axis] != 0 || !region.velocity_gradient.isZero()) return false;
   auto extent = extents<d>(outline<d>(region));
   if (scene.tank) extent = extent.intersection(extents<d>(*scene.tank));

@@ -9,6 +9,7 @@
 
 #include "core/geometry.hpp"
 #include "rigid/shapes/solids.hpp"
+#include "rigid/shapes/spline.hpp"
 
 namespace splashdown::apps {
 
@@ -51,7 +52,9 @@ std::optional<double> deadrise(const Body& body) {
     const Vec<d> n = area_vector(corner);
     least = std::min(least, std::atan2(n.template head<d - 1>().norm(), std::abs(n[d - 1])));
   }
-  return least;
+  // Chords of a curve turn by so much where it has no corner.
+  const bool chords = std::holds_alternative<SplineShape>(body.shape) && least > 1e-6 && least <= rigid::largest_turn;
+  return chords ? std::nullopt : std::optional(least);
 }
 
 template <int d>

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "apps/scene/geometry.hpp"
+#include "core/surface/unite.hpp"
 #include "rigid/shapes/solids.hpp"
 
 namespace splashdown::apps {
@@ -21,6 +22,13 @@ Surface<d> shifted(Surface<d> surface, const Point& by) {
 // The reader offers no region of the other dimension.
 template <int d>
 struct MakeRegion;
+
+template <int d>
+Surface<d> united_parts(const UnionRegion& region) {
+  std::vector<Surface<d>> parts;
+  for (const auto& part : region.parts) parts.push_back(std::visit(MakeRegion<d>{}, part.shape));
+  return splashdown::united<d>(parts);
+}
 
 template <>
 struct MakeRegion<2> {
@@ -50,6 +58,8 @@ struct MakeRegion<2> {
     for (const auto& point : r.points) points.push_back(vec<2>(point));
     return rigid::polygon(points).surface;
   }
+  Surface<2> operator()(const SplineRegion& r) const { return shifted<2>(shape_of<2>(r.shape).surface, r.position); }
+  Surface<2> operator()(const UnionRegion& r) const { return united_parts<2>(r); }
 };
 
 template <>
@@ -61,6 +71,9 @@ struct MakeRegion<3> {
   Surface<3> operator()(const BoxRegion& r) const {
     return shifted<3>(rigid::box(r.max - r.min).surface, 0.5 * (r.min + r.max));
   }
+  Surface<3> operator()(const RevolvedRegion& r) const { return shifted<3>(shape_of<3>(r.shape).surface, r.position); }
+  Surface<3> operator()(const SplineRegion& r) const { return shifted<3>(shape_of<3>(r.shape).surface, r.position); }
+  Surface<3> operator()(const UnionRegion& r) const { return united_parts<3>(r); }
   Surface<3> operator()(const SphereRegion& r) const { return shifted<3>(rigid::sphere(r.radius).surface, r.centre); }
 };
 

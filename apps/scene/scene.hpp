@@ -56,15 +56,21 @@ struct ConeShape {
 struct RevolvedShape {
   std::vector<std::array<double, 2>> profile;  ///< (r, z), turned about the z axis; reference point: r = z = 0
 };
+struct SplineShape {
+  std::vector<Point> points;  ///< of control [m]; in three dimensions (r, z), turned about the z axis
+  int degree = 3;
+  bool closed = false;   ///< periodic; an open outline is closed by a straight line
+  double tolerance = 0;  ///< of the chords [m]; 0: chosen
+};                       ///< reference point: the origin of these coordinates
 struct SurfaceShape {
   std::string file;                             ///< STL or OBJ, absolute
   double scale = 1;                             ///< metres per unit of the file
   int parts = 1;                                ///< closed surfaces beside each other
   std::shared_ptr<const rigid::Shape<3>> read;  ///< in metres; null: could not be read
 };                                              ///< reference point: the origin of the file's coordinates
-/// The capsule exists in two and in three dimensions, the shapes before it in two and those after it in three.
-using Shape = std::variant<PolygonShape, WedgeShape, RectangleShape, CircleShape, EllipseShape, CapsuleShape, BoxShape,
-                           SphereShape, ConeShape, RevolvedShape, SurfaceShape>;
+/// The spline and the capsule exist in two and in three dimensions, the shapes before them in two and those after them in three.
+using Shape = std::variant<PolygonShape, WedgeShape, RectangleShape, CircleShape, EllipseShape, SplineShape,
+                           CapsuleShape, BoxShape, SphereShape, ConeShape, RevolvedShape, SurfaceShape>;
 
 // Liquid regions, in the world frame.
 struct BoxRegion {
@@ -88,12 +94,30 @@ struct SphereRegion {
   Point centre = Point::Zero();
   double radius = 1;
 };
+struct RevolvedRegion {
+  RevolvedShape shape;
+  Point position = Point::Zero();  ///< of r = z = 0
+};
+struct SplineRegion {
+  SplineShape shape;
+  Point position = Point::Zero();  ///< of the origin of its coordinates
+};
+struct RegionPart;
+struct UnionRegion {
+  std::vector<RegionPart> parts;
+};
+using RegionShape = std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion, SplineRegion, SphereRegion,
+                                 RevolvedRegion, UnionRegion>;
+/// Of a union; never one itself.
+struct RegionPart {
+  RegionShape shape;
+};
 
 struct Region {
-  std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion, SphereRegion> shape;
+  RegionShape shape;
   Point velocity = Point::Zero();                               ///< at t = 0 [m/s]
   Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();  ///< v = velocity + gradient (x - origin) [1/s]
-  Point velocity_origin = Point::Zero();                        ///< default: the region's centre, 0 for polygons
+  Point velocity_origin = Point::Zero();  ///< default: the region's centre; 0 for those drawn by points, and unions
 };
 
 struct Sizes {

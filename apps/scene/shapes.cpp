@@ -4,11 +4,18 @@
 
 #include "apps/scene/geometry.hpp"
 #include "rigid/shapes/solids.hpp"
+#include "rigid/shapes/spline.hpp"
 
 namespace splashdown::apps {
 namespace {
 
 using rigid::Vec;
+
+rigid::Spline spline_of(const SplineShape& s) {
+  rigid::Spline spline{{}, s.degree, s.closed, s.tolerance};
+  for (const auto& point : s.points) spline.points.push_back(vec<2>(point));
+  return spline;
+}
 
 // The reader offers no shape of the other dimension.
 template <int d>
@@ -34,6 +41,7 @@ struct MakeShape<2> {
   rigid::Shape<2> operator()(const RectangleShape& s) const { return rigid::box(s.width, s.height); }
   rigid::Shape<2> operator()(const CircleShape& s) const { return rigid::circle(s.radius); }
   rigid::Shape<2> operator()(const EllipseShape& s) const { return rigid::ellipse(s.semi_axes.x(), s.semi_axes.y()); }
+  rigid::Shape<2> operator()(const SplineShape& s) const { return rigid::outline_of(spline_of(s)); }
   rigid::Shape<2> operator()(const CapsuleShape& s) const { return rigid::capsule(s.radius, s.length); }
 };
 
@@ -52,6 +60,7 @@ struct MakeShape<3> {
     for (const auto& [r, z] : s.profile) profile.emplace_back(r, z);
     return rigid::revolved(profile);
   }
+  rigid::Shape<3> operator()(const SplineShape& s) const { return rigid::revolved(spline_of(s)); }
   rigid::Shape<3> operator()(const SurfaceShape& s) const {
     if (!s.read) throw std::invalid_argument("the file could not be read");
     return *s.read;

@@ -52,7 +52,10 @@ class Runner {
         quiet_(quiet),
         line_(!quiet && RenewedLine::is_terminal()) {
     for (std::size_t i = 0; i < runs.size(); ++i)
-      if (!outcomes[i].finished()) queue_.push_back(i);
+      if (!outcomes[i].finished())
+        queue_.push_back(i);
+      else if (study.stop)
+        measure_run(study, runs[i], folder_ / runs[i].name, outcomes[i]);
     before_ = runs.size() - queue_.size();
   }
 
@@ -124,6 +127,7 @@ class Runner {
     }
     ++made_;
     last_end_ = Clock::now();
+    if (study_.stop) measure_run(study_, runs_[i], folder_ / name, outcome);
     if (is_enough()) {
       queue_.clear();
       end_.enough = true;
@@ -154,7 +158,6 @@ class Runner {
   /// Whether the band that the study is for is narrow enough.
   bool is_enough() {
     if (!study_.stop || queue_.empty()) return false;
-    measure(study_, runs_, folder_, outcomes_);
     const auto width = width_of(*study_.stop, study_, runs_, outcomes_);
     return width && *width <= study_.stop->width;
   }

@@ -356,6 +356,18 @@ std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>
   return notes;
 }
 
+void measure_run(const Study& study, const StudyRun& run, const fs::path& folder, Outcome& outcome) {
+  if (outcome.status != Outcome::Status::converged) return;
+  const auto attempt = [](const auto& work) {
+    try {
+      work();
+    } catch (const std::exception&) {  // measure() tells of it
+    }
+  };
+  for (const auto& quantity : study.quantities) attempt([&] { measure_one(study, quantity, run, folder, outcome); });
+  for (const auto& limit : study.limits) attempt([&] { answer_one(study, limit, run, folder, outcome); });
+}
+
 void write_tables(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
                   const fs::path& folder) {
   auto root = json_of(study, runs, outcomes);

@@ -60,6 +60,9 @@ bool begun_with(const StudyRun& run, const std::filesystem::path& folder);
 std::vector<std::string> measure(const Study& study, const std::vector<StudyRun>& runs,
                                  const std::filesystem::path& folder, std::vector<Outcome>& outcomes);
 
+/// The same for one run that has just ended, but for errors that need another run; what has no value is left out.
+void measure_run(const Study& study, const StudyRun& run, const std::filesystem::path& folder, Outcome& outcome);
+
 /// study.csv, study.json and the tables of a campaign, each whole or not at all.
 void write_tables(const Study& study, const std::vector<StudyRun>& runs, const std::vector<Outcome>& outcomes,
                   const std::filesystem::path& folder);

@@ -17,17 +17,6 @@ namespace {
 
 using CutShell = CGAL::Surface_mesh<Soup::Kernel::Point_3>;
 
-Soup soup_of(const Surface<3>& surface) {
-  Soup soup;
-  for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i)
-    soup.points.emplace_back(surface.vertices(0, i), surface.vertices(1, i), surface.vertices(2, i));
-  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
-    auto& corners = soup.polygons.emplace_back();
-    for (int k = 0; k < 3; ++k) corners.push_back(static_cast<std::size_t>(surface.facets(k, f)));
-  }
-  return soup;
-}
-
 CutShell shell_of(Soup soup) {
   CutShell shell;
   CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, shell);
@@ -70,13 +59,8 @@ Surface<3> cut_at_box(const Surface<3>& surface, const Eigen::AlignedBox3d& box)
   if (soup.polygons.empty()) return cut;
   merge_points(soup);  // where an edge crosses two sides but for rounding
   pmp::repair_polygon_soup(soup.points, soup.polygons);
-  cut.vertices.resize(3, static_cast<Eigen::Index>(soup.points.size()));
-  cut.facets.resize(3, static_cast<Eigen::Index>(soup.polygons.size()));
-  for (std::size_t i = 0; i < soup.points.size(); ++i)
-    cut.vertices.col(static_cast<Eigen::Index>(i)) = on_sides(soup.at(i), box);
-  for (std::size_t f = 0; f < soup.polygons.size(); ++f)
-    for (int k = 0; k < 3; ++k)
-      cut.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(soup.polygons[f][static_cast<std::size_t>(k)]);
+  cut = surface_of(soup);
+  for (auto vertex : cut.vertices.colwise()) vertex = on_sides(vertex, box);
   return cut;
 }
 

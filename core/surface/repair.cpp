@@ -193,17 +193,6 @@ Shell united(std::vector<Shell> parts, Done& done) {
   return whole;
 }
 
-Surface<3> surface_of(const Soup& soup) {
-  Surface<3> surface;
-  surface.vertices.resize(3, static_cast<Eigen::Index>(soup.points.size()));
-  surface.facets.resize(3, static_cast<Eigen::Index>(soup.polygons.size()));
-  for (std::size_t i = 0; i < soup.points.size(); ++i) surface.vertices.col(static_cast<Eigen::Index>(i)) = soup.at(i);
-  for (std::size_t f = 0; f < soup.polygons.size(); ++f)
-    for (int k = 0; k < 3; ++k)
-      surface.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(soup.polygons[f][static_cast<std::size_t>(k)]);
-  return surface;
-}
-
 }  // namespace
 
 RepairedSurface repaired_surface(const std::filesystem::path& path) {

@@ -54,6 +54,28 @@ Soup read_soup(const std::filesystem::path& path) {
   return soup;
 }
 
+Soup soup_of(const Surface<3>& surface) {
+  Soup soup;
+  for (Eigen::Index i = 0; i < surface.vertices.cols(); ++i)
+    soup.points.emplace_back(surface.vertices(0, i), surface.vertices(1, i), surface.vertices(2, i));
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    auto& corners = soup.polygons.emplace_back();
+    for (int k = 0; k < 3; ++k) corners.push_back(static_cast<std::size_t>(surface.facets(k, f)));
+  }
+  return soup;
+}
+
+Surface<3> surface_of(const Soup& soup) {
+  Surface<3> surface;
+  surface.vertices.resize(3, static_cast<Eigen::Index>(soup.points.size()));
+  surface.facets.resize(3, static_cast<Eigen::Index>(soup.polygons.size()));
+  for (std::size_t i = 0; i < soup.points.size(); ++i) surface.vertices.col(static_cast<Eigen::Index>(i)) = soup.at(i);
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f)
+    for (int k = 0; k < 3; ++k)
+      surface.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(soup.polygons[f][static_cast<std::size_t>(k)]);
+  return surface;
+}
+
 std::size_t merge_points(Soup& soup) {
   const Vec<3> origin = soup.box().min();
   const double near = 1e-6 * soup.extent();

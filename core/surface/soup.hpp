@@ -29,6 +29,10 @@ struct Soup {
 /// Throws SurfaceFileError if the file is no whole mesh.
 Soup read_soup(const std::filesystem::path& path);
 
+/// The same as a surface [units of the file], and back; polygons of three corners.
+Soup soup_of(const Surface<3>& surface);
+Surface<3> surface_of(const Soup& soup);
+
 /// One point for those that rounding has parted: of single precision, which STL files have, or of their digits. How many are
 /// gone.
 /// Throws SurfaceFileError if all are one.

@@ -26,26 +26,7 @@ void require_segments(const char* shape, int segments) {
   if (segments < fewest) throw std::invalid_argument(message(shape, ": ", segments, " segments; at least ", fewest));
 }
 
-Surface<2> closed_polyline(std::span<const Vec<2>> points) {
-  const auto n = static_cast<int>(points.size());
-  Surface<2> s;
-  s.vertices.resize(2, n);
-  s.facets.resize(2, n);
-  for (int i = 0; i < n; ++i) {
-    s.vertices.col(i) = points[static_cast<std::size_t>(i)];
-    s.facets.col(i) << i, (i + 1) % n;
-  }
-  return s;
-}
-
 double cross(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double signed_area(std::span<const Vec<2>> points) {
-  double twice = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    twice += cross(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
-  return twice / 2;
-}
 
 double distance(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
   const Vec<2> edge = b - a;
@@ -131,6 +112,25 @@ void require_distinct(std::span<const Vec<2>> points, double tolerance) {
 }
 
 }  // namespace
+
+double signed_area(std::span<const Vec<2>> points) {
+  double twice = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    twice += cross(points[i] - points[0], points[(i + 1) % points.size()] - points[0]);
+  return twice / 2;
+}
+
+Surface<2> closed_polyline(std::span<const Vec<2>> points) {
+  const auto n = static_cast<int>(points.size());
+  Surface<2> s;
+  s.vertices.resize(2, n);
+  s.facets.resize(2, n);
+  for (int i = 0; i < n; ++i) {
+    s.vertices.col(i) = points[static_cast<std::size_t>(i)];
+    s.facets.col(i) << i, (i + 1) % n;
+  }
+  return s;
+}
 
 Shape<2> polygon(std::span<const Vec<2>> points) {
   if (points.size() < 3)

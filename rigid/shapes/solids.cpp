@@ -114,9 +114,12 @@ void require_profile(std::span<const Vec<2>> profile) {
   }
 }
 
-/// Of the closed profile that runs from the axis to the axis with the solid to its left:
-/// V = pi int r^2 dz and so on. Exact: the integrands are of fourth degree along each piece.
-MassProperties<3> revolved_mass_properties(const std::vector<Vec<2>>& profile) {
+}  // namespace
+
+MassProperties<3> mass_properties_of_revolution(std::span<const Vec<2>> points) {
+  auto profile = from_axis_to_axis(points);
+  if (signed_area(profile) < 0) std::reverse(profile.begin(), profile.end());
+
   constexpr std::array<double, 3> node{-0.7745966692414834, 0, 0.7745966692414834},
       weight{5. / 9, 8. / 9, 5. / 9};                    // Gauss, on [-1, 1]
   double volume = 0, first = 0, second = 0, fourth = 0;  // int r^2, r^2 z, r^2 z^2, r^4 dz
@@ -139,8 +142,6 @@ MassProperties<3> revolved_mass_properties(const std::vector<Vec<2>>& profile) {
   p.inertia.diagonal() << across, across, fourth / 2;
   return p;
 }
-
-}  // namespace
 
 Shape<3> sphere(double radius, int around) {
   require_positive("sphere", "radius", radius);
@@ -243,13 +244,9 @@ Shape<3> revolved(std::span<const Vec<2>> profile, int around) {
   require_around("revolved", around);
   require_profile(profile);
   auto points = from_axis_to_axis(profile);
-  double twice_area = 0, widest = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec<2>&a = points[i], &b = points[(i + 1) % points.size()];
-    twice_area += a.x() * b.y() - a.y() * b.x();
-    widest = std::max(widest, a.x());
-  }
-  if (twice_area < 0) std::reverse(points.begin(), points.end());
+  double widest = 0;
+  for (const auto& point : points) widest = std::max(widest, point.x());
+  if (signed_area(points) < 0) std::reverse(points.begin(), points.end());
   const double step = 2 * pi * widest / around;
   double rings = static_cast<double>(points.size());
   for (std::size_t i = 1; i < points.size(); ++i) rings += (points[i] - points[i - 1]).norm() / step;
@@ -272,7 +269,7 @@ Shape<3> revolved(std::span<const Vec<2>> profile, int around) {
     const double r = points[i].x();
     mesh.add({r, points[i].y(), edges_around(r, widest, std::max(steep(i), steep(i + 1)), around)});
   }
-  return {mesh.surface(), revolved_mass_properties(points)};
+  return {mesh.surface(), mass_properties_of_revolution(points)};
 }
 
 }  // namespace splashdown::rigid

@@ -33,4 +33,7 @@ Shape<3> capsule_of_revolution(double radius, double straight, int around = defa
 /// is not on the axis is closed by a flat disc. Curves are as round as their points make them.
 Shape<3> revolved(std::span<const Vec<2>> profile, int around = default_around);
 
+/// Of that body at unit density, exactly: m = pi int r^2 dz and so on.
+MassProperties<3> mass_properties_of_revolution(std::span<const Vec<2>> profile);
+
 }  // namespace splashdown::rigid

@@ -16,6 +16,7 @@ struct DragOf {
   ShapeDrag operator()(const CapsuleShape&) const {
     return {1.2, true};
   }  // space: a cylinder across the flow, subcritical
+  ShapeDrag operator()(const SplineShape&) const { return {1.2, true}; }  // smooth: an ellipse
   // Space.
   ShapeDrag operator()(const BoxShape&) const { return {1.05, false}; }    // a cube, face ahead; plates 1.17
   ShapeDrag operator()(const SphereShape&) const { return {0.47, true}; }  // subcritical

@@ -11,6 +11,10 @@ void read_fluid(Reader& reader, Fluid& fluid);
 void read_vortex(Reader& reader, VortexFluid& fluid);
 /// The rest of it, after the tank and the bodies.
 void finish_vortex(Reader& reader, Scene& scene);
+/// Points (r, z) of what is turned about the z axis.
+void read_profile(Reader& reader, std::string_view key, std::vector<std::array<double, 2>>& profile);
+/// The keys `points`, `degree`, `ends` and `tolerance`.
+void read_spline(Reader& reader, SplineShape& spline);
 void read_body(Reader& reader, Body& body, const Scene& scene);
 /// The key `name`: letters, digits, _ and -, so that tables, files and other programs can take it as it is.
 void read_name(Reader& reader, std::string& name, const std::string& example);

@@ -49,12 +49,8 @@ struct ReadShape {
     deadrise(cone.deadrise_deg, "Use e.g. 30; the angle between the horizontal and the side.");
     reader.number("radius", cone.radius, extent, Need::required);
   }
-  void operator()(RevolvedShape& revolved) const {
-    std::vector<std::vector<double>> rows;
-    reader.rows("profile", rows, 2, any("m", "Use points [r, z], e.g. [[0, 0], [0.5, 0.2], [0.5, 1]]."),
-                Need::required);
-    for (const auto& row : rows) revolved.profile.push_back({row[0], row[1]});
-  }
+  void operator()(RevolvedShape& revolved) const { read_profile(reader, "profile", revolved.profile); }
+  void operator()(SplineShape& spline) const { read_spline(reader, spline); }
   void operator()(SurfaceShape& surface) const {
     reader.file("file", surface.file, "Name an .stl or .obj file; relative names begin at the folder of the scene.");
     reader.number("scale", surface.scale,
@@ -88,10 +84,11 @@ struct ShapeType {
 
 const std::vector<ShapeType>& shape_types() {
   static const std::vector<ShapeType> types = {
-      {2, "polygon", PolygonShape{}}, {2, "wedge", WedgeShape{}},       {2, "box", RectangleShape{}},
-      {2, "circle", CircleShape{}},   {2, "ellipse", EllipseShape{}},   {2, "capsule", CapsuleShape{}},
-      {3, "sphere", SphereShape{}},   {3, "box", BoxShape{}},           {3, "cone", ConeShape{}},
-      {3, "capsule", CapsuleShape{}}, {3, "revolved", RevolvedShape{}}, {3, "surface", SurfaceShape{}}};
+      {2, "polygon", PolygonShape{}},   {2, "wedge", WedgeShape{}},     {2, "box", RectangleShape{}},
+      {2, "circle", CircleShape{}},     {2, "ellipse", EllipseShape{}}, {2, "capsule", CapsuleShape{}},
+      {2, "spline", SplineShape{}},     {3, "spline", SplineShape{}},   {3, "sphere", SphereShape{}},
+      {3, "box", BoxShape{}},           {3, "cone", ConeShape{}},       {3, "capsule", CapsuleShape{}},
+      {3, "revolved", RevolvedShape{}}, {3, "surface", SurfaceShape{}}};
   return types;
 }
 

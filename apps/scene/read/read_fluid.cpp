@@ -33,6 +33,15 @@ struct ReadRegionShape {
     reader.point("semi_axes", ellipse.semi_axes, positive("m", "Use e.g. [1.0, 0.5]."), Need::required);
   }
   void operator()(PolygonRegion& polygon) const { reader.points("points", polygon.points, place); }
+  void operator()(SplineRegion& spline) const {
+    read_spline(reader, spline.shape);
+    reader.point("position", spline.position, place);
+  }
+  void operator()(RevolvedRegion& revolved) const {
+    read_profile(reader, "profile", revolved.shape.profile);
+    reader.point("position", revolved.position, place);
+  }
+  void operator()(UnionRegion& all) const;  // reads regions in turn
 
  private:
   template <class Round>
@@ -45,6 +54,9 @@ struct ReadRegionShape {
 struct Centre {
   Point operator()(const BoxRegion& box) const { return 0.5 * (box.min + box.max); }
   Point operator()(const PolygonRegion&) const { return Point::Zero(); }
+  Point operator()(const SplineRegion& spline) const { return spline.position; }
+  Point operator()(const RevolvedRegion& revolved) const { return revolved.position; }
+  Point operator()(const UnionRegion&) const { return Point::Zero(); }
   template <class Round>
   Point operator()(const Round& region) const {
     return region.centre;
@@ -55,7 +67,7 @@ struct Centre {
 struct RegionType {
   const char* name;
   bool in_plane, in_space;
-  decltype(Region::shape) shape;
+  RegionShape shape;
   bool in(int dimension) const { return dimension == 2 ? in_plane : in_space; }
 };
 std::vector<RegionType> region_types() {
@@ -63,19 +75,39 @@ std::vector<RegionType> region_types() {
           {"circle", true, false, CircleRegion{}},
           {"ellipse", true, false, EllipseRegion{}},
           {"polygon", true, false, PolygonRegion{}},
-          {"sphere", false, true, SphereRegion{}}};
+          {"spline", true, true, SplineRegion{}},
+          {"sphere", false, true, SphereRegion{}},
+          {"revolved", false, true, RevolvedRegion{}},
+          {"union", true, true, UnionRegion{}}};
+}
+
+/// The key `shape` and those of the shape; false if there is none.
+bool read_region_shape(Reader& reader, RegionShape& shape, bool in_union) {
+  const int dimension = reader.context().dimension;
+  std::string name = "box";
+  Reader::Names names;
+  for (const auto& type : region_types())
+    if (type.in(dimension) && !(in_union && std::holds_alternative<UnionRegion>(type.shape)))
+      names.emplace_back(type.name);
+  if (!reader.choice("shape", name, names, Need::required)) return false;
+  for (const auto& type : region_types())
+    if (type.in(dimension) && type.name == name) shape = type.shape;
+  std::visit(ReadRegionShape{reader}, shape);
+  return true;
+}
+
+void ReadRegionShape::operator()(UnionRegion& all) const {
+  reader.each_table("part", [&](Reader& part) {
+    if (!read_region_shape(part, all.parts.emplace_back().shape, true)) part.skip_all();
+  });
+  if (all.parts.empty() && !reader.holds("part"))
+    reader.context().problems.add_missing(reader.key("part"), "a union has parts",
+                                          "Write [[fluid.region.part]] below it, each with a shape.");
 }
 
 void read_region(Reader& reader, Region& region) {
   const int dimension = reader.context().dimension;
-  std::string shape = "box";
-  Reader::Names names;
-  for (const auto& type : region_types())
-    if (type.in(dimension)) names.emplace_back(type.name);
-  if (!reader.choice("shape", shape, names, Need::required)) return reader.skip_all();
-  for (const auto& type : region_types())
-    if (type.in(dimension) && type.name == shape) region.shape = type.shape;
-  std::visit(ReadRegionShape{reader}, region.shape);
+  if (!read_region_shape(reader, region.shape, false)) return reader.skip_all();
   reader.point(
       "velocity", region.velocity,
       any("m/s", "Use metres per second, one number for each axis, e.g. " + axis_example(dimension, -1) + "."));

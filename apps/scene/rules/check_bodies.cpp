@@ -93,11 +93,12 @@ std::optional<rigid::Surface<d>> checked_shape(const Body& body, const std::stri
   } catch (const std::invalid_argument& error) {
     if (std::holds_alternative<PolygonShape>(body.shape))
       problems.add(label + ".shape.points", error.what(), "List the corners in order, each once.");
-    else if (!std::holds_alternative<RevolvedShape>(body.shape))
-      problems.add(label + ".shape", error.what(), "Mind the units of its lengths.");
+    else if (std::holds_alternative<SplineShape>(body.shape))
+      problems.add(label + ".shape.points", error.what(), cure_of_spline);
+    else if (std::holds_alternative<RevolvedShape>(body.shape))
+      problems.add(label + ".shape.profile", error.what(), cure_of_profile);
     else
-      problems.add(label + ".shape.profile", error.what(),
-                   "List (r, z) from one end of the axis to the other, each point once.");
+      problems.add(label + ".shape", error.what(), "Mind the units of its lengths.");
     return {};
   }
 }

@@ -29,6 +29,10 @@ struct CheckRegionKeys {
       problems.add(label + ".surface_amplitude", fmt::format("must stay below the depth of {:g} m", height),
                    "Use a smaller wave.");
   }
+  void operator()(const UnionRegion& all) const {
+    for (std::size_t i = 0; i < all.parts.size(); ++i)
+      std::visit(CheckRegionKeys<d>{fmt::format("{}.part[{}]", label, i), problems}, all.parts[i].shape);
+  }
   template <class Other>
   void operator()(const Other&) const {}
 };
@@ -53,9 +57,26 @@ const char* key_of_extent(const Region& region) {
     const char* operator()(const EllipseRegion&) const { return ".semi_axes"; }
     const char* operator()(const CircleRegion&) const { return ".radius"; }
     const char* operator()(const SphereRegion&) const { return ".radius"; }
+    const char* operator()(const SplineRegion&) const { return ".points"; }
+    const char* operator()(const RevolvedRegion&) const { return ".profile"; }
+    const char* operator()(const UnionRegion&) const { return ".part"; }
   };
   return std::visit(Key{}, region.shape);
 }
+
+/// For regions that have no outline.
+struct CureOfOutline {
+  const char* operator()(const PolygonRegion&) const { return "List the corners in order, each once."; }
+  const char* operator()(const SplineRegion&) const { return cure_of_spline; }
+  const char* operator()(const RevolvedRegion&) const { return cure_of_profile; }
+  const char* operator()(const UnionRegion&) const {
+    return "Let the parts overlap, or make them regions of their own.";
+  }
+  template <class Other>
+  const char* operator()(const Other&) const {
+    return "Mind the units of its lengths.";
+  }
+};
 
 template <int d>
 void check_region(const Scene& scene, const Region& region, const std::string& label, std::optional<Solid<d>>& boundary,
@@ -69,9 +90,7 @@ void check_region(const Scene& scene, const Region& region, const std::string& l
   try {
     boundary.emplace(outline<d>(region));
   } catch (const std::invalid_argument& error) {
-    const bool by_hand = std::holds_alternative<PolygonRegion>(region.shape);
-    return problems.add(label + key_of_extent(region), error.what(),
-                        by_hand ? "List the corners in order, each once." : "Mind the units of its lengths.");
+    return problems.add(label + key_of_extent(region), error.what(), std::visit(CureOfOutline{}, region.shape));
   }
   const auto& box = boundary->extents();
   if (scene.fluid->size.surface > box.sizes().minCoeff())

@@ -22,6 +22,11 @@ struct Rule {
   std::string in_unit() const { return unit.empty() ? "" : " (" + unit + ")"; }
 };
 
+/// For outlines that are refused.
+inline constexpr const char* cure_of_spline =
+    "List degree + 1 control points or more, in order; degree equal ones after each other are a corner.";
+inline constexpr const char* cure_of_profile = "List (r, z) from one end of the axis to the other, each point once.";
+
 Rule any(std::string unit, std::string cure);
 Rule positive(std::string unit, std::string cure);
 Rule not_negative(std::string unit, std::string cure);

@@ -53,18 +53,22 @@ std::optional<double> number_of(const Outcome& outcome, const std::string& quant
   return found->second;
 }
 
+std::vector<double> values_of(const Group& group, const std::string& quantity, const std::vector<Outcome>& outcomes) {
+  std::vector<double> values;
+  for (const std::size_t i : group.runs)
+    if (const auto value = number_of(outcomes[i], quantity)) values.push_back(*value);
+  return values;
+}
+
 void add_statistics(Campaign& campaign, const Group& group, const std::string& quantity,
                     const std::vector<Outcome>& outcomes) {
-  std::vector<double> values;
-  std::size_t without = 0;
-  for (const std::size_t i : group.runs) {
-    const auto value = number_of(outcomes[i], quantity);
-    if (value) values.push_back(*value);
-    without += !value && outcomes[i].finished() ? 1 : 0;
-  }
+  const auto values = values_of(group, quantity, outcomes);
   if (values.empty()) return;
-  campaign.statistics.push_back(
-      {.quantity = quantity, .group = &group, .without = without, .found = statistics_of(values)});
+  const auto finished = std::ranges::count_if(group.runs, [&](std::size_t i) { return outcomes[i].finished(); });
+  campaign.statistics.push_back({.quantity = quantity,
+                                 .group = &group,
+                                 .without = static_cast<std::size_t>(finished) - values.size(),
+                                 .found = statistics_of(values)});
 }
 
 void add_probability(Campaign& campaign, const Group& group, const std::string& limit,
@@ -157,11 +161,9 @@ std::optional<double> width_of(const StudyStop& stop, const Study& study, const 
     const auto band = campaign.probabilities[0].band();
     return band.high - band.low;
   }
-  add_statistics(campaign, campaign.groups[0], stop.of, outcomes);
-  if (campaign.statistics.empty() || campaign.statistics[0].found.runs < least ||
-      !campaign.statistics[0].found.mean_band)
-    return {};
-  return campaign.statistics[0].found.mean_band->high - campaign.statistics[0].found.mean_band->low;
+  const auto values = values_of(campaign.groups[0], stop.of, outcomes);
+  const auto band = mean_band(values);
+  return values.size() < least || !band ? std::nullopt : std::optional(band->high - band->low);
 }
 
 }  // namespace splashdown::apps

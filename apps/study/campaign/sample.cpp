@@ -165,17 +165,21 @@ std::optional<double> two_modes(const std::vector<double>& values) {
   return Density(sorted, two_mode_bandwidth(sorted)).split();
 }
 
+std::optional<Band> mean_band(const std::vector<double>& values) {
+  if (values.size() < 2) return {};
+  const double mean = mean_of_values(values);
+  const auto n = static_cast<double>(values.size());
+  const double half = student(n - 1) * deviation_of(values, mean) / std::sqrt(n);
+  return Band{mean - half, mean + half};
+}
+
 SampleStatistics statistics_of(std::vector<double> values) {
   std::ranges::sort(values);
   SampleStatistics s;
   s.runs = values.size();
   s.mean = mean_of_values(values);
   s.deviation = deviation_of(values, s.mean);
-  const auto n = static_cast<double>(s.runs);
-  if (s.runs > 1) {
-    const double half = student(n - 1) * s.deviation / std::sqrt(n);
-    s.mean_band = Band{s.mean - half, s.mean + half};
-  }
+  s.mean_band = mean_band(values);
   s.least = values.front();
   s.most = values.back();
   s.share_5 = quantile_of(values, 0.05);

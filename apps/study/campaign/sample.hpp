@@ -24,6 +24,9 @@ struct SampleStatistics {
 /// Statistics of values, at least one, all finite; in any order.
 SampleStatistics statistics_of(std::vector<double> values);
 
+/// Student's band of the mean; nothing for fewer than two values.
+std::optional<Band> mean_band(const std::vector<double>& values);
+
 /// Half-width of Student's band over the deviation of the mean, for this many degrees of freedom.
 double student(double freedom);
 
