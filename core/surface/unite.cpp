@@ -47,7 +47,10 @@ class Outline {
   explicit Outline(double same) : same_(same) {}
   void add(const ExactPolygon& loop) {
     const auto first = points_.size();
-    for (const auto& vertex : loop.vertices()) {
+    const auto n = loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& vertex = loop.vertex(i);
+      if (CGAL::collinear(loop.vertex((i + n - 1) % n), vertex, loop.vertex((i + 1) % n))) continue;  // where sides met
       const Vec<2> x(CGAL::to_double(vertex.x()), CGAL::to_double(vertex.y()));
       if (points_.size() == first || (x - points_.back()).norm() > same_) points_.push_back(x);
     }

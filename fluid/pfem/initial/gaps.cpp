@@ -13,6 +13,8 @@ namespace {
 
 constexpr double narrowest = 0.01;   // over h
 constexpr double on_surface = 1e-3;  // of a liquid, over h
+// A facet between nodes on a surface of radius R is off it by h^2/(8 R) in its centre: so much at R = 1.25 h, over h.
+constexpr double on_curved_surface = 0.1;
 
 [[noreturn]] void refuse(const Gap& gap, const WallsAt<3>& walls, const std::string& why) {
   throw GapRefused(
@@ -133,9 +135,14 @@ void refuse_holes(const InitialLiquid<3>& mesh, std::span<const LiquidSpec<3>> l
     Vec<3> centre = Vec<3>::Zero();
     double h = 0;
     for (int n : f.nodes) centre += nodes.x[n] / 3, h += nodes.h[n] / 3;
-    const bool is_surface = std::ranges::any_of(outlines, [&](const Wall<3>& outline) {
-      return outline.distance_unsigned(Isometry<3>::Identity(), centre, h) < on_surface * h;
-    });
+    const auto on_outline = [&](const Vec<3>& x, double near) {
+      return std::ranges::any_of(outlines, [&](const Wall<3>& outline) {
+        return outline.distance_unsigned(Isometry<3>::Identity(), x, h) < near * h;
+      });
+    };
+    const bool is_surface = on_outline(centre, on_surface) ||
+                            (on_outline(centre, on_curved_surface) &&
+                             std::ranges::all_of(f.nodes, [&](int n) { return on_outline(nodes.x[n], on_surface); }));
     if (!is_surface)
       refuse({static_cast<std::size_t>(wall), static_cast<std::size_t>(nodes.tie[*other].wall), centre, 0, h}, walls,
              "cannot be filled with ");

@@ -283,6 +283,25 @@ TEST(InitialLiquidInSpace, narrow_gaps_are_found_before_there_is_a_mesh) {
     }
 }
 
+// Half a heap on a plate, cut by the tank's side: where both walls meet its round surface, chords are off it by h^2 / (8 R). They
+// were taken for a hole between the walls.
+TEST(InitialLiquidInSpace, round_heaps_stand_where_two_walls_meet) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int k = 0; k < 12; ++k) {
+    const double radius = 0.3, height = 0.3, h = radius / (5 + 4 * share(random));
+    Basin basin(h);
+    basin.spec.walls[0] = scenes::wall("tank", scenes::turned_inside_out(scenes::block({-1, 0, -1}, {1, 1, 1})), h);
+    basin.spec.walls.push_back(scenes::wall("plate", scenes::block({-0.6, 0, -1}, {0.6, 0.6, -0.5}), h));
+    auto heap = scenes::cone(radius, height, 128);
+    heap.vertices.bottomRows<2>() *= -1;  // half a turn about x: apex up
+    heap.vertices.row(2).array() += height - 0.5;
+    basin.spec.liquids[0].boundary = heap;
+    const double half = std::numbers::pi * radius * radius * height / 6, chord = h / radius;
+    EXPECT_NEAR(volume_of(basin.fill()), half, half * chord * chord / 2) << k;
+  }
+}
+
 TEST(InitialLiquidInSpace, no_liquid_is_told) {
   Basin basin(0.3);
   basin.spec.liquids[0].boundary = scenes::block({3, 3, 3}, {4, 4, 4});

@@ -18,6 +18,40 @@ namespace {
 
 Scene scene_of(const std::string& text) { return read_scene_text(text, "scene.toml").scene; }
 
+// A bird: half a disc before its box. A spline of degree 2 through (-1, 0), (0, 0) and (1, 0) encloses two thirds of its control triangle.
+TEST(GoodScene, regions_are_unions_and_splines) {
+  const auto regions = scene_of(R"(title = "regions"
+[time]
+end = 1
+[fluid]
+density = 1000
+[fluid.size]
+surface = 0.1
+[[fluid.region]]
+shape = "union"
+[[fluid.region.part]]
+shape = "box"
+min = [-1, 0]
+max = [1, 3]
+[[fluid.region.part]]
+shape = "circle"
+centre = [0, 0]
+radius = 1
+[[fluid.region]]
+shape = "spline"
+points = [[-1, 0], [0, 2], [1, 0]]
+degree = 2
+position = [5, 0]
+)")
+                           .fluid->regions;
+  const auto area = [](const Region& region) { return rigid::mass_properties<2>(outline<2>(region)).mass; };
+  ASSERT_EQ(regions.size(), 2U);
+  EXPECT_NEAR(area(regions[0]), 6 + std::numbers::pi / 2, 2e-4 * std::numbers::pi);  // a circle of 256 chords
+  EXPECT_NEAR(area(regions[1]), 4. / 3, 1e-3);
+  EXPECT_EQ(regions[1].velocity_origin, Point::Zero());
+  EXPECT_NEAR(extents<2>(outline<2>(regions[1])).center().x(), 5, 1e-3);
+}
+
 TEST(GoodScene, says_what_its_file_says) {
   const auto scene = scene_of(testing::wedge_drop);
   EXPECT_EQ(scene.title, "wedge");
