@@ -350,6 +350,15 @@ Count nodes_at(const Scene& scene, double time) {
   return nodes_in<d>(estimate, all);
 }
 
+/// Whether a body comes to the water within the run.
+template <int d>
+bool enters(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [&](const Body& body) {
+    const auto guessed = guessed_body<d>(scene, body);
+    return wetted_length<d>(scene, guessed, 0) == 0 && wetted_length<d>(scene, guessed, scene.time.end) > 0;
+  });
+}
+
 /// Squares instead of nodes: measured with one body and one pass of its own.
 Cost cost_on_grid(const Scene& scene, double speed) {
   constexpr double bytes_a_square = 250, seconds_a_square = 60e-9,
@@ -377,13 +386,13 @@ Cost predicted_cost(const Scene& scene) {
   if (scene.fluid) {
     auto bare = scene;
     bare.bodies.clear();
-    const double beside = nodes_at<d>(bare, 0).nodes;
+    const double beside = nodes_at<d>(bare, 0).nodes, thrown = enters<d>(scene) ? Share<d>::thrown : 0;
     // Times at which the bodies' places are looked at: quarters of the run, by the trapezoidal rule.
     const int quarters = scene.bodies.empty() ? 0 : 4;
     for (int i = 0; i <= quarters; ++i) {
       auto [nodes, at_least] = nodes_at<d>(scene, quarters > 0 ? scene.time.end * i / quarters : 0);
       if (i == 0) cost.nodes = nodes;
-      if (i > 0) nodes += std::max({0., Share<d>::jets * (nodes - cost.nodes), Share<d>::thrown * (nodes - beside)});
+      if (i > 0) nodes += std::max({0., Share<d>::jets * (nodes - cost.nodes), thrown * (nodes - beside)});
       cost.nodes_most = std::max(cost.nodes_most, nodes);
       cost.at_least = cost.at_least || at_least;
       mean += quarters > 0 ? nodes * (i == 0 || i == quarters ? 0.5 : 1) / quarters : nodes;

@@ -69,28 +69,20 @@ Immersion<d> Immersion<d>::of(const rigid::Surface<d>& hull, double level) {
 template <int d>
 ImmersionTable<d>::ImmersionTable(const rigid::Surface<d>& hull) {
   constexpr int depths = 48;
+  constexpr double touch = 1e-6;  // a flat bottom is wet all at once
   const auto box = extents<d>(hull);
   height_ = box.sizes()[d - 1];
-  at_depth_.reserve(depths);
-  for (int i = 1; i <= depths; ++i) {
-    const double share = static_cast<double>(i) / depths;
-    at_depth_.push_back(Immersion<d>::of(hull, box.min()[d - 1] + share * share * height_));
+  at_depth_.reserve(depths + 1);
+  for (int i = 0; i <= depths; ++i) {
+    const double share = std::max(touch, std::pow(static_cast<double>(i) / depths, 2));
+    at_depth_.push_back(Immersion<d>::of(hull, box.min()[d - 1] + share * height_));
   }
 }
 
 template <int d>
 Immersion<d> ImmersionTable<d>::at(double depth) const {
-  if (depth <= 0 || at_depth_.empty()) return {};
-  const double place = std::sqrt(std::min(1., depth / height_)) * static_cast<double>(at_depth_.size()) - 1;
-  if (place <= 0) {  // below the first of them: areas as of a wedge, from the lowest point on
-    Immersion<d> first = at_depth_.front();
-    const double share = place + 1;
-    first.wetted *= share, first.plan *= share, first.volume *= share * share;
-    const Vec<d> middle = 0.5 * (first.low + first.high), half = 0.5 * share * (first.high - first.low);
-    first.low = middle - half;
-    first.high = middle + half;
-    return first;
-  }
+  if (depth <= 0 || height_ == 0) return {};
+  const double place = std::sqrt(std::min(1., depth / height_)) * static_cast<double>(at_depth_.size() - 1);
   const auto from = std::min(static_cast<std::size_t>(place), at_depth_.size() - 1),
              to = std::min(from + 1, at_depth_.size() - 1);
   const double share = place - static_cast<double>(from);

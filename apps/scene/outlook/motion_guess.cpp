@@ -34,6 +34,10 @@ double mass_guess(const Body& body) {
   return body.mass ? *body.mass : body.density ? *body.density * shape_of<d>(body.shape).at_unit_density.mass : 0;
 }
 
+/// By how much the water line is higher than that of still water where it decides the added mass (outlook.hpp).
+template <int d>
+constexpr double raised_depth = d == 2 ? 1.25 : 1;
+
 /// Heights over that of the arrival, at equal intervals.
 template <int d>
 void sink(GuessedFall<d>& fall, const GuessedBody<d>& body, double density, double depth, double until) {
@@ -44,7 +48,8 @@ void sink(GuessedFall<d>& fall, const GuessedBody<d>& body, double density, doub
   for (int i = 0; i <= intervals; ++i) {
     fall.sunk.push_back(height);
     const auto wet = body.immersion.at(depth - height);
-    const double inertia = body.mass + plate_mass<d>(density, wet.plan);
+    const double plan = body.immersion.at(raised_depth<d> * (depth - height)).plan;
+    const double inertia = body.mass + plate_mass<d>(density, plan);
     if (inertia > moving) up *= moving / inertia;  // what it takes with it; what it leaves behind keeps its speed
     moving = inertia;
     if (moving > 0) up += fall.interval * g * (density * wet.volume - body.mass) / moving;
