@@ -32,6 +32,9 @@ struct Share<2> {
   // Nodes in jets and in water that rises, over those that an entering hull itself brings: the examples' wedges have
   // about as many, hulls with sizes that were chosen, whose jets are thinner than an element, hardly any.
   static constexpr double jets = 1;
+  // Edges that bound a step, over h: those of thin water, which is what is fast, bound none in the plane.
+  static constexpr double edge = 1;
+  static constexpr double thrown = 0;
   static double nodes(double h) { return 2 / (std::numbers::sqrt3 * h * h); }
 };
 template <>
@@ -41,15 +44,23 @@ struct Share<3> {
   static constexpr double seconds_a_node = 5.5e-5;
   static constexpr double seconds_a_pass = 2e-6;
   static constexpr double jets = 1.8;
+  static constexpr double edge = 0.5;
+  static constexpr double thrown =
+      0.8;  // nodes in water that a wet hull throws up or leaves behind, over those beside it
   static double nodes(double h) { return std::numbers::sqrt2 / (h * h * h); }
 };
 constexpr double bytes_of_program = 1e8;
 // Cells that an estimate looks at, at most: in about a second several times the nodes that are run unasked.
 constexpr std::size_t most_cells = 400'000;
 
-/// Elements on a hull that is wetted so far [m].
-double size_on_hull(const Scene& scene, const Body& body, double half) {
-  return std::max(body.size, scene.fluid->size.wetted_fraction * half);
+/// Elements on a hull whose wetted facets have that length [m].
+double size_on_hull(const Scene& scene, const Body& body, double length) {
+  return std::max(body.size, scene.fluid->size.wetted_fraction * length);
+}
+
+template <int d>
+double width_of(const WettedEnds<d>& ends) {
+  return (ends.template tail<d - 1>() - ends.template head<d - 1>()).maxCoeff();
 }
 
 /// Elements that are asked for at the root of its jet [m]; none: as large as they like.
@@ -68,11 +79,13 @@ class SizeEstimate {
   SizeEstimate(const Scene& scene, double time) : size_(scene.fluid->size) {
     for (const auto& region : scene.fluid->regions) regions_.emplace_back(outline<d>(region));
     for (const auto& body : scene.bodies) {
-      const Vec<d> moved = guessed_motion<d>(scene, body, time);
-      auto hull = outline<d>(body);
+      const auto guessed = guessed_body<d>(scene, body);
+      const Vec<d> moved = guessed_motion<d>(scene, guessed, time);
+      auto hull = guessed.hull;
       hull.vertices.colwise() += moved;
-      const double half = wetted_half<d>(scene, body, time);
-      bodies_.emplace_back(Solid<d>(hull), size_on_hull(scene, body, half));
+      const auto ends = wetted_ends<d>(scene, guessed, time);
+      const double half = ends ? width_of<d>(*ends) / 2 : 0;
+      bodies_.emplace_back(Solid<d>(hull), size_on_hull(scene, body, wetted_length<d>(scene, guessed, time)));
       for (auto spot : hull_spots<d>(scene, body)) {
         spot.at += moved;
         add(spot);
@@ -254,6 +267,7 @@ template <int d>
 struct WettedAt {
   double time = 0;
   std::vector<std::optional<WettedEnds<d>>> ends;
+  std::vector<double> length;
 };
 
 /// Steps of the run: the smallest elements limit them by the speed of bodies and water, those that a contact line runs over by its own
@@ -283,22 +297,22 @@ class StepCount {
   static constexpr double share_of_hull = 1. / 16;  // times are halved until less of it is wetted between them
 
   WettedAt<d> wetted_at(double time) const {
-    WettedAt<d> wetted{time, {}};
-    for (const auto& body : bodies_) wetted.ends.push_back(wetted_ends<d>(scene_, body, time));
+    WettedAt<d> wetted{time, {}, {}};
+    for (const auto& body : bodies_) {
+      wetted.ends.push_back(wetted_ends<d>(scene_, body, time));
+      wetted.length.push_back(wetted_length<d>(scene_, body, time));
+    }
     return wetted;
-  }
-
-  static double width_of(const WettedEnds<d>& ends) {
-    return (ends.template tail<d - 1>() - ends.template head<d - 1>()).maxCoeff();
   }
 
   /// How far a contact line runs along the hull: from where it was dry, one that begins somewhere within [m].
   double run_of(std::size_t body, const WettedAt<d>& from, const WettedAt<d>& to) const {
     if (!to.ends[body]) return 0;
-    return from.ends[body] ? (*to.ends[body] - *from.ends[body]).cwiseAbs().maxCoeff() : width_of(*to.ends[body]);
+    return from.ends[body] ? (*to.ends[body] - *from.ends[body]).cwiseAbs().maxCoeff() : width_of<d>(*to.ends[body]);
   }
 
   double between(const WettedAt<d>& from, const WettedAt<d>& to, double speed, int halvings) const {
+    const double cfl = scene_.time.cfl * Share<d>::edge;
     double h = fixed_, dt = scene_.time.dt_max;
     const double time = to.time - from.time;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -312,13 +326,12 @@ class StepCount {
       }
       const auto& body = scene_.bodies[b];
       const double wet =
-          0.25 * ((from.ends[b] ? width_of(*from.ends[b]) : 0) + (to.ends[b] ? width_of(*to.ends[b]) : 0));
-      const double on_hull = size_on_hull(scene_, body, wet);
+          0.25 * ((from.ends[b] ? width_of<d>(*from.ends[b]) : 0) + (to.ends[b] ? width_of<d>(*to.ends[b]) : 0));
+      const double on_hull = size_on_hull(scene_, body, 0.5 * (from.length[b] + to.length[b]));
       h = std::min(h, on_hull);
-      if (run > 0)
-        dt = std::min(dt, scene_.time.cfl * std::min(on_hull, size_at_root<d>(scene_, body, wet)) * time / run);
+      if (run > 0) dt = std::min(dt, cfl * std::min(on_hull, size_at_root<d>(scene_, body, wet)) * time / run);
     }
-    if (speed > 0) dt = std::min(dt, scene_.time.cfl * h / speed);
+    if (speed > 0) dt = std::min(dt, cfl * h / speed);
     return time / dt;
   }
 
@@ -335,6 +348,15 @@ Count nodes_at(const Scene& scene, double time) {
   if (scene.tank) all = all.intersection(extents<d>(*scene.tank));
   if (const auto mirror = mirror_of(scene)) all.min()[mirror->axis] = std::max(all.min()[mirror->axis], mirror->at);
   return nodes_in<d>(estimate, all);
+}
+
+/// Whether a body comes to the water within the run.
+template <int d>
+bool enters(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [&](const Body& body) {
+    const auto guessed = guessed_body<d>(scene, body);
+    return wetted_length<d>(scene, guessed, 0) == 0 && wetted_length<d>(scene, guessed, scene.time.end) > 0;
+  });
 }
 
 /// Squares instead of nodes: measured with one body and one pass of its own.
@@ -362,12 +384,15 @@ Cost predicted_cost(const Scene& scene) {
   Cost cost;
   double mean = 0;
   if (scene.fluid) {
+    auto bare = scene;
+    bare.bodies.clear();
+    const double beside = nodes_at<d>(bare, 0).nodes, thrown = enters<d>(scene) ? Share<d>::thrown : 0;
     // Times at which the bodies' places are looked at: quarters of the run, by the trapezoidal rule.
     const int quarters = scene.bodies.empty() ? 0 : 4;
     for (int i = 0; i <= quarters; ++i) {
       auto [nodes, at_least] = nodes_at<d>(scene, quarters > 0 ? scene.time.end * i / quarters : 0);
       if (i == 0) cost.nodes = nodes;
-      if (nodes > cost.nodes) nodes += Share<d>::jets * (nodes - cost.nodes);
+      if (i > 0) nodes += std::max({0., Share<d>::jets * (nodes - cost.nodes), thrown * (nodes - beside)});
       cost.nodes_most = std::max(cost.nodes_most, nodes);
       cost.at_least = cost.at_least || at_least;
       mean += quarters > 0 ? nodes * (i == 0 || i == quarters ? 0.5 : 1) / quarters : nodes;

@@ -97,9 +97,10 @@ ReportResult write_ablation_report(const fs::path& directory) {
     const auto title = named.empty() ? folder_name(directory) : named;
     std::string chart;
     if (fs::exists(directory / "ablation.svg"))
-      chart = html_figure(inline_svg(read_text(directory / "ablation.svg"), "ablation"),
-                          "Change of the numbers that count, with its band from three meshes of nearly the same size. "
-                          "Effects: with against without. Changes in the shaded strip do not matter.");
+      chart =
+          html_wide_figure(inline_svg(read_text(directory / "ablation.svg"), "ablation"),
+                           "Change of the numbers that count, with its band from three meshes of nearly the same size. "
+                           "Effects: with against without. Changes in the shaded strip do not matter.");
     write_file_atomically(
         result.page,
         html_page(title, html_header(title, directory, ablation_banner(variants), {}) + verdicts_table(variants) +

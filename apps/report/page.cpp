@@ -42,7 +42,7 @@ h1,h2{overflow-wrap:anywhere}
 .grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:16px}
 figure{margin:0;background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:14px 16px 12px}
 figure svg,figure img{display:block;width:100%;height:auto}
-figure.heat{padding-bottom:16px}.scroll+figure,figure+.scroll{margin-top:16px}
+.sideways{overflow-x:auto}.sideways svg{min-width:560px}figure.heat{padding-bottom:16px}.scroll+figure,figure+.scroll{margin-top:16px}
 .views .row{display:flex;flex-wrap:wrap;gap:12px 28px;align-items:flex-end}.views .row>div{max-width:100%}.views svg{max-width:100%}
 .copy{position:relative}.copy pre{background:var(--code);border-radius:6px;padding:10px 64px 10px 12px;white-space:pre-wrap;overflow-wrap:anywhere}.details .copy pre{white-space:pre}
 .copy button{position:absolute;right:8px;top:8px;font:12px system-ui,sans-serif;color:var(--link);background:var(--paper);border:1px solid var(--line);border-radius:5px;padding:2px 8px;cursor:pointer}
@@ -69,7 +69,7 @@ code{font:13px/1.4 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;backgrou
 details.scene{background:var(--paper);border:1px solid var(--line);border-radius:8px;padding:12px 16px}details.scene summary{cursor:pointer;font-size:14px;color:var(--soft)}
 pre{font:12px/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,monospace;overflow-x:auto;margin:10px 0 0}
 footer{color:var(--soft);font-size:13px;margin-top:40px}
-@media (max-width:480px){main{padding:18px 12px 40px}h1{font-size:24px}.verdict{padding:14px 14px}.tile{padding:10px 12px}.tiles{grid-template-columns:repeat(auto-fit,minmax(min(100%,150px),1fr))}th,td{padding:6px 9px}figure{padding:10px 8px}}
+@media (max-width:480px){main{padding:18px 12px 40px;display:flex;flex-direction:column}main>h1,main>.where,main>.verdict.bad,main>.tiles{order:-1}h1{font-size:24px}.verdict{padding:14px 14px}.tile{padding:10px 12px}.tiles{grid-template-columns:repeat(auto-fit,minmax(min(100%,150px),1fr))}th,td{padding:6px 9px}figure{padding:10px 8px}}
 @media print{body{background:#fff}figure,.verdict,.tile{break-inside:avoid}#replay,h2:has(+style+#replay){display:none}}
 )";
 
@@ -120,6 +120,10 @@ std::string html_tiles(const std::string& tiles) {
 
 std::string html_figure(const std::string& image, const std::string& caption) {
   return "<figure>" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string html_wide_figure(const std::string& image, const std::string& caption) {
+  return html_figure("<div class=\"sideways\">" + image + "</div>", caption);
 }
 
 std::string html_chart(const std::string& name, const std::string& image, const std::string& caption) {

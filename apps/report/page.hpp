@@ -26,6 +26,8 @@ std::string html_tile(const std::string& value, const std::string& rows,
                       const char* classes = "tile");  ///< rows: <span> elements
 std::string html_tiles(const std::string& tiles);     ///< around them; nothing if there are none
 std::string html_figure(const std::string& image, const std::string& caption);
+/// One with small print: on narrow screens it moves sideways and stays readable.
+std::string html_wide_figure(const std::string& image, const std::string& caption);
 /// One whose picture a chart of the browser takes the place of (curves/charts.hpp); without scripts and in print it is there.
 std::string html_chart(const std::string& name, const std::string& image, const std::string& caption);
 const char* css_class(Mood mood);

@@ -176,7 +176,7 @@ ReportResult write_price_report(const fs::path& directory) {
     const auto title = named.empty() ? folder_name(directory) : named;
     std::string chart;
     if (fs::exists(directory / "price.svg"))
-      chart = html_figure(
+      chart = html_wide_figure(
           inline_svg(read_text(directory / "price.svg"), "price"),
           "Band of the quantities that count against the wall time of the run: thin lines one by one, thick the "
           "widest of them. Circles: meshes that no other one beats in both.");

@@ -28,6 +28,7 @@
 
 #include "core/surface/soup.hpp"
 #include "core/surface/surface_file.hpp"
+#include "core/surface/wrap.hpp"
 
 namespace splashdown {
 namespace {
@@ -95,7 +96,8 @@ void remove_crumbs(Shell& shell, Done& done) {
   shell = std::move(kept);
 }
 
-void close_holes(Shell& shell, Done& done) {
+/// False: a hole is left that no lid fits.
+bool close_holes(Shell& shell, Done& done) {
   pmp::merge_duplicated_vertices_in_boundary_cycles(shell);  // holes that touch in a point are two
   const auto stitched = pmp::stitch_borders(shell);
   if (stitched > 0)
@@ -109,14 +111,11 @@ void close_holes(Shell& shell, Done& done) {
       box.extend(corner(shell, shell.target(edge))), ++edges;
     std::vector<Shell::Face_index> lid;
     pmp::triangulate_hole(shell, start, std::back_inserter(lid));
-    if (lid.empty()) {
-      throw SurfaceFileError(
-          fmt::format("has a hole that no lid fits, around {} with {} edges", text(box.center()), edges),
-          cure_of_open_surface);
-    }
+    if (lid.empty()) return false;
     done.push_back(fmt::format("put a lid on a hole, around {}, {:.3g} wide, {} edges", text(box.center()),
                                box.diagonal().norm(), edges));
   }
+  return true;
 }
 
 /// All normals outward, part by part; parts that bound nothing are refused.
@@ -171,17 +170,14 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing(const std::vector<Sh
   return {};
 }
 
-/// Parts that cross become one.
-Shell united(std::vector<Shell> parts, Done& done) {
-  const std::string join = "Join the parts, e.g. Blender: Boolean > Union, or mend the place, and export it again.";
+/// Parts that cross become one; nothing: one of them crosses itself, or the union bounds no solid.
+std::optional<Shell> united(std::vector<Shell> parts, Done& done) {
   std::size_t joined = 0;
+  if (std::ranges::any_of(parts, [](const Shell& part) { return pmp::does_self_intersect(part); })) return {};
   while (const auto pair = crossing(parts)) {
     auto& [a, b] = *pair;
-    if (pmp::does_self_intersect(parts[a]) || pmp::does_self_intersect(parts[b]))
-      throw SurfaceFileError("has parts that cross each other, and one of them crosses itself", join);
     Shell sum;
-    if (!pmp::corefine_and_compute_union(parts[a], parts[b], sum))
-      throw SurfaceFileError("has parts whose union is not the surface of a solid", join);
+    if (!pmp::corefine_and_compute_union(parts[a], parts[b], sum)) return {};
     parts[a] = std::move(sum);
     parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(b));
     ++joined;
@@ -193,6 +189,22 @@ Shell united(std::vector<Shell> parts, Done& done) {
   return whole;
 }
 
+/// Facet by facet; nothing: what is left crosses itself.
+std::optional<Surface<3>> mended(Soup soup, Done& done) {
+  auto shell = oriented_shell(soup, done);
+  remove_crumbs(shell, done);
+  if (!close_holes(shell, done)) return {};
+  auto parts = outward_parts(shell, done);
+  remove_inner_parts(parts, done);
+  const auto whole = united(std::move(parts), done);
+  if (!whole) return {};
+  Soup last;
+  pmp::polygon_mesh_to_polygon_soup(*whole, last.points, last.polygons);
+  Done of_cuts;  // slivers along the cuts of a union: no news
+  cleaned_up(last, of_cuts);
+  return surface_of(last);
+}
+
 }  // namespace
 
 RepairedSurface repaired_surface(const std::filesystem::path& path) {
@@ -202,17 +214,16 @@ RepairedSurface repaired_surface(const std::filesystem::path& path) {
   if (soup.polygons.empty())
     throw SurfaceFileError("has no facet with an area",
                            "Give it a thickness, e.g. Blender: Solidify, and export it again.");
-  auto shell = oriented_shell(soup, result.done);
-  remove_crumbs(shell, result.done);
-  close_holes(shell, result.done);
-  auto parts = outward_parts(shell, result.done);
-  remove_inner_parts(parts, result.done);
-  const auto whole = united(std::move(parts), result.done);
-  Soup last;
-  pmp::polygon_mesh_to_polygon_soup(whole, last.points, last.polygons);
-  Done of_cuts;  // slivers along the cuts of a union: no news
-  cleaned_up(last, of_cuts);
-  result.surface = surface_of(last);
+  if (auto surface = mended(soup, result.done)) {
+    result.surface = std::move(*surface);
+    return result;
+  }
+  auto wrap = wrapped(soup);
+  result.done = {fmt::format(
+      "wrapped it in a closed skin, {:.2g} outside of it, in units of the file: it crosses itself, and no facets "
+      "of its own bound a solid. Openings and hollows narrower than {:.2g} are closed",
+      wrap.gap, wrap.opening)};
+  result.surface = std::move(wrap.surface);
   return result;
 }
 

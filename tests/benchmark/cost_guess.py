@@ -18,9 +18,10 @@ import tomllib
 UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1}
 
 
-def guess(program, scene):
+def guess(program, scene, overrides=()):
     """Steps, most nodes, and seconds of the start and of a step."""
-    said = subprocess.run([program, "check", scene], capture_output=True, text=True, check=True).stdout
+    changed = [x for override in overrides for x in ("--set", override)]
+    said = subprocess.run([program, "check", scene, *changed], capture_output=True, text=True, check=True).stdout
     steps = float(re.search(r"^  steps +about ([\d.e+]+) to", said, re.M)[1])
     nodes = float(re.findall(r"\d[\d.e+]*", re.search(r"^  nodes +(.*)", said, re.M)[1])[-1])
     start, step = (

@@ -90,17 +90,30 @@ std::string acceleration_tile(const std::string& what, const Json& peaks, const 
   return tile(digits(mean.known() ? mean.value : value, 3) + " g", lines);
 }
 
+/// An instrument at the centre of mass says the same twice.
+bool is_at_a_point(const RunData& run, const Json& peaks) {
+  const auto& of_body = shown(peaks).peak;
+  const double value = number_at(of_body, {"value"}), time = number_at(of_body, {"time"});
+  const auto& points = member(run.summary, "equipment");
+  return std::any_of(points.begin(), points.end(), [&](const Json& point) {
+    const auto& peak = shown(point).peak;
+    return std::abs(number_at(peak, {"value"}) - value) <= 1e-3 * value && number_at(peak, {"time"}) == time;
+  });
+}
+
 std::string acceleration_tiles(const RunData& run) {
   std::string html;
   for (const auto& [name, point] : member(run.summary, "equipment").items())
     html += acceleration_tile(" at " + name, point, member(point, "grades"),
                               mean_of(run, name + ".peak_g_" + shown(point).grade));
   const auto& bodies = member(run.summary, "bodies");
-  for (const auto& [name, body] : bodies.items())
+  for (const auto& [name, body] : bodies.items()) {
+    if (bodies.size() == 1 && is_at_a_point(run, member(body, "peak_acceleration_g"))) continue;
     html +=
         acceleration_tile(bodies.size() > 1 ? " of " + name : " of the centre of mass",
                           member(body, "peak_acceleration_g"), member(member(body, "grades"), "peak_acceleration_g"),
                           mean_of(run, name + ".peak_g_" + shown(member(body, "peak_acceleration_g")).grade));
+  }
   return html;
 }
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/record/frames/frames.hpp"
 #include "apps/record/frames/vtu_grid.hpp"
@@ -41,7 +43,50 @@ struct View {
 constexpr View views[] = {{"from below", "below", {1, 0, 0}, {0, -1, 0}},
                           {"from the starboard side", "side", {1, 0, 0}, {0, 0, 1}},
                           {"from ahead", "ahead", {0, 1, 0}, {0, 0, 1}}};
-constexpr View other_side = {"from the port side", "side", {-1, 0, 0}, {0, 0, 1}};
+
+std::map<std::pair<int, int>, int> edges_of(const Grid& hull) {
+  std::map<std::pair<int, int>, int> edges;
+  for (const auto& cell : hull.cells)
+    for (std::size_t k = 0; cell.size() == 3 && k < 3; ++k) ++edges[std::minmax(int{cell[k]}, int{cell[(k + 1) % 3]})];
+  return edges;
+}
+
+/// Where a half of a hull was cut, along a horizontal axis: all its free edges lie there; nothing: it is whole.
+std::optional<std::pair<std::size_t, double>> cut_of(const Grid& hull) {
+  std::vector<Point3> rim;
+  for (const auto& [edge, count] : edges_of(hull))
+    if (count == 1) rim.push_back(hull.points[static_cast<std::size_t>(edge.first)]);
+  if (rim.empty()) return {};
+  const auto size = [&](std::size_t axis) {
+    const auto [low, high] = std::ranges::minmax(hull.points, {}, [=](const Point3& x) { return x[axis]; });
+    return high[axis] - low[axis];
+  };
+  for (const std::size_t axis : {1, 0})
+    if (std::ranges::all_of(rim, [&](const Point3& x) { return std::abs(x[axis] - rim[0][axis]) < 1e-6 * size(axis); }))
+      return std::pair(axis, rim[0][axis]);
+  return {};
+}
+
+/// A half with its mirror image, whose pressures are the same.
+Grid whole_of(Grid hull) {
+  const auto cut = cut_of(hull);
+  if (!cut) return hull;
+  const auto [axis, at] = *cut;
+  const std::size_t points = hull.points.size(), cells = hull.cells.size();
+  for (std::size_t i = 0; i < points; ++i) {
+    auto image = hull.points[i];
+    image[axis] = 2 * at - image[axis];
+    hull.points.push_back(image);
+    hull.values.push_back(hull.values[i]);
+  }
+  for (std::size_t c = 0; c < cells; ++c) {
+    auto image = hull.cells[c];
+    for (auto& point : image) point += static_cast<int>(points);
+    std::swap(image[1], image[2]);
+    hull.cells.push_back(image);
+  }
+  return hull;
+}
 
 /// What the viewer sees: facets that face him, the nearest drawn last, and their silhouette.
 PlanePicture seen(const Grid& hull, const View& view) {
@@ -121,14 +166,12 @@ FieldFigures prepare_hull_figures(const std::filesystem::path& run) {
   FieldFigures result;
   for (const auto& [name, file] : hull_files(run)) {
     try {
-      const Grid hull = read_grid(file, "p_max");
+      Grid hull = read_grid(file, "p_max");
       if (!is_surface(hull)) continue;
-      for (auto view : views) {
-        PlanePicture picture = seen(hull, view);
-        if (picture.triangles.empty()) {  // half of a hull
-          view = other_side;
-          picture = seen(hull, view);
-        }
+      hull = whole_of(std::move(hull));
+      for (const auto& view : views) {
+        const PlanePicture picture = seen(hull, view);
+        if (picture.triangles.empty()) continue;
         auto figure = figure_of("hull_" + file_name_of(name) + "_" + view.name, picture, room_around(picture),
                                 {.label = "highest pressure"});
         figure.title = name + " " + view.title;

@@ -118,9 +118,9 @@ std::string chart_of(const fs::path& directory, std::vector<std::string>& warnin
     warnings.emplace_back("the chart, study.svg, is missing: splashdown study STUDY.toml --collect draws it");
   if (!fs::exists(directory / "study.svg")) return {};
   return "<h2>Chart</h2>\n" +
-         html_figure(in_its_width(inline_svg(read_text(directory / "study.svg"), "study")),
-                     "Runs that broke down stand as crosses in the red band, in the colour of their curve. Where "
-                     "curves coincide their points stand a little beside each other.");
+         html_wide_figure(in_its_width(inline_svg(read_text(directory / "study.svg"), "study")),
+                          "Runs that broke down stand as crosses in the red band, in the colour of their curve. Where "
+                          "curves coincide their points stand a little beside each other.");
 }
 
 std::string lines_of(const std::vector<Figure>& figures, const Charts& charts) {

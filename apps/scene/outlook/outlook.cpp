@@ -22,13 +22,6 @@ double seen_from_above(const Extents<2>& box) { return box.sizes().x(); }
 /// Of an ellipse in that box.
 double seen_from_above(const Extents<3>& box) { return pi / 4 * box.sizes().x() * box.sizes().y(); }
 
-/// Mass of water on a flat plate of this breadth or area: half of what moves with it in the whole space.
-template <int d>
-double plate_mass(double density, double plan) {
-  if constexpr (d == 2) return density * pi / 8 * plan * plan;
-  return density * 4. / 3 * std::pow(plan / pi, 1.5);
-}
-
 template <int d>
 constexpr double raised = d == 2 ? 1.25 : 1;
 
@@ -68,14 +61,17 @@ double lowest(const rigid::Surface<d>& hull) {
 
 /// When the guess has the body at the water first; nothing: not within the run, or more than its bottom is in it from the start.
 template <int d>
-std::optional<double> contact_time(const Scene& scene, const Body& body, double over, double height) {
+std::optional<double> contact_time(const Scene& scene, const GuessedBody<d>& guessed, double over, double height) {
+  const Body& body = *guessed.body;
   const double tolerance = 1e-6 * height, bottom = 0.05 * height;
-  const auto is_there = [&](double t) { return over + guessed_motion<d>(scene, body, t)[d - 1] <= tolerance; };
+  const auto is_there = [&](double t) { return over + guessed_motion<d>(scene, guessed, t)[d - 1] <= tolerance; };
   if (over < -bottom) return {};
   if (is_there(0)) return 0.;
   double late = scene.time.end;
   for (const auto& point : body.path)
     if (point.time < late && is_there(point.time)) late = point.time;
+  if (!is_there(late) && !guessed.fall.sunk.empty())
+    late = guessed.fall.begins + guessed.fall.arrival;  // and out again
   if (!is_there(late)) return {};
   double early = 0;
   for (int i = 0; i < 60; ++i) (is_there(0.5 * (early + late)) ? late : early) = 0.5 * (early + late);
@@ -84,7 +80,8 @@ std::optional<double> contact_time(const Scene& scene, const Body& body, double 
 
 /// Downward speed of the guess before a time [m/s].
 template <int d>
-double sinking(const Scene& scene, const Body& body, double time) {
+double sinking(const Scene& scene, const GuessedBody<d>& guessed, double time) {
+  const Body& body = *guessed.body;
   const double start = body.path.empty() ? -body.velocity[d - 1] : 0;
   if (body.motion == Motion::free) {
     const double g = scene.gravity ? -scene.gravity->acceleration[d - 1] : 0;
@@ -92,7 +89,7 @@ double sinking(const Scene& scene, const Body& body, double time) {
   }
   if (body.path.empty()) return start;
   const double dt = 1e-4 * scene.time.end;
-  return (guessed_motion<d>(scene, body, time)[d - 1] - guessed_motion<d>(scene, body, time + dt)[d - 1]) / dt;
+  return (guessed_motion<d>(scene, guessed, time)[d - 1] - guessed_motion<d>(scene, guessed, time + dt)[d - 1]) / dt;
 }
 
 /// The highest load of von Karman's over the depths of penetration that are reached in a time.
@@ -126,10 +123,11 @@ std::optional<Entry> entry_of(const Scene& scene, std::size_t index, const rigid
   const auto& body = scene.bodies[index];
   if (body.motion == Motion::fixed) return {};
   const double over = lowest<d>(hull) - level;
-  const auto time = contact_time<d>(scene, body, over, extents<d>(hull).sizes()[d - 1]);
+  const auto guessed = guessed_body<d>(scene, body);
+  const auto time = contact_time<d>(scene, guessed, over, extents<d>(hull).sizes()[d - 1]);
   if (!time) return {};
-  Entry entry{.body = index, .time = *time, .speed = sinking<d>(scene, body, *time), .deadrise = deadrise<d>(body)};
-  entry.start_speed = sinking<d>(scene, body, 0);
+  Entry entry{.body = index, .time = *time, .speed = sinking<d>(scene, guessed, *time), .deadrise = deadrise<d>(body)};
+  entry.start_speed = sinking<d>(scene, guessed, 0);
   entry.height = std::max(0., over);
   if (entry.speed <= 0) return {};
   find_peak<d>(hull, mass, scene.fluid->density, scene.time.end - *time, entry);
@@ -171,9 +169,11 @@ Mover mover_of(const Scene& scene, std::size_t index, const std::optional<Entry>
   mover.moves = body.motion != Motion::fixed;
   const double from = entry ? entry->time : 0, end = scene.time.end;
   mover.time_in_water = std::max(0., end - from);
-  Vec<d> way = guessed_motion<d>(scene, body, end) - guessed_motion<d>(scene, body, from);
+  const auto guessed = guessed_body<d>(scene, body);
+  Vec<d> way = guessed_motion<d>(scene, guessed, end) - guessed_motion<d>(scene, guessed, from);
   const double displaced = scene.fluid ? scene.fluid->density * shape_of<d>(body.shape).at_unit_density.mass : 0;
-  if (way.isZero(0) && scene.fluid) way = sunk<d>(scene, body, box, mover, displaced);
+  if (body.velocity.isZero() && body.path.empty() && scene.fluid)
+    if (const Vec<d> alone = sunk<d>(scene, body, box, mover, displaced); !alone.isZero(0)) way = alone;
   mover.way = way.norm();
   // Of a side what is under water as long as it floats.
   const double wet = scene.fluid ? std::min(1., mover.mass / displaced) : 1;

@@ -315,6 +315,20 @@ TEST_F(Repair, turns_a_hull_the_right_way_out) {
   EXPECT_NEAR(volume(mended(turned_over(hull)).surface), volume(hull), 1e-9 * volume(hull));
 }
 
+/// A tube that turns back over itself: its rim crosses its own walls.
+TEST_F(Repair, wraps_a_part_that_crosses_itself) {
+  const auto square = [](double half) {
+    return testing::Section{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  };
+  auto tube = testing::loft({0, 1, 0.4}, {square(0.1), square(0.1), square(0.2)});
+  const auto wrap = mended(tube);
+  EXPECT_TRUE(wrap.done.front().starts_with("wrapped it")) << wrap.done.front();
+  // The tube, and the frustum beyond 0.4 m.
+  const double inside = 0.4 * 0.2 * 0.2 + 0.6 * (0.2 * 0.2 + 0.4 * 0.4 + 0.2 * 0.4) / 3;
+  EXPECT_GT(volume(wrap.surface), inside) << "it lies outside";
+  EXPECT_LT(volume(wrap.surface), 1.05 * inside);
+}
+
 TEST_F(Repair, puts_flat_lids_where_they_were) {
   const Vec<3> size(1, 0.5, 0.2);
   for (int f = 0; f < 16; f += 2) {
