@@ -158,7 +158,7 @@ Mover mover_of(const Scene& scene, std::size_t index, const std::optional<Entry>
   const auto& body = scene.bodies[index];
   const auto hull = outline<d>(body);
   const auto box = extents<d>(hull);
-  Mover mover;
+  Mover mover{.body = index};
   mover.length = box.sizes().maxCoeff();
   mover.breadth = box.sizes().template head<d - 1>().mean();
   mover.height = box.sizes()[d - 1];
@@ -175,6 +175,7 @@ Mover mover_of(const Scene& scene, std::size_t index, const std::optional<Entry>
   if (body.velocity.isZero() && body.path.empty() && scene.fluid)
     if (const Vec<d> alone = sunk<d>(scene, body, box, mover, displaced); !alone.isZero(0)) way = alone;
   mover.way = way.norm();
+  mover.climb = way[d - 1];
   // Of a side what is under water as long as it floats.
   const double wet = scene.fluid ? std::min(1., mover.mass / displaced) : 1;
   const double side = wet * mover.height * (d == 2 ? 1 : mover.breadth);

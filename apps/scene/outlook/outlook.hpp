@@ -33,12 +33,14 @@ struct Entry {
 
 /// Of the body that enters, else of the first one.
 struct Mover {
+  std::size_t body = 0;
   double length = 0, breadth = 0, height = 0;  ///< extents: largest, horizontal (mean in space), vertical [m]
   double plan = 0;                             ///< breadth, area seen from above [m, m^2]
   double mass = 0;                             ///< [kg, kg/m]; infinite: its motion is prescribed
   double added = 0;                            ///< mass of water on a flat plate of its plan [kg, kg/m]
   double forward = 0;                          ///< speed along the water [m/s]
   double way = 0;                              ///< that it makes in the water until the end [m]
+  double climb = 0;                            ///< how far up that ends; negative: down [m]
   double facing = 0;                           ///< what of it is seen along that way [m, m^2]
   double time_in_water = 0;                    ///< [s]
   bool moves = false;                          ///< free or prescribed
