@@ -7,6 +7,7 @@
 
 #include "apps/ablate/variants.hpp"
 #include "apps/price/ladder.hpp"
+#include "apps/scene/choose/refine.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/scene/scales.hpp"
 
@@ -25,12 +26,12 @@ Axis mesh_axis(const Scene& scene) {
   Axis axis;
   axis.name = axis.label = "refine";
   axis.leader = 1;
-  if (!scene.fluid) {
+  if (!scene.has_fluid()) {
     axis.values.push_back({"no_mesh", {}, {}, {}});
     return axis;
   }
   for (const double sign : {0., -1., 1.}) {
-    const double refine = scene.fluid->size.refine * (1 + sign * replicate_offset);
+    const double refine = refine_of(scene) * (1 + sign * replicate_offset);
     const auto text = digits_of(refine);
     axis.values.push_back({text, refine, {fmt::format("{}={}", refine_key, text)}, {}});
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/price/command.hpp"
+#include "apps/scene/choose/refine.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/statistics/verdict/share.hpp"
 #include "apps/text/shell_word.hpp"
@@ -40,7 +41,7 @@ const PricedQuantity* scatters_too_much(const Price& price, double accuracy) {
 }
 
 std::string advice_for(const Price& price, const AccuracyWanted& wanted) {
-  const double own = read_scene(wanted.scene, wanted.set).scene.fluid->size.refine;
+  const double own = refine_of(read_scene(wanted.scene, wanted.set).scene);
   if (wanted.folder.empty() || goes_on(price, wanted, own)) {
     const auto command = command_of(wanted, wanted.set, wanted.folder);
     const auto* quantity = scatters_too_much(price, wanted.accuracy);

@@ -19,6 +19,7 @@
 #include "apps/report/report.hpp"
 #include "apps/run/command.hpp"
 #include "apps/run/folder/folder.hpp"
+#include "apps/scene/choose/refine.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/statistics/verdict/limits.hpp"
 #include "apps/study/folder.hpp"
@@ -170,7 +171,7 @@ int climb_by(ProbePlan& plan, Ladder& ladder, const RunOptions& options, const s
 
 /// Coarse runs beside the run's folder.
 Source probed_price(const RunOptions& options, const Scene& scene) {
-  const double own = scene.fluid->size.refine;
+  const double own = refine_of(scene);
   const auto refine = [&](int k) { return as_written(own * probe_factor(k)); };
   const auto range = allowed_probes(options, own);
   auto order = probe_order(options, scene);
@@ -279,7 +280,7 @@ void choose_by_accuracy(Aim& aim, const RunOptions& options) {
 /// Throws SceneError.
 Aim aim_of(const RunOptions& options) {
   const auto file = read_scene(options.scene, options.overrides);
-  if (!file.scene.fluid)
+  if (!file.scene.has_fluid())
     throw SceneError(
         {fmt::format("{}: has no [fluid], so there is no mesh to choose. Leave --accuracy and --seconds "
                      "out.",

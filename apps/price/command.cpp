@@ -12,6 +12,7 @@
 #include "apps/process/interrupt.hpp"
 #include "apps/report/report.hpp"
 #include "apps/run/folder/folder.hpp"
+#include "apps/scene/choose/refine.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/study/folder.hpp"
 
@@ -44,14 +45,14 @@ std::vector<double> finer_than(const std::vector<double>& refines, const PriceOp
 PricePlan plan_of(const PriceOptions& options) {
   const auto file = read_scene(options.scene, options.set);
   const auto& scene = file.scene;
-  if (!scene.fluid)
+  if (!scene.has_fluid())
     throw SceneError({fmt::format("{}: has no [fluid], so there is no mesh to refine. Use splashdown run.",
                                   options.scene.string())});
   PricePlan plan;
   plan.title = scene.title;
   plan.has_tank = scene.tank.has_value();
-  plan.refines = rung_refines(options.rungs, scene.fluid->size.refine);
-  plan.finer = finer_than(plan.refines, options, scene.fluid->size.refine);
+  plan.refines = rung_refines(options.rungs, refine_of(scene));
+  plan.finer = finer_than(plan.refines, options, refine_of(scene));
   plan.goes_on = options.accuracy || options.budget;
   plan.accuracy = options.accuracy ? *options.accuracy / 100 : least_accuracy;
   plan.digest = digest_of_scene(options.scene, options.set);

@@ -237,7 +237,9 @@ std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& n
   const auto text = [d](const Point& point) { return toml_list(std::vector<double>(point.data(), point.data() + d)); };
   const auto& old = *scene.tank;
   double level = old.min[d - 1];
-  for (const auto& region : scene.fluid->regions)
+  static const std::vector<Region> none;
+  const auto& regions = scene.fluid ? scene.fluid->regions : none;
+  for (const auto& region : regions)
     if (const auto* box = std::get_if<BoxRegion>(&region.shape)) level = std::max(level, box->max[d - 1]);
   Point low = old.min, high = old.max;
   for (int k = 0; k + 1 < d; ++k) {
@@ -247,8 +249,8 @@ std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& n
   }
   low[d - 1] = level - tank_growth * (level - low[d - 1]);
   std::vector<std::string> set = {"tank.min=" + text(low), "tank.max=" + text(high)};
-  for (std::size_t i = 0; i < scene.fluid->regions.size(); ++i) {
-    const auto* box = std::get_if<BoxRegion>(&scene.fluid->regions[i].shape);
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const auto* box = std::get_if<BoxRegion>(&regions[i].shape);
     if (!box) continue;
     Point from = box->min, to = box->max;
     for (int k = 0; k < d; ++k) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/check/cost.hpp"
+#include "apps/scene/choose/refine.hpp"
 #include "apps/scene/read/override.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/statistics/verdict/next_step.hpp"
@@ -42,7 +43,7 @@ struct Change {
 Change change_of(NextStep& next, const RunOptions& options, const Scene& scene) {
   Change change;
   change.said = said_values(options.overrides);
-  const double refine = scene.fluid ? scene.fluid->size.refine : 1;
+  const double refine = refine_of(scene);
   Words added;
   const auto add = [&](double value, const std::string& key) {
     if (!(value > 0)) return;

@@ -17,6 +17,7 @@ namespace splashdown::vortex {
 namespace {
 
 constexpr double diffusion_limit = 0.2;  // nu dt/h^2: the splitting's error grows beyond
+constexpr double faintest = 1e-20;       // vorticity that is none, over that of the fastest fluid across a square
 constexpr long starting_steps = 3;       // without a prediction worth having
 
 double speed_of(const WallSpec<2>& wall, const Twist<2>& twist) {
@@ -29,8 +30,9 @@ double speed_of(const WallSpec<2>& wall, const Twist<2>& twist) {
 
 GridFlow::GridFlow(GridFlowSpec spec)
     : spec_(std::move(spec)),
-      stream_function_(spec_.grid, spec_.sides, spec_.diffusion_order),
-      advection_(spec_.grid, spec_.remeshing, spec_.paths) {
+      stream_function_(spec_.grid, spec_.sides),
+      advection_(spec_.grid, spec_.remeshing, spec_.paths),
+      diffusion_(spec_.grid, spec_.diffusion_order) {
   check();
   const std::size_t nodes = spec_.grid.nodes();
   omega_ = spec_.vorticity.empty() ? NodeField(nodes, 0.0) : spec_.vorticity;
@@ -40,12 +42,13 @@ GridFlow::GridFlow(GridFlowSpec spec)
     twists_.push_back(wall.velocity);
   }
   loads_.resize(spec_.walls.size());
-  solve_velocity(omega_, 0, 0, velocity_);
+  solve_velocity(omega_, 0, velocity_);
   before_ = velocity_;
-  speed_ = largest_speed();
+  const auto motion = motion_of(spec_.grid, velocity_, stream(0));
+  speed_ = motion.speed;
   buoyant_at_start_ = buoyant_energy();
   trial_velocity_ = velocity_;
-  ledger_.kinetic_energy = kinetic_energy();
+  ledger_.kinetic_energy = kinetic_energy(motion);
   const Vec<2> size = spec_.grid.max() - spec_.grid.min;
   ledger_.volume = ledger_.volume_initial = size.prod();
   add_samples();
@@ -60,19 +63,47 @@ void GridFlow::check() const {
     throw std::invalid_argument("vortex fluid: vorticity needs one number a node");
 }
 
-void GridFlow::solve_velocity(NodeField& omega, double spread, double at_time, FaceField& velocity) {
-  stream_function_.solve(omega, spread, psi_);
-  velocities_of(spec_.grid, psi_, stream(at_time), velocity);
+/// How far before each side that the stream leaves by vorticity fades: half of the way there from the last body.
+Vec<2> GridFlow::fading(const Vec<2>& stream) const {
+  if (spec_.sides != SideKind::free || stream.isZero() || poses_.empty()) return Vec<2>::Zero();
+  constexpr double share = 0.5;
+  Vec<2> way = spec_.grid.max() - spec_.grid.min;
+  for (std::size_t w = 0; w < poses_.size(); ++w) {
+    const double reach = spec_.walls[w].surface.vertices.colwise().norm().maxCoeff();
+    const Vec<2> at = poses_[w].translation();
+    for (int k = 0; k < 2; ++k)
+      way[k] = std::min(way[k], (stream[k] > 0 ? spec_.grid.max()[k] - at[k] : at[k] - spec_.grid.min[k]) - reach);
+  }
+  return share * way.cwiseMax(0).cwiseProduct(stream.normalized());
 }
 
-double GridFlow::largest_speed() const {
+/// What velocities are of: a wake that is cut off where it leaves the grid would pull at all that is left of it, and its vortices
+/// of either sense would do so in turn.
+const NodeField& GridFlow::faded(const NodeField& omega, const Vec<2>& stream) {
   const auto& g = spec_.grid;
-  double squared = 0;
+  const Vec<2> reach = fading(stream);
+  if (reach.isZero()) return omega;
+  const auto share = [](double from_side, double width) {
+    const double x = width > 0 ? std::clamp(from_side / width, 0., 1.) : 1;
+    return x * x * (3 - 2 * x);
+  };
+  faded_.resize(omega.size());
+  std::vector<double> along_x;
+  for (int i = 0; i <= g.nx; ++i) along_x.push_back(share(g.h * (g.nx - i), reach.x()) * share(g.h * i, -reach.x()));
   const auto row = static_cast<std::size_t>(g.nx + 1);
-  for (std::size_t j = 0; j < static_cast<std::size_t>(g.ny); ++j)
-    for (std::size_t k = j * row; k < (j + 1) * row - 1; ++k)
-      squared = std::max(squared, velocity_.u[k] * velocity_.u[k] + velocity_.v[k] * velocity_.v[k]);
-  return std::sqrt(squared);
+  in_pieces(static_cast<std::size_t>(g.ny + 1), 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t j = first; j < last; ++j) {
+      const double y = g.h * static_cast<double>(j);
+      const double along_y = share(g.h * g.ny - y, reach.y()) * share(y, -reach.y());
+      for (std::size_t i = 0; i < row; ++i) faded_[j * row + i] = along_y * along_x[i] * omega[j * row + i];
+    }
+  });
+  return faded_;
+}
+
+void GridFlow::solve_velocity(const NodeField& omega, double at_time, FaceField& velocity) {
+  stream_function_.solve(faded(omega, stream(at_time)), psi_);
+  velocities_of(spec_.grid, psi_, stream(at_time), velocity);
 }
 
 double GridFlow::stable_dt() const {
@@ -126,19 +157,63 @@ Status GridFlow::begin(double kick, double dt, std::span<const char> answers) {
   for (std::size_t w = 0; w < penalised_.size(); ++w)
     for (std::size_t other = 0; other < w; ++other) penalised_[w].divide_with(penalised_[other]);
   {
+    const Stopwatch watch(diffusion_seconds_);
+    diffusion_.apply(trial_omega_, spec_.viscosity * kick, faintest * speed_ / spec_.grid.h);
+  }
+  {
     const Stopwatch watch(poisson_seconds_);
-    solve_velocity(trial_omega_, spec_.viscosity * kick, middle, trial_velocity_);
+    solve_velocity(trial_omega_, middle, trial_velocity_);
   }
   const Stopwatch watch(bodies_seconds_);
+  ratio_ = ratio;
   const auto& rate = spec_.penalisation.rate;
-  const double share = rate ? *rate * kick / (1 + *rate * kick) : 1;
-  laws_.resize(penalised_.size());
-  for (std::size_t w = 0; w < penalised_.size(); ++w) {
-    penalised_[w].make_rigid(trial_velocity_, share, passes_of(w, w < answers.size() && answers[w]), projections_);
-    laws_[w] = penalised_[w].law(spec_.density, kick, ratio, spec_.gravity);
-  }
+  find_answers(rate ? *rate * kick / (1 + *rate * kick) : 1, answers);
+  laws_.clear();
+  for (const auto& wall : penalised_) laws_.push_back(wall.law(spec_.density, kick, ratio, spec_.gravity));
   is_begun_ = true;
   return {};
+}
+
+/// Later steps have a prediction, in which walls and other bodies have had their say: their passes are those of bodies alone.
+void GridFlow::find_answers(double share, std::span<const char> answers) {
+  const bool is_alone = penalised_.size() == 1 && spec_.sides == SideKind::free;
+  if (steps_ < starting_steps && !is_alone && !penalised_.empty()) return find_answers_together(share, answers);
+  for (std::size_t w = 0; w < penalised_.size(); ++w)
+    penalised_[w].make_rigid(trial_velocity_, share, passes_of(w, w < answers.size() && answers[w]), projections_);
+}
+
+void GridFlow::find_answers_together(double share, std::span<const char> answers) {
+  int passes = 1;
+  for (std::size_t w = 0; w < penalised_.size(); ++w) {
+    penalised_[w].begin_passes();
+    passes = std::max(passes, passes_of(w, w < answers.size() && answers[w]));
+  }
+  pass_together(share, passes, 0, -1, answers);
+  for (std::size_t w = 0; w < penalised_.size(); ++w)
+    for (int mode = 0; mode < 3 && !penalised_[w].moments().is_inside_out(); ++mode)
+      pass_together(share, passes, w, mode, answers);
+}
+
+/// With all that is in the grid: u_{k+1} = u_k + P f_k by Poisson's equation on it. Other bodies that the fluid moves let the
+/// motion of one pass: what they do to each other comes a step later.
+void GridFlow::pass_together(double share, int passes, std::size_t mover, int mode, std::span<const char> answers) {
+  FaceField u = trial_velocity_, change;
+  if (mode >= 0) u.reset(spec_.grid.nodes());
+  NodeField curl;
+  for (int k = 0; k < passes; ++k) {
+    curl.assign(spec_.grid.nodes(), 0.0);
+    for (std::size_t w = 0; w < penalised_.size(); ++w) {
+      const bool is_mover = mode >= 0 && w == mover, is_free = w < answers.size() && answers[w];
+      if (mode < 0 || is_mover || !is_free) penalised_[w].pass_from(u, share, mover, mode, is_mover, curl);
+    }
+    if (k + 1 == passes) return;
+    stream_function_.solve(curl, psi_);
+    velocities_of(spec_.grid, psi_, Vec<2>::Zero(), change);
+    for (std::size_t i = 0; i < u.u.size(); ++i) {
+      u.u[i] += change.u[i];
+      u.v[i] += change.v[i];
+    }
+  }
 }
 
 void GridFlow::solve(std::span<const Twist<2>> twists) {
@@ -149,24 +224,16 @@ void GridFlow::solve(std::span<const Twist<2>> twists) {
     loads_[w] = {};
     loads_[w].physical = (laws_[w].constant - laws_[w].answer * trial_twists_[w]) / kick_;
     loads_[w].wetted = penalised_[w].moments().length;
+    for (std::size_t mover = 0; mover < penalised_.size(); ++mover)
+      loads_[w].physical -= penalised_[w].answer_to(mover, spec_.density) * trial_twists_[mover] / kick_;
   }
 }
 
 /// Perturbations of the stream, outside of the bodies [J/m].
-double GridFlow::kinetic_energy() const {
+double GridFlow::kinetic_energy(const Motion& motion) const {
   const Vec<2> far = stream(time_);
   const auto& g = spec_.grid;
-  const auto row = static_cast<std::size_t>(g.nx + 1);
-  std::vector<double> rows(static_cast<std::size_t>(g.ny), 0.0);
-  in_pieces(rows.size(), 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t j = first; j < last; ++j)
-      for (std::size_t k = j * row; k < (j + 1) * row - 1; ++k) {
-        const double u = trial_velocity_.u[k] - far.x(), v = trial_velocity_.v[k] - far.y();
-        rows[j] += u * u + v * v;
-      }
-  });
-  double sum = 0;
-  for (const double x : rows) sum += x;
+  double sum = motion.squares;
   for (const auto& wall : penalised_) {
     const auto& [box, chi] = wall.chi();
     for (int j = 0; j < box.height && !chi.u.empty(); ++j)
@@ -189,14 +256,14 @@ double GridFlow::buoyant_energy() const {
   return sum;
 }
 
-void GridFlow::book(double kick) {
+void GridFlow::book(double kick, const Motion& motion) {
   const Vec<2> far = stream(time_);
   for (std::size_t w = 0; w < loads_.size(); ++w) {
     const Wrench<2> impulse = kick * loads_[w].total();
     ledger_.work_on_walls += impulse.dot(trial_twists_[w]);
     ledger_.work_of_effects += impulse.head<2>().dot(far);  // of the stream, in whose frame energies are
   }
-  ledger_.kinetic_energy = kinetic_energy();
+  ledger_.kinetic_energy = kinetic_energy(motion);
   ledger_.potential_energy = buoyant_energy() - buoyant_at_start_;
 }
 
@@ -204,27 +271,34 @@ void GridFlow::commit(std::span<const Isometry<2>> poses) {
   {
     const Stopwatch watch(bodies_seconds_);
     for (std::size_t w = 0; w < penalised_.size(); ++w)
+      for (std::size_t mover = 0; mover < penalised_.size(); ++mover)
+        penalised_[w].settle_answer_to(mover, trial_twists_[mover]);
+    for (std::size_t w = 0; w < penalised_.size(); ++w)
       penalised_[w].settle(trial_twists_[w], trial_omega_, steps_ > 0);
   }
   std::copy(poses.begin(), poses.end(), poses_.begin());
   twists_ = trial_twists_;
   omega_.swap(trial_omega_);
-  if (steps_ < starting_steps) solve_velocity(omega_, 0, time_ + 0.5 * dt_, trial_velocity_);
+  if (steps_ < starting_steps) solve_velocity(omega_, time_ + 0.5 * dt_, trial_velocity_);
   time_ += dt_;
-  book(kick_);
+  const auto motion = motion_of(spec_.grid, trial_velocity_, stream(time_));
+  book(kick_, motion);
   std::swap(before_, velocity_);
   std::swap(velocity_, trial_velocity_);
   kick_before_ = kick_;
   dt_before_ = dt_;
   ++steps_;
-  speed_ = largest_speed();
+  speed_ = motion.speed;
   is_begun_ = false;
   pressure_.clear();
   place_samples();
 }
 
 std::vector<std::pair<std::string, double>> GridFlow::phase_seconds() const {
-  return {{"advection", advection_seconds_}, {"poisson", poisson_seconds_}, {"penalisation", bodies_seconds_}};
+  return {{"advection", advection_seconds_},
+          {"diffusion", diffusion_seconds_},
+          {"poisson", poisson_seconds_},
+          {"penalisation", bodies_seconds_}};
 }
 
 namespace {
@@ -278,7 +352,7 @@ void GridFlow::load(std::istream& in) {
     penalised_[w].load(in);
   }
   for (auto* field : {&omega_, &velocity_.u, &velocity_.v, &before_.u, &before_.v}) get(in, *field);
-  speed_ = largest_speed();
+  speed_ = motion_of(spec_.grid, velocity_, stream(time_)).speed;
   is_begun_ = false;
   pressure_.clear();
   place_samples();

@@ -4,10 +4,10 @@
 //   f = theta (s - u)/dt
 //
 // A step from t_{n-1/2} to t_{n+1/2} (the structure's clock): half of the last step's f, advection with u in the
-// middle of the step (advection.hpp), the other half, diffusion and one solve for psi (stream_function.hpp), the
-// passes that make bodies rigid where they are at t_{n+1/2} (wall.hpp). Morency & Beaugendre, Model. Simul. Eng.
+// middle of the step (advection.hpp), the other half, diffusion (diffusion.hpp), one solve for psi (stream_function.hpp),
+// the passes that make bodies rigid where they are at t_{n+1/2} (wall.hpp). Morency & Beaugendre, Model. Simul. Eng.
 // 2018, 9638430; Coquerelle & Cottet, J. Comput. Phys. 227, 2008. Assumed: plane, laminar, no free surface. Second
-// order in the flow, first at sharp bodies. A million squares: 50 ns each, a step.
+// order in the flow, first at sharp bodies.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ class GridFlow final : public FluidView<2> {
   void solve(std::span<const Twist<2>> twists);
   /// Accepts it. `poses`: of the walls at t_{n+1}.
   void commit(std::span<const Isometry<2>> poses);
-  /// Seconds spent so far in advection, Poisson's equation and bodies.
+  /// Seconds spent so far in advection, diffusion, Poisson's equation and bodies.
   std::vector<std::pair<std::string, double>> phase_seconds() const;
   void save(std::ostream& out) const;  ///< the state at t_n, bit for bit
   void load(std::istream& in);         ///< throws std::runtime_error for other bytes
@@ -84,10 +84,15 @@ class GridFlow final : public FluidView<2> {
   void place_samples();
   Vec<2> stream(double time) const { return spec_.stream ? spec_.stream(time) : Vec<2>(Vec<2>::Zero()); }
   int passes_of(std::size_t wall, bool answers) const;
-  void solve_velocity(NodeField& omega, double spread, double at_time, FaceField& velocity);
-  double largest_speed() const;
-  void book(double kick);
-  double kinetic_energy() const;
+  void find_answers(double share, std::span<const char> answers);
+  void find_answers_together(double share, std::span<const char> answers);
+  void pass_together(double share, int passes, std::size_t mover, int mode, std::span<const char> answers);
+  Wrench<2> load_by_control_volume(std::size_t wall) const;
+  Vec<2> fading(const Vec<2>& stream) const;
+  const NodeField& faded(const NodeField& omega, const Vec<2>& stream);
+  void solve_velocity(const NodeField& omega, double at_time, FaceField& velocity);
+  void book(double kick, const Motion& motion);
+  double kinetic_energy(const Motion& motion) const;
   double buoyant_energy() const;
   void solve_pressure() const;
   double node_pressure(const Vec<2>& point) const;
@@ -96,6 +101,7 @@ class GridFlow final : public FluidView<2> {
   GridFlowSpec spec_;
   StreamFunction stream_function_;
   Advection advection_;
+  Diffusion diffusion_;
   Projections projections_;
   std::vector<PenalisedWall> penalised_;
   // At t_n.
@@ -110,10 +116,11 @@ class GridFlow final : public FluidView<2> {
   // Of the step under way.
   double kick_ = 0, dt_ = 0;
   bool is_begun_ = false;
-  NodeField trial_omega_, psi_;
+  NodeField trial_omega_, psi_, faded_;
   FaceField trial_velocity_;
   std::vector<Twist<2>> trial_twists_;
   std::vector<ImpulseLaw> laws_;
+  double ratio_ = 0;  // of its kick to the last one
   std::vector<WallLoad<2>> loads_;
   // To be looked at.
   std::vector<Sample> samples_;
@@ -121,7 +128,7 @@ class GridFlow final : public FluidView<2> {
   std::vector<std::array<int, 3>> cells_;
   std::vector<Facet<2>> boundary_;
   mutable std::vector<double> pressure_;  // empty: not asked for yet
-  double advection_seconds_ = 0, poisson_seconds_ = 0, bodies_seconds_ = 0;
+  double advection_seconds_ = 0, diffusion_seconds_ = 0, poisson_seconds_ = 0, bodies_seconds_ = 0;
 };
 
 }  // namespace splashdown::vortex

@@ -1,14 +1,19 @@
 // What people look at in a fluid on a grid.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "core/geometry.hpp"
 #include "core/leapfrog.hpp"
 #include "core/parallel.hpp"
+#include "fluid/vortex/control_volume.hpp"
 #include "fluid/vortex/fluid.hpp"
 
 namespace splashdown::vortex {
 namespace {
+
+double cross_of(const Vec<2>& a, const Vec<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 constexpr double off_the_hull = 1.5;  // squares: pressures on hulls are read where no face is covered
 
@@ -116,7 +121,7 @@ void GridFlow::solve_pressure() const {
                    b[k - row - 1]);
     }
   StreamFunction solver(g, SideKind::free);
-  solver.solve(source, 0, head);
+  solver.solve(source, head);
   const Vec<2> far = stream(time_),
                change =
                    is_begun_
@@ -177,7 +182,45 @@ std::vector<Diagnostic> GridFlow::diagnostics() const {
     enstrophy += w * w;
   }
   const double cell = spec_.grid.h * spec_.grid.h;
-  return {{"circulation", circulation * cell}, {"enstrophy", enstrophy * cell}};
+  std::vector<Diagnostic> all = {{"circulation", circulation * cell}, {"enstrophy", enstrophy * cell}};
+  for (std::size_t w = 0; w < penalised_.size(); ++w) {
+    if (penalised_[w].moments().is_inside_out()) continue;
+    const auto load = load_by_control_volume(w);
+    const char* axes[] = {"fx", "fy", "m"};
+    for (int k = 0; k < 3; ++k)
+      all.emplace_back(std::string("control_") + axes[k] + "_" + spec_.walls[w].name, load[k]);
+  }
+  return all;
+}
+
+/// Of the step under way, by a rectangle half as far from the body as it is long (control_volume.hpp); its sum for all bodies in it.
+/// NaN: it does not fit.
+Wrench<2> GridFlow::load_by_control_volume(std::size_t wall) const {
+  Wrench<2> load = Wrench<2>::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!is_begun_ || trial_twists_.empty()) return load;
+  const auto& g = spec_.grid;
+  const auto& of = penalised_[wall].chi().box;
+  const int more = std::max(of.width, of.height) / 2;
+  const NodeBox box{std::max(2, of.i0 - more), std::max(2, of.j0 - more), std::min(g.nx - 2, of.i0 + of.width + more),
+                    std::min(g.ny - 2, of.j0 + of.height + more)};
+  const auto holds = [&](const FaceBox& other) {
+    return other.i0 > box.first_i && other.j0 > box.first_j && other.i0 + other.width <= box.last_i &&
+           other.j0 + other.height <= box.last_j;
+  };
+  if (!holds(of)) return load;
+  const Change change{omega_, trial_omega_, velocity_, trial_velocity_, kick_};
+  const auto& pose = poses_[wall];
+  const Wrench<2> all = force_in(g, box, change, spec_.viscosity, pose.translation());
+  // What the passes found is not in trial_omega_ yet; that of others in the rectangle is taken as they tell it.
+  Wrench<2> told = Wrench<2>::Zero();
+  for (std::size_t w = 0; w < penalised_.size(); ++w) {
+    if (w != wall && (penalised_[w].moments().is_inside_out() || !holds(penalised_[w].chi().box))) continue;
+    const auto [found, sum] = penalised_[w].sums(trial_twists_[w], ratio_);
+    Wrench<2> missing = sum - found;  // of what the rectangle sees
+    missing[2] += cross_of(poses_[w].translation() - pose.translation(), missing.head<2>());
+    told += missing;
+  }
+  return loads_[wall].physical - spec_.density * (all - told / kick_);
 }
 
 Eigen::MatrixXd GridFlow::added_mass(std::span<const std::size_t> walls) const {

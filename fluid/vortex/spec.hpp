@@ -9,6 +9,7 @@
 #include "fluid/vortex/grid.hpp"
 #include "fluid/vortex/poisson/stream_function.hpp"
 #include "fluid/vortex/transport/advection.hpp"
+#include "fluid/vortex/transport/diffusion.hpp"
 
 namespace splashdown::vortex {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/choose/refine.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/kinds/formulation_kinds.hpp"
 #include "apps/scene/read/fill_sizes.hpp"
@@ -22,10 +23,6 @@ double finest(const Scene& scene) {
   if (scene.tank) h = std::min(h, scene.tank->size);
   for (const auto& body : scene.bodies) h = std::min(h, body.size);
   return h;
-}
-
-double refine_of(const Scene& scene) {
-  return scene.fluid ? scene.fluid->size.refine : scene.vortex ? scene.vortex->refine : 1;
 }
 
 /// Surface waves as short as the elements stay stable in an explicit scheme, which bounds dt by

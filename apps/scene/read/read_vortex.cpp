@@ -24,8 +24,9 @@ void read_vortex(Reader& reader, VortexFluid& fluid) {
 
 void finish_vortex(Reader& reader, Scene& scene) {
   auto& fluid = *scene.vortex;
+  Reader size = reader.table_or_defaults("size");
+  fluid.refine = size.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for squares of half the size."), presets);
   if (auto grid = reader.table("grid", Need::required)) {
-    fluid.refine = grid->divisor("refine", within(0.01, 100, "", "Use e.g. 2 for squares of half the size."), presets);
     grid->number("size", fluid.size, refined(positive("m", "Use e.g. a fortieth of the body's breadth."), fluid.refine),
                  Need::required);
     const Rule place = place_rule(2);

@@ -25,6 +25,8 @@ std::vector<Segment> segments_of(const Surface<2>& outline, const Isometry<2>& p
   return segments;
 }
 
+constexpr double drawn_in = 1. / 3;  // of the ramp's half width
+
 /// Faces of one direction: their places are min + h (i, j).
 class Cover {
  public:
@@ -52,11 +54,13 @@ class Cover {
     }
   }
 
-  /// Replaces the step by a smooth ramp where the outline is near.
+  /// Replaces the step by a smooth ramp where the outline is near. The ramp is drawn in by a third of its half width: passes
+  /// make a body of all that it touches, which would look larger by so much.
   void smooth(const std::vector<Segment>& segments, double width) {
+    const double shift = drawn_in * width, reach = width + shift;
     std::vector<double> distance(box_.size(), std::numeric_limits<double>::infinity());
     for (const auto& s : segments) {
-      const Vec<2> low = s.a.cwiseMin(s.b).array() - width, high = s.a.cwiseMax(s.b).array() + width;
+      const Vec<2> low = s.a.cwiseMin(s.b).array() - reach, high = s.a.cwiseMax(s.b).array() + reach;
       for (int j = std::max(0, index(low.y(), 1)); j < std::min(box_.height, index(high.y(), 1) + 1); ++j)
         for (int i = std::max(0, index(low.x(), 0)); i < std::min(box_.width, index(high.x(), 0) + 1); ++i) {
           double& d = distance[box_.at(i, j)];
@@ -64,8 +68,8 @@ class Cover {
         }
     }
     for (std::size_t k = 0; k < distance.size(); ++k) {
-      if (!(distance[k] < width)) continue;
-      const double phi = (chi_[k] > 0.5 ? -1 : 1) * distance[k] / width;
+      if (!(distance[k] < reach)) continue;
+      const double phi = std::clamp(((chi_[k] > 0.5 ? -1 : 1) * distance[k] + shift) / width, -1., 1.);
       chi_[k] = 0.5 * (1 - phi - std::sin(std::numbers::pi * phi) / std::numbers::pi);
     }
   }

@@ -1,7 +1,7 @@
 // Where a closed outline covers the faces of a grid, and what it encloses.
 //
 // Sharp: a face is inside or not. Smoothed over a width e on either side, with the distance phi to the outline
-// (Peskin's cosine, Acta Numerica 11, 2002, integrated): chi = (1 - phi/e - sin(pi phi/e)/pi)/2 where |phi| < e.
+// (Peskin's cosine, Acta Numerica 11, 2002, integrated): chi = (1 - x - sin(pi x)/pi)/2 where |x| < 1, x = phi/e + 1/3.
 #pragma once
 
 #include <vector>

@@ -57,6 +57,17 @@ class PenalisedWall {
   bool is_on_grid() const;
   /// The passes from this velocity. `share`: theta over chi.
   void make_rigid(const FaceField& velocity, double share, int passes, Projections& projections);
+  /// Before passes of all walls together (pass_from): nothing has been found.
+  void begin_passes();
+  /// One of them, for what nobody moves (mode -1) or a unit twist of `mover`, another wall or this one: forces from a velocity of the
+  /// whole grid are added to what was found, and their curl to a vorticity.
+  void pass_from(const FaceField& velocity, double share, std::size_t mover, int mode, bool is_mover, NodeField& curl);
+  /// Impulse on this wall for the twist of another, I = -answer s, about this one's reference point; zero but after joint passes.
+  Eigen::Matrix3d answer_to(std::size_t mover, double density) const;
+  /// Another wall has this twist at the end of the step.
+  void settle_answer_to(std::size_t mover, const Twist<2>& twist);
+  /// int f and int r x f of the step under way, for a twist that it ends with; what passes of this step found, and all.
+  std::pair<Wrench<2>, Wrench<2>> sums(const Twist<2>& twist, double ratio) const;
   /// What the passes found, with what fills the wall: `kick` [s], gravity [m/s^2].
   ImpulseLaw law(double density, double kick, double ratio, const Vec<2>& gravity) const;
   /// Added mass by conjugate gradients to 1e-6: theta P theta f = theta N a.
@@ -99,6 +110,7 @@ class PenalisedWall {
   // Of the step under way.
   BoxField chi_, predicted_, found_;
   std::array<FaceField, 3> answers_;
+  std::map<std::size_t, std::array<FaceField, 3>> answers_to_;  // other walls' unit twists
   Isometry<2> pose_;
   bool is_covered_ = false;
 };

@@ -4,15 +4,22 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "core/parallel.hpp"
 #include "fluid/vortex/poisson/lattice_green.hpp"
 #include "fluid/vortex/transport/kernels.hpp"
+#include "fluid/vortex/wide.hpp"
 
 namespace splashdown::vortex {
 namespace {
 
 constexpr int pad = 3;  // coarse nodes beyond the sides: of the kernel, and of the interpolation
 constexpr int factor = FarField::coarsening;
+
+SPLASHDOWN_WIDE void add_row(double weight, const double* __restrict from, std::size_t count, double* __restrict to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
+}
 
 /// -log(r)/(2 pi), where r is zero the mean that the lattice has.
 double logarithm(int m, int n) {
@@ -35,36 +42,44 @@ std::array<double, 6> lagrange(double t) {
 }  // namespace
 
 FarField::FarField(const Grid& grid)
-    : grid_(grid),
-      sums_(grid.nx / factor + 1 + 2 * pad, grid.ny / factor + 1 + 2 * pad, logarithm),
-      row_(static_cast<std::size_t>(sums_.width())) {}
+    : grid_(grid), sums_(grid.nx / factor + 1 + 2 * pad, grid.ny / factor + 1 + 2 * pad, logarithm) {}
 
+/// Columns first, all of a row together; then the few rows that are left.
 void FarField::restrict_vorticity(const NodeField& omega) {
-  std::array<std::array<double, 4>, factor> weights;
-  for (int r = 0; r < factor; ++r)
-    for (int k = 0; k < 4; ++k)
-      weights[static_cast<std::size_t>(r)][static_cast<std::size_t>(k)] = m4(k - 1 - static_cast<double>(r) / factor);
+  constexpr int reach = 2 * factor - 1;
+  std::array<double, 2 * reach + 1> weights;
+  for (int d = -reach; d <= reach; ++d)
+    weights[static_cast<std::size_t>(d + reach)] = m4(static_cast<double>(d) / factor);
   const double cell = grid_.h * grid_.h;
+  const int columns = grid_.nx / factor, rows = grid_.ny / factor;
   sums_.clear();
-  for (int j = 0; j <= grid_.ny; ++j) {
-    std::ranges::fill(row_, 0.0);
-    bool any = false;
-    for (int i = 0; i <= grid_.nx; ++i) {
-      const double w = omega[grid_.at(i, j)];
-      if (w == 0) continue;
-      any = true;
-      const auto& weight = weights[static_cast<std::size_t>(i % factor)];
-      double* to = row_.data() + i / factor + pad - 1;
-      for (std::size_t k = 0; k < 4; ++k) to[k] += w * weight[k];
+  std::vector<char> is_zero(static_cast<std::size_t>(grid_.ny) + 1);
+  for (int j = 0; j <= grid_.ny; ++j)
+    is_zero[static_cast<std::size_t>(j)] =
+        all_zero(omega.data() + grid_.at(0, j), static_cast<std::size_t>(grid_.nx + 1));
+  in_pieces(static_cast<std::size_t>(rows + 3), 4, [&](std::size_t first, std::size_t last) {
+    std::vector<double> row(static_cast<std::size_t>(grid_.nx) + 1 + 6 * factor);
+    double* sum = row.data() + 3 * factor;
+    for (auto r = static_cast<int>(first) - 1; r < static_cast<int>(last) - 1; ++r) {
+      std::ranges::fill(row, 0.0);
+      bool any = false;
+      for (int j = std::max(0, factor * r - reach); j <= std::min(grid_.ny, factor * r + reach); ++j) {
+        if (is_zero[static_cast<std::size_t>(j)]) continue;
+        const double* from = omega.data() + grid_.at(0, j);
+        any = true;
+        add_row(cell * weights[static_cast<std::size_t>(j - factor * r + reach)], from,
+                static_cast<std::size_t>(grid_.nx + 1), sum);
+      }
+      if (!any) continue;
+      double* to = sums_.data() + static_cast<std::ptrdiff_t>(r + pad) * sums_.pitch() + pad;
+      for (int c = -1; c <= columns + 1; ++c) {
+        const double* at = sum + factor * c;
+        double total = weights[reach] * at[0];
+        for (int d = 1; d <= reach; ++d) total += weights[static_cast<std::size_t>(reach + d)] * (at[d] + at[-d]);
+        to[c] = total;
+      }
     }
-    if (!any) continue;
-    const auto& weight = weights[static_cast<std::size_t>(j % factor)];
-    for (int k = 0; k < 4; ++k) {
-      double* to = sums_.data() + static_cast<std::ptrdiff_t>(j / factor + pad - 1 + k) * sums_.pitch();
-      const double share = cell * weight[static_cast<std::size_t>(k)];
-      for (std::size_t i = 0; i < row_.size(); ++i) to[i] += share * row_[i];
-    }
-  }
+  });
 }
 
 void FarField::evaluate(const NodeField& omega, Sides& sides) {

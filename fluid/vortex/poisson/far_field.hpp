@@ -31,7 +31,6 @@ class FarField {
 
   Grid grid_;
   Convolution sums_;
-  std::vector<double> row_;
 };
 
 }  // namespace splashdown::vortex

@@ -1,33 +1,48 @@
-// The discrete sine transform of the inner nodes of a rectangle (DST-I, its own inverse up to 4 nx ny): it makes the
-// five-point Laplacian with zero on the sides diagonal. Rows and blocks of columns are transformed one by one, on all
-// threads; the result does not depend on their number.
+// Sine transforms of rows of n - 1 numbers (DST-I), by one real Fourier transform of n numbers each (Press et al.,
+// Numerical Recipes, section 12.4), and its transpose on the way back, which adds small modes first: differences of the
+// result keep their digits. Modes stand in an order of their own: even ones, then odd ones.
 #pragma once
 
 #include <memory>
-#include <span>
+#include <vector>
 
 namespace splashdown::vortex {
 
-/// Holds plans and work space for one size; the same bits whenever it is made.
+/// Plans of rows of one length; the same bits whenever it is made.
 class SineTransform {
  public:
-  SineTransform(int nx, int ny);  ///< squares in each direction: (nx - 1) (ny - 1) inner nodes
+  explicit SineTransform(int n);  ///< even
   ~SineTransform();
-  /// Takes plans and work space over.
+  /// Takes the plans over.
   SineTransform(SineTransform&&) noexcept;
   /// The same.
   SineTransform& operator=(SineTransform&&) noexcept;
 
-  int pitch() const;  ///< distance of rows in `data`
-  double* data();     ///< node (i, j) at (j - 1) pitch + i - 1; k of x and l of y, from 1, likewise
-  void run();         ///< X(k, l) = 4 sum x(i, j) sin(pi i k / nx) sin(pi j l / ny)
-  /// One side alone, in place: X(k) = 2 sum x(i) sin(pi i k / n), of n - 1 numbers where n is nx or ny.
-  void run_row(std::span<double> numbers);
-  void run_column(std::span<double> numbers);  ///< the same along y
+  /// Room that a thread needs [numbers].
+  std::size_t room() const;
+  /// The mode at each of n places: 2p at p < n/2 (none at 0), 2p + 1 at n/2 + p.
+  std::vector<int> modes() const;
+  /// X(k) = sum x(i) sin(pi i k/n). `row`: x(0), which is not read, to x(n - 1) on the way in, modes on the way out.
+  void forward(double* row, double* room) const;
+  /// x(i) = sum X(k) sin(pi i k/n): forward and back are n/2 times the row. x(0) becomes 0.
+  void back(double* row, double* room) const;
 
  private:
   struct Plans;
   std::unique_ptr<Plans> plans_;
+};
+
+/// Room for transforms, aligned as they want it.
+class TransformRoom {
+ public:
+  explicit TransformRoom(std::size_t numbers);  ///< count
+  double* data() const { return data_.get(); }  ///< the first
+
+ private:
+  struct Free {
+    void operator()(double* p) const;
+  };
+  std::unique_ptr<double[], Free> data_;
 };
 
 }  // namespace splashdown::vortex

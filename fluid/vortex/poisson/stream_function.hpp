@@ -1,9 +1,6 @@
-// Diffusion and stream function together, by one sine transform there and back (its eigenvalues make both diagonal):
-//
-//   omega <- exp(nu dt L) omega,   -Laplace_5 psi = omega,   psi given on the sides
-//
-// L is the five-point Laplacian, or of fourth order its twin with -(h^2/12) (d_x^4 + d_y^4); vorticity on the sides
-// is zero. Sides of a plane without end: far_field.hpp. Sides that nothing passes but the stream: psi = 0.
+// The stream function of a vorticity, -Laplace_5 psi = omega at the inner nodes, psi given on the sides: a sine transform
+// of each row, a chain of equations along y for each mode, and the transform back. Sides of a plane without end:
+// far_field.hpp. Sides that nothing passes but the stream: psi = 0.
 #pragma once
 
 #include <optional>
@@ -24,23 +21,26 @@ enum class SideKind {
 /// Solver for one grid.
 class StreamFunction {
  public:
-  /// `order`: of diffusion, 2 or 4.
-  StreamFunction(const Grid& grid, SideKind sides, int order = 2);
-  /// omega diffuses by `spread` = nu dt [m^2] and is given back as -Laplace_5 psi; 0: as it was, to roundoff.
-  void solve(NodeField& omega, double spread, NodeField& psi);
+  /// Plans and factors for this grid.
+  StreamFunction(const Grid& grid, SideKind sides);
+  /// psi at all nodes [m^2/s].
+  void solve(const NodeField& omega, NodeField& psi);
 
  private:
-  void load(const NodeField& omega);
-  void add_sides();
-  void divide(double spread);
-  void store(NodeField& omega, NodeField& psi) const;
+  /// Factors of the chains of some neighbouring modes, (2 + h^2 lambda - c_{j-1}) c_j = 1, until they no longer change.
+  struct Chain {
+    std::size_t first, count, rows;
+    std::vector<double> factors;
+  };
+
+  void add_chain(std::size_t first, std::size_t count, const std::vector<double>& lambda);
+  void solve_chain(const Chain& chain, NodeField& psi) const;
 
   Grid grid_;
-  mutable SineTransform transform_;
+  SineTransform transform_;
   std::optional<FarField> far_;
-  Sides sides_, spectra_;
-  int order_;
-  std::vector<double> lambda_x_, lambda_y_, decay_x_, decay_y_, sine_x_, sine_y_;
+  Sides sides_;
+  std::vector<Chain> chains_;
 };
 
 }  // namespace splashdown::vortex

@@ -30,12 +30,8 @@ class Advection {
   void move(NodeField& omega, const MidVelocity& velocity, double dt);
 
  private:
-  template <int reach>
-  void along_x(const MidVelocity& velocity, double dt, NodeField& omega) const;
-  template <int reach>
+  void along_x(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const;
   void along_y(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const;
-  template <int reach>
-  void strang(NodeField& omega, const MidVelocity& velocity, double dt);
 
   Grid grid_;
   Remeshing kernel_;

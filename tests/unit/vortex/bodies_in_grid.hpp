@@ -26,12 +26,17 @@ struct FreeBody {
   double reynolds = 200;
   int passes = 0;
   Vec<2> offset = Vec<2>::Zero();  // of the centre of mass from the centroid
+  SideKind sides = SideKind::free;
+  int tall = 1;  // height of the grid over its breadth
 
   GridFlowSpec fluid() const {
     GridFlowSpec spec;
     spec.density = 1;
     spec.viscosity = 1 / reynolds;
     spec.grid = square_grid(4 * static_cast<int>(std::lround(half / (2 * h))), half);
+    spec.grid.ny *= tall;
+    spec.grid.min.y() *= tall;
+    spec.sides = sides;
     spec.gravity = {0, -g};
     spec.penalisation.smoothing = smoothing;
     spec.penalisation.passes = passes;

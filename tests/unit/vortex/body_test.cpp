@@ -28,6 +28,20 @@ TEST(PenalisedBody, first_acceleration_is_that_of_buoyancy_and_added_mass) {
   }
 }
 
+// A circle in a channel of breadth W: C_a = 1 + (2 pi^2/3)(R/W)^2 to fourth order.
+TEST(PenalisedBody, first_acceleration_feels_the_walls_of_a_channel) {
+  constexpr double breadth = 6, added = 1 + 2 * pi * pi / 3 / (4 * breadth * breadth);
+  FreeBody circle{
+      .density = 1e-3, .h = 1. / 48, .smoothing = 0, .half = breadth / 2, .sides = SideKind::slip, .tall = 3};
+  EXPECT_NEAR(first_acceleration(circle, added * 0.25 * pi), 1, 0.02);
+}
+
+// Smoothed outlines look no larger: of a light body nothing but added mass resists.
+TEST(PenalisedBody, first_acceleration_of_a_smoothed_body_is_good_to_two_per_cent) {
+  for (const double density : {1e-3, 0.1, 10., 1e4})
+    EXPECT_NEAR(first_acceleration({.density = density, .h = 1. / 48, .half = 1.5}, 0.25 * pi), 1, 0.02) << density;
+}
+
 TEST(PenalisedBody, added_mass_of_a_circle_converges_to_what_it_displaces) {
   double last = 1;
   for (const double h : {1. / 12, 1. / 24, 1. / 48}) {

@@ -111,6 +111,30 @@ TEST(VortexFlow, a_pair_moves_at_its_own_speed_and_keeps_its_impulse) {
               0.02 * speed);  // cores of a third of the distance drift a little
 }
 
+// Vortices of a wake that leaves lose their say little by little: the velocity at the body does not jump, and far before the side
+// the curl of velocities is all of the vorticity.
+TEST(VortexFlow, a_wake_fades_before_it_leaves) {
+  GridFlowSpec spec;
+  spec.density = 1;
+  spec.grid = scenes::square_grid(128, 4);
+  spec.stream = [](double) { return Vec<2>(1, 0); };
+  WallSpec<2> wall;
+  wall.name = "small";
+  wall.surface = scenes::circle(0.1, 40);
+  wall.pose.translation() = Vec<2>(-2, 0);
+  spec.walls = {wall};
+  const auto at_body = [&](double x) {  // across the stream, of a vortex there
+    const LambOseen vortex{1, 0.3};
+    spec.vorticity = scenes::sampled(spec.grid, [&](const Vec<2>& at) { return vortex.omega(at - Vec<2>(x, 0)); });
+    const GridFlow fluid(spec);
+    return fluid.velocity_n(spec.grid.at(32, 70)).y();
+  };
+  const double exact = -2.5 / (2 * std::numbers::pi * (2.5 * 2.5 + 0.375 * 0.375));
+  EXPECT_NEAR(at_body(0.5), exact, 0.01 * std::abs(exact));
+  EXPECT_NEAR(at_body(4), 0, 0.01 * std::abs(exact));
+  EXPECT_LT(std::abs(at_body(3)), std::abs(at_body(2)));
+}
+
 TEST(VortexFlow, goes_on_from_what_was_saved_with_the_same_bits) {
   GridFlowSpec spec;
   spec.density = 1;

@@ -35,7 +35,7 @@ TEST(VortexScene, has_a_fluid_that_is_no_liquid_with_a_surface) {
   EXPECT_EQ(scene.vortex->smoothing, 0);
   EXPECT_EQ(scene.bodies[0].size, 0.05);  // of what records look at on hulls
   EXPECT_EQ(scene_of(head + grid + body + "density = 1\n").vortex->smoothing, 0.5);
-  EXPECT_EQ(scene_of(head + grid + fixed, {{"fluid.grid.refine=2"}}).vortex->size, 0.025);
+  EXPECT_EQ(scene_of(head + grid + fixed, {{"fluid.size.refine=2"}}).vortex->size, 0.025);
 }
 
 TEST(VortexScene, becomes_a_grid_that_fast_transforms_like_around_what_it_says) {
