@@ -18,7 +18,10 @@ fluid::Formulation<d> fractional_step(const Fluid&) {
 
 template <int d>
 fluid::Formulation<d> monolithic_step(const Fluid& fluid) {
-  return fluid::monolithic<d>({.tolerance = fluid.monolithic.tolerance, .speed = fluid.monolithic.speed});
+  const auto& monolithic = fluid.monolithic;
+  return fluid::monolithic<d>({.tolerance = monolithic.tolerance,
+                               .speed = monolithic.speed,
+                               .implicit_euler = monolithic.scheme == "implicit_euler"});
 }
 
 }  // namespace

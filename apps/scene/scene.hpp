@@ -138,6 +138,7 @@ struct Monolithic {
   std::string stabilisation = "transient";  ///< or "convective": tau = h/(2 `speed`)
   double speed = 0;                         ///< [m/s]
   double tolerance = 1e-6;                  ///< of what the pressure does to velocities
+  std::string scheme = "midpoint";          ///< or "implicit_euler": of first order
 };
 
 struct Fluid {

@@ -20,6 +20,10 @@
 
 namespace splashdown::fluid {
 
+/// How terms that are solved implicitly go through a kick: backward Euler, or two stages of second order (Alexander 1977), both
+/// of which leave nothing of what is too stiff.
+enum class InTime { euler, second_order };
+
 /// What an effect sees of the fluid during a step.
 template <int d>
 struct StepView {
@@ -35,6 +39,7 @@ struct StepView {
   std::span<const WallSpec<d>> walls;     ///< as they were made
   std::span<const Isometry<d>> poses;     ///< of walls, at t_n
   const ModalInertia* answers = nullptr;  ///< modes of walls that answer the fluid; nullptr: none does
+  InTime in_time = InTime::euler;         ///< of terms that are solved implicitly
 };
 
 /// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
@@ -54,12 +59,20 @@ struct Predicted {
   Eigen::VectorXd* answer = nullptr;
 };
 
+/// What all but one effect do in a kick, the pressure included.
+template <int d>
+struct Others {
+  std::span<const Vec<d>> change;   ///< of velocities of nodes [m/s]
+  std::span<const Twist<d>> walls;  ///< of walls, after it
+};
+
 /// What effects add to the pressure equation of a step, an entry a node; a vector that stays empty adds nothing.
 ///
 ///   (A + C) phi = r + q,   C diagonal
 struct PressureTerms {
   std::vector<double> diagonal;  ///< C, not negative: volume that an impulse there takes away for good [m^d/(Pa s^2)]
   std::vector<double> source;    ///< q: volume that appears around a node, negative: that goes [m^d/s]
+  std::vector<double> storage;   ///< volume that a pressure takes away for as long as it lasts, not negative [m^d/Pa]
   std::vector<double>
       surface_pressure;  ///< on the free surface, against the air's zero [Pa]; elsewhere it means nothing
 };
@@ -77,6 +90,14 @@ class Effect {
   virtual Status begin(const StepView<d>& /*step*/) { return {}; }
   /// Adds the effect of one kick; repeatable.
   virtual Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) = 0;
+  /// Whether it may be solved for together with the pressure, by `follow`, instead of before it.
+  virtual bool follows() const { return false; }
+  /// As `predict`, but for carried velocities that all else changes too: what it adds to those changes. `predicted.answer` is
+  /// not used: bodies answer to the impulse on their walls. Repeatable, after `predict`.
+  virtual Status follow(const StepView<d>& /*step*/, const Carried<d>& /*carried*/, const Others<d>& /*others*/,
+                        const Predicted<d>& /*predicted*/) {
+    return {};
+  }
   /// The step is taken; once, after the last `predict` of it.
   virtual void commit(const StepView<d>& /*step*/) {}
   /// What it remembers from step to step, moved on by `commit` alone and kept in checkpoints; always as many. Empty: nothing.

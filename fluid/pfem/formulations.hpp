@@ -22,7 +22,8 @@ Formulation<d> fractional();
 /// Of the monolithic formulation.
 struct MonolithicSpec {
   double tolerance = 1e-6;  ///< of what the pressure does to velocities: what its solve may leave
-  double speed = 0;         ///< U of tau = h / 2 U [m/s]; 0: half the interval in which the pressure acts
+  double speed = 0;  ///< U of tau = h / 2 U [m/s]; 0: of the interval in which the pressure acts, and of viscosity
+  bool implicit_euler = false;  ///< no volume is created at the end of a step, not in its middle; of first order
 };
 
 /// Velocity and pressure as one stabilised system, solved to a tolerance (step/monolithic).

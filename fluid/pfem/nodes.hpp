@@ -22,6 +22,12 @@ struct WallTie {
   bool operator==(const WallTie&) const = default;
 };
 
+/// Of a compressible liquid at t_{n-1/2} (compression.hpp).
+struct Compressed {
+  double pressure = 0;  ///< [Pa]
+  double rate = 0;      ///< - div v [1/s]
+};
+
 /// Volume, momentum and kinetic energy, the latter two over the density.
 template <int d>
 struct VelocityMoments {
@@ -67,6 +73,7 @@ struct Nodes {
   std::vector<int> part;              ///< which water of the last mesh it belonged to (parts_of), -1: was not there
   std::vector<VelocityMoments<d>> inherited;  ///< what nodes carried that have gone into it on the way to the next mesh
   std::vector<double> field_energy;           ///< over the density: what the field had around it (field_energy.hpp)
+  std::vector<Compressed> compression;        ///< of a compressible liquid; of others, and at the start, empty
 
   /// Number of nodes.
   std::size_t size() const { return x.size(); }
@@ -89,7 +96,18 @@ struct Nodes {
     part.push_back(-1);
     inherited.emplace_back();
     field_energy.push_back(0);
+    if (!compression.empty()) compression.emplace_back();
     return static_cast<int>(x.size()) - 1;
+  }
+
+  /// Gives node `at` the mean compression of some, if there is any.
+  template <class Indices>
+  void compress_as(int at, const Indices& some) {
+    if (compression.empty()) return;
+    Compressed mean;
+    for (int i : some)
+      mean.pressure += compression[i].pressure / std::size(some), mean.rate += compression[i].rate / std::size(some);
+    compression[at] = mean;
   }
 
   /// What node i carries.
@@ -115,6 +133,7 @@ struct Nodes {
     pick(x), pick(v), pick(p), pick(h), pick(tie), pick(wall_pressure), pick(surface), pick(separates), pick(spray),
         pick(vertex);
     pick(volume), pick(owed), pick(part), pick(inherited), pick(field_energy);
+    if (!compression.empty()) pick(compression);
   }
 };
 

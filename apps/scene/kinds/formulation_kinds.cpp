@@ -10,6 +10,7 @@ void read_monolithic(Reader& table, Fluid& fluid) {
     table.number("speed", monolithic.speed, positive("m/s", "Use the speed of the impact, e.g. 100."), Need::required);
   else
     table.skip("speed");
+  table.choice("scheme", monolithic.scheme, {"midpoint", "implicit_euler"});
   table.number("tolerance", monolithic.tolerance, within(1e-12, 1e-2, "", "Use 1e-6."));
 }
 

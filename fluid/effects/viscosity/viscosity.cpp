@@ -1,6 +1,7 @@
 #include "fluid/effects/viscosity/viscosity.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/dense.hpp"
 
@@ -10,6 +11,9 @@ namespace {
 // Sine of half the angle at which Wall calls an edge sharp: facets of a smooth wall differ less from the
 // mean normal at a node.
 constexpr double same_normal = 0.26;
+
+// Part of the kick that a stage of second order takes at once: it leaves nothing of what is stiff.
+constexpr double stage = 1 - 1 / std::numbers::sqrt2;
 
 // Past its mirror image water slips.
 template <int d>
@@ -28,6 +32,7 @@ void hold(Mat<d>& free, const Vec<d>& direction) {
 
 template <int d>
 Status Viscosity<d>::begin(const StepView<d>& step) {
+  implicit_kick_ = step.in_time == InTime::euler ? step.kick : stage * step.kick;
   number_nodes(step);
   find_held(step);
   measure(step);
@@ -159,11 +164,11 @@ void Viscosity<d>::assemble(const StepView<d>& step) {
   const int n = static_cast<int>(node_.size());
   blocks_.build(cells, step.around, unknown_, node_, [&](int c, int a, int b) -> Mat<d> {
     const auto& g = gradients_[c];
-    const double scale = mu_ * step.kick / volume_[c];
+    const double scale = mu_ * implicit_kick_ / volume_[c];
     Mat<d> block = scale * (g.col(a).dot(g.col(b)) * Mat<d>::Identity() + g.col(b) * g.col(a).transpose());
     if (!bonds_.empty())
       for (int k = bonds_at_[c]; k >= 0 && k < std::ssize(bonds_) && bonds_[k].cell == c; ++k)
-        block += step.kick * bond_block(bonds_[k], a, b);
+        block += implicit_kick_ * bond_block(bonds_[k], a, b);
     return block;
   });
 
@@ -232,7 +237,7 @@ bool Viscosity<d>::follow(const StepView<d>& step, std::vector<Field>& fields) {
     stress(step, fields[k].v, force_);
     pull(step, fields[k].v, fields[k].walls, force_, nullptr);
     for (std::size_t i = 0; i < node_.size(); ++i) {
-      Vec<d> f = -step.kick * force_[node_[i]];
+      Vec<d> f = -implicit_kick_ * force_[node_[i]];
       if (const int held = held_at_[node_[i]]; held >= 0) f = held_[held].free * f;
       std::copy(f.begin(), f.end(), rhs_.begin() + static_cast<std::ptrdiff_t>(rows * k + d * i));
     }
@@ -242,6 +247,47 @@ bool Viscosity<d>::follow(const StepView<d>& step, std::vector<Field>& fields) {
     for (std::size_t i = 0; i < node_.size(); ++i)
       fields[k].v[node_[i]] += Eigen::Map<const Vec<d>>(&rhs_[rows * k + d * i]);
   return true;
+}
+
+// With kick f = (v_1 - v) / g of the first stage.
+template <int d>
+std::vector<typename Viscosity<d>::Passed> Viscosity<d>::pass(const StepView<d>& step,
+                                                              const std::vector<Kicked>& fields) {
+  const auto started = [](const Kicked& k, double share) {
+    std::vector<Vec<d>> v = k.from.v;
+    for (std::size_t i = 0; i < k.change.size(); ++i) v[i] += share * k.change[i];
+    return v;
+  };
+  const auto at = [](const Kicked& k, double share) {
+    std::vector<Twist<d>> walls = k.walls;
+    for (std::size_t w = 0; w < walls.size(); ++w) walls[w] = k.from.walls[w] + share * (k.walls[w] - k.from.walls[w]);
+    return walls;
+  };
+  std::vector<Passed> out;
+  std::vector<Field> first, last;
+  if (step.in_time == InTime::euler) {
+    for (const Kicked& k : fields) last.push_back({started(k, 1), k.walls});
+    if (!follow(step, last)) return {};
+    for (Field& f : last) out.push_back({f, f});
+    return out;
+  }
+  for (const Kicked& k : fields) first.push_back({started(k, stage), at(k, stage)});
+  if (!follow(step, first)) return {};
+  for (std::size_t n = 0; n < fields.size(); ++n) {
+    last.push_back({started(fields[n], 1), fields[n].walls});
+    const std::vector<Vec<d>> pushed = started(fields[n], stage);
+    for (std::size_t i = 0; i < pushed.size(); ++i) last[n].v[i] += (1 - stage) / stage * (first[n].v[i] - pushed[i]);
+  }
+  if (!follow(step, last)) return {};
+  for (std::size_t n = 0; n < fields.size(); ++n) {
+    Passed passed{last[n], last[n]};
+    for (std::size_t i = 0; i < last[n].v.size(); ++i)
+      passed.mean.v[i] = (1 - stage) * first[n].v[i] + stage * last[n].v[i];
+    for (std::size_t w = 0; w < last[n].walls.size(); ++w)
+      passed.mean.walls[w] = (1 - stage) * first[n].walls[w] + stage * last[n].walls[w];
+    out.push_back(std::move(passed));
+  }
+  return out;
 }
 
 // The bodies' part of the implicit step: their motions take held nodes along, those the water around them.
@@ -255,9 +301,10 @@ bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted
       sum += bodies.modes.middleRows(static_cast<Eigen::Index>(w) * freedoms<d>, freedoms<d>).transpose() * impulses[w];
     return sum;
   };
-  std::vector<Field> fields(count, {std::vector<Vec<d>>(step.nodes.size(), Vec<d>::Zero()), {}});
+  const std::vector<Vec<d>> still(step.nodes.size(), Vec<d>::Zero());
+  std::vector<Kicked> kicked(count, {{still, std::vector<Twist<d>>(step.walls.size(), Twist<d>::Zero())}, still, {}});
   for (Eigen::Index k = 0; k < count; ++k) {
-    auto& [v, walls] = fields[k];
+    auto& [from, v, walls] = kicked[k];
     for (std::size_t w = 0; w < step.walls.size(); ++w)
       walls.push_back(bodies.modes.col(k).template segment<freedoms<d>>(static_cast<Eigen::Index>(w) * freedoms<d>));
     for (const Held& h : held_) {
@@ -266,16 +313,17 @@ bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted
       v[h.node] = w - h.free * w;
     }
   }
-  if (!follow(step, fields)) return false;
+  const std::vector<Passed> fields = pass(step, kicked);
+  if (std::ssize(fields) < count) return false;
   Eigen::MatrixXd total = bodies.inertia;
   std::vector<std::vector<Wrench<d>>> reaction(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    react(step, fields[k].v, fields[k].v, fields[k].walls, reaction[k]);
+    react(step, fields[k].to.v, fields[k].mean.v, fields[k].mean.walls, reaction[k]);
     total.col(k) -= on_modes(reaction[k]);
   }
   const Eigen::VectorXd y = algebra::least_squares(total, on_modes(on_walls));
   for (Eigen::Index k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k].v[i];
+    for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += y[k] * fields[k].to.v[i];
     for (std::size_t w = 0; w < on_walls.size(); ++w) on_walls[w] += y[k] * reaction[k][w];
   }
   *predicted.answer += y;
@@ -286,19 +334,47 @@ template <int d>
 Status Viscosity<d>::predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) {
   power_ = 0;
   if (node_.empty()) return {};
-  std::vector<Field> moved(1, {{carried.v.begin(), carried.v.end()}, {carried.walls.begin(), carried.walls.end()}});
-  if (!follow(step, moved)) return {"the viscous solve failed"};
-  change_ = std::move(moved[0].v);
-  moved_ = change_;
+  const std::vector<Twist<d>> walls(carried.walls.begin(), carried.walls.end());
+  std::vector<Passed> passed = pass(step, {{{{carried.v.begin(), carried.v.end()}, walls}, {}, walls}});
+  if (passed.empty()) return {"the viscous solve failed"};
+  change_ = std::move(passed[0].to.v);
+  moved_ = std::move(passed[0].mean.v);
   for (std::size_t i = 0; i < change_.size(); ++i) change_[i] -= carried.v[i];
   std::vector<Wrench<d>> on_walls;
   react(step, change_, moved_, carried.walls, on_walls);
   if (step.answers && !answer(step, predicted, on_walls)) return {"the viscous solve failed"};
+  add(step, carried, {}, predicted);
+  for (std::size_t w = 0; w < on_walls.size(); ++w) predicted.on_walls[w] += on_walls[w];
+  return {};
+}
+
+template <int d>
+void Viscosity<d>::add(const StepView<d>& step, const Carried<d>& carried, std::span<const Vec<d>> others,
+                       const Predicted<d>& predicted) {
   for (int i : node_) {
     predicted.v[i] += change_[i];
     const double mass = step.density * step.lumped_volume[i];
-    power_ += 0.5 * mass * change_[i].dot(2 * carried.v[i] + change_[i]) / step.kick;
+    Vec<d> twice_the_mean = 2 * carried.v[i] + change_[i];
+    if (!others.empty()) twice_the_mean += others[i];
+    power_ += 0.5 * mass * change_[i].dot(twice_the_mean) / step.kick;
   }
+}
+
+template <int d>
+Status Viscosity<d>::follow(const StepView<d>& step, const Carried<d>& carried, const Others<d>& others,
+                            const Predicted<d>& predicted) {
+  power_ = 0;
+  if (node_.empty()) return {};
+  std::vector<Passed> passed =
+      pass(step, {{{{carried.v.begin(), carried.v.end()}, {carried.walls.begin(), carried.walls.end()}},
+                   {others.change.begin(), others.change.end()},
+                   {others.walls.begin(), others.walls.end()}}});
+  if (passed.empty()) return {"the viscous solve failed"};
+  change_ = std::move(passed[0].to.v);
+  for (std::size_t i = 0; i < change_.size(); ++i) change_[i] -= carried.v[i] + others.change[i];
+  std::vector<Wrench<d>> on_walls;
+  react(step, change_, passed[0].mean.v, passed[0].mean.walls, on_walls);
+  add(step, carried, others.change, predicted);
   for (std::size_t w = 0; w < on_walls.size(); ++w) predicted.on_walls[w] += on_walls[w];
   return {};
 }

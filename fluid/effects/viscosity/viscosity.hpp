@@ -29,8 +29,13 @@ namespace splashdown::fluid {
 ///            coarser it slips under the stress that the elements can know of (Bazilevs, Hughes, Comput. Fluids 36, 2007).
 ///            Held to the wall instead, nodes would take half an element of water along, however little viscous it is
 ///
-/// Walls get the reactions of what they impose, so that momentum is kept. First order in time, stable for any kick;
-/// one system of d unknowns a node per step, factored or, if large and in 3D, solved by multigrid. Bodies that answer the
+/// Walls get the reactions of what they impose, so that momentum is kept. Stable for any kick; of first order in time, or of
+/// second (StepView::in_time), by two stages on one factor (Alexander 1977): with kick f(v) = c - kick M^-1 K v, c all other
+/// changes over the kick, and g = 1 - 1 / sqrt 2,
+///
+///   v_1 = v + g kick f(v_1),   v+ = v + (1 - g) kick f(v_1) + g kick f(v+)
+///
+/// One system of d unknowns a node per step, factored or, if large and in 3D, solved by multigrid. Bodies that answer the
 /// pressure answer the stresses in the same implicit step: with the fields u_k that unit velocities of their motions make,
 /// (M + C) y = Z^T f_0, C_jk = sum of u_j over held directions . (M_L + kick K) u_k, so that no mass is too small for any
 /// viscosity.
@@ -41,8 +46,11 @@ class Viscosity final : public Effect<d> {
   explicit Viscosity(double dynamic) : mu_(dynamic) {}
   std::string name() const override { return "viscosity"; }
   bool keeps_rest() const override { return true; }
+  bool follows() const override { return true; }
   Status begin(const StepView<d>& step) override;
   Status predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) override;
+  Status follow(const StepView<d>& step, const Carried<d>& carried, const Others<d>& others,
+                const Predicted<d>& predicted) override;
   double diffusivity(double density) const override { return mu_ / density; }
   /// power: rate of change of the kinetic energy [W]
   std::vector<Diagnostic> diagnostics(const Nodes<d>&, std::span<const double>) const override {
@@ -75,16 +83,32 @@ class Viscosity final : public Effect<d> {
     std::vector<Vec<d>> v;
     std::vector<Twist<d>> walls;
   };
+  /// A field before the kick, what else changes its velocities (empty: nothing) and where its walls end.
+  struct Kicked {
+    Field from;
+    std::vector<Vec<d>> change;
+    std::vector<Twist<d>> walls;
+  };
+  /// The same after the kick, and the field whose stress is the mean over it.
+  struct Passed {
+    Field to, mean;
+  };
   /// Impulse on the walls of what they impose: of changes of velocity and of velocities after them.
   void react(const StepView<d>& step, std::span<const Vec<d>> change, std::span<const Vec<d>> moved,
              std::span<const Twist<d>> walls, std::vector<Wrench<d>>& on_walls);
   /// Lets the free nodes follow what walls do to them, in place; several fields at once.
   bool follow(const StepView<d>& step, std::vector<Field>& fields);
+  /// Fields after the kick; empty: a solve has failed.
+  std::vector<Passed> pass(const StepView<d>& step, const std::vector<Kicked>& fields);
+  /// Adds the changes of velocity to what is predicted, and books their power.
+  void add(const StepView<d>& step, const Carried<d>& carried, std::span<const Vec<d>> others,
+           const Predicted<d>& predicted);
   bool answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<Wrench<d>>& on_walls);
   /// force = K v at all nodes, without bonds.
   void stress(const StepView<d>& step, std::span<const Vec<d>> v, std::vector<Vec<d>>& force) const;
 
   double mu_;
+  double implicit_kick_ = 0;         // of the factor: the kick, or the stage's part of it [s]
   std::vector<int> unknown_, node_;  // unknown of a node, node of an unknown
   std::vector<VolumeGradients<d>> gradients_;
   std::vector<double> volume_;  // of cells

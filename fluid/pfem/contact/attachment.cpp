@@ -159,7 +159,9 @@ int add_on_facet(Nodes<d>& nodes, const Facet<d>& facet, const Vec<d>& point, Wa
   Vec<d> v = Vec<d>::Zero();
   double p = 0, size = 0;
   for (int n : facet.nodes) v += nodes.v[n] / d, p += nodes.p[n] / d, size += nodes.h[n] / d;
-  return nodes.add(point, v, p, tie, facet.wall < 0, size);
+  const int added = nodes.add(point, v, p, tie, facet.wall < 0, size);
+  nodes.compress_as(added, facet.nodes);
+  return added;
 }
 
 template <int d>
@@ -291,6 +293,7 @@ bool occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
     const int m = nodes.add(pass.at.point, (1 - t) * nodes.v[pass.a] + t * nodes.v[pass.b],
                             (1 - t) * nodes.p[pass.a] + t * nodes.p[pass.b], tie, false,
                             (1 - t) * nodes.h[pass.a] + t * nodes.h[pass.b]);
+    nodes.compress_as(m, std::array{pass.a, pass.b});
     edges.split(mesh.boundary, pass.a, pass.b, m);
   }
   return any;

@@ -28,17 +28,20 @@ bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, doub
 
 template <int d>
 bool PressureEquation<d>::set_terms(std::span<const double> diagonal, std::span<const double> source) {
-  const auto of_unknowns = [&](std::span<const double> of_nodes) {
-    std::vector<double> values;
-    for (int n : node_)
-      if (!of_nodes.empty()) values.push_back(of_nodes[n]);
-    return values;
-  };
   source_ = of_unknowns(source);
-  diagonal_ = of_unknowns(diagonal);
-  if (diagonal_.empty()) return true;
-  for (int k = 0; k < size(); ++k) matrix_.value[matrix_.column_start[k]] += diagonal_[k];
+  const std::vector<double> replaced = std::exchange(diagonal_, of_unknowns(diagonal));
+  if (diagonal_.empty() && replaced.empty()) return true;
+  for (std::size_t k = 0; k < replaced.size(); ++k) matrix_.value[matrix_.column_start[k]] -= replaced[k];
+  for (std::size_t k = 0; k < diagonal_.size(); ++k) matrix_.value[matrix_.column_start[k]] += diagonal_[k];
   return solver_.factor(matrix_) && add_bodies();
+}
+
+template <int d>
+std::vector<double> PressureEquation<d>::of_unknowns(std::span<const double> of_nodes) const {
+  std::vector<double> values;
+  for (int n : node_)
+    if (!of_nodes.empty()) values.push_back(of_nodes[n]);
+  return values;
 }
 
 template <int d>

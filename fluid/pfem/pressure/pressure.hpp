@@ -94,9 +94,11 @@ class PressureEquation {
   /// workless^T (M + G) directions w = workless^T impulse. Empty ones: the same. All are allowed after build.
   void allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless = {});
 
-  /// Terms of effects, once after build; empty: none. `diagonal`: C, not negative; `source`: q, both an entry a node
+  /// Terms of effects, in place of those before; empty: none. `diagonal`: C, not negative; `source`: q, both an entry a node
   /// (PressureTerms). A diagonal costs a further factor. False if that fails.
   bool set_terms(std::span<const double> diagonal, std::span<const double> source);
+  /// The source alone.
+  void set_source(std::span<const double> source) { source_ = of_unknowns(source); }
   /// r += q: the right-hand side for impulses that start from zero.
   void add_sources(std::vector<double>& r) const;
   /// r += q - C phi: what impulses phi leave of it.
@@ -187,6 +189,7 @@ class PressureEquation {
   void add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const;
   void measure(double density);
   void choose_unknowns();
+  std::vector<double> of_unknowns(std::span<const double> of_nodes) const;
   bool at_contact_line(int node) const;
   void assemble(SymmetricMatrix& matrix);
   bool factored();

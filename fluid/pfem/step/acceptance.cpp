@@ -74,7 +74,7 @@ Refusal WaterStep<d>::inverted_element(const StepResult<d>& found) const {
 //
 //   T(v) - max(T(v_0), T(v*)) + sum_w I_w . (s_w* + s_w) / 2 - sum_i m_i (u_i - v_i) . u_i <= share of the energies in it
 //
-// I_w: impulse on wall w; v_0: before the repair, v*: before the pressure, v: after the pressure; u: after the motion along
+// with what the liquid stores as it is compressed. I_w: impulse on wall w; v_0: before the repair, v*: before the pressure, v: after the pressure; u: after the motion along
 // walls, which may take nodes along; the lesser of T(v), T(u).
 template <int d>
 Refusal WaterStep<d>::energy_from_nowhere(const StepResult<d>& found) const {
@@ -87,6 +87,7 @@ Refusal WaterStep<d>::energy_from_nowhere(const StepResult<d>& found) const {
     if (!water_.work.nodes.spray[i])
       taken_along += water_.spec.density * equation_.lumped_volume()[i] *
                      std::max(0.0, (found.velocity[i] - trial_.v_after[i]).dot(found.velocity[i]));
+  if (compression_) given += compression_.stored(equation_.unknown(), trial_.phi);
   const double before = std::max(trial_.energy_before, trial_.energy_unloaded);
   const double scale = before + std::abs(given) + taken_along;
   double gain = std::numeric_limits<double>::infinity();

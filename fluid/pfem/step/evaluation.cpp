@@ -87,6 +87,7 @@ void WaterStep<d>::evaluate_energies(StepResult<d>& found) const {
   for (const double power : found.power_of_effects) ledger.work_of_effects += 0.5 * water_.work.dt * power;
   ledger.kinetic_energy = 0;
   ledger.potential_energy = ledger.chord_energy;
+  if (compression_) ledger.potential_energy += compression_.energy(equation_.unknown(), trial_.phi);
   std::vector<Vec<d>> v_n(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const double mass = water_.spec.density * (nodes.spray[i] ? nodes.volume[i] : equation_.lumped_volume()[i]);

@@ -39,8 +39,55 @@ Status WaterStep<d>::add_pressure_terms() {
     water_.effects[t]->pressure(view(), terms_);
   }
   const auto scope = water_.timer.scope(Phase::pressure);
-  if (!equation_.set_terms(terms_.diagonal, terms_.source)) return {"the pressure matrix could not be factored"};
+  compression_.begin(terms_.storage, water_.work.nodes.compression, kick_);
+  if (!equation_.set_terms(compression_.diagonal(terms_.diagonal), terms_.source))
+    return {"the pressure matrix could not be factored"};
+  in_equilibrium_ = false;
   return {};
+}
+
+// The first pressure of a compressible liquid has another matrix than its repair.
+template <int d>
+Status WaterStep<d>::set_equilibrium(bool on) {
+  if (!compression_.starts() || in_equilibrium_ == on) return {};
+  const auto scope = water_.timer.scope(Phase::pressure);
+  in_equilibrium_ = on;
+  if (!equation_.set_terms(compression_.diagonal(terms_.diagonal, on), terms_.source))
+    return {"the pressure matrix could not be factored"};
+  return {};
+}
+
+template <int d>
+Status WaterStep<d>::carry_compression() {
+  if (!compression_) return {};
+  if (auto status = set_equilibrium(true); !status.ok()) return status;
+  compression_.carry(equation_.lumped_volume(), equation_.unknown(), trial_.repaired);
+  damp_compression();
+  equation_.set_source(compression_.source(terms_.source));
+  return {};
+}
+
+template <int d>
+void WaterStep<d>::damp_compression() {
+  const auto& cells = water_.work.mesh.cells;
+  const auto volume_of = equation_.lumped_volume();
+  const auto has = [&](int n) { return equation_.unknown()[n] >= 0; };
+  std::vector<double> weight(cells.size()), weighted(cells.size());
+  in_parallel(cells.size(), [&](std::size_t c) {
+    double sum = 0;
+    int count = 0;
+    for (int n : cells[c])
+      if (has(n)) sum += compression_.rate(n, volume_of[n]), ++count;
+    weight[c] = count > 0 ? std::max(0.0, volume<d>(corners(water_.work.nodes.x, cells[c]))) : 0.0;
+    weighted[c] = count > 0 ? weight[c] * sum / count : 0.0;
+  });
+  in_parallel(volume_of.size(), [&](std::size_t i) {
+    double sum = 0, of_all = 0;
+    for (const auto [c, k] : equation_.around().around(i)) sum += weighted[c], of_all += weight[c];
+    if (!has(static_cast<int>(i)) || !(of_all > 0)) return;
+    compression_.damp(i, compression_.rate(i, volume_of[i]) - sum / of_all, volume_of[i], water_.spec.density,
+                      std::pow(of_all / 2, 1.0 / d));
+  });
 }
 
 template <int d>
@@ -63,10 +110,13 @@ Status WaterStep<d>::find_motion(std::span<const Twist<d>> given, std::span<cons
   trial_.on_walls.assign(water_.walls.size(), Wrench<d>::Zero());
   trial_.known.setZero(equation_.mode_count());
   trial_.unanswered = trial_.answer = trial_.known;
+  trial_.following = {};
   // Neither the repair nor effects depend on what is closed, or what closes might have to open for it.
   if (contacts.restrict_modes())
     equation_.allow(Eigen::MatrixXd::Identity(equation_.mode_count(), equation_.mode_count()));
+  if (auto status = set_equilibrium(false); !status.ok()) return status;
   if (auto status = repair(); !status.ok()) return status;
+  if (auto status = carry_compression(); !status.ok()) return status;
   if (contacts.restrict_modes()) restrict_repair(contacts);
   // Pressure changes no momentum of free water; masses that are held up (PressureEquation) may.
   water_.free_water.give_back(water_.free_carried, equation_.lumped_volume(), trial_.v);
@@ -103,22 +153,35 @@ void WaterStep<d>::restrict_repair(const ClosedContacts& contacts) {
 
 template <int d>
 Status WaterStep<d>::predict(const ClosedContacts& contacts) {
-  std::vector<Vec<d>> carried;
+  auto& carried = trial_.carried;
+  carried.clear();
   if (!water_.effects.empty()) {
     const auto scope = water_.timer.scope(momentum);
     carried = trial_.v;
   }
-  const std::vector<Twist<d>> carried_walls = trial_.s_before;
+  trial_.carried_walls = trial_.s_before;
   Eigen::VectorXd answer = Eigen::VectorXd::Zero(equation_.mode_count());
   trial_.booked.clear();
   for (std::size_t t = 0; t < water_.effects.size(); ++t) {
     const auto scope = water_.timer.scope(first_effect + t);
     const bool answers = equation_.mode_count() > 0, books = water_.effects[t]->books_work();
+    const bool follows = solves_all() && water_.effects[t]->follows();
+    auto& following = trial_.following;
+    if (follows && following.change.empty()) {
+      following.change.assign(trial_.v.size(), Vec<d>::Zero());
+      following.on_walls.assign(water_.walls.size(), Wrench<d>::Zero());
+    }
+    const std::vector<Vec<d>> v_before = follows ? trial_.v : std::vector<Vec<d>>();
+    const std::vector<Wrench<d>> on_walls_before = follows ? trial_.on_walls : std::vector<Wrench<d>>();
     if (books) trial_.booked.push_back({t, trial_.v, trial_.on_walls});
-    if (auto status = water_.effects[t]->predict(view(answers ? &equation_.modal() : nullptr), {carried, carried_walls},
-                                                 {trial_.v, trial_.on_walls, answers ? &answer : nullptr});
+    if (auto status =
+            water_.effects[t]->predict(view(answers ? &equation_.modal() : nullptr), {carried, trial_.carried_walls},
+                                       {trial_.v, trial_.on_walls, answers ? &answer : nullptr});
         !status.ok())
       return status;
+    for (std::size_t i = 0; i < v_before.size(); ++i) following.change[i] += trial_.v[i] - v_before[i];
+    for (std::size_t w = 0; w < on_walls_before.size(); ++w)
+      following.on_walls[w] += trial_.on_walls[w] - on_walls_before[w];
     if (!books) continue;
     auto& booked = trial_.booked.back();
     in_parallel(trial_.v.size(), [&](std::size_t i) { booked.change[i] = trial_.v[i] - booked.change[i]; });
@@ -126,6 +189,7 @@ Status WaterStep<d>::predict(const ClosedContacts& contacts) {
   }
   push_surface();
   if (equation_.mode_count() == 0) return {};
+  if (has_followers()) trial_.following.answered = equation_.on_modes(trial_.following.on_walls);
   // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
   answer = contacts.allowed(answer);
   const Eigen::VectorXd impulse = equation_.on_modes(trial_.on_walls);
@@ -153,9 +217,9 @@ Status WaterStep<d>::solve_pressure(std::span<const Twist<d>> given, std::span<c
   for (std::size_t w = 0; w < water_.walls.size(); ++w)
     trial_.s_after[w] += trial_.s_before[w] - water_.work.velocity[w];
   trial_.s_unloaded = trial_.s_after;
-  middle(trial_.v, 0.5 * dt_);
+  middle(trial_.v, judged_at() * dt_);
   equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_after,
-                          water_.centres(water_.moved_poses(trial_.s_after, 0.5 * dt_)), trial_.phi);
+                          water_.centres(water_.moved_poses(trial_.s_after, judged_at() * dt_)), trial_.phi);
   if (!previous.empty()) equation_.laplacian().add(previous, trial_.phi);
   equation_.add_sources(trial_.phi);
   if (!equation_.solve(trial_.phi, closely, carried_impulse())) return {"the pressure solve failed"};
@@ -166,20 +230,55 @@ Status WaterStep<d>::solve_pressure(std::span<const Twist<d>> given, std::span<c
 
 // The motion that the impulses found so far give the nodes.
 template <int d>
-void WaterStep<d>::move_nodes() {
+bool WaterStep<d>::move_nodes() {
   trial_.v_after = trial_.v;
   equation_.accelerate(trial_.phi, trial_.v_after);
+  if (has_followers() && !follow()) return false;
   wall_motion_->move(trial_.v_after, water_.moved_poses(trial_.s_after, dt_), dt_, trial_.moved);
+  return true;
+}
+
+// They act on the carried velocities and on what all else has changed in them, instead of what they did before the pressure.
+template <int d>
+bool WaterStep<d>::follow() {
+  auto& following = trial_.following;
+  const std::size_t count = trial_.v.size();
+  std::vector<Vec<d>> others(count), change(count, Vec<d>::Zero());
+  in_parallel(count, [&](std::size_t i) { others[i] = trial_.v_after[i] - trial_.carried[i] - following.change[i]; });
+  std::vector<Wrench<d>> on_walls(water_.walls.size(), Wrench<d>::Zero());
+  for (std::size_t t = 0; t < water_.effects.size(); ++t) {
+    if (!water_.effects[t]->follows()) continue;
+    const auto scope = water_.timer.scope(first_effect + t);
+    if (!water_.effects[t]
+             ->follow(view(), {trial_.carried, trial_.carried_walls}, {others, trial_.s_after},
+                      {change, on_walls, nullptr})
+             .ok())
+      return false;
+  }
+  in_parallel(count, [&](std::size_t i) { trial_.v_after[i] = trial_.carried[i] + others[i] + change[i]; });
+  for (std::size_t w = 0; w < on_walls.size(); ++w) trial_.on_walls[w] += on_walls[w] - following.on_walls[w];
+  if (equation_.mode_count() > 0) trial_.known += equation_.on_modes(on_walls) - equation_.on_modes(following.on_walls);
+  following.on_walls = on_walls;
+  return true;
+}
+
+template <int d>
+std::vector<Vec<d>> WaterStep<d>::pushed() const {
+  std::vector<Vec<d>> change(trial_.v.size(), Vec<d>::Zero());
+  equation_.accelerate(trial_.phi, change);
+  return change;
 }
 
 // The volume that this motion creates.
 template <int d>
 void WaterStep<d>::what_is_left(std::span<const double> previous, std::vector<double>& residual) {
-  in_parallel(trial_.v.size(),
-              [&](std::size_t i) { trial_.x_mid[i] = 0.5 * (water_.work.nodes.x[i] + trial_.moved.x[i]); });
+  const double share = judged_at();
+  in_parallel(trial_.v.size(), [&](std::size_t i) {
+    trial_.x_mid[i] = share < 1 ? Vec<d>(0.5 * (water_.work.nodes.x[i] + trial_.moved.x[i])) : trial_.moved.x[i];
+  });
   equation_.motion_residual(trial_.x_mid, trial_.moved.u, residual);
   equation_.slide_residual(trial_.x_mid, trial_.moved.u, trial_.s_after,
-                           water_.centres(water_.moved_poses(trial_.s_after, 0.5 * dt_)), trial_.moved.slides,
+                           water_.centres(water_.moved_poses(trial_.s_after, share * dt_)), trial_.moved.slides,
                            residual);
   lag(residual, previous, trial_.phi);
   equation_.add_sources(residual, trial_.phi);
@@ -191,8 +290,25 @@ Status WaterStep<d>::ask(Correction<d>& left) {
   left.impulse = left.residual;
   left.walls.assign(water_.walls.size(), Twist<d>::Zero());
   if (!equation_.solve(left.impulse, roughly)) return {"the pressure solve failed"};
-  left.answer = equation_.respond(left.impulse, left.walls, Eigen::VectorXd::Zero(equation_.mode_count()));
+  Eigen::VectorXd owed = Eigen::VectorXd::Zero(equation_.mode_count());
+  if (has_followers()) {
+    add_viscous_part(left);
+    left.owed = owed = equation_.on_modes(trial_.following.on_walls) - trial_.following.answered;
+    left.owed_answer = equation_.response(owed);
+  }
+  left.answer = equation_.respond(left.impulse, left.walls, owed);
   return {};
+}
+
+// Where viscosity makes the motion, an impulse takes out r = V phi / (2 mu kick), not A phi (Cahouet, Chabard 1988).
+template <int d>
+void WaterStep<d>::add_viscous_part(Correction<d>& left) const {
+  double diffusivity = 0;
+  for (const auto& effect : water_.effects) diffusivity += effect->diffusivity(water_.spec.density);
+  const double scale = 2 * water_.spec.density * diffusivity * kick_;
+  for (std::size_t i = 0; i < trial_.v.size(); ++i)
+    if (const int k = equation_.unknown()[i]; k >= 0)
+      left.impulse[k] += scale * left.residual[k] / equation_.lumped_volume()[i];
 }
 
 template <int d>
@@ -206,10 +322,12 @@ typename WaterStep<d>::Unrepaired WaterStep<d>::begin_repair() {
 
 // The carried velocity's flux, seen at t_{n-1/2} on the new mesh.
 template <int d>
-void WaterStep<d>::flux_before(std::vector<double>& residual) {
-  middle(trial_.v, -0.5 * water_.work.dt);
+void WaterStep<d>::flux_before(std::vector<double>& residual, std::span<const double> impulses) {
+  const double back = (judged_at() - 1) * water_.work.dt;
+  middle(trial_.v, back);
   equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_before,
-                          water_.centres(water_.moved_poses(trial_.s_before, -0.5 * water_.work.dt)), residual);
+                          water_.centres(water_.moved_poses(trial_.s_before, back)), residual);
+  compression_.take_from(residual, equation_.lumped_volume(), equation_.unknown(), impulses);
 }
 
 // It is a projection: what it gives to the water it takes from bodies. Where films are worn to nodes of hardly any mass
@@ -251,6 +369,7 @@ void WaterStep<d>::apply(const Correction<d>& correction, double share) {
   for (std::size_t i = 0; i < trial_.phi.size(); ++i) trial_.phi[i] += share * correction.impulse[i];
   for (std::size_t w = 0; w < water_.walls.size(); ++w) trial_.s_after[w] += share * correction.walls[w];
   if (equation_.mode_count() > 0) trial_.answer += share * correction.answer;
+  if (correction.owed.size() > 0) trial_.following.answered += share * correction.owed;
 }
 
 // Lets the motions answer to impulses.
@@ -304,7 +423,7 @@ double WaterStep<d>::energy_of_drops(std::span<const Vec<d>> v) const {
 // What terms of effects make of the volume of nodes; empty: nothing.
 template <int d>
 std::vector<double> WaterStep<d>::meant_volumes() const {
-  if (terms_.source.empty() && terms_.diagonal.empty()) return {};
+  if (terms_.source.empty() && terms_.diagonal.empty() && !compression_) return {};
   std::vector<double> rate(static_cast<std::size_t>(equation_.size()), 0.0), meant(water_.work.nodes.size(), 0.0);
   equation_.add_sources(rate, trial_.phi);
   for (std::size_t i = 0; i < meant.size(); ++i)
@@ -326,6 +445,7 @@ Motion<d> WaterStep<d>::taken(const StepResult<d>& found) {
           .repaired = trial_.repaired,
           .unloaded = trial_.free_water,
           .meant = meant_volumes(),
+          .compression = compression_.after(equation_.lumped_volume(), equation_.unknown(), trial_.phi),
           .energy_of_repair = trial_.energy_repaired - trial_.energy_before};
 }
 

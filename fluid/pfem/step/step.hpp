@@ -14,6 +14,7 @@
 #include "core/response.hpp"
 #include "core/status.hpp"
 #include "fluid/pfem/parallel.hpp"
+#include "fluid/pfem/pressure/compression.hpp"
 #include "fluid/pfem/pressure/pressure.hpp"
 #include "fluid/pfem/step/trial.hpp"
 #include "fluid/pfem/step_result.hpp"
@@ -69,6 +70,12 @@ class WaterStep {
   virtual Status repair() = 0;
   /// Corrects impulses by the pressure matrix for what nodes and walls really do.
   virtual Status correct(std::span<const double> previous) = 0;
+  /// Where in the step from t_n to t_{n+1} the motion creates no volume: 1/2 in its middle, 1 at its end.
+  virtual double judged_at() const { return 0.5; }
+  /// Whether effects that may be solved for with the pressure are: `correct` then lets them follow it.
+  virtual bool solves_all() const { return false; }
+  /// How terms that are solved implicitly go through a kick.
+  virtual InTime in_time() const { return InTime::euler; }
 
   /// What a repair starts from.
   struct Unrepaired {
@@ -80,19 +87,26 @@ class WaterStep {
   };
   /// The carried velocities, before any repair.
   Unrepaired begin_repair();
-  /// The volume that they create on the way back to t_{n-1/2}: of unknowns [m^d/s].
-  void flux_before(std::vector<double>& residual);
+  /// The volume that they create on the way back to t_{n-1/2}: of unknowns [m^d/s]. `impulses`: of the repair, that have made
+  /// them; a compressible liquid gives way to them.
+  void flux_before(std::vector<double>& residual, std::span<const double> impulses = {});
   /// Takes in impulses of the repair that have made `free` of `from.free` and handed impulses to walls, as far as they bring no
   /// energy; `from` is then what a further one starts from.
   void take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
                    std::span<const Wrench<d>> handed);
 
-  /// The motion that the impulses found so far give the nodes.
-  void move_nodes();
+  /// The motion that the impulses found so far give the nodes. False: an effect could not follow.
+  bool move_nodes();
+  /// There are effects that are solved for with the pressure.
+  bool has_followers() const { return !trial_.following.change.empty(); }
+  /// What the impulses found so far change in velocities, of nodes and without effects that follow.
+  std::vector<Vec<d>> pushed() const;
   /// The volume that this motion creates: of unknowns [m^d/s].
   void what_is_left(std::span<const double> previous, std::vector<double>& residual);
   /// What its residual asks for, by the pressure matrix and the bodies in it.
   Status ask(Correction<d>& left);
+  /// Adds to a correction what its residual asks for where viscosity, not inertia, resists.
+  void add_viscous_part(Correction<d>& left) const;
   /// Adds a share of a correction to impulses and walls.
   void apply(const Correction<d>& correction, double share);
   /// Lets the modes answer to impulses: changes both arguments.
@@ -112,8 +126,10 @@ class WaterStep {
   std::optional<WallMotion<d>> wall_motion_;
   Trial<d> trial_;
   PressureTerms terms_;  ///< of effects, in the begun step
+  Compression compression_;
 
  private:
+  bool in_equilibrium_ = false;
   /// What effects see of the begun step.
   StepView<d> view(const ModalInertia* answers = nullptr) const {
     return {.nodes = water_.work.nodes,
@@ -127,19 +143,28 @@ class WaterStep {
             .around = equation_.around(),
             .walls = water_.spec.walls,
             .poses = water_.work.poses,
-            .answers = answers};
+            .answers = answers,
+            .in_time = in_time()};
   }
 
   /// Repair, prediction, pressure and correction, in this order.
   Status find_motion(std::span<const Twist<d>> given, std::span<const double> previous, const ClosedContacts& contacts);
   /// Takes what would open or close closed contacts out of the bodies' answer to the repair.
   void restrict_repair(const ClosedContacts& contacts);
+  /// Lets effects that are solved for with the pressure follow it: changes v_after and the impulses on walls.
+  bool follow();
   /// Adds the effects' changes of velocity and impulses on walls.
   Status predict(const ClosedContacts& contacts);
   /// Impulses with which the motion to t_{n+1} creates no volume, by the pressure matrix.
   Status solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous);
   /// Effects' terms of the pressure equation.
   Status add_pressure_terms();
+  /// In its first step a compressible liquid is, or is not, in equilibrium: nothing else happens to other liquids and steps.
+  Status set_equilibrium(bool on);
+  /// What the repair has made of the compression goes on in the pressure.
+  Status carry_compression();
+  /// Damps what compresses nodes otherwise than their neighbours.
+  void damp_compression();
   /// Takes in a pressure on the free surface: continued into the water, what the pressure equation finds is the rest.
   void push_surface();
   /// What effects' terms make of the volume of nodes in the step; empty: nothing [m^d].

@@ -10,21 +10,25 @@
 
 namespace splashdown::fluid {
 
-/// What a residual asks for: impulses A^-1 r, and how walls answer to them.
+/// What a residual asks for: impulses A^-1 r, and how walls answer to them and to what effects have yet to give them.
 template <int d>
 struct Correction {
   std::vector<double> residual, impulse;
   std::vector<Twist<d>> walls;
   Eigen::VectorXd answer;
+  Eigen::VectorXd owed, owed_answer;  ///< impulses on modes, and (M + G)^-1 of them; empty: none
 
-  /// r^T A^-1 r'
-  double dot(const Correction& other) const { return of(residual).dot(of(other.impulse)); }
+  /// r^T A^-1 r', and the same of what is owed to bodies
+  double dot(const Correction& other) const {
+    return of(residual).dot(of(other.impulse)) + owed.dot(other.owed_answer);
+  }
   /// Adds a share of another one.
   void add(double share, const Correction& other) {
     of(residual) += share * of(other.residual);
     of(impulse) += share * of(other.impulse);
     for (std::size_t w = 0; w < walls.size(); ++w) walls[w] += share * other.walls[w];
     answer += share * other.answer;
+    owed += share * other.owed, owed_answer += share * other.owed_answer;
   }
 
  private:
@@ -40,6 +44,8 @@ struct Correction {
 template <int d>
 struct Trial {
   std::vector<Vec<d>> v;                         ///< of nodes, before the pressure
+  std::vector<Vec<d>> carried;                   ///< of nodes, before effects; empty: there are none
+  std::vector<Twist<d>> carried_walls;           ///< of walls, before effects
   typename FreeWater<d>::Moments free_water;     ///< what it has before the pressure
   std::vector<Twist<d>> s_before;                ///< of walls, repaired
   std::vector<Twist<d>> s_unloaded;              ///< of walls, before the pressure
@@ -63,6 +69,13 @@ struct Trial {
     std::vector<Wrench<d>> on_walls;  ///< impulse
   };
   std::vector<Booked> booked;
+  /// Of effects that the formulation solves for with the pressure: what of their work is in v and on_walls.
+  struct Following {
+    std::vector<Vec<d>> change;       ///< of velocities of nodes, before the pressure; empty: there are none
+    std::vector<Wrench<d>> on_walls;  ///< impulse
+    Eigen::VectorXd answered;         ///< impulse on modes to which they have answered
+  };
+  Following following;
 };
 
 }  // namespace splashdown::fluid

@@ -68,6 +68,7 @@ void Water<d>::accept(const Motion<d>& by, std::span<const Isometry<d>> poses) {
   const StepResult<d>& found = by.found;
   work.ledger = found.ledger;
   work.nodes.p = found.carried;
+  work.nodes.compression = by.compression;
   Ledger& ledger = work.ledger;
   const double before = ledger.volume;
   typename WallMotion<d>::Moved moved;

@@ -45,7 +45,7 @@ struct Loader {
 template <class Stream, class State>
 void archive_present(Stream stream, State& s) {
   stream.value(s.time), stream.value(s.dt), stream.value(s.acceleration_dt), stream.value(s.ledger);
-  stream.list(s.nodes.x), stream.list(s.nodes.v), stream.list(s.nodes.p);
+  stream.list(s.nodes.x), stream.list(s.nodes.v), stream.list(s.nodes.p), stream.list(s.nodes.compression);
   stream.list(s.nodes.tie), stream.list(s.nodes.surface), stream.list(s.nodes.separates);
   stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.nodes.owed), stream.list(s.nodes.h),
       stream.list(s.nodes.wall_pressure);
@@ -74,6 +74,9 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
        {nodes.v.size(), nodes.p.size(), nodes.tie.size(), nodes.surface.size(), nodes.separates.size(),
         nodes.spray.size(), nodes.volume.size(), nodes.owed.size(), nodes.h.size(), nodes.wall_pressure.size()})
     good = good && size == count;
+  good = good && (nodes.compression.empty() || nodes.compression.size() == count) &&
+         std::ranges::all_of(nodes.compression,
+                             [](const auto& c) { return std::isfinite(c.pressure) && std::isfinite(c.rate); });
   good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count &&
          s.chords.size() == wall_count && (s.resting_loads.empty() || s.resting_loads.size() == wall_count);
   good = good && all_finite(nodes.x) && all_finite(nodes.v) && all_finite(nodes.p) && all_finite(nodes.volume) &&

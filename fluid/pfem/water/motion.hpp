@@ -24,6 +24,7 @@ struct Motion {
   std::span<const double> repaired;                ///< impulses of the repair, of unknowns [Pa s]
   const typename FreeWater<d>::Moments& unloaded;  ///< of free water, before the pressure
   std::vector<double> meant;                       ///< volume that effects have made; empty: none [m^d]
+  std::vector<Compressed> compression;             ///< at t_{n+1/2}; empty: of an incompressible liquid
   double energy_of_repair;                         ///< what the repair has added [J]
 };
 

@@ -188,6 +188,7 @@ class Adapter {
         nodes_.x[e.a] = 0.5 * (nodes_.x[e.a] + nodes_.x[e.b]);
         nodes_.v[e.a] = 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]);
         nodes_.p[e.a] = 0.5 * (nodes_.p[e.a] + nodes_.p[e.b]);
+        nodes_.compress_as(e.a, std::array{e.a, e.b});
         nodes_.inherited[e.a] -= nodes_.carried(e.a);
         attach(e.a);
         remove(e.b, e.a);
@@ -246,6 +247,7 @@ class Adapter {
       const int m =
           nodes_.add(0.5 * (nodes_.x[e.a] + nodes_.x[e.b]), 0.5 * (nodes_.v[e.a] + nodes_.v[e.b]),
                      0.5 * (nodes_.p[e.a] + nodes_.p[e.b]), tie, surface, 0.5 * (nodes_.h[e.a] + nodes_.h[e.b]));
+      nodes_.compress_as(m, std::array{e.a, e.b});
       into_.push_back(m);
       attach(m);
       ++report_.inserted;

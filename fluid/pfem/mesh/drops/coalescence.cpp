@@ -70,6 +70,7 @@ void mix_absorbed(Nodes<d>& nodes, const Mesh<d>& mesh) {
     const Vec<d> around = momentum[n] / weight[n];
     nodes.v[n] = around + nodes.volume[n] / now[n] * (nodes.v[n] - around);
     nodes.p[n] = 0;
+    nodes.compress_as(n, std::array<int, 0>{});
   }
 }
 

@@ -24,7 +24,7 @@ Status Fractional<d>::repair() {
   Eigen::VectorXd excess = equation_.on_modes(held.excess(trial_.v, trial_.s_before));
   std::vector<Vec<d>> free = trial_.v;  // as if no wall held them
   for (int k = 0; k < repairs; ++k) {
-    flux_before(r);
+    flux_before(r, trial_.repaired);
     if (!equation_.solve(r, roughly)) return {"the pressure solve failed"};
     auto handed = held.excess(free, trial_.s_before);
     answer_to(r, trial_.s_before, excess);
@@ -42,8 +42,8 @@ template <int d>
 Status Fractional<d>::correct(std::span<const double> previous) {
   trial_.uncorrected = trial_.phi;
   Correction<d> left;
-  const auto find = [&] {
-    move_nodes();
+  const auto find = [&]() -> Status {
+    if (!move_nodes()) return {"an effect could not follow"};
     what_is_left(previous, left.residual);
     return ask(left);
   };
@@ -60,7 +60,7 @@ Status Fractional<d>::correct(std::span<const double> previous) {
     apply(iteration.last(), 1);
   }
   apply(iteration.left(), std::clamp(iteration.share(), 0.0, 1.0));
-  move_nodes();
+  if (!move_nodes()) return {"an effect could not follow"};
   return {};
 }
 

@@ -23,18 +23,23 @@ std::vector<Vec<d>> difference(std::span<const Vec<d>> a, std::span<const Vec<d>
 
 }  // namespace
 
-// Without viscosity and in a frame that moves with the water tau is half the interval over which the pressure acts. The convective
-// one has the diameter of the ball of an element's volume.
+// In a frame that moves with the water and without viscosity tau is half the interval over which the pressure acts. Elements are as
+// large as the ball of their volume.
 template <int d>
 std::vector<double> Monolithic<d>::shares() const {
   constexpr double half = 0.5;
   const auto& cells = water_.work.mesh.cells;
   std::vector<double> theta(cells.size(), half);
-  if (!(spec_.speed > 0)) return theta;
+  double diffusivity = 0;
+  for (const auto& effect : water_.effects)
+    if (effect->follows()) diffusivity += effect->diffusivity(water_.spec.density);
+  if (!(spec_.speed > 0) && diffusivity == 0) return theta;
   constexpr double unit_ball = d == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
   in_parallel(cells.size(), [&](std::size_t c) {
     const double volume = std::max(0.0, fluid::volume<d>(corners(water_.work.nodes.x, cells[c])));
-    theta[c] = std::pow(volume / unit_ball, 1.0 / d) / (spec_.speed * kick_);
+    const double radius = std::pow(volume / unit_ball, 1.0 / d);
+    theta[c] = spec_.speed > 0 ? radius / (spec_.speed * kick_)
+                               : 1 / std::hypot(2.0, 3 * diffusivity * kick_ / (radius * radius));
   });
   return theta;
 }
@@ -80,7 +85,7 @@ Status Monolithic<d>::repair() {
     equation_.accelerate(impulses, free);
     trial_.v = free;
     held.hold(trial_.v, trial_.s_before);
-    flux_before(left.residual);
+    flux_before(left.residual, impulses);
     equation_.stabilise(impulses, difference<d>(free, from.free), theta, left.residual);
     return ask(left);
   };
@@ -97,16 +102,17 @@ Status Monolithic<d>::repair() {
 template <int d>
 Status Monolithic<d>::correct(std::span<const double> previous) {
   const auto theta = shares();
-  const auto find = [&](Correction<d>& left) {
-    move_nodes();
+  const auto change = [&] { return has_followers() ? pushed() : difference<d>(trial_.v_after, trial_.v); };
+  const auto find = [&](Correction<d>& left) -> Status {
+    if (!move_nodes()) return {"an effect could not follow"};
     what_is_left(previous, left.residual);
-    equation_.stabilise(trial_.phi, difference<d>(trial_.v_after, trial_.v), theta, left.residual);
+    equation_.stabilise(trial_.phi, change(), theta, left.residual);
     return ask(left);
   };
-  move_nodes();
+  if (!move_nodes()) return {"an effect could not follow"};
   trial_.energy_unloaded = equation_.kinetic_energy(trial_.v);
   // Twice the energy of what the pressure does to velocities is r^T A^-1 r of what it takes out.
-  const double done = 2 * equation_.kinetic_energy(difference<d>(trial_.v_after, trial_.v));
+  const double done = 2 * equation_.kinetic_energy(change());
   const double enough =
       std::max(spec_.tolerance * spec_.tolerance * done, roundoff_of_sums * roundoff_of_sums * trial_.energy_unloaded);
   const auto add = [this](const Correction<d>& correction, double share) { apply(correction, share); };

@@ -1,0 +1,121 @@
+// Sound in a liquid, with both formulations.
+#include "fluid/effects/compressibility/compressibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "basin.hpp"
+
+namespace splashdown::fluid {
+namespace {
+
+constexpr double pi = std::numbers::pi, density = 1000, sound = 100;
+
+struct Way {
+  const char* name;
+  Formulation<2> (*make)();
+};
+Formulation<2> fractional_way() { return fractional<2>(); }
+Formulation<2> monolithic_way() { return monolithic<2>(); }
+
+/// Water in a tube along x that starts at x = 0; the tube is longer than the water, or as long.
+coupling::scenes::Watched<2> tube(const Way& way, double length, double closed_at, double size,
+                                  std::function<Vec<2>(const Vec<2>&)> velocity, double gas = 0) {
+  const double width = 2 * size;
+  FluidSpec<2> spec;
+  spec.density = density;
+  spec.size = {.surface = size, .far = size};
+  spec.step.dt_max = 1;
+  spec.walls.push_back(
+      {.name = "tube", .surface = testing::Basin::box({0, 0}, {closed_at, width}, true), .size = size});
+  spec.liquids.push_back({testing::Basin::box({0, 0}, {length, width}, false), std::move(velocity)});
+  std::vector<std::unique_ptr<Effect<2>>> effects;
+  effects.push_back(std::make_unique<Compressibility<2>>(
+      CompressibilitySpec{.bulk_modulus = density * sound * sound, .gas_content = gas}));
+  return coupling::scenes::Watched<2>(std::make_unique<Fluid<2>>(std::move(spec), std::move(effects), way.make()));
+}
+
+class Compressible : public ::testing::TestWithParam<Way> {};
+
+// u = U sin(n pi x / L) between closed ends swings with n c / 2 L; the trapezoidal rule is slow by (omega dt)^2 / 12, 0.2 % at 40
+// steps a period, elements by as much. What swings keeps its energy.
+TEST_P(Compressible, the_first_modes_of_a_closed_tube_are_those_of_sound) {
+  const double length = 1, speed = 1e-4;
+  for (const int n : {1, 2, 3}) {
+    const double period = 2 * length / (n * sound), dt = period / 40;
+    auto stepper = tube(GetParam(), length, length, length / 60,
+                        [&](const Vec<2>& x) { return Vec<2>(speed * std::sin(n * pi * x.x() / length), 0); });
+    std::vector<double> crossings, energies;
+    double before = 0, time_before = 0;
+    while (stepper.time() < 2.2 * period) {
+      ASSERT_TRUE(stepper.attempt(dt).ok());
+      const auto& fluid = stepper.fluid();
+      double mode = 0;
+      for (std::size_t i = 0; i < fluid.nodes().size(); ++i)
+        mode += fluid.pressure()[i] * std::cos(n * pi * fluid.nodes().x[i].x() / length);
+      if (before * mode < 0)
+        crossings.push_back(time_before + (stepper.time() - time_before) * before / (before - mode));
+      before = mode, time_before = stepper.time();
+      energies.push_back(fluid.ledger().kinetic_energy + fluid.ledger().potential_energy);
+      stepper.commit();
+    }
+    ASSERT_GE(crossings.size(), 4u);
+    const double found = 2 * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+    EXPECT_NEAR(found / period, 1, 0.01);
+    std::printf("mode %d: %.5f energy %.6f\n", n, found / period, energies.back() / energies[2]);
+    EXPECT_NEAR(energies.back() / energies[2], 1, 0.01);
+  }
+}
+
+// A column of length L that is stopped at once: rho c U from t = 0 to 2 L / c, when it goes back as it came.
+TEST_P(Compressible, a_column_hammers_with_rho_c_u_until_the_echo_returns) {
+  const double length = 1, speed = 0.1;
+  auto stepper = tube(GetParam(), length, 2 * length, length / 40, [&](const auto&) { return Vec<2>(-speed, 0); });
+  const double echo = 2 * length / sound, dt = echo / 200;
+  double impulse = 0, until = 0, plateau = 0, over = 0;
+  while (stepper.time() < 0.95 * echo) {
+    ASSERT_TRUE(stepper.attempt(dt).ok());
+    const auto load = stepper.fluid().result().loads[0].total();
+    const double kick = stepper.time() > 0 ? dt : 0.5 * dt;
+    impulse -= load[0] * kick, until += kick;
+    if (stepper.time() > 0.1 * echo && stepper.time() < 0.9 * echo) plateau -= load[0] * kick, over += kick;
+    stepper.commit();
+  }
+  const double width = 2 * length / 40, exact = density * sound * speed * width;
+  std::printf("plateau %.5f impulse %.5f\n", plateau / over / exact, impulse / (exact * until));
+  EXPECT_NEAR(plateau / over / exact, 1, 0.01);
+  EXPECT_NEAR(impulse / (exact * until), 1, 0.01);
+}
+
+// It starts in equilibrium, though no pressure of it is known.
+TEST_P(Compressible, water_at_rest_stays_at_rest) {
+  std::vector<std::unique_ptr<Effect<2>>> effects;
+  effects.push_back(testing::gravity());
+  effects.push_back(std::make_unique<Compressibility<2>>(CompressibilitySpec{.bulk_modulus = density * sound * sound}));
+  coupling::scenes::Watched<2> stepper(
+      std::make_unique<Fluid<2>>(testing::Basin{.size = 0.1}.spec(), std::move(effects), GetParam().make()));
+  double fastest = 0;
+  ASSERT_TRUE(testing::run(stepper, 0.1,
+                           [&](const auto& fluid, double) { fastest = std::max(fastest, testing::max_speed(fluid)); }));
+  std::printf("fastest %.3e\n", fastest);
+  EXPECT_LT(fastest, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Compressible,
+                         ::testing::Values(Way{"fractional", fractional_way}, Way{"monolithic", monolithic_way}),
+                         [](const auto& info) { return info.param.name; });
+
+// Wood 1930: gas makes a mixture soft, liquid heavy.
+TEST(Compliance, of_a_mixture_is_the_mean_of_its_parts_by_volume) {
+  const CompressibilitySpec spec{.bulk_modulus = 2.2e9, .gas_content = 0.1};
+  EXPECT_DOUBLE_EQ(compliance(spec, 2, 0), 2 * (0.9 / 2.2e9 + 0.1 / (1.4 * 101325)));
+  // Gas that is pressed to nothing leaves the liquid.
+  EXPECT_NEAR(compliance(spec, 1, 1e9) * 2.2e9, 1, 0.02);
+  // dV = - compliance dp: gas by p V^gamma, liquid in proportion.
+  const double dp = 1, V_g = 0.1 * std::pow(1 + dp / 101325, -1 / 1.4);
+  EXPECT_NEAR(0.1 - V_g + 0.9 * dp / 2.2e9, compliance(spec, 1, 0) * dp, 2e-5 * compliance(spec, 1, 0));
+}
+
+}  // namespace
+}  // namespace splashdown::fluid
