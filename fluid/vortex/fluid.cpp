@@ -44,11 +44,11 @@ GridFlow::GridFlow(GridFlowSpec spec)
   loads_.resize(spec_.walls.size());
   solve_velocity(omega_, 0, velocity_);
   before_ = velocity_;
-  const auto motion = motion_of(spec_.grid, velocity_, stream(0));
-  speed_ = motion.speed;
+  const auto speeds = speeds_of(spec_.grid, velocity_, stream(0));
+  speed_ = speeds.speed;
   buoyant_at_start_ = buoyant_energy();
   trial_velocity_ = velocity_;
-  ledger_.kinetic_energy = kinetic_energy(motion);
+  ledger_.kinetic_energy = kinetic_energy(speeds);
   const Vec<2> size = spec_.grid.max() - spec_.grid.min;
   ledger_.volume = ledger_.volume_initial = size.prod();
   add_samples();
@@ -230,10 +230,10 @@ void GridFlow::solve(std::span<const Twist<2>> twists) {
 }
 
 /// Perturbations of the stream, outside of the bodies [J/m].
-double GridFlow::kinetic_energy(const Motion& motion) const {
+double GridFlow::kinetic_energy(const Speeds& speeds) const {
   const Vec<2> far = stream(time_);
   const auto& g = spec_.grid;
-  double sum = motion.squares;
+  double sum = speeds.squares;
   for (const auto& wall : penalised_) {
     const auto& [box, chi] = wall.chi();
     for (int j = 0; j < box.height && !chi.u.empty(); ++j)
@@ -256,14 +256,14 @@ double GridFlow::buoyant_energy() const {
   return sum;
 }
 
-void GridFlow::book(double kick, const Motion& motion) {
+void GridFlow::book(double kick, const Speeds& speeds) {
   const Vec<2> far = stream(time_);
   for (std::size_t w = 0; w < loads_.size(); ++w) {
     const Wrench<2> impulse = kick * loads_[w].total();
     ledger_.work_on_walls += impulse.dot(trial_twists_[w]);
     ledger_.work_of_effects += impulse.head<2>().dot(far);  // of the stream, in whose frame energies are
   }
-  ledger_.kinetic_energy = kinetic_energy(motion);
+  ledger_.kinetic_energy = kinetic_energy(speeds);
   ledger_.potential_energy = buoyant_energy() - buoyant_at_start_;
 }
 
@@ -281,14 +281,14 @@ void GridFlow::commit(std::span<const Isometry<2>> poses) {
   omega_.swap(trial_omega_);
   if (steps_ < starting_steps) solve_velocity(omega_, time_ + 0.5 * dt_, trial_velocity_);
   time_ += dt_;
-  const auto motion = motion_of(spec_.grid, trial_velocity_, stream(time_));
-  book(kick_, motion);
+  const auto speeds = speeds_of(spec_.grid, trial_velocity_, stream(time_));
+  book(kick_, speeds);
   std::swap(before_, velocity_);
   std::swap(velocity_, trial_velocity_);
   kick_before_ = kick_;
   dt_before_ = dt_;
   ++steps_;
-  speed_ = motion.speed;
+  speed_ = speeds.speed;
   is_begun_ = false;
   pressure_.clear();
   place_samples();
@@ -352,7 +352,7 @@ void GridFlow::load(std::istream& in) {
     penalised_[w].load(in);
   }
   for (auto* field : {&omega_, &velocity_.u, &velocity_.v, &before_.u, &before_.v}) get(in, *field);
-  speed_ = motion_of(spec_.grid, velocity_, stream(time_)).speed;
+  speed_ = speeds_of(spec_.grid, velocity_, stream(time_)).speed;
   is_begun_ = false;
   pressure_.clear();
   place_samples();

@@ -91,8 +91,8 @@ class GridFlow final : public FluidView<2> {
   Vec<2> fading(const Vec<2>& stream) const;
   const NodeField& faded(const NodeField& omega, const Vec<2>& stream);
   void solve_velocity(const NodeField& omega, double at_time, FaceField& velocity);
-  void book(double kick, const Motion& motion);
-  double kinetic_energy(const Motion& motion) const;
+  void book(double kick, const Speeds& speeds);
+  double kinetic_energy(const Speeds& speeds) const;
   double buoyant_energy() const;
   void solve_pressure() const;
   double node_pressure(const Vec<2>& point) const;
