@@ -83,6 +83,7 @@ class GridFlow final : public FluidView<2> {
   void add_samples();
   void place_samples();
   Vec<2> stream(double time) const { return spec_.stream ? spec_.stream(time) : Vec<2>(Vec<2>::Zero()); }
+  bool is_starting() const { return steps_ < 3; }  // without a prediction worth having
   int passes_of(std::size_t wall, bool answers) const;
   void find_answers(double share, std::span<const char> answers);
   void find_answers_together(double share, std::span<const char> answers);
