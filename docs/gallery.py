@@ -71,6 +71,16 @@ set xlabel 't / T'; set ylabel 'F / (rho U_m^2 D)'; set xrange [0:1]; set yrange
 plot 'bodies.csv' using ($1/5 - 3):22 with lines ls 1 title '16 squares across', \
   '../../../examples/oscillating_cylinder/reference.csv' using 1:2 with points ls 4 pt 6 title 'Duetsch et al.'
 """
+WAKE_LOADS = r"""
+set xlabel 't U / D'; set ylabel 'C_D, C_L'; set xrange [0:80]; set yrange [-0.6:2]
+plot 'bodies.csv' using 1:(2*$22) with lines ls 1 title 'C_D', '' using 1:(2*$23) with lines ls 2 title 'C_L', \
+  1.325 with lines ls 4 title 'C_D of others'
+"""
+FOIL_LOADS = r"""
+set xlabel 't f'; set ylabel 'C_Y, C_X'; set xrange [2:3]; set yrange [-4:6]
+plot 'bodies.csv' using ($1*0.14):(2*$23) with lines ls 1 title 'C_Y', '' using ($1*0.14):(2*$22) with lines ls 2 title 'C_X', \
+  'fluid.csv' using (column("time")*0.14):(2*column("control_fy_foil")) every 20 with points ls 4 pt 6 title 'C_Y by a control volume'
+"""
 SINKING = r"""
 set xlabel 'time / s'; set ylabel 'speed / (m/s)'
 plot 'bodies.csv' using 1:(-$11) with lines ls 1 title '16 squares across', \
@@ -128,6 +138,8 @@ CASES = [
     Case("planing_plate", "scene.toml", "end", 20, (9.2, 12.2, -0.8, 1.0)),
     Case("impulsive_cylinder", "scene.toml", CYLINDER_DRAG, 2),
     Case("oscillating_cylinder", "scene.toml", CYLINDER_FORCE, 2),
+    Case("cylinder_wake", "scene.toml", WAKE_LOADS, 4),
+    Case("flapping_foil", "scene.toml", FOIL_LOADS, 4),
     Case("sedimenting_cylinder", "scene.toml", SINKING, 12),
     Case("plate_trajectories", "scene.toml", FLIGHT, 40),
     Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),

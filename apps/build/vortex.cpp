@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "apps/build/build.hpp"
+#include "apps/effects/wind/wind.hpp"
 #include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {
@@ -48,6 +49,8 @@ vortex::GridFlowSpec vortex_spec(const Scene& scene) {
   spec.grid.min = 0.5 * (vec<2>(fluid.min + fluid.max) - fluid.size * Vec<2>(spec.grid.nx, spec.grid.ny));
   spec.sides = fluid.sides == "slip" ? vortex::SideKind::slip : vortex::SideKind::free;
   spec.stream = stream_of(fluid.stream);
+  if (const auto* table = scene.effects.find<WindTable>())
+    spec.stream = [wind = wind_of<2>(*table, scene)](double time) { return wind.at(Vec<2>::Zero(), time); };
   if (scene.gravity) spec.gravity = vec<2>(scene.gravity->acceleration);
   spec.penalisation.smoothing = fluid.smoothing;
   spec.penalisation.rate = fluid.rate;

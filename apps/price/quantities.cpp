@@ -48,6 +48,7 @@ class Defaults {
   }
 
   void add_body(const Body& body) {
+    if (scene_.vortex) add_in_grid(body);
     if (!scene_.fluid) return;
     const std::string of = "bodies." + body.name + ".", up = scene_.dimension == 2 ? "y" : "z";
     // CFC 60, of structures as a whole (SAE J211-1), is the headline, and there on all rungs; CFC 180 on those with short steps.
@@ -69,6 +70,19 @@ class Defaults {
       expression(body.name + ".rest_submergence", "m", "bodies.csv:" + body.name, "mean(submergence, time)");
       quantities_.back().measured.where =
           fmt::format("time >= 0.5*(summary.{}settled_time + summary.simulated_time)", of);
+    }
+  }
+  /// There is no impact but that of a start, whose force depends on the step.
+  void add_in_grid(const Body& body) {
+    const auto table = "bodies.csv:" + body.name;
+    if (body.becomes_free()) {
+      expression(body.name + ".way", "m", table, "sqrt((last(x) - first(x))^2 + (last(y) - first(y))^2)");
+      expression(body.name + ".last_speed", "m/s", table, "sqrt(last(vx)^2 + last(vy)^2)");
+    } else {
+      expression(body.name + ".mean_force", "N/m", table, "sqrt(mean(fx, time)^2 + mean(fy, time)^2)");
+      expression(body.name + ".rms_force", "N/m", table, "sqrt(rms(fx)^2 + rms(fy)^2)");
+      for (auto k = quantities_.size() - 2; k < quantities_.size(); ++k)
+        quantities_[k].measured.where = "time > 0.02*summary.simulated_time";
     }
   }
   void add(const PatchEntry& patch) {

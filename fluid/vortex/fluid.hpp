@@ -83,6 +83,7 @@ class GridFlow final : public FluidView<2> {
   void add_samples();
   void place_samples();
   Vec<2> stream(double time) const { return spec_.stream ? spec_.stream(time) : Vec<2>(Vec<2>::Zero()); }
+  bool is_starting() const { return steps_ < 3; }  // without a prediction worth having
   int passes_of(std::size_t wall, bool answers) const;
   void find_answers(double share, std::span<const char> answers);
   void find_answers_together(double share, std::span<const char> answers);
@@ -91,8 +92,8 @@ class GridFlow final : public FluidView<2> {
   Vec<2> fading(const Vec<2>& stream) const;
   const NodeField& faded(const NodeField& omega, const Vec<2>& stream);
   void solve_velocity(const NodeField& omega, double at_time, FaceField& velocity);
-  void book(double kick, const Motion& motion);
-  double kinetic_energy(const Motion& motion) const;
+  void book(double kick, const Speeds& speeds);
+  double kinetic_energy(const Speeds& speeds) const;
   double buoyant_energy() const;
   void solve_pressure() const;
   double node_pressure(const Vec<2>& point) const;

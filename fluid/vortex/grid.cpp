@@ -19,8 +19,8 @@ SPLASHDOWN_WIDE void difference(double stream, double scale, const double* __res
 constexpr std::size_t lanes = 8;  // sums and greatest values that do not wait for each other
 
 /// Squares of a row of velocities beyond a stream, summed, and the greatest square of the velocities themselves.
-SPLASHDOWN_WIDE void motion_of_row(const double* __restrict u, const double* __restrict v, double stream_x,
-                                   double stream_y, std::size_t count, Motion& motion) {
+SPLASHDOWN_WIDE void speeds_of_row(const double* __restrict u, const double* __restrict v, double stream_x,
+                                   double stream_y, std::size_t count, Speeds& speeds) {
   double sums[lanes] = {}, most[lanes] = {};
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes)
@@ -35,21 +35,21 @@ SPLASHDOWN_WIDE void motion_of_row(const double* __restrict u, const double* __r
     most[0] = std::max(most[0], u[i] * u[i] + v[i] * v[i]);
   }
   for (std::size_t l = 0; l < lanes; ++l) {
-    motion.squares += sums[l];
-    motion.speed = std::max(motion.speed, most[l]);
+    speeds.squares += sums[l];
+    speeds.speed = std::max(speeds.speed, most[l]);
   }
 }
 
 }  // namespace
 
-Motion motion_of(const Grid& grid, const FaceField& velocity, const Vec<2>& stream) {
+Speeds speeds_of(const Grid& grid, const FaceField& velocity, const Vec<2>& stream) {
   const auto row = static_cast<std::size_t>(grid.nx + 1);
-  std::vector<Motion> rows(static_cast<std::size_t>(grid.ny));
+  std::vector<Speeds> rows(static_cast<std::size_t>(grid.ny));
   in_pieces(rows.size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t j = first; j < last; ++j)
-      motion_of_row(velocity.u.data() + j * row, velocity.v.data() + j * row, stream.x(), stream.y(), row - 1, rows[j]);
+      speeds_of_row(velocity.u.data() + j * row, velocity.v.data() + j * row, stream.x(), stream.y(), row - 1, rows[j]);
   });
-  Motion all;
+  Speeds all;
   for (const auto& one : rows) {
     all.squares += one.squares;
     all.speed = std::max(all.speed, one.speed);

@@ -54,12 +54,12 @@ void add_curl(const Grid& grid, const FaceField& f, double factor, NodeField& om
 void velocities_of(const Grid& grid, const NodeField& psi, const Vec<2>& stream, FaceField& velocity);
 
 /// How fast a flow is.
-struct Motion {
+struct Speeds {
   double squares = 0;  ///< of velocities beyond the stream, summed over faces [m^2/s^2]
   double speed = 0;    ///< the greatest [m/s]
 };
 
 /// Of velocities in a stream; the same for any number of threads.
-Motion motion_of(const Grid& grid, const FaceField& velocity, const Vec<2>& stream);
+Speeds speeds_of(const Grid& grid, const FaceField& velocity, const Vec<2>& stream);
 
 }  // namespace splashdown::vortex

@@ -54,20 +54,6 @@ rigid::Curve<values> curve(const Coefficient& rows, double unit) {
 }
 
 template <int d>
-rigid::Wind<d> wind_of(const WindTable& table, const Scene& scene) {
-  rigid::Wind<d> wind;
-  wind.velocity = vec<d>(table.velocity);
-  wind.roughness = table.profile == "log" ? table.roughness : 0;
-  wind.height = table.height;
-  wind.level = table.level ? *table.level : still_water_level<d>(scene).value_or(0);
-  if (!table.gust) return wind;
-  wind.gust = vec<d>(table.gust->velocity);
-  wind.gust_start = table.gust->start;
-  wind.gust_duration = table.gust->duration;
-  return wind;
-}
-
-template <int d>
 rigid::AeroSpec<d> aero_of(const AeroTable& table, const Body& body) {
   rigid::AeroSpec<d> spec;
   spec.body = table.body;

@@ -5,9 +5,42 @@
 #include <algorithm>
 
 #include "apps/effects/aero/aero.hpp"
+#include "apps/scene/geometry.hpp"
 #include "apps/scene/read/reader.hpp"
+#include "apps/scene/scales.hpp"
 
 namespace splashdown::apps {
+namespace {
+
+/// The fluid of a grid is the air, which blows everywhere alike.
+void check_on_grid(const Scene& scene, const WindTable& table, Problems& problems) {
+  if (table.profile == "log")
+    problems.add("wind.profile", "must be \"uniform\" with fluid.formulation = \"vortex\"",
+                 "Remove profile, height, roughness and level.");
+  if (!scene.vortex->stream.empty())
+    problems.add("wind", "and fluid.stream.velocity both say how the fluid moves", "Remove one of them.");
+  if (scene.effects.find<AeroTables>())
+    problems.add("body.aero", "would count the loads of the fluid on the grid twice", "Remove it.");
+}
+
+}  // namespace
+
+template <int d>
+rigid::Wind<d> wind_of(const WindTable& table, const Scene& scene) {
+  rigid::Wind<d> wind;
+  wind.velocity = vec<d>(table.velocity);
+  wind.roughness = table.profile == "log" ? table.roughness : 0;
+  wind.height = table.height;
+  wind.level = table.level ? *table.level : still_water_level<d>(scene).value_or(0);
+  if (!table.gust) return wind;
+  wind.gust = vec<d>(table.gust->velocity);
+  wind.gust_start = table.gust->start;
+  wind.gust_duration = table.gust->duration;
+  return wind;
+}
+
+template rigid::Wind<2> wind_of<2>(const WindTable&, const Scene&);
+template rigid::Wind<3> wind_of<3>(const WindTable&, const Scene&);
 
 void WindKind::read(Reader& reader, Scene& scene) const {
   auto& table = scene.effects.table<WindTable>();
@@ -38,6 +71,7 @@ void WindKind::check(const Scene& scene, Problems& problems) const {
         problems.noted("wind.roughness") ? "wind.roughness" : "wind.height",
         fmt::format("the height, {:g} m, must be above the roughness, {:g} m", table->height, table->roughness),
         "Use a smaller roughness.");
+  if (scene.vortex) return check_on_grid(scene, *table, problems);
   if (!scene.effects.find<AeroTables>() && !problems.found_in("body"))
     problems.add("wind", "nothing feels it: no body has [body.aero]",
                  "Add [body.aero] to a body, or remove the table.");

@@ -1,7 +1,8 @@
-// [wind]: the motion of the air. It acts on bodies with [body.aero].
+// [wind]: the motion of the air. It acts on bodies with [body.aero], and it is the stream of a fluid on a grid.
 #pragma once
 
 #include "apps/scene/kinds/effect_kind.hpp"
+#include "rigid/forces/wind/wind.hpp"
 
 namespace splashdown::apps {
 
@@ -20,9 +21,14 @@ struct WindTable {
   std::optional<GustTable> gust;
 };
 
+/// As bodies feel it.
+template <int d>
+rigid::Wind<d> wind_of(const WindTable& table, const Scene& scene);
+
 class WindKind final : public EffectOf<WindKind, WindTable> {
  public:
   std::string_view name() const override { return "wind"; }
+  bool knows_no_mesh() const override { return true; }
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;

@@ -113,8 +113,14 @@ FaceBox box_around(const Grid& grid, const Surface<2>& outline, const Isometry<2
   FaceBox box;
   box.i0 = static_cast<int>(std::floor(low.x() / grid.h)) - margin;
   box.j0 = static_cast<int>(std::floor(low.y() / grid.h)) - margin;
-  box.width = multiple_of_eight(static_cast<int>(std::ceil(high.x() / grid.h)) + margin + 1 - box.i0);
-  box.height = multiple_of_eight(static_cast<int>(std::ceil(high.y() / grid.h)) + margin + 1 - box.j0);
+  // What is more than needed may go to the other side.
+  const auto size = [margin](double end, int nodes, int& first) {
+    const int needed = static_cast<int>(std::ceil(end)) + margin + 1 - first, all = multiple_of_eight(needed);
+    first -= std::clamp(first + all - nodes, 0, all - needed);
+    return all;
+  };
+  box.width = size(high.x() / grid.h, grid.nx + 1, box.i0);
+  box.height = size(high.y() / grid.h, grid.ny + 1, box.j0);
   return box;
 }
 

@@ -2,12 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <istream>
-#include <ostream>
-#include <stdexcept>
-#include <type_traits>
 
-#include "core/stored.hpp"
 #include "fluid/vortex/transport/kernels.hpp"
 
 namespace splashdown::vortex {
@@ -25,19 +20,6 @@ double gathered(const FaceBox& box, const std::vector<double>& field, double x, 
     for (int k = std::max(0, i - 1); k <= std::min(box.width - 1, i + 2); ++k)
       sum += m4(x - k) * m4(y - l) * field[box.at(k, l)];
   return sum;
-}
-
-template <class Number>
-void put(std::ostream& out, const Number* from, std::size_t count) {
-  out.write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(count * sizeof(Number)));
-}
-template <class Number>
-void get(std::istream& in, Number* to, std::size_t count) {
-  if (!in.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(count * sizeof(Number))))
-    throw std::runtime_error("the forces of a wall end early");
-  if constexpr (std::is_same_v<Number, double>)
-    if (!std::all_of(to, to + count, [](double x) { return std::isfinite(x); }))
-      throw std::runtime_error("holds forces of a wall that are not finite");
 }
 
 }  // namespace
@@ -174,69 +156,6 @@ void PenalisedWall::make_rigid(const FaceField& velocity, double share, int pass
     for (int m = 0; m < modes; ++m)
       pass(w[static_cast<std::size_t>(m)], m, answers_[static_cast<std::size_t>(m)], last);
   }
-}
-
-void PenalisedWall::begin_passes() {
-  found_.box = chi_.box;
-  zero(chi_.box, found_.field);
-  for (auto& answer : answers_) zero(chi_.box, answer);
-  answers_to_.clear();
-}
-
-void PenalisedWall::pass_from(const FaceField& velocity, double share, std::size_t mover, int mode, bool is_mover,
-                              NodeField& curl) {
-  FaceField* sum = &found_.field;
-  if (mode >= 0 && is_mover) sum = &answers_[static_cast<std::size_t>(mode)];
-  if (mode >= 0 && !is_mover) {
-    auto& fields = answers_to_[mover];
-    sum = &fields[static_cast<std::size_t>(mode)];
-    if (sum->u.empty()) zero(chi_.box, *sum);
-  }
-  BoxField f{chi_.box, {}};
-  zero(chi_.box, f.field);
-  const Vec<2> about = pose_.translation();
-  const auto& box = chi_.box;
-  const double moves = is_mover ? 1 : 0;
-  visit(chi_, [&](std::size_t k, const Vec<2>& at_u, const Vec<2>& at_v) {
-    const std::size_t at = grid_.at(box.i0 + static_cast<int>(k) % box.width, box.j0 + static_cast<int>(k) / box.width);
-    const double nu = moves * (mode == 0 ? 1 : mode == 2 ? about.y() - at_u.y() : 0);
-    const double nv = moves * (mode == 1 ? 1 : mode == 2 ? at_v.x() - about.x() : 0);
-    f.field.u[k] = share * chi_.field.u[k] * (nu - velocity.u[at]);
-    f.field.v[k] = share * chi_.field.v[k] * (nv - velocity.v[at]);
-    sum->u[k] += f.field.u[k];
-    sum->v[k] += f.field.v[k];
-  });
-  add_curl_of(f, 1, curl);
-}
-
-Eigen::Matrix3d PenalisedWall::answer_to(std::size_t mover, double density) const {
-  Eigen::Matrix3d answer = Eigen::Matrix3d::Zero();
-  const auto found = answers_to_.find(mover);
-  if (found == answers_to_.end()) return answer;
-  for (int m = 0; m < 3; ++m)
-    answer.col(m) = density * impulse_of({chi_.box, found->second[static_cast<std::size_t>(m)]}, pose_.translation());
-  return answer;
-}
-
-void PenalisedWall::settle_answer_to(std::size_t mover, const Twist<2>& twist) {
-  const auto found = answers_to_.find(mover);
-  if (found == answers_to_.end()) return;
-  for (int m = 0; m < 3; ++m)
-    for (std::size_t k = 0; k < found_.box.size(); ++k) {
-      found_.field.u[k] += twist[m] * found->second[static_cast<std::size_t>(m)].u[k];
-      found_.field.v[k] += twist[m] * found->second[static_cast<std::size_t>(m)].v[k];
-    }
-  answers_to_.erase(found);
-}
-
-std::pair<Wrench<2>, Wrench<2>> PenalisedWall::sums(const Twist<2>& twist, double ratio) const {
-  const Vec<2> about = pose_.translation();
-  Wrench<2> found = impulse_of(found_, about);
-  for (int m = 0; m < 3 && !moments_.is_inside_out(); ++m)
-    found += twist[m] * impulse_of({found_.box, answers_[static_cast<std::size_t>(m)]}, about);
-  Wrench<2> all = found + impulse_of(predicted_, about);
-  if (!force_.field.u.empty()) all += 0.5 * ratio * impulse_of(force_, placed_.translation());
-  return {found, all};
 }
 
 ImpulseLaw PenalisedWall::law(double density, double kick, double ratio, const Vec<2>& gravity) const {
@@ -386,33 +305,6 @@ void PenalisedWall::settle(const Twist<2>& twist, NodeField& omega, bool predict
   }
   placed_ = pose_;
   filling_ = twist;
-}
-
-void PenalisedWall::save(std::ostream& out) const {
-  put(out, &force_.box, 1);
-  put(out, placed_.matrix().data(), 9);
-  put(out, filling_.data(), 3);
-  const std::uint64_t count = force_.field.u.size();
-  put(out, &count, 1);
-  put(out, force_.field.u.data(), force_.field.u.size());
-  put(out, force_.field.v.data(), force_.field.v.size());
-}
-
-void PenalisedWall::load(std::istream& in) {
-  get(in, &force_.box, 1);
-  get(in, placed_.matrix().data(), 9);
-  get(in, filling_.data(), 3);
-  const std::size_t count = stored_count(in, 2 * sizeof(double));
-  const auto& box = force_.box;
-  const bool fits = box.i0 >= 0 && box.j0 >= 0 && box.width >= 0 && box.height >= 0 && box.width <= grid_.nx + 1 &&
-                    box.height <= grid_.ny + 1 && box.i0 <= grid_.nx + 1 - box.width &&
-                    box.j0 <= grid_.ny + 1 - box.height;
-  if (!fits || (count != 0 && count != box.size())) throw std::runtime_error("holds forces of another grid");
-  force_.field.u.resize(count);
-  force_.field.v.resize(count);
-  get(in, force_.field.u.data(), count);
-  get(in, force_.field.v.data(), count);
-  is_covered_ = false;
 }
 
 }  // namespace splashdown::vortex

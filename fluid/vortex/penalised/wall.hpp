@@ -59,8 +59,8 @@ class PenalisedWall {
   void make_rigid(const FaceField& velocity, double share, int passes, Projections& projections);
   /// Before passes of all walls together (pass_from): nothing has been found.
   void begin_passes();
-  /// One of them, for what nobody moves (mode -1) or a unit twist of `mover`, another wall or this one: forces from a velocity of the
-  /// whole grid are added to what was found, and their curl to a vorticity.
+  /// One of them, for what nobody moves (mode -1) or a unit twist of `mover`, another wall or this one: forces from a
+  /// velocity of the whole grid are added to what was found, and their curl to a vorticity.
   void pass_from(const FaceField& velocity, double share, std::size_t mover, int mode, bool is_mover, NodeField& curl);
   /// Impulse on this wall for the twist of another, I = -answer s, about this one's reference point; zero but after joint passes.
   Eigen::Matrix3d answer_to(std::size_t mover, double density) const;

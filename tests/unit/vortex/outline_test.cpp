@@ -42,6 +42,20 @@ TEST(Outline, covers_its_area) {
   EXPECT_NEAR(covered(1. / 64, 1.5), smaller, 1e-3 * area);
 }
 
+// Boxes are larger than they need to be; that may not push them out of a grid in which the body has its rim.
+TEST(Outline, its_box_stays_on_the_grid) {
+  const auto outline = scenes::circle(0.5, 60);
+  for (const double x : {-0.9, -0.2, 0.3, 0.9}) {
+    const Grid g{.min = {-1.6, -1.6}, .h = 0.1, .nx = 32, .ny = 32};
+    Isometry<2> pose = Isometry<2>::Identity();
+    pose.translation() = Vec<2>(0.8 * x, x);
+    const auto box = box_around(g, outline, pose, 0, 3);
+    EXPECT_GE(std::min(box.i0, box.j0), -1);
+    EXPECT_LE(box.i0 + box.width, g.nx + 2);
+    EXPECT_LE(box.j0 + box.height, g.ny + 2);
+  }
+}
+
 TEST(Outline, a_turned_box_covers_what_lies_inside_of_it) {
   const auto g = scenes::square_grid(64);
   Isometry<2> pose = Isometry<2>::Identity();

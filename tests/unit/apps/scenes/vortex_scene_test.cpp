@@ -50,6 +50,18 @@ TEST(VortexScene, becomes_a_grid_that_fast_transforms_like_around_what_it_says) 
   EXPECT_NEAR(other.grid.min.x() + other.grid.max().x(), 1.1, 1e-12);
 }
 
+TEST(VortexScene, wind_is_its_stream) {
+  const std::string wind = "[wind]\nvelocity = [3, 0]\ngust = {velocity = [0, 2], start = 1, duration = 2}\n";
+  const auto spec = vortex_spec(scene_of(head + grid + wind + fixed));
+  EXPECT_EQ(spec.stream(0.5), Vec<2>(3, 0));
+  EXPECT_NEAR((spec.stream(2) - Vec<2>(3, 2)).norm(), 0, 1e-14);
+  EXPECT_NE(refusal_of(head + "stream = {velocity = [1, 0]}\n" + grid + wind + fixed).find("both say"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal_of(head + grid + "[wind]\nvelocity = [3, 0]\nprofile = \"log\"\n" + fixed).find("must be \"uniform\""),
+      std::string::npos);
+}
+
 TEST(VortexScene, with_a_tank_has_walls_inside_of_its_grid) {
   const auto scene = scene_of(head + "grid = {size = 0.05}\n[tank]\nmin = [-1, -1]\nmax = [1, 1]\n" + fixed);
   const auto spec = vortex_spec(scene);
