@@ -279,11 +279,12 @@ class StepCount {
     for (const auto& body : scene.bodies) bodies_.push_back(guessed_body<d>(scene, body));
   }
 
-  double count() const {
+  double count() {
     constexpr int parts = 24;
     const auto speeds = speeds_in_parts<d>(scene_, parts);
     double count = 0;
     auto from = wetted_at(0);
+    was_wet_ = from.ends;
     for (int i = 0; i < parts; ++i) {
       auto to = wetted_at(scene_.time.end * (i + 1) / parts);
       count += between(from, to, speeds[static_cast<std::size_t>(i)], most_halvings);
@@ -305,30 +306,46 @@ class StepCount {
     return wetted;
   }
 
-  /// How far a contact line runs along the hull: from where it was dry, one that begins somewhere within [m].
-  double run_of(std::size_t body, const WettedAt<d>& from, const WettedAt<d>& to) const {
+  /// How far a contact line runs along the hull where it never was before: from where it was dry, one that begins somewhere within [m].
+  /// What comes out and goes in again has turned, and is wetted without such a run.
+  double run_of(std::size_t body, const WettedAt<d>& to) const {
     if (!to.ends[body]) return 0;
-    return from.ends[body] ? (*to.ends[body] - *from.ends[body]).cwiseAbs().maxCoeff() : width_of<d>(*to.ends[body]);
+    if (!was_wet_[body]) return width_of<d>(*to.ends[body]);
+    const WettedEnds<d> grown = *to.ends[body] - *was_wet_[body];
+    return std::max({0., -grown.template head<d - 1>().minCoeff(), grown.template tail<d - 1>().maxCoeff()});
   }
 
-  double between(const WettedAt<d>& from, const WettedAt<d>& to, double speed, int halvings) const {
+  void remember(std::size_t body, const std::optional<WettedEnds<d>>& ends) {
+    auto& all = was_wet_[body];
+    if (!all || !ends) {
+      if (ends) all = ends;
+      return;
+    }
+    all->template head<d - 1>() = all->template head<d - 1>().cwiseMin(ends->template head<d - 1>());
+    all->template tail<d - 1>() = all->template tail<d - 1>().cwiseMax(ends->template tail<d - 1>());
+  }
+
+  double between(const WettedAt<d>& from, const WettedAt<d>& to, double speed, int halvings) {
     const double cfl = scene_.time.cfl * Share<d>::edge;
     double h = fixed_, dt = scene_.time.dt_max;
     const double time = to.time - from.time;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      double run = run_of(b, from, to);
-      if (run > share_of_hull * extents<d>(bodies_[b].hull).sizes().template head<d - 1>().maxCoeff()) {
-        if (halvings > 0) {
-          const auto half = wetted_at(0.5 * (from.time + to.time));
-          return between(from, half, speed, halvings - 1) + between(half, to, speed, halvings - 1);
-        }
-        run = 0;  // a flat bottom, wet all at once: no contact line runs over it
+    const auto is_far = [&](std::size_t b) {
+      return run_of(b, to) > share_of_hull * extents<d>(bodies_[b].hull).sizes().template head<d - 1>().maxCoeff();
+    };
+    for (std::size_t b = 0; b < bodies_.size() && halvings > 0; ++b)
+      if (is_far(b)) {
+        const auto half = wetted_at(0.5 * (from.time + to.time));
+        return between(from, half, speed, halvings - 1) + between(half, to, speed, halvings - 1);
       }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      // A flat bottom is wet all at once: no contact line runs over it.
+      const double run = is_far(b) ? 0 : run_of(b, to);
       const auto& body = scene_.bodies[b];
       const double wet =
           0.25 * ((from.ends[b] ? width_of<d>(*from.ends[b]) : 0) + (to.ends[b] ? width_of<d>(*to.ends[b]) : 0));
       const double on_hull = size_on_hull(scene_, body, 0.5 * (from.length[b] + to.length[b]));
       h = std::min(h, on_hull);
+      remember(b, to.ends[b]);
       if (run > 0) dt = std::min(dt, cfl * std::min(on_hull, size_at_root<d>(scene_, body, wet)) * time / run);
     }
     if (speed > 0) dt = std::min(dt, cfl * h / speed);
@@ -338,6 +355,7 @@ class StepCount {
   const Scene& scene_;
   double fixed_;
   std::vector<GuessedBody<d>> bodies_;
+  std::vector<std::optional<WettedEnds<d>>> was_wet_;  // of each, so far
 };
 
 template <int d>
