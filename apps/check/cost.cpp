@@ -7,6 +7,8 @@
 #include <queue>
 
 #include "apps/build/build.hpp"
+#include "apps/check/hull_elements.hpp"
+#include "apps/check/step_count.hpp"
 #include "apps/scene/mirror.hpp"
 #include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
@@ -32,8 +34,6 @@ struct Share<2> {
   // Nodes in jets and in water that rises, over those that an entering hull itself brings: the examples' wedges have
   // about as many, hulls with sizes that were chosen, whose jets are thinner than an element, hardly any.
   static constexpr double jets = 1;
-  // Edges that bound a step, over h: those of thin water, which is what is fast, bound none in the plane.
-  static constexpr double edge = 1;
   static constexpr double thrown = 0;
   static double nodes(double h) { return 2 / (std::numbers::sqrt3 * h * h); }
 };
@@ -44,32 +44,13 @@ struct Share<3> {
   static constexpr double seconds_a_node = 5.5e-5;
   static constexpr double seconds_a_pass = 2e-6;
   static constexpr double jets = 1.8;
-  static constexpr double edge = 0.5;
-  static constexpr double thrown =
-      0.8;  // nodes in water that a wet hull throws up or leaves behind, over those beside it
+  // Nodes in water that a hull throws up or leaves behind once it is wet, over those beside it (tests/benchmark/landing_cost.py).
+  static constexpr double thrown = 0.8;
   static double nodes(double h) { return std::numbers::sqrt2 / (h * h * h); }
 };
 constexpr double bytes_of_program = 1e8;
 // Cells that an estimate looks at, at most: in about a second several times the nodes that are run unasked.
 constexpr std::size_t most_cells = 400'000;
-
-/// Elements on a hull whose wetted facets have that length [m].
-double size_on_hull(const Scene& scene, const Body& body, double length) {
-  return std::max(body.size, scene.fluid->size.wetted_fraction * length);
-}
-
-template <int d>
-double width_of(const WettedEnds<d>& ends) {
-  return (ends.template tail<d - 1>() - ends.template head<d - 1>()).maxCoeff();
-}
-
-/// Elements that are asked for at the root of its jet [m]; none: as large as they like.
-template <int d>
-double size_at_root(const Scene& scene, const Body& body, double half) {
-  const auto& size = scene.fluid->size;
-  const auto jet = size.hollow ? jet_thickness<d>(body, half) : std::nullopt;
-  return jet ? std::max(size.hollow_min, *size.hollow * *jet) : std::numeric_limits<double>::max();
-}
 
 /// The element size that a scene asks for and the liquid it fills, with the bodies where they are at a time. The
 /// liquid is that of t = 0: what rises beside a hull is not in it.
@@ -227,119 +208,6 @@ Count nodes_in(const SizeEstimate<d>& estimate, const Extents<d>& all) {
   return count;
 }
 
-/// Smallest elements but those that follow how far a hull is wetted [m].
-template <int d>
-double finest_fixed(const Scene& scene) {
-  double h = scene.fluid->size.surface;
-  for (const auto& body : scene.bodies)
-    for (const auto& spot : hull_spots<d>(scene, body)) h = std::min(h, spot.size);
-  return h;
-}
-
-/// Speeds of what is in the water, or of the water, in equal parts of the run: of bodies as they are guessed to move once
-/// they have met it, and what gravity makes of it beside them.
-template <int d>
-std::vector<double> speeds_in_parts(const Scene& scene, int parts) {
-  constexpr double of_waves = 0.5;  // of sqrt(g L)
-  const auto s = scales<d>(scene);
-  const auto still = [](const Region& region) { return region.velocity.isZero() && region.velocity_gradient.isZero(); };
-  if (scene.bodies.empty() || !std::ranges::all_of(scene.fluid->regions, still))
-    return std::vector<double>(static_cast<std::size_t>(parts), s.speed);
-  std::vector<double> speeds(static_cast<std::size_t>(parts),
-                             std::min(s.speed, of_waves * std::sqrt(s.gravity * s.length)));
-  for (const auto& body : scene.bodies) {
-    const double above = extents<d>(outline<d>(body)).min()[d - 1] - still_water_level<d>(scene).value_or(0);
-    Vec<d> before = Vec<d>::Zero();
-    const auto guessed = guessed_body<d>(scene, body);
-    for (int i = 0; i < parts; ++i) {
-      const Vec<d> after = guessed_motion<d>(scene, guessed, scene.time.end * (i + 1) / parts);
-      auto& speed = speeds[static_cast<std::size_t>(i)];
-      if (above + after[d - 1] <= 0)
-        speed = std::min(s.speed, std::max(speed, (after - before).norm() / (scene.time.end / parts)));
-      before = after;
-    }
-  }
-  return speeds;
-}
-
-/// Each body's wetted ends at a time; none where it is dry.
-template <int d>
-struct WettedAt {
-  double time = 0;
-  std::vector<std::optional<WettedEnds<d>>> ends;
-  std::vector<double> length;
-};
-
-/// Steps of the run: the smallest elements limit them by the speed of bodies and water, those that a contact line runs over by its own
-/// speed along the hull. A hull that is nearly flat on the water wets its length in a blink.
-template <int d>
-class StepCount {
- public:
-  explicit StepCount(const Scene& scene) : scene_(scene), fixed_(finest_fixed<d>(scene)) {
-    for (const auto& body : scene.bodies) bodies_.push_back(guessed_body<d>(scene, body));
-  }
-
-  double count() const {
-    constexpr int parts = 24;
-    const auto speeds = speeds_in_parts<d>(scene_, parts);
-    double count = 0;
-    auto from = wetted_at(0);
-    for (int i = 0; i < parts; ++i) {
-      auto to = wetted_at(scene_.time.end * (i + 1) / parts);
-      count += between(from, to, speeds[static_cast<std::size_t>(i)], most_halvings);
-      from = std::move(to);
-    }
-    return count;
-  }
-
- private:
-  static constexpr int most_halvings = 8;
-  static constexpr double share_of_hull = 1. / 16;  // times are halved until less of it is wetted between them
-
-  WettedAt<d> wetted_at(double time) const {
-    WettedAt<d> wetted{time, {}, {}};
-    for (const auto& body : bodies_) {
-      wetted.ends.push_back(wetted_ends<d>(scene_, body, time));
-      wetted.length.push_back(wetted_length<d>(scene_, body, time));
-    }
-    return wetted;
-  }
-
-  /// How far a contact line runs along the hull: from where it was dry, one that begins somewhere within [m].
-  double run_of(std::size_t body, const WettedAt<d>& from, const WettedAt<d>& to) const {
-    if (!to.ends[body]) return 0;
-    return from.ends[body] ? (*to.ends[body] - *from.ends[body]).cwiseAbs().maxCoeff() : width_of<d>(*to.ends[body]);
-  }
-
-  double between(const WettedAt<d>& from, const WettedAt<d>& to, double speed, int halvings) const {
-    const double cfl = scene_.time.cfl * Share<d>::edge;
-    double h = fixed_, dt = scene_.time.dt_max;
-    const double time = to.time - from.time;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      double run = run_of(b, from, to);
-      if (run > share_of_hull * extents<d>(bodies_[b].hull).sizes().template head<d - 1>().maxCoeff()) {
-        if (halvings > 0) {
-          const auto half = wetted_at(0.5 * (from.time + to.time));
-          return between(from, half, speed, halvings - 1) + between(half, to, speed, halvings - 1);
-        }
-        run = 0;  // a flat bottom, wet all at once: no contact line runs over it
-      }
-      const auto& body = scene_.bodies[b];
-      const double wet =
-          0.25 * ((from.ends[b] ? width_of<d>(*from.ends[b]) : 0) + (to.ends[b] ? width_of<d>(*to.ends[b]) : 0));
-      const double on_hull = size_on_hull(scene_, body, 0.5 * (from.length[b] + to.length[b]));
-      h = std::min(h, on_hull);
-      if (run > 0) dt = std::min(dt, cfl * std::min(on_hull, size_at_root<d>(scene_, body, wet)) * time / run);
-    }
-    if (speed > 0) dt = std::min(dt, cfl * h / speed);
-    return time / dt;
-  }
-
-  const Scene& scene_;
-  double fixed_;
-  std::vector<GuessedBody<d>> bodies_;
-};
-
 template <int d>
 Count nodes_at(const Scene& scene, double time) {
   const SizeEstimate<d> estimate(scene, time);
@@ -404,7 +272,7 @@ Cost predicted_cost(const Scene& scene) {
     cost.without_hollows = scene.fluid->size.hollow && std::ranges::none_of(scene.bodies, [](const Body& body) {
                              return jet_thickness<d>(body, 1).has_value();
                            });
-    cost.steps = StepCount<d>(scene).count();
+    cost.steps = predicted_steps<d>(scene);
   } else {
     cost.steps = scene.time.end / scene.time.dt_max;
   }

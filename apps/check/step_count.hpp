@@ -1,0 +1,13 @@
+// How many steps a run takes, before it is made.
+#pragma once
+
+#include "apps/scene/scene.hpp"
+
+namespace splashdown::apps {
+
+/// The smallest elements limit steps by the speed of bodies and water, those that a contact line runs over by its own speed along the
+/// hull. A hull that is nearly flat on the water wets its length in a blink. Needs a fluid of particle finite elements.
+template <int d>
+double predicted_steps(const Scene& scene);
+
+}  // namespace splashdown::apps
