@@ -1,6 +1,8 @@
 // Adds the time until its end to a sum.
 #pragma once
 
+#include <time.h>
+
 #include <chrono>
 
 namespace splashdown {
@@ -8,6 +10,13 @@ namespace splashdown {
 /// Seconds of the wall clock since `start`.
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Seconds that this process has spent on processors, in all its threads: other work on the machine hardly adds to them.
+inline double processor_seconds() {
+  timespec used{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 /// Measures its own life by the wall clock.

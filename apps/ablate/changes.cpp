@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "apps/price/bayesian_extrapolation.hpp"
+#include "apps/quantity/expression.hpp"
+#include "apps/quantity/names.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -87,8 +89,9 @@ class Measurer {
       std::string why;
       for (std::size_t q = 0; q < plan_.quantities.size(); ++q)
         values[q][r] = value_in(folder_ / plan_.runs[run].name, plan_.quantities[q], why);
-      if (const auto found = outcome.numbers.find("wall_seconds"); found != outcome.numbers.end())
-        seconds.push_back(found->second);
+      const auto summary = quantity::read_summary(folder_ / plan_.runs[run].name);
+      if (const auto spent = quantity::find_entry(summary, "processor_seconds"))
+        seconds.push_back(spent->numbers.front());
     }
     result.seconds = median(seconds);
     if (result.seconds) result.cause.clear();

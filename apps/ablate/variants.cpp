@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "apps/advise/advise.hpp"
@@ -38,9 +39,15 @@ std::vector<std::string> removal(const EffectKind& kind, const toml::table& scen
   return set;
 }
 
+/// What is advised first, then what is doubtful: with little time the runs that tell most are made.
+void telling_first(std::vector<AdvisedEffect>& effects) {
+  std::ranges::stable_sort(effects, std::ranges::greater(), [](const auto& effect) { return effect.advice.advised; });
+}
+
 void add_effects(const SceneToAblate& of, std::vector<Variant>& variants) {
   const auto tables = toml::parse(of.resolved);
-  const auto advice = advice_of(of.scene);
+  auto advice = advice_of(of.scene);
+  telling_first(advice.effects);
   for (const auto& effect : advice.effects) {
     if (!effect.present) continue;
     auto set = removal(*effect.kind, tables);

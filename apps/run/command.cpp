@@ -24,6 +24,7 @@
 #include "apps/run/threads.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/text/number_text.hpp"
+#include "core/stopwatch.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -79,10 +80,12 @@ std::string failure_text(const LoopEnd& end, const Run<d>& run, const fs::path& 
 /// Draws report.html from the files, and counts the time that it takes as the run's.
 void report(Summary& summary, const RunOptions& options, const fs::path& directory) {
   const auto start = std::chrono::steady_clock::now();
+  const double before = processor_seconds();
   for (const auto& warning : write_report(directory).warnings) say(options, "note: " + warning);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   summary.phases.emplace_back("report", seconds);
   summary.wall_seconds += seconds;
+  summary.processor_seconds += processor_seconds() - before;
   write_summary(directory, summary);
 }
 
@@ -154,6 +157,7 @@ Start read_start(const RunOptions& options) {
   auto& plan = start.plan;
   const bool chosen_before = options.accuracy || options.seconds;  // which took its own time
   plan.started = chosen_before ? std::chrono::steady_clock::now() : process_start();
+  plan.processor_started = chosen_before ? processor_seconds() : 0;
   plan.budget = options.budget;
   plan.directory = options.out.value_or(default_directory(options.scene));
   start.file = read_scene(options.scene, options.overrides);

@@ -72,6 +72,7 @@ void Run<d>::resume(const Checkpoint& from) {
   if (simulation_.world().bodies && from.loop.steps > 0 && recorder_.bodies() != simulation_.world().bodies->size())
     throw std::runtime_error("holds records of other bodies than the scene");
   wall_before_ = from.wall_seconds;
+  processor_before_ = from.processor_seconds;
   phases_before_ = from.phases;
   phases_at_start_ = as_map(simulation_.stepper().phase_seconds());
   last_checkpoint_ = Clock::now();  // the one it came from
@@ -138,6 +139,7 @@ Checkpoint Run<d>::present() {
           .loop = loop_,
           .time = time(),
           .wall_seconds = wall_seconds(),
+          .processor_seconds = own_processor_seconds(),
           .phases = phases(),
           .stepper = stepper.str(),
           .recorder = recorder.str()};
@@ -173,6 +175,11 @@ double Run<d>::wall_seconds() const {
 }
 
 template <int d>
+double Run<d>::own_processor_seconds() const {
+  return processor_before_ + processor_seconds() - plan_.processor_started;
+}
+
+template <int d>
 std::map<std::string, double> Run<d>::phases() const {
   auto result = phases_before_;
   for (const auto& [name, seconds] : simulation_.stepper().phase_seconds()) result[name] += seconds;
@@ -199,6 +206,7 @@ Summary Run<d>::summary(const LoopEnd& end) const {
   s.simulated_time = time();
   s.steps = loop_.steps;
   s.wall_seconds = wall_seconds();
+  s.processor_seconds = own_processor_seconds();
   s.memory_mb = memory_mb();
   s.rejected_causes = loop_.rejected;
   for (const auto& [cause, count] : loop_.rejected) s.rejected_steps += count;

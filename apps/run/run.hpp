@@ -21,6 +21,7 @@ struct RunPlan {
   double stop = 0;               ///< [s]
   std::optional<double> budget;  ///< wall seconds
   std::chrono::steady_clock::time_point started;
+  double processor_started = 0;  ///< what the process had spent on processors by then
 };
 
 template <int d>
@@ -58,6 +59,7 @@ class Run final : private LoopHost {
   std::optional<std::string> interruption() override;
 
   double wall_seconds() const;
+  double own_processor_seconds() const;
   std::map<std::string, double> phases() const;
 
   const Scene& scene_;
@@ -67,7 +69,7 @@ class Run final : private LoopHost {
   Progress& progress_;
   LoopState loop_;
   RecordInput<d> last_input_;
-  double wall_before_ = 0;  // spent by the runs that this one continues
+  double wall_before_ = 0, processor_before_ = 0;  // spent by the runs that this one continues
   std::map<std::string, double> phases_before_, phases_at_start_;
   double setup_seconds_ = 0, output_seconds_ = 0;
   std::optional<Clock::time_point> last_checkpoint_;

@@ -24,12 +24,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char magic[] = "splashdown checkpoint 15";  // the number changes with the layout
+constexpr char magic[] = "splashdown checkpoint 16";  // the number changes with the layout
 
 template <class Archive, class State>
 void archive_all(Archive& archive, State& c) {
   archive(c.scene, c.loop.dt_previous, c.loop.dt_cap, c.loop.steps, c.loop.rejected, c.loop.released, c.loop.crawling,
-          c.loop.refused_end, c.loop.refused_on_the_way, c.time, c.wall_seconds, c.phases, c.stepper, c.recorder);
+          c.loop.refused_end, c.loop.refused_on_the_way, c.time, c.wall_seconds, c.processor_seconds, c.phases,
+          c.stepper, c.recorder);
 }
 
 /// FNV-1a (Fowler, Noll, Vo): finds a file that was cut or changed; not meant against malice.

@@ -20,6 +20,7 @@ struct Checkpoint {
   LoopState loop;
   double time = 0;                       ///< simulated [s]
   double wall_seconds = 0;               ///< spent until then
+  double processor_seconds = 0;          ///< the same on processors
   std::map<std::string, double> phases;  ///< seconds each until then
   std::string stepper, recorder;         ///< what their save() wrote
 };

@@ -253,6 +253,7 @@ void Simulation::save(const std::filesystem::path& folder) {
                             .loop = state_->loop_at_tn(),
                             .time = time(),
                             .wall_seconds = 0,
+                            .processor_seconds = 0,
                             .phases = {},
                             .stepper = stepper.str(),
                             .recorder = {}});

@@ -255,6 +255,7 @@ std::string to_json(const Summary& summary) {
   json["simulated_time"] = number(summary.simulated_time);
   json["steps"] = summary.steps;
   json["wall_seconds"] = number(summary.wall_seconds);
+  json["processor_seconds"] = number(summary.processor_seconds);
   json["memory_mb"] = number(summary.memory_mb);
   json["rejected_steps"] = summary.rejected_steps;
   json["released_fragments"] = summary.released_fragments;

@@ -259,6 +259,7 @@ struct Summary {
   double simulated_time = 0;  ///< [s]
   long steps = 0;
   double wall_seconds = 0;
+  double processor_seconds = 0;
   double memory_mb = 0;         ///< largest resident set of the process
   long rejected_steps = 0;      ///< attempts that were refused and repeated with half of dt
   long released_fragments = 0;  ///< nodes that flew on as drops since no smaller dt helped

@@ -7,14 +7,15 @@ import tempfile
 import time
 
 
-def run(binary, text, folder):
-    """Runs a scene with this text; its folder of results. RuntimeError: how it ended instead."""
+def run(binary, text, folder, values=()):
+    """Runs a scene with this text and `values` of --set; its folder of results. RuntimeError: how it ended instead."""
     os.makedirs(folder, exist_ok=True)
     scene = os.path.join(folder, "scene.toml")
     with open(scene, "w") as f:
         f.write(text)
     out = os.path.join(folder, "out")
-    done = subprocess.run([binary, "run", scene, "--out", out, "--threads", "1", "--quiet", "--no-report"], capture_output=True, text=True)
+    done = subprocess.run([binary, "run", scene, "--out", out, "--threads", "1", "--quiet", "--no-report", *(a for value in values for a in ("--set", value))],
+                          capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"exit {done.returncode}: {done.stderr.strip()[-300:]}")
     return out

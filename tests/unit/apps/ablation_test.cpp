@@ -29,8 +29,9 @@ class AblationTest : public ::testing::Test, protected ScratchFolder {
         const auto& run = plan.runs[plan.run_of(v, r)];
         write(std::filesystem::path(run.name) / "scene.resolved.toml", run.resolved + "\n[provenance]\n");
         write(std::filesystem::path(run.name) / "summary.json",
-              R"({"status": "done", "simulated_time": )" + std::to_string(run.stop) + R"(, "wall_seconds": )" +
-                  std::to_string(1. + double(v)) + R"(, "steps": )" + std::to_string(y(v, r)) + "}");
+              R"({"status": "done", "simulated_time": )" + std::to_string(run.stop) +
+                  R"(, "wall_seconds": 100, "processor_seconds": )" + std::to_string(1. + double(v)) +
+                  R"(, "steps": )" + std::to_string(y(v, r)) + "}");
       }
     const auto outcomes = outcomes_in(plan.study, plan.runs, path());
     return ablation_of(plan, outcomes, path(), least);

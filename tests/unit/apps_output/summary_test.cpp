@@ -44,6 +44,7 @@ TEST(Summary, has_the_keys_of_the_contract) {
                            "/simulated_time",
                            "/steps",
                            "/wall_seconds",
+                           "/processor_seconds",
                            "/phases/remesh",
                            "/effects/active/gravity/seconds",
                            "/effects/active/gravity/share",
