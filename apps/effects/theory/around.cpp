@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/effects/theory/theory.hpp"
+#include "apps/effects/waves/table.hpp"
 #include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {
@@ -18,8 +19,32 @@ constexpr double trapping = 3 * radians, free_of_air = 5 * radians;
 
 }  // namespace
 
+/// The sea of the scene meets the body with its orbital velocity pi H/T, and moves all that does not move by itself.
+Advice advise_given_waves(const Outlook& look, const Waves& sea) {
+  const double height = sea.height > 0               ? sea.height
+                        : sea.significant_height > 0 ? sea.significant_height
+                                                     : 2 * sea.crest;
+  const double length = sea.length.value_or(0), period = sea.period ? *sea.period
+                                                         : sea.length && look.pull > 0
+                                                             ? std::sqrt(2 * pi * length / look.pull)
+                                                             : sea.peak_period;
+  Advice advice;
+  advice.source = "orbital velocity pi H/T of deep water (Airy 1845); the load goes with the square of the speed";
+  if (period > 0 && height > 0) {
+    const double orbital = pi * height / period;
+    advice.numbers.push_back({"pi H/T", orbital, "m/s"});
+    if (look.has_load()) advice.change.peak = 2 * orbital / look.entry->speed;
+  }
+  const bool alone = !look.mover || !look.mover->moves || (!look.entry && look.starts_at_rest());
+  advice.advised = alone ? Advised::on : std::max(Advised::doubtful, judged(advice.change));
+  advice.reason =
+      alone ? "the sea is what moves the water" : "the sea changes the speed of the impact and what comes after";
+  return advice;
+}
+
 /// A wave five hulls long meets the body with its orbital velocity pi H/T and its slope.
 Advice advise_waves(const Outlook& look) {
+  if (const auto* sea = look.scene.effects.find<Waves>()) return advise_given_waves(look, *sea);
   Advice advice;
   advice.source = "orbital velocity pi H/T of deep water (Airy 1845); the load goes with the square of the speed";
   const bool lands = look.has_load() && look.mover && look.mover->moves;

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/effects/form_drag/shape_classes.hpp"
+#include "apps/effects/lines/lines.hpp"
 #include "apps/effects/theory/theory.hpp"
+#include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -19,6 +22,62 @@ double water_line(const Outlook& look, double wetted) { return look.dimension() 
 double lost_speed(const Outlook& look, double coefficient, double area, double way) {
   const double inertia = look.mover->mass + look.mover->added;
   return 1 - std::exp(-coefficient * look.scales.density * area * way / (2 * inertia));
+}
+
+/// Of the faces of a hull that falls into the water, at its peak load [N, N/m]: V sin(deadrise) along a face, as long as the peak's depth
+/// over sin(deadrise).
+double friction_of_faces(const Outlook& look) {
+  const auto& entry = *look.entry;
+  if (!entry.deadrise) return 0;
+  const double steep = std::sin(*entry.deadrise), along = entry.speed * steep;
+  const bool plane = look.dimension() == 2;
+  const double half = plane ? 0.5 * entry.wetted : std::sqrt(entry.wetted / pi),
+               length = half / std::cos(*entry.deadrise);
+  const double friction = turbulent_friction(look.scales.density * along * length / water_viscosity);
+  return friction * dynamic_pressure(look.scales.density, along) * (plane ? 2 * length : pi * half * length) * steep;
+}
+
+/// The body that the mover is.
+const Body& moving_body(const Outlook& look) {
+  if (look.entry) return look.scene.bodies[look.entry->body];
+  return *std::ranges::find(look.scene.bodies, false, &Body::makes_waves);
+}
+
+/// Whether it is lighter than water.
+bool rises(const Outlook& look) {
+  const auto& shape = moving_body(look).shape;
+  const double volume =
+      look.dimension() == 2 ? shape_of<2>(shape).at_unit_density.mass : shape_of<3>(shape).at_unit_density.mass;
+  return look.mover->mass < look.scales.density * volume;
+}
+
+/// The share of its way that a body which starts at rest under water goes, up or down, before a taut line stops it.
+double share_on_lines(const Outlook& look) {
+  const auto* lines = look.scene.effects.find<Lines>();
+  double share = 1;
+  if (!lines || look.entry || !look.starts_at_rest() || look.mover->way == 0) return share;
+  const double climb = rises(look) ? look.mover->way : -look.mover->way;
+  for (const auto& line : lines->all) {
+    if (&look.scene.bodies[line.body] != &moving_body(look) || !line.anchor || line.catenary) continue;
+    const auto ends = ends_at_start(look.scene, line);
+    const auto apart = [&](double gone) {
+      return (ends.from + gone * climb * Point::Unit(look.dimension() - 1) - ends.to).norm();
+    };
+    double loose = 0, taut = 1;
+    if (apart(taut) <= line.length) continue;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (loose + taut);
+      (apart(middle) <= line.length ? loose : taut) = middle;
+    }
+    share = std::min(share, loose);
+  }
+  return share;
+}
+
+/// Off the edges of boxes, wedges and plates the flow of the fluid leaves by itself (fluid/effects/form_drag).
+bool has_edges_alone(const Shape& shape) {
+  return !shape_drag(shape).round && !std::holds_alternative<SurfaceShape>(shape) &&
+         !std::holds_alternative<RevolvedShape>(shape);
 }
 
 }  // namespace
@@ -122,7 +181,8 @@ Advice advise_turbulence(const Outlook& look) {
 
 Advice advise_form_drag(const Outlook& look) {
   Advice advice;
-  advice.source = "drag of a plate, 2 in the plane and 1.2 in space (Hoerner 1965)";
+  advice.source =
+      "drag of a plate, 2 in the plane and 1.2 in space (Hoerner 1965); off edges the fluid has most of it by itself";
   if (look.has_load()) advice.change.peak = 0;
   if (!look.mover || !look.mover->moves) {
     advice.change.motion = 0;
@@ -130,10 +190,15 @@ Advice advise_form_drag(const Outlook& look) {
     return advice;
   }
   const auto& mover = *look.mover;
-  const double coefficient = look.dimension() == 2 ? 2 : 1.2, diameters = mover.way / mover.length;
-  advice.numbers.push_back({"KC = way/L", diameters});
-  // A wake forms on a way of about half a diameter from rest (Sarpkaya and Isaacson 1981).
-  const double wake = std::max(0., mover.way - 0.5 * mover.length);
+  const bool edges = has_edges_alone(moving_body(look).shape);
+  // Round hulls shed a wake after a way of about half a diameter from rest (Sarpkaya and Isaacson 1981), edges at once: there an
+  // inviscid fluid lacks about an eighth of the drag.
+  const double plate = look.dimension() == 2 ? 2 : 1.2, coefficient = edges ? plate / 8 : plate;
+  // What falls into the water is dry behind until it is under.
+  const double begins = look.entry ? mover.height + 0.5 * mover.length : edges ? 0 : 0.5 * mover.length;
+  const double way = share_on_lines(look) * mover.way;
+  const double wake = std::max(0., way - begins);
+  advice.numbers.push_back({"KC = way/L", way / mover.length});
   advice.change.motion = std::isfinite(mover.mass) ? lost_speed(look, coefficient, mover.facing, wake)
                                                    : coefficient * wake / (mover.length + wake);
   advice.advised = judged(advice.change);
@@ -147,10 +212,12 @@ Advice advise_form_drag(const Outlook& look) {
 Advice advise_skin_friction(const Outlook& look) {
   Advice advice;
   advice.source = "ITTC 1957; drag of planing at a trim of 4 degrees, 0.07 of the weight";
-  if (look.has_load()) advice.change.peak = 0;
+  if (look.has_load()) advice.change.peak = friction_of_faces(look) / look.entry->peak_load;
   if (!look.mover || !look.mover->moves || look.mover->forward == 0) {
     advice.change.motion = 0;
-    advice.reason = "nothing slides along the water";
+    advice.advised = judged(advice.change);
+    advice.reason = advice.advised == Advised::off ? "nothing slides along the water"
+                                                   : "the faces are so steep that the water slides along them";
     return advice;
   }
   const auto& mover = *look.mover;
