@@ -8,6 +8,7 @@
 #include "apps/effects/form_drag/shape_classes.hpp"
 #include "apps/effects/lines/lines.hpp"
 #include "apps/effects/theory/theory.hpp"
+#include "apps/scene/geometry.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -36,16 +37,31 @@ double friction_of_faces(const Outlook& look) {
   return friction * dynamic_pressure(look.scales.density, along) * (plane ? 2 * length : pi * half * length) * steep;
 }
 
-/// The share of its way that a body which starts at rest goes before a taut line stops it.
+/// The body that the mover is.
+const Body& moving_body(const Outlook& look) {
+  if (look.entry) return look.scene.bodies[look.entry->body];
+  return *std::ranges::find(look.scene.bodies, false, &Body::makes_waves);
+}
+
+/// Whether it is lighter than water.
+bool rises(const Outlook& look) {
+  const auto& shape = moving_body(look).shape;
+  const double volume =
+      look.dimension() == 2 ? shape_of<2>(shape).at_unit_density.mass : shape_of<3>(shape).at_unit_density.mass;
+  return look.mover->mass < look.scales.density * volume;
+}
+
+/// The share of its way that a body which starts at rest under water goes, up or down, before a taut line stops it.
 double share_on_lines(const Outlook& look) {
   const auto* lines = look.scene.effects.find<Lines>();
   double share = 1;
-  if (!lines || look.entry || !look.starts_at_rest()) return share;
+  if (!lines || look.entry || !look.starts_at_rest() || look.mover->way == 0) return share;
+  const double climb = rises(look) ? look.mover->way : -look.mover->way;
   for (const auto& line : lines->all) {
-    if (line.body != look.mover->body || !line.anchor || line.catenary) continue;
+    if (&look.scene.bodies[line.body] != &moving_body(look) || !line.anchor || line.catenary) continue;
     const auto ends = ends_at_start(look.scene, line);
     const auto apart = [&](double gone) {
-      return (ends.from + gone * look.mover->climb * Point::Unit(look.dimension() - 1) - ends.to).norm();
+      return (ends.from + gone * climb * Point::Unit(look.dimension() - 1) - ends.to).norm();
     };
     double loose = 0, taut = 1;
     if (apart(taut) <= line.length) continue;
@@ -174,7 +190,7 @@ Advice advise_form_drag(const Outlook& look) {
     return advice;
   }
   const auto& mover = *look.mover;
-  const bool edges = has_edges_alone(look.scene.bodies[mover.body].shape);
+  const bool edges = has_edges_alone(moving_body(look).shape);
   // Round hulls shed a wake after a way of about half a diameter from rest (Sarpkaya and Isaacson 1981), edges at once: there an
   // inviscid fluid lacks about an eighth of the drag.
   const double plate = look.dimension() == 2 ? 2 : 1.2, coefficient = edges ? plate / 8 : plate;

@@ -176,7 +176,8 @@ TEST(Advice, recommends_nothing_that_is_impossible_in_the_scene) {
     EXPECT_EQ(advised_of("waves", with(set, "gravity=")), Advised::off);
     EXPECT_EQ(advised_of("wind", with(set, "gravity=")), Advised::off);
     EXPECT_NE(advised_of("gravity", with(with(set, "tank="), "gravity=")), Advised::on) << "all would fall together";
-    EXPECT_EQ(advised_of("skin_friction", set), Advised::off) << "nothing slides";
+    EXPECT_EQ(advised_of("skin_friction", with(set, "body.wedge.shape.deadrise_deg=30")), Advised::off)
+        << "nothing slides";
   }
   const std::vector<std::string> still = {"body.wedge.motion=fixed",
                                           "body.wedge.mass=", "body.wedge.free=", "body.wedge.velocity="};
@@ -204,6 +205,39 @@ TEST(Advice, form_drag_holds_up_what_sinks_from_rest) {
   EXPECT_EQ(advised_of("form_drag", sinks), Advised::on);
   EXPECT_EQ(advised_of("form_drag", with(sinks, "time.end=0.05")), Advised::off);
   EXPECT_EQ(advised_of("form_drag", with(sinks, "body.wedge.density=1000")), Advised::off) << "it stays where it is";
+}
+
+TEST(Advice, form_drag_is_none_where_a_line_holds) {
+  const std::vector<std::string> rises = {"body.wedge.shape={type = \"circle\", radius = 0.05}",
+                                          "body.wedge.mass=",
+                                          "body.wedge.density=100",
+                                          "body.wedge.velocity=",
+                                          "body.wedge.position=[0.0, -0.4]",
+                                          "record=",
+                                          "time.end=5"};
+  const auto line = [&](const char* length) {
+    return with(rises, std::string("line=[{name = \"tether\", body = \"wedge\", anchor = [0.0, -0.9], "
+                                   "axial_stiffness = 1e5, length = ") +
+                           length + "}]");
+  };
+  EXPECT_EQ(advised_of("form_drag", rises), Advised::on);
+  EXPECT_EQ(advised_of("form_drag", line("0.505")), Advised::off);
+  EXPECT_EQ(advised_of("form_drag", line("2")), Advised::on) << "it never gets taut";
+}
+
+TEST(Advice, of_what_goes_in_steep_knows_that_it_is_dry_behind_and_slides) {
+  const auto goes_in = [](const char* deadrise) {
+    return std::vector<std::string>{"body.wedge.motion=prescribed",
+                                    "body.wedge.mass=",
+                                    "body.wedge.free=",
+                                    "body.wedge.velocity=[0.0, -2.0]",
+                                    "record=",
+                                    "time.end=0.3",
+                                    std::string("body.wedge.shape.deadrise_deg=") + deadrise};
+  };
+  EXPECT_EQ(advised_of("form_drag", goes_in("75")), Advised::off);
+  EXPECT_EQ(advised_of("skin_friction", goes_in("75")), Advised::doubtful);
+  EXPECT_EQ(advised_of("skin_friction", goes_in("45")), Advised::off);
 }
 
 TEST(Advice, of_a_flat_bottom_names_air_and_compressibility) {
