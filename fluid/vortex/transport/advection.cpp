@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/parallel.hpp"
 #include "fluid/vortex/wide.hpp"
@@ -27,41 +28,35 @@ SPLASHDOWN_WIDE void velocities(const FaceRows& faces, std::size_t count, double
     to[i] = own * (now[i] + now_beside[i]) + last * (before[i] + before_beside[i]);
 }
 
-/// How far particles move, in squares: velocities before, at and after them, linear in between.
-SPLASHDOWN_WIDE void paths_of_midpoints(const double* __restrict before, const double* __restrict here,
-                                        const double* __restrict after, std::size_t count, double* __restrict moved) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = 0.5 * here[i], ahead = std::max(x, 0.0);
-    moved[i] = here[i] + ahead * (after[i] - here[i]) + (x - ahead) * (here[i] - before[i]);
-  }
+// Without branches, which would keep loops out of wide registers; exact.
+inline double positive_part(double x) { return 0.5 * (x + std::abs(x)); }
+inline double within_one(double x) { return x - std::copysign(positive_part(std::abs(x) - 1), x); }
+
+/// How far a particle moves, in squares: velocities before, at and after it, linear in between.
+inline double way_by_midpoint(double before, double here, double after) {
+  const double x = 0.5 * here, ahead = positive_part(x);
+  return here + ahead * (after - here) + (x - ahead) * (here - before);
+}
+inline double way_by_four_stages(double before, double here, double after) {
+  const double right = after - here, left = here - before;
+  const auto at = [&](double x) { return here + positive_part(x) * right - positive_part(-x) * left; };
+  const double half = at(0.5 * here), third = at(0.5 * half);
+  const double end = at(within_one(third));
+  return (here + 2 * half + 2 * third + end) / 6;
 }
 
-SPLASHDOWN_WIDE void paths_of_four_stages(const double* __restrict before, const double* __restrict here,
-                                          const double* __restrict after, std::size_t count, double* __restrict moved) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double right = after[i] - here[i], left = here[i] - before[i];
-    const auto at = [&](double x) { return here[i] + std::max(x, 0.0) * right + std::min(x, 0.0) * left; };
-    const double half = at(0.5 * here[i]), third = at(0.5 * half);
-    const double end = at(std::min(std::max(third, -1.0), 1.0));
-    moved[i] = (here[i] + 2 * half + 2 * third + end) / 6;
-  }
-}
-
-/// What nodes -2 ... 2 from particles get of them by M'4 (kernels.hpp), for ways m of at most a square: with s = |m|, its
-/// even and odd parts. `pitch`: between rows of shares.
-SPLASHDOWN_WIDE void shares_of_m4(const double* __restrict omega, const double* __restrict moved, std::size_t count,
-                                  double* __restrict to, std::size_t pitch) {
-  double* __restrict far_back = to, * __restrict back = to + pitch, * __restrict own = to + 2 * pitch, * __restrict ahead = to + 3 * pitch, * __restrict far_ahead = to + 4 * pitch;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double m = std::min(std::max(moved[i], -1.0), 1.0), p = std::max(m, 0.0), q = p - m, s = p + q;
-    const double g = s * (1 - s), half = 0.5 * omega[i], far = half * g;
-    const double even = half * (s * s * (3 - 2 * s)), odd = half * (m * (1 + g));
-    far_back[i] = -far * q;
-    back[i] = even - odd;
-    own[i] = omega[i] * (1 + s * s * (1.5 * s - 2.5));
-    ahead[i] = even + odd;
-    far_ahead[i] = -far * p;
-  }
+/// What nodes -2 ... 2 from a particle get of it by M'4 (kernels.hpp), for a way m of at most a square: with s = |m|, its even and odd
+/// parts.
+inline void share_by_m4(double way, double omega, double* far_back, double* back, double* own, double* ahead,
+                        double* far_ahead) {
+  const double m = within_one(way), s = std::abs(m), p = 0.5 * (s + m), q = 0.5 * (s - m);
+  const double g = s * (1 - s), half = 0.5 * omega, far = half * g;
+  const double even = half * (s * s * (3 - 2 * s)), odd = half * (m * (1 + g));
+  *far_back = -far * q;
+  *back = even - odd;
+  *own = omega * (1 + s * s * (1.5 * s - 2.5));
+  *ahead = even + odd;
+  *far_ahead = -far * p;
 }
 
 inline double inner(double a) { return -(a - 1) * ((((25 * a - 38) * a - 3) * a + 12) * a + 12) / 12; }
@@ -70,18 +65,50 @@ inline double outer(double a) { return -(a - 2) * (a - 3) * (a - 3) * (a - 3) * 
 
 /// The same of nodes -3 ... 3 by M'6: each share is a polynomial of the way ahead plus one of the way back, one of
 /// which is zero with its way.
-SPLASHDOWN_WIDE void shares_of_m6(const double* __restrict omega, const double* __restrict moved, std::size_t count,
-                                  double* __restrict to, std::size_t pitch) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double p = std::min(std::max(moved[i], 0.0), 1.0), q = std::min(std::max(-moved[i], 0.0), 1.0), w = omega[i];
-    to[i] = w * outer(3 - q);
-    to[pitch + i] = w * (middle(2 - q) + outer(2 + p));
-    to[2 * pitch + i] = w * (inner(1 - q) + middle(1 + p));
-    to[3 * pitch + i] = w * inner(p + q);
-    to[4 * pitch + i] = w * (inner(1 - p) + middle(1 + q));
-    to[5 * pitch + i] = w * (middle(2 - p) + outer(2 + q));
-    to[6 * pitch + i] = w * outer(3 - p);
-  }
+inline void share_by_m6(double way, double w, double* a, double* b, double* c, double* d, double* e, double* f,
+                        double* g) {
+  const double m = within_one(way), p = positive_part(m), q = positive_part(-m);
+  *a = w * outer(3 - q);
+  *b = w * (middle(2 - q) + outer(2 + p));
+  *c = w * (inner(1 - q) + middle(1 + p));
+  *d = w * inner(p + q);
+  *e = w * (inner(1 - p) + middle(1 + q));
+  *f = w * (middle(2 - p) + outer(2 + q));
+  *g = w * outer(3 - p);
+}
+
+/// Rows of particles: velocities before, at and after each [squares a move], and its circulation; what nodes around get of it. (Each row
+/// is a parameter of its own, that the compiler sees that none overlaps another.)
+SPLASHDOWN_WIDE void m4_by_midpoint(const double* __restrict before, const double* __restrict here,
+                                    const double* __restrict after, const double* __restrict w, std::size_t count,
+                                    double* __restrict a, double* __restrict b, double* __restrict c,
+                                    double* __restrict d, double* __restrict e) {
+  for (std::size_t i = 0; i < count; ++i)
+    share_by_m4(way_by_midpoint(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i);
+}
+SPLASHDOWN_WIDE void m4_by_four_stages(const double* __restrict before, const double* __restrict here,
+                                       const double* __restrict after, const double* __restrict w, std::size_t count,
+                                       double* __restrict a, double* __restrict b, double* __restrict c,
+                                       double* __restrict d, double* __restrict e) {
+  for (std::size_t i = 0; i < count; ++i)
+    share_by_m4(way_by_four_stages(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i);
+}
+SPLASHDOWN_WIDE void m6_by_midpoint(const double* __restrict before, const double* __restrict here,
+                                    const double* __restrict after, const double* __restrict w, std::size_t count,
+                                    double* __restrict a, double* __restrict b, double* __restrict c,
+                                    double* __restrict d, double* __restrict e, double* __restrict f,
+                                    double* __restrict g) {
+  for (std::size_t i = 0; i < count; ++i)
+    share_by_m6(way_by_midpoint(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i, f + i, g + i);
+}
+SPLASHDOWN_WIDE void m6_by_four_stages(const double* __restrict before, const double* __restrict here,
+                                       const double* __restrict after, const double* __restrict w, std::size_t count,
+                                       double* __restrict a, double* __restrict b, double* __restrict c,
+                                       double* __restrict d, double* __restrict e, double* __restrict f,
+                                       double* __restrict g) {
+  for (std::size_t i = 0; i < count; ++i)
+    share_by_m6(way_by_four_stages(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i, f + i,
+                g + i);
 }
 
 /// Sums of what particles give to each of `count` nodes.
@@ -98,30 +125,42 @@ SPLASHDOWN_WIDE void gather_seven(const std::array<const double*, most_shares>& 
 
 /// The rules of a kernel and of paths.
 struct Rules {
-  std::size_t reach;
-  decltype(&paths_of_midpoints) paths;
-  decltype(&shares_of_m4) shares;
-  decltype(&gather_five) gather;
-};
+  Remeshing kernel;
+  PathRule paths;
+  std::size_t reach() const { return kernel == Remeshing::m4 ? 2 : 3; }
 
-Rules rules_of(Remeshing kernel, PathRule rule) {
-  const auto paths = rule == PathRule::rk2 ? &paths_of_midpoints : &paths_of_four_stages;
-  if (kernel == Remeshing::m4) return {2, paths, &shares_of_m4, &gather_five};
-  return {3, paths, &shares_of_m6, &gather_seven};
-}
+  /// `here`: velocities along a row, of which those before and after are read, too; `pitch`: between rows of shares.
+  void share(const double* here, const double* omega, std::size_t count, std::size_t pitch, double* to) const {
+    share(here - 1, here, here + 1, omega, count, [&](std::size_t k) { return to + k * pitch; });
+  }
+  template <class Row>
+  void share(const double* before, const double* here, const double* after, const double* omega, std::size_t count,
+             Row row) const {
+    const bool midpoint = paths == PathRule::rk2;
+    if (kernel == Remeshing::m4)
+      (midpoint ? m4_by_midpoint : m4_by_four_stages)(before, here, after, omega, count, row(0), row(1), row(2), row(3),
+                                                      row(4));
+    else
+      (midpoint ? m6_by_midpoint : m6_by_four_stages)(before, here, after, omega, count, row(0), row(1), row(2), row(3),
+                                                      row(4), row(5), row(6));
+  }
+  void gather(const std::array<const double*, most_shares>& from, std::size_t count, double* to) const {
+    (kernel == Remeshing::m4 ? gather_five : gather_seven)(from, count, to);
+  }
+};
 
 constexpr std::size_t widest = block + 2 * rim + 2;
 
 }  // namespace
 
 void Advection::along_x(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const {
-  const auto rules = rules_of(kernel_, rule_);
+  const Rules rules{kernel_, rule_};
   const auto n = static_cast<std::size_t>(grid_.nx + 1);
   const double own = 0.5 * dt / grid_.h * (1 + velocity.ahead), last = -0.5 * dt / grid_.h * velocity.ahead;
   clear_row(moved.data(), n);
   clear_row(moved.data() + static_cast<std::size_t>(grid_.ny) * n, n);
   in_pieces(static_cast<std::size_t>(grid_.ny - 1), 16, [&](std::size_t first, std::size_t end) {
-    std::array<double, widest> u, way;
+    std::array<double, widest> u;
     std::array<double, most_shares * widest> shares;
     for (std::size_t j = first + 1; j < end + 1; ++j) {
       const double* w = omega.data() + j * n;
@@ -130,8 +169,8 @@ void Advection::along_x(const MidVelocity& velocity, double dt, const NodeField&
       for (std::size_t left = 1; left < n - 1; left += block) {
         const std::size_t right = std::min(left + block, n - 1);  // nodes [left, right) get theirs
         // From particles of the inner nodes around.
-        const std::size_t from = left > rules.reach ? left - rules.reach : 1,
-                          till = std::min(right + rules.reach, n - 1);
+        const std::size_t from = left > rules.reach() ? left - rules.reach() : 1,
+                          till = std::min(right + rules.reach(), n - 1);
         if (all_zero(w + from, till - from)) {
           clear_row(to + left, right - left);
           continue;
@@ -139,17 +178,16 @@ void Advection::along_x(const MidVelocity& velocity, double dt, const NodeField&
         const auto row = [&](const std::vector<double>& f) { return f.data() + j * n + from - 1; };
         const double *now = row(velocity.now.u), *before = row(velocity.before.u);
         velocities({now, now - n, before, before - n, own, last}, till - from + 2, u.data());
-        rules.paths(u.data(), u.data() + 1, u.data() + 2, till - from, way.data());
         // Shares stand `rim` further, between zeros: there are no particles beyond.
-        for (std::size_t k = 0; k <= 2 * rules.reach; ++k) {
+        for (std::size_t k = 0; k <= 2 * rules.reach(); ++k) {
           double* share = shares.data() + k * widest;
           std::fill_n(share, rim, 0.0);
           std::fill_n(share + rim + till - from, rim, 0.0);
         }
-        rules.shares(w + from, way.data(), till - from, shares.data() + rim, widest);
+        rules.share(u.data() + 1, w + from, till - from, widest, shares.data() + rim);
         std::array<const double*, most_shares> given{};
-        for (std::size_t k = 0; k <= 2 * rules.reach; ++k)  // node i gets share k of the particle i - (k - reach)
-          given[k] = shares.data() + k * widest + rim + left - from + rules.reach - k;
+        for (std::size_t k = 0; k <= 2 * rules.reach(); ++k)  // node i gets share k of the particle i - (k - reach)
+          given[k] = shares.data() + k * widest + rim + left - from + rules.reach() - k;
         rules.gather(given, right - left, to + left);
       }
     }
@@ -157,13 +195,12 @@ void Advection::along_x(const MidVelocity& velocity, double dt, const NodeField&
 }
 
 void Advection::along_y(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const {
-  const auto rules = rules_of(kernel_, rule_);
+  const Rules rules{kernel_, rule_};
   const auto n = static_cast<std::size_t>(grid_.nx + 1), ny = static_cast<std::size_t>(grid_.ny);
-  const std::size_t ring = 2 * rules.reach + 1;
+  const std::size_t ring = 2 * rules.reach() + 1;
   const double own = 0.5 * dt / grid_.h * (1 + velocity.ahead), last = -0.5 * dt / grid_.h * velocity.ahead;
   in_pieces((n - 2 + block - 1) / block, 1, [&](std::size_t first, std::size_t end) {
     std::array<std::array<double, block>, 3> v;
-    std::array<double, block> way;
     std::vector<double> shares(ring * ring * block);  // of the last rows of particles, in turn
     std::array<bool, most_shares> is_calm;
     for (std::size_t b = first; b < end; ++b) {
@@ -183,17 +220,18 @@ void Advection::along_y(const MidVelocity& velocity, double dt, const NodeField&
       clear_row(&moved[left], count);
       clear_row(&moved[ny * n + left], count);
       std::size_t known = 0;  // rows of velocities below this one have been read
-      for (std::size_t j = 1; j < ny + rules.reach; ++j) {
+      for (std::size_t j = 1; j < ny + rules.reach(); ++j) {
         if (j >= ny || all_zero(omega.data() + j * n + left, count)) {
           calm(j);
         } else {
           for (known = std::max(known, j - 1); known <= j + 1; ++known) read(known);
-          rules.paths(v[(j - 1) % 3].data(), v[j % 3].data(), v[(j + 1) % 3].data(), count, way.data());
-          rules.shares(omega.data() + j * n + left, way.data(), count, shares.data() + j % ring * ring * block, block);
+          double* to = shares.data() + j % ring * ring * block;
+          rules.share(v[(j - 1) % 3].data(), v[j % 3].data(), v[(j + 1) % 3].data(), omega.data() + j * n + left, count,
+                      [to](std::size_t k) { return to + k * block; });
           is_calm[j % ring] = false;
         }
-        if (j <= rules.reach) continue;
-        const std::size_t row = j - rules.reach;  // nodes of it have all that particles give them
+        if (j <= rules.reach()) continue;
+        const std::size_t row = j - rules.reach();  // nodes of it have all that particles give them
         double* to = moved.data() + row * n + left;
         if (std::all_of(is_calm.begin(), is_calm.begin() + static_cast<std::ptrdiff_t>(ring),
                         [](bool b) { return b; })) {
