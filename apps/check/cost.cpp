@@ -65,7 +65,7 @@ class SizeEstimate {
       auto hull = guessed.hull;
       hull.vertices.colwise() += moved;
       const auto ends = wetted_ends<d>(scene, guessed, time);
-      const double half = ends ? width_of<d>(*ends) / 2 : 0;
+      const double half = ends ? wetted_width<d>(*ends) / 2 : 0;
       bodies_.emplace_back(Solid<d>(hull), size_on_hull(scene, body, wetted_length<d>(scene, guessed, time)));
       for (auto spot : hull_spots<d>(scene, body)) {
         spot.at += moved;

@@ -15,7 +15,7 @@ inline double size_on_hull(const Scene& scene, const Body& body, double length) 
 }
 
 template <int d>
-double width_of(const WettedEnds<d>& ends) {
+double wetted_width(const WettedEnds<d>& ends) {
   return (ends.template tail<d - 1>() - ends.template head<d - 1>()).maxCoeff();
 }
 

@@ -19,7 +19,7 @@ using rigid::Vec;
 /// Edges that bound a step, over h. In space the fast water beside a contact line has edges of half of it; in the plane sheets, which
 /// are what is fast, bound no step. From runs (tests/benchmark/landing_cost.py).
 template <int d>
-constexpr double shortest_edge = d == 2 ? 1 : 0.5;
+constexpr double bounding_edge = d == 2 ? 1 : 0.5;
 
 /// Smallest elements but those that follow how far a hull is wetted [m].
 template <int d>
@@ -102,7 +102,7 @@ class StepCount {
   /// What comes out and goes in again has turned, and is wetted without such a run.
   double run_of(std::size_t body, const WettedAt<d>& to) const {
     if (!to.ends[body]) return 0;
-    if (!was_wet_[body]) return width_of<d>(*to.ends[body]);
+    if (!was_wet_[body]) return wetted_width<d>(*to.ends[body]);
     const WettedEnds<d> grown = *to.ends[body] - *was_wet_[body];
     return std::max({0., -grown.template head<d - 1>().minCoeff(), grown.template tail<d - 1>().maxCoeff()});
   }
@@ -118,7 +118,7 @@ class StepCount {
   }
 
   double between(const WettedAt<d>& from, const WettedAt<d>& to, double speed, int halvings) {
-    const double cfl = scene_.time.cfl * shortest_edge<d>;
+    const double cfl = scene_.time.cfl * bounding_edge<d>;
     double h = fixed_, dt = scene_.time.dt_max;
     const double time = to.time - from.time;
     const auto is_far = [&](std::size_t b) {
@@ -133,8 +133,8 @@ class StepCount {
       // A flat bottom is wet all at once: no contact line runs over it.
       const double run = is_far(b) ? 0 : run_of(b, to);
       const auto& body = scene_.bodies[b];
-      const double wet =
-          0.25 * ((from.ends[b] ? width_of<d>(*from.ends[b]) : 0) + (to.ends[b] ? width_of<d>(*to.ends[b]) : 0));
+      const double wet = 0.25 * ((from.ends[b] ? wetted_width<d>(*from.ends[b]) : 0) +
+                                 (to.ends[b] ? wetted_width<d>(*to.ends[b]) : 0));
       const double on_hull = size_on_hull(scene_, body, 0.5 * (from.length[b] + to.length[b]));
       h = std::min(h, on_hull);
       remember(b, to.ends[b]);

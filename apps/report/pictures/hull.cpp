@@ -44,7 +44,7 @@ constexpr View views[] = {{"from below", "below", {1, 0, 0}, {0, -1, 0}},
                           {"from the starboard side", "side", {1, 0, 0}, {0, 0, 1}},
                           {"from ahead", "ahead", {0, 1, 0}, {0, 0, 1}}};
 
-std::map<std::pair<int, int>, int> facets_at_edges(const Grid& hull) {
+std::map<std::pair<int, int>, int> facet_edges(const Grid& hull) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& cell : hull.cells)
     for (std::size_t k = 0; cell.size() == 3 && k < 3; ++k) ++edges[std::minmax(int{cell[k]}, int{cell[(k + 1) % 3]})];
@@ -54,7 +54,7 @@ std::map<std::pair<int, int>, int> facets_at_edges(const Grid& hull) {
 /// Where a half of a hull was cut, along a horizontal axis: all its free edges lie there; nothing: it is whole.
 std::optional<std::pair<std::size_t, double>> cut_of(const Grid& hull) {
   std::vector<Point3> rim;
-  for (const auto& [edge, count] : facets_at_edges(hull))
+  for (const auto& [edge, count] : facet_edges(hull))
     if (count == 1) rim.push_back(hull.points[static_cast<std::size_t>(edge.first)]);
   if (rim.empty()) return {};
   const auto size = [&](std::size_t axis) {

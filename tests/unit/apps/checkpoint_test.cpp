@@ -28,7 +28,7 @@ Checkpoint at(double time) {
   c.loop = {.dt_previous = 0.1, .dt_cap = 0.2, .steps = 7, .rejected = {{"inverted", 3}}};
   c.time = time;
   c.phases = {{"mesh", 1.5}};
-  c.stepper = std::string(1000, '\0') + "end";
+  c.stepper = std::string(1000, '\0').append("end");
   c.recorder = "rows";
   return c;
 }
