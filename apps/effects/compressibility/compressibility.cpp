@@ -35,7 +35,7 @@ double bulk_modulus_of(const Compressibility& table, double density) {
 }
 
 double sound_speed_of(const Compressibility& table, double density) {
-  return 1 / std::sqrt(density * fluid::compliance(spec_of(table, density), 1, 0));
+  return 1 / std::sqrt(density * fluid::volume_per_pascal(spec_of(table, density), 1, 0));
 }
 
 void CompressibilityKind::read(Reader& reader, Scene& scene) const {

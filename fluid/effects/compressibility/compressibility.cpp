@@ -5,7 +5,7 @@
 
 namespace splashdown::fluid {
 
-double compliance(const CompressibilitySpec& spec, double volume, double pressure) {
+double volume_per_pascal(const CompressibilitySpec& spec, double volume, double pressure) {
   // Tension does not make more of the gas than this.
   constexpr double thinnest = 1e-2;
   const double above = std::max(thinnest, 1 + pressure / spec.ambient_pressure);
@@ -19,7 +19,7 @@ void Compressibility<d>::pressure(const StepView<d>& step, PressureTerms& terms)
   terms.storage.resize(step.nodes.size(), 0.0);
   in_parallel(step.nodes.size(), [&](std::size_t i) {
     const double carried = step.nodes.compression.empty() ? 0.0 : step.nodes.compression[i].pressure;
-    terms.storage[i] += compliance(spec_, step.lumped_volume[i], carried);
+    terms.storage[i] += volume_per_pascal(spec_, step.lumped_volume[i], carried);
   });
 }
 

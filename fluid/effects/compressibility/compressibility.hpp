@@ -20,7 +20,7 @@ struct CompressibilitySpec {
 };
 
 /// - dV/dp of a volume V [m^d/Pa], at a pressure against ambient.
-double compliance(const CompressibilitySpec& spec, double volume, double pressure);
+double volume_per_pascal(const CompressibilitySpec& spec, double volume, double pressure);
 
 /// Storage at every node.
 template <int d>

@@ -262,6 +262,21 @@ bool WaterStep<d>::follow() {
   return true;
 }
 
+// What an iteration leaves is not left to Newton's law: with the impulses that effects have found last, bodies obey it to roundoff,
+// and the water feels the difference as a pressure.
+template <int d>
+void WaterStep<d>::settle_bodies() {
+  if (!has_followers() || equation_.mode_count() == 0) return;
+  auto& following = trial_.following;
+  const Eigen::VectorXd all = equation_.on_modes(following.on_walls);
+  std::vector<double> further(trial_.phi.size(), 0.0);
+  trial_.answer += equation_.respond(further, trial_.s_after, all - following.answered);
+  following.answered = all;
+  for (std::size_t i = 0; i < further.size(); ++i) trial_.phi[i] += further[i];
+  equation_.accelerate(further, trial_.v_after);
+  wall_motion_->move(trial_.v_after, water_.moved_poses(trial_.s_after, dt_), dt_, trial_.moved);
+}
+
 template <int d>
 std::vector<Vec<d>> WaterStep<d>::pushed() const {
   std::vector<Vec<d>> change(trial_.v.size(), Vec<d>::Zero());

@@ -99,6 +99,8 @@ class WaterStep {
   bool move_nodes();
   /// There are effects that are solved for with the pressure.
   bool has_followers() const { return !trial_.following.change.empty(); }
+  /// Lets bodies answer exactly to what effects that follow have given them last.
+  void settle_bodies();
   /// What the impulses found so far change in velocities, of nodes and without effects that follow.
   std::vector<Vec<d>> pushed() const;
   /// The volume that this motion creates: of unknowns [m^d/s].

@@ -63,8 +63,7 @@ TEST_P(Compressible, the_first_modes_of_a_closed_tube_are_those_of_sound) {
     ASSERT_GE(crossings.size(), 4u);
     const double found = 2 * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
     EXPECT_NEAR(found / period, 1, 0.01);
-    std::printf("mode %d: %.5f energy %.6f\n", n, found / period, energies.back() / energies[2]);
-    EXPECT_NEAR(energies.back() / energies[2], 1, 0.01);
+    EXPECT_NEAR(energies.back() / energies[2], 1, 0.003);  // damping of waves of 40 elements: third order
   }
 }
 
@@ -83,7 +82,6 @@ TEST_P(Compressible, a_column_hammers_with_rho_c_u_until_the_echo_returns) {
     stepper.commit();
   }
   const double width = 2 * length / 40, exact = density * sound * speed * width;
-  std::printf("plateau %.5f impulse %.5f\n", plateau / over / exact, impulse / (exact * until));
   EXPECT_NEAR(plateau / over / exact, 1, 0.01);
   EXPECT_NEAR(impulse / (exact * until), 1, 0.01);
 }
@@ -98,8 +96,7 @@ TEST_P(Compressible, water_at_rest_stays_at_rest) {
   double fastest = 0;
   ASSERT_TRUE(testing::run(stepper, 0.1,
                            [&](const auto& fluid, double) { fastest = std::max(fastest, testing::max_speed(fluid)); }));
-  std::printf("fastest %.3e\n", fastest);
-  EXPECT_LT(fastest, 1e-4);
+  EXPECT_LT(fastest, 1e-6);  // the first pressure has a millionth of the compression in it
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Compressible,
@@ -109,12 +106,12 @@ INSTANTIATE_TEST_SUITE_P(Both, Compressible,
 // Wood 1930: gas makes a mixture soft, liquid heavy.
 TEST(Compliance, of_a_mixture_is_the_mean_of_its_parts_by_volume) {
   const CompressibilitySpec spec{.bulk_modulus = 2.2e9, .gas_content = 0.1};
-  EXPECT_DOUBLE_EQ(compliance(spec, 2, 0), 2 * (0.9 / 2.2e9 + 0.1 / (1.4 * 101325)));
+  EXPECT_DOUBLE_EQ(volume_per_pascal(spec, 2, 0), 2 * (0.9 / 2.2e9 + 0.1 / (1.4 * 101325)));
   // Gas that is pressed to nothing leaves the liquid.
-  EXPECT_NEAR(compliance(spec, 1, 1e9) * 2.2e9, 1, 0.02);
-  // dV = - compliance dp: gas by p V^gamma, liquid in proportion.
+  EXPECT_NEAR(volume_per_pascal(spec, 1, 1e9) * 2.2e9, 1, 0.02);
+  // dV = - volume_per_pascal dp: gas by p V^gamma, liquid in proportion.
   const double dp = 1, V_g = 0.1 * std::pow(1 + dp / 101325, -1 / 1.4);
-  EXPECT_NEAR(0.1 - V_g + 0.9 * dp / 2.2e9, compliance(spec, 1, 0) * dp, 2e-5 * compliance(spec, 1, 0));
+  EXPECT_NEAR(0.1 - V_g + 0.9 * dp / 2.2e9, volume_per_pascal(spec, 1, 0) * dp, 2e-5 * volume_per_pascal(spec, 1, 0));
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ Status Monolithic<d>::correct(std::span<const double> previous) {
       std::max(spec_.tolerance * spec_.tolerance * done, roundoff_of_sums * roundoff_of_sums * trial_.energy_unloaded);
   const auto add = [this](const Correction<d>& correction, double share) { apply(correction, share); };
   if (auto status = converge(find, add, enough); !status.ok()) return status;
+  settle_bodies();
   trial_.uncorrected = trial_.phi;  // nothing in it alternates
   return {};
 }

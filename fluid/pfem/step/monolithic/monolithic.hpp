@@ -30,7 +30,7 @@ class Monolithic final : public WaterStep<d> {
   using WaterStep<d>::water_, WaterStep<d>::equation_, WaterStep<d>::trial_, WaterStep<d>::kick_;
   using WaterStep<d>::begin_repair, WaterStep<d>::flux_before, WaterStep<d>::answer_to, WaterStep<d>::take_repair;
   using WaterStep<d>::move_nodes, WaterStep<d>::what_is_left, WaterStep<d>::ask, WaterStep<d>::apply;
-  using WaterStep<d>::has_followers, WaterStep<d>::pushed;
+  using WaterStep<d>::has_followers, WaterStep<d>::pushed, WaterStep<d>::settle_bodies;
 
   Status repair() override;
   Status correct(std::span<const double> previous) override;

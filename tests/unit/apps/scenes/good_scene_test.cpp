@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "apps/effects/compressibility/compressibility.hpp"
 #include "apps/effects/form_drag/form_drag.hpp"
 #include "apps/effects/skin_friction/skin_friction.hpp"
 #include "apps/effects/viscosity/viscosity.hpp"
@@ -106,6 +107,21 @@ TEST(GoodScene, friction_and_drag_of_hulls_are_read_and_echoed) {
     EXPECT_EQ(scene.effects.find<SkinFriction>()->line, "flat_plate");
     EXPECT_EQ(scene.effects.find<SkinFriction>()->dynamic_viscosity, 2e-3);  // of the water, unless given
     EXPECT_EQ(scene.effects.find<FormDrag>()->coefficients, (std::map<std::string, double>{{"wedge", 1.25}}));
+  }
+}
+
+TEST(GoodScene, compressibility_is_water_s_unless_given) {
+  const auto with = [](const std::string& keys) {
+    return read_scene_text(testing::wedge_drop_with("[tank]", "[fluid.compressibility]\n" + keys + "[tank]"),
+                           "scene.toml");
+  };
+  EXPECT_FALSE(scene_of(testing::wedge_drop).effects.find<Compressibility>());
+  EXPECT_DOUBLE_EQ(bulk_modulus_of(*with("").scene.effects.find<Compressibility>(), 1000), 1480. * 1480 * 1000);
+  const auto file = with("bulk_modulus = 2e9\ngas_content = 0.1\n");
+  for (const auto& scene : {file.scene, scene_of(file.resolved)}) {
+    EXPECT_EQ(bulk_modulus_of(*scene.effects.find<Compressibility>(), 1000), 2e9);
+    // Wood 1930: bubbles at ambient pressure make sound as slow as 40 m/s.
+    EXPECT_NEAR(sound_speed_of(*scene.effects.find<Compressibility>(), 1000), 37.7, 0.1);
   }
 }
 
