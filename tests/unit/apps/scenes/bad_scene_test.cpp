@@ -230,7 +230,7 @@ const std::vector<Mistake> scenes = {
      "Did you mean 'iterated'?"},
     {"formulation_unknown", "density = 1000", "density = 1000\nformulation = \"euler\"", 11,
      "fluid.formulation = \"euler\"", "'fractional', 'monolithic' or 'vortex'"},
-    {"scheme_unknown", "density = 1000",
+    {"monolithic_scheme_unknown", "density = 1000",
      "density = 1000\nformulation = \"monolithic\"\nmonolithic = {scheme = \"bdf2\"}", 12,
      "fluid.monolithic.scheme = \"bdf2\"", "'midpoint' or 'implicit_euler'"},
     {"sound_slower_than_the_fall", "[tank]", "[fluid.compressibility]\nspeed_of_sound = 5\n[tank]", 7,
