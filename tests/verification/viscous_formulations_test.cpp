@@ -111,8 +111,8 @@ Split split(double number, double size) {
   return found;
 }
 
-// What the pressure changes in a kick no viscosity has seen: at the corners of the lid grad p is mu U / h^2, and the water there is
-// wrong by about 0.8 nu dt / h^2 of U, until it is as wrong as it can be. The lid's drag loses as much.
+// What the pressure changes in a kick no viscosity has seen: at the corners of the lid grad p is mu U / h^2, and the water
+// there is wrong by about 0.8 nu dt / h^2 of U, until it is as wrong as it can be. The lid's drag loses as much.
 TEST(ViscousFormulations, splitting_viscosity_from_pressure_costs_its_number_and_monolithic_nothing) {
   const double size = 1.0 / 8;
   for (const double number : {0.05, 0.1, 0.2}) {

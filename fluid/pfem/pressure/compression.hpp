@@ -1,16 +1,16 @@
-// How a liquid gives way to pressure. With beta = V / (rho c^2) of the water around a node, its pressure P and the volume r that goes
-// there per time, both at t_{n-1/2} (-) and t_{n+1/2} (+),
+// How a liquid gives way to pressure. With beta = V / (rho c^2) of the water around a node, its pressure P and the volume r
+// that goes there per time, both at t_{n-1/2} (-) and t_{n+1/2} (+),
 //
 //   beta (P+ - P-) = kick (r- + r+) / 2,   phi = kick (P- + P+) / 2
 //
-// is the trapezoidal rule, of second order, and keeps kinetic energy + sum beta P^2 / 2 to roundoff. Eliminated, it is a diagonal and
-// a source of the pressure equation:
+// is the trapezoidal rule, of second order, and keeps kinetic energy + sum beta P^2 / 2 to roundoff. Eliminated, it is a
+// diagonal and a source of the pressure equation:
 //
 //   r+ = C phi - q,   C = 4 beta / kick^2,   q = C kick P- + r-
 //
-// The repair makes the carried velocity compress the water as it did on the old mesh, r- = d V with the rate d that nodes carry, and
-// gives way with the same C, r- = d V + C Phi, so that what meets a wall at once is stopped by sound, or at once where the step is
-// long for sound; nothing of it rings on.
+// The repair makes the carried velocity compress the water as it did on the old mesh, r- = d V with the rate d that nodes
+// carry, and gives way with the same C, r- = d V + C Phi, so that what meets a wall at once is stopped by sound, or at once
+// where the step is long for sound.
 //
 // Waves of few elements, which no mesh carries well, are damped by a bulk viscosity zeta = 0.2 rho c h on what the rate differs
 // from its mean over the cells around, explicitly:
@@ -19,8 +19,8 @@
 //
 // of third order on a wave that elements resolve; where the step is longer than h / 2 c, by as much less as it is longer.
 //
-// In the first step no P- is known. The liquid is then in equilibrium with all that does not come at once: P- is what the pressure
-// of an incompressible liquid is, and r+ = r-.
+// In the first step no P- is known. The liquid is then in equilibrium with all that does not come at once: P- is what the
+// pressure of an incompressible liquid is, and r+ = r-.
 #pragma once
 
 #include <span>
@@ -33,7 +33,8 @@ namespace splashdown::fluid {
 /// Of one step; entries are of nodes unless said.
 class Compression {
  public:
-  /// `storage`: beta [m^d/Pa], empty: the liquid is incompressible; `carried`: by the nodes, empty: in the first step; `kick` [s].
+  /// `storage`: beta [m^d/Pa], empty: the liquid is incompressible; `carried`: by the nodes, empty: in the first step; `kick`
+  /// [s].
   void begin(std::vector<double> storage, std::vector<Compressed> carried, double kick);
   explicit operator bool() const { return !storage_.empty(); }           ///< the liquid is compressible
   bool starts() const { return !storage_.empty() && carried_.empty(); }  ///< nothing is known of its compression yet

@@ -262,8 +262,8 @@ bool WaterStep<d>::follow() {
   return true;
 }
 
-// What an iteration leaves is not left to Newton's law: with the impulses that effects have found last, bodies obey it to roundoff,
-// and the water feels the difference as a pressure.
+// What an iteration leaves is not left to Newton's law: with the impulses that effects have found last, bodies obey it to
+// roundoff, and the water feels the difference as a pressure.
 template <int d>
 void WaterStep<d>::settle_bodies() {
   if (!has_followers() || equation_.mode_count() == 0) return;

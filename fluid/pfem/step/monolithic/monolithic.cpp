@@ -23,8 +23,8 @@ std::vector<Vec<d>> difference(std::span<const Vec<d>> a, std::span<const Vec<d>
 
 }  // namespace
 
-// In a frame that moves with the water and without viscosity tau is half the interval over which the pressure acts. Elements are as
-// large as the ball of their volume.
+// In a frame that moves with the water and without viscosity tau is half the interval over which the pressure acts. Elements
+// are as large as the ball of their volume.
 template <int d>
 std::vector<double> Monolithic<d>::shares() const {
   constexpr double half = 0.5;

@@ -1,7 +1,7 @@
 // Velocity and pressure as one system, with equal-order elements and PSPG (Tezduyar, Mittal, Ray, Shih 1992), velocities
 // eliminated.
 //
-//   M (v+ - v*) + G phi = 0,   D(x_m) u(v+) = sum_e theta_e int_e grad q . (- M^-1 G phi + grad phi / rho),   x_m = x_n + dt u / 2
+//   M (v+ - v*) + G phi = 0,   D(x_m) u(v+) = sum_e theta_e int_e grad q . (- M^-1 G phi + grad phi / rho),   x_m = x_n + dt u/2
 //
 // Viscosity acts on all that changes velocities, the pressure included (Effect::follow): v+ - v* is then - M^-1 G phi and what
 // it makes of it, by a back-substitution on its own factor in each iterate. theta_e = tau_e / kick,
