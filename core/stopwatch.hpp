@@ -1,9 +1,8 @@
 // Adds the time until its end to a sum.
 #pragma once
 
-#include <time.h>
-
 #include <chrono>
+#include <ctime>
 
 namespace splashdown {
 
@@ -13,11 +12,7 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// Seconds that this process has spent on processors, in all its threads: other work on the machine hardly adds to them.
-inline double processor_seconds() {
-  timespec used{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
-}
+inline double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Measures its own life by the wall clock.
 class Stopwatch {

@@ -99,9 +99,12 @@ class SizeEstimate {
     if (!tank_.isEmpty()) h = std::min(h, grown(tank_size_, to_tank(x)));
     if (!spots_.empty() && grown(least_spot_, spot_box_.exteriorDistance(x)) < h)
       for (const auto& spot : spots_) h = std::min(h, grown(spot.size, (x - spot.at).norm()));
-    if (free_.empty()) return h;
-    const auto nearest = free_.nearest(x, std::numeric_limits<double>::max());
-    return std::min(h, grown(size_.surface, std::sqrt(nearest.squared_distance)));
+    if (free_.empty() || h <= size_.surface) return h;
+    // On the axis of a round jet all facets are as near: which one is nearest makes no difference.
+    constexpr double slack = 0.02;
+    const double reach = size_.growth > 0 ? (h - size_.surface) / size_.growth : std::numeric_limits<double>::max();
+    const auto nearest = free_.nearest(x, reach, slack);
+    return nearest.facet < 0 ? h : std::min(h, grown(size_.surface, std::sqrt(nearest.squared_distance)));
   }
 
   bool is_liquid(const Vec<d>& x) const {

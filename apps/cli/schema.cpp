@@ -143,6 +143,22 @@ Json consequence(const Sketch& sketch, const Together& all, const Together& with
   return then;
 }
 
+/// That a key has the word that it has in all these looks, and so have other keys that never have another word beside it: where the word is in
+/// force without its key, they alone tell whether it is there.
+Json condition_of(const Visits& looks, const std::string& key) {
+  Json condition = Json::object();
+  for (const auto& [other, word] : looks.front()->picked) {
+    const bool always = std::ranges::all_of(looks, [&](const auto* look) {
+      const auto found = look->picked.find(other);
+      return found != look->picked.end() && found->second == word;
+    });
+    if (other != key && !always) continue;
+    condition["properties"][other]["const"] = word;
+    if (!looks.front()->usual.at(other)) condition["required"].push_back(other);
+  }
+  return condition;
+}
+
 Json object_of(const Sketch& sketch, const std::string& header) {
   Visits visits;
   std::map<std::string, std::map<std::string, Visits>> by_word;  // key -> word -> looks
@@ -161,9 +177,7 @@ Json object_of(const Sketch& sketch, const std::string& header) {
     for (const auto& [word, looks] : words) {
       const auto then = consequence(sketch, all, together(sketch, looks), key);
       if (then.empty()) continue;
-      Json condition{{"properties", {{key, {{"const", word}}}}}};
-      if (!looks.front()->usual.at(key)) condition["required"] = {key};
-      json["allOf"].push_back({{"if", condition}, {"then", then}});
+      json["allOf"].push_back({{"if", condition_of(looks, key)}, {"then", then}});
     }
   return json;
 }

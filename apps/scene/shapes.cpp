@@ -60,7 +60,7 @@ struct MakeShape<3> {
     for (const auto& [r, z] : s.profile) profile.emplace_back(r, z);
     return rigid::revolved(profile);
   }
-  rigid::Shape<3> operator()(const SplineShape& s) const { return rigid::revolved(spline_of(s)); }
+  rigid::Shape<3> operator()(const SplineShape& s) const { return rigid::solid_of(spline_of(s)); }
   rigid::Shape<3> operator()(const SurfaceShape& s) const {
     if (!s.read) throw std::invalid_argument("the file could not be read");
     return *s.read;

@@ -29,8 +29,9 @@ struct Soup {
 /// Throws SurfaceFileError if the file is no whole mesh.
 Soup read_soup(const std::filesystem::path& path);
 
-/// The same as a surface [units of the file], and back; polygons of three corners.
+/// The facets of a surface [m or units of a file].
 Soup soup_of(const Surface<3>& surface);
+/// The way back; polygons have three corners.
 Surface<3> surface_of(const Soup& soup);
 
 /// One point for those that rounding has parted: of single precision, which STL files have, or of their digits. How many are

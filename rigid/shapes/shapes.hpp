@@ -21,7 +21,7 @@ struct Shape {
 /// Of 360 degrees; the circle's polygon is 7.5e-5 of the radius inside the circle at most.
 inline constexpr int default_segments = 256;
 
-/// Straight from each point [m] to the next and back to the first; the liquid or the world is to the right. Nothing is asked of them.
+/// Straight from each point [m] to the next and back to the first, the body to the left. Nothing is asked of the points.
 Surface<2> closed_polyline(std::span<const Vec<2>> points);
 
 /// Enclosed by the points and the line from the last to the first, positive if they run counter-clockwise [m^2].

@@ -160,7 +160,7 @@ Shape<2> outline_of(const Spline& spline) {
   return shape;
 }
 
-Shape<3> revolved(const Spline& spline) {
+Shape<3> solid_of(const Spline& spline) {
   if (spline.closed)
     throw std::invalid_argument("spline: a closed curve is no profile; it must begin and end at the axis");
   auto shape = revolved(sampled(spline));

@@ -9,9 +9,9 @@
 
 namespace splashdown::rigid {
 
-/// C(u) = sum_i N_i,p(u) P_i with uniform knots, N_i,p the basis of degree p, P_i the control points [m] (de Boor 1972). The curve
-/// stays in the convex hull of each p + 1 neighbours; p equal points after each other are a corner, p + 1 on a line a straight
-/// piece.
+/// C(u) = sum_i N_i,p(u) P_i with uniform knots, N_i,p the basis of degree p, P_i the control points [m] (de Boor 1972). The
+/// curve stays in the convex hull of each p + 1 neighbours; p equal points after each other are a corner, p + 1 on a line a
+/// straight piece.
 struct Spline {
   std::vector<Vec<2>> points;  ///< at least degree + 1; of a closed one at least 3
   int degree = 3;              ///< 1 (straight between the points) to 5
@@ -33,6 +33,6 @@ std::vector<Vec<2>> sampled(const Spline& spline);
 Shape<2> outline_of(const Spline& spline);
 
 /// The open curve as a profile (r, z), turned about the z axis; r >= 0. An end that is not on the axis is closed by a flat disc.
-Shape<3> revolved(const Spline& spline);
+Shape<3> solid_of(const Spline& spline);
 
 }  // namespace splashdown::rigid

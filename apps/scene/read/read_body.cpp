@@ -84,11 +84,11 @@ struct ShapeType {
 
 const std::vector<ShapeType>& shape_types() {
   static const std::vector<ShapeType> types = {
-      {2, "polygon", PolygonShape{}},   {2, "wedge", WedgeShape{}},     {2, "box", RectangleShape{}},
-      {2, "circle", CircleShape{}},     {2, "ellipse", EllipseShape{}}, {2, "capsule", CapsuleShape{}},
-      {2, "spline", SplineShape{}},     {3, "spline", SplineShape{}},   {3, "sphere", SphereShape{}},
-      {3, "box", BoxShape{}},           {3, "cone", ConeShape{}},       {3, "capsule", CapsuleShape{}},
-      {3, "revolved", RevolvedShape{}}, {3, "surface", SurfaceShape{}}};
+      {2, "polygon", PolygonShape{}}, {2, "wedge", WedgeShape{}},     {2, "box", RectangleShape{}},
+      {2, "circle", CircleShape{}},   {2, "ellipse", EllipseShape{}}, {2, "capsule", CapsuleShape{}},
+      {2, "spline", SplineShape{}},   {3, "sphere", SphereShape{}},   {3, "box", BoxShape{}},
+      {3, "cone", ConeShape{}},       {3, "capsule", CapsuleShape{}}, {3, "revolved", RevolvedShape{}},
+      {3, "spline", SplineShape{}},   {3, "surface", SurfaceShape{}}};
   return types;
 }
 

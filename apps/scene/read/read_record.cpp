@@ -94,8 +94,7 @@ void read_section_loads(Reader& reader, Scene& scene) {
   entry.body = read_body_name(reader, "body", scene, Need::required, "record").value_or(0);
   const int dimension = reader.context().dimension;
   std::string axis = "x";
-  // No choice for the schema, whose rules for a word without its key would hold for records of all kinds.
-  reader.reference("axis", axis, dimension == 2 ? Reader::Names{"x", "y"} : Reader::Names{"x", "y", "z"});
+  reader.choice("axis", axis, dimension == 2 ? Reader::Names{"x", "y"} : Reader::Names{"x", "y", "z"});
   entry.axis = axis[0] - 'x';
   reader.numbers("stations", entry.stations, any("m", "Use places along the axis, in the frame of the body's shape."));
   if (entry.stations.empty())

@@ -7,20 +7,6 @@
 // diagonal and a source of the pressure equation:
 //
 //   r+ = C phi - q,   C = 4 beta / kick^2,   q = C kick P- + r-
-//
-// The repair makes the carried velocity compress the water as it did on the old mesh, r- = d V with the rate d that nodes
-// carry, and gives way with the same C, r- = d V + C Phi, so that what meets a wall at once is stopped by sound, or at once
-// where the step is long for sound.
-//
-// Waves of few elements, which no mesh carries well, are damped by a bulk viscosity zeta = 0.2 rho c h on what the rate differs
-// from its mean over the cells around, explicitly:
-//
-//   phi = kick ((P- + P+) / 2 + zeta (r- / V - mean))
-//
-// of third order on a wave that elements resolve; where the step is longer than h / 2 c, by as much less as it is longer.
-//
-// In the first step no P- is known. The liquid is then in equilibrium with all that does not come at once: P- is what the
-// pressure of an incompressible liquid is, and r+ = r-.
 #pragma once
 
 #include <span>
@@ -31,6 +17,20 @@
 namespace splashdown::fluid {
 
 /// Of one step; entries are of nodes unless said.
+///
+/// The repair makes the carried velocity compress the water as it did on the old mesh, r- = d V with the rate d that nodes
+/// carry, and gives way with the same C, r- = d V + C Phi, so that what meets a wall at once is stopped by sound, or at once
+/// where the step is long for sound.
+///
+/// Waves of few elements, which no mesh carries well, are damped by a bulk viscosity zeta = 0.2 rho c h on what the rate differs
+/// from its mean over the cells around, explicitly:
+///
+///   phi = kick ((P- + P+) / 2 + zeta (r- / V - mean))
+///
+/// of third order on a wave that elements resolve; where the step is longer than h / 2 c, by as much less as it is longer.
+///
+/// In the first step no P- is known. The liquid is then in equilibrium with all that does not come at once: P- is what the
+/// pressure of an incompressible liquid is, and r+ = r-.
 class Compression {
  public:
   /// `storage`: beta [m^d/Pa], empty: the liquid is incompressible; `carried`: by the nodes, empty: in the first step; `kick`

@@ -110,7 +110,7 @@ TEST(Spline, repeated_points_are_corners) {
 
 // Paraboloid r^2 = z under z = 1: volume pi/2, centre at 2/3.
 TEST(Spline, revolved_encloses_the_volume_of_the_curve) {
-  const auto bowl = revolved(Spline{{{0, 0}, {0.5, 0}, {1, 1}}, 2});
+  const auto bowl = solid_of(Spline{{{0, 0}, {0.5, 0}, {1, 1}}, 2});
   EXPECT_NEAR(bowl.at_unit_density.mass, pi / 2, 1e-6);
   EXPECT_NEAR(bowl.at_unit_density.centre.z(), 2. / 3, 1e-6);
   EXPECT_NEAR(mass_properties(bowl.surface).mass, pi / 2, 2e-3);  // facets about the axis: 0.04 %
@@ -123,8 +123,8 @@ TEST(Spline, refuses_what_is_no_outline) {
   EXPECT_THROW(sampled({{{0, 0}, {NAN, 0}, {1, 1}}, 2}), std::invalid_argument);            // not finite
   EXPECT_THROW(outline_of({{{0, 0}, {3, 1}, {-2, 1}, {1, 0}}, 3}), std::invalid_argument);  // crosses itself
   EXPECT_THROW(sampled({on_circle(9), 3, true, 1e-13}), std::invalid_argument);         // more chords than anyone wants
-  EXPECT_THROW(revolved(Spline{on_circle(9), 3, true}), std::invalid_argument);         // no profile
-  EXPECT_THROW(revolved(Spline{{{0, 0}, {-1, 1}, {0, 2}}, 2}), std::invalid_argument);  // beyond the axis
+  EXPECT_THROW(solid_of(Spline{on_circle(9), 3, true}), std::invalid_argument);         // no profile
+  EXPECT_THROW(solid_of(Spline{{{0, 0}, {-1, 1}, {0, 2}}, 2}), std::invalid_argument);  // beyond the axis
 }
 
 }  // namespace
