@@ -71,14 +71,10 @@ struct RegionType {
   bool in(int dimension) const { return dimension == 2 ? in_plane : in_space; }
 };
 std::vector<RegionType> region_types() {
-  return {{"box", true, true, BoxRegion{}},
-          {"circle", true, false, CircleRegion{}},
-          {"ellipse", true, false, EllipseRegion{}},
-          {"polygon", true, false, PolygonRegion{}},
-          {"spline", true, true, SplineRegion{}},
-          {"sphere", false, true, SphereRegion{}},
-          {"revolved", false, true, RevolvedRegion{}},
-          {"union", true, true, UnionRegion{}}};
+  return {{"box", true, true, BoxRegion{}},          {"circle", true, false, CircleRegion{}},
+          {"ellipse", true, false, EllipseRegion{}}, {"polygon", true, false, PolygonRegion{}},
+          {"sphere", false, true, SphereRegion{}},   {"revolved", false, true, RevolvedRegion{}},
+          {"spline", true, true, SplineRegion{}},    {"union", true, true, UnionRegion{}}};
 }
 
 /// The key `shape` and those of the shape; false if there is none.
