@@ -147,14 +147,14 @@ Json consequence(const Sketch& sketch, const Together& all, const Together& with
 /// force without its key, they alone tell whether it is there.
 Json condition_of(const Visits& looks, const std::string& key) {
   Json condition = Json::object();
-  for (const auto& [other, word] : looks.front()->picked) {
+  for (const auto& pick : looks.front()->picked) {
     const bool always = std::ranges::all_of(looks, [&](const auto* look) {
-      const auto found = look->picked.find(other);
-      return found != look->picked.end() && found->second == word;
+      const auto found = look->picked.find(pick.first);
+      return found != look->picked.end() && found->second == pick.second;
     });
-    if (other != key && !always) continue;
-    condition["properties"][other]["const"] = word;
-    if (!looks.front()->usual.at(other)) condition["required"].push_back(other);
+    if (pick.first != key && !always) continue;
+    condition["properties"][pick.first]["const"] = pick.second;
+    if (!looks.front()->usual.at(pick.first)) condition["required"].push_back(pick.first);
   }
   return condition;
 }

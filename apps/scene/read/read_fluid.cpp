@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/scene/kinds/coupling_kinds.hpp"
+#include "apps/scene/kinds/formulation_kinds.hpp"
 #include "apps/scene/read/parts.hpp"
 
 namespace splashdown::apps {
