@@ -221,6 +221,14 @@ Count nodes_at(const Scene& scene, double time) {
   return nodes_in<d>(estimate, all);
 }
 
+/// Of the water without its bodies.
+template <int d>
+double nodes_beside(const Scene& scene) {
+  auto bare = scene;
+  bare.bodies.clear();
+  return nodes_at<d>(bare, 0).nodes;
+}
+
 /// Whether a body comes to the water within the run.
 template <int d>
 bool enters(const Scene& scene) {
@@ -255,9 +263,8 @@ Cost predicted_cost(const Scene& scene) {
   Cost cost;
   double mean = 0;
   if (scene.fluid) {
-    auto bare = scene;
-    bare.bodies.clear();
-    const double beside = nodes_at<d>(bare, 0).nodes, thrown = enters<d>(scene) ? Share<d>::thrown : 0;
+    const double thrown = Share<d>::thrown > 0 && enters<d>(scene) ? Share<d>::thrown : 0,
+                 beside = thrown > 0 ? nodes_beside<d>(scene) : 0;
     // Times at which the bodies' places are looked at: quarters of the run, by the trapezoidal rule.
     const int quarters = scene.bodies.empty() ? 0 : 4;
     for (int i = 0; i <= quarters; ++i) {

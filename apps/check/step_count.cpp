@@ -33,7 +33,7 @@ double finest_fixed(const Scene& scene) {
 /// Speeds of what is in the water, or of the water, in equal parts of the run: of bodies as they are guessed to move once
 /// they have met it, and what gravity makes of it beside them.
 template <int d>
-std::vector<double> speeds_in_parts(const Scene& scene, int parts) {
+std::vector<double> speeds_in_parts(const Scene& scene, const std::vector<GuessedBody<d>>& bodies, int parts) {
   constexpr double of_waves = 0.5;  // of sqrt(g L)
   const auto s = scales<d>(scene);
   const auto still = [](const Region& region) { return region.velocity.isZero() && region.velocity_gradient.isZero(); };
@@ -41,10 +41,9 @@ std::vector<double> speeds_in_parts(const Scene& scene, int parts) {
     return std::vector<double>(static_cast<std::size_t>(parts), s.speed);
   std::vector<double> speeds(static_cast<std::size_t>(parts),
                              std::min(s.speed, of_waves * std::sqrt(s.gravity * s.length)));
-  for (const auto& body : scene.bodies) {
-    const double above = extents<d>(outline<d>(body)).min()[d - 1] - still_water_level<d>(scene).value_or(0);
+  for (const auto& guessed : bodies) {
+    const double above = extents<d>(guessed.hull).min()[d - 1] - still_water_level<d>(scene).value_or(0);
     Vec<d> before = Vec<d>::Zero();
-    const auto guessed = guessed_body<d>(scene, body);
     for (int i = 0; i < parts; ++i) {
       const Vec<d> after = guessed_motion<d>(scene, guessed, scene.time.end * (i + 1) / parts);
       auto& speed = speeds[static_cast<std::size_t>(i)];
@@ -73,7 +72,7 @@ class StepCount {
 
   double count() {
     constexpr int parts = 24;
-    const auto speeds = speeds_in_parts<d>(scene_, parts);
+    const auto speeds = speeds_in_parts<d>(scene_, bodies_, parts);
     double count = 0;
     auto from = wetted_at(0);
     was_wet_ = from.ends;

@@ -1,11 +1,8 @@
 #include "core/surface/cut.hpp"
 
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <cmath>
 
@@ -15,23 +12,15 @@
 namespace splashdown {
 namespace {
 
-using CutShell = CGAL::Surface_mesh<Soup::Kernel::Point_3>;
-
-CutShell shell_of(Soup soup) {
-  CutShell shell;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, shell);
-  return shell;
-}
-
 // Two triangles a side; corner number k of 8 has its bit b set where it is at the upper end of axis b.
-CutShell shell_of(const Eigen::AlignedBox3d& box) {
+Shell shell_of(const Eigen::AlignedBox3d& box) {
   Surface<3> surface{Eigen::Matrix3Xd(3, 8), Eigen::Matrix3Xi(3, 12)};
   for (int v = 0; v < 8; ++v)
     for (int k = 0; k < 3; ++k) surface.vertices(k, v) = v >> k & 1 ? box.max()[k] : box.min()[k];
   surface.facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
       2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,                //
       3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
-  return shell_of(soup_of(surface));
+  return shell_of(surface);
 }
 
 /// What rounding and the merging of points have moved off the sides goes back to them.
@@ -47,14 +36,13 @@ Vec<3> on_sides(Vec<3> x, const Eigen::AlignedBox3d& box) {
 
 Surface<3> cut_at_box(const Surface<3>& surface, const Eigen::AlignedBox3d& box) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  auto solid = shell_of(soup_of(surface)), sides = shell_of(box);
-  CutShell part;
+  auto solid = shell_of(surface), sides = shell_of(box);
+  Shell part;
   if (!pmp::corefine_and_compute_intersection(solid, sides, part))
     throw SurfaceFileError("has a part in the tank that is not the surface of a solid",
                            "Move a side of the tank a little, or mend the place.");
   pmp::remove_degenerate_faces(part);
-  Soup soup;
-  pmp::polygon_mesh_to_polygon_soup(part, soup.points, soup.polygons);
+  Soup soup = soup_of(part);
   Surface<3> cut;
   if (soup.polygons.empty()) return cut;
   merge_points(soup);  // where an edge crosses two sides but for rounding

@@ -8,7 +8,6 @@
 #include <CGAL/Polygon_mesh_processing/merge_border_vertices.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
@@ -17,7 +16,6 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +33,6 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = Soup::Kernel;
-using Shell = CGAL::Surface_mesh<Kernel::Point_3>;
 using Done = std::vector<std::string>;
 
 std::string counted(std::size_t count, const char* one, const char* many) {
@@ -198,8 +195,7 @@ std::optional<Surface<3>> mended(Soup soup, Done& done) {
   remove_inner_parts(parts, done);
   const auto whole = united(std::move(parts), done);
   if (!whole) return {};
-  Soup last;
-  pmp::polygon_mesh_to_polygon_soup(*whole, last.points, last.polygons);
+  Soup last = soup_of(*whole);
   Done of_cuts;  // slivers along the cuts of a union: no news
   cleaned_up(last, of_cuts);
   return surface_of(last);

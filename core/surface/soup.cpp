@@ -2,6 +2,8 @@
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/STL.h>
+#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -74,6 +76,19 @@ Surface<3> surface_of(const Soup& soup) {
     for (int k = 0; k < 3; ++k)
       surface.facets(k, static_cast<Eigen::Index>(f)) = static_cast<int>(soup.polygons[f][static_cast<std::size_t>(k)]);
   return surface;
+}
+
+Shell shell_of(const Surface<3>& surface) {
+  Soup soup = soup_of(surface);
+  Shell shell;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, shell);
+  return shell;
+}
+
+Soup soup_of(const Shell& shell) {
+  Soup soup;
+  CGAL::Polygon_mesh_processing::polygon_mesh_to_polygon_soup(shell, soup.points, soup.polygons);
+  return soup;
 }
 
 std::size_t merge_points(Soup& soup) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <filesystem>
 #include <string>
@@ -33,6 +34,14 @@ Soup read_soup(const std::filesystem::path& path);
 Soup soup_of(const Surface<3>& surface);
 /// The way back; polygons have three corners.
 Surface<3> surface_of(const Soup& soup);
+
+/// Triangles that know their neighbours.
+using Shell = CGAL::Surface_mesh<Soup::Kernel::Point_3>;
+
+/// The facets of a closed surface, joined along their edges [units of the surface].
+Shell shell_of(const Surface<3>& surface);
+/// The way back.
+Soup soup_of(const Shell& shell);
 
 /// One point for those that rounding has parted: of single precision, which STL files have, or of their digits. How many are
 /// gone.

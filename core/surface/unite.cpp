@@ -2,12 +2,9 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
-#include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_set_2.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <iterator>
 #include <stdexcept>
@@ -20,7 +17,6 @@ namespace {
 
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using ExactPolygon = CGAL::Polygon_2<Exact>;
-using UnitedShell = CGAL::Surface_mesh<Soup::Kernel::Point_3>;
 
 /// Its loops; those of holes run clockwise.
 std::vector<ExactPolygon> loops_of(const Surface<2>& surface) {
@@ -83,13 +79,6 @@ class Outline {
   std::vector<std::size_t> ends_;  // of loops
 };
 
-UnitedShell shell_to_unite(const Surface<3>& surface) {
-  Soup soup = soup_of(surface);
-  UnitedShell shell;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, shell);
-  return shell;
-}
-
 }  // namespace
 
 template <>
@@ -123,18 +112,17 @@ Surface<2> united<2>(std::span<const Surface<2>> parts) {
 template <>
 Surface<3> united<3>(std::span<const Surface<3>> parts) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  UnitedShell sum;
+  Shell sum;
   for (const auto& part : parts) {
-    auto shell = shell_to_unite(part);
-    UnitedShell both;
+    auto shell = shell_of(part);
+    Shell both;
     if (!pmp::corefine_and_compute_union(sum, shell, both))
       throw std::invalid_argument(
           "the union of the parts is not the surface of a solid: two of them touch in an edge or a point");
     sum = std::move(both);
   }
   pmp::remove_degenerate_faces(sum);
-  Soup soup;
-  pmp::polygon_mesh_to_polygon_soup(sum, soup.points, soup.polygons);
+  Soup soup = soup_of(sum);
   merge_points(soup);
   pmp::repair_polygon_soup(soup.points, soup.polygons);
   return surface_of(soup);
