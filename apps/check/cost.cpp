@@ -57,10 +57,10 @@ constexpr std::size_t most_cells = 400'000;
 template <int d>
 class SizeEstimate {
  public:
-  SizeEstimate(const Scene& scene, double time) : size_(scene.fluid->size) {
+  SizeEstimate(const Scene& scene, const std::vector<GuessedBody<d>>& bodies, double time) : size_(scene.fluid->size) {
     for (const auto& region : scene.fluid->regions) regions_.emplace_back(outline<d>(region));
-    for (const auto& body : scene.bodies) {
-      const auto guessed = guessed_body<d>(scene, body);
+    for (const auto& guessed : bodies) {
+      const Body& body = *guessed.body;
       const Vec<d> moved = guessed_motion<d>(scene, guessed, time);
       auto hull = guessed.hull;
       hull.vertices.colwise() += moved;
@@ -212,8 +212,8 @@ Count nodes_in(const SizeEstimate<d>& estimate, const Extents<d>& all) {
 }
 
 template <int d>
-Count nodes_at(const Scene& scene, double time) {
-  const SizeEstimate<d> estimate(scene, time);
+Count nodes_at(const Scene& scene, const std::vector<GuessedBody<d>>& bodies, double time) {
+  const SizeEstimate<d> estimate(scene, bodies, time);
   Extents<d> all;
   for (const auto& region : estimate.regions()) all.extend(region.extents());
   if (scene.tank) all = all.intersection(extents<d>(*scene.tank));
@@ -221,19 +221,10 @@ Count nodes_at(const Scene& scene, double time) {
   return nodes_in<d>(estimate, all);
 }
 
-/// Of the water without its bodies.
-template <int d>
-double nodes_beside(const Scene& scene) {
-  auto bare = scene;
-  bare.bodies.clear();
-  return nodes_at<d>(bare, 0).nodes;
-}
-
 /// Whether a body comes to the water within the run.
 template <int d>
-bool enters(const Scene& scene) {
-  return std::ranges::any_of(scene.bodies, [&](const Body& body) {
-    const auto guessed = guessed_body<d>(scene, body);
+bool enters(const Scene& scene, const std::vector<GuessedBody<d>>& bodies) {
+  return std::ranges::any_of(bodies, [&](const GuessedBody<d>& guessed) {
     return wetted_length<d>(scene, guessed, 0) == 0 && wetted_length<d>(scene, guessed, scene.time.end) > 0;
   });
 }
@@ -263,12 +254,15 @@ Cost predicted_cost(const Scene& scene) {
   Cost cost;
   double mean = 0;
   if (scene.fluid) {
-    const double thrown = Share<d>::thrown > 0 && enters<d>(scene) ? Share<d>::thrown : 0,
-                 beside = thrown > 0 ? nodes_beside<d>(scene) : 0;
+    std::vector<GuessedBody<d>> bodies;
+    for (const auto& body : scene.bodies) bodies.push_back(guessed_body<d>(scene, body));
+    const double thrown = Share<d>::thrown > 0 && enters<d>(scene, bodies) ? Share<d>::thrown : 0,
+                 beside = thrown > 0 ? nodes_at<d>(scene, {}, 0).nodes : 0;  // of the water without its bodies
     // Times at which the bodies' places are looked at: quarters of the run, by the trapezoidal rule.
-    const int quarters = scene.bodies.empty() ? 0 : 4;
+    const bool moves = std::ranges::any_of(scene.bodies, [](const Body& body) { return body.motion != Motion::fixed; });
+    const int quarters = moves ? 4 : 0;
     for (int i = 0; i <= quarters; ++i) {
-      auto [nodes, at_least] = nodes_at<d>(scene, quarters > 0 ? scene.time.end * i / quarters : 0);
+      auto [nodes, at_least] = nodes_at<d>(scene, bodies, quarters > 0 ? scene.time.end * i / quarters : 0);
       if (i == 0) cost.nodes = nodes;
       if (i > 0) nodes += std::max({0., Share<d>::jets * (nodes - cost.nodes), thrown * (nodes - beside)});
       cost.nodes_most = std::max(cost.nodes_most, nodes);

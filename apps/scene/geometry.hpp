@@ -61,6 +61,8 @@ rigid::Isometry<d> shape_pose(const Body& body) {
 /// Boundary in the world frame, normals outward.
 template <int d>
 rigid::Surface<d> outline(const Region& region);
+/// Fills `whole`, so that a union in space, which takes seconds, is computed once; leaves it null if there is no outline.
+void unite_in_space(UnionRegion& region);
 /// In the world frame at t = 0.
 template <int d>
 rigid::Surface<d> outline(const Body& body);

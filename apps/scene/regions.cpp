@@ -1,4 +1,5 @@
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -73,7 +74,7 @@ struct MakeRegion<3> {
   }
   Surface<3> operator()(const RevolvedRegion& r) const { return shifted<3>(shape_of<3>(r.shape).surface, r.position); }
   Surface<3> operator()(const SplineRegion& r) const { return shifted<3>(shape_of<3>(r.shape).surface, r.position); }
-  Surface<3> operator()(const UnionRegion& r) const { return united_parts<3>(r); }
+  Surface<3> operator()(const UnionRegion& r) const { return r.whole ? *r.whole : united_parts<3>(r); }
   Surface<3> operator()(const SphereRegion& r) const { return shifted<3>(rigid::sphere(r.radius).surface, r.centre); }
 };
 
@@ -82,6 +83,14 @@ struct MakeRegion<3> {
 template <int d>
 Surface<d> outline(const Region& region) {
   return std::visit(MakeRegion<d>{}, region.shape);
+}
+
+void unite_in_space(UnionRegion& region) {
+  region.whole.reset();
+  try {
+    region.whole = std::make_shared<const Surface<3>>(united_parts<3>(region));
+  } catch (const std::invalid_argument&) {  // `outline` tells why
+  }
 }
 
 template Surface<2> outline<2>(const Region&);

@@ -105,6 +105,8 @@ struct SplineRegion {
 struct RegionPart;
 struct UnionRegion {
   std::vector<RegionPart> parts;
+  std::shared_ptr<const Surface<3>>
+      whole;  ///< of parts in space, computed when they are read; null: not yet, or impossible
 };
 using RegionShape = std::variant<BoxRegion, CircleRegion, EllipseRegion, PolygonRegion, SplineRegion, SphereRegion,
                                  RevolvedRegion, UnionRegion>;

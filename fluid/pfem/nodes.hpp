@@ -22,10 +22,10 @@ struct WallTie {
   bool operator==(const WallTie&) const = default;
 };
 
-/// Of a compressible liquid at t_{n-1/2} (compression.hpp).
+/// Of a compressible liquid (compression.hpp).
 struct Compressed {
-  double pressure = 0;  ///< [Pa]
-  double rate = 0;      ///< - div v [1/s]
+  std::array<double, 3> pressure{};  ///< at t_n, t_{n-1}, t_{n-2} [Pa]
+  double rate = 0;                   ///< - div v at t_{n-1/2} [1/s]
 };
 
 /// Volume, momentum and kinetic energy, the latter two over the density.
@@ -105,8 +105,11 @@ struct Nodes {
   void compress_as(int at, const Indices& some) {
     if (compression.empty()) return;
     Compressed mean;
-    for (int i : some)
-      mean.pressure += compression[i].pressure / std::size(some), mean.rate += compression[i].rate / std::size(some);
+    for (int i : some) {
+      for (std::size_t k = 0; k < mean.pressure.size(); ++k)
+        mean.pressure[k] += compression[i].pressure[k] / std::size(some);
+      mean.rate += compression[i].rate / std::size(some);
+    }
     compression[at] = mean;
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/coupling_kinds.hpp"
 #include "apps/scene/kinds/formulation_kinds.hpp"
 #include "apps/scene/read/parts.hpp"
@@ -100,6 +101,7 @@ void ReadRegionShape::operator()(UnionRegion& all) const {
   if (all.parts.empty() && !reader.holds("part"))
     reader.context().problems.add_missing(reader.key("part"), "a union has parts",
                                           "Write [[fluid.region.part]] below it, each with a shape.");
+  if (reader.context().dimension == 3 && !reader.context().problems.found_in(reader.path())) unite_in_space(all);
 }
 
 void read_region(Reader& reader, Region& region) {

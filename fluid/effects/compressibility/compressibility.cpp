@@ -18,7 +18,7 @@ template <int d>
 void Compressibility<d>::pressure(const StepView<d>& step, PressureTerms& terms) {
   terms.storage.resize(step.nodes.size(), 0.0);
   in_parallel(step.nodes.size(), [&](std::size_t i) {
-    const double carried = step.nodes.compression.empty() ? 0.0 : step.nodes.compression[i].pressure;
+    const double carried = step.nodes.compression.empty() ? 0.0 : step.nodes.compression[i].pressure[0];
     terms.storage[i] += volume_per_pascal(spec_, step.lumped_volume[i], carried);
   });
 }

@@ -3,8 +3,8 @@
 //   dV/V = - (a_l / K + a_g / (gamma p)) dp
 //
 // a_l, a_g: shares of the volume that are liquid and gas, p the absolute pressure. Without gas it is linear acoustics,
-// c = sqrt(K / rho): density and mass stay what they are. The trapezoidal rule in time (compression.hpp): of second order, keeps
-// energy, bounded by no step; waves are resolved where a step is shorter than an element over c.
+// c = sqrt(K / rho): density and mass stay what they are. In time (compression.hpp) of second order,
+// bounded by no step; waves are resolved where a step is shorter than an element over c, and damped where it is much longer.
 #pragma once
 
 #include "fluid/effects/effect.hpp"

@@ -1,6 +1,7 @@
 #include "fluid/pfem/pressure/compression.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace splashdown::fluid {
@@ -15,12 +16,31 @@ double at(std::span<const int> unknown, std::span<const double> impulses, std::s
 
 }  // namespace
 
-void Compression::begin(std::vector<double> storage, std::vector<Compressed> carried, double kick) {
+template <int d>
+void Compression::begin(std::vector<double> storage, std::span<const double> volume, double density,
+                        std::vector<Compressed> carried, double kick, double dt) {
   storage_ = std::move(storage);
   carried_ = std::move(carried);
-  kick_ = kick;
+  kick_ = kick, dt_ = dt;
   rate_before_.assign(storage_.size(), 0.0);
   damping_.assign(storage_.size(), 0.0);
+  weights_.resize(storage_.size());
+  for (std::size_t i = 0; i < storage_.size(); ++i) {
+    const bool carries = storage_[i] > 0 && volume[i] > 0;
+    const double sound = carries ? std::sqrt(volume[i] / (storage_[i] * density)) : 0.0;
+    weights_[i] = weights(carries ? sound * kick / std::pow(volume[i], 1.0 / d) : 0.0);
+  }
+}
+template void Compression::begin<2>(std::vector<double>, std::span<const double>, double, std::vector<Compressed>,
+                                    double, double);
+template void Compression::begin<3>(std::vector<double>, std::span<const double>, double, std::vector<Compressed>,
+                                    double, double);
+
+Compression::Weights Compression::weights(double elements_crossed) {
+  constexpr double kept = 0.95, least = 0.5, resolved = 2;
+  const double q = least + (kept - least) * std::min(1.0, resolved / std::max(elements_crossed, resolved)),
+               s = (1 - q) / (2 * q), sum = (1 + q) * (1 + q) * (1 + s);
+  return {1 / sum, (2 * q + s) / sum, (q * q + 2 * q * s) / sum, q * q * s / sum};
 }
 
 std::vector<double> Compression::diagonal(std::vector<double> others, bool in_equilibrium) const {
@@ -54,14 +74,20 @@ std::vector<double> Compression::source(std::vector<double> others) const {
   if (storage_.empty()) return others;
   others.resize(storage_.size(), 0.0);
   for (std::size_t i = 0; i < storage_.size(); ++i)
-    others[i] +=
-        starts() ? -rate_before_[i] : constant(i) * kick_ * (carried_[i].pressure + damping_[i]) + rate_before_[i];
+    others[i] += starts() ? -rate_before_[i] : constant(i) * carried_impulse(i);
   return others;
+}
+
+// What phi is if nothing more goes to the node.
+double Compression::carried_impulse(std::size_t i) const {
+  const auto& before = carried_[i].pressure;
+  const auto& w = weights_[i];
+  return kick_ * ((w[0] + w[1]) * before[0] + w[2] * before[1] + w[3] * before[2] + damping_[i]);
 }
 
 double Compression::rate_after(std::size_t i, double impulse) const {
   if (starts()) return hardly_any * constant(i) * impulse + rate_before_[i];
-  return constant(i) * (impulse - kick_ * (carried_[i].pressure + damping_[i])) - rate_before_[i];
+  return constant(i) * (impulse - carried_impulse(i));
 }
 
 std::vector<Compressed> Compression::after(std::span<const double> volume, std::span<const int> unknown,
@@ -70,8 +96,9 @@ std::vector<Compressed> Compression::after(std::span<const double> volume, std::
   for (std::size_t i = 0; i < storage_.size(); ++i) {
     if (unknown[i] < 0 || !(storage_[i] > 0) || !(volume[i] > 0)) continue;
     const double impulse = at(unknown, impulses, i), rate = rate_after(i, impulse);
-    const double before = starts() ? impulse / kick_ : carried_[i].pressure;
-    out[i] = {before + 0.5 * kick_ / storage_[i] * (rate_before_[i] + rate), rate / volume[i]};
+    const double first = impulse / kick_;
+    const auto before = starts() ? std::array{first, first, first} : carried_[i].pressure;
+    out[i] = {{before[0] + dt_ / storage_[i] * rate, before[0], before[1]}, rate / volume[i]};
   }
   return out;
 }

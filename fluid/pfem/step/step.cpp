@@ -39,7 +39,8 @@ Status WaterStep<d>::add_pressure_terms() {
     water_.effects[t]->pressure(view(), terms_);
   }
   const auto scope = water_.timer.scope(Phase::pressure);
-  compression_.begin(terms_.storage, water_.work.nodes.compression, kick_);
+  compression_.begin<d>(terms_.storage, equation_.lumped_volume(), water_.spec.density, water_.work.nodes.compression,
+                        kick_, dt_);
   if (!equation_.set_terms(compression_.diagonal(terms_.diagonal), terms_.source))
     return {"the pressure matrix could not be factored"};
   in_equilibrium_ = false;

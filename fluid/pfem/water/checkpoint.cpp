@@ -75,8 +75,9 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
         nodes.spray.size(), nodes.volume.size(), nodes.owed.size(), nodes.h.size(), nodes.wall_pressure.size()})
     good = good && size == count;
   good = good && (nodes.compression.empty() || nodes.compression.size() == count) &&
-         std::ranges::all_of(nodes.compression,
-                             [](const auto& c) { return std::isfinite(c.pressure) && std::isfinite(c.rate); });
+         std::ranges::all_of(nodes.compression, [](const auto& c) {
+           return std::ranges::all_of(c.pressure, [](double p) { return std::isfinite(p); }) && std::isfinite(c.rate);
+         });
   good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count &&
          s.chords.size() == wall_count && (s.resting_loads.empty() || s.resting_loads.size() == wall_count);
   good = good && all_finite(nodes.x) && all_finite(nodes.v) && all_finite(nodes.p) && all_finite(nodes.volume) &&
