@@ -5,6 +5,7 @@
 // a fluid at rest (viscosity, damping) leaves it at rest beside gravity.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,7 +35,7 @@ struct StepView {
   double t;                               ///< t_n [s]
   double dt;                              ///< of this step [s]
   double dt_before;                       ///< of the step that led to t_n [s]; 0 at the start
-  std::span<const double> lumped_volume;  ///< of nodes [m^d]
+  std::span<const double> lumped_volume;  ///< mass of nodes over `density` [m^d]
   const NodeCells<d>& around;             ///< the cells around each node
   std::span<const WallSpec<d>> walls;     ///< as they were made
   std::span<const Isometry<d>> poses;     ///< of walls, at t_n
@@ -66,15 +67,23 @@ struct Others {
   std::span<const Twist<d>> walls;  ///< of walls, after it
 };
 
+/// Of a liquid that gives way, against what it is where the pressure is 0.
+struct LiquidState {
+  double density = 1;     ///< over that of the liquid at rest
+  double compliance = 0;  ///< d ln(density) / dp [1/Pa]
+  double energy = 0;      ///< that pressure and the air around have put into a volume at rest of 1 [Pa]
+};
+
 /// What effects add to the pressure equation of a step, an entry a node; a vector that stays empty adds nothing.
 ///
 ///   (A + C) phi = r + q,   C diagonal
 struct PressureTerms {
   std::vector<double> diagonal;  ///< C, not negative: volume that an impulse there takes away for good [m^d/(Pa s^2)]
   std::vector<double> source;    ///< q: volume that appears around a node, negative: that goes [m^d/s]
-  std::vector<double> storage;   ///< volume that a pressure takes away for as long as it lasts, not negative [m^d/Pa]
   std::vector<double>
       surface_pressure;  ///< on the free surface, against the air's zero [Pa]; elsewhere it means nothing
+  /// What a pressure [Pa] makes of the liquid, for as long as it lasts; empty: nothing.
+  std::function<LiquidState(double)> liquid;
 };
 
 /// Name and value of a number worth recording.

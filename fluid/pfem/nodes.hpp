@@ -26,6 +26,7 @@ struct WallTie {
 struct Compressed {
   std::array<double, 3> pressure{};  ///< at t_n, t_{n-1}, t_{n-2} [Pa]
   double rate = 0;                   ///< - div v at t_{n-1/2} [1/s]
+  double density = 1;                ///< at t_n, over that at t = 0
 };
 
 /// Volume, momentum and kinetic energy, the latter two over the density.
@@ -105,10 +106,12 @@ struct Nodes {
   void compress_as(int at, const Indices& some) {
     if (compression.empty()) return;
     Compressed mean;
+    if (std::size(some) > 0) mean.density = 0;
     for (int i : some) {
       for (std::size_t k = 0; k < mean.pressure.size(); ++k)
         mean.pressure[k] += compression[i].pressure[k] / std::size(some);
       mean.rate += compression[i].rate / std::size(some);
+      mean.density += compression[i].density / std::size(some);
     }
     compression[at] = mean;
   }

@@ -14,6 +14,7 @@ namespace {
 
 fluid::CompressibilitySpec spec_of(const Compressibility& table, double density) {
   return {.bulk_modulus = bulk_modulus_of(table, density),
+          .bulk_modulus_slope = table.bulk_modulus_slope,
           .gas_content = table.gas_content,
           .ambient_pressure = table.ambient_pressure};
 }
@@ -31,11 +32,11 @@ double fastest_start(const Scene& scene) {
 double bulk_modulus_of(const Compressibility& table, double density) {
   if (table.bulk_modulus) return *table.bulk_modulus;
   const double c = table.speed_of_sound.value_or(water_sound_speed);
-  return density * c * c;
+  return density / (1 - table.gas_content) * c * c;
 }
 
 double sound_speed_of(const Compressibility& table, double density) {
-  return 1 / std::sqrt(density * fluid::volume_per_pascal(spec_of(table, density), 1, 0));
+  return 1 / std::sqrt(density * fluid::liquid_state(spec_of(table, density), 0).compliance);
 }
 
 void CompressibilityKind::read(Reader& reader, Scene& scene) const {
@@ -45,6 +46,8 @@ void CompressibilityKind::read(Reader& reader, Scene& scene) const {
     reader.refuse("bulk_modulus", "is known from speed_of_sound", "Give one of the two.");
   else
     reader.number("bulk_modulus", table.bulk_modulus, positive("Pa", "Use 2.2e9 for water."));
+  reader.number("bulk_modulus_slope", table.bulk_modulus_slope,
+                within(0, 20, "", "Use 7 for water, 0 for linear acoustics."));
   reader.number("gas_content", table.gas_content, within(0, 0.9, "", "Use e.g. 0.1 for a tenth of the volume."));
   reader.number("ambient_pressure", table.ambient_pressure, positive("Pa", "Use 101325 at sea level."));
 }
@@ -53,7 +56,8 @@ void CompressibilityKind::read(Reader& reader, Scene& scene) const {
 void CompressibilityKind::check(const Scene& scene, Problems& problems) const {
   const auto* table = scene.effects.find<Compressibility>();
   if (!table || !scene.fluid || problems.found_in("fluid") || problems.found_in("body")) return;
-  const double c = std::sqrt(bulk_modulus_of(*table, scene.fluid->density) / scene.fluid->density);
+  const double c =
+      std::sqrt(bulk_modulus_of(*table, scene.fluid->density) * (1 - table->gas_content) / scene.fluid->density);
   const double speed = fastest_start(scene);
   if (speed < c) return;
   problems.add(table->bulk_modulus ? "fluid.compressibility.bulk_modulus" : "fluid.compressibility.speed_of_sound",

@@ -8,6 +8,7 @@ namespace splashdown::apps {
 struct Compressibility {
   std::optional<double> speed_of_sound;  ///< of the liquid without gas [m/s]
   std::optional<double> bulk_modulus;    ///< the same as rho c^2 [Pa]; water's speed of sound without either
+  double bulk_modulus_slope = 0;         ///< dK/dp; 7 for water
   double gas_content = 0;                ///< share of the volume at `ambient_pressure`
   double ambient_pressure = 101325;      ///< [Pa]; used with gas alone
 };

@@ -1,10 +1,11 @@
 // A liquid that pressure compresses, with gas in bubbles that do not move through it:
 //
-//   dV/V = - (a_l / K + a_g / (gamma p)) dp
+//   rho_0 / rho = (1 - a) (1 + K' p / K)^(-1/K') + a (1 + p / p_a)^(-1/gamma)
 //
-// a_l, a_g: shares of the volume that are liquid and gas, p the absolute pressure. Without gas it is linear acoustics,
-// c = sqrt(K / rho): density and mass stay what they are. In time (compression.hpp) of second order,
-// bounded by no step; waves are resolved where a step is shorter than an element over c, and damped where it is much longer.
+// a: share of the volume that is gas where the pressure is 0, p_a the ambient pressure there; Murnaghan's (1944) law of the liquid,
+// with K' = 0 its limit exp(-p / K). Without gas and for p << K it is linear acoustics, c = sqrt(K / rho). In time (compression.hpp)
+// of second order, bounded by no step; waves are resolved where a step is shorter than an element over c, and damped where it is
+// much longer.
 #pragma once
 
 #include "fluid/effects/effect.hpp"
@@ -14,15 +15,16 @@ namespace splashdown::fluid {
 /// Of the liquid and the gas in it.
 struct CompressibilitySpec {
   double bulk_modulus = 2.2e9;       ///< K [Pa]
+  double bulk_modulus_slope = 0;     ///< K' = dK/dp
   double gas_content = 0;            ///< share of the volume at ambient pressure, from 0 to below 1
   double ambient_pressure = 101325;  ///< where the pressure is 0 [Pa]
   double adiabatic_exponent = 1.4;   ///< gamma of the gas
 };
 
-/// - dV/dp of a volume V [m^d/Pa], at a pressure against ambient.
-double volume_per_pascal(const CompressibilitySpec& spec, double volume, double pressure);
+/// At a pressure against ambient [Pa]. Tension makes at most 27 times more of the gas, and takes at most half of K.
+LiquidState liquid_state(const CompressibilitySpec& spec, double pressure);
 
-/// Storage at every node.
+/// The liquid of all nodes.
 template <int d>
 class Compressibility final : public Effect<d> {
  public:

@@ -13,9 +13,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "fluid/effects/effect.hpp"
 #include "fluid/pfem/nodes.hpp"
 
 namespace splashdown::fluid {
@@ -37,10 +39,10 @@ namespace splashdown::fluid {
 /// before is what the pressure of an incompressible liquid is, and r = r-.
 class Compression {
  public:
-  /// `storage`: beta [m^d/Pa], empty: the liquid is incompressible; `volume` around nodes [m^d]; `carried`: by the nodes, empty:
-  /// in the first step; `kick` and `dt` of the step [s].
+  /// `liquid`: empty, it is incompressible; `volume` around nodes [m^d], `density` at t = 0 [kg/m^3]; `carried`: by the nodes,
+  /// empty: in the first step; `kick` and `dt` of the step [s].
   template <int d>
-  void begin(std::vector<double> storage, std::span<const double> volume, double density,
+  void begin(std::function<LiquidState(double)> liquid, std::span<const double> volume, double density,
              std::vector<Compressed> carried, double kick, double dt);
   explicit operator bool() const { return !storage_.empty(); }           ///< the liquid is compressible
   bool starts() const { return !storage_.empty() && carried_.empty(); }  ///< nothing is known of its compression yet
@@ -60,21 +62,30 @@ class Compression {
   /// What does not depend on phi, added to the sources of other terms [m^d/s].
   std::vector<double> source(std::vector<double> others) const;
 
+  /// Takes for beta what has gone to nodes over what the law makes of their pressures then, half-way in its logarithm; false if the
+  /// pressures of all are near enough to the law's already. Only gas needs it: without it a liquid is as good as linear.
+  bool follow_law(std::span<const double> volume, std::span<const int> unknown, std::span<const double> impulses);
   /// What nodes carry on, of impulses of the pressure.
   std::vector<Compressed> after(std::span<const double> volume, std::span<const int> unknown,
                                 std::span<const double> impulses) const;
   /// What of the work of these impulses is stored over the kick [J].
   double stored(std::span<const int> unknown, std::span<const double> impulses) const;
+  /// Energy in it at t_n and t_{n+1}, by the law of the liquid [J]; both 0 in the first step.
+  std::array<double, 2> internal_energies(std::span<const double> volume, std::span<const int> unknown,
+                                          std::span<const double> impulses) const;
   /// Energy in it at t_n, of the mean pressure over the kick [J].
-  double energy(std::span<const int> unknown, std::span<const double> impulses) const;
+  double energy(std::span<const double> volume, std::span<const int> unknown, std::span<const double> impulses) const;
 
  private:
   using Weights = std::array<double, 4>;  ///< of the pressures at t_{n+1}, t_n, t_{n-1}, t_{n-2}
   static Weights weights(double elements_crossed);
   double constant(std::size_t i) const { return storage_[i] / (weights_[i][0] * kick_ * dt_); }
   double carried_impulse(std::size_t i) const;
+  double pressure_at(double density, double guess) const;
+  double volume_left(double rate, double volume) const;
   double rate_after(std::size_t i, double impulse) const;
 
+  std::function<LiquidState(double)> liquid_;
   std::vector<double> storage_, rate_before_, damping_;
   std::vector<Weights> weights_;
   std::vector<Compressed> carried_;

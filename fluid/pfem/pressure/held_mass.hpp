@@ -41,7 +41,7 @@ struct AccelerationWeights {
 template <int d>
 class HeldMass {
  public:
-  /// `lumped`: volumes of nodes [m^d].
+  /// `lumped`: masses of nodes over the density [m^d].
   void build(std::vector<HeldNode<d>> held, std::size_t walls, double density, std::span<const double> lumped);
   /// Whether no node is held.
   bool empty() const { return held_.empty(); }

@@ -44,6 +44,15 @@ std::vector<double> PressureEquation<d>::of_unknowns(std::span<const double> of_
   return values;
 }
 
+// Of a cell, over that at t = 0.
+template <int d>
+double PressureEquation<d>::relative_density(std::size_t cell) const {
+  if (nodes_->compression.empty()) return 1;
+  double sum = 0;
+  for (int n : mesh_->cells[cell]) sum += nodes_->compression[n].density;
+  return sum / (d + 1);
+}
+
 template <int d>
 void PressureEquation<d>::measure(double density) {
   const std::size_t count = nodes_->size();
@@ -56,18 +65,24 @@ void PressureEquation<d>::measure(double density) {
     const auto at = corners(nodes_->x, mesh_->cells[c]);
     gradients_[c] = volume_gradients<d>(at);
     const double volume = (at(d) - at(0)).dot(gradients_[c].col(d));
-    per_mass_[c] = 1 / (density * volume);
-    share_of_mass_[c] = density * volume / (d + 2);
+    const double here = density * relative_density(c);
+    per_mass_[c] = 1 / (here * volume);
+    share_of_mass_[c] = here * volume / (d + 2);
     rate_[c] = volume / (d + 1);
   });
   around_.sum(rate_, lumped_);
+  if (!nodes_->compression.empty()) {
+    for (std::size_t c = 0; c < rate_.size(); ++c) rate_[c] *= relative_density(c);
+    around_.sum(rate_, lumped_mass_);
+  }
+  const auto mass = lumped_mass();
   // Nodes of slivers weigh next to nothing and would be shot away; they resist like a small part of a neighbour. In 2D that is
   // for those beside the free surface: gaps between walls are thin on purpose, and what resists more than it weighs
   // no hydrostatic pressure carries.
   constexpr double lightest = 0.02, lightest_within = d == 2 ? 1e-4 : lightest;
   in_parallel(mesh_->cells.size(), [&](std::size_t c) {
     rate_[c] = 0;
-    for (int n : mesh_->cells[c]) rate_[c] = std::max(rate_[c], lumped_[n]);
+    for (int n : mesh_->cells[c]) rate_[c] = std::max(rate_[c], mass[n]);
   });
   per_nodal_mass_.resize(count);
   std::vector<double> keeps(count);
@@ -79,9 +94,9 @@ void PressureEquation<d>::measure(double density) {
       if constexpr (lightest_within < lightest)
         for (int n : mesh_->cells[c]) near_surface = near_surface || nodes_->surface[n];
     }
-    const double resists = std::max(lumped_[i], (near_surface ? lightest : lightest_within) * heaviest);
+    const double resists = std::max(mass[i], (near_surface ? lightest : lightest_within) * heaviest);
     per_nodal_mass_[i] = resists > 0 ? 1 / (density * (d + 1) * resists) : 0.0;
-    keeps[i] = resists > 0 ? 1 - lumped_[i] / ((d + 2) * resists) : 0.0;
+    keeps[i] = resists > 0 ? 1 - mass[i] / ((d + 2) * resists) : 0.0;
   });
   sweep_.build(mesh_->cells, around_, share_of_mass_, per_nodal_mass_, keeps);
   free_area_.assign(count, Vec<d>::Zero());
@@ -152,7 +167,7 @@ void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
 
 template <int d>
 void PressureEquation<d>::hold_mass(std::vector<HeldNode<d>> held, double density) {
-  held_.build(std::move(held), modes_.size(), density, lumped_);
+  held_.build(std::move(held), modes_.size(), density, lumped_mass());
   held_modes_.assign(modes_.size(), {});
   if (held_.empty()) return;
   const AccelerationWeights<d> weights{*mesh_, nodes_->x, around_, gradients_, share_of_mass_, per_nodal_mass_};

@@ -174,8 +174,10 @@ class PressureEquation {
   int size() const { return static_cast<int>(node_.size()); }
   const std::vector<int>& unknown() const { return unknown_; }       ///< of a node, -1: phi = 0
   std::span<const double> lumped_volume() const { return lumped_; }  ///< of nodes [m^d]
-  const NodeCells<d>& around() const { return around_; }             ///< the cells around each node
-  const SymmetricMatrix& matrix() const { return matrix_; }          ///< the left side, without the bodies
+  /// Mass of nodes over the density at t = 0 [m^d]; of incompressible liquid its volume.
+  std::span<const double> lumped_mass() const { return nodes_->compression.empty() ? lumped_ : lumped_mass_; }
+  const NodeCells<d>& around() const { return around_; }     ///< the cells around each node
+  const SymmetricMatrix& matrix() const { return matrix_; }  ///< the left side, without the bodies
 
  private:
   template <class Act>
@@ -188,6 +190,7 @@ class PressureEquation {
   template <class Velocity>
   void add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const;
   void measure(double density);
+  double relative_density(std::size_t cell) const;
   void choose_unknowns();
   std::vector<double> of_unknowns(std::span<const double> of_nodes) const;
   bool at_contact_line(int node) const;
@@ -206,7 +209,7 @@ class PressureEquation {
   const Nodes<d>* nodes_ = nullptr;
   const Mesh<d>* mesh_ = nullptr;
   std::vector<VolumeGradients<d>> gradients_;  // at t_n
-  std::vector<double> lumped_;
+  std::vector<double> lumped_, lumped_mass_;
   double density_ = 0;
   std::vector<double> share_of_mass_;  // of cells: mass / (d + 2)
   MassSweep<d> sweep_;

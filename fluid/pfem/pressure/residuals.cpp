@@ -212,8 +212,9 @@ template <int d>
 double PressureEquation<d>::kinetic_energy(std::span<const Vec<d>> v) const {
   constexpr double z = shortest<d>, curvature = (1 / inverse_mass(z) - 1 + z) / (z * z * (z - 0.5));
   sweep_(v, swept_);
+  const auto mass = lumped_mass();
   const double twice = sum_in_parallel(v.size(), [&](std::size_t i) {
-    return lumped_[i] *
+    return mass[i] *
            (v[i].squaredNorm() - v[i].dot(swept_[i]) + curvature * swept_[i].dot(sweep_(i, swept_) - 0.5 * swept_[i]));
   });
   return 0.5 * density_ * twice;

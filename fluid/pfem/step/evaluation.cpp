@@ -87,10 +87,11 @@ void WaterStep<d>::evaluate_energies(StepResult<d>& found) const {
   for (const double power : found.power_of_effects) ledger.work_of_effects += 0.5 * water_.work.dt * power;
   ledger.kinetic_energy = 0;
   ledger.potential_energy = ledger.chord_energy;
-  if (compression_) ledger.potential_energy += compression_.energy(equation_.unknown(), trial_.phi);
+  if (compression_)
+    ledger.potential_energy += compression_.energy(equation_.lumped_volume(), equation_.unknown(), trial_.phi);
   std::vector<Vec<d>> v_n(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const double mass = water_.spec.density * (nodes.spray[i] ? nodes.volume[i] : equation_.lumped_volume()[i]);
+    const double mass = water_.spec.density * (nodes.spray[i] ? nodes.volume[i] : equation_.lumped_mass()[i]);
     v_n[i] = at_t_n(nodes.v[i], found.velocity[i]);
     if (nodes.spray[i]) ledger.kinetic_energy += 0.5 * mass * v_n[i].squaredNorm();
     for (const auto& effect : water_.effects) ledger.potential_energy += mass * effect->potential(nodes.x[i]);

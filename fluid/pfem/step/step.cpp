@@ -8,6 +8,11 @@
 #include "fluid/pfem/parallel.hpp"
 
 namespace splashdown::fluid {
+namespace {
+
+constexpr int most_of_law = 12;  // iterations of a step for the law of a liquid with gas
+
+}  // namespace
 
 template <int d>
 Status WaterStep<d>::begin(double kick, double dt, const InterfaceModel& structure) {
@@ -39,7 +44,7 @@ Status WaterStep<d>::add_pressure_terms() {
     water_.effects[t]->pressure(view(), terms_);
   }
   const auto scope = water_.timer.scope(Phase::pressure);
-  compression_.begin<d>(terms_.storage, equation_.lumped_volume(), water_.spec.density, water_.work.nodes.compression,
+  compression_.begin<d>(terms_.liquid, equation_.lumped_volume(), water_.spec.density, water_.work.nodes.compression,
                         kick_, dt_);
   if (!equation_.set_terms(compression_.diagonal(terms_.diagonal), terms_.source))
     return {"the pressure matrix could not be factored"};
@@ -96,6 +101,15 @@ StepResult<d> WaterStep<d>::solve(std::span<const Twist<d>> given, std::span<con
                                   const ClosedContacts& contacts) {
   StepResult<d> found;
   found.status = find_motion(given, previous, contacts);
+  for (int k = 0; found.status.ok(); ++k) {
+    if (!compression_.follow_law(equation_.lumped_volume(), equation_.unknown(), trial_.phi)) break;
+    if (k == most_of_law)
+      found.status = {"the gas in the liquid stiffens faster than the step"};
+    else if (!equation_.set_terms(compression_.diagonal(terms_.diagonal), terms_.source))
+      found.status = {"the pressure matrix could not be factored"};
+    else
+      found.status = find_motion(given, previous, contacts);
+  }
   if (found.status.ok()) evaluate(found);
   return found;
 }

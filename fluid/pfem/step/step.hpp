@@ -141,7 +141,7 @@ class WaterStep {
             .t = water_.work.time,
             .dt = dt_,
             .dt_before = water_.work.dt,
-            .lumped_volume = equation_.lumped_volume(),
+            .lumped_volume = equation_.lumped_mass(),
             .around = equation_.around(),
             .walls = water_.spec.walls,
             .poses = water_.work.poses,

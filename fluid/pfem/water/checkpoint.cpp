@@ -76,7 +76,8 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
     good = good && size == count;
   good = good && (nodes.compression.empty() || nodes.compression.size() == count) &&
          std::ranges::all_of(nodes.compression, [](const auto& c) {
-           return std::ranges::all_of(c.pressure, [](double p) { return std::isfinite(p); }) && std::isfinite(c.rate);
+           return std::ranges::all_of(c.pressure, [](double p) { return std::isfinite(p); }) && std::isfinite(c.rate) &&
+                  c.density > 0;
          });
   good = good && s.poses.size() == wall_count && s.velocity.size() == wall_count && s.wetted.size() == wall_count &&
          s.chords.size() == wall_count && (s.resting_loads.empty() || s.resting_loads.size() == wall_count);

@@ -106,12 +106,24 @@ INSTANTIATE_TEST_SUITE_P(Both, Compressible,
 // Wood 1930: gas makes a mixture soft, liquid heavy.
 TEST(Compliance, of_a_mixture_is_the_mean_of_its_parts_by_volume) {
   const CompressibilitySpec spec{.bulk_modulus = 2.2e9, .gas_content = 0.1};
-  EXPECT_DOUBLE_EQ(volume_per_pascal(spec, 2, 0), 2 * (0.9 / 2.2e9 + 0.1 / (1.4 * 101325)));
+  EXPECT_DOUBLE_EQ(liquid_state(spec, 0).compliance, 0.9 / 2.2e9 + 0.1 / (1.4 * 101325));
   // Gas that is pressed to nothing leaves the liquid.
-  EXPECT_NEAR(volume_per_pascal(spec, 1, 1e9) * 2.2e9, 1, 0.02);
-  // dV = - volume_per_pascal dp: gas by p V^gamma, liquid in proportion.
-  const double dp = 1, V_g = 0.1 * std::pow(1 + dp / 101325, -1 / 1.4);
-  EXPECT_NEAR(0.1 - V_g + 0.9 * dp / 2.2e9, volume_per_pascal(spec, 1, 0) * dp, 2e-5 * volume_per_pascal(spec, 1, 0));
+  EXPECT_NEAR(liquid_state(spec, 1e9).compliance * 2.2e9, 1, 0.02);
+}
+
+// d ln(density)/dp is the compliance and dE = p dV the energy, of liquids of any stiffness with and without gas.
+TEST(LiquidState, derivatives_of_its_law_are_its_compliance_and_its_energy) {
+  for (const double slope : {0.0, 1.0, 7.0})
+    for (const double gas : {0.0, 0.1, 0.5})
+      for (const double p : {-2e4, 1e3, 1e6, 9e7}) {
+        const CompressibilitySpec spec{.bulk_modulus = 2.2e9, .bulk_modulus_slope = slope, .gas_content = gas};
+        const double step = 1e-3 * std::abs(p);
+        const auto before = liquid_state(spec, p - step), here = liquid_state(spec, p),
+                   after = liquid_state(spec, p + step);
+        // Central differences: third derivatives of the gas's law are of the order of 1 / (p_a + p)^3.
+        EXPECT_NEAR((std::log(after.density) - std::log(before.density)) / (2 * step) / here.compliance, 1, 1e-4);
+        EXPECT_NEAR((after.energy - before.energy) / (p * (1 / before.density - 1 / after.density)), 1, 1e-4);
+      }
 }
 
 }  // namespace
