@@ -113,6 +113,7 @@ CASES = [
     Case("jet_impact", "scene.toml --refine 0.7 --set body.plate.shape.width=0.3 --until 0.012", "end", 10, (-0.15, 0.15, -0.024, 0.15)),
     Case("bird_on_plate", "scene.toml --refine 0.7 --set body.plate.shape.width=0.8 --until 0.001", "end", 5, (-0.3, 0.3, -0.06, 0.12)),
     Case("leading_edge", "scene_bird.toml --until 0.002", "end", 3),
+    Case("viscous_jet", "scene.toml", "end", 20, (-0.08, 0.08, -0.01, 0.12)),
     Case("capsule_drop_2d", "scene.toml --until 0.02", "peak", 3),
     Case("capsule_water_landing", "scene_attitude.toml", "end", 20, (-0.75, 0.85, -0.45, 0.8)),
     Case("uav_landing", "scene.toml --until 0.16", "end", 30, (-0.4, 3.6, -0.9, 0.9)),
