@@ -88,8 +88,9 @@ class WaterStep {
   /// The carried velocities, before any repair.
   Unrepaired begin_repair();
   /// The volume that they create on the way back to t_{n-1/2}: of unknowns [m^d/s]. `impulses`: of the repair, that have made
-  /// them; a compressible liquid gives way to them.
-  void flux_before(std::vector<double>& residual, std::span<const double> impulses = {});
+  /// them; a compressible liquid gives way to them. `seen`: whose velocities tell where that was; none: their own.
+  void flux_before(std::vector<double>& residual, std::span<const double> impulses = {},
+                   const Unrepaired* seen = nullptr);
   /// Takes in impulses of the repair that have made `free` of `from.free` and handed impulses to walls, as far as they bring no
   /// energy; `from` is then what a further one starts from.
   void take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,

@@ -13,6 +13,8 @@ namespace {
 constexpr double roundoff_of_sums = 1e-12;
 // What the repair leaves of its flux the pressure takes out.
 constexpr double repaired_to = 1e-2;
+// Of what the pressure does to velocities: a step that leaves more is none.
+constexpr double most_left = 1e-2;
 
 template <int d>
 std::vector<Vec<d>> difference(std::span<const Vec<d>> a, std::span<const Vec<d>> b) {
@@ -46,17 +48,17 @@ std::vector<double> Monolithic<d>::shares() const {
 
 template <int d>
 template <class Find, class Apply>
-Status Monolithic<d>::converge(Find find, Apply add, double enough) {
+auto Monolithic<d>::converge(Find find, Apply add, double enough) -> Left {
   constexpr int passes = 4, most = 40;  // of Picard; steps in one, twice what any mesh has needed to 1e-8
   Correction<d> left;
   for (int pass = 0;; ++pass) {
-    if (auto status = find(left); !status.ok()) return status;
-    if (left.dot(left) <= enough || pass == passes) return {};
+    if (auto status = find(left); !status.ok()) return {status};
+    if (const double size = left.dot(left); size <= enough || pass == passes) return {{}, size};
     GeneralisedConjugateResidual<Correction<d>> iteration(left);
     for (int k = 0; k < most && iteration.size() > enough; ++k) {
       const Correction<d> tried = iteration.left();
       add(tried, 1);
-      if (auto status = find(left); !status.ok()) return status;
+      if (auto status = find(left); !status.ok()) return {status};
       iteration.step(left);
       add(tried, -1);
       add(iteration.last(), 1);
@@ -65,27 +67,29 @@ Status Monolithic<d>::converge(Find find, Apply add, double enough) {
 }
 
 template <int d>
-Status Monolithic<d>::repair() {
-  const auto scope = water_.timer.scope(Phase::pressure);
+void Monolithic<d>::find_repair(const Unrepaired& from, const Unrepaired* seen, Repair& found) {
   const auto& held = equation_.held();
   const auto theta = shares();
-  auto from = begin_repair();
-  auto& impulses = trial_.r;
-  flux_before(impulses);
+  auto& impulses = found.impulses;
+  auto& free = found.free;  // as if no wall held them
+  trial_.v = from.free, trial_.s_before = from.s, trial_.answer = from.answer;
+  flux_before(impulses, {}, seen);
   Correction<d> first;
   first.residual = impulses;
-  if (!equation_.solve(impulses, closely)) return {"the pressure solve failed"};
+  if (!equation_.solve(impulses, closely)) {
+    found.left.status = {"the pressure solve failed"};
+    return;
+  }
   first.impulse = impulses;
-  const double enough =
+  found.enough =
       std::max(repaired_to * repaired_to * first.dot(first), roundoff_of_sums * roundoff_of_sums * from.energy);
   answer_to(impulses, trial_.s_before, equation_.on_modes(held.excess(trial_.v, trial_.s_before)));
-  std::vector<Vec<d>> free;  // as if no wall held them
   const auto find = [&](Correction<d>& left) {
     free = from.free;
     equation_.accelerate(impulses, free);
     trial_.v = free;
     held.hold(trial_.v, trial_.s_before);
-    flux_before(left.residual, impulses);
+    flux_before(left.residual, impulses, seen);
     equation_.stabilise(impulses, difference<d>(free, from.free), theta, left.residual);
     return ask(left);
   };
@@ -94,8 +98,20 @@ Status Monolithic<d>::repair() {
     for (std::size_t w = 0; w < trial_.s_before.size(); ++w) trial_.s_before[w] += share * correction.walls[w];
     if (equation_.mode_count() > 0) trial_.answer += share * correction.answer;
   };
-  if (auto status = converge(find, add, enough); !status.ok()) return status;
-  take_repair(from, impulses, free, held.excess(free, trial_.s_before));
+  found.left = converge(find, add, found.enough);
+}
+
+// Where an impulse throws nodes, the place that they seem to come from may run away from the iteration. It is then left where
+// the carried velocities see it: no smaller step would mend it, because it is that of the last step.
+template <int d>
+Status Monolithic<d>::repair() {
+  const auto scope = water_.timer.scope(Phase::pressure);
+  auto from = begin_repair();
+  Repair found{.impulses = trial_.r, .free = {}, .left = {}};
+  find_repair(from, nullptr, found);
+  if (found.left.status.ok() && found.left.size > found.enough) find_repair(from, &from, found);
+  if (!found.left.status.ok()) return found.left.status;
+  take_repair(from, found.impulses, found.free, equation_.held().excess(found.free, trial_.s_before));
   return {};
 }
 
@@ -116,7 +132,9 @@ Status Monolithic<d>::correct(std::span<const double> previous) {
   const double enough =
       std::max(spec_.tolerance * spec_.tolerance * done, roundoff_of_sums * roundoff_of_sums * trial_.energy_unloaded);
   const auto add = [this](const Correction<d>& correction, double share) { apply(correction, share); };
-  if (auto status = converge(find, add, enough); !status.ok()) return status;
+  const Left left = converge(find, add, enough);
+  if (!left.status.ok()) return left.status;
+  if (left.size > std::max(enough, most_left * most_left * done)) return {"velocity and pressure do not agree"};
   settle_bodies();
   trial_.uncorrected = trial_.phi;  // nothing in it alternates
   return {};

@@ -28,20 +28,36 @@ class Monolithic final : public WaterStep<d> {
 
  private:
   using WaterStep<d>::water_, WaterStep<d>::equation_, WaterStep<d>::trial_, WaterStep<d>::kick_;
+  using typename WaterStep<d>::Unrepaired;
   using WaterStep<d>::begin_repair, WaterStep<d>::flux_before, WaterStep<d>::answer_to, WaterStep<d>::take_repair;
   using WaterStep<d>::move_nodes, WaterStep<d>::what_is_left, WaterStep<d>::ask, WaterStep<d>::apply;
   using WaterStep<d>::has_followers, WaterStep<d>::pushed, WaterStep<d>::settle_bodies;
 
   Status repair() override;
+  /// What iterations leave.
+  struct Left {
+    Status status;
+    double size = 0;  ///< r^T A^-1 r [J]
+  };
+  /// A repair: impulses, velocities of nodes as if no wall held them, what is left of its flux and what would be enough [J].
+  struct Repair {
+    std::vector<double>& impulses;
+    std::vector<Vec<d>> free;
+    Left left;
+    double enough = 0;
+  };
+  /// `seen`: as `flux_before` has it.
+  void find_repair(const Unrepaired& from, const Unrepaired* seen, Repair& found);
   Status correct(std::span<const double> previous) override;
   double judged_at() const override { return spec_.implicit_euler ? 1.0 : 0.5; }
   bool solves_all() const override { return true; }
   InTime in_time() const override { return spec_.implicit_euler ? InTime::euler : InTime::second_order; }
   /// theta of each cell.
   std::vector<double> shares() const;
-  /// Iterates impulses and walls by `add(correction, share)` until what `find(left)` tells of them is `enough`, r^T A^-1 r [J].
+  /// Iterates impulses and walls by `add(correction, share)` until what `find(left)` tells of them is `enough`, r^T A^-1 r [J], or
+  /// for a few passes: what is left then.
   template <class Find, class Apply>
-  Status converge(Find find, Apply add, double enough);
+  Left converge(Find find, Apply add, double enough);
 
   MonolithicSpec spec_;
 };
