@@ -17,7 +17,7 @@ set(output_sources
   statistics/verdict/grades.cpp statistics/landing_statistics.cpp statistics/verdict/limits.cpp statistics/verdict/missing.cpp statistics/verdict/next_step.cpp
   statistics/pulse.cpp statistics/rise.cpp statistics/verdict/share.cpp statistics/verdict/statements.cpp statistics/statistics.cpp statistics/summary.cpp statistics/verdict/verdict.cpp
   report/data.cpp report/figures.cpp report/curves/acceleration.cpp report/curves/behind.cpp report/curves/charts.cpp report/curves/filtered_curves.cpp report/curves/passes.cpp report/curves/section_figures.cpp report/curves/reduction.cpp report/curves/style.cpp report/gnuplot.cpp report/html.cpp
-  report/ablation.cpp report/inputs/hull_views.cpp report/inputs/inputs.cpp report/answers/afloat.cpp report/answers/answers.cpp report/page.cpp report/pairs/pairs.cpp report/price.cpp report/report.cpp report/look/scripts.cpp report/study/study.cpp report/study/campaign.cpp report/study/distributions.cpp report/study/maps.cpp report/look/theme.cpp report/answers/tile.cpp report/words.cpp
+  report/ablation.cpp report/inputs/hull_views.cpp report/inputs/inputs.cpp report/answers/afloat.cpp report/answers/answers.cpp report/page.cpp report/pairs/pairs.cpp report/price.cpp report/report.cpp report/look/scripts.cpp report/study/study.cpp report/study/campaign.cpp report/study/distributions.cpp report/study/envelopes.cpp report/study/maps.cpp report/look/theme.cpp report/answers/tile.cpp report/words.cpp
   report/replay/mesh_code.cpp report/replay/moving_picture.cpp report/replay/packed_picture.cpp report/replay/replay.cpp
   report/pictures/field.cpp report/pictures/hull.cpp report/pictures/picture.cpp report/pictures/plane_picture.cpp
   report/pictures/png.cpp)

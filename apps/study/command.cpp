@@ -58,6 +58,16 @@ int hand_to_slurm(const Study& study, const std::vector<StudyRun>& runs, const s
   return exit_code::done;
 }
 
+std::string enough_text(const Study& study) {
+  if (study.envelope)
+    return fmt::format(
+        "stopped: the envelope of {} has its runs; with more envelope.runs or less envelope.doubt the same command "
+        "continues",
+        study.envelope->limit);
+  return fmt::format("stopped: the band of {} is narrow enough; with a smaller stop.width the same command continues",
+                     study.stop->of);
+}
+
 RunnerEnd make_in_parallel(const Study& study, const std::vector<StudyRun>& runs, std::vector<Outcome>& outcomes,
                            const fs::path& folder, int jobs) {
   for (std::size_t i = 0; i < runs.size(); ++i)
@@ -83,6 +93,11 @@ int study_command(const StudyOptions& options) {
     return bad_input(error.what());
   }
   const bool slurm = options.on == "slurm", parallel = options.on == "parallel";
+  if ((slurm || parallel) && study.envelope)
+    return bad_input(
+        fmt::format("--on {}: hands over all runs at once, but [envelope] chooses each by those before it. "
+                    "Leave --on out, or remove [envelope].",
+                    options.on));
   if (parallel && !find_program("parallel"))
     return bad_input(
         "--on parallel: there is no GNU Parallel on this machine. Install the package parallel, or leave --on out.");
@@ -121,9 +136,7 @@ int study_command(const StudyOptions& options) {
   conclude(study, runs, outcomes, folder, options.quiet);
   for (const auto& text : end.unable) fmt::print(stderr, "error: {}\n", text);
   if (end.interrupted && !options.quiet) fmt::print("stopped; the same command continues\n");
-  if (end.enough && !options.quiet)
-    fmt::print("stopped: the band of {} is narrow enough; with a smaller stop.width the same command continues\n",
-               study.stop->of);
+  if (end.enough && !options.quiet) fmt::print("{}\n", enough_text(study));
   return exit_code_of(outcomes, end.interrupted);
 }
 

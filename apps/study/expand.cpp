@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "apps/quantity/expression.hpp"
+#include "apps/scene/read/echo.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/study/study.hpp"
@@ -30,6 +33,9 @@ std::optional<std::pair<Place, std::string>> origin(const Study& study, const St
     const auto& value = axis.values[run.value[a]];
     if (auto text = blamed(value.set)) return std::pair(value.place, "axis." + axis.name + ": " + *text);
   }
+  for (std::size_t k = 0; k < study.derived.size() && study.derived.size() <= run.set.size(); ++k)
+    if (auto text = blamed({run.set[run.set.size() - study.derived.size() + k]}))
+      return std::pair(study.derived[k].place, "derived: " + *text);
   if (auto text = blamed(study.set)) return std::pair(Place{study.file.string(), 1}, "set: " + *text);
   return {};
 }
@@ -111,6 +117,35 @@ std::optional<Scene> scene_without_axes(const Study& study) {
   return {};
 }
 
+/// The value of a derived key in a run.
+double derived_number(const Study& study, const DerivedKey& derived, const StudyRun& run) {
+  return quantity::evaluate_number(derived.value, [&](const std::string& name) -> std::optional<quantity::Value> {
+    if (const auto found = study.constants.find(name); found != study.constants.end())
+      return quantity::Value::number(found->second);
+    const auto axis = std::ranges::find(study.axes, name, &Axis::name);
+    if (axis == study.axes.end()) return {};
+    const auto& value = axis->values[run.value[static_cast<std::size_t>(axis - study.axes.begin())]];
+    if (!value.number) return {};
+    return quantity::Value::number(*value.number);
+  });
+}
+
+void add_derived(const Study& study, StudyRun& run, Problems& problems) {
+  for (const auto& derived : study.derived) {
+    std::string fault = "has no finite value";
+    double number = NAN;
+    try {
+      number = derived_number(study, derived, run);
+    } catch (const std::runtime_error& error) {
+      fault = error.what();
+    }
+    if (!std::isfinite(number))
+      problems.add_at(derived.place, fmt::format("derived.{} = {}: in the run {}: {}. Use another expression.",
+                                                 derived.key, toml_text(derived.value), run.name, fault));
+    run.set.push_back(derived.key + "=" + toml_text(number));
+  }
+}
+
 /// What can be expanded while mistakes are sought; without any it is the study itself.
 Study without_empty_axes(Study study) {
   std::vector<std::size_t> now;
@@ -126,6 +161,8 @@ Study without_empty_axes(Study study) {
     for (auto& of : axis.product) of = now[of];
     if (!axis.values.empty()) kept.push_back(std::move(axis));
   }
+  // What derived keys name may be gone.
+  if (kept.size() != study.axes.size()) study.derived.clear();
   study.axes = std::move(kept);
   return study;
 }
@@ -158,6 +195,7 @@ std::vector<StudyRun> expand(const Study& study) {
                      study.file.string(), combinations, factors, most_runs)});
   std::vector<StudyRun> runs;
   std::set<std::string> names;
+  Problems problems(study.file.string());
   std::vector<std::size_t> index(study.axes.size(), 0);  // of leaders; others follow theirs
   for (;;) {
     StudyRun run{.name = {}, .value = index, .set = study.set, .resolved = {}};
@@ -171,11 +209,14 @@ std::vector<StudyRun> expand(const Study& study) {
     run.name = safe_component(run.name);
     const auto plain = run.name;
     for (int n = 2; !names.insert(run.name).second; ++n) run.name = fmt::format("{}_{}", plain, n);
+    if (problems.empty()) add_derived(study, run, problems);  // one run that has none says enough
     runs.push_back(std::move(run));
     std::size_t k = leaders.size();
     while (k > 0 && ++index[leaders[k - 1]] == study.axes[leaders[k - 1]].values.size()) index[leaders[--k]] = 0;
-    if (k == 0) return runs;
+    if (k == 0) break;
   }
+  problems.throw_if_any();
+  return runs;
 }
 
 void resolve(const Study& study, std::vector<StudyRun>& runs) {

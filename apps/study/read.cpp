@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "apps/quantity/expression.hpp"
-#include "apps/scene/kinds/named.hpp"
 #include "apps/scene/read/reader.hpp"
 #include "apps/study/read_axes.hpp"
+#include "apps/study/read_runs.hpp"
 #include "apps/study/study.hpp"
 #include "apps/study/table.hpp"
 
@@ -102,41 +102,26 @@ void read_study_limit(Reader& reader, Study& study, Columns& columns) {
   study.limits.push_back(std::move(limit));
 }
 
-void read_stop(Reader& reader, Study& study) {
-  auto& stop = study.stop.emplace();
-  std::vector<std::string> valid;
-  for (const auto& quantity : study.quantities) valid.push_back(quantity.name);
-  for (const auto& limit : study.limits) valid.push_back(limit.name);
-  if (valid.empty())
-    reader.text("of", stop.of, "Name a quantity or a limit of this study.", Need::required);
-  else
-    reader.reference("of", stop.of, valid, Need::required);
-  const bool given = reader.holds("width");
-  reader.number("width", stop.width, positive("", "Use how wide the band of 95 % may be at most."));
-  if (!given)
-    reader.context().problems.add_missing(reader.key("width"), "how narrow its band has to be", "Use e.g. 0.05.");
-  reader.integer("least", stop.least, within(2, most_runs, "", "Use how many runs it takes at least, e.g. 20."));
-  if (std::ranges::any_of(study.axes, [](const Axis& axis) { return !axis.sampled && !axis.replicates; }))
-    reader.context().problems.add(reader.path(), "stops a study between values that are not random",
-                                  "Use random axes and replicates alone, or remove [stop].");
-}
-
-void read_samples(Reader& reader, Samples& samples) {
-  const bool given = reader.holds("number");
-  reader.integer("number", samples.number, within(1, most_runs, "", "Use e.g. 20: combinations that are drawn."));
-  if (!given)
-    reader.context().problems.add_missing(reader.key("number"), "how many combinations are drawn", "Use e.g. 20.");
-  reader.integer("seed", samples.seed, within(0, 1e9, "", "Use a whole number; another one draws other values."));
-  struct NamedPlan {
-    std::string_view name;
-    Plan plan;
-  };
-  static constexpr NamedPlan plans[] = {{"latin_hypercube", Plan::latin_hypercube},
-                                        {"sobol", Plan::sobol},
-                                        {"random", Plan::random},
-                                        {"saltelli", Plan::saltelli}};
-  std::string plan(plans[0].name);
-  if (reader.choice("plan", plan, names_of(plans))) samples.plan = named(plans, plan).plan;
+void read_derived(Reader& reader, Study& study) {
+  DerivedKey derived;
+  Problems& problems = reader.context().problems;
+  const char* const cure = "Use an expression of axes and constants, e.g. \"0.5*density\".";
+  reader.text("key", derived.key, "Name a key of the scene as for --set, e.g. body.wedge.mass.", Need::required);
+  reader.text("value", derived.value, cure, Need::required);
+  if (reader.holds("value")) derived.place = reader.place("value");
+  check_expression(reader, "value", derived.value);
+  if (derived.key.empty() || derived.value.empty() || problems.found_in(reader.key("value"))) return;
+  auto valid = std::vector<std::string>();
+  for (const auto& axis : study.axes)
+    if (axis.is_of_numbers()) valid.push_back(axis.name);
+  for (const auto& [name, value] : study.constants) valid.push_back(name);
+  for (const auto& name : quantity::names_in(derived.value)) {
+    if (std::ranges::find(valid, name) != valid.end()) continue;
+    const auto near = nearest(name, valid);
+    return problems.add(reader.key("value"), fmt::format("'{}' is neither an axis of numbers nor a constant", name),
+                        near.empty() ? cure : "Did you mean '" + near + "'?");
+  }
+  study.derived.push_back(std::move(derived));
 }
 
 /// The axis of a name, or a problem.
@@ -194,9 +179,11 @@ void read_root(Reader& root, Study& study) {
   read_axes(root, study, columns);
   if (study.axes.empty() && !problems.noted("axis"))
     problems.add_missing("axis", "what varies", "Write [[axis]] with name, key and values.");
+  root.each_table("derived", [&](Reader& reader) { read_derived(reader, study); });
   root.each_table("quantity", [&](Reader& reader) { read_quantity(reader, study, columns); });
   root.each_table("limit", [&](Reader& reader) { read_study_limit(reader, study, columns); });
   if (auto stop = root.table("stop")) read_stop(*stop, study);
+  if (auto envelope = root.table("envelope")) read_envelope(*envelope, study);
   if (auto chart = root.table("chart")) read_chart(*chart, study);
 }
 

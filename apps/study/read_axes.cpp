@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <set>
 #include <utility>
 
-#include "apps/scene/kinds/named.hpp"
-#include "apps/study/design/distribution.hpp"
 #include "apps/study/design/replicates.hpp"
+#include "apps/study/read_random.hpp"
 #include "apps/study/table.hpp"
 
 namespace splashdown::apps {
@@ -20,116 +18,6 @@ namespace {
 bool is_name(const std::string& text) {
   return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
          std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-}
-
-/// A key and its value for --set; none of a key that is missing, which is told already.
-std::vector<std::string> set_text(const std::string& key, const std::string& value) {
-  if (key.empty()) return {};
-  return {key + "=" + value};
-}
-
-/// What random axes are drawn from, until all of them are read and can be drawn together.
-struct RandomAxis {
-  std::size_t axis = 0;
-  Distribution distribution;
-  std::string key;
-  double scale = 1;
-  Place place;
-  std::vector<double> weights;  ///< of cases; empty: values of a key
-};
-
-/// Where values or weights are wrong.
-void refuse_distribution(Reader& reader, const std::string& fault) {
-  reader.context().problems.add(reader.path(), fault,
-                                "Write e.g. distribution = {type = \"normal\", mean = 3, sd = 0.5}.");
-}
-
-void read_distribution(Reader& reader, Distribution& distribution) {
-  using enum Distribution::Type;
-  struct Law {
-    std::string_view name;
-    Distribution::Type type;
-  };
-  static constexpr Law laws[] = {
-      {"normal", normal}, {"lognormal", lognormal}, {"weibull", weibull}, {"uniform", uniform}, {"table", table}};
-  std::string name;
-  if (!reader.choice("type", name, names_of(laws), Need::required)) return reader.skip_all();
-  distribution.type = named(laws, name).type;
-  const auto pair = [&](const char* first, const char* second) {
-    reader.number(first, distribution.first, any("", "Use a number."), Need::required);
-    reader.number(second, distribution.second, any("", "Use a number."), Need::required);
-  };
-  if (distribution.type == uniform) return pair("min", "max");
-  if (distribution.type == table) {
-    reader.numbers("values", distribution.values, any("", "Use values that ascend, e.g. [0, 1, 3]."));
-    reader.numbers("below", distribution.below,
-                   any("", "Use the share of all that lies below each value, e.g. [0, 0.7, 1]."));
-    return;
-  }
-  distribution.type == weibull ? pair("shape", "scale") : pair("mean", "sd");
-  reader.number("min", distribution.least, any("", "Use the lowest value that can occur."));
-  reader.number("max", distribution.most, any("", "Use the highest value that can occur."));
-}
-
-/// A range, or a distribution of its own.
-void read_random(Reader& reader, RandomAxis& random, const std::string& spacing) {
-  Problems& problems = reader.context().problems;
-  reader.number("scale", random.scale, any("", "Use the factor from these values to the scene's key."));
-  random.place = reader.place(reader.holds("range") ? "range" : "distribution");
-  if (auto table = reader.table("distribution")) {
-    if (reader.holds("range"))
-      problems.add(reader.key("range"), "must not stand beside distribution", "Use one of the two.");
-    read_distribution(*table, random.distribution);
-    if (problems.found_in(table->path())) return;
-    if (const auto fault = fault_of(random.distribution); !fault.empty()) refuse_distribution(*table, fault);
-    return;
-  }
-  std::vector<double> range;
-  reader.numbers("range", range, any("", "Use the lowest and the highest value, e.g. range = [-5, 5]."));
-  if (problems.found_in(reader.key("range"))) return;
-  const bool log = spacing == "log";
-  if (range.size() != 2 || range[0] >= range[1] || (log && range[0] <= 0))
-    return problems.add(
-        reader.key("range"),
-        log ? "must be two positive numbers, the lower one first" : "must be two numbers, the lower one first",
-        "Use e.g. range = [1, 5].");
-  random.distribution.type = log ? Distribution::Type::log_uniform : Distribution::Type::uniform;
-  random.distribution.first = range[0];
-  random.distribution.second = range[1];
-}
-
-/// The case into whose share of all weights `share` falls.
-std::size_t drawn_case(const std::vector<double>& weights, double share) {
-  const double all = std::accumulate(weights.begin(), weights.end(), 0.);
-  double sum = 0;
-  for (std::size_t k = 0; k + 1 < weights.size(); ++k)
-    if ((sum += weights[k]) > share * all) return k;
-  return weights.size() - 1;
-}
-
-/// Gives random axes their values.
-void draw(Study& study, const std::vector<RandomAxis>& randoms) {
-  std::vector<std::string> names;
-  for (const auto& random : randoms) names.push_back(study.axes[random.axis].name);
-  const auto shares = shares_of(study.samples->plan, study.samples->number, study.samples->seed, names);
-  for (std::size_t k = 0; k < randoms.size(); ++k) {
-    const auto& random = randoms[k];
-    auto& axis = study.axes[random.axis];
-    const auto cases = std::exchange(axis.values, {});
-    for (const double share : shares[k]) {
-      if (!random.weights.empty()) {
-        axis.values.push_back(cases[drawn_case(random.weights, share)]);
-        continue;
-      }
-      const auto text =
-          fmt::format("{:.6g}", quantile(random.distribution, share));  // tables and folders show what is run
-      const double number = std::stod(text);
-      axis.values.push_back({.text = text,
-                             .number = number,
-                             .set = set_text(random.key, toml_text(number * random.scale)),
-                             .place = random.place});
-    }
-  }
 }
 
 /// Meshes of practically one size: refine is `around`, and a few per cent beside it.
@@ -258,7 +146,7 @@ void read_axis(Reader& reader, Study& study, Columns& columns, std::vector<Rando
   const bool cases = reader.holds("case"), repeated = reader.holds("replicates"),
              ranged = reader.holds("range") || reader.holds("distribution"),
              listed = reader.holds("key") || reader.holds("values");
-  RandomAxis random{.axis = study.axes.size() - 1, .distribution = {}, .key = {}, .place = {}, .weights = {}};
+  RandomAxis random{.axis = study.axes.size() - 1};
   reader.text("name", axis.name, "Use a short word; it becomes a column.", Need::required);
   if (repeated) {
     read_replicates(reader, axis);
@@ -270,7 +158,7 @@ void read_axis(Reader& reader, Study& study, Columns& columns, std::vector<Rando
     reader.choice("spacing", spacing, {"linear", "log"});
     if (reader.holds("spacing") && !reader.holds("range"))
       problems.add(reader.key("spacing"), "has no range to space", "Remove it, or use range instead of values.");
-    ranged ? read_random(reader, random, spacing) : read_values(reader, axis, random.key);
+    ranged ? read_random(reader, study, random, spacing) : read_values(reader, axis, random.key);
   }
   if (ranged && reader.holds("values"))
     problems.add(reader.key("values"), "must not stand beside range or distribution", "Use one of the two.");
@@ -309,7 +197,7 @@ void Columns::take(const Reader& reader, const std::string& name) {
 void read_axes(Reader& root, Study& study, Columns& columns) {
   std::vector<RandomAxis> randoms;
   root.each_table("axis", [&](Reader& reader) { read_axis(reader, study, columns, randoms); });
-  if (!randoms.empty()) draw(study, randoms);
+  if (!randoms.empty()) draw_random(root, study, randoms);
 }
 
 }  // namespace splashdown::apps

@@ -15,6 +15,7 @@
 #include "apps/process/exit.hpp"
 #include "apps/process/interrupt.hpp"
 #include "apps/process/renewed_line.hpp"
+#include "apps/study/campaign/envelope.hpp"
 #include "apps/study/campaign/results.hpp"
 #include "apps/study/folder.hpp"
 #include "apps/text/number_text.hpp"
@@ -54,7 +55,7 @@ class Runner {
     for (std::size_t i = 0; i < runs.size(); ++i)
       if (!outcomes[i].finished())
         queue_.push_back(i);
-      else if (study.stop)
+      else if (answers_at_once())
         measure_run(study, runs[i], folder_ / runs[i].name, outcomes[i]);
     before_ = runs.size() - queue_.size();
   }
@@ -81,11 +82,46 @@ class Runner {
 
   fs::path log_of(std::size_t i) const { return folder_ / (runs_[i].name + ".log"); }
 
+  /// Whether a run's answer decides on the next one.
+  bool answers_at_once() const { return study_.stop || study_.envelope; }
+
+  /// The next run of the queue, or with an envelope the one that tells most about it; nothing: none for now.
+  std::optional<std::size_t> take() {
+    auto chosen = queue_.begin();
+    if (study_.envelope) {
+      if (waits_for_an_end_) return {};
+      const auto begun =
+          std::ranges::find(queue_, Outcome::Status::interrupted, [&](std::size_t i) { return outcomes_[i].status; });
+      chosen = begun != queue_.end() ? begun : std::ranges::find(queue_, most_telling().value_or(runs_.size()));
+      if (chosen == queue_.end()) {
+        waits_for_an_end_ = true;
+        if (running_.empty()) enough();
+        return {};
+      }
+    }
+    const std::size_t i = *chosen;
+    queue_.erase(chosen);
+    return i;
+  }
+
+  std::optional<std::size_t> most_telling() const {
+    if (before_ + made_ + running_.size() >= static_cast<std::size_t>(study_.envelope->runs)) return {};
+    std::vector<std::size_t> at_work;
+    for (const auto& running : running_) at_work.push_back(running.run);
+    return EnvelopePlane(study_, runs_, outcomes_, at_work).next();
+  }
+
+  void enough() {
+    queue_.clear();
+    end_.enough = true;
+  }
+
   void start_what_fits() {
     busy_ = 0;
     for (std::size_t tries = queue_.size(); tries > 0 && running_.size() < jobs_; --tries) {
-      const std::size_t i = queue_.front();
-      queue_.pop_front();
+      const auto next = take();
+      if (!next) return;
+      const std::size_t i = *next;
       const auto place = folder_ / runs_[i].name;
       if (is_busy(place)) {
         ++busy_;
@@ -127,11 +163,9 @@ class Runner {
     }
     ++made_;
     last_end_ = Clock::now();
-    if (study_.stop) measure_run(study_, runs_[i], folder_ / name, outcome);
-    if (is_enough()) {
-      queue_.clear();
-      end_.enough = true;
-    }
+    waits_for_an_end_ = false;
+    if (answers_at_once()) measure_run(study_, runs_[i], folder_ / name, outcome);
+    if (is_enough()) enough();
     // What a run says about its coupling stands in its summary.
     if (outcome.finished() && outcome.status != Outcome::Status::failed) fs::remove(log_of(i));
     auto text = fmt::format("[{}/{}] {}: {}", before_ + made_, runs_.size(), name, word(outcome.status));
@@ -201,6 +235,7 @@ class Runner {
   std::deque<std::size_t> queue_;
   std::list<Running> running_;
   std::size_t before_ = 0, made_ = 0, busy_ = 0;
+  bool waits_for_an_end_ = false;  // of a run, before an envelope chooses another one
   RunnerEnd end_;
   double seconds_of_tables_ = 0;
   Clock::time_point tables_at_{};

@@ -89,6 +89,21 @@ struct StudyStop {
   int least = 10;    ///< runs with an answer before it is asked
 };
 
+/// In the plane of two axes of numbers, where a limit is passed: the next run is made where that is least known.
+struct StudyEnvelope {
+  std::string limit;  ///< of the study
+  std::size_t x = 0, y = 0;
+  int runs = 0;         ///< no more than these are made
+  double level = 0.5;   ///< the line is where the probability of a yes is this
+  double doubt = 0.05;  ///< of each cell's side of the line; with less no more runs are begun
+};
+
+/// A key of the scene that follows from axes and constants.
+struct DerivedKey {
+  std::string key, value;  ///< value: an expression
+  Place place;
+};
+
 struct Study {
   std::filesystem::path file, scene;
   std::string title;
@@ -103,6 +118,8 @@ struct Study {
   std::vector<Axis> axes;
   std::vector<StudyQuantity> quantities;
   std::vector<StudyLimit> limits;  ///< beside those of the scene
+  std::vector<DerivedKey> derived;
+  std::optional<StudyEnvelope> envelope;
   std::optional<StudyStop> stop;
   std::map<std::string, double> constants;
   std::optional<StudyChart> chart;
@@ -112,7 +129,7 @@ struct Study {
 struct StudyRun {
   std::string name;                ///< of its folder
   std::vector<std::size_t> value;  ///< of each axis, by index
-  std::vector<std::string> set;    ///< all --set arguments
+  std::vector<std::string> set;    ///< all --set arguments; those of derived keys are the last
   std::string resolved;            ///< the scene with all values in force
   double stop = 0;                 ///< simulated time at which it is finished [s]
 };

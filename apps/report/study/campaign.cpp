@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <set>
 #include <vector>
 
 #include "apps/report/data.hpp"
 #include "apps/report/page.hpp"
 #include "apps/report/study/distributions.hpp"
+#include "apps/report/study/envelopes.hpp"
 #include "apps/report/words.hpp"
 #include "apps/text/number_text.hpp"
 
@@ -87,64 +84,6 @@ std::string probabilities(const Json& campaign) {
                "The band (Wilson 1927) is that of chance: so many runs say no more. Runs whose own band leaves the "
                "answer open count as no at its "
                "lower end and as yes at its upper one. Runs without an answer broke down; they are in neither.");
-}
-
-/// A limit's groups over two axes of numbers.
-struct Envelope {
-  std::string x, y;
-  std::map<double, std::map<double, const Json*, std::greater<>>> cells;  ///< by x, then by y from above
-
-  explicit Envelope(const Json& campaign, const std::string& limit) {
-    for (const auto& row : entries(campaign, "probabilities")) {
-      if (text_at(row, "limit") != limit || !row.contains("at") || row["at"].size() != 2) continue;
-      std::vector<std::pair<std::string, double>> at;
-      for (const auto& [axis, value] : row["at"].items()) {
-        const auto text = value.is_string() ? value.get<std::string>() : std::string();
-        double number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error == std::errc() && end == text.data() + text.size()) at.emplace_back(axis, number);
-      }
-      if (at.size() != 2) continue;
-      x = at[0].first;
-      y = at[1].first;
-      cells[at[0].second][at[1].second] = &row;
-    }
-  }
-  std::string html(const std::string& limit) const {
-    std::string html = fmt::format("<figure><div class=\"scroll\"><table class=\"map\"><thead><tr><th>{} \\ {}</th>",
-                                   html_escaped(y), html_escaped(x));
-    for (const auto& [at, column] : cells) html += fmt::format("<th>{:g}</th>", at);
-    html += "</tr></thead><tbody>\n";
-    for (const auto& [height, unused] : cells.begin()->second) {
-      html += fmt::format("<tr><th>{:g}</th>", height);
-      for (const auto& [at, column] : cells) {
-        const auto cell = column.find(height);
-        if (cell == column.end()) {
-          html += "<td>–</td>";
-          continue;
-        }
-        const double p = number_at(*cell->second, {"probability"});
-        const auto band = band_at(*cell->second, "band");
-        html += fmt::format(
-            "<td style=\"background:rgba(200,60,40,{:.2f})\" title=\"{:.0f} to {:.0f} %\">{}{:.0f} %{}</td>", 0.6 * p,
-            100 * band.first, 100 * band.second, p > 0.5 ? "<b>" : "", 100 * p, p > 0.5 ? "</b>" : "");
-      }
-      html += "</tr>\n";
-    }
-    return html + fmt::format(
-                      "</tbody></table></div><figcaption>Envelope of {}: share of runs beyond it. Under the mouse its "
-                      "band of 95 %. Bold: in most runs.</figcaption></figure>\n",
-                      html_escaped(limit));
-  }
-};
-
-std::string envelopes(const Json& campaign) {
-  std::string html;
-  std::set<std::string> limits;
-  for (const auto& row : entries(campaign, "probabilities")) limits.insert(text_at(row, "limit"));
-  for (const auto& limit : limits)
-    if (const Envelope envelope(campaign, limit); envelope.cells.size() > 1) html += envelope.html(limit);
-  return html.empty() ? html : "<h2>Envelopes</h2>\n<div class=\"grid\">" + html + "</div>\n";
 }
 
 std::string statistics(const Json& campaign) {

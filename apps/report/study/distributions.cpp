@@ -100,6 +100,80 @@ std::string histogram(const Column& column) {
   return picture(body, low, high, column.label, "Number of runs. Above: the middle half, 90 % of all, and the median.");
 }
 
+/// Linear between sorted values.
+double quantile_in(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>(at), sorted.size() - 1);
+  const double next = sorted[std::min(k + 1, sorted.size() - 1)];
+  return sorted[k] + (at - static_cast<double>(k)) * (next - sorted[k]);
+}
+
+/// The numbers of a quantity at one value of an axis.
+struct Level {
+  std::string label;
+  std::vector<double> values;
+};
+
+/// Of each axis that is neither random nor of replicates: a level a value, in the order of the runs.
+std::vector<Level> levels_of(const Json& study, const Column& column) {
+  constexpr std::size_t fewest = 3;  // runs a level: fewer have no box
+  std::vector<Level> all;
+  for (const auto& axis : entries(study, "axes")) {
+    if (axis.contains("random") || axis.contains("replicates")) continue;
+    const auto name = text_at(axis, "name");
+    std::vector<Level> levels;
+    for (std::size_t i = 0; i < column.runs.size(); ++i) {
+      const double number = number_at(*column.runs[i], {"axes", name.c_str()});
+      const auto label = fmt::format(
+          "{} {}", name,
+          std::isfinite(number) ? fmt::format("{:g}", number) : text_at((*column.runs[i])["axes"], name.c_str()));
+      auto level = std::ranges::find(levels, label, &Level::label);
+      if (level == levels.end()) level = levels.insert(level, {label, {}});
+      level->values.push_back(column.values[i]);
+    }
+    if (levels.size() > 1 && std::ranges::all_of(levels, [](const Level& l) { return l.values.size() >= fewest; }))
+      all.insert(all.end(), levels.begin(), levels.end());
+  }
+  return all;
+}
+
+/// Box plots by factor: the middle half with the median, and all runs of a level, on the scale of all levels.
+std::string boxes(const Json& study, const Column& column) {
+  constexpr double row = 17, label = 118;
+  constexpr std::size_t most_rows = 40;
+  const auto levels = levels_of(study, column);
+  if (levels.empty() || levels.size() > most_rows) return {};
+  const auto [low, high] = column.range();
+  const auto x = [&, from = low, to = high](double value) {
+    return label + (Plot::width - Plot::right - label) * (to > from ? (value - from) / (to - from) : 0.5);
+  };
+  std::string body;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    auto sorted = levels[k].values;
+    std::ranges::sort(sorted);
+    const double y = row * (static_cast<double>(k) + 0.5);
+    body += fmt::format(
+        "<text x=\"0\" y=\"{0:.1f}\">{1}</text><line x1=\"{2:.1f}\" x2=\"{3:.1f}\" y1=\"{4:.1f}\" y2=\"{4:.1f}\" "
+        "stroke=\"currentColor\"/><rect x=\"{5:.1f}\" y=\"{6:.1f}\" width=\"{7:.1f}\" height=\"{8:.1f}\" "
+        "fill-opacity=\"0.45\"><title>{9} runs: {10} to {11}</title></rect><circle cx=\"{12:.1f}\" cy=\"{4:.1f}\" "
+        "r=\"4\" "
+        "fill=\"#c8501e\"><title>{13}</title></circle>",
+        y + 4, html_escaped(levels[k].label), x(sorted.front()), x(sorted.back()), y, x(quantile_in(sorted, 0.25)),
+        y - 5, std::max(x(quantile_in(sorted, 0.75)) - x(quantile_in(sorted, 0.25)), 1.), 10., sorted.size(),
+        digits(sorted.front(), 3), digits(sorted.back(), 3), x(quantile_in(sorted, 0.5)),
+        digits(quantile_in(sorted, 0.5), 3));
+  }
+  const double height = row * static_cast<double>(levels.size()) + 16;
+  body += fmt::format(
+      "<text x=\"{:.0f}\" y=\"{:.0f}\">{}</text><text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"end\">{}</text>", label,
+      height - 3, digits(low, 3), Plot::width - Plot::right, height - 3, digits(high, 3));
+  return fmt::format(
+      "<figure><svg viewBox=\"0 0 {0} {1}\" width=\"100%\" role=\"img\" fill=\"currentColor\" "
+      "font-size=\"11\">{2}</svg><figcaption>{3} by factor: the middle half of the runs, their median, and all of "
+      "them.</figcaption></figure>\n",
+      Plot::width, height, body, html_escaped(column.label));
+}
+
 std::string scatter(const Column& x, const Column& y) {
   const auto [x_low, x_high] = x.range();
   const auto [y_low, y_high] = y.range();
@@ -132,7 +206,7 @@ std::string distributions(const Json& study) {
       if (text_at(column, "name") == name) label = text_at(column, "label");
     const Column y(study, "numbers", name, label);
     if (y.values.size() < 5) continue;
-    html += histogram(y);
+    html += histogram(y) + boxes(study, y);
     for (const auto& axis : entries(study, "axes")) {
       if (!axis.contains("random")) continue;
       const Column x(study, "axes", text_at(axis, "name"), text_at(axis, "label"));

@@ -6,7 +6,7 @@
 
 namespace splashdown::apps {
 
-/// A histogram a quantity, and its runs over each random axis of numbers; HTML. From study.json with an entry `campaign`.
+/// A histogram a quantity, its box plots by factor, and its runs over each random axis of numbers; HTML. From study.json with an entry `campaign`.
 std::string distributions(const nlohmann::ordered_json& study);
 
 }  // namespace splashdown::apps

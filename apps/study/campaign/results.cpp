@@ -132,11 +132,28 @@ void add_indices(Campaign& campaign, const Study& study, const std::vector<Study
   }
 }
 
+CampaignEnvelope envelope_of(const Study& study, const std::vector<StudyRun>& runs,
+                             const std::vector<Outcome>& outcomes) {
+  const auto& asked = *study.envelope;
+  const auto &x = study.axes[asked.x], &y = study.axes[asked.y];
+  CampaignEnvelope envelope{.limit = asked.limit,
+                            .x = x.name,
+                            .y = y.name,
+                            .x_values = {},
+                            .y_values = {},
+                            .level = asked.level,
+                            .doubt = asked.doubt,
+                            .cells = EnvelopePlane(study, runs, outcomes).cells()};
+  for (const auto& value : x.values) envelope.x_values.push_back(*value.number);
+  for (const auto& value : y.values) envelope.y_values.push_back(*value.number);
+  return envelope;
+}
+
 }  // namespace
 
 std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyRun>& runs,
                                     const std::vector<Outcome>& outcomes) {
-  if (!has_chance(study) && factors_of(study).size() < 2) return {};
+  if (!has_chance(study) && factors_of(study).size() < 2 && !study.envelope) return {};
   Campaign campaign;
   campaign.groups = groups_of(study, runs);
   const auto limits = limit_names(outcomes);
@@ -146,6 +163,7 @@ std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyR
   }
   add_effects(campaign, study, runs, outcomes);
   add_indices(campaign, study, runs, outcomes);
+  if (study.envelope) campaign.envelope = envelope_of(study, runs, outcomes);
   return campaign;
 }
 

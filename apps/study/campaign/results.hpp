@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/study/campaign/effects.hpp"
+#include "apps/study/campaign/envelope.hpp"
 #include "apps/study/campaign/sample.hpp"
 #include "apps/study/campaign/sobol_indices.hpp"
 #include "apps/study/study.hpp"
@@ -54,6 +55,15 @@ struct QuantityIndices {
   std::vector<SobolIndex> indices;  ///< by random axis
 };
 
+/// What [envelope] asks for.
+struct CampaignEnvelope {
+  std::string limit, x, y;  ///< axes by name
+  std::vector<double> x_values, y_values;
+  double level = 0.5;
+  double doubt = 0.05;              ///< that a cell may have
+  std::vector<EnvelopeCell> cells;  ///< by x, then by y
+};
+
 struct Campaign {
   std::vector<Group> groups;  ///< not empty
   std::vector<QuantityStatistics> statistics;
@@ -63,20 +73,21 @@ struct Campaign {
   std::vector<QuantityEffects> effects;
   std::vector<std::string> random_axes;
   std::vector<QuantityIndices> indices;
+  std::optional<CampaignEnvelope> envelope;
 
   Campaign() = default;
   Campaign(Campaign&&) = default;  // groups are pointed at
   Campaign& operator=(Campaign&&) = default;
 };
 
-/// Nothing for a study that is a mere grid of values: it has neither chance nor factors.
+/// Nothing for a study that is a mere grid of values: it has neither chance nor factors nor an envelope.
 std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyRun>& runs,
                                     const std::vector<Outcome>& outcomes);
 
 /// For study.json.
 nlohmann::ordered_json json_of(const Campaign& campaign);
 
-/// statistics.csv, probabilities.csv, effects.csv, sobol_indices.csv: those that have rows. Others of earlier calls are removed.
+/// statistics.csv, probabilities.csv, effects.csv, sobol_indices.csv, envelope.csv: those that have rows. Others of earlier calls are removed.
 void write_campaign(const Campaign& campaign, const std::filesystem::path& folder);
 
 /// For the console: a line a limit, and the design.

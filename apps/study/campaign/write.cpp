@@ -80,6 +80,38 @@ std::string indices_csv(const Campaign& campaign) {
   return text;
 }
 
+std::string envelope_csv(const Campaign& campaign) {
+  const auto& envelope = *campaign.envelope;
+  std::string text = fmt::format("{},{},yes,no,within_the_band,probability,doubt\n", envelope.x, envelope.y);
+  for (const auto& cell : envelope.cells)
+    text += fmt::format("{},{},{},{},{},{},{}\n", envelope.x_values[cell.x], envelope.y_values[cell.y], cell.yes,
+                        cell.no, cell.open, cell.probability, cell.doubt);
+  return text;
+}
+
+Json json_of_envelope(const CampaignEnvelope& envelope) {
+  Json root = {{"limit", envelope.limit}, {"x", envelope.x}, {"y", envelope.y}, {"level", envelope.level}};
+  for (const auto& cell : envelope.cells)
+    root["cells"].push_back({{"x", envelope.x_values[cell.x]},
+                             {"y", envelope.y_values[cell.y]},
+                             {"yes", cell.yes},
+                             {"no", cell.no},
+                             {"within_the_band", cell.open},
+                             {"probability", cell.probability},
+                             {"doubt", cell.doubt}});
+  return root;
+}
+
+/// "envelope of hot: 61 of 400 cells have runs, 12 are in doubt"
+std::string envelope_text(const CampaignEnvelope& envelope) {
+  const auto known = std::ranges::count_if(envelope.cells,
+                                           [](const EnvelopeCell& cell) { return cell.yes + cell.no + cell.open > 0; });
+  const auto doubtful =
+      std::ranges::count_if(envelope.cells, [&](const EnvelopeCell& cell) { return cell.doubt > envelope.doubt; });
+  return fmt::format("  envelope of {}: {} of {} cells have runs, {} are in doubt\n", envelope.limit, known,
+                     envelope.cells.size(), doubtful);
+}
+
 Json json_of_statistics(const Campaign& campaign) {
   Json list = Json::array();
   for (const auto& entry : campaign.statistics) {
@@ -149,6 +181,7 @@ Json json_of(const Campaign& campaign) {
     for (const Factors word : campaign.fraction.words())
       root["fraction"]["words"].push_back(product_text(word, campaign.factors));
   }
+  if (campaign.envelope) root["envelope"] = json_of_envelope(*campaign.envelope);
   if (!campaign.effects.empty()) root["effects"] = json_of_effects(campaign);
   for (const auto& entry : campaign.indices)
     for (std::size_t a = 0; a < entry.indices.size(); ++a)
@@ -171,6 +204,7 @@ void write_campaign(const Campaign& campaign, const fs::path& folder) {
   write("probabilities.csv", !campaign.probabilities.empty(), probabilities_csv);
   write("effects.csv", !campaign.effects.empty(), effects_csv);
   write("sobol_indices.csv", !campaign.indices.empty(), indices_csv);
+  write("envelope.csv", campaign.envelope.has_value(), envelope_csv);
 }
 
 std::string campaign_text(const Campaign& campaign, const Study& study) {
@@ -198,6 +232,7 @@ std::string campaign_text(const Campaign& campaign, const Study& study) {
       words += (words.empty() ? "" : ", ") + product_text(word, campaign.factors);
     text += fmt::format("  fraction of resolution {}: 1 = {}\n", resolution_text(resolution), words);
   }
+  if (campaign.envelope) text += envelope_text(*campaign.envelope);
   return text;
 }
 

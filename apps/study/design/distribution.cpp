@@ -78,6 +78,23 @@ std::string fault_of_table(const Distribution& d) {
 
 }  // namespace
 
+void Distribution::set(Part part, double value) {
+  switch (part) {
+    case Part::first:
+      first = value;
+      break;
+    case Part::second:
+      second = value;
+      break;
+    case Part::least:
+      least = value;
+      break;
+    case Part::most:
+      most = value;
+      break;
+  }
+}
+
 double quantile(const Distribution& distribution, double u) {
   const double low = distribution.least ? evaluated(distribution, false, *distribution.least) : 0;
   const double high = distribution.most ? evaluated(distribution, false, *distribution.most) : 1;
@@ -99,6 +116,8 @@ double mean_of(const Distribution& distribution) {
 std::string fault_of(const Distribution& d) {
   using enum Distribution::Type;
   if (d.type == table) return fault_of_table(d);
+  for (const double number : {d.first, d.second, d.least.value_or(0), d.most.value_or(0)})
+    if (!std::isfinite(number)) return "needs numbers that are finite";
   if ((d.type == uniform || d.type == log_uniform) && !(d.first < d.second))
     return "needs a lowest value below the highest";
   if (d.type == log_uniform && !(d.first > 0)) return "needs positive values";

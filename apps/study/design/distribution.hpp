@@ -16,6 +16,10 @@ struct Distribution {
   double first = 0, second = 1;
   std::vector<double> values, below;  ///< table: values and the shares of all below them, from 0 to 1, linear between
   std::optional<double> least, most;  ///< cut off there: what is outside never occurs
+
+  enum class Part { first, second, least, most };
+  /// Sets one of its numbers.
+  void set(Part part, double value);
 };
 
 /// Value below which the share `u` of all values lies. `u` is in [0, 1); 0 stands for the smallest share that doubles tell from it.

@@ -165,4 +165,49 @@ check "the gathering job waits for all" grep -q -- '--dependency=afterany:7:7' s
 "$splashdown" study study.toml --quiet --out local_again
 check "the array's results are those of a study without Slurm" same_results local_again array
 
+# An envelope: runs are made where the limit's line is least known
+cat >fall.toml <<'FALL'
+[time]
+end = 0.1
+[gravity]
+[[body]]
+name = "box"
+mass = 1.0
+velocity = [0.0, 0.0]
+shape = {type = "box", width = 0.1, height = 0.1}
+FALL
+cat >envelope.toml <<'ENVELOPE'
+scene = "fall.toml"
+[[axis]]
+name = "u"
+key = "body.box.velocity.0"
+values = [0, 1, 2, 3, 4, 5, 6, 7]
+[[axis]]
+name = "v"
+key = "body.box.velocity.1"
+values = [0, 1, 2, 3, 4, 5, 6, 7]
+[[quantity]]
+name = "speed"
+table = "bodies.csv:box"
+quantity = "sqrt(last(vx)^2 + last(vy)^2)"
+[[limit]]
+name = "fast"
+quantity = "speed"
+above = 5
+[envelope]
+limit = "fast"
+x = "u"
+y = "v"
+runs = 12
+ENVELOPE
+check "an envelope ends after its runs" exits 0 "$splashdown" study envelope.toml --out plane --quiet
+check "as many as it may make" test "$(grep -c ',converged,' plane/study.csv)" = 12
+sed -i 's/runs = 12/runs = 64/' envelope.toml
+check "the same command continues it" exits 0 "$splashdown" study envelope.toml --out plane --quiet
+check "and ends before all are made" test "$(grep -c ',converged,' plane/study.csv)" -lt 40
+# Gravity takes 0.98 m/s from v. Cells whose speed is within 0.3 of the limit may be on either side.
+check "each cell is on its side of the line" test "$(awk -F, 'NR > 1 {s = sqrt($1^2 + ($2 - 0.98)^2); if ((s < 4.7 && $6 > 0.5) || (s > 5.3 && $6 < 0.5)) ++n} END {print n + 0}' plane/envelope.csv)" = 0
+check "the report draws the line" grep -q 'border-left:2px solid' plane/report.html
+check "runs that are handed over at once cannot be chosen" exits 2 env PATH="$work/bin:$PATH" "$splashdown" study envelope.toml --on slurm --out never
+
 verdict
