@@ -8,13 +8,13 @@
 
 namespace splashdown::elastic {
 
-Status Scheme::accelerate(Motion& motion) {
+Status Scheme::accelerate(SolidState& motion) {
   Field force = dynamics_.load(motion.t) - system().internal_force(motion.u);
   if (const auto* C = damping_at(motion, 0)) force -= *C * motion.v;
   return solver_.solve_mass(system(), force, motion.a);
 }
 
-const Sparse* Scheme::damping_at(const Motion& now, double half) {
+const Sparse* Scheme::damping_at(const SolidState& now, double half) {
   const auto& [mass, stiffness] = dynamics_.damping;
   if (mass == 0 && stiffness == 0) return nullptr;
   C_ = system().mass();
@@ -34,7 +34,7 @@ class GeneralisedAlpha final : public Scheme {
   GeneralisedAlpha(Dynamics dynamics, double am, double af, double beta, double gamma)
       : Scheme(std::move(dynamics)), am_(am), af_(af), beta_(beta), gamma_(gamma) {}
 
-  Status step(const Motion& now, double dt, Motion& next) override {
+  Status step(const SolidState& now, double dt, SolidState& next) override {
     const auto* C = damping_at(now, dt / 2);
     const Field p = now.u + dt * now.v + dt * dt * (0.5 - beta_) * now.a;
     const double to_a = 1 / (beta_ * dt * dt), to_v = gamma_ / (beta_ * dt);
@@ -64,7 +64,7 @@ class Thetas : public Scheme {
   };
   using Scheme::Scheme;
 
-  Status step(const Motion& now, double dt, Motion& next) override {
+  Status step(const SolidState& now, double dt, SolidState& next) override {
     const auto* C = damping_at(now, dt / 2);
     next = now;
     for (const auto& [share, weight] : parts(dt))
@@ -78,7 +78,7 @@ class Thetas : public Scheme {
   virtual std::vector<Part> parts(double dt) const = 0;
 
  private:
-  Status part(double dt, double weight, const Sparse* C, Motion& motion) {
+  Status part(double dt, double weight, const Sparse* C, SolidState& motion) {
     const double step = weight * dt, rest = 1 - weight;
     Stage stage{.mass = 1 / (step * step), .damping = 1 / step};
     stage.p = motion.u + dt * motion.v;
@@ -123,7 +123,7 @@ class FractionalStepTheta final : public Thetas {
 class Midpoint final : public Thetas {
  public:
   using Thetas::Thetas;
-  Status step(const Motion& now, double dt, Motion& next) override {
+  Status step(const SolidState& now, double dt, SolidState& next) override {
     if (auto status = Thetas::step(now, dt / 2, next); !status.ok()) return status;
     next.t = now.t + dt;
     next.u = 2 * next.u - now.u;
@@ -139,7 +139,11 @@ class Midpoint final : public Thetas {
 class Steady final : public Scheme {
  public:
   using Scheme::Scheme;
-  Status step(const Motion& now, double dt, Motion& next) override {
+  Status accelerate(SolidState& motion) override {
+    motion.a.setZero(motion.u.size());
+    return {};
+  }
+  Status step(const SolidState& now, double dt, SolidState& next) override {
     const Field from = system().internal_force(now.u), to = dynamics_.load(now.t + dt);
     next = now;
     next.t = now.t + dt;

@@ -23,7 +23,7 @@
 namespace splashdown::elastic {
 
 /// A state at an instant.
-struct Motion {
+struct SolidState {
   double t = 0;   ///< [s]
   Field u, v, a;  ///< displacement, velocity, acceleration [m, m/s, m/s^2]
 };
@@ -49,9 +49,9 @@ class Scheme {
   explicit Scheme(Dynamics dynamics) : dynamics_(std::move(dynamics)), solver_(dynamics_.newton) {}
   virtual ~Scheme() = default;
   /// One step from a state that stays as it is; refused with a cause, `next` is then of no use.
-  virtual Status step(const Motion& now, double dt, Motion& next) = 0;
+  virtual Status step(const SolidState& now, double dt, SolidState& next) = 0;
   /// The accelerations that the state at its instant has.
-  Status accelerate(Motion& motion);
+  virtual Status accelerate(SolidState& motion);
   /// Newton iterations so far: each assembles, factors and solves once.
   long iterations() const { return solver_.iterations(); }
   /// What it was made from.
@@ -59,7 +59,7 @@ class Scheme {
 
  protected:
   /// C at u + half * v; null: there is none.
-  const Sparse* damping_at(const Motion& now, double half);
+  const Sparse* damping_at(const SolidState& now, double half);
   /// That it moves.
   const System& system() const { return *dynamics_.system; }
 

@@ -33,7 +33,7 @@ void expect_patch() {
     for (int j = 0; j < d; ++j) gradient(i, j) = 0.1 * std::cos(1. + i + 3 * j);
   for (auto& law : laws<d>()) {
     Solid<d> solid(crooked_box<d>(), std::move(law), 1);
-    Motion start = at_rest(solid), end;
+    SolidState start = at_rest(solid), end;
     for (int a = 0; a < solid.mesh().size(); ++a)
       start.u.segment<d>(d * a) = gradient * solid.mesh().nodes.col(a) + Vec<d>::Constant(0.005 * std::cos(a));
     for (const auto& facet : solid.mesh().facets)
@@ -118,7 +118,7 @@ double manufactured_error(int n, const std::function<std::unique_ptr<const Law<d
     }
     return b;
   });
-  Motion start = at_rest(solid), end;
+  SolidState start = at_rest(solid), end;
   for (int a = 0; a < solid.mesh().size(); ++a) start.u.segment<d>(d * a) = exact(solid.mesh().nodes.col(a));
   for (const auto& facet : solid.mesh().facets)
     for (const int a : facet)

@@ -75,13 +75,13 @@ inline std::function<Field(double)> always(Field load) {
   return [load = std::move(load)](double) { return load; };
 }
 /// At rest, undeformed.
-inline Motion at_rest(const System& system) {
+inline SolidState at_rest(const System& system) {
   const Field zero = Field::Zero(system.size());
   return {0, zero, zero, zero};
 }
 /// Equilibrium under a load, from the undeformed solid.
 inline Field equilibrium(const System& system, const Field& load) {
-  Motion end;
+  SolidState end;
   const auto status = steady({.system = &system, .load = always(load)})->step(at_rest(system), 1, end);
   if (!status.ok()) throw std::runtime_error(status.cause);
   return end.u;

@@ -57,7 +57,7 @@ TEST(TurekHron, csm1_and_csm2_within_0_3_percent) {
 TEST(TurekHron, csm3_within_0_5_percent) {
   const Flag flag(0.5e6, 0.01);
   auto scheme = midpoint({.system = &flag.solid, .load = always(flag.weight)});
-  Motion motion = at_rest(flag.solid), next;
+  SolidState motion = at_rest(flag.solid), next;
   const double dt = 0.005;
   Vec<2> least = Vec<2>::Zero();
   double period = 0, before = 0;
