@@ -5,11 +5,13 @@
 #include <stdexcept>
 
 #include "apps/build/formulations.hpp"
+#include "apps/effects/elastic/solid.hpp"
 #include "apps/scene/kinds/coupling_kinds.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/mirror.hpp"
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "coupling/schemes/steppers.hpp"
+#include "elastic/participant.hpp"
 #include "fluid/pfem/participant.hpp"
 #include "fluid/vortex/participant.hpp"
 #include "rigid/participant.hpp"
@@ -87,6 +89,16 @@ std::unique_ptr<coupling::StructurePart> build_bodies(std::unique_ptr<rigid::Bod
   return part;
 }
 
+/// Bodies that deform, alone: their rules see to it that nothing else is in the scene.
+template <int d>
+std::unique_ptr<coupling::StructurePart> build_solids(const Scene& scene, World<d>& world) {
+  auto specs = solid_specs<d>(scene);
+  for (std::size_t i = 0; i < specs.size(); ++i) specs[i].body = body_spec<d>(scene.bodies[i]);
+  auto part = std::make_unique<elastic::Participant<d>>(std::move(specs));
+  world.solids = part.get();
+  return part;
+}
+
 /// Added masses are of a step under way.
 bool may_wait(const Scene& scene) {
   return std::ranges::none_of(scene.records,
@@ -113,6 +125,10 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
 template <int d>
 World<d> build_world(const Scene& scene, std::function<void()> meanwhile, Hooks<d> hooks) {
   World<d> world;
+  if (scene.effects.find<ElasticTables>()) {
+    world.stepper = std::make_unique<coupling::StructureOnly>(build_solids<d>(scene, world), scene.time.dt_max);
+    return world;
+  }
   auto parts = parts_of<d>(scene);
   std::ranges::move(hooks.forces, std::back_inserter(parts.forces));
   auto fluid = scene.fluid    ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world)

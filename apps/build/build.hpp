@@ -10,6 +10,7 @@
 #include "apps/build/whole.hpp"
 #include "apps/record/settings.hpp"
 #include "apps/scene/scene.hpp"
+#include "core/solids_view.hpp"
 #include "coupling/schemes/stepper.hpp"
 #include "fluid/pfem/fluid.hpp"
 #include "fluid/pfem/mesh/sizes/size_sources.hpp"
@@ -23,7 +24,8 @@ template <int d>
 struct World {
   std::unique_ptr<coupling::Stepper> stepper;  ///< owns the parts
   const FluidView<d>* fluid = nullptr;         ///< null: no fluid in the scene
-  const rigid::Bodies<d>* bodies = nullptr;    ///< null: no bodies in the scene
+  const rigid::Bodies<d>* bodies = nullptr;    ///< null: no rigid bodies in the scene
+  const SolidsView<d>* solids = nullptr;       ///< null: no elastic bodies in the scene
   std::unique_ptr<Whole<d>> whole = nullptr;   ///< how the scene is told; null: as it is simulated
 };
 

@@ -2,6 +2,7 @@
 #include "apps/effects/absorber/absorber.hpp"
 #include "apps/effects/aero/aero.hpp"
 #include "apps/effects/compressibility/compressibility.hpp"
+#include "apps/effects/elastic/elastic.hpp"
 #include "apps/effects/force/force.hpp"
 #include "apps/effects/form_drag/form_drag.hpp"
 #include "apps/effects/gravity/gravity.hpp"
@@ -29,6 +30,7 @@ std::span<const EffectKind* const> effect_kinds() {
       row<GravityKind>(),  row<ViscosityKind>(), row<AbsorberKind>(),  row<SkinFrictionKind>(),
       row<FormDragKind>(), row<WindKind>(),      row<AeroKind>(),      row<ForceKind>(),
       row<LinesKind>(),    row<WavesKind>(),     row<WavemakerKind>(), row<CompressibilityKind>(),
+      row<ElasticKind>(),
       row<SymmetryKind>(),  // the last: it cuts what the others have made
   };
   return catalogue;

@@ -117,6 +117,7 @@ struct Recorder<d>::State {
   void add_statistics(const RecordInput<d>& input);
   void write_rows(const RecordInput<d>& input);
   void write_forces(const RecordInput<d>& input);
+  void write_deformations(const RecordInput<d>& input);
   void write_probes(const RecordInput<d>& input);
   void write_surface_pressure(const RecordInput<d>& input, std::size_t record);
   void write_added_mass(const RecordInput<d>& input, const std::string& body);
@@ -195,6 +196,7 @@ void Recorder<d>::State::write_rows(const RecordInput<d>& input) {
               BodyRow<d>{input.time, input.bodies->spec(b).name, input.bodies->state(b).pose, input.body_velocity_n[b],
                          input.body_acceleration_n[b], input.body_load[b], submergence[b]});
   if (input.bodies) write_forces(input);
+  if (input.solids) write_deformations(input);
   if (input.fluid) {
     const auto& fluid = *input.fluid;
     std::vector<std::string> names;
@@ -217,6 +219,13 @@ void Recorder<d>::State::write_forces(const RecordInput<d>& input) {
   csv << input.time;
   for (const auto& [name, value] : forces) csv << value;
   csv.end_row();
+}
+
+template <int d>
+void Recorder<d>::State::write_deformations(const RecordInput<d>& input) {
+  for (std::size_t b = 0; b < input.solids->size(); ++b)
+    write_row(file("elastic.csv", elastic_header),
+              ElasticRow<d>{input.time, input.solids->spec(b).name, input.solids->deformation(b)});
 }
 
 template <int d>
@@ -250,6 +259,8 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
     for (const auto& [name, value] : settings.signals) put(name, value(input.time));
     for (std::size_t i = 0; i < settings.patches.size(); ++i) put(settings.patches[i].name, hulls.pressures()[i]);
   }
+  if (input.solids)
+    for (const auto& [name, value] : input.solids->displacements()) put(name, value);
   for (std::size_t i = 0; i < equipment.size(); ++i) {
     const auto acceleration = equipment_acceleration(input, i);
     for (int k = 0; k < d; ++k) put(settings.equipment[i].name + ".a" + "xyz"[k], acceleration(k));

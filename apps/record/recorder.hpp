@@ -18,6 +18,7 @@
 #include "apps/statistics/summary.hpp"
 #include "core/bodies_view.hpp"
 #include "core/fluid_view.hpp"
+#include "core/solids_view.hpp"
 
 namespace splashdown::apps {
 
@@ -26,6 +27,7 @@ template <int d>
 struct RecordInput {
   const FluidView<d>* fluid = nullptr;        ///< null: a scene without liquid
   const BodiesView<d>* bodies = nullptr;      ///< null: a scene without bodies
+  const SolidsView<d>* solids = nullptr;      ///< the same bodies where they deform; null: they are rigid
   std::vector<Twist<d>> body_velocity_n;      ///< mean of the half-step velocities around t_n
   std::vector<Twist<d>> body_acceleration_n;  ///< their difference over the kick
   std::vector<WallLoad<d>> body_load;         ///< about the centre of mass; zero where dry

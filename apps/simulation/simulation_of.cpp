@@ -48,6 +48,14 @@ RecordInput<d> SimulationOf<d>::known(const StepMade& step) const {
       in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : WallLoad<d>{});
     }
   }
+  if (const auto* solids = world_.solids) {
+    in.bodies = in.solids = solids;
+    for (std::size_t i = 0; i < solids->size(); ++i) {
+      in.body_velocity_n.push_back(solids->velocity_n(i));
+      in.body_acceleration_n.push_back(solids->acceleration_n(i));
+      in.body_load.push_back({});
+    }
+  }
   return world_.whole ? world_.whole->tell(std::move(in)) : in;
 }
 

@@ -138,6 +138,7 @@ std::optional<Names> columns_of(const std::string& table, const Scene& scene) {
   if (file == "added_mass.csv") return split(added_mass_header(scene.dimension));
   if (file == "section_loads.csv") return split(section_loads_header);
   if (file == "passes.csv") return split(passes_header);
+  if (file == "elastic.csv") return split(elastic_header);
   const bool effects = !scene.effects.empty();  // have columns of their own
   if (file == "fluid.csv" && !effects) return split(fluid_header({}));
   return {};

@@ -1,13 +1,13 @@
 """Types and functions that libraries declare at namespace scope: one meaning a name. Headers' file names likewise.
 
-A name that two headers of core/, coupling/, fluid/, rigid/ declare must be an overload of one meaning, which the list below says why.
+A name that two headers of core/, coupling/, elastic/, fluid/, rigid/ declare must be an overload of one meaning, which the list below says why.
 """
 import os
 import re
 
 from markdown import files, read
 
-LIBRARIES = ("core/", "coupling/", "fluid/", "rigid/")
+LIBRARIES = ("core/", "coupling/", "elastic/", "fluid/", "rigid/")
 
 # One meaning in several places; or two meanings that wait for another name.
 SHARED = {

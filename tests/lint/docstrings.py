@@ -2,7 +2,7 @@
 """Docstrings of headers: what has none, by Doxygen (tests/lint/Doxyfile), and the share of comment lines.
 
     tests/lint/docstrings.py --installed     the headers that the package installs: any warning of Doxygen is an error
-    tests/lint/docstrings.py [FOLDER...]     all headers (core coupling fluid rigid): functions and types without a docstring
+    tests/lint/docstrings.py [FOLDER...]     all headers (core coupling elastic fluid rigid): functions and types without a docstring
     --build FOLDER                           where Doxygen writes its XML; build/doxygen
 """
 import argparse
@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ROOMS = ["core", "coupling", "fluid", "rigid"]
+ROOMS = ["core", "coupling", "elastic", "fluid", "rigid"]
 LONGEST_HEAD = 15  # lines of a header's head comment
 WIDEST = 130  # columns
 UNDOCUMENTED = re.compile(r"(Compound|Member .*\((function|typedef|enumeration)\)) .*is not documented")

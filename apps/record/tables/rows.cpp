@@ -91,6 +91,16 @@ void write_row(CsvFile& file, const FluidRow& row) {
   file.end_row();
 }
 
+template <int d>
+void write_row(CsvFile& file, const ElasticRow<d>& row) {
+  const auto& now = row.now;
+  std::array<double, 3> at{};
+  for (int k = 0; k < d; ++k) at[static_cast<std::size_t>(k)] = now.at(k);
+  file << row.time << row.body << now.strain_energy << now.kinetic_energy << now.potential_energy << now.von_mises;
+  put(file, at);
+  file.end_row();
+}
+
 // Velocities in body axes are s_world = T s_body, T = diag(R, 1) or diag(R, R); the energy s^T G s stays: T^T G T.
 template <int d>
 void write_added_mass_row(CsvFile& file, double time, const std::string& body, const Eigen::MatrixXd& matrix,
@@ -109,5 +119,7 @@ template void write_added_mass_row<2>(CsvFile&, double, const std::string&, cons
 template void write_added_mass_row<3>(CsvFile&, double, const std::string&, const Eigen::MatrixXd&, const Isometry<3>&);
 template void write_row<2>(CsvFile&, const BodyRow<2>&);
 template void write_row<3>(CsvFile&, const BodyRow<3>&);
+template void write_row<2>(CsvFile&, const ElasticRow<2>&);
+template void write_row<3>(CsvFile&, const ElasticRow<3>&);
 
 }  // namespace splashdown::apps

@@ -9,6 +9,7 @@
 #include "apps/files/csv.hpp"
 #include "core/bodies_view.hpp"
 #include "core/fluid_view.hpp"
+#include "core/solids_view.hpp"
 
 namespace splashdown::apps {
 
@@ -16,6 +17,9 @@ inline constexpr const char* bodies_header =
     "time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,alphax,alphay,alphaz,fx,fy,fz,mx,my,mz,wetted,"
     "fx_repair,fy_repair,fz_repair,mx_repair,my_repair,mz_repair,roll_deg,pitch_deg,heading_deg,submergence";
 inline constexpr const char* probes_header = "time,probe,value";
+/// x, y, z: in the undeformed body at t = 0, world frame.
+inline constexpr const char* elastic_header =
+    "time,body,strain_energy,kinetic_energy,potential_energy,von_mises,von_mises_x,von_mises_y,von_mises_z";
 
 /// `effect_columns`: behind all others.
 std::string fluid_header(const std::vector<std::string>& effect_columns);
@@ -36,6 +40,13 @@ struct BodyRow {
   double submergence;  ///< of the lowest point below still water, negative above; nan without water [m]
 };
 
+template <int d>
+struct ElasticRow {
+  double time;
+  const std::string& body;
+  Deformation<d> now;
+};
+
 struct FluidRow {
   double time, dt;
   std::size_t nodes, elements;
@@ -50,6 +61,8 @@ struct FluidRow {
 template <int d>
 void write_row(CsvFile& file, const BodyRow<d>& row);
 void write_row(CsvFile& file, const FluidRow& row);
+template <int d>
+void write_row(CsvFile& file, const ElasticRow<d>& row);
 /// `matrix`: as Fluid::added_mass of one wall, in the world frame; `pose` of the wall.
 template <int d>
 void write_added_mass_row(CsvFile& file, double time, const std::string& body, const Eigen::MatrixXd& matrix,

@@ -1,4 +1,4 @@
-# Reads every #include of fluid, rigid, coupling and apps and fails with the file, the line and the rule that is broken.
+# Reads every #include of fluid, rigid, elastic, coupling and apps and fails with the file, the line and the rule that is broken.
 #   cmake -DROOT=SOURCE_DIR -P include_rules.cmake
 # Rules name files and what they include by regular expressions on paths; a file that a rule is about may not include what the
 # rule names.
@@ -20,18 +20,19 @@ function(rule text)
 endfunction()
 
 # Rooms.
-rule("the program is included by nobody else" FILES "^(core|fluid|rigid|coupling)/" INCLUDES "^apps/")
-rule("what all share knows none of them" FILES "^core/" INCLUDES "^(fluid|rigid|coupling)/")
-rule("a fluid knows no bodies" FILES "^fluid/" INCLUDES "^rigid/")
-rule("bodies know no fluid" FILES "^rigid/" INCLUDES "^fluid/")
-rule("coupling says what a fluid and a structure are and includes neither" FILES "^coupling/" INCLUDES "^(fluid|rigid)/")
-rule("of coupling, a fluid and bodies know what they implement, in one file each" FILES "^(fluid|rigid)/"
-  BUT_FILES "^(fluid/(pfem|vortex)|rigid)/participant\\." INCLUDES "^coupling/")
-rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
+rule("the program is included by nobody else" FILES "^(core|fluid|rigid|elastic|coupling)/" INCLUDES "^apps/")
+rule("what all share knows none of them" FILES "^core/" INCLUDES "^(fluid|rigid|elastic|coupling)/")
+rule("a fluid knows no bodies" FILES "^fluid/" INCLUDES "^(rigid|elastic)/")
+rule("bodies know no fluid" FILES "^rigid/" INCLUDES "^(fluid|elastic)/")
+rule("solids that deform know neither fluid nor rigid bodies" FILES "^elastic/" INCLUDES "^(fluid|rigid)/")
+rule("coupling says what a fluid and a structure are and includes neither" FILES "^coupling/" INCLUDES "^(fluid|rigid|elastic)/")
+rule("of coupling, a fluid and bodies know what they implement, in one file each" FILES "^(fluid|rigid|elastic)/"
+  BUT_FILES "^(fluid/(pfem|vortex)|rigid|elastic)/participant\\." INCLUDES "^coupling/")
+rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid|elastic)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
 rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
   BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/accelerators/")
 rule("schemes and types are chosen in apps/build and apps/effects alone" FILES "^apps/" BUT_FILES "^apps/(build|effects/[a-z_]*)/[a-z_]*\\.cpp$"
-  INCLUDES "^((fluid/(pfem|vortex)|rigid)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
+  INCLUDES "^((fluid/(pfem|vortex)|rigid|elastic)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
 
 # Rooms within a room.
 rule("the particle finite element method and vortices on a grid do not know each other" FILES "^fluid/(pfem|effects)/" INCLUDES "^fluid/vortex/")
@@ -68,7 +69,11 @@ rule("contact hands mass to the pressure and knows nothing else of it" FILES "^f
 rule("the first mesh is made before anything is solved" FILES "^fluid/pfem/initial/" INCLUDES "^fluid/(pfem/(linear|pressure)|effects)/")
 rule("shapes know what a body is, not how it moves" FILES "^rigid/shapes/" INCLUDES "^rigid/"
   BUT_INCLUDES "^rigid/(shapes/|(types|body|embedding|message)\\.hpp$)")
-rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(apps|fluid|rigid|coupling)/" BUT_INCLUDES "^apps/quantity/")
+rule("a law knows no mesh" FILES "^elastic/laws/" INCLUDES "^elastic/" BUT_INCLUDES "^elastic/laws/")
+rule("a solid's mesh knows nothing of what is solved on it" FILES "^elastic/mesh/" INCLUDES "^elastic/" BUT_INCLUDES "^elastic/mesh/")
+rule("what moves a solid in time knows equations, not what they are of" FILES "^elastic/(steps|modes)/" INCLUDES "^elastic/"
+  BUT_INCLUDES "^elastic/((steps|modes)/|assembly/system\\.hpp$)")
+rule("expressions on results know no run" FILES "^apps/quantity/" INCLUDES "^(apps|fluid|rigid|elastic|coupling)/" BUT_INCLUDES "^apps/quantity/")
 rule("of a scene, what is recorded and told knows plain structs" FILES "^apps/(statistics|record|report)/" INCLUDES "^apps/scene/"
   BUT_INCLUDES "^apps/scene/(channel_classes|limit|patch_region)\\.hpp$")
 
@@ -86,7 +91,8 @@ rule("nodes and mesh are the particle finite element method's own" FILES "^(apps
 rule("records look at views, in core, not at who solves" FILES "^apps/(record|statistics|report)/" INCLUDES "^(fluid|rigid)/")
 
 # Libraries, each with one home.
-rule("CGAL stays in core/surface, fluid/pfem/mesh/delaunay and fluid/pfem/initial" FILES "." BUT_FILES "^(core/surface|fluid/pfem/(mesh/delaunay|initial))/" INCLUDES "^(CGAL|boost)/"
+rule("CGAL stays in core/surface, fluid/pfem/mesh/delaunay, fluid/pfem/initial and elastic/mesh" FILES "."
+  BUT_FILES "^(core/surface/|fluid/pfem/(mesh/delaunay|initial)/|elastic/mesh/outline_mesh\\.cpp$)" INCLUDES "^(CGAL|boost)/"
   BUT_INCLUDES "^boost/(math|random)/")
 rule("Boost's distributions and sequences stay in apps/price, study/design and study/campaign" FILES "."
   BUT_FILES "^apps/(price|study/(design|campaign))/.*\\.cpp$" INCLUDES "^boost/(math|random)/")
@@ -94,13 +100,14 @@ rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/pfem/linear" FILES "." BUT_
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
 rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")
 rule("FFTW stays in fluid/vortex/poisson" FILES "." BUT_FILES "^fluid/vortex/poisson/.*\\.cpp$" INCLUDES "^fftw")
+rule("Spectra stays in elastic/modes" FILES "." BUT_FILES "^elastic/modes/.*\\.cpp$" INCLUDES "^Spectra/")
 rule("Bullet stays in rigid/bullet_engine.cpp" FILES "." BUT_FILES "^rigid/bullet_engine\\.cpp$" INCLUDES "^(bt[A-Z]|[Bb]ullet|BulletDynamics|LinearMath)")
 rule("XML and zlib stay in apps/record/frames" FILES "." BUT_FILES "^apps/record/frames/.*\\.cpp$" INCLUDES "^(pugixml|zlib)\\.")
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
-rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|coupling)/.*\\.hpp$"
+rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|elastic|coupling)/.*\\.hpp$"
   BUT_FILES "^(core/(parallel|surface/soup)|fluid/pfem/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
-  BUT_INCLUDES "^(core|fluid|rigid|coupling|Eigen)/")
+  BUT_INCLUDES "^(core|fluid|rigid|elastic|coupling|Eigen)/")
 
 # The line of the first inclusion of a header in a file.
 function(line_of file header result)
@@ -115,7 +122,7 @@ endfunction()
 
 set(broken "")
 set(inclusions 0)
-file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/core/*.[ch]pp ${ROOT}/fluid/*.[ch]pp ${ROOT}/rigid/*.[ch]pp ${ROOT}/coupling/*.[ch]pp ${ROOT}/apps/*.[ch]pp)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/core/*.[ch]pp ${ROOT}/fluid/*.[ch]pp ${ROOT}/rigid/*.[ch]pp ${ROOT}/elastic/*.[ch]pp ${ROOT}/coupling/*.[ch]pp ${ROOT}/apps/*.[ch]pp)
 foreach(file IN LISTS files)
   set(about "")  # the rules that are about this file
   math(EXPR last "${rules} - 1")
@@ -131,7 +138,7 @@ foreach(file IN LISTS files)
     string(SUBSTRING "${found}" 1 -1 header)
     math(EXPR inclusions "${inclusions} + 1")
     set(texts "")
-    if(quote STREQUAL "\"" AND NOT header MATCHES "^(core|fluid|rigid|coupling|apps)/")
+    if(quote STREQUAL "\"" AND NOT header MATCHES "^(core|fluid|rigid|elastic|coupling|apps)/")
       list(APPEND texts "own headers are named from the root")
     endif()
     foreach(i IN LISTS about)

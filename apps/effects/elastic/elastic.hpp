@@ -1,0 +1,72 @@
+// [body.elastic]: a body that deforms.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/scene/kinds/effect_kind.hpp"
+
+namespace splashdown::apps {
+
+/// What of a body is held: what a disc around `centre`, or the box between `min` and `max`, covers; shape's frame.
+struct ElasticClamp {
+  std::optional<Point> centre;
+  std::optional<double> radius;
+  std::optional<Point> min, max;
+};
+
+struct ElasticPoint {
+  std::string name;
+  Point point = Point::Zero();  ///< undeformed, shape's frame [m]
+  double mass = 0;              ///< of a point mass [kg, kg/m]
+};
+
+/// Nine moduli of law = "orthotropic".
+struct ElasticPly {
+  std::vector<double> young_moduli;    ///< along the fibres, across them, along the normal [Pa]
+  std::vector<double> poisson_ratios;  ///< nu_12, nu_13, nu_23
+  std::vector<double> shear_moduli;    ///< G_12, G_13, G_23 [Pa]
+  Point fibres = Point::UnitX();       ///< direction in the shape's frame
+  Point normal = Point::UnitZ();       ///< the same; of plane scenes z
+};
+
+struct ElasticTable {
+  std::size_t body = 0;
+  std::string path;                          ///< of the table in messages
+  std::string law = "st_venant_kirchhoff";   ///< of `elastic_laws`
+  double young_modulus = 0;                  ///< [Pa]
+  double poisson_ratio = 0;                  ///< -1 to 1/2
+  ElasticPly ply;                            ///< of law = "orthotropic"
+  double size = 0;                           ///< of elements [m]; of a mesh from a file what it is
+  std::string mesh_file;                     ///< of Gmsh, absolute; empty: the shape is meshed
+  double mesh_scale = 1;                     ///< metres per unit of the file
+  std::string scheme = "generalised_alpha";  ///< of `elastic_schemes`
+  double spectral_radius = 0.9;  ///< of generalised_alpha: five periods resolved by ten steps lose 1 % of a mode
+  double shift = 1;              ///< of shifted_crank_nicolson [1/s]
+  double mass_damping = 0;       ///< Rayleigh's alpha [1/s]
+  double stiffness_damping = 0;  ///< Rayleigh's beta [s]
+  std::vector<ElasticClamp> clamps;
+  std::vector<ElasticPoint> point_masses, points;
+  int modes = 0;  ///< natural frequencies that are told before the run
+};
+
+struct ElasticTables {
+  std::vector<ElasticTable> of_bodies;
+};
+
+class ElasticKind final : public EffectOf<ElasticKind, ElasticTables> {
+ public:
+  std::string_view name() const override { return "elastic"; }
+  TablePlace place() const override { return TablePlace::body; }
+  bool knows_no_mesh() const override { return true; }  // its own rule speaks of all fluids
+  void read(Reader& reader, Scene& scene) const override;
+  void check(const Scene& scene, Problems& problems) const override;
+  std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+
+ private:
+  friend EffectOf;
+};
+
+}  // namespace splashdown::apps

@@ -1,0 +1,125 @@
+#include "apps/effects/elastic/elastic.hpp"
+#include "apps/effects/elastic/solid.hpp"
+#include "apps/scene/read/parts.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+void read_ply(Reader& reader, ElasticPly& ply, int dimension) {
+  const auto three = [&](const char* name, std::vector<double>& target, const Rule& rule) {
+    reader.numbers(name, target, rule);
+    if (target.size() == 3 || reader.context().sketch || reader.context().problems.found_in(reader.key(name))) return;
+    reader.context().problems.add(reader.key(name), "must be three numbers", rule.cure);
+  };
+  three("young_moduli", ply.young_moduli,
+        positive("Pa", "Use those along the fibres, across them and along the normal: [135e9, 9e9, 9e9]."));
+  three("poisson_ratios", ply.poisson_ratios, any("", "Use nu_12, nu_13, nu_23: [0.3, 0.3, 0.45]."));
+  three("shear_moduli", ply.shear_moduli, positive("Pa", "Use G_12, G_13, G_23: [5e9, 5e9, 3e9]."));
+  reader.point("fibres", ply.fibres,
+               any("", "Use their direction in the shape's frame, e.g. " + axis_example(dimension, 1) + "."));
+  if (dimension == 3)
+    reader.point("normal", ply.normal, any("", "Use the direction across the ply, e.g. [0.0, 0.0, 1.0]."));
+  auto& problems = reader.context().problems;
+  constexpr double least = 1e-6;  // sine of the angle between both
+  if (!(ply.fibres.norm() > 0))
+    problems.add(reader.key("fibres"), "must not be zero", "Use a direction, e.g. [1.0, 0.0].");
+  else if (!(ply.fibres.normalized().cross(ply.normal).norm() > least * ply.normal.norm()))
+    problems.add(reader.key("normal"), "must be across the fibres", "Use e.g. [0.0, 0.0, 1.0].");
+}
+
+void read_law(Reader& reader, ElasticTable& table, int dimension) {
+  reader.choice("law", table.law, elastic_laws());
+  if (table.law == "orthotropic") {
+    if (auto ply = reader.table("ply", Need::required)) read_ply(*ply, table.ply, dimension);
+    const std::string rule = "an orthotropic law has its moduli in [body.elastic.ply]", cure = "Remove it.";
+    reader.refuse("young_modulus", rule, cure);
+    reader.refuse("poisson_ratio", rule, cure);
+    return;
+  }
+  reader.refuse("ply", "only law = \"orthotropic\" has plies", "Remove it, or change the law.");
+  reader.number("young_modulus", table.young_modulus, positive("Pa", "Use e.g. 70e9 for aluminium, 1e6 for rubber."),
+                Need::required);
+  const std::string cure = "Use e.g. 0.33 for aluminium, 0.49 for rubber.";
+  reader.number("poisson_ratio", table.poisson_ratio, within(-1, 0.5, "", cure), Need::required);
+  auto& problems = reader.context().problems;
+  const double nu = table.poisson_ratio;
+  if (!problems.found_in(reader.key("poisson_ratio")) && (nu == -1 || nu == 0.5))
+    problems.add(reader.key("poisson_ratio"),
+                 nu == 0.5 ? "must be below 0.5: what does not change its volume has no finite bulk modulus"
+                           : "must be above -1",
+                 cure);
+}
+
+void read_mesh(Reader& reader, ElasticTable& table, int dimension) {
+  const bool needs_file = dimension == 3, sketch = reader.context().sketch != nullptr;
+  auto mesh = reader.table("mesh", needs_file ? Need::required : Need::optional,
+                           "Add mesh = {file = \"body.msh\"}: a solid in space is meshed with Gmsh.");
+  if (mesh) {
+    mesh->file("file", table.mesh_file, "Name a .msh file of Gmsh; relative names begin at the folder of the scene.");
+    mesh->number("scale", table.mesh_scale,
+                 positive("", "Use metres per unit of the file: 0.001 if it is in millimetres."));
+  }
+  if (needs_file || (mesh && !sketch))
+    reader.refuse("size", "the elements are those of the mesh", "Remove it, or the mesh.");
+  else
+    reader.number("size", table.size, positive("m", "Use half of the thinnest part, e.g. 0.01."),
+                  sketch ? Need::optional : Need::required);
+}
+
+void read_scheme(Reader& reader, ElasticTable& table) {
+  reader.choice("scheme", table.scheme, elastic_schemes());
+  if (table.scheme == "generalised_alpha")
+    reader.number("spectral_radius", table.spectral_radius,
+                  within(0, 1, "", "Use 1 to damp nothing, 0 to damp most what is fast."));
+  else
+    reader.refuse("spectral_radius", "only scheme = \"generalised_alpha\" has one", "Remove it, or change the scheme.");
+  if (table.scheme == "shifted_crank_nicolson")
+    reader.number("shift", table.shift, not_negative("1/s", "Use e.g. 1: theta is 1/2 + shift dt."));
+  else
+    reader.refuse("shift", "only scheme = \"shifted_crank_nicolson\" has one", "Remove it, or change the scheme.");
+  Reader rayleigh = reader.table_or_defaults("rayleigh");
+  rayleigh.number("mass", table.mass_damping, not_negative("1/s", "Use 2 w times the damping ratio of a mode."));
+  rayleigh.number("stiffness", table.stiffness_damping,
+                  not_negative("s", "Use twice the damping ratio of a mode over its w."));
+}
+
+void read_clamp(Reader& reader, ElasticClamp& clamp, int dimension) {
+  const Rule place = place_rule(dimension);
+  reader.point("centre", clamp.centre, place);
+  reader.number("radius", clamp.radius, positive("m", "Use e.g. the radius of a bolt."));
+  reader.point("min", clamp.min, place);
+  reader.point("max", clamp.max, place);
+  auto& problems = reader.context().problems;
+  if (reader.context().sketch || problems.found_in(reader.path())) return;
+  if ((clamp.centre && clamp.radius && !clamp.min && !clamp.max) ||
+      (clamp.min && clamp.max && !clamp.centre && !clamp.radius))
+    return;
+  problems.add(reader.path(), "says not what is held", "Use centre and radius, or min and max.");
+}
+
+}  // namespace
+
+void ElasticKind::read(Reader& reader, Scene& scene) const {
+  const int dimension = scene.dimension;
+  auto& table = scene.effects.table<ElasticTables>().of_bodies.emplace_back();
+  table.body = scene.bodies.size() - 1;
+  table.path = reader.path();
+  read_law(reader, table, dimension);
+  read_mesh(reader, table, dimension);
+  read_scheme(reader, table);
+  reader.each_table("clamp", [&](Reader& clamp) { read_clamp(clamp, table.clamps.emplace_back(), dimension); });
+  const Rule place = place_rule(dimension);
+  reader.each_table("point_mass", [&](Reader& part) {
+    auto& mass = table.point_masses.emplace_back();
+    part.number("mass", mass.mass, positive(mass_unit(dimension), "Use the mass of what is attached."), Need::required);
+    part.point("point", mass.point, place, Need::required);
+  });
+  reader.each_table("point", [&](Reader& part) {
+    auto& point = table.points.emplace_back();
+    read_name(part, point.name, "tip");
+    part.point("point", point.point, place, Need::required);
+  });
+  reader.integer("modes", table.modes, within(0, 1000, "", "Use how many natural frequencies are to be told."));
+}
+
+}  // namespace splashdown::apps

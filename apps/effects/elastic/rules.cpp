@@ -1,0 +1,180 @@
+// Rules of elastic bodies, and what is told of them before a run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "apps/effects/elastic/elastic.hpp"
+#include "apps/effects/elastic/solid.hpp"
+#include "apps/effects/force/force.hpp"
+#include "apps/effects/gravity/gravity.hpp"
+#include "apps/scene/geometry.hpp"
+#include "apps/scene/rules/problems.hpp"
+#include "elastic/modes/modes.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+constexpr double most_elements = 2e5;  // 0.4 million nodes, whose factors take several GB
+
+std::string label_of(const ElasticTable& table) { return table.path.substr(0, table.path.rfind('.')); }
+
+/// What elastic bodies do not meet yet.
+void check_company(const Scene& scene, const ElasticTables& tables, Problems& problems) {
+  const auto& path = tables.of_bodies.front().path;
+  if (scene.has_fluid())
+    problems.add(path, "a body that deforms does not meet a fluid yet: fluids here press on rigid walls alone",
+                 "Remove the table for a rigid hull, or [fluid] for the body in dry space.");
+  if (tables.of_bodies.size() != scene.bodies.size())
+    problems.add(path, "elastic bodies and rigid ones do not share a scene yet", "Make all bodies elastic, or none.");
+  if (!scene.joints.empty()) problems.add("joint", "joints do not hold elastic bodies", "Use clamp in [body.elastic].");
+  if (scene.contact) problems.add("contact", "elastic bodies do not touch each other yet", "Remove the table.");
+  for (const auto* kind : effect_kinds())
+    if (kind->present(scene) && kind->name() != "gravity" && kind->name() != "force" && kind->name() != "elastic")
+      problems.add(std::string(kind->name()), "does not act on elastic bodies", "Remove the table.");
+}
+
+/// Keys of [[body]] that rigid bodies have.
+void check_body_keys(const Body& body, const std::string& label, Problems& problems) {
+  if (body.motion != Motion::free)
+    problems.add(label + ".motion", "an elastic body is free but for what is clamped",
+                 "Remove it, and use clamp in [body.elastic].");
+  for (const char* key : {".free", ".inertia", ".centre_of_mass"})
+    if (problems.noted(label + key))
+      problems.add(label + key, "an elastic body has it from its mesh",
+                   "Remove it; use clamp and point_mass in [body.elastic].");
+  if (body.without_mass)
+    problems.add(label + (body.mass ? ".mass" : ".density"), "an elastic body needs a mass", "Give it one.");
+}
+
+void check_forces(const Scene& scene, const ElasticTable& table, const auto& lies_in, Problems& problems) {
+  const auto* forces = scene.effects.find<ForceTables>();
+  if (!forces) return;
+  const auto key = label_of(table) + ".force";
+  for (const auto& force : forces->all) {
+    if (force.body != table.body) continue;
+    if (!force.moment.empty())
+      problems.add(key, "moments do not act on points of an elastic body", "Use two forces.");
+    else if (force.axes != "world")
+      problems.add(key, "forces on elastic bodies do not turn with them", "Use axes = \"world\".");
+    else if (!force.point)
+      problems.add(key, "a force on an elastic body acts at a point of it", "Add point.");
+    else if (!lies_in(*force.point))
+      problems.add(key, "its point is not in the body", "Move it into the undeformed body, in the shape's frame.");
+  }
+}
+
+template <int d>
+void check_clamps(const ElasticTable& table, const elastic::SolidMesh<d>& mesh, Problems& problems) {
+  const double roundoff = 1e-9 * elastic::extent(mesh);
+  std::vector<bool> held(static_cast<std::size_t>(mesh.size()), false);
+  for (std::size_t k = 0; k < table.clamps.size(); ++k) {
+    bool holds = false;
+    for (int a = 0; a < mesh.size(); ++a)
+      if (covers(table.clamps[k], in_space<d>(mesh.nodes.col(a)), roundoff))
+        held[static_cast<std::size_t>(a)] = holds = true;
+    if (!holds)
+      problems.add(fmt::format("{}.clamp[{}]", table.path, k), "holds nothing: no node of the mesh lies there",
+                   "Move or enlarge it (shape's frame), or use smaller elements.");
+  }
+  const auto free = std::ranges::count(held, false);
+  if (free == 0)
+    problems.add(table.path + ".clamp", "holds the whole body", "Make it smaller, or make the body rigid.");
+  else if (table.modes >= d * free)
+    problems.add(table.path + ".modes", fmt::format("must be below {}, the free unknowns of the mesh", d * free),
+                 "Ask for fewer, or use smaller elements.");
+  const bool is_held = static_cast<std::size_t>(free) < held.size();
+  if (table.scheme == "steady" && !is_held)
+    problems.add(table.path + ".scheme", "a body that nothing holds has no equilibrium",
+                 "Add a clamp, or change the scheme.");
+}
+
+template <int d>
+void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problems) {
+  const auto& body = scene.bodies[table.body];
+  const auto label = label_of(table);
+  const auto box = extents<d>(shape_of<d>(body.shape).surface);
+  const bool from_file = !table.mesh_file.empty();
+  const std::string key = table.path + (from_file ? ".mesh" : ".size");
+  const double elements = box.volume() / std::pow(table.size, d) * 2;
+  if (!from_file && table.size > box.sizes().maxCoeff())
+    return problems.add(key, fmt::format("must not exceed the body's extent of {:g} m", box.sizes().maxCoeff()),
+                        "Use half of its thinnest part.");
+  if (!from_file && elements > most_elements)
+    return problems.add(key, fmt::format("makes about {:.1g} elements, {:g} are the most", elements, most_elements),
+                        "Use larger elements.");
+  elastic::SolidMesh<d> mesh;
+  try {
+    mesh = solid_mesh<d>(body, table);
+  } catch (const elastic::MeshError& error) {
+    return problems.add(key, error.what(), error.cure);
+  }
+  const Extents<d> drawn(mesh.nodes.rowwise().minCoeff(), mesh.nodes.rowwise().maxCoeff());
+  constexpr double same = 0.02;  // of the extent: chords of curved hulls
+  if (from_file && ((drawn.min() - box.min()).cwiseAbs().maxCoeff() > same * box.sizes().maxCoeff() ||
+                    (drawn.max() - box.max()).cwiseAbs().maxCoeff() > same * box.sizes().maxCoeff()))
+    return problems.add(key, fmt::format("the mesh spans {} m, the shape {} m", text<d>(drawn), text<d>(box)),
+                        "Draw both in the same frame; mesh.scale is metres per unit of the file.");
+  check_clamps<d>(table, mesh, problems);
+  const auto lies_in = [&](const Point& point) { return place_in<d>(mesh, point).has_value(); };
+  check_forces(scene, table, lies_in, problems);
+  const std::string rule = "is not in the body", cure = "Move it into the undeformed body, in the shape's frame.";
+  for (std::size_t k = 0; k < table.point_masses.size(); ++k)
+    if (!lies_in(table.point_masses[k].point))
+      problems.add(fmt::format("{}.point_mass[{}].point", table.path, k), rule, cure);
+  for (const auto& point : table.points)
+    if (!lies_in(point.point)) problems.add(table.path + ".point." + point.name, rule, cure);
+}
+
+template <int d>
+void check_table(const Scene& scene, const ElasticTable& table, Problems& problems) {
+  const auto& body = scene.bodies[table.body];
+  const auto label = label_of(table);
+  check_body_keys(body, label, problems);
+  if (problems.found_in(table.path) || problems.found_in(label + ".shape")) return;
+  try {
+    solid_law<d>(body, table);
+    shape_of<d>(body.shape);
+  } catch (const std::invalid_argument& error) {
+    if (table.law == "orthotropic") problems.add(table.path + ".ply", error.what(), "Use measured moduli of one ply.");
+    return;  // of the shape its own check speaks
+  }
+  check_mesh<d>(scene, table, problems);
+}
+
+/// Natural frequencies at rest [Hz].
+template <int d>
+std::string frequencies_of(const Scene& scene, const ElasticTable& table) {
+  const auto solid = make_solid<d>(scene.bodies[table.body], table);
+  const auto nodes = fmt::format("{} nodes", solid->mesh().size());
+  if (table.modes == 0) return nodes;
+  const auto modes = elastic::lowest_modes(*solid, table.modes, elastic::Field::Zero(solid->size()));
+  std::string list;
+  for (const double w : modes.angular_frequencies)
+    list += fmt::format("{}{:.5g}", list.empty() ? "" : ", ", w / (2 * std::numbers::pi));
+  return nodes + (modes.status.ok() ? "" : ", " + modes.status.cause) + "; natural frequencies " + list + " Hz";
+}
+
+}  // namespace
+
+void ElasticKind::check(const Scene& scene, Problems& problems) const {
+  const auto* tables = scene.effects.find<ElasticTables>();
+  if (!tables) return;
+  check_company(scene, *tables, problems);
+  for (const auto& table : tables->of_bodies)
+    scene.dimension == 2 ? check_table<2>(scene, table, problems) : check_table<3>(scene, table, problems);
+}
+
+std::optional<EffectNote> ElasticKind::note(const Scene& scene, const Scales&) const {
+  const auto* tables = scene.effects.find<ElasticTables>();
+  if (!tables) return {};
+  std::string reason;
+  for (const auto& table : tables->of_bodies)
+    reason += fmt::format("{}{}: {}", reason.empty() ? "" : "; ", scene.bodies[table.body].name,
+                          scene.dimension == 2 ? frequencies_of<2>(scene, table) : frequencies_of<3>(scene, table));
+  return EffectNote{"elastic", true, reason};
+}
+
+}  // namespace splashdown::apps

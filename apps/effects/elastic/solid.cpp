@@ -1,0 +1,196 @@
+#include "apps/effects/elastic/solid.hpp"
+
+#include <functional>
+#include <stdexcept>
+
+#include "apps/effects/force/force.hpp"
+#include "apps/scene/geometry.hpp"
+#include "apps/scene/kinds/named.hpp"
+#include "elastic/mesh/gmsh_file.hpp"
+#include "elastic/mesh/outline_mesh.hpp"
+#include "rigid/forces/curve.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using elastic::Dynamics;
+using elastic::Field;
+using elastic::Scheme;
+
+struct SchemeRow {
+  std::string name;
+  std::unique_ptr<Scheme> (*make)(const ElasticTable&, Dynamics);
+};
+
+const std::vector<SchemeRow>& scheme_rows() {
+  using Table = ElasticTable;
+  static const std::vector<SchemeRow> rows = {
+      {"generalised_alpha",
+       [](const Table& t, Dynamics d) { return elastic::generalised_alpha(std::move(d), t.spectral_radius); }},
+      {"newmark", [](const Table&, Dynamics d) { return elastic::newmark(std::move(d)); }},
+      {"shifted_crank_nicolson",
+       [](const Table& t, Dynamics d) { return elastic::shifted_crank_nicolson(std::move(d), t.shift); }},
+      {"fractional_step_theta", [](const Table&, Dynamics d) { return elastic::fractional_step_theta(std::move(d)); }},
+      {"midpoint", [](const Table&, Dynamics d) { return elastic::midpoint(std::move(d)); }},
+      {"implicit_euler", [](const Table&, Dynamics d) { return elastic::implicit_euler(std::move(d)); }},
+      {"steady", [](const Table&, Dynamics d) { return elastic::steady(std::move(d)); }}};
+  return rows;
+}
+
+template <int d>
+struct LawRow {
+  std::string name;
+  std::unique_ptr<const elastic::Law<d>> (*make)(const elastic::Isotropic&);
+};
+
+template <int d>
+const std::vector<LawRow<d>>& law_rows() {
+  static const std::vector<LawRow<d>> rows = {{"st_venant_kirchhoff", &elastic::st_venant_kirchhoff<d>},
+                                              {"neo_hookean", &elastic::neo_hookean<d>},
+                                              {"small_strain", &elastic::small_strain<d>}};
+  return rows;
+}
+
+/// Unit vectors: along the fibres, across them in the ply, along the normal.
+Eigen::Matrix3d axes_of(const ElasticPly& ply) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = ply.fibres.normalized();
+  axes.col(1) = ply.normal.cross(axes.col(0)).normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
+/// Of all [[body.force]] tables of a body, forces alone, that do not turn: their rules are checked.
+template <int d>
+std::function<Field(double)> forces_of(const Scene& scene, std::size_t body, const elastic::Solid<d>& solid,
+                                       const elastic::SolidMesh<d>& mesh) {
+  struct Push {
+    rigid::Curve<d> force;
+    std::array<Field, d> nodes;  // of a unit force along each axis
+  };
+  std::vector<Push> pushes;
+  const auto* tables = scene.effects.find<ForceTables>();
+  if (!tables) return {};
+  for (const auto& table : tables->all) {
+    if (table.body != body) continue;
+    std::vector<typename rigid::Curve<d>::Row> rows;
+    for (const auto& row : table.force)
+      rows.push_back({row[0], Eigen::Map<const Eigen::Matrix<double, d, 1>>(row.data() + 1)});
+    auto& push = pushes.emplace_back(Push{rigid::Curve<d>(std::move(rows)), {}});
+    const auto place = place_in<d>(mesh, *table.point);
+    for (int k = 0; k < d; ++k) push.nodes[static_cast<std::size_t>(k)] = solid.point_force(*place, Vec<d>::Unit(k));
+  }
+  if (pushes.empty()) return {};
+  return [pushes, size = solid.size()](double t) {
+    Field all = Field::Zero(size);
+    for (const auto& push : pushes) {
+      const auto force = push.force.at(t);
+      for (int k = 0; k < d; ++k) all += force[k] * push.nodes[static_cast<std::size_t>(k)];
+    }
+    return all;
+  };
+}
+
+template <int d>
+std::unique_ptr<elastic::Solid<d>> made(const Body& body, const ElasticTable& table,
+                                        const elastic::SolidMesh<d>& mesh) {
+  auto placed = mesh;
+  placed.nodes = shape_pose<d>(body) * mesh.nodes;
+  const auto properties = mass_properties<d>(body);
+  const double volume = rigid::mass_properties<d>(shape_of<d>(body.shape).surface).mass;
+  auto solid =
+      std::make_unique<elastic::Solid<d>>(std::move(placed), solid_law<d>(body, table), properties.mass / volume);
+  const double roundoff = 1e-9 * elastic::extent(mesh);
+  for (int a = 0; a < mesh.size(); ++a)
+    for (const auto& clamp : table.clamps)
+      if (covers(clamp, in_space<d>(mesh.nodes.col(a)), roundoff))
+        for (int k = 0; k < d; ++k) solid->hold(d * a + k);
+  for (const auto& part : table.point_masses) solid->add_point_mass(*place_in<d>(mesh, part.point), part.mass);
+  return solid;
+}
+
+}  // namespace
+
+std::vector<std::string> elastic_laws() {
+  auto names = names_of(law_rows<2>());
+  names.emplace_back("orthotropic");
+  return names;
+}
+std::vector<std::string> elastic_schemes() { return names_of(scheme_rows()); }
+
+bool covers(const ElasticClamp& clamp, const Point& point, double roundoff) {
+  if (clamp.centre) return (point - *clamp.centre).norm() <= *clamp.radius + roundoff;
+  return ((point - *clamp.min).array() >= -roundoff).all() && ((*clamp.max - point).array() >= -roundoff).all();
+}
+
+template <int d>
+std::optional<elastic::Place<d>> place_in(const elastic::SolidMesh<d>& mesh, const Point& point) {
+  constexpr double near = 1e-3;  // of the extent: chords of curved outlines
+  return elastic::locate<d>(mesh, vec<d>(point), near * elastic::extent(mesh));
+}
+
+template <int d>
+elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table) {
+  if (!table.mesh_file.empty()) return elastic::read_gmsh<d>(table.mesh_file, table.mesh_scale);
+  if constexpr (d == 2)
+    return elastic::outline_mesh(shape_of<2>(body.shape).surface, table.size);
+  else
+    throw elastic::MeshError("a solid in space has no mesh", "Add mesh = {file = \"body.msh\"}.");
+}
+
+template <int d>
+std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticTable& table) {
+  for (const auto& row : law_rows<d>())
+    if (row.name == table.law) return row.make({table.young_modulus, table.poisson_ratio});
+  const auto& [E, nu, G, fibres, normal] = table.ply;
+  elastic::Orthotropic moduli{.E1 = E.at(0),
+                              .E2 = E.at(1),
+                              .E3 = E.at(2),
+                              .nu12 = nu.at(0),
+                              .nu13 = nu.at(1),
+                              .nu23 = nu.at(2),
+                              .G12 = G.at(0),
+                              .G13 = G.at(1),
+                              .G23 = G.at(2)};
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<d, d>() = shape_pose<d>(body).linear();
+  moduli.axes = turn * axes_of(table.ply);
+  return elastic::orthotropic<d>(moduli);
+}
+
+template <int d>
+std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table) {
+  return made<d>(body, table, solid_mesh<d>(body, table));
+}
+
+template <int d>
+std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
+  std::vector<elastic::SolidSpec<d>> specs;
+  for (const auto& table : scene.effects.find<ElasticTables>()->of_bodies) {
+    const auto& body = scene.bodies[table.body];
+    const auto mesh = solid_mesh<d>(body, table);
+    auto& spec = specs.emplace_back();
+    spec.solid = made<d>(body, table, mesh);
+    spec.scheme = [table](Dynamics dynamics) {
+      return named(scheme_rows(), table.scheme).make(table, std::move(dynamics));
+    };
+    spec.damping = {table.mass_damping, table.stiffness_damping};
+    if (scene.gravity) spec.gravity = vec<d>(scene.gravity->acceleration);
+    spec.forces = forces_of<d>(scene, table.body, *spec.solid, mesh);
+    for (const auto& point : table.points) spec.points.push_back({point.name, *place_in<d>(mesh, point.point)});
+  }
+  return specs;
+}
+
+template elastic::SolidMesh<2> solid_mesh<2>(const Body&, const ElasticTable&);
+template elastic::SolidMesh<3> solid_mesh<3>(const Body&, const ElasticTable&);
+template std::unique_ptr<const elastic::Law<2>> solid_law<2>(const Body&, const ElasticTable&);
+template std::unique_ptr<const elastic::Law<3>> solid_law<3>(const Body&, const ElasticTable&);
+template std::optional<elastic::Place<2>> place_in<2>(const elastic::SolidMesh<2>&, const Point&);
+template std::optional<elastic::Place<3>> place_in<3>(const elastic::SolidMesh<3>&, const Point&);
+template std::unique_ptr<elastic::Solid<2>> make_solid<2>(const Body&, const ElasticTable&);
+template std::unique_ptr<elastic::Solid<3>> make_solid<3>(const Body&, const ElasticTable&);
+template std::vector<elastic::SolidSpec<2>> solid_specs<2>(const Scene&);
+template std::vector<elastic::SolidSpec<3>> solid_specs<3>(const Scene&);
+
+}  // namespace splashdown::apps

@@ -1,0 +1,37 @@
+// A body of a scene as an elastic solid.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/effects/elastic/elastic.hpp"
+#include "elastic/participant.hpp"
+
+namespace splashdown::apps {
+
+/// What may stand for `law` and `scheme`, in the order of docs/scene.md.
+std::vector<std::string> elastic_laws();
+std::vector<std::string> elastic_schemes();
+
+/// Undeformed, in the shape's frame. Throws elastic::MeshError.
+template <int d>
+elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table);
+/// Throws std::invalid_argument for moduli that no solid has; axes in the world frame at t = 0.
+template <int d>
+std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticTable& table);
+/// Whether a clamp covers a point of the shape's frame, but for roundoff.
+bool covers(const ElasticClamp& clamp, const Point& point, double roundoff);
+/// The place of a point of the shape's frame in the mesh; within a thousandth of the extent beside it.
+template <int d>
+std::optional<elastic::Place<d>> place_in(const elastic::SolidMesh<d>& mesh, const Point& point);
+
+/// The solid in the world frame at t = 0 with clamps and point masses.
+template <int d>
+std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table);
+/// Of all elastic bodies of a scene, with its gravity and its forces.
+template <int d>
+std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene);
+
+}  // namespace splashdown::apps

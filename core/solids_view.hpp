@@ -1,0 +1,34 @@
+// What people look at in bodies that deform: all that they look at in bodies (their frames: the rotation that fits the nodes
+// best, about the centre of mass), and strain, stress and displacements, at t_n.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/bodies_view.hpp"
+#include "core/diagnostic.hpp"
+
+namespace splashdown {
+
+/// How a body is deformed and what it holds. Two-dimensional energies are per metre of depth.
+template <int d>
+struct Deformation {
+  double strain_energy = 0;     ///< [J, J/m]
+  double kinetic_energy = 0;    ///< [J, J/m]
+  double potential_energy = 0;  ///< of its weight, against the undeformed place at t = 0 [J, J/m]
+  double von_mises = 0;         ///< the largest [Pa]
+  Vec<d> at = Vec<d>::Zero();   ///< where that is, in the undeformed body at t = 0, world frame [m]
+};
+
+/// The bodies in the order of the scene; an index beyond the last throws std::out_of_range.
+template <int d>
+class SolidsView : public BodiesView<d> {
+ public:
+  virtual const Twist<d>& velocity_n(std::size_t body) const = 0;      ///< at t_n: momenta over mass and inertia
+  virtual const Twist<d>& acceleration_n(std::size_t body) const = 0;  ///< at t_n: their rates, likewise
+  virtual Deformation<d> deformation(std::size_t body) const = 0;      ///< at t_n
+  /// Displacements of named points at t_n, NAME.ux and so on [m], always of the same names.
+  virtual std::vector<Diagnostic> displacements() const = 0;
+};
+
+}  // namespace splashdown

@@ -1,0 +1,295 @@
+#include "elastic/assembly/solid.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/geometry.hpp"
+
+namespace splashdown::elastic {
+
+template <int d>
+Solid<d>::Solid(SolidMesh<d> mesh, std::unique_ptr<const Law<d>> law, double density)
+    : mesh_(std::move(mesh)), law_(std::move(law)), length_(extent(mesh_)) {
+  if (!(density > 0)) throw std::invalid_argument("density must be positive");
+  held_.assign(static_cast<std::size_t>(d * mesh_.size()), false);
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    for (const auto& point : rule<d>()) {
+      double determinant = 0;
+      const auto slopes = slopes_at(c, point.at, &determinant);
+      points_.push_back({slopes, point.weight * determinant / factorial<d>});
+    }
+  make_pattern();
+  assemble_mass(density);
+}
+
+template <int d>
+typename Solid<d>::Slopes Solid<d>::slopes_at(std::size_t cell, const Barycentric<d>& at, double* determinant) const {
+  const auto slopes = shape_slopes<d>(at);
+  Mat<d> J = Mat<d>::Zero();
+  for (int a = 0; a < cell_nodes<d>; ++a) J += mesh_.nodes.col(mesh_.cells[cell][a]) * slopes.col(a).transpose();
+  if (determinant) *determinant = J.determinant();
+  return J.transpose().inverse() * slopes;
+}
+
+template <int d>
+Vec<d> Solid<d>::at_rest(std::size_t cell, const Barycentric<d>& at) const {
+  const auto N = shapes<d>(at);
+  Vec<d> X = Vec<d>::Zero();
+  for (int a = 0; a < cell_nodes<d>; ++a) X += N[a] * mesh_.nodes.col(mesh_.cells[cell][a]);
+  return X;
+}
+
+template <int d>
+typename Solid<d>::Displacements Solid<d>::of_cell(const Field& u, std::size_t cell) const {
+  Displacements all;
+  for (int a = 0; a < cell_nodes<d>; ++a) all.col(a) = u.segment<d>(d * mesh_.cells[cell][a]);
+  return all;
+}
+
+template <int d>
+Mat<d> Solid<d>::gradient(const Field& u, std::size_t cell, const Slopes& slopes) const {
+  return Mat<d>::Identity() + of_cell(u, cell) * slopes.transpose();
+}
+
+template <int d>
+void Solid<d>::make_pattern() {
+  std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(mesh_.size()));
+  for (const auto& cell : mesh_.cells)
+    for (const int b : cell)
+      for (const int a : cell) neighbours[static_cast<std::size_t>(b)].push_back(a);
+  for (auto& list : neighbours) {
+    std::ranges::sort(list);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  mass_.resize(d * mesh_.size(), d * mesh_.size());
+  Eigen::VectorXi counts(d * mesh_.size());
+  for (int b = 0; b < mesh_.size(); ++b)
+    counts.segment<d>(d * b).setConstant(static_cast<int>(d * neighbours[static_cast<std::size_t>(b)].size()));
+  mass_.reserve(counts);
+  for (int b = 0; b < mesh_.size(); ++b)
+    for (int k = 0; k < d; ++k)
+      for (const int a : neighbours[static_cast<std::size_t>(b)])
+        for (int i = 0; i < d; ++i) mass_.insert(d * a + i, d * b + k) = 0;
+  mass_.makeCompressed();
+  for (const auto& cell : mesh_.cells)
+    for (const int b : cell)
+      for (int k = 0; k < d; ++k)
+        for (const int a : cell) {
+          const auto& list = neighbours[static_cast<std::size_t>(b)];
+          const auto place = std::ranges::lower_bound(list, a) - list.begin();
+          first_.push_back(mass_.outerIndexPtr()[d * b + k] + static_cast<int>(d * place));
+        }
+}
+
+/// `block(a, b)`: d x d, of nodes a and b of the cell.
+template <int d>
+template <class Add>
+void Solid<d>::add_cell(std::size_t cell, Sparse& matrix, const Add& block) const {
+  constexpr int n = cell_nodes<d>;
+  const int* first = first_.data() + cell * n * n * d;
+  for (int b = 0; b < n; ++b)
+    for (int a = 0; a < n; ++a) {
+      const Mat<d> values = block(a, b);
+      for (int k = 0; k < d; ++k)
+        for (int i = 0; i < d; ++i) matrix.valuePtr()[first[(b * d + k) * n + a] + i] += values(i, k);
+    }
+}
+
+template <int d>
+void Solid<d>::assemble_mass(double density) {
+  const auto& points = rule<d>();
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+    Eigen::Matrix<double, cell_nodes<d>, cell_nodes<d>> m = decltype(m)::Zero();
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      const auto N = shapes<d>(points[q].at);
+      m += density * points_[c * points.size() + q].weight * N * N.transpose();
+    }
+    add_cell(c, mass_, [&](int a, int b) -> Mat<d> { return m(a, b) * Mat<d>::Identity(); });
+  }
+}
+
+template <int d>
+double Solid<d>::strain_energy(const Field& u) const {
+  double sum = 0;
+  const std::size_t n = rule<d>().size();
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    sum += points_[p].weight * law_->energy(gradient(u, p / n, points_[p].slopes));
+  return sum;
+}
+
+template <int d>
+Field Solid<d>::internal_force(const Field& u) const {
+  Field f = Field::Zero(u.size());
+  const std::size_t n = rule<d>().size();
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+    Displacements force = Displacements::Zero();
+    for (std::size_t p = c * n; p < (c + 1) * n; ++p)
+      force += points_[p].weight * law_->stress(gradient(u, c, points_[p].slopes)) * points_[p].slopes;
+    for (int a = 0; a < cell_nodes<d>; ++a) f.segment<d>(d * mesh_.cells[c][a]) += force.col(a);
+  }
+  return f;
+}
+
+template <int d>
+void Solid<d>::stiffness(const Field& u, Sparse& K) const {
+  if (K.nonZeros() != mass_.nonZeros()) K = mass_;
+  K.coeffs().setZero();
+  constexpr int n = cell_nodes<d>;
+  const std::size_t count = rule<d>().size();
+  Eigen::Matrix<double, d * n, d * n> k;
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+    k.setZero();
+    for (std::size_t p = c * count; p < (c + 1) * count; ++p) {
+      const auto& G = points_[p].slopes;
+      const Tangent<d> A = points_[p].weight * law_->tangent(gradient(u, c, G));
+      for (int a = 0; a < n; ++a) {
+        Eigen::Matrix<double, d, d* d> of_a = decltype(of_a)::Zero();
+        for (int J = 0; J < d; ++J) of_a += G(J, a) * A.template middleRows<d>(d * J);
+        for (int b = 0; b < n; ++b)
+          for (int L = 0; L < d; ++L)
+            k.template block<d, d>(d * a, d * b) += G(L, b) * of_a.template middleCols<d>(d * L);
+      }
+    }
+    add_cell(c, K, [&](int a, int b) -> Mat<d> { return k.template block<d, d>(d * a, d * b); });
+  }
+}
+
+template <int d>
+int Solid<d>::clamp(const std::function<bool(const Vec<d>&)>& inside) {
+  int count = 0;
+  for (int a = 0; a < mesh_.size(); ++a) {
+    if (!inside(mesh_.nodes.col(a))) continue;
+    ++count;
+    for (int k = 0; k < d; ++k) hold(d * a + k);
+  }
+  return count;
+}
+
+template <int d>
+void Solid<d>::add_point_mass(const Place<d>& place, double mass) {
+  const auto N = shapes<d>(place.at);
+  add_cell(static_cast<std::size_t>(place.cell), mass_,
+           [&](int a, int b) -> Mat<d> { return mass * N[a] * N[b] * Mat<d>::Identity(); });
+}
+
+template <int d>
+Field Solid<d>::uniform(const Vec<d>& vector) const {
+  return vector.replicate(mesh_.size(), 1);
+}
+
+template <int d>
+Field Solid<d>::point_force(const Place<d>& place, const Vec<d>& force) const {
+  Field F = Field::Zero(this->size());
+  const auto N = shapes<d>(place.at);
+  const auto& cell = mesh_.cells[static_cast<std::size_t>(place.cell)];
+  for (int a = 0; a < cell_nodes<d>; ++a) F.segment<d>(d * cell[a]) += N[a] * force;
+  return F;
+}
+
+template <int d>
+Field Solid<d>::body_force(const std::function<Vec<d>(const Vec<d>&)>& density) const {
+  Field F = Field::Zero(this->size());
+  const auto& points = rule<d>();
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      const auto N = shapes<d>(points[q].at);
+      const Vec<d> force = points_[c * points.size() + q].weight * density(at_rest(c, points[q].at));
+      for (int a = 0; a < cell_nodes<d>; ++a) F.segment<d>(d * mesh_.cells[c][a]) += N[a] * force;
+    }
+  return F;
+}
+
+namespace {
+
+/// Area vector of a curved facet at a point, per unit of the straight simplex.
+inline Vec<2> normal_of(const Eigen::Matrix<double, 2, 1>& along) { return {along.y(), -along.x()}; }
+inline Vec<3> normal_of(const Eigen::Matrix<double, 3, 2>& along) { return 0.5 * along.col(0).cross(along.col(1)); }
+
+}  // namespace
+
+template <int d>
+Field Solid<d>::traction(const std::function<Vec<d>(const Vec<d>&, const Vec<d>&)>& stress) const {
+  Field F = Field::Zero(this->size());
+  for (const auto& facet : mesh_.facets)
+    for (const auto& point : rule<d - 1>()) {
+      const auto N = shapes<d - 1>(point.at);
+      const auto slopes = shape_slopes<d - 1>(point.at);
+      Vec<d> X = Vec<d>::Zero();
+      Eigen::Matrix<double, d, d - 1> along = decltype(along)::Zero();
+      for (int a = 0; a < facet_nodes<d>; ++a) {
+        X += N[a] * mesh_.nodes.col(facet[a]);
+        along += mesh_.nodes.col(facet[a]) * slopes.col(a).transpose();
+      }
+      const Vec<d> area = normal_of(along);
+      const Vec<d> force = point.weight * area.norm() * stress(X, area.normalized());
+      for (int a = 0; a < facet_nodes<d>; ++a) F.segment<d>(d * facet[a]) += N[a] * force;
+    }
+  return F;
+}
+
+template <int d>
+Vec<d> Solid<d>::value(const Field& field, const Place<d>& place) const {
+  return of_cell(field, static_cast<std::size_t>(place.cell)) * shapes<d>(place.at);
+}
+
+template <int d>
+Momenta<d> Solid<d>::momenta(const Field& u, const Field& v) const {
+  const Field p = mass_ * v;
+  Momenta<d> sum{Vec<d>::Zero(), decltype(Momenta<d>::angular)::Zero()};
+  for (int a = 0; a < mesh_.size(); ++a) {
+    const Vec<d> x = mesh_.nodes.col(a) + u.segment<d>(d * a), own = p.segment<d>(d * a);
+    sum.linear += own;
+    if constexpr (d == 2)
+      sum.angular[0] += x.x() * own.y() - x.y() * own.x();
+    else
+      sum.angular += x.cross(own);
+  }
+  return sum;
+}
+
+template <int d>
+double Solid<d>::total_mass() const {
+  const Field along = uniform(Vec<d>::UnitX());
+  return along.dot(mass_ * along);
+}
+
+template <int d>
+Vec<d> Solid<d>::centre(const Field& u) const {
+  const Field x = Eigen::Map<const Field>(mesh_.nodes.data(), mesh_.nodes.size()) + u;
+  return momenta(u, x).linear / total_mass();
+}
+
+template <int d>
+StressPeak<d> Solid<d>::peak(const Field& u) const {
+  StressPeak<d> most;
+  const auto& points = rule<d>();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const double value = von_mises(law_->cauchy(gradient(u, p / points.size(), points_[p].slopes)));
+    if (value > most.value) most = {value, at_rest(p / points.size(), points[p % points.size()].at)};
+  }
+  return most;
+}
+
+template <int d>
+Mat<3> Solid<d>::stress(const Field& u, const Place<d>& place) const {
+  const auto cell = static_cast<std::size_t>(place.cell);
+  return law_->cauchy(gradient(u, cell, slopes_at(cell, place.at)));
+}
+
+template <int d>
+double Solid<d>::squared_difference(const Field& u, const std::function<Vec<d>(const Vec<d>&)>& exact) const {
+  double sum = 0;
+  const auto& points = rule<d>();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const std::size_t c = p / points.size();
+    const auto& at = points[p % points.size()].at;
+    sum += points_[p].weight * (of_cell(u, c) * shapes<d>(at) - exact(at_rest(c, at))).squaredNorm();
+  }
+  return sum;
+}
+
+template class Solid<2>;
+template class Solid<3>;
+
+}  // namespace splashdown::elastic

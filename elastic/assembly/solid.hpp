@@ -1,0 +1,101 @@
+// A solid of quadratic simplices, total Lagrangian: nodes X at rest and displacements u,
+//
+//   M_ab = int rho N_a N_b dX,   f_a = int P(F) grad N_a dX,   K_ab = int grad N_a . dP/dF . grad N_b dX,   F = 1 + du/dX
+//
+// by the rules of quadratic.hpp. Displacements have an error O(h^3) in L2, energies O(h^4). f is exact for fields of
+// uniform F (patch test). Point masses are rigidly attached, without inertia of rotation.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "elastic/assembly/system.hpp"
+#include "elastic/laws/law.hpp"
+#include "elastic/mesh/solid_mesh.hpp"
+
+namespace splashdown::elastic {
+
+/// Momentum and angular momentum about the origin [kg m/s, kg m^2/s; per metre in 2D].
+template <int d>
+struct Momenta {
+  Vec<d> linear;
+  Eigen::Matrix<double, rotations<d>, 1> angular;
+};
+
+/// The largest von Mises stress and where it is.
+template <int d>
+struct StressPeak {
+  double value = 0;            ///< [Pa]
+  Vec<d> at = Vec<d>::Zero();  ///< at rest [m]
+};
+
+/// A mesh with a law and a density.
+template <int d>
+class Solid final : public System {
+ public:
+  /// Throws std::invalid_argument unless the density is positive.
+  Solid(SolidMesh<d> mesh, std::unique_ptr<const Law<d>> law, double density);
+
+  /// At rest.
+  const SolidMesh<d>& mesh() const { return mesh_; }
+  /// The same everywhere.
+  const Law<d>& law() const { return *law_; }
+  const Sparse& mass() const override { return mass_; }
+  Field internal_force(const Field& u) const override;
+  void stiffness(const Field& u, Sparse& K) const override;
+  double strain_energy(const Field& u) const override;
+  double length() const override { return length_; }
+
+  /// Holds all nodes that are within `inside`, a function of X.
+  /// Returns how many there are.
+  int clamp(const std::function<bool(const Vec<d>&)>& inside);
+  /// Attaches a mass [kg, kg/m].
+  void add_point_mass(const Place<d>& place, double mass);
+
+  /// The same vector at all nodes: a rigid translation, or with the mass a weight.
+  Field uniform(const Vec<d>& vector) const;
+  /// Forces on nodes of one force at a point [N, N/m].
+  Field point_force(const Place<d>& place, const Vec<d>& force) const;
+  /// Of a body force per volume at rest, a function of X [N/m^3].
+  Field body_force(const std::function<Vec<d>(const Vec<d>&)>& density) const;
+  /// Of a traction on the boundary, a function of X and of the normal at rest [Pa].
+  Field traction(const std::function<Vec<d>(const Vec<d>&, const Vec<d>&)>& stress) const;
+
+  /// A field at a point.
+  Vec<d> value(const Field& field, const Place<d>& place) const;
+  /// Of nodes at X + u with velocities v.
+  Momenta<d> momenta(const Field& u, const Field& v) const;
+  double total_mass() const;                 ///< point masses included [kg, kg/m]
+  Vec<d> centre(const Field& u) const;       ///< of mass [m]
+  StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
+  /// Cauchy's stress at a point [Pa].
+  Mat<3> stress(const Field& u, const Place<d>& place) const;
+  /// int |u - exact|^2 dX, for orders of convergence.
+  double squared_difference(const Field& u, const std::function<Vec<d>(const Vec<d>&)>& exact) const;
+
+ private:
+  using Slopes = Eigen::Matrix<double, d, cell_nodes<d>>;
+  struct Point {
+    Slopes slopes;  // by X, a column a node
+    double weight;  // volume that it stands for
+  };
+  using Displacements = Eigen::Matrix<double, d, cell_nodes<d>>;
+  Displacements of_cell(const Field& u, std::size_t cell) const;
+  Mat<d> gradient(const Field& u, std::size_t cell, const Slopes& slopes) const;
+  Slopes slopes_at(std::size_t cell, const Barycentric<d>& at, double* determinant = nullptr) const;
+  Vec<d> at_rest(std::size_t cell, const Barycentric<d>& at) const;
+  void make_pattern();
+  void assemble_mass(double density);
+  template <class Add>
+  void add_cell(std::size_t cell, Sparse& matrix, const Add& block) const;
+
+  SolidMesh<d> mesh_;
+  std::unique_ptr<const Law<d>> law_;
+  double length_;
+  std::vector<Point> points_;  // of all cells in turn
+  Sparse mass_;
+  std::vector<int> first_;  // of values: for each cell, nodes a and b and column k of b the row of a
+};
+
+}  // namespace splashdown::elastic

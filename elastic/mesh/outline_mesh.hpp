@@ -1,0 +1,12 @@
+// The mesh of a plane body: its outline filled by Delaunay refinement (Shewchuk 2002, in CGAL), no angle below 20.7 degrees
+// but where the outline itself has one.
+#pragma once
+
+#include "elastic/mesh/solid_mesh.hpp"
+
+namespace splashdown::elastic {
+
+/// Edges of triangles are at most `size` long [m]. Throws MeshError for an outline that crosses itself.
+SolidMesh<2> outline_mesh(const Surface<2>& outline, double size);
+
+}  // namespace splashdown::elastic

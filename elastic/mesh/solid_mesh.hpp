@@ -1,0 +1,65 @@
+// A solid as quadratic simplices at rest, and what may be wrong with one.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "elastic/mesh/quadratic.hpp"
+
+namespace splashdown::elastic {
+
+/// Corner numbers of straight simplices.
+template <int d>
+using Simplices = std::vector<std::array<int, d + 1>>;
+/// Points, a column each [m].
+template <int d>
+using Points = Eigen::Matrix<double, d, Eigen::Dynamic>;
+
+/// Why a mesh is no solid: what is wrong, and what cures it.
+struct MeshError : std::runtime_error {
+  /// `what` is a clause that may follow the name of a file.
+  MeshError(const std::string& what, std::string cure_) : std::runtime_error(what), cure(std::move(cure_)) {}
+  std::string cure;  ///< a sentence
+};
+
+/// Nodes and cells of a body at rest, in its own frame [m].
+template <int d>
+struct SolidMesh {
+  Points<d> nodes;
+  std::vector<std::array<int, cell_nodes<d>>> cells;    ///< positively oriented
+  std::vector<std::array<int, facet_nodes<d>>> facets;  ///< of the boundary; normals by the right hand point out
+  /// Number of nodes.
+  int size() const { return static_cast<int>(nodes.cols()); }
+};
+
+/// Straight simplices with a node in the middle of each edge. Corners that no simplex has are left out.
+template <int d>
+SolidMesh<d> quadratic_mesh(const Points<d>& corners, const Simplices<d>& simplices);
+
+/// The mesh of these cells: nodes of no cell are dropped, cells that are wound the other way are turned, the boundary is found.
+/// Throws MeshError unless it is one solid: each facet between two cells at most, cells connected through facets, no cell
+/// folded or flat.
+template <int d>
+SolidMesh<d> solid_mesh(const Points<d>& nodes, std::vector<std::array<int, cell_nodes<d>>> cells);
+
+/// A point in a cell.
+template <int d>
+struct Place {
+  int cell = 0;
+  Barycentric<d> at = Barycentric<d>::Zero();
+};
+
+/// The cell where a point of the body at rest lies, within `near` of its surface [m]; nothing: it is outside.
+template <int d>
+std::optional<Place<d>> locate(const SolidMesh<d>& mesh, const Vec<d>& point, double near);
+
+/// Longest edge of the box around the nodes [m].
+template <int d>
+double extent(const SolidMesh<d>& mesh) {
+  return (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).maxCoeff();
+}
+
+}  // namespace splashdown::elastic

@@ -1,0 +1,184 @@
+// [body.elastic]: what is read, built, stepped, refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "apps/build/build.hpp"
+#include "apps/effects/elastic/elastic.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
+#include "apps/scene/scales.hpp"
+#include "elastic/participant.hpp"
+#include "tests/unit/apps/scenes.hpp"
+
+namespace splashdown::apps {
+namespace {
+
+using testing::Mistake;
+
+/// A rubber beam that is held at its left end and loaded at the other.
+const std::string beam = R"(title = "beam"
+[time]
+end = 0.1
+dt_max = 0.01
+[gravity]
+acceleration = [0, -9.81]
+[[body]]
+name = "beam"
+density = 1200
+position = [1, 2]
+shape = { type = "box", width = 1, height = 0.1 }
+[body.elastic]
+young_modulus = 1e7
+poisson_ratio = 0.3
+size = 0.1
+clamp = [{min = [-0.5, -0.05], max = [-0.5, 0.05]}]
+point = [{name = "tip", point = [0.5, 0]}]
+point_mass = [{mass = 2, point = [0.4, 0]}]
+modes = 2
+[[body.force]]
+axes = "world"
+force = [0, 30]
+point = [0.5, 0]
+)";
+
+Scene scene_of(const std::string& text) { return read_scene_text(text, "scene.toml").scene; }
+std::string with(const std::string& from, const std::string& to) { return testing::replaced(beam, from, to); }
+
+TEST(ElasticScene, is_read_with_its_defaults) {
+  const auto scene = scene_of(beam);
+  const auto& table = scene.effects.find<ElasticTables>()->of_bodies.at(0);
+  EXPECT_EQ(table.law, "st_venant_kirchhoff");
+  EXPECT_EQ(table.scheme, "generalised_alpha");
+  EXPECT_EQ(table.spectral_radius, 0.9);
+  EXPECT_EQ(table.clamps.size(), 1u);
+  EXPECT_EQ(table.points.at(0).name, "tip");
+  EXPECT_EQ(table.point_masses.at(0).mass, 2);
+  EXPECT_EQ(table.modes, 2);
+}
+
+TEST(ElasticScene, builds_a_world_of_solids_alone_and_none_without_the_table) {
+  const auto world = build_world<2>(scene_of(beam));
+  ASSERT_NE(world.solids, nullptr);
+  EXPECT_EQ(world.bodies, nullptr);
+  EXPECT_EQ(world.fluid, nullptr);
+  EXPECT_EQ(world.solids->spec(0).name, "beam");
+  EXPECT_LT((world.solids->state(0).pose.translation() - Vec<2>(1, 2)).norm(), 1e-12);
+  EXPECT_EQ(build_world<2>(scene_of(testing::wedge_drop)).solids, nullptr);
+}
+
+double tip(const World<2>& world) { return world.solids->displacements().at(1).second; }
+
+TEST(ElasticScene, comes_to_the_place_that_its_loads_hold) {
+  // Euler-Bernoulli in plane strain with its weight, a mass at 0.9 L and a force at L; L/h = 10: shear adds 1 %.
+  const auto world = build_world<2>(scene_of(with("modes = 2", "scheme = \"steady\"")));
+  ASSERT_TRUE(world.stepper->attempt(0.01).ok());
+  world.stepper->commit();
+  const double EI = 1e7 / (1 - 0.09) * 1e-3 / 12, g = 9.81;
+  const double a = 0.9, own = -1200 * 0.1 * g / (8 * EI), mass = -2 * g * a * a * (3 - a) / (6 * EI),
+               force = 30 / (3 * EI);
+  EXPECT_NEAR(tip(world) / (own + mass + force), 1, 0.02);
+  const auto now = world.solids->deformation(0);
+  EXPECT_GT(now.strain_energy, 0);
+  EXPECT_EQ(now.at.x() < 0.8, true) << "at the clamp, in the world's frame";
+}
+
+TEST(ElasticScene, falls_freely_without_a_clamp) {
+  const auto world = build_world<2>(scene_of(
+      with("clamp = [{min = [-0.5, -0.05], max = [-0.5, 0.05]}]\n", "")
+          .substr(0, with("clamp = [{min = [-0.5, -0.05], max = [-0.5, 0.05]}]\n", "").find("[[body.force]]"))));
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_TRUE(world.stepper->attempt(0.01).ok());
+    world.stepper->commit();
+  }
+  // With its point mass, whose centre is not that of the beam alone; displacement of all is g t^2/2.
+  EXPECT_NEAR(tip(world), -9.81 * 0.01 / 2, 1e-9);
+  EXPECT_NEAR(world.solids->velocity_n(0)[1], -0.981, 1e-9);
+  EXPECT_LT(world.solids->deformation(0).von_mises, 1e-3) << "nothing strains it";
+}
+
+TEST(ElasticScene, of_turek_and_hron_is_where_the_library_has_it) {
+  const auto world = build_world<2>(read_scene(SPLASHDOWN_EXAMPLES "/turek_hron_csm/scene.toml").scene);
+  ASSERT_TRUE(world.stepper->attempt(0.5).ok());
+  world.stepper->commit();
+  EXPECT_NEAR(world.solids->displacements().at(0).second / -7.187e-3, 1, 0.003);
+  EXPECT_NEAR(tip(world) / -66.10e-3, 1, 0.003);
+}
+
+TEST(ElasticScene, goes_on_from_a_checkpoint_bit_by_bit) {
+  const auto one = build_world<2>(scene_of(beam)), other = build_world<2>(scene_of(beam));
+  const auto go = [](const World<2>& world) {
+    EXPECT_TRUE(world.stepper->attempt(0.01).ok());
+    world.stepper->commit();
+  };
+  go(one);
+  std::stringstream state;
+  one.stepper->save(state);
+  other.stepper->load(state);
+  go(one);
+  go(other);
+  EXPECT_EQ(tip(one), tip(other));
+  std::stringstream cut(state.str().substr(0, state.str().size() / 2));
+  EXPECT_THROW(other.stepper->load(cut), std::runtime_error);
+}
+
+TEST(ElasticScene, tells_natural_frequencies_before_the_run) {
+  const auto scene = scene_of(beam);
+  for (const auto* kind : effect_kinds())
+    if (kind->name() == "elastic") {
+      const auto note = kind->note(scene, scales<2>(scene));
+      ASSERT_TRUE(note);
+      EXPECT_NE(note->reason.find("natural frequencies"), std::string::npos) << note->reason;
+      EXPECT_FALSE(kind->note(scene_of(testing::wedge_drop), {}).has_value());
+    }
+}
+
+class BadElasticScene : public ::testing::TestWithParam<Mistake> {};
+TEST_P(BadElasticScene, is_refused_with_place_rule_and_cure) {
+  const auto& bad = GetParam();
+  testing::expect_refused(with(bad.from, bad.to), bad);
+}
+
+const std::vector<Mistake> mistakes = {
+    {"incompressible", "poisson_ratio = 0.3", "poisson_ratio = 0.5", 14, "body.beam.elastic.poisson_ratio = 0.5",
+     "must be below 0.5"},
+    {"ratio_beyond", "poisson_ratio = 0.3", "poisson_ratio = 0.6", 14, "body.beam.elastic.poisson_ratio = 0.6",
+     "Use e.g."},
+    {"negative_modulus", "young_modulus = 1e7", "young_modulus = -1", 13, "body.beam.elastic.young_modulus = -1",
+     "must be positive (Pa)"},
+    {"no_size", "size = 0.1\n", "", 12, "body.beam.elastic.size is missing", "half of the thinnest part"},
+    {"too_coarse", "size = 0.1", "size = 3", 15, "body.beam.elastic.size = 3", "must not exceed the body's extent"},
+    {"too_fine", "size = 0.1", "size = 1e-4", 15, "body.beam.elastic.size = 0.0001", "elements"},
+    {"holds_nothing", "min = [-0.5, -0.05], max = [-0.5, 0.05]", "centre = [3, 3], radius = 0.1", 16,
+     "body.beam.elastic.clamp[0]", "holds nothing"},
+    {"holds_everything", "max = [-0.5, 0.05]", "max = [0.5, 0.05]", 16, "body.beam.elastic.clamp",
+     "holds the whole body"},
+    {"half_a_clamp", "max = [-0.5, 0.05]", "radius = 1", 16, "body.beam.elastic.clamp[0]", "says not what is held"},
+    {"modes_beyond_the_mesh", "modes = 2", "modes = 1000", 19, "body.beam.elastic.modes = 1000", "must be below"},
+    {"point_outside", "point = [0.5, 0]}]", "point = [0.6, 0]}]", 17, "body.beam.elastic.point.tip",
+     "is not in the body"},
+    {"mass_outside", "point = [0.4, 0]", "point = [0.4, 1]", 18, "body.beam.elastic.point_mass[0].point",
+     "is not in the body"},
+    {"held_by_motion", "density = 1200", "density = 1200\nmotion = \"fixed\"", 10, "body.beam.motion = \"fixed\"",
+     "use clamp"},
+    {"in_water", "[gravity]",
+     "[fluid]\ndensity = 1000\n[fluid.size]\nsurface = 0.1\n[[fluid.region]]\nshape = \"box\"\nmin = [-9, -9]\nmax = "
+     "[9, 0]\n[gravity]",
+     20, "body.beam.elastic", "does not meet a fluid yet"},
+    {"beside_a_rigid_body", "[gravity]",
+     "[[body]]\nname = \"ball\"\nmass = 1\nposition = [9, 9]\nshape = {type = \"circle\", radius = 1}\n[gravity]", 17,
+     "body.beam.elastic", "do not share a scene yet"},
+    {"no_equilibrium", "clamp = [{min = [-0.5, -0.05], max = [-0.5, 0.05]}]", "scheme = \"steady\"", 16,
+     "body.beam.elastic.scheme = \"steady\"", "has no equilibrium"},
+    {"unknown_law", "size = 0.1", "size = 0.1\nlaw = \"ogden\"", 16, "body.beam.elastic.law = \"ogden\"",
+     "neo_hookean"},
+    {"radius_of_another_scheme", "size = 0.1", "size = 0.1\nscheme = \"midpoint\"\nspectral_radius = 0.5", 17,
+     "body.beam.elastic.spectral_radius", "only scheme = \"generalised_alpha\" has one"},
+    {"turning_force", "axes = \"world\"", "axes = \"body\"", 20, "body.beam.force", "do not turn with them"},
+    {"no_such_mesh", "size = 0.1", "mesh = {file = \"none.msh\"}", 15, "body.beam.elastic.mesh", "none.msh"},
+};
+INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticScene, ::testing::ValuesIn(mistakes),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace splashdown::apps
