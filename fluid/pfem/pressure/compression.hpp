@@ -29,11 +29,11 @@ namespace splashdown::fluid {
 /// where the step is long for sound.
 ///
 /// Waves of few elements, which no mesh carries well, are damped by a bulk viscosity zeta = 0.2 rho c h on what the rate differs
-/// from its mean over the cells around, explicitly:
+/// from its mean over the cells around, explicitly: kick zeta (r- / V - mean) is added to phi; of third order on a wave that
+/// elements resolve; where the step is longer than h / 2 c, by as much less as it is longer. Shocks are damped by
+/// kick 5 rho h^2 (r- / V)^2 where the liquid is compressed (von Neumann, Richtmyer 1950).
 ///
-///   phi = kick ((P- + P+) / 2 + zeta (r- / V - mean))
-///
-/// of third order on a wave that elements resolve; where the step is longer than h / 2 c, by as much less as it is longer.
+/// With gas beta changes by a thousand within a shock. It is then a secant of the law, iterated (`follow_law`).
 ///
 /// In the first step no pressure is known. The liquid is then in equilibrium with all that does not come at once: its pressure
 /// before is what the pressure of an incompressible liquid is, and r = r-.
