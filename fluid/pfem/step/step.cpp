@@ -189,7 +189,8 @@ Status WaterStep<d>::predict(const ClosedContacts& contacts) {
   }
   push_surface();
   if (equation_.mode_count() == 0) return {};
-  if (has_followers()) trial_.following.answered = equation_.on_modes(trial_.following.on_walls);
+  if (has_followers())
+    trial_.following.given = trial_.following.answered = equation_.on_modes(trial_.following.on_walls);
   // Closed contacts do not change what effects do: their impulses balance it with the pressure's.
   answer = contacts.allowed(answer);
   const Eigen::VectorXd impulse = equation_.on_modes(trial_.on_walls);
@@ -257,7 +258,13 @@ bool WaterStep<d>::follow() {
   }
   in_parallel(count, [&](std::size_t i) { trial_.v_after[i] = trial_.carried[i] + others[i] + change[i]; });
   for (std::size_t w = 0; w < on_walls.size(); ++w) trial_.on_walls[w] += on_walls[w] - following.on_walls[w];
-  if (equation_.mode_count() > 0) trial_.known += equation_.on_modes(on_walls) - equation_.on_modes(following.on_walls);
+  if (equation_.mode_count() > 0) {
+    const Eigen::VectorXd now = equation_.on_modes(on_walls);
+    trial_.known += now - equation_.on_modes(following.on_walls);
+    in_parallel(count, [&](std::size_t i) { change[i] -= following.change[i]; });
+    const std::vector<Twist<d>> still(water_.walls.size(), Twist<d>::Zero());
+    following.given = now + equation_.on_modes(equation_.held().excess(change, still));
+  }
   following.on_walls = on_walls;
   return true;
 }
@@ -268,10 +275,9 @@ template <int d>
 void WaterStep<d>::settle_bodies() {
   if (!has_followers() || equation_.mode_count() == 0) return;
   auto& following = trial_.following;
-  const Eigen::VectorXd all = equation_.on_modes(following.on_walls);
   std::vector<double> further(trial_.phi.size(), 0.0);
-  trial_.answer += equation_.respond(further, trial_.s_after, all - following.answered);
-  following.answered = all;
+  trial_.answer += equation_.respond(further, trial_.s_after, following.given - following.answered);
+  following.answered = following.given;
   for (std::size_t i = 0; i < further.size(); ++i) trial_.phi[i] += further[i];
   equation_.accelerate(further, trial_.v_after);
   wall_motion_->move(trial_.v_after, water_.moved_poses(trial_.s_after, dt_), dt_, trial_.moved);
@@ -308,7 +314,7 @@ Status WaterStep<d>::ask(Correction<d>& left) {
   Eigen::VectorXd owed = Eigen::VectorXd::Zero(equation_.mode_count());
   if (has_followers()) {
     add_viscous_part(left);
-    left.owed = owed = equation_.on_modes(trial_.following.on_walls) - trial_.following.answered;
+    left.owed = owed = trial_.following.given - trial_.following.answered;
     left.owed_answer = equation_.response(owed);
   }
   left.answer = equation_.respond(left.impulse, left.walls, owed);

@@ -73,7 +73,8 @@ struct Trial {
   struct Following {
     std::vector<Vec<d>> change;       ///< of velocities of nodes, before the pressure; empty: there are none
     std::vector<Wrench<d>> on_walls;  ///< impulse
-    Eigen::VectorXd answered;         ///< impulse on modes to which they have answered
+    Eigen::VectorXd given;            ///< impulse on modes, with what held nodes hand on
+    Eigen::VectorXd answered;         ///< what of it they have answered to
   };
   Following following;
 };
