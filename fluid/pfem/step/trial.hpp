@@ -73,8 +73,8 @@ struct Trial {
   struct Following {
     std::vector<Vec<d>> change;       ///< of velocities of nodes, before the pressure; empty: there are none
     std::vector<Wrench<d>> on_walls;  ///< impulse
-    Eigen::VectorXd given,
-        answered;  ///< impulses on modes, with what held nodes hand on: all, and what they have answered to
+    Eigen::VectorXd given;            ///< impulse on modes, with what held nodes hand on
+    Eigen::VectorXd answered;         ///< what of it they have answered to
   };
   Following following;
 };

@@ -17,3 +17,10 @@ splashdown_ensemble(still_tanks NIGHTLY 1:20 BUDGET 900)
 splashdown_ensemble(slots CI 1:10,18,20,24,74,84,2006,2017,2057,2086,2097,2111,4053 NIGHTLY 1:219,2001:2150,4053 BUDGET 300)
 splashdown_ensemble(uav_attitudes NIGHTLY 0:15 BUDGET 900)
 splashdown_ensemble(effect_mixes CI 1:12,14,23,24,29,85,94,170 NIGHTLY 1:200 BUDGET 300)
+
+# The same laws for the monolithic formulation: the second table of docs/stability.md.
+set(monolithic SET fluid.formulation=monolithic)
+splashdown_ensemble(drops_and_jets AS monolithic_drops ${monolithic} CI 1:3,5:10 NIGHTLY 1:60 BUDGET 300)
+splashdown_ensemble(slots AS monolithic_slots ${monolithic} CI 1:5,7:10 NIGHTLY 1:24 BUDGET 300)
+splashdown_ensemble(light_polygons AS monolithic_polygons ${monolithic} CI 2,5,8,11,16,30,42 NIGHTLY 1:50 BUDGET 300)
+splashdown_ensemble(round_drops AS monolithic_round_drops ${monolithic} CI 36 NIGHTLY 31:36 BUDGET 600)

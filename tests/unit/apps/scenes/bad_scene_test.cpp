@@ -243,6 +243,8 @@ const std::vector<Mistake> scenes = {
      "fluid.compressibility.gas_content = 1", "[0, 0.9]"},
     {"table_of_another_formulation", "[fluid.size]", "[fluid.monolithic]\ntolerance = 1e-8\n[fluid.size]", 11,
      "fluid.monolithic", "belongs to formulation = \"monolithic\""},
+    {"grid_of_another_formulation", "[fluid.size]", "[fluid.grid]\nsize = 0.01\n[fluid.size]", 11, "fluid.grid",
+     "belongs to formulation = \"vortex\""},
     {"convective_without_speed", "density = 1000",
      "density = 1000\nformulation = \"monolithic\"\nmonolithic = {stabilisation = \"convective\"}", 12,
      "fluid.monolithic.speed", "e.g. 100"},

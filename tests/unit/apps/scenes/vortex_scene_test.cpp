@@ -50,6 +50,12 @@ TEST(VortexScene, becomes_a_grid_that_fast_transforms_like_around_what_it_says) 
   EXPECT_NEAR(other.grid.min.x() + other.grid.max().x(), 1.1, 1e-12);
 }
 
+TEST(VortexScene, names_the_effects_that_a_grid_does_not_carry) {
+  for (const char* table : {"form_drag = {}\n", "compressibility = {}\n", "skin_friction = {}\n"})
+    EXPECT_NE(refusal_of(head + grid + table + fixed).find("does not carry this effect"), std::string::npos) << table;
+  EXPECT_NE(refusal_of(head + grid + "monolithic = {tolerance = 1e-8}\n" + fixed).find("has none"), std::string::npos);
+}
+
 TEST(VortexScene, wind_is_its_stream) {
   const std::string wind = "[wind]\nvelocity = [3, 0]\ngust = {velocity = [0, 2], start = 1, duration = 2}\n";
   const auto spec = vortex_spec(scene_of(head + grid + wind + fixed));
