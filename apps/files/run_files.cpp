@@ -10,7 +10,8 @@ namespace splashdown::apps {
 namespace {
 
 constexpr const char* tables[] = {"bodies.csv",           "fluid.csv",      "forces.csv", "probes.csv",
-                                  "surface_pressure.csv", "added_mass.csv", "passes.csv", "section_loads.csv"};
+                                  "surface_pressure.csv", "added_mass.csv", "passes.csv", "section_loads.csv",
+                                  "velocity_lines.csv"};
 
 }  // namespace
 

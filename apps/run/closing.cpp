@@ -150,8 +150,9 @@ std::string refused_text(const Summary& summary) {
 
 std::string files_text(const std::filesystem::path& directory, const std::map<std::string, BodySummary>& bodies) {
   std::string text = directory.string() + "/:";
-  for (const char* name : {"report.html", "summary.json", "bodies.csv", "fluid.csv", "forces.csv", "probes.csv",
-                           "surface_pressure.csv", "added_mass.csv", "passes.csv", "section_loads.csv", "frames.pvd"})
+  for (const char* name :
+       {"report.html", "summary.json", "bodies.csv", "fluid.csv", "forces.csv", "probes.csv", "surface_pressure.csv",
+        "added_mass.csv", "passes.csv", "section_loads.csv", "velocity_lines.csv", "frames.pvd"})
     if (std::filesystem::exists(directory / name)) text += fmt::format(" {}", name);
   for (const auto& [name, body] : bodies)
     if (body.maximum_pressure) text += fmt::format(" hull_{}.vtu", file_name_of(name));
