@@ -11,7 +11,7 @@ set(output_sources
   text/number_text.cpp files/csv.cpp files/run_files.cpp
   record/hulls.cpp record/passes.cpp record/points.cpp record/probes.cpp record/recorder.cpp record/view.cpp
   record/frames/base64.cpp record/frames/frames.cpp record/frames/hull_map.cpp record/frames/vtu.cpp record/frames/vtu_blocks.cpp record/frames/vtu_grid.cpp
-  record/sections/section_loads.cpp record/sections/section_mass.cpp
+  record/sections/section_loads.cpp record/sections/section_mass.cpp record/sections/velocity_lines.cpp
   record/tables/energy.cpp record/tables/evidence.cpp record/tables/rows.cpp
   statistics/attitude.cpp statistics/energy_statistics.cpp statistics/evidence.cpp statistics/foreseen_json.cpp statistics/filters.cpp
   statistics/verdict/grades.cpp statistics/landing_statistics.cpp statistics/verdict/limits.cpp statistics/verdict/missing.cpp statistics/verdict/next_step.cpp

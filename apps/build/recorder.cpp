@@ -107,6 +107,13 @@ struct AddRecord {
     for (const double place : places) record.stations.push_back({place, mass_ahead<d>(mass, axis, place)});
     settings.sections.push_back(std::move(record));
   }
+  void operator()(const VelocityLineEntry& entry) const {
+    VelocityLineRecord<d> record{
+        .name = entry.name, .points = {}, .every = entry.interval, .times = entry.times, .mirror = mirror_of(scene)};
+    const rigid::Vec<d> from = vec<d>(entry.from), way = vec<d>(entry.to) - from;
+    for (int k = 0; k < entry.points; ++k) record.points.emplace_back(from + way * (double(k) / (entry.points - 1)));
+    settings.velocity_lines.push_back(std::move(record));
+  }
   void operator()(const PassesEntry& entry) const { settings.passes = PassesRecord{entry.interval, entry.times}; }
   void operator()(const PatchEntry& entry) const {
     const auto& body = scene.bodies[entry.body];

@@ -9,9 +9,9 @@ namespace splashdown::apps {
 
 namespace {
 
-constexpr const char* tables[] = {"bodies.csv",           "fluid.csv",      "forces.csv", "probes.csv",
-                                  "surface_pressure.csv", "added_mass.csv", "passes.csv", "section_loads.csv",
-                                  "elastic.csv"};
+constexpr const char* tables[] = {"bodies.csv",           "fluid.csv",         "forces.csv", "probes.csv",
+                                  "surface_pressure.csv", "added_mass.csv",    "passes.csv", "section_loads.csv",
+                                  "elastic.csv",          "velocity_lines.csv"};
 
 }  // namespace
 

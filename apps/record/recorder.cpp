@@ -21,6 +21,7 @@
 #include "apps/record/probes.hpp"
 #include "apps/record/schedule.hpp"
 #include "apps/record/sections/section_loads.hpp"
+#include "apps/record/sections/velocity_lines.hpp"
 #include "apps/record/tables/energy.hpp"
 #include "apps/record/tables/evidence.hpp"
 #include "apps/record/tables/rows.hpp"
@@ -52,7 +53,7 @@ struct Recorder<d>::State {
   Schedule rows, frames_due;
   std::vector<Schedule> surface_due, added_mass_due;
   std::optional<PassRows> passes;
-  std::vector<Schedule> sections_due;
+  std::vector<Schedule> sections_due, lines_due;
   std::vector<SectionExtremes> sections;
   FrameSeries frames;
   RunStatistics run;
@@ -86,6 +87,7 @@ struct Recorder<d>::State {
     for (const auto& record : settings.surface_pressure) surface_due.push_back(schedule_of(record));
     for (const auto& record : settings.added_mass) added_mass_due.push_back(schedule_of(record));
     for (const auto& record : settings.sections) sections_due.push_back(schedule_of(record));
+    for (const auto& record : settings.velocity_lines) lines_due.push_back(schedule_of(record));
     sections.resize(settings.sections.size());
     if (settings.passes) passes.emplace(schedule_of(*settings.passes));
   }
@@ -94,7 +96,7 @@ struct Recorder<d>::State {
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
             max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, met_water, body_names, speed,
-            has_fluid, sections_due, sections, cereal::binary_data(&ledger, sizeof ledger));
+            has_fluid, sections_due, sections, lines_due, cereal::binary_data(&ledger, sizeof ledger));
     if (passes) archive(*passes);
   }
 
@@ -106,8 +108,9 @@ struct Recorder<d>::State {
 
   /// Whether what was loaded belongs to records like these.
   bool fits_settings() const {
-    return sections_due.size() == settings.sections.size() && sections.size() == settings.sections.size() &&
-           body_names.size() == bodies.size() && surface_due.size() == settings.surface_pressure.size() &&
+    return lines_due.size() == settings.velocity_lines.size() && sections_due.size() == settings.sections.size() &&
+           sections.size() == settings.sections.size() && body_names.size() == bodies.size() &&
+           surface_due.size() == settings.surface_pressure.size() &&
            added_mass_due.size() == settings.added_mass.size() && equipment.size() == settings.equipment.size() &&
            met_water.size() == settings.pressure_probes.size() + settings.gauges.size() && hulls.fits_settings() &&
            points.fits(settings.pressure_probes.size());
@@ -331,6 +334,10 @@ void Recorder<d>::record(const RecordInput<d>& input) {
     if (s.sections_due[r].due(input.time))
       write_rows(s.file("section_loads.csv", section_loads_header), input.time, record.name, loads);
   }
+  for (std::size_t r = 0; input.fluid && r < s.lines_due.size(); ++r)
+    if (s.lines_due[r].due(input.time))
+      write_rows(s.file("velocity_lines.csv", velocity_lines_header), input.time, s.settings.velocity_lines[r],
+                 *input.fluid);
   if (s.passes && s.passes->due(input.time))
     s.passes->accepted(s.file("passes.csv", passes_header), static_cast<std::size_t>(s.run.steps) - 1,
                        {input.time, input.dt, input.pass_residuals});

@@ -10,6 +10,7 @@
 
 #include "apps/record/sections/section_mass.hpp"
 #include "apps/scene/patch_region.hpp"
+#include "core/mirror.hpp"
 #include "core/types.hpp"
 
 namespace splashdown::apps {
@@ -97,6 +98,16 @@ struct SectionRecord {
   std::vector<double> times;        ///< [s]: first step at or after each
 };
 
+/// Velocity of the fluid along a line, written to velocity_lines.csv.
+template <int d>
+struct VelocityLineRecord {
+  std::string name;
+  std::vector<Vec<d>> points;    ///< world frame [m]
+  std::optional<double> every;   ///< [s]; 0: each step
+  std::vector<double> times;     ///< [s]: first step at or after each
+  std::optional<Mirror> mirror;  ///< of a scene of which half is simulated: points behind it are told by their images
+};
+
 template <int d>
 struct RecorderSettings {
   std::filesystem::path directory;
@@ -112,6 +123,7 @@ struct RecorderSettings {
   std::vector<AddedMassRecord> added_mass;
   std::optional<PassesRecord> passes;
   std::vector<SectionRecord<d>> sections;
+  std::vector<VelocityLineRecord<d>> velocity_lines;
   /// Centres of mass of the bodies in the frames of their shapes [m], in which files give points of hulls; without: zero.
   std::map<std::string, Vec<d>> centre_of_mass;
   /// By body: horizontal axes along which symmetry of the scene forbids a load.

@@ -152,7 +152,7 @@ std::string files_text(const std::filesystem::path& directory, const std::map<st
   std::string text = directory.string() + "/:";
   for (const char* name :
        {"report.html", "summary.json", "bodies.csv", "fluid.csv", "forces.csv", "probes.csv", "surface_pressure.csv",
-        "added_mass.csv", "passes.csv", "section_loads.csv", "elastic.csv", "frames.pvd"})
+        "added_mass.csv", "passes.csv", "section_loads.csv", "elastic.csv", "velocity_lines.csv", "frames.pvd"})
     if (std::filesystem::exists(directory / name)) text += fmt::format(" {}", name);
   for (const auto& [name, body] : bodies)
     if (body.maximum_pressure) text += fmt::format(" hull_{}.vtu", file_name_of(name));

@@ -343,8 +343,16 @@ struct SectionEntry {
   std::optional<double> interval;  ///< [s]; 0: every step
   std::vector<double> times;       ///< first step at or after each [s]
 };
+/// Velocity of the fluid at points on a straight line that stays in place.
+struct VelocityLineEntry {
+  std::string name;
+  Point from = Point::Zero(), to = Point::Zero();
+  int points = 50;                 ///< equally far from each other, ends included
+  std::optional<double> interval;  ///< [s]; 0: every step
+  std::vector<double> times;       ///< first step at or after each [s]
+};
 using RecordEntry = std::variant<PressureEntry, SurfacePressureEntry, ElevationEntry, AccelerationEntry, AddedMassEntry,
-                                 PatchEntry, MaximumPressureEntry, PassesEntry, SectionEntry>;
+                                 PatchEntry, MaximumPressureEntry, PassesEntry, SectionEntry, VelocityLineEntry>;
 
 struct Scene {
   int dimension = 2;

@@ -9,6 +9,7 @@
 #include "apps/quantity/names.hpp"
 #include "apps/record/passes.hpp"
 #include "apps/record/sections/section_loads.hpp"
+#include "apps/record/sections/velocity_lines.hpp"
 #include "apps/record/tables/rows.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/statistics/attitude.hpp"
@@ -137,6 +138,7 @@ std::optional<Names> columns_of(const std::string& table, const Scene& scene) {
   if (file == "surface_pressure.csv") return split(surface_pressure_header(scene.dimension));
   if (file == "added_mass.csv") return split(added_mass_header(scene.dimension));
   if (file == "section_loads.csv") return split(section_loads_header);
+  if (file == "velocity_lines.csv") return split(velocity_lines_header);
   if (file == "passes.csv") return split(passes_header);
   if (file == "elastic.csv") return split(elastic_header);
   const bool effects = !scene.effects.empty();  // have columns of their own

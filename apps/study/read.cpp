@@ -124,6 +124,22 @@ void read_derived(Reader& reader, Study& study) {
   study.derived.push_back(std::move(derived));
 }
 
+/// Axes without a key of their own set nothing unless derived keys use them.
+void check_axes_without_keys(const Study& study, Problems& problems) {
+  for (const auto& axis : study.axes) {
+    const bool has_keys = std::ranges::any_of(axis.values, [](const AxisValue& value) { return !value.set.empty(); });
+    if (has_keys || axis.values.empty() || !axis.is_of_numbers()) continue;
+    const bool used = std::ranges::any_of(study.derived, [&](const DerivedKey& derived) {
+      const auto names = quantity::names_in(derived.value);
+      return std::ranges::find(names, axis.name) != names.end();
+    });
+    if (!used)
+      problems.add_missing(
+          "axis." + axis.name + ".key", "what its values are set in",
+          "Name a key of the scene as for --set, e.g. body.wedge.mass, or use the axis in [[derived]].");
+  }
+}
+
 /// The axis of a name, or a problem.
 std::optional<std::size_t> read_axis_name(Reader& reader, std::string_view key, const Study& study, Need need) {
   std::vector<std::string> valid;
@@ -180,6 +196,7 @@ void read_root(Reader& root, Study& study) {
   if (study.axes.empty() && !problems.noted("axis"))
     problems.add_missing("axis", "what varies", "Write [[axis]] with name, key and values.");
   root.each_table("derived", [&](Reader& reader) { read_derived(reader, study); });
+  check_axes_without_keys(study, problems);
   root.each_table("quantity", [&](Reader& reader) { read_quantity(reader, study, columns); });
   root.each_table("limit", [&](Reader& reader) { read_study_limit(reader, study, columns); });
   if (auto stop = root.table("stop")) read_stop(*stop, study);

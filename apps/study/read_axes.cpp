@@ -153,7 +153,9 @@ void read_axis(Reader& reader, Study& study, Columns& columns, std::vector<Rando
     if (listed || cases || ranged)
       problems.add(reader.key("replicates"), "must not stand beside values or cases", "Make it an axis of its own.");
   } else if (listed || !cases) {
-    reader.text("key", random.key, "Name a key of the scene as for --set, e.g. body.wedge.mass.", Need::required);
+    // Without one, [[derived]] has to use it.
+    reader.text("key", random.key, "Name a key of the scene as for --set, e.g. body.wedge.mass.",
+                ranged || reader.holds("values") ? Need::optional : Need::required);
     std::string spacing = "linear";
     reader.choice("spacing", spacing, {"linear", "log"});
     if (reader.holds("spacing") && !reader.holds("range"))

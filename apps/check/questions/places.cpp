@@ -77,6 +77,7 @@ struct AskAboutRecord {
                       entry.name, body.name));
   }
   void operator()(const PassesEntry& entry) const { instants("passes", entry.interval); }
+  void operator()(const VelocityLineEntry& entry) const { instants("velocity_line", entry.interval); }
   void operator()(const ElevationEntry&) const {}
 
  private:

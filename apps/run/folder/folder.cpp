@@ -35,10 +35,12 @@ std::string provenance_toml(const std::filesystem::path& scene) {
 }
 
 /// What a run removes before it begins, or writes over.
-constexpr const char* replaced[] = {
-    "checkpoint",     "bodies.csv", "fluid.csv",         "forces.csv",  "probes.csv",   "surface_pressure.csv",
-    "added_mass.csv", "passes.csv", "section_loads.csv", "elastic.csv", "summary.json", "report.html",
-    "frames.pvd",     "frames",     "snapshots",         "report"};
+constexpr const char* replaced[] = {"checkpoint",         "bodies.csv",  "fluid.csv",
+                                    "forces.csv",         "probes.csv",  "surface_pressure.csv",
+                                    "added_mass.csv",     "passes.csv",  "section_loads.csv",
+                                    "velocity_lines.csv", "elastic.csv", "summary.json",
+                                    "report.html",        "frames.pvd",  "frames",
+                                    "snapshots",          "report"};
 
 struct Origin {
   std::string text;         ///< all of scene.resolved.toml

@@ -108,6 +108,18 @@ void read_section_loads(Reader& reader, Scene& scene) {
   scene.records.emplace_back(std::move(entry));
 }
 
+void read_velocity_line(Reader& reader, Scene& scene) {
+  VelocityLineEntry entry;
+  read_name(reader, entry.name, "wake");
+  reader.point("from", entry.from, place_rule(reader.context().dimension), Need::required);
+  reader.point("to", entry.to, place_rule(reader.context().dimension), Need::required);
+  reader.integer("points", entry.points, within(2, 100'000, "", "Use e.g. 50, both ends included."));
+  if (entry.from == entry.to && reader.holds("from") && reader.holds("to"))
+    reader.context().problems.add(reader.key("to"), "is where the line begins", "Use two places.");
+  read_instants(reader, entry);
+  scene.records.emplace_back(std::move(entry));
+}
+
 /// A kind of record and who reads its keys.
 struct RecordKind {
   std::string_view name;
@@ -121,7 +133,8 @@ constexpr RecordKind record_kinds[] = {{"pressure", read_pressure},
                                        {"acceleration", read_acceleration},
                                        {"added_mass", read_added_mass},
                                        {"passes", read_passes},
-                                       {"section_loads", read_section_loads}};
+                                       {"section_loads", read_section_loads},
+                                       {"velocity_line", read_velocity_line}};
 
 }  // namespace
 

@@ -106,6 +106,15 @@ class RecordChecker {
     }
   }
 
+  void operator()(const VelocityLineEntry& entry) {
+    needs_fluid();
+    unique(entry.name);
+    within_run(entry.times);
+    if (problems_.found_in(label_)) return;
+    inside_tank(vec<d>(entry.from), ".from");
+    inside_tank(vec<d>(entry.to), ".to");
+  }
+
  private:
   void needs_fluid() {
     if (!scene_.has_fluid() && !problems_.found_in("fluid.formulation"))

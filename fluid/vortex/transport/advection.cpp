@@ -149,7 +149,7 @@ struct Rules {
   }
 };
 
-constexpr std::size_t widest = block + 2 * rim + 2;
+constexpr std::size_t widest = block + 4 * rim + 2;  // particles of a block and its rims, and zeros on both sides
 
 }  // namespace
 

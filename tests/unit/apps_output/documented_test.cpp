@@ -10,6 +10,7 @@
 #include "apps/record/frames/frames.hpp"
 #include "apps/record/passes.hpp"
 #include "apps/record/sections/section_loads.hpp"
+#include "apps/record/sections/velocity_lines.hpp"
 #include "apps/record/tables/rows.hpp"
 
 namespace splashdown::apps {
@@ -55,6 +56,7 @@ TEST(Documented, columns_of_tables_are_those_that_are_written) {
   EXPECT_EQ(documented("fluid.csv"), columns(fluid_header({})));
   EXPECT_EQ(documented("probes.csv"), columns(probes_header));
   EXPECT_EQ(documented("passes.csv"), columns(passes_header));
+  EXPECT_EQ(documented("velocity_lines.csv"), columns(velocity_lines_header));
   EXPECT_EQ(documented("section_loads.csv"), columns(section_loads_header));
 }
 

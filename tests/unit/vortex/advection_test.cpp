@@ -39,6 +39,33 @@ TEST(Kernels, are_those_of_the_sweeps) {
   }
 }
 
+/// A grid of squares of 1 m, `across` by 16.
+Grid long_grid(int across) { return {.min = Vec<2>::Zero(), .h = 1, .nx = across, .ny = 16}; }
+
+/// What a patch of vorticity that begins at column `left` becomes on a grid of so many columns, from there on.
+std::vector<double> moved_patch(int across, int left, Remeshing kernel) {
+  const auto g = long_grid(across);
+  NodeField omega(g.nodes(), 0.0);
+  for (int j = 4; j < 12; ++j)
+    for (int i = 0; i < 40; ++i) omega[g.at(left + i, j)] = std::sin(1 + i * 0.3 + j * 1.7);
+  NodeField psi(g.nodes(), 0.0);
+  FaceField velocity;
+  velocities_of(g, psi, {0.37, -0.21}, velocity);
+  Advection(g, kernel, PathRule::rk2).move(omega, {velocity, velocity, 0}, 1);
+  std::vector<double> found;
+  for (int j = 0; j <= 16; ++j)
+    for (int i = -6; i < 46; ++i) found.push_back(omega[g.at(left + i, j)]);
+  return found;
+}
+
+// Sweeps go block by block of columns. On long rows blocks are whole, and have neighbours on both sides.
+TEST(Advection, is_the_same_wherever_blocks_of_a_row_end) {
+  for (const auto kernel : {Remeshing::m4, Remeshing::m6}) {
+    const auto alone = moved_patch(80, 20, kernel);
+    for (const int left : {230, 250, 258, 490, 512, 740}) EXPECT_EQ(moved_patch(1040, left, kernel), alone) << left;
+  }
+}
+
 /// Error of a blob after a quarter of a turn with a solid rotation.
 double error_of_turn(int n, Remeshing kernel, int steps) {
   const auto g = scenes::square_grid(n, 0.8);

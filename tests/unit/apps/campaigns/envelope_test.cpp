@@ -172,6 +172,8 @@ TEST_F(StudyTest, mistakes_in_conditions_derived_keys_and_envelopes_are_told) {
   EXPECT_NE(told("0.001*tp/base", "0.001*tq/base").find("Did you mean 'tp'?"), std::string::npos);
   EXPECT_NE(told("0.001*tp/base", "0*tp/(base - 2)").find("no finite value"), std::string::npos);
   EXPECT_NE(told("key = \"time.end\"", "key = \"time.ent\"").find("derived: time.ent"), std::string::npos);
+  EXPECT_EQ(told("key = \"fluid.density\"\n", ""), "nothing") << "a derived key uses it";
+  EXPECT_NE(told("key = \"body.wedge.mass\"\n", "").find("axis.hs.key is missing"), std::string::npos);
   const std::string plane = R"toml(scene = "scene.toml"
 [[axis]]
 name = "mass"
