@@ -8,6 +8,7 @@
 #include "apps/scene/kinds/named.hpp"
 #include "elastic/mesh/gmsh_file.hpp"
 #include "elastic/mesh/outline_mesh.hpp"
+#include "elastic/participant.hpp"
 #include "rigid/forces/curve.hpp"
 
 namespace splashdown::apps {

@@ -7,7 +7,12 @@
 #include <vector>
 
 #include "apps/effects/elastic/elastic.hpp"
-#include "elastic/participant.hpp"
+#include "elastic/assembly/solid.hpp"
+
+namespace splashdown::elastic {
+template <int d>
+struct SolidSpec;
+}  // namespace splashdown::elastic
 
 namespace splashdown::apps {
 
