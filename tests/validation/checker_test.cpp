@@ -137,7 +137,9 @@ TEST_F(Checker, misspelt_keys_and_missing_tolerances_are_refused_with_their_line
 
 TEST_F(Checker, page_shows_the_newest_row_of_each_check_and_keeps_its_text) {
   const auto csv = path() / "validation.csv", page = path() / "page.md";
-  write(page, "before\n<!-- validation table: begin -->\nold\n<!-- validation table: end -->\nafter\n");
+  write(page,
+        "before\n<!-- validation table: begin -->\n| [falling](x) | old |\n| [rising](x) | d | 3 |\n"
+        "<!-- validation table: end -->\nafter\n");
   Verdict verdict{.example = "falling",
                   .check = "c",
                   .run = "base",
@@ -159,6 +161,7 @@ TEST_F(Checker, page_shows_the_newest_row_of_each_check_and_keeps_its_text) {
   EXPECT_NE(written.find("\nafter\n"), std::string::npos);
   EXPECT_EQ(written.find("old"), std::string::npos);
   EXPECT_EQ(written.find("FAIL"), std::string::npos);
+  EXPECT_NE(written.find("| [rising](x) | d | 3 |\n"), std::string::npos) << written;
   EXPECT_NE(written.find("| c | 2 | 2 | 1 % | m | pass | one; two |"), std::string::npos) << written;
 }
 

@@ -47,7 +47,8 @@ std::vector<std::vector<std::string>> read_rows(const std::filesystem::path& csv
   return rows;
 }
 
-std::string page_table(const std::filesystem::path& csv) {
+/// Of the rows in the file, and of the old table's for examples that have none there.
+std::string page_table(const std::filesystem::path& csv, const std::string& old_table) {
   std::map<std::string, std::map<std::string, std::vector<std::string>>> newest;  // example, check
   std::map<std::string, std::vector<std::string>> order;                          // checks of an example
   for (auto& row : read_rows(csv)) {
@@ -55,14 +56,24 @@ std::string page_table(const std::filesystem::path& csv) {
     if (slot.empty()) order[row[0]].push_back(row[1]);
     slot = row;
   }
-  std::string text = "| example | check | measured | expected | allowed | unit | verdict | why |\n";
-  text += "|---|---|---|---|---|---|---|---|\n";
+  std::map<std::string, std::string> rows;  // of an example
   for (const auto& [example, checks] : order)
     for (const auto& check : checks) {
       const auto& row = newest[example][check];
-      text += fmt::format("| [{0}](../examples/{0}/README.md) | {1} | {2} | {3} | {4} | {5} | {6} | {7} |\n", row[0],
-                          row[1], row[3], row[4], row[5], row[6], row[7], row[8]);
+      rows[example] += fmt::format("| [{0}](../examples/{0}/README.md) | {1} | {2} | {3} | {4} | {5} | {6} | {7} |\n",
+                                   row[0], row[1], row[3], row[4], row[5], row[6], row[7], row[8]);
     }
+  static const std::string before = "| [";
+  std::istringstream old(old_table);
+  for (std::string line; std::getline(old, line);) {
+    const auto end = line.find(']');
+    if (!line.starts_with(before) || end == std::string::npos) continue;
+    const auto example = line.substr(before.size(), end - before.size());
+    if (!order.contains(example)) rows[example] += line + "\n";
+  }
+  std::string text = "| example | check | measured | expected | allowed | unit | verdict | why |\n";
+  text += "|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [example, lines] : rows) text += lines;
   return text;
 }
 
@@ -98,7 +109,8 @@ void write_page(const std::filesystem::path& csv, const std::filesystem::path& p
   const auto from = text.find(begin), to = text.find(end);
   if (from == std::string::npos || to == std::string::npos)
     throw std::runtime_error(fmt::format("{}: the markers of the validation table are missing", page.string()));
-  text.replace(from + begin.size(), to - from - begin.size(), page_table(csv));
+  const auto first = from + begin.size();
+  text.replace(first, to - first, page_table(csv, text.substr(first, to - first)));
   std::ofstream(page) << text;
 }
 

@@ -17,6 +17,7 @@ void append_row(const std::filesystem::path& csv, const Verdict& verdict);
 
 /// Puts the newest row of every check into `page` between its two markers
 ///   <!-- validation table: begin -->   and   <!-- validation table: end -->
+/// Examples that the file knows nothing of keep their rows.
 void write_page(const std::filesystem::path& csv, const std::filesystem::path& page);
 
 }  // namespace splashdown::validation
