@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
@@ -26,6 +27,7 @@ class Traveller {
     is_tied_ = std::ranges::any_of(scene.joints, [&](const Joint& joint) {
       return &scene.bodies[joint.body] == &body || (joint.other && &scene.bodies[*joint.other] == &body);
     });
+    if (body.motion == Motion::prescribed && !body.release) path_ = guessed_body<d>(scene, body);
     if (body.motion != Motion::free) return;
     const auto names = freedom_names(d);
     for (int k = 0; k < d; ++k)
@@ -52,7 +54,7 @@ class Traveller {
   }
 
   void advance(double time, double dt) {
-    if (body_.motion == Motion::prescribed && !body_.release) moved_ = guessed_motion<d>(scene_, body_, time + dt);
+    if (path_) moved_ = guessed_motion<d>(scene_, *path_, time + dt);
     if (!is_free()) return;
     const double share = wetted_share(), inertia = mass_ + added_ * share;
     if (inertia <= 0) return;
@@ -75,6 +77,7 @@ class Traveller {
   const Body& body_;
   rigid::Surface<d> hull_;
   Extents<d> box_;
+  std::optional<GuessedBody<d>> path_;  // of what goes where it is told to
   bool is_tied_ = false;
   double mass_ = 0, displaced_ = 0, added_ = 0;
   std::optional<double> level_;

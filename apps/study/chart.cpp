@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#24313d"};
 constexpr std::array markers = {7, 5, 9, 13, 11, 15, 6};
 
-constexpr int panel_width = 330, panel_height = 250;                   // pixels
+constexpr int panel_width = 330, panel_height = 250;                    // pixels
 constexpr int left = 112, right = 20, top = 96, gap = 16, bottom = 66;  // around the panels
-constexpr std::size_t longest_word = 24;                               // letters of an x axis of words
+constexpr std::size_t longest_word = 24;                                // letters of an x axis of words
 constexpr int pixels_a_letter = 5;
 constexpr double band = 0.25;  // share of a panel's height for the runs that broke down
 

@@ -13,6 +13,7 @@
 
 #include "core/response.hpp"
 #include "core/status.hpp"
+#include "fluid/pfem/liquid_state.hpp"
 #include "fluid/pfem/mesh/mesh.hpp"
 #include "fluid/pfem/mesh/node_cells.hpp"
 #include "fluid/pfem/nodes.hpp"
@@ -65,13 +66,6 @@ template <int d>
 struct Others {
   std::span<const Vec<d>> change;   ///< of velocities of nodes [m/s]
   std::span<const Twist<d>> walls;  ///< of walls, after it
-};
-
-/// Of a liquid that gives way, against what it is where the pressure is 0.
-struct LiquidState {
-  double density = 1;     ///< over that of the liquid at rest
-  double compliance = 0;  ///< d ln(density) / dp [1/Pa]
-  double energy = 0;      ///< that pressure and the air around have put into a volume at rest of 1 [Pa]
 };
 
 /// What effects add to the pressure equation of a step, an entry a node; a vector that stays empty adds nothing.

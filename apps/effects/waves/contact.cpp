@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "apps/effects/waves/sea.hpp"
 #include "apps/scene/geometry.hpp"
@@ -17,7 +18,8 @@ using rigid::Vec;
 template <int d>
 class Flight {
  public:
-  Flight(const Scene& scene, const Body& body) : scene_(scene), body_(body), hull_(outline<d>(body)) {
+  Flight(const Scene& scene, const Body& body) : scene_(scene), hull_(outline<d>(body)) {
+    if (body.motion != Motion::free) path_ = guessed_body<d>(scene, body);
     const auto free = freedom_names(d);
     const auto moves = [&](std::size_t k) { return std::ranges::find(body.free, free[k]) != body.free.end(); };
     centre_ = shape_pose<d>(body) * mass_properties<d>(body).centre;
@@ -32,7 +34,7 @@ class Flight {
   }
 
   Eigen::Matrix<double, d, Eigen::Dynamic> at(double time) const {
-    if (body_.motion != Motion::free) return hull_.vertices.colwise() + guessed_motion<d>(scene_, body_, time);
+    if (path_) return hull_.vertices.colwise() + guessed_motion<d>(scene_, *path_, time);
     const Vec<d> now = centre_ + time * velocity_ + 0.5 * time * time * pull_;
     Eigen::Matrix<double, d, d> turn = Eigen::Matrix<double, d, d>::Identity();
     if (const double rate = spin_.norm(); rate > 0) {
@@ -45,7 +47,7 @@ class Flight {
  private:
   static constexpr int rotations = d * (d - 1) / 2;
   const Scene& scene_;
-  const Body& body_;
+  std::optional<GuessedBody<d>> path_;  // of what goes where it is told to
   rigid::Surface<d> hull_;
   Vec<d> centre_, velocity_ = Vec<d>::Zero(), pull_ = Vec<d>::Zero();
   Point spin_;

@@ -2,10 +2,10 @@
 //
 //   rho_0 / rho = (1 - a) (1 + K' p / K)^(-1/K') + a (1 + p / p_a)^(-1/gamma)
 //
-// a: share of the volume that is gas where the pressure is 0, p_a the ambient pressure there; Murnaghan's (1944) law of the liquid,
-// with K' = 0 its limit exp(-p / K). Without gas and for p << K it is linear acoustics, c = sqrt(K / rho). In time (compression.hpp)
-// of second order, bounded by no step; waves are resolved where a step is shorter than an element over c, and damped where it is
-// much longer.
+// a: share of the volume that is gas where the pressure is 0, p_a the ambient pressure there; Murnaghan's (1944) law of the
+// liquid, with K' = 0 its limit exp(-p / K). Without gas and for p << K it is linear acoustics, c = sqrt(K / rho). In time
+// (compression.hpp) of second order, bounded by no step; waves are resolved where a step is shorter than an element over c, and
+// damped where it is much longer.
 #pragma once
 
 #include "fluid/effects/effect.hpp"

@@ -3,11 +3,11 @@
 //
 //   beta (P_{n+1} - P_n) = dt r,   phi = kick (a P_{n+1} + b P_n + c P_{n-1} + e P_{n-2})
 //
-// The weights are those of (z + q)^2 (z + (1 - q) / 2 q) over its value at z = 1: of second order, stable however long the step is
-// for sound, which then dies by 1 - q a step instead of ringing for ever. With q = 0.95 a wave of 40 steps a period loses 0.02 % of
-// its energy in one. Where sound crosses more than two elements in a kick, which leaves it no waves to resolve, q falls towards a
-// half. All that has gone to a node comes back, however steps change. Eliminated, r is a diagonal and a source of the pressure
-// equation:
+// The weights are those of (z + q)^2 (z + (1 - q) / 2 q) over its value at z = 1: of second order, stable however long the step
+// is for sound, which then dies by 1 - q a step instead of ringing for ever. With q = 0.95 a wave of 40 steps a period loses
+// 0.02 % of its energy in one. Where sound crosses more than two elements in a kick, which leaves it no waves to resolve, q falls
+// towards a half. All that has gone to a node comes back, however steps change. Eliminated, r is a diagonal and a source of the
+// pressure equation:
 //
 //   r = C phi - C kick ((a + b) P_n + c P_{n-1} + e P_{n-2}),   C = beta / (a kick dt)
 #pragma once
@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "fluid/effects/effect.hpp"
+#include "fluid/pfem/liquid_state.hpp"
 #include "fluid/pfem/nodes.hpp"
 
 namespace splashdown::fluid {
@@ -62,8 +62,8 @@ class Compression {
   /// What does not depend on phi, added to the sources of other terms [m^d/s].
   std::vector<double> source(std::vector<double> others) const;
 
-  /// Takes for beta what has gone to nodes over what the law makes of their pressures then, half-way in its logarithm; false if the
-  /// pressures of all are near enough to the law's already. Only gas needs it: without it a liquid is as good as linear.
+  /// Takes for beta what has gone to nodes over what the law makes of their pressures then, half-way in its logarithm; false if
+  /// the pressures of all are near enough to the law's already. Only gas needs it: without it a liquid is as good as linear.
   bool follow_law(std::span<const double> volume, std::span<const int> unknown, std::span<const double> impulses);
   /// What nodes carry on, of impulses of the pressure.
   std::vector<Compressed> after(std::span<const double> volume, std::span<const int> unknown,

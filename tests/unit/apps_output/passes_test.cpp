@@ -69,6 +69,7 @@ TEST(Passes, follow_their_interval_and_are_absent_unless_asked_for) {
                                                                               .added_mass = {},
                                                                               .passes = {},
                                                                               .sections = {},
+                                                                              .velocity_lines = {},
                                                                               .centre_of_mass = {},
                                                                               .symmetric = {},
                                                                               .still_water_level = {}});

@@ -1,6 +1,7 @@
 // Velocity lines: exact for linear fields, nothing outside the fluid, the mirror image behind a plane of symmetry.
 #include "apps/record/sections/velocity_lines.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +69,7 @@ TEST(VelocityLines, tell_the_mirror_image_and_leave_out_what_is_dry) {
   }
   EXPECT_EQ(
       folder.text("velocity_lines.csv"),
-      std::string(velocity_lines_header) + "\n2,wake,0,-0.5,0.5,0,-0.5,0.5,0\n2,wake,0.75,0.25,0.5,0,0.25,0.5,0\n");
+      fmt::format("{}\n2,wake,0,-0.5,0.5,0,-0.5,0.5,0\n2,wake,0.75,0.25,0.5,0,0.25,0.5,0\n", velocity_lines_header));
 }
 
 }  // namespace

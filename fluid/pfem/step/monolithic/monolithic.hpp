@@ -54,8 +54,8 @@ class Monolithic final : public WaterStep<d> {
   InTime in_time() const override { return spec_.implicit_euler ? InTime::euler : InTime::second_order; }
   /// theta of each cell.
   std::vector<double> shares() const;
-  /// Iterates impulses and walls by `add(correction, share)` until what `find(left)` tells of them is `enough`, r^T A^-1 r [J], or
-  /// for a few passes: what is left then.
+  /// Iterates impulses and walls by `add(correction, share)` until what `find(left)` tells of them is `enough`, r^T A^-1 r [J],
+  /// or for a few passes: what is left then.
   template <class Find, class Apply>
   Left converge(Find find, Apply add, double enough);
 
