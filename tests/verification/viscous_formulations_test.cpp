@@ -64,12 +64,10 @@ double order(const fluid::Formulation<2>& formulation, double number) {
   return std::log2((coarse - middle) / (middle - amplitude(formulation, size, end, 16)));
 }
 
-// Rates of decay times dt begin at 1e-3, second differences of amplitudes at 1e-7: the pressure is solved to less than that.
+// Below 1 the differences are those of the tolerance: rates of decay times dt are 1e-3 there.
 TEST(ViscousFormulations, monolithic_is_of_second_order_in_time_the_others_of_first) {
-  for (const double number : {0.01, 0.1, 1.0, 10.0}) {
-    EXPECT_NEAR(order(fluid::monolithic<2>({.tolerance = 1e-12}), number), 2, 0.3) << number;
-  }
   for (const double number : {1.0, 10.0}) {
+    EXPECT_NEAR(order(fluid::monolithic<2>(), number), 2, 0.3);
     EXPECT_NEAR(order(fluid::monolithic<2>({.implicit_euler = true}), number), 1, 0.1);
     EXPECT_NEAR(order(fluid::fractional<2>(), number), 1, 0.1);
   }
