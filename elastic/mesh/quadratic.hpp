@@ -63,5 +63,11 @@ struct RulePoint {
 /// The rule of a segment, a triangle or a tetrahedron; weights sum to 1.
 template <int d>
 const std::vector<RulePoint<d>>& rule();
+template <>
+const std::vector<RulePoint<1>>& rule<1>();
+template <>
+const std::vector<RulePoint<2>>& rule<2>();
+template <>
+const std::vector<RulePoint<3>>& rule<3>();
 
 }  // namespace splashdown::elastic
