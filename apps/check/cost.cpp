@@ -254,8 +254,7 @@ Cost predicted_cost(const Scene& scene) {
   Cost cost;
   double mean = 0;
   if (scene.fluid) {
-    std::vector<GuessedBody<d>> bodies;
-    for (const auto& body : scene.bodies) bodies.push_back(guessed_body<d>(scene, body));
+    const auto bodies = guessed_bodies<d>(scene);
     const double thrown = Share<d>::thrown > 0 && enters<d>(scene, bodies) ? Share<d>::thrown : 0,
                  beside = thrown > 0 ? nodes_at<d>(scene, {}, 0).nodes : 0;  // of the water without its bodies
     // Times at which the bodies' places are looked at: quarters of the run, by the trapezoidal rule.
@@ -276,7 +275,7 @@ Cost predicted_cost(const Scene& scene) {
     cost.without_hollows = scene.fluid->size.hollow && std::ranges::none_of(scene.bodies, [](const Body& body) {
                              return jet_thickness<d>(body, 1).has_value();
                            });
-    cost.steps = predicted_steps<d>(scene);
+    cost.steps = predicted_steps<d>(scene, bodies);
   } else {
     cost.steps = scene.time.end / scene.time.dt_max;
   }

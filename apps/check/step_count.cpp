@@ -66,9 +66,8 @@ struct WettedAt {
 template <int d>
 class StepCount {
  public:
-  explicit StepCount(const Scene& scene) : scene_(scene), fixed_(finest_fixed<d>(scene)) {
-    for (const auto& body : scene.bodies) bodies_.push_back(guessed_body<d>(scene, body));
-  }
+  StepCount(const Scene& scene, const std::vector<GuessedBody<d>>& bodies)
+      : scene_(scene), fixed_(finest_fixed<d>(scene)), bodies_(bodies) {}
 
   double count() {
     constexpr int parts = 24;
@@ -145,18 +144,18 @@ class StepCount {
 
   const Scene& scene_;
   double fixed_;
-  std::vector<GuessedBody<d>> bodies_;
+  const std::vector<GuessedBody<d>>& bodies_;
   std::vector<std::optional<WettedEnds<d>>> was_wet_;  // of each, so far
 };
 
 }  // namespace
 
 template <int d>
-double predicted_steps(const Scene& scene) {
-  return StepCount<d>(scene).count();
+double predicted_steps(const Scene& scene, const std::vector<GuessedBody<d>>& bodies) {
+  return StepCount<d>(scene, bodies).count();
 }
 
-template double predicted_steps<2>(const Scene&);
-template double predicted_steps<3>(const Scene&);
+template double predicted_steps<2>(const Scene&, const std::vector<GuessedBody<2>>&);
+template double predicted_steps<3>(const Scene&, const std::vector<GuessedBody<3>>&);
 
 }  // namespace splashdown::apps

@@ -15,6 +15,8 @@ constexpr const char* tables[] = {"bodies.csv",           "fluid.csv",         "
 
 }  // namespace
 
+std::span<const char* const> run_tables() { return tables; }
+
 bool holds_tables(const std::filesystem::path& directory) {
   return std::ranges::any_of(tables, [&](const char* name) { return std::filesystem::exists(directory / name); });
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/files/run_files.hpp"
 #include "apps/record/frames/frames.hpp"
 #include "apps/statistics/verdict/grades.hpp"
 #include "apps/statistics/verdict/limits.hpp"
@@ -150,10 +151,12 @@ std::string refused_text(const Summary& summary) {
 
 std::string files_text(const std::filesystem::path& directory, const std::map<std::string, BodySummary>& bodies) {
   std::string text = directory.string() + "/:";
-  for (const char* name :
-       {"report.html", "summary.json", "bodies.csv", "fluid.csv", "forces.csv", "probes.csv", "surface_pressure.csv",
-        "added_mass.csv", "passes.csv", "section_loads.csv", "elastic.csv", "velocity_lines.csv", "frames.pvd"})
+  const auto add = [&](const char* name) {
     if (std::filesystem::exists(directory / name)) text += fmt::format(" {}", name);
+  };
+  for (const char* name : {"report.html", "summary.json"}) add(name);
+  for (const char* name : run_tables()) add(name);
+  add("frames.pvd");
   for (const auto& [name, body] : bodies)
     if (body.maximum_pressure) text += fmt::format(" hull_{}.vtu", file_name_of(name));
   return text;

@@ -10,6 +10,7 @@
 #include "apps/report/data.hpp"
 #include "apps/report/page.hpp"
 #include "apps/report/words.hpp"
+#include "apps/statistics/quantile.hpp"
 #include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
@@ -100,14 +101,6 @@ std::string histogram(const Column& column) {
   return picture(body, low, high, column.label, "Number of runs. Above: the middle half, 90 % of all, and the median.");
 }
 
-/// Linear between sorted values.
-double quantile_in(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto k = std::min(static_cast<std::size_t>(at), sorted.size() - 1);
-  const double next = sorted[std::min(k + 1, sorted.size() - 1)];
-  return sorted[k] + (at - static_cast<double>(k)) * (next - sorted[k]);
-}
-
 /// The numbers of a quantity at one value of an axis.
 struct Level {
   std::string label;
@@ -158,10 +151,10 @@ std::string boxes(const Json& study, const Column& column) {
         "fill-opacity=\"0.45\"><title>{9} runs: {10} to {11}</title></rect><circle cx=\"{12:.1f}\" cy=\"{4:.1f}\" "
         "r=\"4\" "
         "fill=\"#c8501e\"><title>{13}</title></circle>",
-        y + 4, html_escaped(levels[k].label), x(sorted.front()), x(sorted.back()), y, x(quantile_in(sorted, 0.25)),
-        y - 5, std::max(x(quantile_in(sorted, 0.75)) - x(quantile_in(sorted, 0.25)), 1.), 10., sorted.size(),
-        digits(sorted.front(), 3), digits(sorted.back(), 3), x(quantile_in(sorted, 0.5)),
-        digits(quantile_in(sorted, 0.5), 3));
+        y + 4, html_escaped(levels[k].label), x(sorted.front()), x(sorted.back()), y, x(quantile_of(sorted, 0.25)),
+        y - 5, std::max(x(quantile_of(sorted, 0.75)) - x(quantile_of(sorted, 0.25)), 1.), 10., sorted.size(),
+        digits(sorted.front(), 3), digits(sorted.back(), 3), x(quantile_of(sorted, 0.5)),
+        digits(quantile_of(sorted, 0.5), 3));
   }
   const double height = row * static_cast<double>(levels.size()) + 16;
   body += fmt::format(

@@ -8,8 +8,10 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "apps/files/csv.hpp"
+#include "apps/files/run_files.hpp"
 #include "apps/process/version.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/text/plain_text.hpp"
@@ -35,12 +37,12 @@ std::string provenance_toml(const std::filesystem::path& scene) {
 }
 
 /// What a run removes before it begins, or writes over.
-constexpr const char* replaced[] = {"checkpoint",         "bodies.csv",  "fluid.csv",
-                                    "forces.csv",         "probes.csv",  "surface_pressure.csv",
-                                    "added_mass.csv",     "passes.csv",  "section_loads.csv",
-                                    "velocity_lines.csv", "elastic.csv", "summary.json",
-                                    "report.html",        "frames.pvd",  "frames",
-                                    "snapshots",          "report"};
+std::vector<const char*> replaced() {
+  std::vector<const char*> names{"checkpoint"};
+  for (const char* name : run_tables()) names.push_back(name);
+  names.insert(names.end(), {"summary.json", "report.html", "frames.pvd", "frames", "snapshots", "report"});
+  return names;
+}
 
 struct Origin {
   std::string text;         ///< all of scene.resolved.toml
@@ -98,7 +100,7 @@ std::optional<std::string> foreign_results(const fs::path& directory, const fs::
   if (fs::exists(directory / "study.json")) return fmt::format("{} holds a study. {}", directory.string(), cure);
   if (fs::exists(directory / "price.json")) return fmt::format("{} holds a price list. {}", directory.string(), cure);
   if (!fs::exists(directory / "scene.resolved.toml")) {
-    for (const char* name : replaced)
+    for (const char* name : replaced())
       if (fs::exists(directory / name))
         return fmt::format("{} holds {}, which would be replaced, but no scene.resolved.toml: no run has left it. {}",
                            directory.string(), name, cure);

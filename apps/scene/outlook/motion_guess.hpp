@@ -36,6 +36,13 @@ struct GuessedBody {
 };
 template <int d>
 GuessedBody<d> guessed_body(const Scene& scene, const Body& body);
+/// Of all bodies of the scene, in their order.
+template <int d>
+std::vector<GuessedBody<d>> guessed_bodies(const Scene& scene) {
+  std::vector<GuessedBody<d>> bodies;
+  for (const auto& body : scene.bodies) bodies.push_back(guessed_body<d>(scene, body));
+  return bodies;
+}
 
 /// Displacement of the body between t = 0 and `time` [m], without its turning. Prescribed motion as prescribed; free
 /// bodies as in `GuessedFall`, at most to the tank's walls and floor.

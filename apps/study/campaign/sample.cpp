@@ -8,20 +8,13 @@
 #include <limits>
 #include <numeric>
 
+#include "apps/statistics/quantile.hpp"
 #include "apps/study/design/shares.hpp"
 
 namespace splashdown::apps {
 namespace {
 
 constexpr double outside = 0.05;  // of all campaigns
-
-/// Linear between order statistics: Hyndman and Fan's seventh definition (1996).
-double quantile_of(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), sorted.size() - 1);
-  const auto next = std::min(i + 1, sorted.size() - 1);
-  return sorted[i] + (at - static_cast<double>(i)) * (sorted[next] - sorted[i]);
-}
 
 /// The narrowest pair of order statistics, alike from both ends, that holds the median in 95 %.
 std::optional<Band> median_band_of(const std::vector<double>& sorted) {

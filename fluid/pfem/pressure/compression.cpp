@@ -96,11 +96,13 @@ double Compression::rate_after(std::size_t i, double impulse) const {
   return constant(i) * (impulse - carried_impulse(i));
 }
 
-// Newton's method on ln(density), which is concave: from the first step on it comes from below.
-double Compression::pressure_at(double density, double guess) const {
+// Of liquid of which a share of the volume is left. Newton's method on ln(density), which is concave: from the first step on it
+// comes from below.
+double Compression::pressure_after(double before, double left) const {
   constexpr int most = 50;
   constexpr double close = 1e-14;
-  double p = guess;
+  const double density = liquid_(before).density / left;
+  double p = before;
   for (int k = 0; k < most; ++k) {
     const auto state = liquid_(p);
     const double off = std::log(density / state.density);
@@ -128,7 +130,7 @@ bool Compression::follow_law(std::span<const double> volume, std::span<const int
     const double linear = before + gone / storage_[i];
     highest = std::max(highest, std::abs(linear));
     if (std::abs(gone) < strained * volume[i]) continue;
-    const double law = pressure_at(liquid_(before).density / volume_left(gone / dt_, volume[i]), before);
+    const double law = pressure_after(before, volume_left(gone / dt_, volume[i]));
     farthest = std::max(farthest, std::abs(law - linear));
     secant[i] = std::sqrt(storage_[i] * std::abs(gone / (law - before)));
   }
@@ -146,7 +148,7 @@ std::vector<Compressed> Compression::after(std::span<const double> volume, std::
     const double first = impulse / kick_;
     const auto before = starts() ? std::array{first, first, first} : carried_[i].pressure;
     const double left = volume_left(rate, volume[i]);
-    out[i] = {{pressure_at(liquid_(before[0]).density / left, before[0]), before[0], before[1]},
+    out[i] = {{pressure_after(before[0], left), before[0], before[1]},
               rate / volume[i],
               (starts() ? 1.0 : carried_[i].density) / left};
   }
@@ -172,7 +174,7 @@ std::array<double, 2> Compression::internal_energies(std::span<const double> vol
     const double left = volume_left(rate_after(i, at(unknown, impulses, i)), volume[i]);
     const double at_rest = volume[i] * before.density;
     sum[0] += at_rest * before.energy;
-    sum[1] += at_rest * liquid_(pressure_at(before.density / left, carried_[i].pressure[0])).energy;
+    sum[1] += at_rest * liquid_(pressure_after(carried_[i].pressure[0], left)).energy;
   }
   return sum;
 }

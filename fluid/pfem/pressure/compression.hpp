@@ -81,7 +81,7 @@ class Compression {
   static Weights weights(double elements_crossed);
   double constant(std::size_t i) const { return storage_[i] / (weights_[i][0] * kick_ * dt_); }
   double carried_impulse(std::size_t i) const;
-  double pressure_at(double density, double guess) const;
+  double pressure_after(double before, double left) const;
   double volume_left(double rate, double volume) const;
   double rate_after(std::size_t i, double impulse) const;
 

@@ -78,18 +78,6 @@ TEST(Mesh, cells_that_are_wound_the_other_way_are_turned) {
   expect_closed<3>(solid_mesh<3>(mesh.nodes, cells), 1);
 }
 
-Surface<2> polygon(const std::vector<Vec<2>>& corners) {
-  Surface<2> outline;
-  const auto n = static_cast<int>(corners.size());
-  outline.vertices.resize(2, n);
-  outline.facets.resize(2, n);
-  for (int k = 0; k < n; ++k) {
-    outline.vertices.col(k) = corners[static_cast<std::size_t>(k)];
-    outline.facets.col(k) << k, (k + 1) % n;
-  }
-  return outline;
-}
-
 TEST(Mesh, an_outline_is_filled_to_its_size) {
   const auto mesh = outline_mesh(polygon({{0, 0}, {2, 0}, {2, 1}, {1, 0.5}, {0, 1}}), 0.2);
   expect_closed<2>(mesh, 1.5);

@@ -11,6 +11,19 @@
 
 namespace splashdown::elastic {
 
+/// Closed, its corners in order.
+inline Surface<2> polygon(const std::vector<Vec<2>>& corners) {
+  Surface<2> outline;
+  const auto n = static_cast<int>(corners.size());
+  outline.vertices.resize(2, n);
+  outline.facets.resize(2, n);
+  for (int k = 0; k < n; ++k) {
+    outline.vertices.col(k) = corners[static_cast<std::size_t>(k)];
+    outline.facets.col(k) << k, (k + 1) % n;
+  }
+  return outline;
+}
+
 /// A box from the origin: n boxes along each axis, cut into two triangles or six tetrahedra each.
 template <int d>
 SolidMesh<d> box_mesh(const Vec<d>& size, const std::array<int, d>& n) {

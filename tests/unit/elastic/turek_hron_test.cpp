@@ -19,15 +19,7 @@ Surface<2> flag() {
     const double angle = half - 2 * half * k / segments;
     corners.emplace_back(0.2 + 0.05 * std::cos(angle), 0.2 + 0.05 * std::sin(angle));
   }
-  Surface<2> outline;
-  const auto n = static_cast<int>(corners.size());
-  outline.vertices.resize(2, n);
-  outline.facets.resize(2, n);
-  for (int k = 0; k < n; ++k) {
-    outline.vertices.col(k) = corners[static_cast<std::size_t>(k)];
-    outline.facets.col(k) << k, (k + 1) % n;
-  }
-  return outline;
+  return polygon(corners);
 }
 
 struct Flag {
