@@ -14,10 +14,11 @@
 #include "core/diagnostic.hpp"
 #include "core/facet.hpp"
 #include "core/mirror.hpp"
+#include "core/wall_vector.hpp"
 
 namespace splashdown {
 
-/// A rigid surface that bounds the fluid: a body's hull or the inside of a tank.
+/// A surface that bounds the fluid: a body's hull or the inside of a tank.
 template <int d>
 struct WallSpec {
   std::string name;  ///< of the scene
@@ -26,12 +27,14 @@ struct WallSpec {
   Isometry<d> pose = Isometry<d>::Identity();  ///< wall frame to world at t = 0
   Twist<d> velocity = Twist<d>::Zero();        ///< of the wall frame's origin, at t = 0
   double size = 0;                             ///< element size at the wall [m]
+  bool deforms = false;                        ///< its vertices move each by itself; its frame is the world's
   bool sticks = false;                         ///< no slip: the wall drags viscous fluid along (viscosity.hpp)
   /// The plane of symmetry that ends the fluid, and that the wall reaches across or has a side in; none: nothing is mirrored.
   std::optional<Mirror> mirror = {};
 };
 
-/// Load of the fluid on a wall about the wall's reference point, world frame [N, N m; 2D: N/m, N].
+/// Load of the fluid on a wall about the wall's reference point, world frame [N, N m; 2D: N/m, N]; of one that deforms about the
+/// world's origin.
 template <int d>
 struct WallLoad {
   Wrench<d> physical = Wrench<d>::Zero();  ///< mean over the kick: acceleration pressure, stresses of effects
@@ -79,7 +82,9 @@ class FluidView {
   virtual ~FluidView() = default;
   virtual double density() const = 0;                           ///< [kg/m^3]
   virtual std::span<const WallSpec<d>> walls() const = 0;       ///< as they were made
-  virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n
+  virtual std::span<const Isometry<d>> wall_poses() const = 0;  ///< at t_n; of those that deform the identity
+  /// Of a wall that deforms: its vertices at t_n, world frame [m]. nullptr: it is rigid.
+  virtual const AtVertices<d>* wall_vertices(std::size_t /*wall*/) const { return nullptr; }
   /// On the walls in their order: of the step under way once it is solved; before the first one empty or zero.
   virtual std::span<const WallLoad<d>> loads() const = 0;
   /// Whether the fluid stands still while all hulls are far from it, and stay so in the next step.

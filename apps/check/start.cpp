@@ -72,13 +72,13 @@ std::optional<fluid::Gap> check_start(const Scene& scene, const Cost& cost, Doub
   if (!scene.fluid) return {};
   const auto spec = fluid_spec<d>(scene);
   std::vector<fluid::Wall<d>> walls;
-  std::vector<fluid::Isometry<d>> poses;
-  for (const auto& wall : spec.walls) walls.emplace_back(wall), poses.push_back(wall.pose);
+  std::vector<fluid::WallPlace<d>> places;
+  for (const auto& wall : spec.walls) walls.emplace_back(wall), places.push_back(walls.back().place());
   std::optional<fluid::Gap> gap;
-  tell_gaps<d>(scene, {}, [&] { gap = fluid::look_at_start<d>(spec, {walls, poses}); });
+  tell_gaps<d>(scene, {}, [&] { gap = fluid::look_at_start<d>(spec, {walls, places}); });
   if (!gap || doubt == Doubt::accept) return gap;
   if (cost.seconds_to_start > seconds_to_wait) refuse_doubtful<d>(scene, *gap, cost);
-  if (doubt == Doubt::mesh) tell_gaps<d>(scene, gap, [&] { fluid::fill<d>(spec, {walls, poses}); });
+  if (doubt == Doubt::mesh) tell_gaps<d>(scene, gap, [&] { fluid::fill<d>(spec, {walls, places}); });
   return gap;
 }
 

@@ -32,11 +32,17 @@ Status Fluid<d>::begin(double kick, double dt, const InterfaceModel& structure) 
 }
 
 template <int d>
-const StepResult<d>& Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous,
+const StepResult<d>& Fluid<d>::solve(std::span<const WallVelocity<d>> walls, std::span<const double> previous,
                                      const ClosedContacts& contacts) {
   s_->result = s_->step->solve(walls, previous, contacts);
   s_->solved = s_->result.status.ok();
   return s_->result;
+}
+
+template <int d>
+const StepResult<d>& Fluid<d>::solve(std::span<const Twist<d>> walls, std::span<const double> previous,
+                                     const ClosedContacts& contacts) {
+  return solve(std::vector<WallVelocity<d>>(walls.begin(), walls.end()), previous, contacts);
 }
 
 template <int d>
@@ -60,10 +66,15 @@ bool Fluid<d>::release_fragment() {
 }
 
 template <int d>
-void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
+void Fluid<d>::commit(std::span<const WallPlace<d>> places) {
   const auto scope = s_->water.timer.scope(motion);
-  s_->water.accept(s_->step->taken(s_->result), poses);
+  s_->water.accept(s_->step->taken(s_->result), places);
   s_->solved = false;
+}
+
+template <int d>
+void Fluid<d>::commit(std::span<const Isometry<d>> poses) {
+  commit(std::vector<WallPlace<d>>(poses.begin(), poses.end()));
 }
 
 template <int d>
@@ -124,8 +135,48 @@ std::span<const double> Fluid<d>::repair_pressure() const {
   return s_->solved ? std::span<const double>(s_->result.repair_pressure) : std::span<const double>();
 }
 template <int d>
-std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
+std::span<const WallPlace<d>> Fluid<d>::wall_places() const {
   return s_->water.prepared ? s_->water.work.poses : s_->water.now.poses;
+}
+template <int d>
+std::span<const Isometry<d>> Fluid<d>::wall_poses() const {
+  s_->poses.clear();
+  for (const auto& place : wall_places()) s_->poses.push_back(place.pose());
+  return s_->poses;
+}
+template <int d>
+const AtVertices<d>* Fluid<d>::wall_vertices(std::size_t wall) const {
+  const WallShape<d>* shape = wall_places()[wall].shape();
+  return shape ? &shape->vertices : nullptr;
+}
+template <int d>
+const WallLayout<d>& Fluid<d>::layout() const {
+  return s_->water.layout;
+}
+
+template <int d>
+std::vector<WallPlace<d>> Fluid<d>::places_of(const Eigen::VectorXd& placement) const {
+  constexpr Eigen::Index of_pose = d * (d + 1);
+  std::vector<WallPlace<d>> places(wall_places().begin(), wall_places().end());
+  Eigen::Index first = 0;
+  for (std::size_t w = 0; w < places.size() && first < placement.size(); ++w) {
+    const bool deforms = layout().deforms(w);
+    const Eigen::Index count = deforms ? layout().count(w) : of_pose;
+    if (first + count > placement.size()) break;
+    const Eigen::VectorXd own = placement.segment(first, count);
+    if (deforms) {
+      places[w] = s_->water.walls[w].shaped(own.reshaped(d, count / d));
+    } else {
+      Isometry<d> pose = places[w].pose();
+      pose.matrix().template topRows<d>() = own.reshaped(d, d + 1);
+      places[w] = pose;
+    }
+    first += count;
+  }
+  if (first != placement.size())
+    throw std::invalid_argument("fluid: " + std::to_string(placement.size()) + " numbers place none of its " +
+                                std::to_string(places.size()) + " walls to the end");
+  return places;
 }
 template <int d>
 Vec<d> Fluid<d>::velocity_n(std::size_t node) const {

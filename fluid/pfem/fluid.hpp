@@ -55,6 +55,9 @@ class Fluid final : public FluidView<d> {
   /// others. `previous`: the interface impulses on which the interface Laplacians lag; one that equals the result's
   /// makes them vanish. Needed with such walls only: std::invalid_argument for another number. `contacts`: what of the modes may
   /// occur. The state at t_n stays as it is.
+  const StepResult<d>& solve(std::span<const WallVelocity<d>> walls, std::span<const double> previous = {},
+                             const ClosedContacts& contacts = {});
+  /// The same where all walls are rigid: their twists.
   const StepResult<d>& solve(std::span<const Twist<d>> walls, std::span<const double> previous = {},
                              const ClosedContacts& contacts = {});
   const StepResult<d>& result() const;  ///< of the last solve
@@ -67,9 +70,11 @@ class Fluid final : public FluidView<d> {
   std::span<const InterfacePiece> interface_pieces() const;  ///< of the begun step
   std::vector<double> carried_interface_impulse() const;     ///< first guess of theirs: the pressure of the last step
   /// Slope of `solve`, corrections apart: impulses on these walls and interface impulses, one below the other, by the
-  /// walls' twists and the previous interface impulses. From `begin` to `commit`.
+  /// walls' velocities and the previous interface impulses. From `begin` to `commit`.
   Eigen::MatrixXd interface_slope(std::span<const std::size_t> walls) const;
-  /// Accepts the last solve. `poses`: of the walls at t_{n+1}.
+  /// Accepts the last solve. `places`: of the walls at t_{n+1}.
+  void commit(std::span<const WallPlace<d>> places);
+  /// The same where all walls are rigid: their poses.
   void commit(std::span<const Isometry<d>> poses);
 
   /// Whether the water is at rest and nothing in it moves it: neither effects nor drops.
@@ -78,12 +83,18 @@ class Fluid final : public FluidView<d> {
   /// commit, and the loads of the last solve stay.
   void set_waiting(bool waits);
   bool is_waiting() const override;  ///< says what was set
-  /// t_n <- t_n + dt. `poses`, `velocities`: of the walls at t_{n+1} and t_{n+1/2}.
-  void wait(double dt, std::span<const Isometry<d>> poses, std::span<const Twist<d>> velocities);
+  /// t_n <- t_n + dt. `places`, `velocities`: of the walls at t_{n+1} and t_{n+1/2}.
+  void wait(double dt, std::span<const WallPlace<d>> places, std::span<const WallVelocity<d>> velocities);
 
   double density() const override;
   std::span<const WallSpec<d>> walls() const override;
   std::span<const Isometry<d>> wall_poses() const override;
+  const AtVertices<d>* wall_vertices(std::size_t wall) const override;
+  std::span<const WallPlace<d>> wall_places() const;  ///< at t_n, of the step under way between its begin and its commit
+  const WallLayout<d>& layout() const;                ///< of the walls' coordinates
+  /// Where walls are of which this is the placement, as a coupling knows it (coupling/participant.hpp); others are where they were.
+  /// std::invalid_argument for numbers that end within a wall.
+  std::vector<WallPlace<d>> places_of(const Eigen::VectorXd& placement) const;
   const Nodes<d>& nodes() const;  ///< of the mesh below
   const Mesh<d>& mesh() const;    ///< of t_n
   std::span<const Vec<d>> points() const override;

@@ -7,21 +7,18 @@
 namespace splashdown::fluid {
 namespace {
 
-template <int d>
-Eigen::Index index(std::size_t wall) {
-  return freedoms<d> * static_cast<Eigen::Index>(wall);
-}
-
 Eigen::VectorXd stacked(std::span<const double> numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
 }
 
-/// How many walls these numbers are of, each having so many.
-std::size_t walls_in(Eigen::Index numbers, int each, std::size_t most) {
-  if (numbers % each != 0 || static_cast<std::size_t>(numbers / each) > most)
-    throw std::invalid_argument("fluid: " + std::to_string(numbers) + " numbers are not of its " +
-                                std::to_string(most) + " rigid walls, each of which has " + std::to_string(each));
-  return static_cast<std::size_t>(numbers / each);
+/// How many walls have this many coordinates. Throws std::invalid_argument for numbers that end within one.
+template <int d>
+std::size_t walls_in(Eigen::Index numbers, const WallLayout<d>& layout) {
+  const int walls = layout.walls_of(numbers);
+  if (walls < 0)
+    throw std::invalid_argument("fluid: " + std::to_string(numbers) + " numbers are not the coordinates of its first walls; all " +
+                                std::to_string(layout.walls()) + " have " + std::to_string(layout.size()));
+  return static_cast<std::size_t>(walls);
 }
 
 }  // namespace
@@ -29,13 +26,13 @@ std::size_t walls_in(Eigen::Index numbers, int each, std::size_t most) {
 template <int d>
 coupling::Status Participant<d>::begin(const coupling::Step& step, const coupling::InterfaceModel& structure) {
   const std::size_t walls = fluid_->spec().walls.size();
-  walls_in(structure.modal.modes.rows(), freedoms<d>, walls);
+  walls_in<d>(structure.modal.modes.rows(), fluid_->layout());
   if (structure.interface_operators.size() > walls)
     throw std::invalid_argument("fluid: more interface operators than walls");
   kick_ = step.kick;
   coupling::InterfaceModel all = structure;  // of all walls: those beyond the structure's do not answer
   if (const Eigen::Index modes = structure.modal.modes.cols(); modes > 0) {
-    all.modal.modes.setZero(index<d>(walls), modes);
+    all.modal.modes.setZero(fluid_->layout().size(), modes);
     all.modal.modes.topRows(structure.modal.modes.rows()) = structure.modal.modes;
   }
   if (!all.interface_operators.empty()) all.interface_operators.resize(walls);
@@ -45,22 +42,26 @@ coupling::Status Participant<d>::begin(const coupling::Step& step, const couplin
 
 template <int d>
 coupling::Status Participant<d>::solve(const coupling::Pass& pass) {
-  const std::size_t moved = walls_in(pass.velocities.size(), freedoms<d>, fluid_->spec().walls.size());
-  std::vector<Twist<d>> walls(fluid_->spec().walls.size(), Twist<d>::Zero());
-  for (std::size_t w = 0; w < moved; ++w) walls[w] = pass.velocities.segment<freedoms<d>>(index<d>(w));
+  const WallLayout<d>& layout = fluid_->layout();
+  const std::size_t moved = walls_in<d>(pass.velocities.size(), layout);
+  std::vector<WallVelocity<d>> walls(layout.walls());
+  for (std::size_t w = 0; w < moved; ++w) walls[w] = layout.of_wall(w, pass.velocities);
   const std::span<const double> lagged(pass.lagged.data(), static_cast<std::size_t>(pass.lagged.size()));
   const StepResult<d>& found = fluid_->solve(walls, lagged, pass.contacts);
   if (!found.status.ok()) return found.status;
 
-  solution_.velocities.resize(index<d>(moved));
-  solution_.impulse.resize(index<d>(moved));
-  solution_.imbalance.resize(index<d>(moved));
+  solution_.velocities.resize(pass.velocities.size());
+  solution_.impulse.resize(pass.velocities.size());
+  solution_.imbalance.resize(pass.velocities.size());
   solution_.wetted.resize(static_cast<Eigen::Index>(moved));
   for (std::size_t w = 0; w < moved; ++w) {
-    const auto of_wall = [w](Eigen::VectorXd& all) { return all.segment<freedoms<d>>(index<d>(w)); };
-    of_wall(solution_.velocities) = found.wall_velocities[w];
-    of_wall(solution_.impulse) = kick_ * found.loads[w].total();
-    of_wall(solution_.imbalance) = found.imbalance[w];
+    const auto of_wall = [&](Eigen::VectorXd& all) { return all.segment(layout.first(w), layout.count(w)); };
+    of_wall(solution_.velocities) = layout.stacked(w, found.wall_velocities[w]);
+    if (layout.deforms(w))
+      of_wall(solution_.impulse) = kick_ * found.at_vertices[w].reshaped();
+    else
+      of_wall(solution_.impulse) = kick_ * found.loads[w].total();
+    of_wall(solution_.imbalance) = layout.stacked(w, found.imbalance[w]);
     solution_.wetted[static_cast<Eigen::Index>(w)] = found.loads[w].wetted;
   }
   solution_.lagged = stacked(found.interface_impulse);
@@ -73,27 +74,16 @@ Eigen::VectorXd Participant<d>::first_guess() const {
 }
 
 template <int d>
-std::vector<Isometry<d>> Participant<d>::placed(const coupling::Placement& walls) const {
-  constexpr int numbers = d * (d + 1);
-  std::vector<Isometry<d>> poses(fluid_->wall_poses().begin(), fluid_->wall_poses().end());
-  const std::size_t placed = walls_in(walls.size(), numbers, poses.size());
-  for (std::size_t w = 0; w < placed; ++w)
-    poses[w].matrix().template topRows<d>() =
-        walls.segment<numbers>(numbers * static_cast<Eigen::Index>(w)).template reshaped<Eigen::ColMajor>(d, d + 1);
-  return poses;
-}
-
-template <int d>
 void Participant<d>::commit(const coupling::Placement& walls) {
-  fluid_->commit(placed(walls));
+  fluid_->commit(fluid_->places_of(walls));
 }
 
 template <int d>
 void Participant<d>::wait(double dt, const coupling::Placement& walls, const coupling::Velocities& velocities) {
-  std::vector<Twist<d>> twists(fluid_->spec().walls.size(), Twist<d>::Zero());
-  for (std::size_t w = 0; w < walls_in(velocities.size(), freedoms<d>, twists.size()); ++w)
-    twists[w] = velocities.segment<freedoms<d>>(index<d>(w));
-  fluid_->wait(dt, placed(walls), twists);
+  const WallLayout<d>& layout = fluid_->layout();
+  std::vector<WallVelocity<d>> moving(layout.walls());
+  for (std::size_t w = 0; w < walls_in<d>(velocities.size(), layout); ++w) moving[w] = layout.of_wall(w, velocities);
+  fluid_->wait(dt, fluid_->places_of(walls), moving);
 }
 
 template <int d>
@@ -104,6 +94,7 @@ bool Participant<d>::rests(std::span<const coupling::WallCoordinates> walls, con
     for (const auto& x : fluid_->nodes().x) water.extend(x);
     for (std::size_t w = 0; w < walls.size(); ++w) {
       if (walls[w].stays) continue;
+      if (fluid_->layout().deforms(w)) return false;  // what vibrates is never at rest for good
       const auto& vertices = fluid_->spec().walls[w].surface.vertices;
       const double radius = vertices.cols() > 0 ? vertices.colwise().norm().maxCoeff() : 0.0;
       const double moves = 2 * fluid_->spec().step.dt_max * speeds[static_cast<Eigen::Index>(w)];

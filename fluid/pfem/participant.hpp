@@ -1,5 +1,5 @@
-// The fluid as a part of a coupling: coordinates of wall k are its twist about the wall's reference point, in the world
-// frame, its placement the first d rows of its pose. The structure's walls come first among the fluid's; all others
+// The fluid as a part of a coupling: coordinates of a rigid wall are its twist about the wall's reference point, in the world
+// frame, its placement the first d rows of its pose; of a wall that deforms, velocities and places of its vertices. The structure's walls come first among the fluid's; all others
 // stand still where they are.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace splashdown::fluid {
 
-/// Fluid<d> behind the seam: translates between stacked coordinates and twists, wrenches, poses.
+/// Fluid<d> behind the seam: translates between stacked coordinates and those of walls.
 template <int d>
 class Participant final : public coupling::FluidPart, private coupling::Linearised {
  public:
@@ -44,8 +44,6 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
  private:
   Eigen::MatrixXd slope(std::span<const std::size_t> walls) const override { return fluid_->interface_slope(walls); }
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override { return fluid_->added_mass(walls); }
-
-  std::vector<Isometry<d>> placed(const coupling::Placement& walls) const;
 
   std::unique_ptr<Fluid<d>> fluid_;
   double kick_ = 0;

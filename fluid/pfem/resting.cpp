@@ -35,11 +35,11 @@ void Fluid<d>::set_waiting(bool waits) {
 }
 
 template <int d>
-void Fluid<d>::wait(double dt, std::span<const Isometry<d>> poses, std::span<const Twist<d>> velocities) {
+void Fluid<d>::wait(double dt, std::span<const WallPlace<d>> places, std::span<const WallVelocity<d>> velocities) {
   Present<d>& now = s_->water.now;
   now.time += dt;
   now.dt = dt;
-  now.poses.assign(poses.begin(), poses.end());
+  now.poses.assign(places.begin(), places.end());
   now.velocity.assign(velocities.begin(), velocities.end());
   s_->water.prepared = s_->solved = false;
 }
@@ -50,7 +50,7 @@ template bool Fluid<2>::is_waiting() const;
 template bool Fluid<3>::is_waiting() const;
 template void Fluid<2>::set_waiting(bool);
 template void Fluid<3>::set_waiting(bool);
-template void Fluid<2>::wait(double, std::span<const Isometry<2>>, std::span<const Twist<2>>);
-template void Fluid<3>::wait(double, std::span<const Isometry<3>>, std::span<const Twist<3>>);
+template void Fluid<2>::wait(double, std::span<const WallPlace<2>>, std::span<const WallVelocity<2>>);
+template void Fluid<3>::wait(double, std::span<const WallPlace<3>>, std::span<const WallVelocity<3>>);
 
 }  // namespace splashdown::fluid

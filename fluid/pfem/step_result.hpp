@@ -5,21 +5,26 @@
 
 #include "core/fluid_view.hpp"
 #include "core/status.hpp"
+#include "core/wall_vector.hpp"
 
 namespace splashdown::fluid {
 
 using splashdown::Ledger;
+using splashdown::AtVertices;
 using splashdown::WallLoad;
+using splashdown::WallVelocity;
 
 /// All of it world frame, half-step velocities at t_{n+1/2}. Empty but for the status where no solution was found.
 template <int d>
 struct StepResult {
   Status status;                          ///< why there is no solution; ok: there is one
   std::vector<WallLoad<d>> loads;         ///< on the walls, means over the kick
-  std::vector<Twist<d>> wall_velocities;  ///< half-step velocities that the walls end with
+  /// The same on the vertices of walls that deform, all that acts on them [N; 2D: N/m]; empty for rigid ones.
+  std::vector<AtVertices<d>> at_vertices;
+  std::vector<WallVelocity<d>> wall_velocities;  ///< half-step velocities that the walls end with
   /// Velocities that impulses left unbalanced in the motions would still give to bodies and water: what the solve fell
   /// short of Newton's law, Z (M + G)^-1 (Z^T impulses - M y).
-  std::vector<Twist<d>> imbalance;
+  std::vector<WallVelocity<d>> imbalance;
   /// Mean physical pressure impulses on the pieces of walls with an interface Laplacian [Pa s].
   std::vector<double> interface_impulse;
   std::vector<double> pressure;  ///< at the nodes at t_n, without what corrections add from node to node [Pa]

@@ -90,8 +90,8 @@ void FormDrag<d>::act(std::size_t w, const StepView<d>& step, const Carried<d>& 
   Surroundings<d> water(step, hull.centre, spheres_[w].radius, static_cast<int>(w), mirror_);
   if (hull.wetted.empty() || water.empty()) return;
   const Vec<d> arm = hull.centre - step.poses[w].translation();
-  Twist<d> through = carried.walls[w];
-  through.template head<d>() = rigid_velocity<d>(carried.walls[w], arm);
+  Twist<d> through = carried.walls[w].rigid;
+  through.template head<d>() = rigid_velocity<d>(carried.walls[w].rigid, arm);
   const Twist<d> own = through;
   for (int k = 0; k < 2; ++k) {  // first with even weights
     through = own - water.ahead(carried.v);
@@ -120,8 +120,8 @@ void FormDrag<d>::act(std::size_t w, const StepView<d>& step, const Carried<d>& 
   }
   power_ += impulse.dot(own) / step.kick;
   force_ += impulse.template head<d>() / step.kick;
-  predicted.on_walls[w] += impulse;
-  predicted.on_walls[w].template tail<rotations<d>>() += moment(arm, Vec<d>(impulse.template head<d>()));
+  predicted.on_walls[w].rigid += impulse;
+  predicted.on_walls[w].rigid.template tail<rotations<d>>() += moment(arm, Vec<d>(impulse.template head<d>()));
 }
 
 template <int d>

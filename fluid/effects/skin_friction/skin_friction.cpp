@@ -31,14 +31,14 @@ Status SkinFriction<d>::begin(const StepView<d>& step) {
         inner = *std::find_if_not(cell.begin(), cell.end(), of_facet);
     }
     wetted_.push_back(
-        {f.nodes, inner, f.wall, centre - step.poses[f.wall].translation(), area.normalized(), area.norm()});
+        {f.nodes, inner, f.wall, centre, area.normalized(), area.norm()});
   }
   return {};
 }
 
 template <int d>
-Vec<d> SkinFriction<d>::past(const Wetted& f, const Carried<d>& carried) const {
-  const Vec<d> hull = rigid_velocity<d>(carried.walls[f.wall], f.arm);
+Vec<d> SkinFriction<d>::past(const StepView<d>& step, const Wetted& f, const Carried<d>& carried) const {
+  const Vec<d> hull = velocity_at<d>(step.poses[f.wall], carried.walls[f.wall], f.centre);
   Vec<d> at_hull = Vec<d>::Zero();
   for (int n : f.nodes) at_hull += carried.v[n] / d;
   const auto along = [&](const Vec<d>& v) -> Vec<d> { return v - hull - f.normal * f.normal.dot(v - hull); };
@@ -63,20 +63,20 @@ double SkinFriction<d>::length(const StepView<d>& step, int wall, const Vec<d>& 
 // water's velocity, C being the slope of the friction. Only bodies next to nothing get there.
 template <int d>
 double SkinFriction<d>::limit(const StepView<d>& step, std::size_t wall, std::span<const Rubbed> rubbed) const {
-  if (!step.answers || step.answers->modes.cols() == 0) return 1;
-  const Eigen::MatrixXd modes =
-      step.answers->modes.middleRows(freedoms<d> * static_cast<Eigen::Index>(wall), freedoms<d>);
+  if (!step.answers || step.answers->modes.cols() == 0 || step.layout.deforms(wall)) return 1;
+  const Eigen::MatrixXd modes = step.answers->modes.middleRows(step.layout.first(wall), freedoms<d>);
+  const Vec<d> origin = step.poses[wall].translation();
   if (modes.isZero(0)) return 1;
   Wrench<d> impulse = Wrench<d>::Zero();
   for (std::size_t k = 0; k < wetted_.size(); ++k)
-    if (static_cast<std::size_t>(wetted_[k].wall) == wall) impulse += wrench_of<d>(wetted_[k].arm, rubbed[k].impulse);
+    if (static_cast<std::size_t>(wetted_[k].wall) == wall) impulse += wrench_of<d>(wetted_[k].centre - origin, rubbed[k].impulse);
   const Eigen::VectorXd on_modes = modes.transpose() * impulse;
   const Eigen::VectorXd y = algebra::least_squares(step.answers->inertia, on_modes);
   const Twist<d> change = modes * y;
   double slope = 0;
   for (std::size_t k = 0; k < wetted_.size(); ++k)
     if (static_cast<std::size_t>(wetted_[k].wall) == wall) {
-      const Vec<d> v = rigid_velocity<d>(change, wetted_[k].arm);
+      const Vec<d> v = rigid_velocity<d>(change, wetted_[k].centre - origin);
       slope += rubbed[k].rate * (v.squaredNorm() - std::pow(wetted_[k].normal.dot(v), 2));
     }
   const double inertia = y.dot(on_modes);
@@ -98,10 +98,10 @@ void SkinFriction<d>::rub(const StepView<d>& step, const Carried<d>& carried, st
   };
   for (std::size_t k = 0; k < wetted_.size(); ++k) {
     const Wetted& f = wetted_[k];
-    const Vec<d> origin = step.poses[f.wall].translation();
+    const WallPlace<d>& place = step.poses[f.wall];
     for (int n : f.nodes) asked[n] -= rubbed[k].impulse / d;
-    for (int n : f.nodes) hull[n] = rigid_velocity<d>(carried.walls[f.wall], step.nodes.x[n] - origin);
-    hull[f.inner] = rigid_velocity<d>(carried.walls[f.wall], step.nodes.x[f.inner] - origin);
+    for (int n : f.nodes) hull[n] = velocity_at<d>(place, carried.walls[f.wall], step.nodes.x[n]);
+    hull[f.inner] = velocity_at<d>(place, carried.walls[f.wall], step.nodes.x[f.inner]);
   }
   for (const Wetted& f : wetted_)
     for (int n : f.nodes) share[n] = taken(n, asked[n]);
@@ -112,7 +112,8 @@ void SkinFriction<d>::rub(const StepView<d>& step, const Carried<d>& carried, st
     const Wetted& f = wetted_[k];
     const auto act_at = [&](int n, double part) {
       const Vec<d> impulse = part / d * rubbed[k].impulse;
-      const Wrench<d> on_hull = wrench_of<d>(step.nodes.x[n] - step.poses[f.wall].translation(), impulse);
+      WallImpulse<d> on_hull;
+      add_impulse<d>(step.poses[f.wall], step.nodes.x[n], impulse, on_hull);
       predicted.on_walls[f.wall] += on_hull;
       power_ += on_hull.dot(carried.walls[f.wall]) / step.kick;
       force_ += impulse / step.kick;
@@ -135,7 +136,7 @@ Status SkinFriction<d>::predict(const StepView<d>& step, const Carried<d>& carri
   if (wetted_.empty()) return {};
   std::vector<Rubbed> rubbed(wetted_.size());
   in_parallel(wetted_.size(), [&](std::size_t k) {
-    const Vec<d> u = past(wetted_[k], carried);
+    const Vec<d> u = past(step, wetted_[k], carried);
     const double speed = u.norm();
     const double reynolds =
         speed == 0 ? 0 : step.density * speed * length(step, wetted_[k].wall, u / speed) / spec_.dynamic_viscosity;

@@ -45,7 +45,7 @@ class SkinFriction final : public Effect<d> {
     std::array<int, d> nodes;
     int inner;  // the corner of its cell off the hull
     int wall;
-    Vec<d> arm, normal;  // of its centre from the wall's origin; unit
+    Vec<d> centre, normal;  // world frame; unit
     double area;
   };
   struct Rubbed {     // of a facet, in a kick
@@ -53,7 +53,7 @@ class SkinFriction final : public Effect<d> {
     double rate = 0;  // impulse over the speed [N s/m]
   };
   /// u at a facet [m/s].
-  Vec<d> past(const Wetted& f, const Carried<d>& carried) const;
+  Vec<d> past(const StepView<d>& step, const Wetted& f, const Carried<d>& carried) const;
   double length(const StepView<d>& step, int wall, const Vec<d>& direction) const;
   /// Share of the friction that leaves a body at most with the water's velocity.
   double limit(const StepView<d>& step, std::size_t wall, std::span<const Rubbed> rubbed) const;

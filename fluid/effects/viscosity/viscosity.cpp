@@ -133,8 +133,8 @@ Mat<d> Viscosity<d>::bond_block(const Bond& bond, int a, int b) const {
 }
 
 template <int d>
-void Viscosity<d>::pull(const StepView<d>& step, std::span<const Vec<d>> v, std::span<const Twist<d>> walls,
-                        std::vector<Vec<d>>& force, std::vector<Wrench<d>>* on_walls) const {
+void Viscosity<d>::pull(const StepView<d>& step, std::span<const Vec<d>> v, std::span<const WallVelocity<d>> walls,
+                        std::vector<Vec<d>>& force, std::vector<WallImpulse<d>>* on_walls) const {
   for (const Bond& bond : bonds_) {
     const auto& cell = step.mesh.cells[bond.cell];
     Mat<d> gradient = Mat<d>::Zero();
@@ -144,11 +144,11 @@ void Viscosity<d>::pull(const StepView<d>& step, std::span<const Vec<d>> v, std:
     Vec<d> slip = Vec<d>::Zero();  // sum over bound nodes
     for (int a = 0; a <= d; ++a) {
       if (!bond.held[a]) continue;
-      const Vec<d> arm = step.nodes.x[cell[a]] - step.poses[bond.wall].translation();
-      const Vec<d> past = tangential(v[cell[a]] - rigid_velocity<d>(walls[bond.wall], arm));
+      const WallPlace<d>& place = step.poses[bond.wall];
+      const Vec<d> past = tangential(v[cell[a]] - velocity_at<d>(place, walls[bond.wall], step.nodes.x[cell[a]]));
       const Vec<d> f = bond.share * (bond.stiffness * past - traction);
       force[cell[a]] += f;
-      if (on_walls) (*on_walls)[bond.wall] += step.kick * wrench_of<d>(arm, f);
+      if (on_walls) add_impulse<d>(place, step.nodes.x[cell[a]], f, (*on_walls)[bond.wall], step.kick);
       slip += past;
     }
     for (int b = 0; b <= d; ++b) {
@@ -216,7 +216,7 @@ void Viscosity<d>::stress(const StepView<d>& step, std::span<const Vec<d>> v, st
 
 template <int d>
 void Viscosity<d>::react(const StepView<d>& step, std::span<const Vec<d>> change, std::span<const Vec<d>> moved,
-                         std::span<const Twist<d>> walls, std::vector<Wrench<d>>& on_walls) {
+                         std::span<const WallVelocity<d>> walls, std::vector<WallImpulse<d>>& on_walls) {
   stress(step, moved, force_);
   on_walls.assign(step.walls.size(), Wrench<d>::Zero());
   pull(step, moved, walls, force_, &on_walls);
@@ -224,7 +224,7 @@ void Viscosity<d>::react(const StepView<d>& step, std::span<const Vec<d>> change
     const double mass = step.density * step.lumped_volume[h.node];
     const Vec<d> impulse = mass * change[h.node] + step.kick * force_[h.node];
     const int wall = step.nodes.tie[h.node].wall;
-    on_walls[wall] -= wrench_of<d>(step.nodes.x[h.node] - step.poses[wall].translation(), impulse - h.free * impulse);
+    add_impulse<d>(step.poses[wall], step.nodes.x[h.node], impulse - h.free * impulse, on_walls[wall], -1);
   }
 }
 
@@ -259,7 +259,7 @@ std::vector<typename Viscosity<d>::Passed> Viscosity<d>::pass(const StepView<d>&
     return v;
   };
   const auto at = [](const Kicked& k, double share) {
-    std::vector<Twist<d>> walls = k.walls;
+    std::vector<WallVelocity<d>> walls = k.walls;
     for (std::size_t w = 0; w < walls.size(); ++w) walls[w] = k.from.walls[w] + share * (k.walls[w] - k.from.walls[w]);
     return walls;
   };
@@ -292,31 +292,25 @@ std::vector<typename Viscosity<d>::Passed> Viscosity<d>::pass(const StepView<d>&
 
 // The bodies' part of the implicit step: their motions take held nodes along, those the water around them.
 template <int d>
-bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<Wrench<d>>& on_walls) {
+bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<WallImpulse<d>>& on_walls) {
   const ModalInertia& bodies = *step.answers;
   const Eigen::Index count = bodies.modes.cols();
-  auto on_modes = [&](std::span<const Wrench<d>> impulses) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
-    for (std::size_t w = 0; w < impulses.size(); ++w)
-      sum += bodies.modes.middleRows(static_cast<Eigen::Index>(w) * freedoms<d>, freedoms<d>).transpose() * impulses[w];
-    return sum;
-  };
+  auto on_modes = [&](std::span<const WallImpulse<d>> impulses) { return step.layout.on_modes(bodies.modes, impulses); };
   const std::vector<Vec<d>> still(step.nodes.size(), Vec<d>::Zero());
-  std::vector<Kicked> kicked(count, {{still, std::vector<Twist<d>>(step.walls.size(), Twist<d>::Zero())}, still, {}});
+  std::vector<Kicked> kicked(count, {{still, std::vector<WallVelocity<d>>(step.walls.size(), Twist<d>::Zero())}, still, {}});
   for (Eigen::Index k = 0; k < count; ++k) {
     auto& [from, v, walls] = kicked[k];
-    for (std::size_t w = 0; w < step.walls.size(); ++w)
-      walls.push_back(bodies.modes.col(k).template segment<freedoms<d>>(static_cast<Eigen::Index>(w) * freedoms<d>));
+    for (std::size_t w = 0; w < step.walls.size(); ++w) walls.push_back(step.layout.of_wall(w, bodies.modes.col(k)));
     for (const Held& h : held_) {
       const int wall = step.nodes.tie[h.node].wall;
-      const Vec<d> w = rigid_velocity<d>(walls[wall], step.nodes.x[h.node] - step.poses[wall].translation());
+      const Vec<d> w = velocity_at<d>(step.poses[wall], walls[wall], step.nodes.x[h.node]);
       v[h.node] = w - h.free * w;
     }
   }
   const std::vector<Passed> fields = pass(step, kicked);
   if (std::ssize(fields) < count) return false;
   Eigen::MatrixXd total = bodies.inertia;
-  std::vector<std::vector<Wrench<d>>> reaction(count);
+  std::vector<std::vector<WallImpulse<d>>> reaction(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     react(step, fields[k].to.v, fields[k].mean.v, fields[k].mean.walls, reaction[k]);
     total.col(k) -= on_modes(reaction[k]);
@@ -334,13 +328,13 @@ template <int d>
 Status Viscosity<d>::predict(const StepView<d>& step, const Carried<d>& carried, const Predicted<d>& predicted) {
   power_ = 0;
   if (node_.empty()) return {};
-  const std::vector<Twist<d>> walls(carried.walls.begin(), carried.walls.end());
+  const std::vector<WallVelocity<d>> walls(carried.walls.begin(), carried.walls.end());
   std::vector<Passed> passed = pass(step, {{{{carried.v.begin(), carried.v.end()}, walls}, {}, walls}});
   if (passed.empty()) return {"the viscous solve failed"};
   change_ = std::move(passed[0].to.v);
   moved_ = std::move(passed[0].mean.v);
   for (std::size_t i = 0; i < change_.size(); ++i) change_[i] -= carried.v[i];
-  std::vector<Wrench<d>> on_walls;
+  std::vector<WallImpulse<d>> on_walls;
   react(step, change_, moved_, carried.walls, on_walls);
   if (step.answers && !answer(step, predicted, on_walls)) return {"the viscous solve failed"};
   add(step, carried, {}, predicted);
@@ -372,7 +366,7 @@ Status Viscosity<d>::follow(const StepView<d>& step, const Carried<d>& carried, 
   if (passed.empty()) return {"the viscous solve failed"};
   change_ = std::move(passed[0].to.v);
   for (std::size_t i = 0; i < change_.size(); ++i) change_[i] -= carried.v[i] + others.change[i];
-  std::vector<Wrench<d>> on_walls;
+  std::vector<WallImpulse<d>> on_walls;
   react(step, change_, passed[0].mean.v, passed[0].mean.walls, on_walls);
   add(step, carried, others.change, predicted);
   for (std::size_t w = 0; w < on_walls.size(); ++w) predicted.on_walls[w] += on_walls[w];

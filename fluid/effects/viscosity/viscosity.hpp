@@ -75,19 +75,19 @@ class Viscosity final : public Effect<d> {
   /// Row of corner a and column of corner b of a bond, over the kick.
   Mat<d> bond_block(const Bond& bond, int a, int b) const;
   /// Adds what bonds to walls with velocities `walls` exert on the nodes, [N].
-  void pull(const StepView<d>& step, std::span<const Vec<d>> v, std::span<const Twist<d>> walls,
-            std::vector<Vec<d>>& force, std::vector<Wrench<d>>* on_walls) const;
+  void pull(const StepView<d>& step, std::span<const Vec<d>> v, std::span<const WallVelocity<d>> walls,
+            std::vector<Vec<d>>& force, std::vector<WallImpulse<d>>* on_walls) const;
   void assemble(const StepView<d>& step);
   /// Velocities and those of the walls, [m/s].
   struct Field {
     std::vector<Vec<d>> v;
-    std::vector<Twist<d>> walls;
+    std::vector<WallVelocity<d>> walls;
   };
   /// A field before the kick, what else changes its velocities (empty: nothing) and where its walls end.
   struct Kicked {
     Field from;
     std::vector<Vec<d>> change;
-    std::vector<Twist<d>> walls;
+    std::vector<WallVelocity<d>> walls;
   };
   /// The same after the kick, and the field whose stress is the mean over it.
   struct Passed {
@@ -95,7 +95,7 @@ class Viscosity final : public Effect<d> {
   };
   /// Impulse on the walls of what they impose: of changes of velocity and of velocities after them.
   void react(const StepView<d>& step, std::span<const Vec<d>> change, std::span<const Vec<d>> moved,
-             std::span<const Twist<d>> walls, std::vector<Wrench<d>>& on_walls);
+             std::span<const WallVelocity<d>> walls, std::vector<WallImpulse<d>>& on_walls);
   /// Lets the free nodes follow what walls do to them, in place; several fields at once.
   bool follow(const StepView<d>& step, std::vector<Field>& fields);
   /// Fields after the kick; empty: a solve has failed.
@@ -103,7 +103,7 @@ class Viscosity final : public Effect<d> {
   /// Adds the changes of velocity to what is predicted, and books their power.
   void add(const StepView<d>& step, const Carried<d>& carried, std::span<const Vec<d>> others,
            const Predicted<d>& predicted);
-  bool answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<Wrench<d>>& on_walls);
+  bool answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<WallImpulse<d>>& on_walls);
   /// force = K v at all nodes, without bonds.
   void stress(const StepView<d>& step, std::span<const Vec<d>> v, std::vector<Vec<d>>& force) const;
 

@@ -21,7 +21,7 @@ constexpr double snap = 0.3;       // a boundary node this close to a sharp vert
 /// What came through a thin wall's one side may be nearer to the other: where it was a step ago, `from`, says which side it is on.
 /// `x` without its way into the solid, if it was outside then or had not come farther than `little`.
 template <int d>
-std::optional<Vec<d>> on_own_side(const Wall<d>& wall, const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& x,
+std::optional<Vec<d>> on_own_side(const Wall<d>& wall, const WallPlace<d>& pose, const Vec<d>& from, const Vec<d>& x,
                                   double little) {
   constexpr int halvings = 20;
   const auto nearest = [&](const Vec<d>& point) { return wall.nearest(pose, point, wall.diameter()); };
@@ -44,7 +44,7 @@ std::optional<Vec<d>> on_own_side(const Wall<d>& wall, const Isometry<d>& pose, 
 // Nodes of the water in the plane of symmetry are tied to the tank's side there. For hulls they are like others within the
 // water: those that a hull has met belong to its line in the plane, and what leaves that line belongs to the tank again.
 template <int d>
-void tie_in_mirror(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d>> velocities) {
+void tie_in_mirror(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const WallVelocity<d>> velocities) {
   constexpr double in_plane = 1e-5;  // over h: more than ventilation lifts a node off its wall
   const auto tank = std::ranges::find_if(at.walls, [](const Wall<d>& wall) { return wall.ends_at_mirror(); });
   if (tank == at.walls.end()) return;
@@ -64,7 +64,7 @@ void tie_in_mirror(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<
       if (!hull.spec().mirror || !hull.may_touch(at.poses[w], x, 0)) continue;
       const auto near = hull.nearest(at.poses[w], x, hull.diameter());
       if (near.distance > 0) continue;
-      const Vec<d> v = nodes.v[i] - rigid_velocity<d>(velocities[w], x - at.poses[w].translation());
+      const Vec<d> v = nodes.v[i] - velocity_at<d>(at.poses[w], velocities[w], x);
       if (v.dot(near.normal) > 0 && near.distance > -deep * nodes.h[i]) continue;
       const auto line = hull.nearest_in_mirror(at.poses[w], x);
       if (line.crease < 0) continue;
@@ -76,7 +76,7 @@ void tie_in_mirror(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<
 }
 
 template <int d>
-void tie_arrivals(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d>> velocities, double dt) {
+void tie_arrivals(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const WallVelocity<d>> velocities, double dt) {
   in_parallel(nodes.size(), [&](std::size_t i) {
     if (nodes.tie[i].wall >= 0) return;
     for (std::size_t w = 0; w < at.walls.size(); ++w) {
@@ -85,7 +85,7 @@ void tie_arrivals(Nodes<d>& nodes, const WallsAt<d>& at, std::span<const Twist<d
       const double reach = nodes.spray[i] ? at.walls[w].diameter() : nodes.h[i];
       auto near = at.walls[w].nearest(at.poses[w], nodes.x[i], reach);
       if (near.distance > 0) continue;
-      const Vec<d> v = nodes.v[i] - rigid_velocity<d>(velocities[w], nodes.x[i] - at.poses[w].translation());
+      const Vec<d> v = nodes.v[i] - velocity_at<d>(at.poses[w], velocities[w], nodes.x[i]);
       if (v.dot(near.normal) > 0) {
         // A node that a neighbouring edge let go may touch the wall behind the edge while it flies away.
         if (near.distance > -deep * nodes.h[i]) continue;
@@ -242,7 +242,7 @@ bool occupy_corners(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
 
 // The edge leaves a smooth patch of the wall over one of its creases.
 template <int d>
-bool passes_crease(const Nodes<d>& nodes, const Wall<d>& wall, const Isometry<d>& pose, int w, int a, int b,
+bool passes_crease(const Nodes<d>& nodes, const Wall<d>& wall, const WallPlace<d>& pose, int w, int a, int b,
                    typename Wall<d>::Crossing& at) {
   const WallTie &tie_a = nodes.tie[a], &tie_b = nodes.tie[b];
   if (tie_a.wall != w || tie_a.sharp()) return false;
@@ -302,7 +302,7 @@ bool occupy_creases(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& at) {
 }  // namespace
 
 template <int d>
-bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities,
+bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const WallVelocity<d>> velocities,
                   double dt) {
   tie_in_mirror<d>(nodes, walls, velocities);
   tie_arrivals<d>(nodes, walls, velocities, dt);
@@ -310,7 +310,7 @@ bool attach_nodes(Nodes<d>& nodes, Mesh<d>& mesh, const WallsAt<d>& walls, std::
   return corners || creases;
 }
 
-template bool attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
-template bool attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
+template bool attach_nodes(Nodes<2>&, Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double);
+template bool attach_nodes(Nodes<3>&, Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double);
 
 }  // namespace splashdown::fluid

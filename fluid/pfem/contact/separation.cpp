@@ -8,7 +8,7 @@
 namespace splashdown::fluid {
 
 template <int d>
-void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
+void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const WallVelocity<d>> velocities,
               double gravity) {
   struct Edge {
     Vec<d> normal = Vec<d>::Zero();
@@ -36,8 +36,8 @@ void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::s
       e.both_sides = e.both_sides || e.normal.dot(normal) < least_smooth_cosine;
       for (int other : f.nodes) {
         if (nodes.surface[other]) continue;
-        const Vec<d> arm = nodes.x[other] - at.poses[f.wall].translation();
-        e.squared_speed += (nodes.v[other] - rigid_velocity<d>(velocities[f.wall], arm)).squaredNorm();
+        const Vec<d> of_wall = velocity_at<d>(at.poses[f.wall], velocities[f.wall], nodes.x[other]);
+        e.squared_speed += (nodes.v[other] - of_wall).squaredNorm();
         ++e.upstream;
       }
     }
@@ -103,8 +103,8 @@ void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec
   }
 }
 
-template void separate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
-template void separate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
+template void separate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double);
+template void separate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double);
 template std::vector<Separation<2>> separations(const Nodes<2>&, const Mesh<2>&);
 template std::vector<Separation<3>> separations(const Nodes<3>&, const Mesh<3>&);
 template void share_momentum<2>(std::span<const double>, std::span<Separation<2>>);

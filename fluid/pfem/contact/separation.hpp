@@ -14,7 +14,7 @@ namespace splashdown::fluid {
 /// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
 /// stands at a crease like at any other place of a wall. `velocities`: of the walls, `gravity`: g.
 template <int d>
-void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const Twist<d>> velocities,
+void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const WallVelocity<d>> velocities,
               double gravity);
 
 /// A node where the flow leaves an edge, and a wetted neighbour of it, with their shares of the difference of velocities.
@@ -45,8 +45,8 @@ void share_momentum(std::span<const double> volume, std::span<Separation<d>> sep
 template <int d>
 void mix_with_upstream(std::span<const Separation<d>> separations, std::span<Vec<d>> u);
 
-extern template void separate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double);
-extern template void separate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double);
+extern template void separate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double);
+extern template void separate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double);
 extern template std::vector<Separation<2>> separations(const Nodes<2>&, const Mesh<2>&);
 extern template std::vector<Separation<3>> separations(const Nodes<3>&, const Mesh<3>&);
 extern template void share_momentum<2>(std::span<const double>, std::span<Separation<2>>);

@@ -20,9 +20,8 @@ constexpr double off_wall = 1e-6;  // over h: roundoff does not find a node on t
 // |v - w|^2 / 2 at a node.
 template <int d>
 double slip_energy(const Nodes<d>& nodes, std::size_t n, int wall, const WallsAt<d>& at,
-                   std::span<const Twist<d>> velocities) {
-  const Vec<d> arm = nodes.x[n] - at.poses[wall].translation();
-  return 0.5 * (nodes.v[n] - rigid_velocity<d>(velocities[wall], arm)).squaredNorm();
+                   std::span<const WallVelocity<d>> velocities) {
+  return 0.5 * (nodes.v[n] - velocity_at<d>(at.poses[wall], velocities[wall], nodes.x[n])).squaredNorm();
 }
 
 // Means over the wetted facets around nodes; 0 elsewhere. Single nodes of films have pressures of either sign.
@@ -97,7 +96,7 @@ std::vector<char> without_memory(const Nodes<d>& nodes, const Mesh<d>& mesh, con
 
 template <int d>
 void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
-                           std::span<const Twist<d>> velocities, std::span<const int> unknown,
+                           std::span<const WallVelocity<d>> velocities, std::span<const int> unknown,
                            std::span<const double> repair_impulse, double kick) {
   const std::vector<char> forget = without_memory(nodes, mesh, at);
   in_parallel(nodes.size(), [&](std::size_t n) {
@@ -118,7 +117,7 @@ void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d
 }
 
 template <int d>
-void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
+void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const WallVelocity<d>> velocities,
                double density, double gravity) {
   const std::vector<double> mean = mean_pressures(nodes, mesh);
   const std::vector<char> thin = thin_places(nodes, mesh);
@@ -153,11 +152,11 @@ void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::
   }
 }
 
-template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
+template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>,
                                     std::span<const int>, std::span<const double>, double);
-template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
+template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>,
                                     std::span<const int>, std::span<const double>, double);
-template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
-template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
+template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double, double);
+template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double, double);
 
 }  // namespace splashdown::fluid

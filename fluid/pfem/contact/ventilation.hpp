@@ -21,7 +21,7 @@ namespace splashdown::fluid {
 /// forget.
 template <int d>
 void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at,
-                           std::span<const Twist<d>> velocities, std::span<const int> unknown,
+                           std::span<const WallVelocity<d>> velocities, std::span<const int> unknown,
                            std::span<const double> repair_impulse, double kick);
 
 /// Unties wetted nodes beside the contact line, or beside an edge where the flow separates, that air gets to:
@@ -33,14 +33,14 @@ void average_wall_pressure(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d
 ///
 /// A row of nodes a step; p: nodes.wall_pressure. `velocities`: of the walls, `gravity`: g.
 template <int d>
-void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const Twist<d>> velocities,
+void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const WallVelocity<d>> velocities,
                double density, double gravity);
 
-extern template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
+extern template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>,
                                            std::span<const int>, std::span<const double>, double);
-extern template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
+extern template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>,
                                            std::span<const int>, std::span<const double>, double);
-extern template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double, double);
-extern template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double, double);
+extern template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double, double);
+extern template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double, double);
 
 }  // namespace splashdown::fluid

@@ -16,11 +16,28 @@ double angle_at(const std::array<Vec<3>, 3>& c, int k) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+// Unit normals of facets, means of them around vertices; returns d times the volume enclosed.
+template <int d>
+double normals_of(const AtVertices<d>& vertices, const Eigen::Matrix<int, d, Eigen::Dynamic>& facets,
+                  AtVertices<d>& normal, AtVertices<d>& at_vertex) {
+  at_vertex.setZero();
+  double enclosed = 0;
+  for (int f = 0; f < facets.cols(); ++f) {
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = vertices.col(facets(k, f));
+    normal.col(f) = area_vector(corner).normalized();
+    enclosed += corner[0].dot(area_vector(corner));
+    for (int k = 0; k < d; ++k) at_vertex.col(facets(k, f)) += angle_at(corner, k) * normal.col(f);
+  }
+  return enclosed;
+}
+
 }  // namespace
 
 template <int d>
 Wall<d>::Wall(const WallSpec<d>& spec)
     : spec_(spec),
+      facets_(std::make_shared<const Eigen::Matrix<int, d, Eigen::Dynamic>>(spec.surface.facets)),
       tree_(spec.surface.vertices, spec.surface.facets),
       normal_(d, spec.surface.facets.cols()),
       vertex_normal_(d, spec.surface.vertices.cols()),
@@ -43,19 +60,51 @@ Wall<d>::Wall(const WallSpec<d>& spec)
 template <int d>
 void Wall<d>::find_normals() {
   const auto& facets = spec_.surface.facets;
-  vertex_normal_.setZero();
-  double enclosed = 0;
-  for (int f = 0; f < facets.cols(); ++f) {
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = spec_.surface.vertices.col(facets(k, f));
-    normal_.col(f) = area_vector(corner).normalized();
-    enclosed += corner[0].dot(area_vector(corner));
-    for (int k = 0; k < d; ++k) {
-      vertex_normal_.col(facets(k, f)) += angle_at(corner, k) * normal_.col(f);
-      facets_of_[facets(k, f)].push_back(f);
-    }
-  }
+  const double enclosed = normals_of<d>(spec_.surface.vertices, facets, normal_, vertex_normal_);
+  for (int f = 0; f < facets.cols(); ++f)
+    for (int k = 0; k < d; ++k) facets_of_[facets(k, f)].push_back(f);
   turned_inside_out_ = enclosed < 0;
+}
+
+template <int d>
+WallPlace<d> Wall<d>::place() const {
+  return spec_.deforms ? shaped(spec_.surface.vertices) : WallPlace<d>(spec_.pose);
+}
+
+template <int d>
+WallPlace<d> Wall<d>::moved(const WallPlace<d>& from, const WallVelocity<d>& s, double dt) const {
+  if (!from.shape()) return fluid::moved<d>(from.pose(), s.rigid, dt);
+  if (s.vertices.size() == 0) return from;
+  return shaped(from.shape()->vertices + dt * s.vertices);
+}
+
+template <int d>
+WallPlace<d> Wall<d>::shaped(AtVertices<d> vertices) const {
+  auto shape = std::make_shared<WallShape<d>>();
+  shape->vertices = std::move(vertices);
+  shape->facets = facets_;
+  shape->normal.resize(d, facets_->cols());
+  shape->vertex_normal.resize(d, shape->vertices.cols());
+  normals_of<d>(shape->vertices, *facets_, shape->normal, shape->vertex_normal);
+  shape->tree = FacetTree<d>(shape->vertices, *facets_);
+  for (const auto& members : patch_facets_) shape->of_patch.emplace_back(shape->vertices, (*facets_)(Eigen::all, members));
+  for (const auto vertex : shape->vertices.colwise()) shape->box.extend(vertex);
+  return WallPlace<d>(std::move(shape));
+}
+
+template <int d>
+Vec<d> Wall<d>::carried(const WallPlace<d>& pose, const Vec<d>& made) const {
+  if (!pose.shape()) return pose * made;
+  const WallPlace<d> as_made = place();
+  const Anchor<d> at = anchor_of<d>(*as_made.shape(), made);
+  Vec<d> x = Vec<d>::Zero();
+  for (int k = 0; k < d; ++k) x += at.weight[k] * pose.shape()->vertices.col(at.vertex[k]);
+  return x;
+}
+
+template <int d>
+Vec<d> Wall<d>::carried(const WallPlace<d>& from, const WallPlace<d>& to, const Vec<d>& x) const {
+  return from.shape() ? Vec<d>(x + centre_at(to) - centre_at(from)) : Vec<d>(to * (from.inverse() * x));
 }
 
 // A hull that reaches across the plane of symmetry has its facets on one side of it or on the other.
@@ -302,7 +351,15 @@ void Wall<d>::find_basin() {
 // From cones with their tip in the middle of the box: V = sum v, V x = sum v (mean of corners), v = A.(x - tip) / d.
 template <int d>
 void Wall<d>::find_centre() {
-  const Vec<d> tip = box_.center();
+  centre_ = centre_of(spec_.surface.vertices);
+  depth_of_centre_ = -nearest(spec_.deforms ? place() : WallPlace<d>(), centre_, 2 * diameter()).distance;
+}
+
+template <int d>
+Vec<d> Wall<d>::centre_of(const AtVertices<d>& vertices) const {
+  Eigen::AlignedBox<double, d> box;
+  for (const auto vertex : vertices.colwise()) box.extend(vertex);
+  const Vec<d> tip = box.center();
   const auto& facets = spec_.surface.facets;
   Vec<d> sum = Vec<d>::Zero();
   double enclosed = 0;
@@ -310,40 +367,41 @@ void Wall<d>::find_centre() {
     std::array<Vec<d>, d> corner;
     Vec<d> mean = Vec<d>::Zero();
     for (int k = 0; k < d; ++k) {
-      corner[k] = spec_.surface.vertices.col(facets(k, f)) - tip;
+      corner[k] = vertices.col(facets(k, f)) - tip;
       mean += corner[k] / (d + 1);
     }
     const double cone = area_vector(corner).dot(corner[0]) / d;
     sum += cone * mean;
     enclosed += cone;
   }
-  centre_ = enclosed != 0 ? Vec<d>(tip + sum / enclosed) : tip;
-  depth_of_centre_ = -nearest(Isometry<d>::Identity(), centre_, 2 * diameter()).distance;
+  return enclosed != 0 ? Vec<d>(tip + sum / enclosed) : tip;
 }
 
 template <int d>
-typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& local,
+typename Wall<d>::Near Wall<d>::near_of(const WallPlace<d>& pose, const Vec<d>& local,
                                         const typename FacetTree<d>::Hit& hit, int facet) const {
   // The side is taken from the normals of all facets that meet at the closest point, by their angles there (Baerentzen,
   // Aanaes 2005).
-  Vec<d> normal = normal_.col(facet);
+  const AtVertices<d>&of_facet = normals(pose), &places = vertices(pose);
+  const AtVertices<d>& of_vertex = pose.shape() ? pose.shape()->vertex_normal : vertex_normal_;
+  Vec<d> normal = of_facet.col(facet);
   int vertex = -1, on_crease = -1;
-  const auto at = [&](int k) { return Vec<d>(spec_.surface.vertices.col(spec_.surface.facets(k % d, facet))); };
+  const auto at = [&](int k) { return Vec<d>(places.col(spec_.surface.facets(k % d, facet))); };
   for (int k = 0; k < d && d == 3; ++k) {
     if (across_(k, facet) < 0 || (closest_on_segment<d>(at(k), at(k + 1), hit.point) - hit.point).norm() > tiny_)
       continue;
-    normal = normal_.col(facet) + normal_.col(across_(k, facet));
+    normal = of_facet.col(facet) + of_facet.col(across_(k, facet));
     if (crease_of_(k, facet) >= 0) on_crease = crease_of_(k, facet);
   }
   for (int k = 0; k < d; ++k) {
     const int v = spec_.surface.facets(k, facet);
     if ((at(k) - hit.point).norm() > tiny_) continue;
-    normal = vertex_normal_.col(v);
+    normal = of_vertex.col(v);
     if (is_corner_[v]) vertex = v;
   }
   const double side = (local - hit.point).dot(normal) < 0 ? -1.0 : 1.0;
   return {pose * hit.point,
-          pose.linear() * Vec<d>(normal_.col(facet)),
+          pose.linear() * Vec<d>(of_facet.col(facet)),
           side * std::sqrt(hit.squared_distance),
           patch_of_[facet],
           vertex,
@@ -351,26 +409,28 @@ typename Wall<d>::Near Wall<d>::near_of(const Isometry<d>& pose, const Vec<d>& l
 }
 
 template <int d>
-typename Wall<d>::Near Wall<d>::nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const {
+typename Wall<d>::Near Wall<d>::nearest(const WallPlace<d>& pose, const Vec<d>& x, double reach) const {
   const Vec<d> local = pose.inverse() * x;
-  const auto hit = tree_.nearest(local, reach);
+  const auto hit = tree(pose).nearest(local, reach);
   if (hit.facet < 0) return {x, Vec<d>::Zero(), reach, -1, -1};
   return near_of(pose, local, hit, hit.facet);
 }
 
 template <int d>
-typename Wall<d>::Near Wall<d>::nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const {
+typename Wall<d>::Near Wall<d>::nearest_on_patch(const WallPlace<d>& pose, const Vec<d>& x, int patch) const {
   const Vec<d> local = pose.inverse() * x;
-  const auto hit = patch_tree_[patch].nearest(local, std::numeric_limits<double>::max());
+  const auto& own = pose.shape() ? pose.shape()->of_patch[patch] : patch_tree_[patch];
+  const auto hit = own.nearest(local, std::numeric_limits<double>::max());
   if (hit.facet < 0) return {x, Vec<d>::Zero(), std::numeric_limits<double>::quiet_NaN(), patch, -1};  // x not finite
   return near_of(pose, local, hit, patch_facets_[patch][hit.facet]);
 }
 
 template <int d>
-typename Wall<d>::OnCrease Wall<d>::on_crease(const Vec<d>& local, int crease) const {
+typename Wall<d>::OnCrease Wall<d>::on_crease(const WallPlace<d>& pose, const Vec<d>& local, int crease) const {
+  const AtVertices<d>& at = vertices(pose);
   OnCrease best{Vec<d>::Constant(std::numeric_limits<double>::infinity()), Vec<d>::Zero()};
   for (const auto& [a, b] : creases_[crease]) {
-    const Vec<d> from = spec_.surface.vertices.col(a), to = spec_.surface.vertices.col(b);
+    const Vec<d> from = at.col(a), to = at.col(b);
     const Vec<d> c = closest_on_segment<d>(from, to, local);
     if ((c - local).squaredNorm() < (best.point - local).squaredNorm()) best = {c, to - from};
   }
@@ -378,13 +438,13 @@ typename Wall<d>::OnCrease Wall<d>::on_crease(const Vec<d>& local, int crease) c
 }
 
 template <int d>
-Vec<d> Wall<d>::nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
-  const Vec<d> point = pose * on_crease(pose.inverse() * x, crease).point;
+Vec<d> Wall<d>::nearest_on_crease(const WallPlace<d>& pose, const Vec<d>& x, int crease) const {
+  const Vec<d> point = pose * on_crease(pose, pose.inverse() * x, crease).point;
   return mirrored_crease_[crease] ? spec_.mirror->template onto<d>(point) : point;
 }
 
 template <int d>
-typename Wall<d>::Crossing Wall<d>::nearest_in_mirror(const Isometry<d>& pose, const Vec<d>& x) const {
+typename Wall<d>::Crossing Wall<d>::nearest_in_mirror(const WallPlace<d>& pose, const Vec<d>& x) const {
   Crossing best;
   best.distance = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < creases_.size(); ++c) {
@@ -397,21 +457,21 @@ typename Wall<d>::Crossing Wall<d>::nearest_in_mirror(const Isometry<d>& pose, c
 }
 
 template <int d>
-Vec<d> Wall<d>::crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const {
-  return pose.linear() * on_crease(pose.inverse() * x, crease).along.normalized();
+Vec<d> Wall<d>::crease_direction(const WallPlace<d>& pose, const Vec<d>& x, int crease) const {
+  return pose.linear() * on_crease(pose, pose.inverse() * x, crease).along.normalized();
 }
 
 template <int d>
-typename Wall<d>::Crossing Wall<d>::nearest_crease(const Isometry<d>& pose, const Vec<d>& from,
+typename Wall<d>::Crossing Wall<d>::nearest_crease(const WallPlace<d>& pose, const Vec<d>& from,
                                                    const Vec<d>& to) const {
+  const AtVertices<d>& places = vertices(pose);
   const Vec<d> a = pose.inverse() * from, along = pose.inverse() * to - a;
   Crossing best;
   best.distance = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < creases_.size(); ++c)
     for (const auto& [i, j] : creases_[c]) {
       // Closest points of two segments (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
-      const Vec<d> b = spec_.surface.vertices.col(i),
-                   edge = spec_.surface.vertices.col(j) - spec_.surface.vertices.col(i);
+      const Vec<d> b = places.col(i), edge = places.col(j) - places.col(i);
       const Vec<d> r = a - b;
       const double aa = along.squaredNorm(), ee = edge.squaredNorm(), ae = along.dot(edge);
       const double ar = along.dot(r), er = edge.dot(r), det = aa * ee - ae * ae;
@@ -427,14 +487,14 @@ typename Wall<d>::Crossing Wall<d>::nearest_crease(const Isometry<d>& pose, cons
 }
 
 template <int d>
-double Wall<d>::distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack) const {
-  return std::sqrt(tree_.nearest(pose.inverse() * x, reach, slack).squared_distance);
+double Wall<d>::distance_unsigned(const WallPlace<d>& pose, const Vec<d>& x, double reach, double slack) const {
+  return std::sqrt(tree(pose).nearest(pose.inverse() * x, reach, slack).squared_distance);
 }
 
 template <int d>
-double Wall<d>::distance_of_solid(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack) const {
-  const auto& tree = solid_tree_.empty() ? tree_ : solid_tree_;
-  return std::sqrt(tree.nearest(pose.inverse() * x, reach, slack).squared_distance);
+double Wall<d>::distance_of_solid(const WallPlace<d>& pose, const Vec<d>& x, double reach, double slack) const {
+  const auto& solid = solid_tree_.empty() ? tree(pose) : solid_tree_;
+  return std::sqrt(solid.nearest(pose.inverse() * x, reach, slack).squared_distance);
 }
 
 template class Wall<2>;

@@ -1,4 +1,5 @@
-// A wall in motion: closest points and sides of its rigid surface, its sharp vertices.
+// A wall in motion: closest points and sides of its surface, its sharp vertices. Which facets and edges are smooth, flat, convex
+// is that of the surface as it was made.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "core/facet_tree.hpp"
+#include "fluid/pfem/contact/wall_place.hpp"
 #include "fluid/pfem/nodes.hpp"
 #include "fluid/pfem/spec.hpp"
 
@@ -14,13 +16,24 @@ namespace splashdown::fluid {
 /// cos 30 degrees. Facets, and lines, that turn by more meet at a crease or a corner; by less they follow a curve.
 constexpr double least_smooth_cosine = 0.5 * std::numbers::sqrt3;
 
-/// The surface of a rigid wall, searched in trees: O(log n) a query. Poses: wall frame to world. Const calls may come from
+/// The surface of a wall, searched in trees: O(log n) a query. `pose`: where it is. Const calls may come from
 /// all threads.
 template <int d>
 class Wall {
  public:
   /// Finds patches, creases, corners and bends of its surface; copies the spec.
   explicit Wall(const WallSpec<d>& spec);
+
+  /// Where it was made.
+  WallPlace<d> place() const;
+  /// Where it is after `dt` [s] with velocity s.
+  WallPlace<d> moved(const WallPlace<d>& from, const WallVelocity<d>& s, double dt) const;
+  /// Its surface with the vertices there [m], world frame. Of a wall that deforms.
+  WallPlace<d> shaped(AtVertices<d> vertices) const;
+  /// Where a point on or near its surface is that was at `made`, wall frame, in the surface as it was made.
+  Vec<d> carried(const WallPlace<d>& pose, const Vec<d>& made) const;
+  /// Where a point x around which the wall lies is carried by it.
+  Vec<d> carried(const WallPlace<d>& from, const WallPlace<d>& to, const Vec<d>& x) const;
 
   /// The closest point of the wall, and what it lies on.
   struct Near {
@@ -42,15 +55,15 @@ class Wall {
     double share = 0;               ///< of the segment, from `from` to its point nearest to the crease
   };
   /// Closest point of the wall in the given pose; distance = +reach where nothing is nearer.
-  Near nearest(const Isometry<d>& pose, const Vec<d>& x, double reach) const;
+  Near nearest(const WallPlace<d>& pose, const Vec<d>& x, double reach) const;
   /// The same on one smooth patch alone, wherever x is.
-  Near nearest_on_patch(const Isometry<d>& pose, const Vec<d>& x, int patch) const;
+  Near nearest_on_patch(const WallPlace<d>& pose, const Vec<d>& x, int patch) const;
   /// Closest point of a crease.
-  Vec<d> nearest_on_crease(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
+  Vec<d> nearest_on_crease(const WallPlace<d>& pose, const Vec<d>& x, int crease) const;
   /// Unit vector along the crease where it is nearest.
-  Vec<d> crease_direction(const Isometry<d>& pose, const Vec<d>& x, int crease) const;
+  Vec<d> crease_direction(const WallPlace<d>& pose, const Vec<d>& x, int crease) const;
   /// The crease of this wall that a segment passes nearest to; crease = -1 without any.
-  Crossing nearest_crease(const Isometry<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
+  Crossing nearest_crease(const WallPlace<d>& pose, const Vec<d>& from, const Vec<d>& to) const;
   /// Whether the solid is convex along this crease, or along one that ends at this corner: water flows around it. In hollow
   /// ones it stays.
   bool is_convex(const WallTie& sharp) const {
@@ -69,17 +82,18 @@ class Wall {
     return vertex >= 0 ? in_mirror_[vertex] != 0 : crease >= 0 && mirrored_crease_[crease] != 0;
   }
   /// The crease in the plane of symmetry that is nearest to x; crease = -1 without any. In 3D.
-  Crossing nearest_in_mirror(const Isometry<d>& pose, const Vec<d>& x) const;
+  Crossing nearest_in_mirror(const WallPlace<d>& pose, const Vec<d>& x) const;
   /// Whether all facets of this smooth patch lie in one plane.
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   /// Of a flat patch, out of the solid, world frame.
-  Vec<d> flat_normal(const Isometry<d>& pose, int patch) const {
-    return pose.linear() * normal_.col(patch_facets_[patch].front());
+  Vec<d> flat_normal(const WallPlace<d>& pose, int patch) const {
+    return pose.linear() * normals(pose).col(patch_facets_[patch].front());
   }
   /// In 3D; false in 2D.
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
-  bool may_touch(const Isometry<d>& pose, const Vec<d>& x, double margin) const {
+  bool may_touch(const WallPlace<d>& pose, const Vec<d>& x, double margin) const {
+    if (pose.shape()) return pose.shape()->box.squaredExteriorDistance(x) <= margin * margin;
     const Vec<d> local = pose.linear().transpose() * (x - pose.translation());
     if (!turned_inside_out_) return box_.squaredExteriorDistance(local) <= margin * margin;
     return basin_.empty() || std::any_of(basin_.begin(), basin_.end(), [&](const Plane& p) {
@@ -87,16 +101,16 @@ class Wall {
            });
   }
   /// Distance of x from the surface [m], on either side of it; `reach` where nothing is nearer. `slack`: relative error allowed.
-  double distance_unsigned(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
+  double distance_unsigned(const WallPlace<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
   /// The same, of a tank without its side in the plane of symmetry, which is no solid.
-  double distance_of_solid(const Isometry<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
+  double distance_of_solid(const WallPlace<d>& pose, const Vec<d>& x, double reach, double slack = 0) const;
   /// Whether a smooth patch is that side.
   bool is_mirror(int patch) const { return patch >= 0 && patch == mirror_patch_; }
   /// A tank that has a side there.
   bool ends_at_mirror() const { return turned_inside_out_ && spec_.mirror; }
   /// Vertex v of the surface, world frame [m].
-  Vec<d> vertex(const Isometry<d>& pose, int v) const {
-    const Vec<d> x = pose * Vec<d>(spec_.surface.vertices.col(v));
+  Vec<d> vertex(const WallPlace<d>& pose, int v) const {
+    const Vec<d> x = pose * Vec<d>(vertices(pose).col(v));
     return in_mirror_[v] && !turned_inside_out_ ? spec_.mirror->template onto<d>(x) : x;
   }
   /// Vertices that are corners, those included at which nothing but the plane of symmetry ends a patch: `is_smooth`.
@@ -119,8 +133,8 @@ class Wall {
   /// Centre of the volume that the surface encloses, wall frame, and how deep in the solid it lies: negative outside of it.
   const Vec<d>& centre() const { return centre_; }
   /// The same in the world; in the plane of symmetry, if there is one.
-  Vec<d> centre_at(const Isometry<d>& pose) const {
-    const Vec<d> x = pose * centre_;
+  Vec<d> centre_at(const WallPlace<d>& pose) const {
+    const Vec<d> x = pose.shape() ? centre_of(pose.shape()->vertices) : pose * centre_;
     return spec_.mirror ? spec_.mirror->template onto<d>(x) : x;
   }
   double depth_of_centre() const { return depth_of_centre_; }  ///< [m]
@@ -131,6 +145,12 @@ class Wall {
   double diameter() const { return box_.diagonal().norm(); }
 
  private:
+  const AtVertices<d>& vertices(const WallPlace<d>& pose) const {
+    return pose.shape() ? pose.shape()->vertices : spec_.surface.vertices;
+  }
+  const AtVertices<d>& normals(const WallPlace<d>& pose) const { return pose.shape() ? pose.shape()->normal : normal_; }
+  const FacetTree<d>& tree(const WallPlace<d>& pose) const { return pose.shape() ? pose.shape()->tree : tree_; }
+  Vec<d> centre_of(const AtVertices<d>& vertices) const;
   void find_normals();
   void find_sides_of_mirror();
   bool lies_in_mirror(int f) const;
@@ -152,17 +172,18 @@ class Wall {
     Vec<d> normal;
     double offset;
   };
-  OnCrease on_crease(const Vec<d>& local, int crease) const;
-  Near near_of(const Isometry<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
+  OnCrease on_crease(const WallPlace<d>& pose, const Vec<d>& local, int crease) const;
+  Near near_of(const WallPlace<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
 
   WallSpec<d> spec_;
+  std::shared_ptr<const Eigen::Matrix<int, d, Eigen::Dynamic>> facets_;  // for its shapes
   FacetTree<d> tree_, solid_tree_;  // solid: only for tanks that end at a mirror
   std::vector<FacetTree<d>> patch_tree_;
   std::vector<std::vector<int>> patch_facets_;
   std::vector<int> patch_of_;
   std::vector<char> is_flat_;                               // of patches
-  Eigen::Matrix<double, d, Eigen::Dynamic> normal_;         // of facets, unit
-  Eigen::Matrix<double, d, Eigen::Dynamic> vertex_normal_;  // mean over the facets around a vertex, by their angles
+  AtVertices<d> normal_;                                    // of facets, unit
+  AtVertices<d> vertex_normal_;                             // mean over the facets around a vertex, by their angles
   std::vector<std::vector<int>> facets_of_;
   Eigen::Matrix<int, d, Eigen::Dynamic> across_;          // 3D: facet beyond the edge from corner k to the next
   Eigen::Matrix<int, d, Eigen::Dynamic> crease_of_;       // 3D: crease that this edge is part of, -1: smooth

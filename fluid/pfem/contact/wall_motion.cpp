@@ -50,7 +50,7 @@ void WallMotion<d>::find_edges(const WallsAt<d>& walls, std::span<const char> an
   for (int i : tied_) {
     const WallTie& tie = nodes_.tie[i];
     if (!tie.sharp() || nodes_.spray[i]) continue;
-    const bool first_touch = dry[tie.wall];
+    const bool first_touch = dry[tie.wall] && !walls.poses[tie.wall].shape();
     if (!first_touch && (!wetted_[i] || nodes_.separates[i])) continue;
     const Wall<d>& wall = walls_[tie.wall];
     if (!first_touch && wall.is_smooth(tie)) continue;
@@ -59,6 +59,7 @@ void WallMotion<d>::find_edges(const WallsAt<d>& walls, std::span<const char> an
       edges_.push_back(i);
       continue;
     }
+    if (walls.poses[tie.wall].shape()) continue;  // hollow edges that deform: their nodes' mass is the water's alone
     Mat<d> directions = Mat<d>::Identity();
     if (tie.crease >= 0) {
       const Vec<d> along = wall.crease_direction(walls.poses[tie.wall], nodes_.x[i], tie.crease);
@@ -145,7 +146,7 @@ bool WallMotion<d>::is_chord(int facet, std::span<const WallTie> tie) const {
 // A drop on a wall slides along it: the wall takes what would carry it in, and no more. Within a step it may go farther into a thin
 // wall than to its middle: it comes back on its own side.
 template <int d>
-void WallMotion<d>::move_drop(int i, const Isometry<d>& pose, double dt, Moved& out) const {
+void WallMotion<d>::move_drop(int i, const WallPlace<d>& pose, double dt, Moved& out) const {
   const WallTie tie = nodes_.tie[i];
   const Wall<d>& wall = walls_[tie.wall];
   const auto near = wall.nearest(pose, out.x[i], wall.diameter());
@@ -160,7 +161,7 @@ void WallMotion<d>::move_drop(int i, const Isometry<d>& pose, double dt, Moved& 
 }
 
 template <int d>
-void WallMotion<d>::move_tied(int i, const Isometry<d>& pose, double dt, Moved& out) const {
+void WallMotion<d>::move_tied(int i, const WallPlace<d>& pose, double dt, Moved& out) const {
   const WallTie tie = nodes_.tie[i];
   const Wall<d>& wall = walls_[tie.wall];
   auto near = tie.sharp() || tie.patch < 0 ? wall.nearest(pose, out.x[i], wall.diameter())
@@ -189,7 +190,7 @@ void WallMotion<d>::move_tied(int i, const Isometry<d>& pose, double dt, Moved& 
 }
 
 template <int d>
-void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const {
+void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const WallPlace<d>> poses, double dt, Moved& out) const {
   const std::size_t count = nodes_.size();
   out.x.resize(count);
   out.u.assign(v.begin(), v.end());
@@ -197,7 +198,7 @@ void WallMotion<d>::move(std::span<const Vec<d>> v, std::span<const Isometry<d>>
   in_parallel(count, [&](std::size_t i) { out.x[i] = nodes_.x[i] + dt * v[i]; });
   in_parallel(tied_.size(), [&](std::size_t k) {
     const int i = tied_[k];
-    const Isometry<d>& pose = poses[nodes_.tie[i].wall];
+    const WallPlace<d>& pose = poses[nodes_.tie[i].wall];
     if (nodes_.spray[i])
       move_drop(i, pose, dt, out);
     else

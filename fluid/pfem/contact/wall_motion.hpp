@@ -34,7 +34,7 @@ class WallMotion {
                  ///< their curved wall that stay so
   };
   /// Moves all nodes by dt v and puts tied ones onto their wall at `poses`.
-  void move(std::span<const Vec<d>> v, std::span<const Isometry<d>> poses, double dt, Moved& out) const;
+  void move(std::span<const Vec<d>> v, std::span<const WallPlace<d>> poses, double dt, Moved& out) const;
 
   /// Nodes that walls take along in more directions than pressure keeps them in: those in hollow edges and corners that are
   /// wetted on all sides. Along the normal of a smooth wall it is the pressure that does it.
@@ -48,8 +48,8 @@ class WallMotion {
   const Mesh<d>& mesh_;
   std::span<const Wall<d>> walls_;
   void find_edges(const WallsAt<d>& walls, std::span<const char> answers);
-  void move_drop(int i, const Isometry<d>& pose, double dt, Moved& out) const;
-  void move_tied(int i, const Isometry<d>& pose, double dt, Moved& out) const;
+  void move_drop(int i, const WallPlace<d>& pose, double dt, Moved& out) const;
+  void move_tied(int i, const WallPlace<d>& pose, double dt, Moved& out) const;
   bool is_chord(int facet, std::span<const WallTie> tie) const;
   bool attached(int wall, const typename Wall<d>::Near& edge) const;
 

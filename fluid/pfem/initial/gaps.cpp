@@ -24,7 +24,7 @@ constexpr double on_curved_surface = 0.1;
                        gap.at.z(), why, gap.size));
 }
 
-bool touches(const Wall<3>& wall, const Isometry<3>& pose, const Vec<3>& x) {
+bool touches(const Wall<3>& wall, const WallPlace<3>& pose, const Vec<3>& x) {
   const double tiny = on_wall * wall.diameter();
   return wall.distance_unsigned(pose, x, 2 * tiny) < tiny;
 }

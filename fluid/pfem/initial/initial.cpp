@@ -71,7 +71,7 @@ class Filler {
       if constexpr (d == 3) resolve_narrow_strips(out_.nodes, out_.mesh, stays_anywhere);
     };
     sizes();
-    const std::vector<Twist<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
+    const std::vector<WallVelocity<d>> at_rest(walls_.walls.size(), Twist<d>::Zero());
     attach_nodes<d>(out_.nodes, out_.mesh, walls_, at_rest, 0);
     sizes();
     for (int sweep = 0, settled = 0; settled < smoothing_sweeps<d>; ++sweep) {

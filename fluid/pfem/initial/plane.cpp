@@ -41,7 +41,7 @@ PolygonSet clipped(const LiquidSpec<2>& liquid, const WallsAt<2>& walls) {
     set.insert(p);
   }
   for (std::size_t w = 0; w < walls.walls.size(); ++w)
-    for (auto& p : polygons(walls.walls[w].spec().surface, walls.poses[w])) {
+    for (auto& p : polygons(walls.walls[w].spec().surface, walls.poses[w].pose())) {
       if (p.orientation() == CGAL::CLOCKWISE) {  // encloses the fluid, not the solid
         p.reverse_orientation();
         set.intersection(p);

@@ -56,7 +56,7 @@ Exact cut_by_walls(const LiquidSpec<3>& liquid, const WallsAt<3>& walls) {
   Aligner align(roundoff * (corners.rowwise().maxCoeff() - corners.rowwise().minCoeff()).norm());
   Exact region = exact(liquid.boundary, Isometry<3>::Identity(), align);
   for (std::size_t w = 0; w < walls.walls.size(); ++w) {
-    Exact wall = exact(walls.walls[w].spec().surface, walls.poses[w], align), cut;
+    Exact wall = exact(walls.walls[w].spec().surface, walls.poses[w].pose(), align), cut;
     bool simple;
     if (walls.walls[w].encloses_fluid()) {
       pmp::reverse_face_orientations(wall);

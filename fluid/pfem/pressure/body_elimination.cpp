@@ -32,12 +32,12 @@ Eigen::VectorXd units_of(const Eigen::VectorXd& inertias) {
 
 template <int d>
 bool PressureEquation<d>::add_bodies() {
-  constexpr int m = freedoms<d>;
   Y_.setZero(size(), mode_count());
-  for (std::size_t w = 0; w < modes_.size(); ++w) {
-    if (mode_count() == 0) break;
-    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+  for (std::size_t w = 0; w < modes_.size() && mode_count() > 0; ++w) {
+    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(layout_.first(w), layout_.count(w));
     for (const Mode& mode : modes_[w]) Y_.row(mode.unknown) += mode.row.transpose() * moves;
+    for (const VertexMode& mode : vertex_modes_[w])
+      Y_.row(mode.unknown) += mode.row.transpose() * moves.middleRows<d>(d * static_cast<Eigen::Index>(mode.vertex));
   }
   std::vector<int> wet;  // motions that the water feels
   for (int k = 0; k < mode_count(); ++k)
@@ -53,8 +53,8 @@ bool PressureEquation<d>::add_bodies() {
   added_mass_(wet, wet) = algebra::transposed_product(loads, answers);
   held_inertia_.setZero(mode_count(), mode_count());
   for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
-    if (!moves_wall<d>(structure_.modal, w)) continue;
-    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m);
+    if (layout_.deforms(w) || !moves_wall<d>(structure_.modal, layout_, w)) continue;
+    const Eigen::MatrixXd moves = structure_.modal.modes.middleRows(layout_.first(w), freedoms<d>);
     held_inertia_ += moves.transpose() * held_.inertia(w) * moves;
   }
   if (!held_.empty())
@@ -100,7 +100,7 @@ bool PressureEquation<d>::solve(std::vector<double>& r, double tolerance, std::v
 }
 
 template <int d>
-Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<Twist<d>> s,
+Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span<WallVelocity<d>> s,
                                              const Eigen::VectorXd& further) const {
   if (mode_count() == 0) return {};
   const Eigen::VectorXd y = response(on_modes(impulses(phi)) + of_held(phi) + further);
@@ -112,52 +112,50 @@ Eigen::VectorXd PressureEquation<d>::respond(std::vector<double>& phi, std::span
 // Z^T R phi
 template <int d>
 Eigen::VectorXd PressureEquation<d>::of_held(std::span<const double> phi) const {
-  std::vector<Wrench<d>> loads(held_modes_.size(), Wrench<d>::Zero());
+  std::vector<WallImpulse<d>> loads(held_modes_.size(), Wrench<d>::Zero());
   for (std::size_t w = 0; w < loads.size(); ++w)
-    for (const Mode& mode : held_modes_[w]) loads[w] += mode.row * phi[mode.unknown];
+    for (const Mode& mode : held_modes_[w]) loads[w].rigid += mode.row * phi[mode.unknown];
   return on_modes(loads);
 }
 
 template <int d>
-Eigen::VectorXd PressureEquation<d>::on_modes(std::span<const Wrench<d>> impulses) const {
-  constexpr int m = freedoms<d>;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mode_count());
-  if (mode_count() == 0) return sum;
-  for (std::size_t w = 0; w < impulses.size(); ++w)
-    sum += structure_.modal.modes.middleRows(static_cast<Eigen::Index>(w) * m, m).transpose() * impulses[w];
-  return sum;
+Eigen::VectorXd PressureEquation<d>::on_modes(std::span<const WallImpulse<d>> impulses) const {
+  return layout_.on_modes(structure_.modal.modes, impulses);
 }
 
 template <int d>
-void PressureEquation<d>::move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const {
-  constexpr int m = freedoms<d>;
+void PressureEquation<d>::move(const Eigen::VectorXd& y, std::span<WallVelocity<d>> s) const {
   if (mode_count() == 0) return;
-  const Eigen::VectorXd twists = structure_.modal.modes * y;
-  for (std::size_t w = 0; w < s.size(); ++w) s[w] += twists.segment<m>(static_cast<Eigen::Index>(w) * m);
+  const Eigen::VectorXd moved = structure_.modal.modes * y;
+  for (std::size_t w = 0; w < s.size(); ++w) s[w] += layout_.of_wall(w, moved);
 }
 
 template <int d>
-std::vector<Wrench<d>> PressureEquation<d>::impulses(std::span<const double> phi) const {
-  std::vector<Wrench<d>> loads;
+std::vector<WallImpulse<d>> PressureEquation<d>::impulses(std::span<const double> phi) const {
+  std::vector<WallImpulse<d>> loads;
   for (std::size_t w = 0; w < modes_.size(); ++w) loads.push_back(impulse(w, phi));
   return loads;
 }
 
 template <int d>
-Wrench<d> PressureEquation<d>::impulse(std::size_t wall, std::span<const double> phi) const {
-  Wrench<d> load = Wrench<d>::Zero();
-  for (const Mode& mode : modes_[wall]) load += mode.row * phi[mode.unknown];
+WallImpulse<d> PressureEquation<d>::impulse(std::size_t wall, std::span<const double> phi) const {
+  WallImpulse<d> load = layout_.zero(wall);
+  for (const Mode& mode : modes_[wall]) load.rigid += mode.row * phi[mode.unknown];
+  for (const VertexMode& mode : vertex_modes_[wall]) load.vertices.col(mode.vertex) += mode.row * phi[mode.unknown];
   return load;
 }
 
 template <int d>
 Eigen::MatrixXd PressureEquation<d>::interface_slope(std::span<const std::size_t> walls) {
-  constexpr int m = freedoms<d>;
   const auto pieces = static_cast<Eigen::Index>(laplacian_.pieces().size());
-  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  Eigen::Index count = 0;
+  std::vector<Eigen::Index> shift;  // from a wall's coordinates among all to those among these walls
+  for (const std::size_t w : walls) shift.push_back(count - layout_.first(w)), count += layout_.count(w);
   Eigen::MatrixXd phi = Eigen::MatrixXd::Zero(size(), count + pieces);
   for (std::size_t k = 0; k < walls.size(); ++k)
-    for (const Mode& mode : modes_[walls[k]]) phi.row(mode.unknown).segment(k * m, m) -= mode.row.transpose();
+    each_mode(walls[k], [&](int unknown, Eigen::Index first, const auto& row) {
+      phi.row(unknown).segment(first + shift[k], row.size()) -= row.transpose();
+    });
   std::vector<double> unit(static_cast<std::size_t>(pieces), 0.0), flux;
   for (Eigen::Index k = 0; k < pieces; ++k) {
     flux.assign(size(), 0.0);
@@ -171,7 +169,9 @@ Eigen::MatrixXd PressureEquation<d>::interface_slope(std::span<const std::size_t
   if (!solver_.solve({phi.data(), static_cast<std::size_t>(phi.size())}, static_cast<int>(phi.cols())))
     return slope.array() + std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < walls.size(); ++k)
-    for (const Mode& mode : modes_[walls[k]]) slope.middleRows(k * m, m) += mode.row * phi.row(mode.unknown);
+    each_mode(walls[k], [&](int unknown, Eigen::Index first, const auto& row) {
+      slope.middleRows(first + shift[k], row.size()) += row * phi.row(unknown);
+    });
   for (Eigen::Index k = 0; k < phi.cols(); ++k) {
     const auto means = laplacian_.means({phi.col(k).data(), static_cast<std::size_t>(size())});
     slope.col(k).tail(pieces) = Eigen::Map<const Eigen::VectorXd>(means.data(), pieces);
@@ -204,19 +204,22 @@ std::optional<Eigen::VectorXd> PressureEquation<d>::corrected(LinearSolver& solv
 
 // B^T s - D w: the flux of walls that move, and with them the nodes that they hold.
 template <int d>
-Eigen::VectorXd PressureEquation<d>::flux_of_walls(std::span<const Twist<d>> s) const {
+Eigen::VectorXd PressureEquation<d>::flux_of_walls(std::span<const WallVelocity<d>> s) const {
   std::vector<Vec<d>> w(nodes_->size(), Vec<d>::Zero());
   held_.hold(w, s);
   Eigen::VectorXd flux = -flux_of(w);
-  for (std::size_t k = 0; k < modes_.size(); ++k)
-    for (const Mode& mode : modes_[k]) flux(mode.unknown) += mode.row.dot(s[k]);
+  for (std::size_t k = 0; k < modes_.size(); ++k) {
+    for (const Mode& mode : modes_[k]) flux(mode.unknown) += mode.row.dot(s[k].rigid);
+    if (s[k].vertices.size() == 0) continue;
+    for (const VertexMode& mode : vertex_modes_[k]) flux(mode.unknown) += mode.row.dot(s[k].vertices.col(mode.vertex));
+  }
   return flux;
 }
 
 template <int d>
 Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> walls) {
-  constexpr int m = freedoms<d>;
-  const auto count = static_cast<Eigen::Index>(walls.size()) * m;
+  Eigen::Index count = 0;
+  for (const std::size_t w : walls) count += layout_.count(w);
   // An interface Laplacian in the factor is one body's answer, not the water's.
   LinearSolver without{most_direct<d>};
   LinearSolver& solver = laplacian_.pieces().empty() ? solver_ : without;
@@ -226,21 +229,25 @@ Eigen::MatrixXd PressureEquation<d>::added_mass_of(std::span<const std::size_t> 
     without.factor(water);
   }
   Eigen::MatrixXd G(count, count);
-  std::vector<Twist<d>> s(modes_.size(), Twist<d>::Zero());
-  for (Eigen::Index column = 0; column < count; ++column) {
-    Twist<d>& moved = s[walls[static_cast<std::size_t>(column / m)]];
-    moved = Twist<d>::Unit(column % m);
-    const std::optional<Eigen::VectorXd> X = corrected(solver, flux_of_walls(s));
-    if (!X) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
-    const std::span<const double> phi(X->data(), static_cast<std::size_t>(size()));
-    std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
-    accelerate(phi, v);
-    moved = -moved;
-    const std::vector<Wrench<d>> of_held = held_.excess(v, s);  // R X + M_h
-    moved.setZero();
-    for (std::size_t k = 0; k < walls.size(); ++k)
-      G.col(column).segment(static_cast<Eigen::Index>(k) * m, m) = impulse(walls[k], phi) + of_held[walls[k]];
-  }
+  std::vector<WallVelocity<d>> s(modes_.size());
+  Eigen::Index column = 0;
+  for (const std::size_t moving : walls)
+    for (Eigen::Index k = 0; k < layout_.count(moving); ++k, ++column) {
+      s[moving] = layout_.unit(moving, k);
+      const std::optional<Eigen::VectorXd> X = corrected(solver, flux_of_walls(s));
+      if (!X) return Eigen::MatrixXd::Constant(count, count, std::numeric_limits<double>::quiet_NaN());
+      const std::span<const double> phi(X->data(), static_cast<std::size_t>(size()));
+      std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
+      accelerate(phi, v);
+      s[moving] = -s[moving];
+      const std::vector<WallImpulse<d>> of_held = held_.excess(v, s);  // R X + M_h
+      s[moving] = {};
+      Eigen::Index row = 0;
+      for (const std::size_t w : walls) {
+        G.col(column).segment(row, layout_.count(w)) = layout_.stacked(w, impulse(w, phi) + of_held[w]);
+        row += layout_.count(w);
+      }
+    }
   return 0.5 * (G + G.transpose());
 }
 

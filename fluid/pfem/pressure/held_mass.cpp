@@ -36,19 +36,19 @@ Mat<freedoms<d>> HeldMass<d>::inertia(std::size_t wall) const {
 }
 
 template <int d>
-std::vector<Wrench<d>> HeldMass<d>::excess(std::span<const Vec<d>> v, std::span<const Twist<d>> s) const {
-  std::vector<Wrench<d>> on_walls(first_.size() - 1, Wrench<d>::Zero());
+std::vector<WallImpulse<d>> HeldMass<d>::excess(std::span<const Vec<d>> v, std::span<const WallVelocity<d>> s) const {
+  std::vector<WallImpulse<d>> on_walls(first_.size() - 1, Wrench<d>::Zero());
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const HeldNode<d>& h = held_[k];
-    const Vec<d> lost = mass_[k] * (h.directions * (v[h.node] - rigid_velocity<d>(s[h.wall], h.arm)));
-    on_walls[h.wall] += wrench_of<d>(h.arm, lost);
+    const Vec<d> lost = mass_[k] * (h.directions * (v[h.node] - rigid_velocity<d>(s[h.wall].rigid, h.arm)));
+    on_walls[h.wall].rigid += wrench_of<d>(h.arm, lost);
   }
   return on_walls;
 }
 
 template <int d>
-void HeldMass<d>::hold(std::span<Vec<d>> v, std::span<const Twist<d>> s) const {
-  for (const HeldNode<d>& h : held_) v[h.node] += h.directions * (rigid_velocity<d>(s[h.wall], h.arm) - v[h.node]);
+void HeldMass<d>::hold(std::span<Vec<d>> v, std::span<const WallVelocity<d>> s) const {
+  for (const HeldNode<d>& h : held_) v[h.node] += h.directions * (rigid_velocity<d>(s[h.wall].rigid, h.arm) - v[h.node]);
 }
 
 // The transpose of the acceleration a(phi) = (1 + z + 2 z^2) M_L^-1 f(phi), z = 1 - M_L^-1 M_C, applied to sum_i N_i^T P_i m_i

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "fluid/pfem/contact/wall_place.hpp"
 #include "fluid/pfem/mesh/mesh.hpp"
 #include "fluid/pfem/mesh/node_cells.hpp"
 
@@ -37,7 +38,7 @@ struct AccelerationWeights {
   std::span<const double> per_nodal_mass;         ///< of nodes: 1 / ((d + 1) mass)
 };
 
-/// Load, inertia and momentum of all held nodes, world frame, about the walls' reference points.
+/// Load, inertia and momentum of all held nodes of rigid walls, world frame, about the walls' reference points.
 template <int d>
 class HeldMass {
  public:
@@ -55,9 +56,9 @@ class HeldMass {
   /// M_h of a wall [kg, kg m, kg m^2; 2D: per metre].
   Mat<freedoms<d>> inertia(std::size_t wall) const;
   /// sum_i N_i^T P_i m_i (v_i - N_i s), a wrench a wall.
-  std::vector<Wrench<d>> excess(std::span<const Vec<d>> v, std::span<const Twist<d>> s) const;
+  std::vector<WallImpulse<d>> excess(std::span<const Vec<d>> v, std::span<const WallVelocity<d>> s) const;
   /// Gives held nodes their wall's velocity in the directions P.
-  void hold(std::span<Vec<d>> v, std::span<const Twist<d>> s) const;
+  void hold(std::span<Vec<d>> v, std::span<const WallVelocity<d>> s) const;
 
  private:
   using Lever = Eigen::Matrix<double, freedoms<d>, d>;  // N^T

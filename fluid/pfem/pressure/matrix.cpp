@@ -9,15 +9,16 @@ namespace splashdown::fluid {
 
 template <int d>
 bool PressureEquation<d>::build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density,
-                                std::span<const Vec<d>> centres, const InterfaceModel& structure,
-                                std::vector<HeldNode<d>> held) {
+                                std::span<const WallPlace<d>> places, const WallLayout<d>& layout,
+                                const InterfaceModel& structure, std::vector<HeldNode<d>> held) {
   nodes_ = &nodes;
   mesh_ = &mesh;
   structure_ = structure;
+  layout_ = layout;
   around_.build(mesh.cells, nodes.size());
   measure(density);
   choose_unknowns();
-  wall_modes(centres);
+  wall_modes(places);
   hold_mass(std::move(held), density);
   laplacian_.build(nodes, mesh, unknown_, structure.interface_operators);
   assemble(matrix_);
@@ -157,11 +158,16 @@ void PressureEquation<d>::choose_unknowns() {
 }
 
 template <int d>
-void PressureEquation<d>::wall_modes(std::span<const Vec<d>> centres) {
-  modes_.resize(centres.size());
+void PressureEquation<d>::wall_modes(std::span<const WallPlace<d>> places) {
+  modes_.resize(places.size());
+  vertex_modes_.resize(places.size());
   for (auto& m : modes_) m.clear();
-  each_wall_row(centres, [&](int wall, int n, const auto& row) {
-    if (unknown_[n] >= 0) modes_[wall].push_back({unknown_[n], row()});
+  for (auto& m : vertex_modes_) m.clear();
+  each_wall_row(places, [&](int wall, int n, const auto& row_of) {
+    if (unknown_[n] < 0) return;
+    const WallRow<d> row = row_of();
+    if (!places[wall].shape()) modes_[wall].push_back({unknown_[n], row.rigid});
+    for (const auto& [vertex, part] : row.at_vertices) vertex_modes_[wall].push_back({unknown_[n], vertex, part});
   });
 }
 
@@ -172,7 +178,7 @@ void PressureEquation<d>::hold_mass(std::vector<HeldNode<d>> held, double densit
   if (held_.empty()) return;
   const AccelerationWeights<d> weights{*mesh_, nodes_->x, around_, gradients_, share_of_mass_, per_nodal_mass_};
   for (std::size_t w = 0; w < modes_.size(); ++w) {
-    if (!moves_wall<d>(structure_.modal, w)) continue;
+    if (!moves_wall<d>(structure_.modal, layout_, w)) continue;
     for (const auto& column : held_.load(w, weights))
       if (unknown_[column.node] >= 0) held_modes_[w].push_back({unknown_[column.node], column.wrench});
   }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/response.hpp"
+#include "fluid/pfem/contact/wall_place.hpp"
 #include "fluid/pfem/linear/assembly.hpp"
 #include "fluid/pfem/linear/linear_solver.hpp"
 #include "fluid/pfem/mesh/mesh.hpp"
@@ -31,15 +32,14 @@ namespace splashdown::fluid {
 
 /// Whether any mode moves this wall.
 template <int d>
-bool moves_wall(const ModalInertia& modal, std::size_t wall) {
-  constexpr int m = freedoms<d>;
-  return modal.modes.cols() > 0 && !modal.modes.middleRows(static_cast<Eigen::Index>(wall) * m, m).isZero(0);
+bool moves_wall(const ModalInertia& modal, const WallLayout<d>& layout, std::size_t wall) {
+  return modal.modes.cols() > 0 && !modal.modes.middleRows(layout.first(wall), layout.count(wall)).isZero(0);
 }
-/// Of each of `walls` walls 1 where a mode moves it, else 0.
+/// Of each wall 1 where a mode moves it, else 0.
 template <int d>
-std::vector<char> walls_that_answer(const ModalInertia& modal, std::size_t walls) {
-  std::vector<char> out(walls);
-  for (std::size_t w = 0; w < walls; ++w) out[w] = moves_wall<d>(modal, w);
+std::vector<char> walls_that_answer(const ModalInertia& modal, const WallLayout<d>& layout) {
+  std::vector<char> out(layout.walls());
+  for (std::size_t w = 0; w < out.size(); ++w) out[w] = moves_wall<d>(modal, layout, w);
   return out;
 }
 
@@ -85,11 +85,11 @@ class PressureEquation {
  public:
   /// `on_surface`: the same on all meshes.
   explicit PressureEquation(SurfaceUnknowns on_surface = SurfaceUnknowns::without_spikes) : on_surface_(on_surface) {}
-  /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `centres`: reference
-  /// points of the walls, world frame [m]; `structure`: of all walls; `held`: nodes whose mass moves with walls. False if the
+  /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `places`:
+  /// of the walls; `structure`: of all walls, whose coordinates stand as in `layout`; `held`: nodes whose mass moves with walls. False if the
   /// factor fails.
-  bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const Vec<d>> centres,
-             const InterfaceModel& structure, std::vector<HeldNode<d>> held = {});
+  bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const WallPlace<d>> places,
+             const WallLayout<d>& layout, const InterfaceModel& structure, std::vector<HeldNode<d>> held = {});
   /// Restricts the motions to y = directions w, w of any size, with Newton's law asked for in as many `workless` ones:
   /// workless^T (M + G) directions w = workless^T impulse. Empty ones: the same. All are allowed after build.
   void allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless = {});
@@ -104,15 +104,15 @@ class PressureEquation {
   /// r += q - C phi: what impulses phi leave of it.
   void add_sources(std::vector<double>& r, std::span<const double> phi) const;
 
-  /// r in flux form at positions `x` [m], for nodal velocities v [m/s] and wall twists s about `centres`: an entry an unknown
+  /// r in flux form at positions `x` [m], for velocities of nodes v [m/s] and of walls s at `places`: an entry an unknown
   /// [m^d/s].
-  void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const Twist<d>> s,
-                     std::span<const Vec<d>> centres, std::vector<double>& r) const;
+  void flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v, std::span<const WallVelocity<d>> s,
+                     std::span<const WallPlace<d>> places, std::vector<double>& r) const;
   /// r in motion form at positions `x` [m] for displacement velocities u [m/s].
   void motion_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::vector<double>& r) const;
-  /// Adds what the motion form owes to boundary facets that slide along their wall; s, `centres`: as above.
-  void slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const Twist<d>> s,
-                      std::span<const Vec<d>> centres, std::span<const int> slides, std::vector<double>& r) const;
+  /// Adds what the motion form owes to boundary facets that slide along their wall; s, `places`: as above.
+  void slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u, std::span<const WallVelocity<d>> s,
+                      std::span<const WallPlace<d>> places, std::span<const int> slides, std::vector<double>& r) const;
 
   /// r -= sum_e theta_e int_e grad q . (change + grad phi / rho): PSPG, for impulses phi and the change of nodal velocities
   /// that they have made [m/s]; `theta`: of cells.
@@ -124,8 +124,8 @@ class PressureEquation {
   /// motions that fit it best.
   bool solve(std::vector<double>& r, double tolerance = 1e-8, std::vector<double> guess = {});
   /// Lets the motions answer to impulses phi that held bodies would get, and to a further impulse on them: changes
-  /// phi, adds to the twists, and returns y.
-  Eigen::VectorXd respond(std::vector<double>& phi, std::span<Twist<d>> s, const Eigen::VectorXd& further) const;
+  /// phi, adds to the walls' velocities, and returns y.
+  Eigen::VectorXd respond(std::vector<double>& phi, std::span<WallVelocity<d>> s, const Eigen::VectorXd& further) const;
   /// (M + G)^-1 impulse, in the directions allowed: what such an impulse changes in the motions.
   Eigen::VectorXd response(const Eigen::VectorXd& impulse) const { return elimination_ * impulse; }
   /// Number of modes, columns of Z.
@@ -134,12 +134,12 @@ class PressureEquation {
   const ModalInertia& modal() const { return structure_.modal; }
   const Eigen::MatrixXd& modes() const { return structure_.modal.modes; }      ///< Z
   const Eigen::MatrixXd& inertia() const { return structure_.modal.inertia; }  ///< M, of the motions alone
-  /// Z^T I of impulses on all walls, each about its reference point [N s, N m s].
-  Eigen::VectorXd on_modes(std::span<const Wrench<d>> impulses) const;
+  /// Z^T I of impulses on all walls [N s, N m s].
+  Eigen::VectorXd on_modes(std::span<const WallImpulse<d>> impulses) const;
   /// The nodes whose mass moves with walls.
   const HeldMass<d>& held() const { return held_; }
-  /// Adds Z y to the walls' twists.
-  void move(const Eigen::VectorXd& y, std::span<Twist<d>> s) const;
+  /// Adds Z y to the walls' velocities.
+  void move(const Eigen::VectorXd& y, std::span<WallVelocity<d>> s) const;
   /// The local operators K.
   const InterfaceLaplacian<d>& laplacian() const { return laplacian_; }
 
@@ -149,17 +149,16 @@ class PressureEquation {
   /// Impulses f = kick p of the air on the free surface [Pa s], an entry a node, continued into the water: any continuation is
   /// right, phi is the rest. This one is smooth near the surface.
   std::vector<double> continued(std::span<const double> surface_impulse) const;
-  /// What impulses F with p = F on the free surface do: v -= M^-1 int N grad F; adds B F to the walls, about their reference
-  /// points `centres` [m].
-  void push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<const Vec<d>> centres,
-            std::span<Wrench<d>> on_walls) const;
+  /// What impulses F with p = F on the free surface do: v -= M^-1 int N grad F; adds B F to the walls at `places`.
+  void push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<const WallPlace<d>> places,
+            std::span<WallImpulse<d>> on_walls) const;
   /// Kinetic energy of the liquid [J; 2D: per metre] with the mass that `accelerate` moves, M = M_L (1 + z + 2 z^2)^-1: short
   /// waves are up to `inverse_mass(shortest<d>)` times lighter than with lumping, and an impulse gives them as much more
   /// velocity.
   double kinetic_energy(std::span<const Vec<d>> v) const;
-  /// B phi of a wall: impulse on the body about its reference point.
-  Wrench<d> impulse(std::size_t wall, std::span<const double> phi) const;
-  std::vector<Wrench<d>> impulses(std::span<const double> phi) const;  ///< of all walls
+  /// B phi of a wall: impulse on the body.
+  WallImpulse<d> impulse(std::size_t wall, std::span<const double> phi) const;
+  std::vector<WallImpulse<d>> impulses(std::span<const double> phi) const;  ///< of all walls
   /// G = Z^T B A^-1 B^T Z: the motions' added mass.
   const Eigen::MatrixXd& added_mass() const { return added_mass_; }
   /// Slope of a solve: what twists of walls and impulses that Laplacians lag on change in the walls' impulses and in
@@ -181,7 +180,9 @@ class PressureEquation {
 
  private:
   template <class Act>
-  void each_wall_row(std::span<const Vec<d>> centres, Act act) const;
+  void each_wall_row(std::span<const WallPlace<d>> places, Act act) const;
+  template <class Act>
+  void each_mode(std::size_t wall, Act act) const;
   void spread_change(std::span<Vec<d>> v) const;
   template <class Impulse>
   void lumped_change(Impulse impulse_at, std::size_t nodes) const;
@@ -196,11 +197,11 @@ class PressureEquation {
   bool at_contact_line(int node) const;
   void assemble(SymmetricMatrix& matrix);
   bool factored();
-  void wall_modes(std::span<const Vec<d>> centres);
+  void wall_modes(std::span<const WallPlace<d>> places);
   void hold_mass(std::vector<HeldNode<d>> held, double density);
   bool add_bodies();
   Eigen::VectorXd flux_of(std::span<const Vec<d>> v) const;
-  Eigen::VectorXd flux_of_walls(std::span<const Twist<d>> s) const;
+  Eigen::VectorXd flux_of_walls(std::span<const WallVelocity<d>> s) const;
   Eigen::VectorXd taken_by(const Eigen::VectorXd& phi) const;
   std::optional<Eigen::VectorXd> corrected(LinearSolver& solver, const Eigen::VectorXd& flux) const;
   Eigen::VectorXd of_held(std::span<const double> phi) const;
@@ -230,7 +231,13 @@ class PressureEquation {
     int unknown;
     Wrench<d> row;  // column of B
   };
-  std::vector<std::vector<Mode>> modes_;  // of each wall
+  struct VertexMode {
+    int unknown, vertex;
+    Vec<d> row;  // part of a column of B
+  };
+  WallLayout<d> layout_;
+  std::vector<std::vector<Mode>> modes_;               // of each wall; none where it deforms
+  std::vector<std::vector<VertexMode>> vertex_modes_;  // of each wall; none where it is rigid
   HeldMass<d> held_;
   std::vector<std::vector<Mode>> held_modes_;  // R of each wall that responds
   std::vector<double> diagonal_, source_;      // of unknowns: terms of effects; empty: none
@@ -240,19 +247,58 @@ class PressureEquation {
   Eigen::MatrixXd held_inertia_;  // Z^T (M_h + R Y): what the held mass adds to M + G
 };
 
-// B_kJ of all nodes on walls: act(wall, node, row of the facet). int N_a n dA with the arm varying linearly along the facet:
-// consistent facet mass matrix.
+/// What a unit of pressure impulse at a node does to a wall by one of its facets.
+template <int d>
+struct WallRow {
+  Wrench<d> rigid = Wrench<d>::Zero();
+  std::vector<std::pair<int, Vec<d>>> at_vertices = {};  ///< of a wall that deforms
+
+  /// Adds what an impulse does.
+  void push(double impulse, WallImpulse<d>& onto) const {
+    onto.rigid += impulse * rigid;
+    for (const auto& [vertex, row] : at_vertices) onto.vertices.col(vertex) += impulse * row;
+  }
+};
+
+// B_kJ of all nodes on walls: act(wall, node, row of the facet). int N_a n dA with the wall's motion varying linearly along the
+// facet: consistent facet mass matrix.
 template <int d>
 template <class Act>
-void PressureEquation<d>::each_wall_row(std::span<const Vec<d>> centres, Act act) const {
+void PressureEquation<d>::each_wall_row(std::span<const WallPlace<d>> places, Act act) const {
   for (const auto& f : mesh_->boundary) {
     if (f.wall < 0) continue;
     const Vec<d> area = area_vector_of<d>(f, nodes_->x);
+    if (const WallShape<d>* shape = places[f.wall].shape()) {
+      std::array<Anchor<d>, d> at;
+      for (int k = 0; k < d; ++k) at[k] = anchor_of<d>(*shape, nodes_->x[f.nodes[k]]);
+      for (int n : f.nodes)
+        act(f.wall, n, [&] {
+          WallRow<d> row;
+          for (int k = 0; k < d; ++k)
+            for (int j = 0; j < d; ++j)
+              row.at_vertices.emplace_back(at[k].vertex[j],
+                                           at[k].weight[j] * (f.nodes[k] == n ? 2 : 1) * area / (d * (d + 1)));
+          return row;
+        });
+      continue;
+    }
+    const Vec<d> centre = places[f.wall].translation();
     Vec<d> sum = Vec<d>::Zero();
-    for (int n : f.nodes) sum += nodes_->x[n] - centres[f.wall];
+    for (int n : f.nodes) sum += nodes_->x[n] - centre;
     for (int n : f.nodes)
-      act(f.wall, n, [&] { return wrench_of<d>((sum + nodes_->x[n] - centres[f.wall]) / (d + 1), area / d); });
+      act(f.wall, n, [&] {
+        return WallRow<d>{wrench_of<d>((sum + nodes_->x[n] - centre) / (d + 1), area / d)};
+      });
   }
+}
+
+// Entries of B of a wall: act(unknown, first of the coordinates, what a unit of impulse there does in them).
+template <int d>
+template <class Act>
+void PressureEquation<d>::each_mode(std::size_t wall, Act act) const {
+  for (const Mode& mode : modes_[wall]) act(mode.unknown, layout_.first(wall), mode.row);
+  for (const VertexMode& mode : vertex_modes_[wall])
+    act(mode.unknown, layout_.first(wall) + d * static_cast<Eigen::Index>(mode.vertex), mode.row);
 }
 
 extern template class PressureEquation<2>;

@@ -19,7 +19,7 @@ void PressureEquation<d>::add_flux(const Facet<d>& f, std::span<const Vec<d>> x,
 
 template <int d>
 void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v,
-                                        std::span<const Twist<d>> s, std::span<const Vec<d>> centres,
+                                        std::span<const WallVelocity<d>> s, std::span<const WallPlace<d>> places,
                                         std::vector<double>& r) const {
   of_corner_.resize(mesh_->cells.size());
   in_parallel(mesh_->cells.size(), [&](std::size_t c) {
@@ -40,7 +40,7 @@ void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<con
     add_flux(
         f, x,
         [&](int n) -> Vec<d> {
-          return f.wall < 0 ? Vec<d>(-v[n]) : Vec<d>(-rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]));
+          return f.wall < 0 ? Vec<d>(-v[n]) : Vec<d>(-velocity_at<d>(places[f.wall], s[f.wall], x[n]));
         },
         r);
 }
@@ -66,22 +66,22 @@ void PressureEquation<d>::motion_residual(std::span<const Vec<d>> x, std::span<c
 
 template <int d>
 void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> u,
-                                         std::span<const Twist<d>> s, std::span<const Vec<d>> centres,
+                                         std::span<const WallVelocity<d>> s, std::span<const WallPlace<d>> places,
                                          std::span<const int> slides, std::vector<double>& r) const {
   for (int k : slides) {
     const auto& f = mesh_->boundary[k];
     add_flux(
-        f, x, [&](int n) -> Vec<d> { return u[n] - rigid_velocity<d>(s[f.wall], x[n] - centres[f.wall]); }, r);
+        f, x, [&](int n) -> Vec<d> { return u[n] - velocity_at<d>(places[f.wall], s[f.wall], x[n]); }, r);
   }
 }
 
 // The volume that these velocities create if walls stand still, in flux form.
 template <int d>
 Eigen::VectorXd PressureEquation<d>::flux_of(std::span<const Vec<d>> v) const {
-  const std::vector<Twist<d>> still(modes_.size(), Twist<d>::Zero());
-  const std::vector<Vec<d>> origin(modes_.size(), Vec<d>::Zero());
+  const std::vector<WallVelocity<d>> still(modes_.size(), Twist<d>::Zero());
+  const std::vector<WallPlace<d>> anywhere(modes_.size());
   std::vector<double> r;
-  flux_residual(nodes_->x, v, still, origin, r);
+  flux_residual(nodes_->x, v, still, anywhere, r);
   return Eigen::Map<const Eigen::VectorXd>(r.data(), size());
 }
 
@@ -90,7 +90,7 @@ template <int d>
 Eigen::VectorXd PressureEquation<d>::taken_by(const Eigen::VectorXd& phi) const {
   std::vector<Vec<d>> v(nodes_->size(), Vec<d>::Zero());
   accelerate({phi.data(), static_cast<std::size_t>(phi.size())}, v);
-  held_.hold(v, std::vector<Twist<d>>(modes_.size(), Twist<d>::Zero()));
+  held_.hold(v, std::vector<WallVelocity<d>>(modes_.size(), Twist<d>::Zero()));
   return -flux_of(v);
 }
 
@@ -167,11 +167,11 @@ std::vector<double> PressureEquation<d>::continued(std::span<const double> surfa
 }
 
 template <int d>
-void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<const Vec<d>> centres,
-                               std::span<Wrench<d>> on_walls) const {
+void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<const WallPlace<d>> places,
+                               std::span<WallImpulse<d>> on_walls) const {
   lumped_change([&](int n) { return impulse[n]; }, v.size());
   spread_change(v);
-  each_wall_row(centres, [&](int wall, int n, const auto& row) { on_walls[wall] += impulse[n] * row(); });
+  each_wall_row(places, [&](int wall, int n, const auto& row) { row().push(impulse[n], on_walls[wall]); });
 }
 
 template <int d>

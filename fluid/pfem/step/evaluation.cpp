@@ -22,14 +22,18 @@ void WaterStep<d>::evaluate(StepResult<d>& found) {
 template <int d>
 void WaterStep<d>::evaluate_loads(StepResult<d>& found) const {
   found.loads.assign(water_.walls.size(), {});
-  std::vector<Wrench<d>> answered;  // with the pressure
+  std::vector<WallImpulse<d>> answered;  // with the pressure
   for (std::size_t w = 0; w < water_.walls.size(); ++w) {
-    const Wrench<d> repair = equation_.impulse(w, trial_.repaired), physical = equation_.impulse(w, trial_.phi);
+    const WallImpulse<d> repair = equation_.impulse(w, trial_.repaired), physical = equation_.impulse(w, trial_.phi);
+    const WallImpulse<d> acting = (physical + trial_.on_walls[w] + trial_.handed[w]) / kick_,
+                         of_repair = (repair + trial_.repair_handed[w]) / kick_;
     WallLoad<d>& load = found.loads[w];
-    load.physical = (physical + trial_.on_walls[w] + trial_.handed[w]) / kick_;
-    load.repair = (repair + trial_.repair_handed[w]) / kick_;
+    load.physical = resultant<d>(water_.work.poses[w], acting);
+    load.repair = resultant<d>(water_.work.poses[w], of_repair);
     load.wetted = water_.work.wetted[w];
-    found.power_on_walls += load.total().dot(0.5 * (trial_.s_after[w] + water_.work.velocity[w]));
+    const WallImpulse<d> total = acting + of_repair;
+    found.power_on_walls += total.dot(0.5 * (trial_.s_after[w] + water_.work.velocity[w]));
+    found.at_vertices.push_back(total.vertices);
     answered.push_back(repair + physical + trial_.handed[w] + trial_.repair_handed[w]);
   }
   found.imbalance.assign(water_.walls.size(), Twist<d>::Zero());

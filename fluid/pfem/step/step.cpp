@@ -22,9 +22,9 @@ Status WaterStep<d>::begin(double kick, double dt, const InterfaceModel& structu
   {
     const auto scope = water_.timer.scope(assemble);
     wall_motion_.emplace(water_.work.nodes, water_.work.mesh, water_.walls_at(water_.work.poses),
-                         walls_that_answer<d>(structure.modal, water_.walls.size()));
-    if (!equation_.build(water_.work.nodes, water_.work.mesh, water_.spec.density, water_.centres(water_.work.poses),
-                         structure, wall_motion_->held()))
+                         walls_that_answer<d>(structure.modal, water_.layout));
+    if (!equation_.build(water_.work.nodes, water_.work.mesh, water_.spec.density, water_.work.poses,
+                         water_.layout, structure, wall_motion_->held()))
       return {"the pressure matrix could not be factored"};
     wall_motion_->meet_pressure(equation_.unknown(), equation_.lumped_volume());
   }
@@ -97,7 +97,7 @@ void WaterStep<d>::damp_compression() {
 }
 
 template <int d>
-StepResult<d> WaterStep<d>::solve(std::span<const Twist<d>> given, std::span<const double> previous,
+StepResult<d> WaterStep<d>::solve(std::span<const WallVelocity<d>> given, std::span<const double> previous,
                                   const ClosedContacts& contacts) {
   StepResult<d> found;
   found.status = find_motion(given, previous, contacts);
@@ -115,7 +115,7 @@ StepResult<d> WaterStep<d>::solve(std::span<const Twist<d>> given, std::span<con
 }
 
 template <int d>
-Status WaterStep<d>::find_motion(std::span<const Twist<d>> given, std::span<const double> previous,
+Status WaterStep<d>::find_motion(std::span<const WallVelocity<d>> given, std::span<const double> previous,
                                  const ClosedContacts& contacts) {
   if (previous.size() != equation_.laplacian().pieces().size())
     throw std::invalid_argument("fluid: previous interface impulses must be given where there is a Laplacian");
@@ -187,7 +187,7 @@ Status WaterStep<d>::predict(const ClosedContacts& contacts) {
       following.on_walls.assign(water_.walls.size(), Wrench<d>::Zero());
     }
     const std::vector<Vec<d>> v_before = follows ? trial_.v : std::vector<Vec<d>>();
-    const std::vector<Wrench<d>> on_walls_before = follows ? trial_.on_walls : std::vector<Wrench<d>>();
+    const std::vector<WallImpulse<d>> on_walls_before = follows ? trial_.on_walls : std::vector<WallImpulse<d>>();
     if (books) trial_.booked.push_back({t, trial_.v, trial_.on_walls});
     if (auto status =
             water_.effects[t]->predict(view(answers ? &equation_.modal() : nullptr), {carried, trial_.carried_walls},
@@ -223,19 +223,19 @@ void WaterStep<d>::push_surface() {
   const auto scope = water_.timer.scope(Phase::pressure);
   for (const double p : terms_.surface_pressure) trial_.of_surface.push_back(kick_ * p);
   trial_.of_surface = equation_.continued(trial_.of_surface);
-  equation_.push(trial_.of_surface, trial_.v, water_.centres(water_.work.poses), trial_.on_walls);
+  equation_.push(trial_.of_surface, trial_.v, water_.work.poses, trial_.on_walls);
 }
 
 // The motion to t_{n+1} creates no volume either. s includes the repair's push on bodies.
 template <int d>
-Status WaterStep<d>::solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous) {
+Status WaterStep<d>::solve_pressure(std::span<const WallVelocity<d>> given, std::span<const double> previous) {
   trial_.s_after.assign(given.begin(), given.end());
   for (std::size_t w = 0; w < water_.walls.size(); ++w)
     trial_.s_after[w] += trial_.s_before[w] - water_.work.velocity[w];
   trial_.s_unloaded = trial_.s_after;
   middle(trial_.v, judged_at() * dt_);
   equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_after,
-                          water_.centres(water_.moved_poses(trial_.s_after, judged_at() * dt_)), trial_.phi);
+                          water_.moved_poses(trial_.s_after, judged_at() * dt_), trial_.phi);
   if (!previous.empty()) equation_.laplacian().add(previous, trial_.phi);
   equation_.add_sources(trial_.phi);
   if (!equation_.solve(trial_.phi, closely, carried_impulse())) return {"the pressure solve failed"};
@@ -261,7 +261,7 @@ bool WaterStep<d>::follow() {
   const std::size_t count = trial_.v.size();
   std::vector<Vec<d>> others(count), change(count, Vec<d>::Zero());
   in_parallel(count, [&](std::size_t i) { others[i] = trial_.v_after[i] - trial_.carried[i] - following.change[i]; });
-  std::vector<Wrench<d>> on_walls(water_.walls.size(), Wrench<d>::Zero());
+  std::vector<WallImpulse<d>> on_walls(water_.walls.size(), Wrench<d>::Zero());
   for (std::size_t t = 0; t < water_.effects.size(); ++t) {
     if (!water_.effects[t]->follows()) continue;
     const auto scope = water_.timer.scope(first_effect + t);
@@ -277,7 +277,7 @@ bool WaterStep<d>::follow() {
     const Eigen::VectorXd now = equation_.on_modes(on_walls);
     trial_.known += now - equation_.on_modes(following.on_walls);
     in_parallel(count, [&](std::size_t i) { change[i] -= following.change[i]; });
-    const std::vector<Twist<d>> still(water_.walls.size(), Twist<d>::Zero());
+    const std::vector<WallVelocity<d>> still(water_.walls.size(), Twist<d>::Zero());
     following.given = now + equation_.on_modes(equation_.held().excess(change, still));
   }
   following.on_walls = on_walls;
@@ -314,7 +314,7 @@ void WaterStep<d>::what_is_left(std::span<const double> previous, std::vector<do
   });
   equation_.motion_residual(trial_.x_mid, trial_.moved.u, residual);
   equation_.slide_residual(trial_.x_mid, trial_.moved.u, trial_.s_after,
-                           water_.centres(water_.moved_poses(trial_.s_after, share * dt_)), trial_.moved.slides,
+                           water_.moved_poses(trial_.s_after, share * dt_), trial_.moved.slides,
                            residual);
   lag(residual, previous, trial_.phi);
   equation_.add_sources(residual, trial_.phi);
@@ -363,7 +363,7 @@ void WaterStep<d>::flux_before(std::vector<double>& residual, std::span<const do
   const double back = (judged_at() - 1) * water_.work.dt;
   middle(seen ? seen->free : trial_.v, back);
   equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_before,
-                          water_.centres(water_.moved_poses(seen ? seen->s : trial_.s_before, back)), residual);
+                          water_.moved_poses(seen ? seen->s : trial_.s_before, back), residual);
   compression_.take_from(residual, equation_.lumped_volume(), equation_.unknown(), impulses);
 }
 
@@ -371,7 +371,7 @@ void WaterStep<d>::flux_before(std::vector<double>& residual, std::span<const do
 // the truncated one may not be, and counts by a half, a quarter, not at all.
 template <int d>
 void WaterStep<d>::take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
-                               std::span<const Wrench<d>> handed) {
+                               std::span<const WallImpulse<d>> handed) {
   const auto& held = equation_.held();
   auto& s = trial_.s_before;
   double taken = 1, energy = 0;
@@ -411,7 +411,7 @@ void WaterStep<d>::apply(const Correction<d>& correction, double share) {
 
 // Lets the motions answer to impulses.
 template <int d>
-void WaterStep<d>::answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further) {
+void WaterStep<d>::answer_to(std::vector<double>& impulses, std::vector<WallVelocity<d>>& s, const Eigen::VectorXd& further) {
   if (equation_.mode_count() > 0) trial_.answer += equation_.respond(impulses, s, further);
 }
 
@@ -442,8 +442,8 @@ std::vector<double> WaterStep<d>::carried_impulse() const {
 
 // Of pressure impulses on walls that change their velocities from s_0 to s_1.
 template <int d>
-double WaterStep<d>::work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0,
-                             std::span<const Twist<d>> s_1) const {
+double WaterStep<d>::work_of(std::span<const double> impulses, std::span<const WallVelocity<d>> s_0,
+                             std::span<const WallVelocity<d>> s_1) const {
   double work_done = 0;
   for (std::size_t w = 0; w < s_0.size(); ++w) work_done += equation_.impulse(w, impulses).dot(0.5 * (s_0[w] + s_1[w]));
   return work_done;

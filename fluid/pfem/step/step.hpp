@@ -48,7 +48,7 @@ class WaterStep {
   /// Fixes `kick` and `dt` [s] and how walls answer. Refused where the pressure matrix cannot be factored.
   Status begin(double kick, double dt, const InterfaceModel& structure);
   /// One solve of the begun step (Fluid::solve).
-  StepResult<d> solve(std::span<const Twist<d>> given, std::span<const double> previous,
+  StepResult<d> solve(std::span<const WallVelocity<d>> given, std::span<const double> previous,
                       const ClosedContacts& contacts);
   /// The first reason for which what was found last may not be committed.
   Refusal refusal(const StepResult<d>& found) const;
@@ -79,7 +79,7 @@ class WaterStep {
 
   /// What a repair starts from.
   struct Unrepaired {
-    std::vector<Twist<d>> s;   ///< of walls
+    std::vector<WallVelocity<d>> s;   ///< of walls
     std::vector<Vec<d>> free;  ///< of nodes, as if no wall held them
     Eigen::VectorXd answer;    ///< of modes
     double energy = 0;         ///< of the liquid [J]
@@ -94,7 +94,7 @@ class WaterStep {
   /// Takes in impulses of the repair that have made `free` of `from.free` and handed impulses to walls, as far as they bring no
   /// energy; `from` is then what a further one starts from.
   void take_repair(Unrepaired& from, std::vector<double>& impulses, std::vector<Vec<d>>& free,
-                   std::span<const Wrench<d>> handed);
+                   std::span<const WallImpulse<d>> handed);
 
   /// The motion that the impulses found so far give the nodes. False: an effect could not follow.
   bool move_nodes();
@@ -113,9 +113,9 @@ class WaterStep {
   /// Adds a share of a correction to impulses and walls.
   void apply(const Correction<d>& correction, double share);
   /// Lets the modes answer to impulses: changes both arguments.
-  void answer_to(std::vector<double>& impulses, std::vector<Twist<d>>& s, const Eigen::VectorXd& further);
+  void answer_to(std::vector<double>& impulses, std::vector<WallVelocity<d>>& s, const Eigen::VectorXd& further);
   /// Work of impulses on walls that change their velocities from s_0 to s_1 [J].
-  double work_of(std::span<const double> impulses, std::span<const Twist<d>> s_0, std::span<const Twist<d>> s_1) const;
+  double work_of(std::span<const double> impulses, std::span<const WallVelocity<d>> s_0, std::span<const WallVelocity<d>> s_1) const;
   /// Kinetic energy of the spray [J].
   double energy_of_drops(std::span<const Vec<d>> v) const;
   /// Sets x_mid: where nodes are after `by` [s] with velocities u.
@@ -146,12 +146,13 @@ class WaterStep {
             .around = equation_.around(),
             .walls = water_.spec.walls,
             .poses = water_.work.poses,
+            .layout = water_.layout,
             .answers = answers,
             .in_time = in_time()};
   }
 
   /// Repair, prediction, pressure and correction, in this order.
-  Status find_motion(std::span<const Twist<d>> given, std::span<const double> previous, const ClosedContacts& contacts);
+  Status find_motion(std::span<const WallVelocity<d>> given, std::span<const double> previous, const ClosedContacts& contacts);
   /// Takes what would open or close closed contacts out of the bodies' answer to the repair.
   void restrict_repair(const ClosedContacts& contacts);
   /// Lets effects that are solved for with the pressure follow it: changes v_after and the impulses on walls.
@@ -159,7 +160,7 @@ class WaterStep {
   /// Adds the effects' changes of velocity and impulses on walls.
   Status predict(const ClosedContacts& contacts);
   /// Impulses with which the motion to t_{n+1} creates no volume, by the pressure matrix.
-  Status solve_pressure(std::span<const Twist<d>> given, std::span<const double> previous);
+  Status solve_pressure(std::span<const WallVelocity<d>> given, std::span<const double> previous);
   /// Effects' terms of the pressure equation.
   Status add_pressure_terms();
   /// In its first step a compressible liquid is, or is not, in equilibrium: nothing else happens to other liquids and steps.

@@ -64,7 +64,7 @@ double take_in(Nodes<d>& nodes, std::span<const double> meant) {
 }  // namespace
 
 template <int d>
-void Water<d>::accept(const Motion<d>& by, std::span<const Isometry<d>> poses) {
+void Water<d>::accept(const Motion<d>& by, std::span<const WallPlace<d>> poses) {
   const StepResult<d>& found = by.found;
   work.ledger = found.ledger;
   work.nodes.p = found.carried;

@@ -27,18 +27,52 @@ struct Saver {
     value(static_cast<std::uint64_t>(values.size()));
     out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
   }
+  /// Poses and twists; then, of walls that deform, places and velocities of their vertices.
+  template <int d>
+  void walls(const std::vector<WallPlace<d>>& places, const std::vector<WallVelocity<d>>& velocities) {
+    std::vector<Isometry<d>> poses;
+    std::vector<Twist<d>> twists;
+    for (const auto& place : places) poses.push_back(place.pose());
+    for (const auto& velocity : velocities) twists.push_back(velocity.rigid);
+    list(poses), list(twists);
+    for (std::size_t w = 0; w < places.size(); ++w) {
+      if (!places[w].shape()) continue;
+      for (const Vec<d> x : places[w].shape()->vertices.colwise()) value(x);
+      AtVertices<d> of_vertices = velocities[w].vertices;
+      if (of_vertices.size() == 0) of_vertices.setZero(d, places[w].shape()->vertices.cols());
+      for (const Vec<d> v : of_vertices.colwise()) value(v);
+    }
+  }
 };
 
+template <int d>
 struct Loader {
   std::istream& in;
+  const std::vector<Wall<d>>& of;
   template <class T>
-  void value(T& v) {
+  void value(T& v) const {
     in.read(reinterpret_cast<char*>(&v), sizeof v);
   }
   template <class T>
-  void list(std::vector<T>& values) {
+  void list(std::vector<T>& values) const {
     values.resize(stored_count(in, sizeof(T)));
     in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+  }
+  void walls(std::vector<WallPlace<d>>& places, std::vector<WallVelocity<d>>& velocities) const {
+    std::vector<Isometry<d>> poses;
+    std::vector<Twist<d>> twists;
+    list(poses), list(twists);
+    places.assign(poses.begin(), poses.end());
+    velocities.assign(twists.begin(), twists.end());
+    for (std::size_t w = 0; w < std::min({of.size(), places.size(), velocities.size()}); ++w) {
+      if (!of[w].spec().deforms) continue;
+      AtVertices<d> x(d, of[w].spec().surface.vertices.cols()), v(d, x.cols());
+      for (auto numbers : {&x, &v})
+        in.read(reinterpret_cast<char*>(numbers->data()), static_cast<std::streamsize>(numbers->size() * sizeof(double)));
+      if (!in || !x.allFinite()) throw std::runtime_error("the water's state is damaged or of another scene");
+      places[w] = of[w].shaped(std::move(x));
+      velocities[w] = WallVelocity<d>::at_vertices(std::move(v));
+    }
   }
 };
 
@@ -50,8 +84,8 @@ void archive_present(Stream stream, State& s) {
   stream.list(s.nodes.spray), stream.list(s.nodes.volume), stream.list(s.nodes.owed), stream.list(s.nodes.h),
       stream.list(s.nodes.wall_pressure);
   stream.list(s.mesh.cells), stream.list(s.mesh.boundary);
-  stream.list(s.poses), stream.list(s.velocity), stream.list(s.wetted), stream.list(s.chords),
-      stream.list(s.resting_loads);
+  stream.walls(s.poses, s.velocity);
+  stream.list(s.wetted), stream.list(s.chords), stream.list(s.resting_loads);
 }
 
 template <class T>
@@ -86,7 +120,8 @@ void check(const Present<d>& s, const std::vector<Wall<d>>& walls) {
          all_finite(s.chords) && all_finite(s.resting_loads) &&
          std::ranges::all_of(nodes.h, [](double h) { return h > 0 && std::isfinite(h); });
   constexpr double roundoff = 1e-6;  // of rotations, far above what they gather
-  for (const auto& pose : s.poses) good = good && pose.matrix().allFinite() && pose.linear().isUnitary(roundoff);
+  for (const auto& place : s.poses)
+    good = good && place.pose().matrix().allFinite() && place.linear().isUnitary(roundoff);
   const auto is_node = [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < count; };
   for (const auto& cell : s.mesh.cells) good = good && std::ranges::all_of(cell, is_node);
   for (const auto& facet : s.mesh.boundary)
@@ -110,10 +145,11 @@ void Water<d>::save(std::ostream& out) const {
 template <int d>
 void Water<d>::load(std::istream& in) {
   Present<d> loaded;
-  archive_present(Loader{in}, loaded);
+  const Loader<d> loader{in, walls};
+  archive_present(loader, loaded);
   std::vector<double> remembered;  // of all effects
   for (const auto& effect : effects)
-    for (std::size_t k = effect->memory().size(); k > 0; --k) Loader{in}.value(remembered.emplace_back());
+    for (std::size_t k = effect->memory().size(); k > 0; --k) loader.value(remembered.emplace_back());
   if (!in) throw std::runtime_error("ends in the middle of the water's state");
   check(loaded, walls);
   if (!all_finite(remembered)) throw std::runtime_error("the water's state is damaged or of another scene");

@@ -39,7 +39,7 @@ struct OtherWater {
 
 template <int d>
 double collision_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
-                    std::span<const Twist<d>> velocity, double cfl, double dt) {
+                    std::span<const WallVelocity<d>> velocity, double cfl, double dt) {
   std::vector<int> fast;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes.surface[i] && !nodes.spray[i] && nodes.tie[i].wall < 0 && nodes.v[i].norm() * dt > nodes.h[i])
@@ -63,7 +63,7 @@ double collision_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>
       const double reach = (v.norm() + velocity[w].norm()) * dt;
       const auto near = walls.walls[w].nearest(walls.poses[w], x, reach);
       if (near.distance >= reach || near.distance <= 0) continue;
-      const Vec<d> of_wall = rigid_velocity<d>(velocity[w], near.point - walls.poses[w].translation());
+      const Vec<d> of_wall = velocity_at<d>(walls.poses[w], velocity[w], near.point);
       meet(i, near.distance, near.point - x, v - of_wall);
     }
     const auto& other = others.try_emplace(part[i], nodes, mesh, part, part[i]).first->second;
@@ -96,9 +96,9 @@ double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& wa
 
 template double gap_time(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
 template double gap_time(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
-template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>, double,
+template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double,
                              double);
-template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>, double,
+template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double,
                              double);
 
 }  // namespace splashdown::fluid

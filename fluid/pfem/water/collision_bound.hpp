@@ -16,7 +16,7 @@ namespace splashdown::fluid {
 /// hardly feels them.
 template <int d>
 double collision_dt(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
-                    std::span<const Twist<d>> velocity, double cfl, double dt);
+                    std::span<const WallVelocity<d>> velocity, double cfl, double dt);
 
 /// Until walls that approach each other meet: the least V / (-dV/dt) of cells between two walls, V their volume and dV/dt its
 /// rate with the velocities of their nodes [s]. What is thinner than a hundredth of the element size may go at once: gaps
@@ -26,9 +26,9 @@ double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& wa
 
 extern template double gap_time(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
 extern template double gap_time(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
-extern template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const Twist<2>>,
+extern template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>,
                                     double, double);
-extern template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const Twist<3>>,
+extern template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>,
                                     double, double);
 
 }  // namespace splashdown::fluid

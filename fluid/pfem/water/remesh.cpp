@@ -109,8 +109,8 @@ bool Water<d>::rests_on_wall(int node, double length) const {
   constexpr double few = 4;
   const int wall = work.nodes.tie[node].wall;
   if (wall < 0) return false;
-  const Vec<d> arm = work.nodes.x[node] - work.poses[wall].translation();
-  const double squared_speed = (work.nodes.v[node] - rigid_velocity<d>(work.velocity[wall], arm)).squaredNorm(),
+  const Vec<d> of_wall = velocity_at<d>(work.poses[wall], work.velocity[wall], work.nodes.x[node]);
+  const double squared_speed = (work.nodes.v[node] - of_wall).squaredNorm(),
                squared = length * length / (few * few);
   return squared_speed * now.dt * now.dt <= squared && squared_speed * work.nodes.h[node] <= squared * gravity().norm();
 }

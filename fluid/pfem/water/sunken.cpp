@@ -12,7 +12,7 @@ namespace splashdown::fluid {
 //
 //   dE = -rho g . (V' c' - V c - V_0 (c* - c)),   V_0 = V - chords
 template <int d>
-void Water<d>::follow_hulls(std::span<const Isometry<d>> poses) {
+void Water<d>::follow_hulls(std::span<const WallPlace<d>> poses) {
   const auto before = std::exchange(work.displaced, displaced_volumes(work.mesh, work.nodes.x, walls.size(), mirror()));
   std::vector<double> taken(walls.size(), 0.0);
   for (std::size_t w = 0; w < walls.size(); ++w) {
@@ -23,7 +23,7 @@ void Water<d>::follow_hulls(std::span<const Isometry<d>> poses) {
     }
     taken[w] = to.volume - from.volume;
     const double own = from.volume - work.chords[w];
-    const Vec<d> carried = poses[w] * (work.poses[w].inverse() * from.centre);
+    const Vec<d> carried = walls[w].carried(work.poses[w], poses[w], from.centre);
     work.ledger.chord_energy -= spec.density * gravity().dot(to.volume * (to.centre - from.centre) +
                                                              taken[w] * from.centre - own * (carried - from.centre));
     work.ledger.hull_chords += taken[w];

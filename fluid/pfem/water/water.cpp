@@ -16,11 +16,14 @@ template <int d>
 Water<d>::Water(FluidSpec<d> from, std::vector<std::unique_ptr<Effect<d>>> with)
     : spec(std::move(from)), effects(std::move(with)) {
   for (const auto& effect : effects) timer.add(effect->name());
+  std::vector<Eigen::Index> vertices;  // of walls that deform
   for (const auto& w : spec.walls) {
     walls.emplace_back(w);
-    now.poses.push_back(w.pose);
+    now.poses.push_back(walls.back().place());
     now.velocity.push_back(w.velocity);
+    vertices.push_back(w.deforms ? w.surface.vertices.cols() : 0);
   }
+  layout = WallLayout<d>(vertices);
   auto liquid = fill<d>(spec, walls_at(now.poses));
   now.nodes = std::move(liquid.nodes);
   now.mesh = std::move(liquid.mesh);

@@ -35,8 +35,8 @@ struct Present {
   double time = 0, dt = 0;  ///< dt: of the step that led here
   Nodes<d> nodes;
   Mesh<d> mesh;
-  std::vector<Isometry<d>> poses;
-  std::vector<Twist<d>> velocity;  ///< of walls, at t_{n-1/2}
+  std::vector<WallPlace<d>> poses;
+  std::vector<WallVelocity<d>> velocity;  ///< of walls, at t_{n-1/2}
   std::vector<double> wetted;
   std::vector<double> chords;                 ///< by which hulls hold more than when the water closed around them
   std::vector<DisplacedVolume<d>> displaced;  ///< of walls, in this mesh; not in a checkpoint: it follows from the mesh
@@ -58,6 +58,7 @@ struct Water {
   FluidSpec<d> spec;
   std::vector<std::unique_ptr<Effect<d>>> effects;
   std::vector<Wall<d>> walls;
+  WallLayout<d> layout;  ///< of the walls' coordinates
   PhaseTimer timer{{"mesh", "assemble", "momentum", "pressure", "move"}};
 
   Present<d> now;         ///< committed
@@ -77,19 +78,12 @@ struct Water {
     return with == spec.walls.end() ? std::nullopt : with->mirror;
   }
   /// The walls at these poses.
-  WallsAt<d> walls_at(const std::vector<Isometry<d>>& poses) const { return {walls, poses}; }
+  WallsAt<d> walls_at(const std::vector<WallPlace<d>>& poses) const { return {walls, poses}; }
 
-  /// Reference points of the walls, world frame [m].
-  std::vector<Vec<d>> centres(const std::vector<Isometry<d>>& poses) const {
-    std::vector<Vec<d>> c;
-    for (const auto& p : poses) c.push_back(p.translation());
-    return c;
-  }
-
-  /// Poses of the walls after `by` [s] with twists s, from those of `work`.
-  std::vector<Isometry<d>> moved_poses(std::span<const Twist<d>> s, double by) const {
-    std::vector<Isometry<d>> out;
-    for (std::size_t w = 0; w < walls.size(); ++w) out.push_back(fluid::moved<d>(work.poses[w], s[w], by));
+  /// Where the walls are after `by` [s] with velocities s, from where `work` has them.
+  std::vector<WallPlace<d>> moved_poses(std::span<const WallVelocity<d>> s, double by) const {
+    std::vector<WallPlace<d>> out;
+    for (std::size_t w = 0; w < walls.size(); ++w) out.push_back(walls[w].moved(work.poses[w], s[w], by));
     return out;
   }
 
@@ -106,7 +100,7 @@ struct Water {
 
   // What a step has found (accept.cpp).
   /// Takes in a motion. `poses`: of the walls at t_{n+1}.
-  void accept(const Motion<d>& motion, std::span<const Isometry<d>> poses);
+  void accept(const Motion<d>& motion, std::span<const WallPlace<d>> poses);
 
   // What lasts (checkpoint.cpp).
   /// Writes `now` and what effects remember.
@@ -139,7 +133,7 @@ struct Water {
 
   // Hulls in the midst of the water (sunken.cpp).
   /// Books what the facets of sunken hulls enclose more or less at `poses`, in volume and potential energy.
-  void follow_hulls(std::span<const Isometry<d>> poses);
+  void follow_hulls(std::span<const WallPlace<d>> poses);
   /// Volume of the mesh and of the chords of sunken hulls [m^d].
   double water() const { return enclosed_volume(work.mesh.boundary, work.nodes.x) + work.ledger.hull_chords; }
 };

@@ -44,7 +44,7 @@ std::string told(unsigned seed, const Afloat& box) {
 void expect_stated_water(unsigned seed) {
   const Afloat box = box_afloat(seed);
   std::vector<Wall<3>> walls;
-  std::vector<Isometry<3>> poses;
+  std::vector<WallPlace<3>> poses;
   for (const auto& w : box.fluid.walls) walls.emplace_back(w), poses.push_back(w.pose);
   const auto liquid = fill<3>(box.fluid, {walls, poses});
   // Roundoff of the clipping and of the sum over some thousand facets is far below.
@@ -62,8 +62,8 @@ void expect_still_water(unsigned seed) {
   std::vector<std::unique_ptr<Effect<3>>> effects;
   effects.push_back(std::make_unique<Gravity<3>>(Vec<3>(0, 0, -g)));
   Fluid<3> water(box.fluid, std::move(effects));
-  const std::vector<Twist<3>> still(2, Twist<3>::Zero());
-  std::vector<Isometry<3>> poses;
+  const std::vector<WallVelocity<3>> still(2, Twist<3>::Zero());
+  std::vector<WallPlace<3>> poses;
   for (const auto& w : box.fluid.walls) poses.push_back(w.pose);
   double last = 1e-3, energy = 0;
   while (water.time() < seconds) {

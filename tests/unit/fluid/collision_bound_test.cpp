@@ -19,8 +19,8 @@ template <int d>
 struct Flight {
   scenes::Lattice<d> water{4};
   std::vector<Wall<d>> walls;
-  std::vector<Isometry<d>> poses{Isometry<d>::Identity()};
-  std::vector<Twist<d>> velocity{Twist<d>::Zero()};
+  std::vector<WallPlace<d>> poses{Isometry<d>::Identity()};
+  std::vector<WallVelocity<d>> velocity{Twist<d>::Zero()};
 
   explicit Flight(double gap) {
     water.nodes.h.assign(water.nodes.size(), 0.25);
@@ -50,7 +50,7 @@ TYPED_TEST(CollisionBound, short_steps_and_walls_that_fly_along_are_no_bound) {
   constexpr int d = TypeParam::value;
   EXPECT_EQ(Flight<d>(0.01).dt(0.02), 0.02);  // less than an element
   Flight<d> together(0.01);
-  together.velocity[0][d - 1] = speed;
+  together.velocity[0].rigid[d - 1] = speed;
   EXPECT_EQ(together.dt(never), never);
 }
 
@@ -99,7 +99,7 @@ struct Gap {
     else
       any.surface = scenes::block({0, 0, 0}, {1, 1, 1});
     const std::vector<Wall<d>> walls{Wall<d>(any), Wall<d>(any)};
-    const std::vector<Isometry<d>> poses(2, Isometry<d>::Identity());
+    const std::vector<WallPlace<d>> poses(2, Isometry<d>::Identity());
     return gap_time<d>(water.nodes, water.mesh, {walls, poses});
   }
 };

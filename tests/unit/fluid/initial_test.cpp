@@ -23,7 +23,7 @@ struct Basin {
   }
   InitialLiquid<3> fill() const {
     std::vector<Wall<3>> walls;
-    std::vector<Isometry<3>> poses;
+    std::vector<WallPlace<3>> poses;
     for (const auto& w : spec.walls) walls.emplace_back(w), poses.push_back(w.pose);
     return fluid::fill<3>(spec, {walls, poses});
   }
@@ -272,7 +272,7 @@ TEST(InitialLiquidInSpace, narrow_gaps_are_found_before_there_is_a_mesh) {
     for (const double depth : {0.0, 0.5}) {
       const auto basin = with_gap(h, share * h, {0.4, 0.3, 0.5}, depth);
       std::vector<Wall<3>> walls;
-      std::vector<Isometry<3>> poses;
+      std::vector<WallPlace<3>> poses;
       for (const auto& w : basin.spec.walls) walls.emplace_back(w), poses.push_back(w.pose);
       const auto gap = look_at_start<3>(basin.spec, {walls, poses});
       ASSERT_EQ(gap.has_value(), share < filled_gap) << share;

@@ -141,7 +141,7 @@ struct Placed {
   }
   WallsAt<2> at() const { return {walls, poses}; }
   std::vector<Wall<2>> walls;
-  std::vector<Isometry<2>> poses;
+  std::vector<WallPlace<2>> poses;
 };
 
 /// Each node begins as many facets as it ends: the boundary is closed.

@@ -87,12 +87,14 @@ struct Block : StillMesh<d> {
   /// One kick: returns the new velocities, and the impulses on walls.
   std::vector<Vec<d>> predict(Effect<d>& effect, std::vector<Wrench<d>>* impulses = nullptr) const {
     std::vector<Vec<d>> v = nodes.v;
-    std::vector<Wrench<d>> on_walls(walls.size(), Wrench<d>::Zero());
+    const std::vector<WallVelocity<d>> moving(wall_velocities.begin(), wall_velocities.end());
+    std::vector<WallImpulse<d>> on_walls(walls.size());
     const bool is_done = this->with_view([&](const StepView<d>& view) {
-      return effect.begin(view).ok() && effect.predict(view, {nodes.v, wall_velocities}, {v, on_walls}).ok();
+      return effect.begin(view).ok() && effect.predict(view, {nodes.v, moving}, {v, on_walls}).ok();
     });
     if (!is_done) return {};
-    if (impulses) *impulses = on_walls;
+    if (impulses) impulses->clear();
+    for (std::size_t w = 0; impulses && w < on_walls.size(); ++w) impulses->push_back(on_walls[w].rigid);
     return v;
   }
 

@@ -85,10 +85,11 @@ struct Cloud : testing::StillMesh<d> {
     if (closes) close_behind();
     return this->with_view([&](const StepView<d>& view) {
       std::vector<Vec<d>> v = nodes.v;
-      std::vector<Wrench<d>> on_walls(1, Wrench<d>::Zero());
+      const std::vector<WallVelocity<d>> hulls(motion.begin(), motion.end());
+      std::vector<WallImpulse<d>> on_walls(1);
       EXPECT_TRUE(effect.begin(view).ok());
-      EXPECT_TRUE(effect.predict(view, {nodes.v, motion}, {v, on_walls}).ok());
-      impulse = on_walls[0];
+      EXPECT_TRUE(effect.predict(view, {nodes.v, hulls}, {v, on_walls}).ok());
+      impulse = on_walls[0].rigid;
       return v;
     });
   }
@@ -266,7 +267,9 @@ TYPED_TEST(FormDragIn, turns_with_water_and_hull) {
   else
     turn = Eigen::AngleAxisd(0.7, Vec<3>(1, -2, 0.5).normalized()).toRotationMatrix();
   for (auto& x : cloud.nodes.x) x = turn * x;
-  cloud.poses[0].linear() = turn;
+  Isometry<d> turned_by = Isometry<d>::Identity();
+  turned_by.linear() = turn;
+  cloud.poses[0] = turned_by;
   const auto rotated = [&](Wrench<d> w) {
     w.template head<d>() = turn * w.template head<d>();
     if constexpr (d == 3) w.template tail<3>() = turn * w.template tail<3>();

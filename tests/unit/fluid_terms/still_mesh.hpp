@@ -14,7 +14,7 @@ struct StillMesh {
   Mesh<d> mesh;
   std::vector<double> lumped_volume;
   std::vector<WallSpec<d>> walls;
-  std::vector<Isometry<d>> poses;
+  std::vector<WallPlace<d>> poses;
   double density = 1000, kick = 1e-3;
   const ModalInertia* answers = nullptr;
 
@@ -26,6 +26,7 @@ struct StillMesh {
   auto with_view(Act act) const {
     NodeCells<d> around;
     around.build(mesh.cells, nodes.size());
+    const WallLayout<d> layout = WallLayout<d>::rigid(walls.size());
     return act(StepView<d>{.nodes = nodes,
                            .mesh = mesh,
                            .density = density,
@@ -37,6 +38,7 @@ struct StillMesh {
                            .around = around,
                            .walls = walls,
                            .poses = poses,
+                           .layout = layout,
                            .answers = answers});
   }
   Wrench<d> momentum(std::span<const Vec<d>> v) const {

@@ -18,7 +18,7 @@ namespace splashdown::fluid {
 template <int d>
 struct WallsAt {
   std::span<const Wall<d>> walls;
-  std::span<const Isometry<d>> poses;
+  std::span<const WallPlace<d>> poses;
 };
 
 /// Whether nodes of a cell are tied to different walls. A tank's side in a plane of symmetry is none.

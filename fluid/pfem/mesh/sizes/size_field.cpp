@@ -53,7 +53,7 @@ void SizeField<d>::find_spots() {
   std::vector<Source> found;
   for (std::size_t w = 0; w < wall_size_.size(); ++w)
     for (const Source& spot : spots_of(spec_, walls_.walls[w], wall_size_[w]))
-      found.push_back({walls_.poses[w] * spot.at, spot.size});
+      found.push_back({walls_.walls[w].carried(walls_.poses[w], spot.at), spot.size});
   add(std::move(found));
 }
 

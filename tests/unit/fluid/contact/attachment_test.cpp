@@ -24,7 +24,7 @@ struct Arrival : scenes::Walls<d> {
   // At this height above the top, with this velocity upwards beside the wall's own there.
   int add_node(double height, double rising) {
     const Vec<d> x = point<d>(0.4, 1 + height);
-    const Vec<d> own = rigid_velocity<d>(this->velocity[0], Vec<d>(x - this->pose[0].translation()));
+    const Vec<d> own = velocity_at<d>(this->pose[0], this->velocity[0], x);
     return nodes.add(x, own + rising * Vec<d>::Unit(d - 1), 0, {}, true);
   }
   void attach(double h = size, double dt = 0) {

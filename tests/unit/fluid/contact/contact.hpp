@@ -41,7 +41,7 @@ Isometry<d> elsewhere() {
 
 /// The tie of a node that sits on a wall: of a corner or a crease, or of the patch that it slides on.
 template <int d>
-WallTie tie_at(const Wall<d>& wall, const Isometry<d>& pose, const Vec<d>& x, int number) {
+WallTie tie_at(const Wall<d>& wall, const WallPlace<d>& pose, const Vec<d>& x, int number) {
   const auto near = wall.nearest(pose, x, 1);
   return near.sharp() ? WallTie{number, -1, near.vertex, near.crease} : WallTie{number, near.patch, -1};
 }
@@ -56,8 +56,8 @@ struct Walls {
   }
   WallsAt<d> at() const { return {walls, pose}; }
   std::vector<Wall<d>> walls;
-  std::vector<Isometry<d>> pose;
-  std::vector<Twist<d>> velocity;
+  std::vector<WallPlace<d>> pose;
+  std::vector<WallVelocity<d>> velocity;
 };
 
 /// A lattice in a tank twice as high, wall 0, whose reference point is elsewhere.

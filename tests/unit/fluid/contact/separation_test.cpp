@@ -73,12 +73,12 @@ TEST(Separation, of_a_crease_takes_fast_water) {
 
 TEST(Separation, speed_is_that_past_the_wall) {
   AtTheEdge<3> along(1.01 * slowest);
-  along.velocity[0].head<3>() = along.nodes.v[along.inside];
+  along.velocity[0].rigid.head<3>() = along.nodes.v[along.inside];
   EXPECT_FALSE(along.separates());
   // Turning about its reference point, the wall moves with the water there.
   AtTheEdge<3> turning(0);
   const Vec<3> arm = turning.nodes.x[turning.inside] - turning.pose[0].translation();
-  turning.velocity[0].tail<3>() = Vec<3>(0, 0, 5);
+  turning.velocity[0].rigid.tail<3>() = Vec<3>(0, 0, 5);
   turning.nodes.v[turning.inside] = Vec<3>(0, 0, 5).cross(arm);
   ASSERT_GT(turning.nodes.v[turning.inside].norm(), slowest);
   EXPECT_FALSE(turning.separates());

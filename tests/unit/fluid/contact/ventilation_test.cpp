@@ -68,8 +68,8 @@ struct Film {
   }
 
   int rows;
-  std::vector<Isometry<2>> pose{Isometry<2>::Identity()};
-  std::vector<Twist<2>> still{Twist<2>::Zero()};
+  std::vector<WallPlace<2>> pose{Isometry<2>::Identity()};
+  std::vector<WallVelocity<2>> still{Twist<2>::Zero()};
   std::vector<Wall<2>> walls;
   Nodes<2> nodes;
   Mesh<2> mesh;
@@ -172,10 +172,9 @@ template <int d>
 void expect_first_row(double suction, bool leaves) {
   constexpr int across = 4;
   scenes::Tank<d> tank(across);
-  tank.velocity[0].setConstant(10);
+  tank.velocity[0].rigid.setConstant(10);
   for (std::size_t i = 0; i < tank.nodes.size(); ++i) {
-    const Vec<d> arm = tank.nodes.x[i] - tank.pose[0].translation();
-    tank.nodes.v[i] = rigid_velocity<d>(tank.velocity[0], arm) + speed * Vec<d>::Unit(0);
+    tank.nodes.v[i] = velocity_at<d>(tank.pose[0], tank.velocity[0], tank.nodes.x[i]) + speed * Vec<d>::Unit(0);
     tank.nodes.wall_pressure[i] = tank.nodes.surface[i] ? 0 : -suction * dynamic;
   }
   const auto before = tank.nodes;
@@ -200,7 +199,7 @@ template <int d>
 struct Passing : scenes::Walls<d> {
   Passing() {
     this->add_wall(scenes::box<d>(Vec<d>::Constant(-1), top(0)));
-    this->velocity[0][0] = 5;
+    this->velocity[0].rigid[0] = 5;
     tied = add(Vec<d>::Zero(), scenes::tie_at<d>(this->walls[0], this->pose[0], Vec<d>::Zero(), 0));
     left = add(top(0.1), {});
     nodes.wall_pressure[left] = dynamic;

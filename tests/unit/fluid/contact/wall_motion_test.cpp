@@ -18,8 +18,8 @@ constexpr int across = 4;  // elements across the tank of these tests
 template <int d>
 typename WallMotion<d>::Moved moved_by(const WallMotion<d>& motion, const scenes::Walls<d>& walls,
                                        const std::vector<Vec<d>>& v, double dt) {
-  std::vector<Isometry<d>> there;
-  for (std::size_t w = 0; w < walls.walls.size(); ++w) there.push_back(moved<d>(walls.pose[w], walls.velocity[w], dt));
+  std::vector<WallPlace<d>> there;
+  for (std::size_t w = 0; w < walls.walls.size(); ++w) there.push_back(walls.walls[w].moved(walls.pose[w], walls.velocity[w], dt));
   typename WallMotion<d>::Moved out;
   motion.move(v, there, dt, out);
   return out;
@@ -34,7 +34,7 @@ TYPED_TEST(WallMotions, free_nodes_go_straight_and_tied_ones_stay_on_their_wall)
   for (std::size_t i = 0; i < tank.nodes.size(); ++i) v.push_back(scenes::random_vector<Vec<d>>(random, {}));
   const double dt = 0.05;
   const auto out = moved_by<d>({tank.nodes, tank.mesh, tank.at(), std::vector<char>{0}}, tank, v, dt);
-  const auto pose = moved<d>(tank.pose[0], tank.velocity[0], dt);
+  const auto pose = tank.walls[0].moved(tank.pose[0], tank.velocity[0], dt);
   for (std::size_t i = 0; i < v.size(); ++i) {
     EXPECT_EQ(out.tie[i].wall, tank.nodes.tie[i].wall);
     if (tank.nodes.tie[i].wall < 0) {
@@ -50,8 +50,8 @@ TYPED_TEST(WallMotions, free_nodes_go_straight_and_tied_ones_stay_on_their_wall)
 TYPED_TEST(WallMotions, water_that_moves_with_its_tank_stays_where_it_is_in_it) {
   constexpr int d = TypeParam::value;
   scenes::Tank<d> tank(across);
-  tank.velocity[0].template head<d>().setLinSpaced(-0.3, 0.8);
-  const Vec<d> w = tank.velocity[0].template head<d>();
+  tank.velocity[0].rigid.template head<d>().setLinSpaced(-0.3, 0.8);
+  const Vec<d> w = tank.velocity[0].rigid.template head<d>();
   const double dt = 0.1;
   WallMotion<d> motion(tank.nodes, tank.mesh, tank.at(), std::vector<char>{0});
   motion.meet_pressure(std::vector<int>(tank.nodes.size(), 0), tank.nodes.volume);
@@ -192,12 +192,12 @@ TYPED_TEST(WallMotions, what_passes_an_edge_that_is_wet_behind_turns_the_corner)
 TYPED_TEST(WallMotions, nodes_at_edges_stay_there) {
   constexpr int d = TypeParam::value;
   ConvexEdge<d> edge(true);
-  edge.velocity[0].template head<d>().setLinSpaced(0.2, 0.7);
+  edge.velocity[0].rigid.template head<d>().setLinSpaced(0.2, 0.7);
   const std::vector<Vec<d>> v(edge.nodes.size(), Vec<d>::Constant(0.3));
   const double dt = 0.1;
   const auto out = moved_by<d>(edge.motion(), edge, v, dt);
   for (int n : edge.edge) {
-    Vec<d> from = dt * edge.velocity[0].template head<d>();
+    Vec<d> from = dt * edge.velocity[0].rigid.template head<d>();
     from -= out.x[n] - edge.nodes.x[n];
     if (d == 3) from[1] = 0;  // along the crease they slide
     EXPECT_LE(from.norm(), 10 * eps);

@@ -21,7 +21,7 @@ TYPED_TEST(BodyElimination, rigid_response_is_the_dense_solve_with_the_body_adde
   const Eigen::VectorXd exact = (A + B.transpose() * C * B).ldlt().solve(eigen(r));
   auto phi = r;
   const auto s0 = scenes::random_vector<Twist<d>>(p.random, {});
-  std::vector<Twist<d>> s{s0};
+  std::vector<WallVelocity<d>> s{s0};
   ASSERT_TRUE(p.solve(phi, s));
   const double condition = A.norm() * A.inverse().norm();
   EXPECT_LE((eigen(phi) - exact).norm(), 100 * eps * condition * exact.norm());
@@ -36,9 +36,9 @@ TYPED_TEST(BodyElimination, a_body_of_any_lightness_gets_a_velocity_that_leaves_
   const auto with = [&](double share) {
     EXPECT_TRUE(p.build(p.body(share * M)));
     auto r = std::vector<double>(p.equation.size(), 1e-3);
-    std::vector<Twist<d>> s(1, Twist<d>::Zero());
+    std::vector<WallVelocity<d>> s(1, Twist<d>::Zero());
     EXPECT_TRUE(p.solve(r, s));
-    return s[0];
+    return s[0].rigid;
   };
   const Twist<d> none = with(0);
   EXPECT_TRUE(none.allFinite());
@@ -60,7 +60,7 @@ TYPED_TEST(BodyElimination, motions_that_are_not_allowed_do_not_happen) {
   const double mass = (w.transpose() * M * w)(0, 0);
   const Eigen::VectorXd exact = (A + B.transpose() * B / mass).ldlt().solve(eigen(r));
   auto phi = r;
-  std::vector<Twist<d>> s(1, Twist<d>::Zero());
+  std::vector<WallVelocity<d>> s(1, Twist<d>::Zero());
   ASSERT_TRUE(p.solve(phi, s));
   const double condition = A.norm() * A.inverse().norm();
   EXPECT_LE((eigen(phi) - exact).norm(), 100 * eps * condition * exact.norm());
@@ -72,10 +72,10 @@ TYPED_TEST(BodyElimination, a_motion_without_inertia_in_body_and_water_stays_as_
   Problem<d> p;
   InterfaceModel response{.modal = {Eigen::MatrixXd::Zero(2 * p.m, 1), Eigen::MatrixXd::Zero(1, 1)}};
   response.modal.modes(p.m, 0) = 1;  // of a second wall, which no water touches
-  p.centre.push_back(p.centre[0]);
+  p.places.push_back(p.places[0]);
   ASSERT_TRUE(p.build(response));
   auto r = p.any_phi();
-  std::vector<Twist<d>> s(2, Twist<d>::Zero());
+  std::vector<WallVelocity<d>> s(2, Twist<d>::Zero());
   ASSERT_TRUE(p.equation.solve(r));
   p.equation.respond(r, s, Eigen::VectorXd::Constant(1, 7.0));
   EXPECT_EQ(s[1], Twist<d>(Twist<d>::Zero()));
@@ -162,7 +162,7 @@ TYPED_TEST(BodyElimination, a_passed_interface_laplacian_changes_nothing) {
   ASSERT_TRUE(p.build());
   const auto r = p.any_phi();
   auto phi = r;
-  std::vector<Twist<d>> s(1, Twist<d>::Zero());
+  std::vector<WallVelocity<d>> s(1, Twist<d>::Zero());
   ASSERT_TRUE(p.solve(phi, s));
   ASSERT_TRUE(p.build({.interface_operators = {{.laplacian = 0.7}}}));
   auto again = r;
@@ -178,7 +178,7 @@ TYPED_TEST(BodyElimination, without_unknowns_there_is_nothing_to_solve) {
   ASSERT_TRUE(p.build(p.body(p.any_inertia())));
   EXPECT_EQ(p.equation.size(), 0);
   std::vector<double> r;
-  std::vector<Twist<d>> s(1, Twist<d>::Zero());
+  std::vector<WallVelocity<d>> s(1, Twist<d>::Zero());
   EXPECT_TRUE(p.solve(r, s));
   EXPECT_EQ(s[0], Twist<d>(Twist<d>::Zero()));
 }

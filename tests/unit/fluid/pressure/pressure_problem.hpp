@@ -16,12 +16,13 @@ template <int d>
 struct Problem {
   static constexpr int m = freedoms<d>;
   scenes::Lattice<d> cube{d == 2 ? 8 : 5};
-  std::vector<Vec<d>> centre{Vec<d>::Constant(0.3)};
+  const Vec<d> centre = Vec<d>::Constant(0.3);
+  std::vector<WallPlace<d>> places{Isometry<d>(Eigen::Translation<double, d>(centre))};
   PressureEquation<d> equation;
   std::mt19937 random{11};
 
   bool build(const InterfaceModel& response = {}) {
-    return equation.build(cube.nodes, cube.mesh, density, centre, response);
+    return equation.build(cube.nodes, cube.mesh, density, places, WallLayout<d>::rigid(places.size()), response);
   }
   std::vector<double> any_phi() {
     std::vector<double> phi(equation.size());
@@ -40,7 +41,7 @@ struct Problem {
   }
   /// Of a body that moves freely.
   static InterfaceModel body(const Matrix& inertia) { return {.modal = {Matrix::Identity(), inertia}}; }
-  bool solve(std::vector<double>& r, std::vector<Twist<d>>& s) {
+  bool solve(std::vector<double>& r, std::vector<WallVelocity<d>>& s) {
     if (!equation.solve(r)) return false;
     equation.respond(r, s, Eigen::VectorXd::Zero(equation.mode_count()));
     return true;
@@ -62,7 +63,7 @@ struct Problem {
       unit[j] = 1;
       equation.accelerate(unit, v);
       unit[j] = 0;
-      equation.flux_residual(cube.nodes.x, v, std::vector<Twist<d>>(1, Twist<d>::Zero()), centre, r);
+      equation.flux_residual(cube.nodes.x, v, std::vector<WallVelocity<d>>(1, Twist<d>::Zero()), places, r);
       K.col(j) = -Eigen::Map<const Eigen::VectorXd>(r.data(), equation.size());
     }
     return K;
@@ -72,7 +73,7 @@ struct Problem {
     std::vector<double> unit(equation.size(), 0.0);
     for (int j = 0; j < equation.size(); ++j) {
       unit[j] = 1;
-      out.col(j) = equation.impulse(0, unit);
+      out.col(j) = equation.impulse(0, unit).rigid;
       unit[j] = 0;
     }
     return out;

@@ -166,7 +166,7 @@ TEST(Adapt, leaves_no_two_nodes_in_one_place_and_loses_no_volume) {
 // The contact lines on both sides of a gap, a tenth of an element wide, and a corner on one of them.
 TEST(Adapt, does_not_merge_across_a_gap_between_walls) {
   std::vector<Wall<2>> walls;
-  const std::vector<Isometry<2>> poses(2, Isometry<2>::Identity());
+  const std::vector<WallPlace<2>> poses(2, Isometry<2>::Identity());
   walls.emplace_back(scenes::wall("left", scenes::rectangle({-1, -1}, {0, 0}), 0.1));
   walls.emplace_back(scenes::wall("right", scenes::rectangle({0.01, -1}, {1, 1}), 0.1));
   Nodes<2> nodes;
@@ -187,7 +187,7 @@ TEST(Adapt, does_not_merge_across_a_gap_between_walls) {
 // A hull stands on the floor: the node at its foot is the hull's, the next one along the floor is the tank's.
 TEST(Adapt, keeps_facets_between_nodes_of_two_walls_on_the_wall_that_they_wet) {
   std::vector<Wall<2>> walls;
-  const std::vector<Isometry<2>> poses(2, Isometry<2>::Identity());
+  const std::vector<WallPlace<2>> poses(2, Isometry<2>::Identity());
   walls.emplace_back(scenes::wall("tank", scenes::turned_inside_out(scenes::rectangle({-1, 0}, {1, 1})), 0.1));
   walls.emplace_back(scenes::wall("hull", scenes::rectangle({-0.5, 0}, {0, 0.5}), 0.1));
   const WallsAt<2> at{walls, poses};

@@ -282,7 +282,7 @@ TYPED_TEST(VolumeCorrection, the_surface_moves_into_no_wall) {
   else
     lid = scenes::block(-size, size);
   const std::vector<Wall<d>> walls{Wall<d>({"lid", lid, Isometry<d>::Identity(), Twist<d>::Zero(), 0.25})};
-  std::vector<Isometry<d>> poses{Isometry<d>::Identity()};
+  std::vector<WallPlace<d>> poses{Isometry<d>::Identity()};
   poses[0].translation() = centre;
   p.nodes.owed.front() = lost;
   const auto x = p.nodes.x;

@@ -32,7 +32,7 @@ struct Fresh {
   WallsAt<d> at() const { return {walls, poses}; }
 
   std::vector<Wall<d>> walls;
-  std::vector<Isometry<d>> poses{Isometry<d>::Identity()};
+  std::vector<WallPlace<d>> poses{Isometry<d>::Identity()};
 };
 
 // Beside the tip of a cone chords lie as deep in it as it is thick there. New ones come with every flip: without water on them the tip

@@ -55,7 +55,7 @@ Surface<3> sphere(int around) {
 struct DippedSphere {
   double h = 0.06;
   std::vector<Wall<3>> walls;
-  std::vector<Isometry<3>> poses{Isometry<3>::Identity()};
+  std::vector<WallPlace<3>> poses{Isometry<3>::Identity()};
   Nodes<3> nodes;
 
   DippedSphere() {

@@ -345,7 +345,7 @@ TEST(Recognise3, flat_cells_with_water_around_them_are_no_gap) {
 TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it) {
   const std::vector<Wall<3>> tank{
       Wall<3>(scenes::wall("tank", scenes::turned_inside_out(scenes::block({-1, -1, -1}, {1, 1, 1})), 0.5))};
-  const std::vector<Isometry<3>> poses{Isometry<3>::Identity()};
+  const std::vector<WallPlace<3>> poses{Isometry<3>::Identity()};
   auto cells = [&](const std::array<Vec<3>, 4>& corner) {
     Nodes<3> nodes;
     for (const auto& x : corner)
