@@ -7,9 +7,10 @@
 #include <limits>
 #include <ostream>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/geometry.hpp"
-#include "core/stored.hpp"
+#include "elastic/stored_field.hpp"
 
 namespace splashdown::elastic {
 namespace {
@@ -18,6 +19,18 @@ namespace {
 template <int d>
 Field places(const Solid<d>& solid) {
   return Eigen::Map<const Field>(solid.mesh().nodes.data(), solid.mesh().nodes.size());
+}
+
+/// Volume that a closed surface encloses.
+template <int d>
+double enclosed_by(const Surface<d>& surface) {
+  double sum = 0;
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    std::array<Vec<d>, d> corners;
+    for (int k = 0; k < d; ++k) corners[static_cast<std::size_t>(k)] = surface.vertices.col(surface.facets(k, f));
+    sum += corners[0].dot(area_vector(corners)) / d;
+  }
+  return sum;
 }
 
 /// sum of m (x - c)(y - e)^T over the body, of two fields and their means.
@@ -56,48 +69,64 @@ Mat<d> rotation_of(const Solid<d>& solid, const Field& u) {
   return svd.matrixU() * turn * svd.matrixV().transpose();
 }
 
-void write(std::ostream& out, const Field& field) {
-  const auto count = static_cast<std::uint64_t>(field.size());
-  out.write(reinterpret_cast<const char*>(&count), sizeof count);
-  out.write(reinterpret_cast<const char*>(field.data()), static_cast<std::streamsize>(count * sizeof(double)));
-}
-
-void read(std::istream& in, Field& field) {
-  if (stored_count(in, sizeof(double)) != static_cast<std::size_t>(field.size()) ||
-      !in.read(reinterpret_cast<char*>(field.data()), static_cast<std::streamsize>(field.size() * sizeof(double))) ||
-      !field.allFinite())
-    throw std::runtime_error("holds no motion of this solid");
-}
-
 }  // namespace
 
 template <int d>
 Participant<d>::Participant(std::vector<SolidSpec<d>> specs) {
+  Eigen::Index first = 0;
   for (auto& spec : specs) {
     auto& body = bodies_.emplace_back(Moving{.spec = std::move(spec)});
-    const auto& solid = *body.spec.solid;
-    const Field weight = solid.mass() * solid.uniform(body.spec.gravity);
-    body.scheme = body.spec.scheme({.system = &solid,
-                                    .damping = body.spec.damping,
-                                    .load = [weight, forces = body.spec.forces](double t) -> Field {
-                                      return forces ? weight + forces(t) : weight;
-                                    }});
-    body.now.u = body.now.v = Field::Zero(solid.size());
-    const Vec<d> centre = solid.centre(body.now.u);
-    const auto& start = body.spec.body.velocity;
-    const Eigen::Matrix<double, rotations<d>, 1> spin = start.template tail<rotations<d>>();
-    for (int a = 0; a < solid.mesh().size(); ++a) {
-      const Vec<d> arm = solid.mesh().nodes.col(a) - centre;
-      body.now.v.template segment<d>(d * a) = start.template head<d>() + cross(spin, arm);
-    }
-    leave_out(solid.held(), body.now.v);
-    if (const auto status = body.scheme->accelerate(body.now); !status.ok()) throw std::invalid_argument(status.cause);
-    look(body);
+    start(body);
+    if (!body.wall) continue;
+    const auto& surface = body.wall->boundary().surface;
+    body.first = first;
+    body.count = surface.vertices.size();
+    walls_.push_back({.name = body.spec.body.name,
+                      .first = first,
+                      .count = body.count,
+                      .answers = true,
+                      .mass = body.spec.solid->total_mass(),
+                      .volume = enclosed_by(surface)});
+    first += body.count;
   }
+  scales_ = Eigen::VectorXd::Ones(first);
+}
+
+template <int d>
+void Participant<d>::start(Moving& body) {
+  const auto& solid = *body.spec.solid;
+  const Field weight = solid.mass() * solid.uniform(body.spec.gravity);
+  const Dynamics dynamics{
+      .system = &solid, .damping = body.spec.damping, .load = [weight, forces = body.spec.forces](double t) -> Field {
+        return forces ? weight + forces(t) : weight;
+      }};
+  body.now.u = body.now.v = body.now.a = Field::Zero(solid.size());
+  const Vec<d> centre = solid.centre(body.now.u);
+  const auto& velocity = body.spec.body.velocity;
+  const Eigen::Matrix<double, rotations<d>, 1> spin = velocity.template tail<rotations<d>>();
+  for (int a = 0; a < solid.mesh().size(); ++a) {
+    const Vec<d> arm = solid.mesh().nodes.col(a) - centre;
+    body.now.v.template segment<d>(d * a) = velocity.template head<d>() + cross(spin, arm);
+  }
+  leave_out(solid.held(), body.now.v);
+  if (body.spec.wall) {
+    const int modes = body.spec.wall->modes;
+    body.wall = modes > 0 ? modal_wall<d>(solid, dynamics, modes) : nodal_wall<d>(solid, dynamics);
+    body.wall->start(body.now.v);
+  } else {
+    body.scheme = body.spec.scheme(dynamics);
+    if (const auto status = body.scheme->accelerate(body.now); !status.ok()) throw std::invalid_argument(status.cause);
+  }
+  look(body);
 }
 
 template <int d>
 void Participant<d>::look(Moving& body) const {
+  if (body.wall) {
+    body.now.u = body.wall->displacement();
+    body.now.v = body.wall->velocity();
+    body.now.a = body.wall->acceleration();
+  }
   const auto& solid = *body.spec.solid;
   const auto& now = body.now;
   const Vec<d> before = solid.centre(Field::Zero(now.u.size()));
@@ -109,7 +138,31 @@ void Participant<d>::look(Moving& body) const {
 
 template <int d>
 double Participant<d>::stable_dt() const {
-  return std::numeric_limits<double>::infinity();  // all schemes are implicit
+  constexpr double turn = 0.5;  // [rad]: as rigid bodies may; else all schemes are implicit
+  double dt = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_)
+    if (body.wall) dt = std::min(dt, turn / body.state.velocity.template tail<rotations<d>>().norm());
+  return dt;
+}
+
+template <int d>
+Eigen::VectorXd Participant<d>::speeds(const coupling::Velocities& velocities) const {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(walls_.size()));
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    all[static_cast<Eigen::Index>(w)] = velocities.segment(walls_[w].first, walls_[w].count)
+                                            .reshaped(d, walls_[w].count / d)
+                                            .colwise()
+                                            .norm()
+                                            .maxCoeff();
+  return all;
+}
+
+template <int d>
+coupling::Velocities Participant<d>::velocities() const {
+  coupling::Velocities all(scales_.size());
+  for (const auto& body : bodies_)
+    if (body.wall) all.segment(body.first, body.count) = body.wall->velocities();
+  return all;
 }
 
 template <int d>
@@ -123,33 +176,104 @@ template <int d>
 void Participant<d>::begin(const coupling::Step& step) {
   if (!(step.kick > 0 && step.dt > 0)) throw std::invalid_argument("kick and dt must be positive");
   dt_ = step.dt;
+  status_ = {};
+  for (auto& body : bodies_) {
+    if (body.wall)
+      body.wall->begin(time_, step.kick, dt_);
+    else if (status_.ok())
+      status_ = body.scheme->step(body.now, dt_, body.next);
+  }
 }
 
 template <int d>
-const coupling::Velocities& Participant<d>::solve(const coupling::Impulse&) {
-  status_ = {};
-  for (auto& body : bodies_) {
-    status_ = body.scheme->step(body.now, dt_, body.next);
-    if (!status_.ok()) break;
+coupling::Response Participant<d>::response() const {
+  coupling::Response all{.free = coupling::Velocities::Zero(scales_.size()), .modal = {}, .contacts = {}};
+  Eigen::Index modes = 0;
+  for (const auto& body : bodies_)
+    if (body.wall) modes += body.wall->modal().modes.cols();
+  all.modal.modes = Eigen::MatrixXd::Zero(scales_.size(), modes);
+  all.modal.inertia = Eigen::MatrixXd::Zero(modes, modes);
+  Eigen::Index at = 0;
+  for (const auto& body : bodies_) {
+    if (!body.wall) continue;
+    const auto& [Z, M] = body.wall->modal();
+    all.free.segment(body.first, body.count) = body.wall->free();
+    all.modal.modes.block(body.first, at, Z.rows(), Z.cols()) = Z;
+    all.modal.inertia.block(at, at, M.rows(), M.cols()) = M;
+    at += M.cols();
   }
-  return none_;
+  return all;
+}
+
+template <int d>
+template <class Each>
+const coupling::Velocities& Participant<d>::try_walls(const Each& each) {
+  trial_.resize(scales_.size());
+  for (auto& body : bodies_)
+    if (body.wall) trial_.segment(body.first, body.count) = each(body);
+  return trial_;
+}
+
+template <int d>
+const coupling::Velocities& Participant<d>::solve(const coupling::Impulse& impulse) {
+  return try_walls([&](Moving& body) { return body.wall->solve(impulse.segment(body.first, body.count)); });
+}
+
+template <int d>
+const coupling::Velocities& Participant<d>::adopt(const coupling::Velocities& velocities) {
+  return try_walls([&](Moving& body) { return body.wall->adopt(velocities.segment(body.first, body.count)); });
+}
+
+template <int d>
+bool Participant<d>::update_contacts(const coupling::Impulse& impulse) {
+  constexpr double tolerance = 1e-7;  // of velocities: below what the exact term's residual may be
+  bool changes = false;
+  for (auto& body : bodies_)
+    if (body.wall) changes |= body.wall->update(impulse.segment(body.first, body.count), tolerance);
+  return changes;
+}
+
+template <int d>
+coupling::Placement Participant<d>::placement() const {
+  coupling::Placement all(scales_.size());
+  for (const auto& body : bodies_)
+    if (body.wall) all.segment(body.first, body.count) = body.wall->placement();
+  return all;
+}
+
+template <int d>
+coupling::Status Participant<d>::acceptable() const {
+  coupling::Status status = status_;
+  for (const auto& body : bodies_)
+    if (body.wall && status.ok()) status = body.wall->acceptable();
+  return status;
 }
 
 template <int d>
 void Participant<d>::commit() {
   for (auto& body : bodies_) {
-    std::swap(body.now, body.next);
+    if (body.wall)
+      body.wall->commit();
+    else
+      std::swap(body.now, body.next);
     look(body);
   }
   time_ += dt_;
 }
 
 template <int d>
+Momenta<d> Participant<d>::momenta(std::size_t body) const {
+  const auto& moving = bodies_.at(body);
+  return moving.spec.solid->momenta(moving.now.u, moving.now.v);
+}
+
+template <int d>
 Deformation<d> Participant<d>::deformation(std::size_t body) const {
-  const auto& [spec, scheme, now, next, state, acceleration] = bodies_.at(body);
+  const auto& moving = bodies_.at(body);
+  const auto& [spec, now] = std::tie(moving.spec, moving.now);
   const auto& solid = *spec.solid;
   const auto peak = solid.peak(now.u);
-  return {.strain_energy = solid.strain_energy(now.u),
+  return {.strain_energy = moving.wall ? moving.wall->strain_energy() : solid.strain_energy(now.u),
           .kinetic_energy = 0.5 * now.v.dot(solid.mass() * now.v),
           .potential_energy = -now.u.dot(solid.mass() * solid.uniform(spec.gravity)),
           .von_mises = peak.value,
@@ -170,15 +294,19 @@ std::vector<Diagnostic> Participant<d>::displacements() const {
 template <int d>
 long Participant<d>::iterations() const {
   long sum = 0;
-  for (const auto& body : bodies_) sum += body.scheme->iterations();
+  for (const auto& body : bodies_) sum += body.wall ? body.wall->iterations() : body.scheme->iterations();
   return sum;
 }
 
 template <int d>
 void Participant<d>::save(std::ostream& out) const {
   out.write(reinterpret_cast<const char*>(&time_), sizeof time_);
-  for (const auto& body : bodies_)
-    for (const auto* field : {&body.now.u, &body.now.v, &body.now.a}) write(out, *field);
+  for (const auto& body : bodies_) {
+    if (body.wall)
+      body.wall->save(out);
+    else
+      for (const auto* field : {&body.now.u, &body.now.v, &body.now.a}) write_field(out, *field);
+  }
 }
 
 template <int d>
@@ -186,7 +314,10 @@ void Participant<d>::load(std::istream& in) {
   if (!in.read(reinterpret_cast<char*>(&time_), sizeof time_) || !(time_ >= 0 && std::isfinite(time_)))
     throw std::runtime_error("holds no time");
   for (auto& body : bodies_) {
-    for (auto* field : {&body.now.u, &body.now.v, &body.now.a}) read(in, *field);
+    if (body.wall)
+      body.wall->load(in);
+    else
+      for (auto* field : {&body.now.u, &body.now.v, &body.now.a}) read_field(in, *field);
     body.now.t = time_;
     look(body);
   }

@@ -1,9 +1,11 @@
-// Elastic bodies as a part of a coupling. They have no walls yet that a fluid could press on: their coordinates are none, and
-// nothing but their own loads moves them. Every body takes the step with its own scheme, from t_n to t_{n+1}.
+// Elastic bodies as a part of a coupling. A body with a wall has the velocities of the vertices of its surface as coordinates,
+// vertex by vertex, world frame; its placement are the places of these vertices. It is stepped as walls/wall.hpp says. A body
+// without one meets no fluid: its coordinates are none, and it takes the step with its own scheme, from t_n to t_{n+1}.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "coupling/participant.hpp"
 #include "elastic/assembly/solid.hpp"
 #include "elastic/steps/scheme.hpp"
+#include "elastic/walls/wall.hpp"
 
 namespace splashdown::elastic {
 
@@ -19,6 +22,11 @@ template <int d>
 struct NamedPlace {
   std::string name;
   Place<d> place;
+};
+
+/// The exact term's coordinates of a body that a fluid presses on.
+struct WallChoice {
+  int modes = 0;  ///< the lowest natural modes, rigid ones of free bodies among them; 0: all nodes
 };
 
 /// An elastic body, its loads and how it is stepped.
@@ -31,6 +39,7 @@ struct SolidSpec {
   Vec<d> gravity = Vec<d>::Zero();           ///< [m/s^2]
   std::function<Field(double)> forces = {};  ///< on nodes besides the weight, at a time [N, N/m]; empty: none
   std::vector<NamedPlace<d>> points = {};
+  std::optional<WallChoice> wall = {};  ///< how it meets a fluid, without `scheme`; empty: not at all
 };
 
 /// Elastic bodies, each by itself.
@@ -47,16 +56,18 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
 
   std::string name() const override { return "elastic"; }
   const std::vector<coupling::WallCoordinates>& walls() const override { return walls_; }
-  const Eigen::VectorXd& scales() const override { return none_; }
+  const Eigen::VectorXd& scales() const override { return scales_; }
   double length() const override;
-  Eigen::VectorXd speeds(const coupling::Velocities&) const override { return {}; }
-  coupling::Velocities velocities() const override { return {}; }
+  Eigen::VectorXd speeds(const coupling::Velocities& velocities) const override;
+  coupling::Velocities velocities() const override;
   void begin(const coupling::Step& step) override;
-  coupling::Response response() const override { return {}; }
+  coupling::Response response() const override;
   const coupling::Velocities& solve(const coupling::Impulse& impulse) override;
-  const coupling::Velocities& adopt(const coupling::Velocities&) override { return none_; }
-  coupling::Placement placement() const override { return {}; }
-  coupling::Status acceptable() const override { return status_; }
+  const coupling::Velocities& adopt(const coupling::Velocities& velocities) override;
+  /// A body that is not linear has another free velocity where an impulse bends it.
+  bool update_contacts(const coupling::Impulse& impulse) override;
+  coupling::Placement placement() const override;
+  coupling::Status acceptable() const override;
   void commit() override;
 
   std::size_t size() const override { return bodies_.size(); }
@@ -66,6 +77,12 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   const Twist<d>& acceleration_n(std::size_t body) const override { return bodies_.at(body).acceleration; }
   Deformation<d> deformation(std::size_t body) const override;
   std::vector<Diagnostic> displacements() const override;
+  /// The surface of a body with a wall at t = 0, world frame: a wall of the fluid has the same. Throws std::out_of_range.
+  const Surface<d>& surface(std::size_t body) const { return bodies_.at(body).wall->boundary().surface; }
+  /// Displacements of all nodes of a body at t_n [m].
+  const Field& nodes(std::size_t body) const { return bodies_.at(body).now.u; }
+  /// Momentum of a body at t_n, just before the kick of t_n if it has a wall.
+  Momenta<d> momenta(std::size_t body) const;
   /// Newton iterations of all steps so far.
   long iterations() const;
 
@@ -73,15 +90,22 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   struct Moving {
     SolidSpec<d> spec;
     std::unique_ptr<Scheme> scheme = nullptr;
+    std::unique_ptr<Wall<d>> wall = nullptr;
+    Eigen::Index first = 0, count = 0;  // of its coordinates
     SolidState now = {}, next = {};
     BodyState<d> state = {};
     Twist<d> acceleration = Twist<d>::Zero();
   };
+  void start(Moving& body);
   void look(Moving& body) const;
+  /// Each wall of the trial.
+  template <class Each>
+  const coupling::Velocities& try_walls(const Each& each);
 
   std::vector<Moving> bodies_;
   std::vector<coupling::WallCoordinates> walls_;
-  Eigen::VectorXd none_;
+  Eigen::VectorXd scales_;
+  coupling::Velocities trial_;
   coupling::Status status_;
   double time_ = 0, dt_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "core/geometry.hpp"
@@ -269,6 +270,14 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
     if (value > most.value) most = {value, at_rest(p / points.size(), points[p % points.size()].at)};
   }
   return most;
+}
+
+template <int d>
+double Solid<d>::least_volume_ratio(const Field& u) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    least = std::min(least, gradient(u, p / rule<d>().size(), points_[p].slopes).determinant());
+  return least;
 }
 
 template <int d>

@@ -71,6 +71,8 @@ class Solid final : public System {
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
   /// Cauchy's stress at a point [Pa].
   Mat<3> stress(const Field& u, const Place<d>& place) const;
+  /// The least det F over all points of the rules; not above zero: an element is turned over.
+  double least_volume_ratio(const Field& u) const;
   /// int |u - exact|^2 dX, for orders of convergence.
   double squared_difference(const Field& u, const std::function<Vec<d>(const Vec<d>&)>& exact) const;
 

@@ -1,0 +1,217 @@
+// A wall with the lowest natural modes of its body, in a frame that moves along. On the manifold x = c + R (X - C + sum q_k phi_k)
+// with tangents P = dx/d(c, theta, q), d'Alembert's principle asks the equations of wall.hpp along P_n alone:
+//
+//   (1 + alpha dt/2) P_n^T M s + dt/2 (0, 0, L (q_mid + beta dq)) = P_n^T (M v_n + I + kick F),   s = (x_{n+1} - x_n)/dt
+//
+// L = diag(w_k^2), q_mid, dq: mean and rate of q in the step. It is the variational integrator of this Lagrangian (Marsden, West 2001,
+// section 3.5.2: as RATTLE), so that momenta stay exact while the frame turns. The modes are those of the mean axes: phi_k has no
+// momentum (Canavin, Likins 1977).
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/geometry.hpp"
+#include "elastic/modes/modes.hpp"
+#include "elastic/stored_field.hpp"
+#include "elastic/walls/wall.hpp"
+
+namespace splashdown::elastic {
+namespace {
+
+/// Frame and amplitudes.
+template <int d>
+struct Posture {
+  Vec<d> centre;
+  Mat<d> turn;
+  Eigen::VectorXd amplitudes;
+};
+
+template <int d>
+class ModalWall final : public Wall<d> {
+  using Wall<d>::solid_, Wall<d>::dynamics_, Wall<d>::boundary_, Wall<d>::u_, Wall<d>::s_, Wall<d>::s_next_,
+      Wall<d>::load_, Wall<d>::dt_, Wall<d>::at_boundary, Wall<d>::spread;
+
+ public:
+  ModalWall(const Solid<d>& solid, Dynamics dynamics, int count) : Wall<d>(solid, std::move(dynamics)) {
+    const bool is_held = std::ranges::find(solid.held(), true) != solid.held().end();
+    frame_ = is_held ? 0 : freedoms<d>;
+    if (count < std::max(1, frame_))
+      throw std::invalid_argument("modes of a free body include its " + std::to_string(freedoms<d>) + " rigid ones");
+    const Field zero = Field::Zero(solid.size());
+    auto modes = lowest_modes(solid, count, zero);
+    if (!modes.status.ok()) throw std::invalid_argument(modes.status.cause);
+    shapes_ = modes.shapes.rightCols(count - frame_);
+    squares_ = modes.angular_frequencies.tail(count - frame_).cwiseAbs2();
+    const Vec<d> centre = solid.centre(zero);
+    arms_ = Eigen::Map<const Field>(solid.mesh().nodes.data(), solid.size()) - solid.uniform(centre);
+    now_ = next_ = {centre, Mat<d>::Identity(), Eigen::VectorXd::Zero(count - frame_)};
+    rates_ = Eigen::VectorXd::Zero(count);
+  }
+
+  void start(const Field& velocity) override {
+    const Eigen::MatrixXd P = tangents(now_), MP = solid_.mass() * P;
+    rates_ = (P.transpose() * MP).ldlt().solve(MP.transpose() * velocity);
+    s_ = P * rates_;
+  }
+  Field velocity() const override { return tangents(now_) * rates_; }
+  double strain_energy() const override { return 0.5 * squares_.dot(now_.amplitudes.cwiseAbs2()); }
+  long iterations() const override { return iterations_; }
+
+ protected:
+  void prepare() override {
+    tangents_ = tangents(now_);
+    momenta_ = solid_.mass() * tangents_;
+    inertia_ = tangents_.transpose() * momenta_;
+    known_ = inertia_ * rates_ + tangents_.transpose() * load_;
+    answers_.resize(boundary_.nodes.size() * d, tangents_.cols());
+    for (Eigen::Index k = 0; k < tangents_.cols(); ++k) answers_.col(k) = at_boundary(tangents_.col(k));
+  }
+
+  Status move(const Eigen::VectorXd& impulse) override {
+    const Eigen::VectorXd goal = known_ + answers_.transpose() * impulse;
+    next_ = now_;
+    go_on(next_, dt_ * rates_);
+    double last = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < dynamics_.newton.most; ++k) {
+      ++iterations_;
+      look_at(next_);
+      const Eigen::VectorXd residual = momentum_of_trial() - goal;
+      if (!residual.allFinite()) break;
+      Eigen::MatrixXd J = (1 + dynamics_.damping.mass * dt_ / 2) / dt_ * momenta_.transpose() * tangents(next_);
+      J.diagonal().tail(squares_.size()) += (dt_ / 4 + dynamics_.damping.stiffness / 2) * squares_;
+      const Eigen::VectorXd correction = J.partialPivLu().solve(residual);
+      const double size = (answers_ * correction).cwiseAbs().maxCoeff();
+      go_on(next_, -correction);
+      const double way = (answers_ * rates_).cwiseAbs().maxCoeff() * dt_ + size;
+      if (size <= dynamics_.newton.tolerance * way || (size > 0.5 * last && size < 1e-12 * solid_.length())) {
+        look_at(next_);
+        return {};
+      }
+      last = size;
+    }
+    return {"the solid's equations do not converge"};
+  }
+
+  Status follow(const Eigen::VectorXd& velocities) override {
+    next_ = free_posture_;
+    look_at(next_);
+    Eigen::VectorXd misses = velocities - at_boundary(s_next_);
+    constexpr int most = 10;  // Gauss and Newton's method: two are usual
+    for (int k = 0; k < most && misses.allFinite(); ++k) {
+      const Eigen::MatrixXd P = tangents(next_);
+      Eigen::MatrixXd along(answers_.rows(), P.cols());
+      for (Eigen::Index c = 0; c < P.cols(); ++c) along.col(c) = at_boundary(P.col(c));
+      const Eigen::VectorXd change = dt_ * along.completeOrthogonalDecomposition().solve(misses);
+      go_on(next_, change);
+      look_at(next_);
+      misses = velocities - at_boundary(s_next_);
+      if ((along * change).norm() <= 1e-12 * dt_ * velocities.norm()) break;
+    }
+    return misses.allFinite() ? Status{} : Status{"the solid's velocities are not finite"};
+  }
+
+  Eigen::VectorXd implied() const override { return momentum_of_trial() - known_; }
+
+  ModalInertia linearised() override {
+    free_posture_ = next_;
+    Eigen::MatrixXd inertia = (1 + dynamics_.damping.mass * dt_ / 2) * inertia_;
+    inertia.diagonal().tail(squares_.size()) += dt_ / 2 * (dt_ / 2 + dynamics_.damping.stiffness) * squares_;
+    return {answers_, inertia};
+  }
+
+  void accept() override {
+    const Eigen::MatrixXd P = tangents(next_), MP = solid_.mass() * P;
+    Eigen::VectorXd momentum = (1 - dynamics_.damping.mass * dt_ / 2) * (MP.transpose() * s_next_);
+    momentum.tail(squares_.size()) -= resistance();
+    rates_ = (P.transpose() * MP).ldlt().solve(momentum);
+    now_ = next_;
+    u_ = places(now_) - places_at_rest();
+  }
+  void write(std::ostream& out) const override {
+    Field all(d + d * d);
+    all << now_.centre, now_.turn.reshaped();
+    write_field(out, all);
+    write_field(out, now_.amplitudes);
+    write_field(out, rates_);
+  }
+  void read(std::istream& in) override {
+    Field all(d + d * d);
+    read_field(in, all);
+    now_.centre = all.template head<d>();
+    now_.turn = all.template tail<d * d>().reshaped(d, d);
+    read_field(in, now_.amplitudes);
+    read_field(in, rates_);
+    u_ = places(now_) - places_at_rest();
+  }
+
+ private:
+  Field places_at_rest() const { return arms_ + solid_.uniform(solid_.centre(Field::Zero(solid_.size()))); }
+  Field places(const Posture<d>& posture) const {
+    Field x = arms_ + shapes_ * posture.amplitudes;
+    for (Eigen::Index a = 0; a < x.size(); a += d) x.segment<d>(a) = posture.centre + posture.turn * x.segment<d>(a);
+    return x;
+  }
+  /// Columns: translations, turns about the centre, modes as they are turned.
+  Eigen::MatrixXd tangents(const Posture<d>& posture) const {
+    Eigen::MatrixXd P(solid_.size(), frame_ + shapes_.cols());
+    const Field x = places(posture);
+    for (Eigen::Index a = 0; a < x.size(); a += d) {
+      if (frame_ > 0) {
+        const Vec<d> arm = x.segment<d>(a) - posture.centre;
+        P.block<d, d>(a, 0).setIdentity();
+        for (int k = 0; k < rotations<d>; ++k)
+          P.col(d + k).segment<d>(a) = cross(Eigen::Matrix<double, rotations<d>, 1>::Unit(k).eval(), arm);
+      }
+      P.block(a, frame_, d, shapes_.cols()) = posture.turn * shapes_.middleRows(a, d);
+    }
+    return P;
+  }
+  /// Along tangents.
+  void go_on(Posture<d>& posture, const Eigen::VectorXd& way) const {
+    if (frame_ > 0) {
+      posture.centre += way.head<d>();
+      posture.turn = rotation(Eigen::Matrix<double, rotations<d>, 1>(way.segment<rotations<d>>(d))) * posture.turn;
+    }
+    posture.amplitudes += way.tail(shapes_.cols());
+  }
+  void look_at(const Posture<d>& posture) { s_next_ = (places(posture) - places(now_)) / dt_; }
+  /// dt/2 L (q_mid + beta dq) of the trial.
+  Eigen::VectorXd resistance() const {
+    const Eigen::VectorXd middle = 0.5 * (now_.amplitudes + next_.amplitudes),
+                          rate = (next_.amplitudes - now_.amplitudes) / dt_;
+    return dt_ / 2 * squares_.cwiseProduct(middle + dynamics_.damping.stiffness * rate);
+  }
+  /// Left side of the equations.
+  Eigen::VectorXd momentum_of_trial() const {
+    Eigen::VectorXd sum = (1 + dynamics_.damping.mass * dt_ / 2) * (momenta_.transpose() * s_next_);
+    sum.tail(squares_.size()) += resistance();
+    return sum;
+  }
+
+  int frame_;               // columns of P that belong to it
+  Eigen::MatrixXd shapes_;  // of the modes besides
+  Eigen::VectorXd squares_;
+  Field arms_;                                              // X - C
+  Posture<d> now_, next_, free_posture_;                    // at t_n, of the trial, of the one without an impulse
+  Eigen::VectorXd rates_;                                   // v_n = P_n times these
+  Eigen::MatrixXd tangents_, momenta_, inertia_, answers_;  // P, M P, P^T M P and rows of P on the surface, at t_n
+  Eigen::VectorXd known_;
+  long iterations_ = 0;
+};
+
+}  // namespace
+
+template <int d>
+std::unique_ptr<Wall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes) {
+  return std::make_unique<ModalWall<d>>(solid, std::move(dynamics), modes);
+}
+
+template std::unique_ptr<Wall<2>> modal_wall<2>(const Solid<2>&, Dynamics, int);
+template std::unique_ptr<Wall<3>> modal_wall<3>(const Solid<3>&, Dynamics, int);
+
+}  // namespace splashdown::elastic

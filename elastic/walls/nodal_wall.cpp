@@ -1,0 +1,217 @@
+// A wall with all nodes of its body.
+#include <Eigen/SparseCholesky>
+
+#include "elastic/stored_field.hpp"
+#include "elastic/walls/wall.hpp"
+
+namespace splashdown::elastic {
+namespace {
+
+/// The same with more unknowns held: the inside of a solid whose surface is given.
+class Inside final : public System {
+ public:
+  Inside(const System& whole, const std::vector<Eigen::Index>& given) : whole_(whole) {
+    held_ = whole.held();
+    for (const auto k : given) hold(k);
+  }
+  const Sparse& mass() const override { return whole_.mass(); }
+  Field internal_force(const Field& u) const override { return whole_.internal_force(u); }
+  void stiffness(const Field& u, Sparse& K) const override { whole_.stiffness(u, K); }
+  double strain_energy(const Field& u) const override { return whole_.strain_energy(u); }
+  double length() const override { return whole_.length(); }
+
+ private:
+  const System& whole_;
+};
+
+/// Numbers of unknowns within two groups; -1: in neither.
+struct Groups {
+  std::vector<Eigen::Index> inner, outer;                // unknowns
+  std::vector<Eigen::Index> number_inner, number_outer;  // of an unknown in its group
+};
+
+template <int d>
+Groups groups_of(const Solid<d>& solid, const std::vector<int>& boundary) {
+  Groups all;
+  std::vector<bool> is_outer(static_cast<std::size_t>(solid.size()), false);
+  for (const int a : boundary)
+    for (int k = 0; k < d; ++k) is_outer[static_cast<std::size_t>(d * a + k)] = true;
+  all.number_inner.assign(is_outer.size(), -1);
+  all.number_outer = all.number_inner;
+  for (std::size_t k = 0; k < is_outer.size(); ++k) {
+    if (solid.held()[k]) continue;
+    auto& group = is_outer[k] ? all.outer : all.inner;
+    (is_outer[k] ? all.number_outer : all.number_inner)[k] = static_cast<Eigen::Index>(group.size());
+    group.push_back(static_cast<Eigen::Index>(k));
+  }
+  return all;
+}
+
+/// Rows and columns of a matrix by their numbers.
+Sparse part_of(const Sparse& A, const std::vector<Eigen::Index>& rows, Eigen::Index row_count,
+               const std::vector<Eigen::Index>& columns, Eigen::Index column_count) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index column = 0; column < A.outerSize(); ++column) {
+    const auto k = columns[static_cast<std::size_t>(column)];
+    if (k < 0) continue;
+    for (Sparse::InnerIterator entry(A, column); entry; ++entry)
+      if (const auto i = rows[static_cast<std::size_t>(entry.row())]; i >= 0) entries.emplace_back(i, k, entry.value());
+  }
+  Sparse part(row_count, column_count);
+  part.setFromTriplets(entries.begin(), entries.end());
+  return part;
+}
+
+template <int d>
+class NodalWall final : public Wall<d> {
+  using Wall<d>::solid_, Wall<d>::dynamics_, Wall<d>::boundary_, Wall<d>::u_, Wall<d>::s_, Wall<d>::s_next_,
+      Wall<d>::load_, Wall<d>::dt_, Wall<d>::at_boundary, Wall<d>::spread;
+
+ public:
+  NodalWall(const Solid<d>& solid, Dynamics dynamics)
+      : Wall<d>(solid, std::move(dynamics)),
+        groups_(groups_of(solid, boundary_.nodes)),
+        inside_(solid, groups_.outer),
+        whole_solver_(dynamics_.newton),
+        inside_solver_(dynamics_.newton),
+        p_(Field::Zero(solid.size())),
+        free_middle_(p_) {
+    Sparse M = solid.mass();
+    leave_out(solid.held(), 1, M);
+    mass_.compute(M);
+    const auto vertices = d * static_cast<Eigen::Index>(boundary_.nodes.size());
+    shapes_.setZero(vertices, static_cast<Eigen::Index>(groups_.outer.size()));
+    Eigen::Index at = 0;
+    for (const int a : boundary_.nodes)
+      for (int k = 0; k < d; ++k, ++at)
+        if (const auto n = groups_.number_outer[static_cast<std::size_t>(d * a + k)]; n >= 0) shapes_(at, n) = 1;
+  }
+
+  void start(const Field& velocity) override {
+    s_ = velocity;
+    p_ = solid_.mass() * velocity;
+    leave_out(solid_.held(), p_);
+  }
+  Field velocity() const override { return mass_.solve(p_); }
+  double strain_energy() const override { return solid_.strain_energy(u_); }
+  long iterations() const override { return whole_solver_.iterations() + inside_solver_.iterations(); }
+
+ protected:
+  void prepare() override {
+    const auto& [mass, stiffness] = dynamics_.damping;
+    if (mass == 0 && stiffness == 0) return;
+    C_ = solid_.mass();
+    C_.coeffs() *= mass;
+    if (stiffness == 0) return;
+    Sparse K;
+    solid_.stiffness(u_ + dt_ / 2 * s_, K);
+    C_.coeffs() += stiffness * K.coeffs();
+  }
+
+  Status move(const Eigen::VectorXd& impulse) override {
+    Field middle = u_ + dt_ / 2 * s_;
+    const auto status = whole_solver_.solve(solid_, stage(2 / dt_ * (p_ + load_ + spread(impulse))), damping(), middle);
+    s_next_ = 2 / dt_ * (middle - u_);
+    return status;
+  }
+
+  Status follow(const Eigen::VectorXd& velocities) override {
+    Field middle = free_middle_;
+    Eigen::VectorXd outer(groups_.outer.size()), inner;
+    const Field asked = spread(velocities);
+    for (std::size_t k = 0; k < groups_.outer.size(); ++k) {
+      const auto i = groups_.outer[k];
+      const double goal = u_[i] + dt_ / 2 * asked[i];
+      outer[static_cast<Eigen::Index>(k)] = goal - middle[i];
+      middle[i] = goal;
+    }
+    if (!groups_.inner.empty()) {
+      inner = inner_factor_.solve(-coupling_ * outer);
+      for (std::size_t k = 0; k < groups_.inner.size(); ++k)
+        middle[groups_.inner[k]] += inner[static_cast<Eigen::Index>(k)];
+    }
+    auto status = Status{};
+    if (!groups_.inner.empty() && middle.allFinite())
+      status = inside_solver_.solve(inside_, stage(2 / dt_ * (p_ + load_)), damping(), middle);
+    s_next_ = 2 / dt_ * (middle - u_);
+    return status;
+  }
+
+  Eigen::VectorXd implied() const override {
+    const Field left = solid_.mass() * s_next_ + resistance() - p_ - load_;
+    return left(groups_.outer);
+  }
+
+  ModalInertia linearised() override {
+    free_middle_ = u_ + dt_ / 2 * s_next_;
+    Sparse K;
+    solid_.stiffness(free_middle_, K);
+    Sparse A = solid_.mass();
+    A.coeffs() += dt_ * dt_ / 4 * K.coeffs();
+    if (const auto* C = damping()) A.coeffs() += dt_ / 2 * C->coeffs();
+    const bool same = A.nonZeros() == tangent_.nonZeros() && (A.coeffs() == tangent_.coeffs()).all();
+    if (!same) condense(A);
+    tangent_ = std::move(A);
+    return {shapes_, condensed_};
+  }
+
+  void accept() override {
+    p_ = solid_.mass() * s_next_ - resistance();
+    leave_out(solid_.held(), p_);
+    u_ += dt_ * s_next_;
+  }
+  void write(std::ostream& out) const override {
+    write_field(out, u_);
+    write_field(out, p_);
+  }
+  void read(std::istream& in) override {
+    read_field(in, u_);
+    read_field(in, p_);
+  }
+
+ private:
+  const Sparse* damping() const { return C_.nonZeros() > 0 ? &C_ : nullptr; }
+  Stage stage(const Field& g) const { return {.mass = 4 / (dt_ * dt_), .damping = 2 / dt_, .p = u_, .q = u_, .g = g}; }
+  /// dt/2 (f + C s) of the trial.
+  Field resistance() const {
+    Field all = dt_ / 2 * solid_.internal_force(u_ + dt_ / 2 * s_next_);
+    if (const auto* C = damping()) all += dt_ / 2 * (*C * s_next_);
+    return all;
+  }
+  /// What the inside leaves of A on the surface.
+  void condense(const Sparse& A) {
+    const auto& [inner, outer, number_inner, number_outer] = groups_;
+    const auto m = static_cast<Eigen::Index>(inner.size()), n = static_cast<Eigen::Index>(outer.size());
+    condensed_ = part_of(A, number_outer, n, number_outer, n);
+    if (m == 0) return;
+    coupling_ = part_of(A, number_inner, m, number_outer, n);
+    inner_factor_.compute(part_of(A, number_inner, m, number_inner, m));
+    constexpr Eigen::Index together = 64;  // columns: their answers need m numbers each
+    for (Eigen::Index from = 0; from < n; from += together) {
+      const auto count = std::min(together, n - from);
+      const Eigen::MatrixXd columns = coupling_.middleCols(from, count);
+      condensed_.middleCols(from, count) -= coupling_.transpose() * inner_factor_.solve(columns);
+    }
+    condensed_ = 0.5 * (condensed_ + condensed_.transpose()).eval();
+  }
+
+  Groups groups_;
+  Inside inside_;
+  StageSolver whole_solver_, inside_solver_;
+  Eigen::SimplicialLDLT<Sparse> mass_, inner_factor_;
+  Field p_, free_middle_;
+  Sparse C_, coupling_, tangent_;
+  Eigen::MatrixXd shapes_, condensed_;
+};
+
+}  // namespace
+
+template <int d>
+std::unique_ptr<Wall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics) {
+  return std::make_unique<NodalWall<d>>(solid, std::move(dynamics));
+}
+
+template std::unique_ptr<Wall<2>> nodal_wall<2>(const Solid<2>&, Dynamics);
+template std::unique_ptr<Wall<3>> nodal_wall<3>(const Solid<3>&, Dynamics);
+
+}  // namespace splashdown::elastic

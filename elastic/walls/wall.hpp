@@ -1,0 +1,115 @@
+// An elastic body whose surface a fluid presses on. Coordinates of the wall are the velocities of the vertices of its surface
+// (mesh/boundary.hpp), vertex by vertex, world frame. Impulses I act at t_n over a kick, walls move over dt with s = (x_{n+1} - x_n)/dt:
+//
+//   M s + dt/2 (f(x_{n+1/2}) + C s) = p_n + I + kick F(t_n),   p_{n+1} = M s - dt/2 (f(x_{n+1/2}) + C s)
+//
+// with x_{n+1/2} = (x_n + x_{n+1})/2: kicks, and the midpoint rule between them (Hairer, Lubich, Wanner 2006, section VI.4).
+// Second order with any steps, symplectic, stable for linear laws at any dt; momenta are exact, and rigid motions leapfrog.
+// p is the momentum just before the kick of t_n. The tangent of the left side is what the exact interface term knows,
+//
+//   M_s = M + dt/2 C + dt^2/4 K.
+#pragma once
+
+#include <iosfwd>
+
+#include "core/response.hpp"
+#include "elastic/assembly/solid.hpp"
+#include "elastic/mesh/boundary.hpp"
+#include "elastic/steps/scheme.hpp"
+
+namespace splashdown::elastic {
+
+/// begin, any number of trials, commit. Trials start from t_n.
+template <int d>
+class Wall {
+ public:
+  /// Of a solid that outlives it; `dynamics`: its damping, loads, limits.
+  Wall(const Solid<d>& solid, Dynamics dynamics);
+  virtual ~Wall() = default;
+
+  /// The surface at rest, world frame at t = 0, and its nodes.
+  const Boundary<d>& boundary() const { return boundary_; }
+  /// Velocities of all nodes at t = 0.
+  virtual void start(const Field& velocity) = 0;
+
+  /// Fixes the step from t: the trial without an impulse, and how it changes with one.
+  void begin(double t, double kick, double dt);
+  /// Of the begun step: velocities without an impulse, until `update` puts them anew.
+  const Eigen::VectorXd& free() const { return free_; }
+  /// Z and M of the begun step, s = free + Z y, M y = Z^T I.
+  const ModalInertia& modal() const { return modal_; }
+  /// The trial under an impulse, by Newton's method.
+  const Eigen::VectorXd& solve(const Eigen::VectorXd& impulse);
+  /// The trial whose surface has these velocities, or in modes the nearest to them that it can have.
+  const Eigen::VectorXd& adopt(const Eigen::VectorXd& velocities);
+  /// Whether an impulse changes the last trial by more than `tolerance` of its velocities; `free` is then put so that free + Z y
+  /// is right near this trial, a pass of a Newton method with the tangent of the begun step.
+  bool update(const Eigen::VectorXd& impulse, double tolerance);
+  /// Whether the last trial is a solution and no element of it is turned over.
+  Status acceptable() const;
+  void commit();
+
+  /// Of the surface: where the last trial brings it [m].
+  Eigen::VectorXd placement() const;
+  /// Of the surface: velocities that it came to t_n with [m/s].
+  Eigen::VectorXd velocities() const { return at_boundary(s_); }
+  /// Of all nodes at t_n [m].
+  const Field& displacement() const { return u_; }
+  /// Of all nodes: M v = p, just before the kick of t_n [m/s].
+  virtual Field velocity() const = 0;
+  /// Of the last step, (s - s_before) / kick [m/s^2].
+  const Field& acceleration() const { return a_; }
+  /// U(u), as the step knows it [J, J/m].
+  virtual double strain_energy() const = 0;
+  /// Newton iterations so far.
+  virtual long iterations() const = 0;
+  void save(std::ostream& out) const;
+  /// Throws std::runtime_error for other bytes.
+  void load(std::istream& in);
+
+ protected:
+  /// What of a begun step all trials share.
+  virtual void prepare() {}
+  /// The trial s_next_ under an impulse.
+  virtual Status move(const Eigen::VectorXd& impulse) = 0;
+  /// The trial s_next_ of given velocities.
+  virtual Status follow(const Eigen::VectorXd& velocities) = 0;
+  /// Z and M about the trial without an impulse.
+  virtual ModalInertia linearised() = 0;
+  /// Z^T of the impulse that the last trial of `follow` obeys.
+  virtual Eigen::VectorXd implied() const = 0;
+  /// Makes the trial the present.
+  virtual void accept() = 0;
+  virtual void write(std::ostream& out) const = 0;
+  virtual void read(std::istream& in) = 0;
+
+  Eigen::VectorXd at_boundary(const Field& field) const;
+  /// The impulse on all nodes.
+  Field spread(const Eigen::VectorXd& impulse) const;
+
+  const Solid<d>& solid_;
+  Dynamics dynamics_;
+  Boundary<d> boundary_;
+  Field u_, s_, a_;  // displacements at t_n; velocities of the last step and their rate
+  Field s_next_;     // of the trial; displacements are u_ + dt s_next_
+  Field load_;       // kick F(t_n)
+  double dt_ = 0, kick_ = 0;
+
+ private:
+  const Eigen::VectorXd& tried(const Status& status);
+
+  ModalInertia modal_;
+  Eigen::VectorXd free_, trial_;
+  Status begun_, status_;
+};
+
+/// All nodes: the coordinates of the exact term are those of all vertices that are not held, M is what the inside leaves of M_s
+/// on them (Schur complement), dense.
+template <int d>
+std::unique_ptr<Wall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics);
+/// The lowest natural modes, small vibrations about x = c + R (X - C + sum q_k phi_k) with a frame (c, R) that moves along if nothing is
+/// held; the frame then counts as 3 of the modes in the plane, 6 in space. Throws std::invalid_argument for fewer or too many.
+template <int d>
+std::unique_ptr<Wall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes);
+
+}  // namespace splashdown::elastic
