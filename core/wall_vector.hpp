@@ -100,12 +100,12 @@ class WallLayout {
   WallLayout() = default;
   /// Of so many rigid walls.
   static WallLayout rigid(std::size_t walls) { return WallLayout(std::vector<Eigen::Index>(walls, 0)); }
-  std::size_t walls() const { return first_.size() - 1; }                ///< how many
-  Eigen::Index first(std::size_t wall) const { return first_[wall]; }    ///< coordinate of a wall
+  std::size_t walls() const { return first_.size() - 1; }                                 ///< how many
+  Eigen::Index first(std::size_t wall) const { return first_[wall]; }                     ///< coordinate of a wall
   Eigen::Index count(std::size_t wall) const { return first_[wall + 1] - first_[wall]; }  ///< of a wall's coordinates
   /// Whether a wall deforms: no surface has as few coordinates as a rigid body.
   bool deforms(std::size_t wall) const { return count(wall) != freedoms<d>; }
-  Eigen::Index size() const { return first_.back(); }                    ///< coordinates of all walls
+  Eigen::Index size() const { return first_.back(); }  ///< coordinates of all walls
   /// How many walls this many coordinates belong to; -1: they end within one.
   int walls_of(Eigen::Index coordinates) const {
     for (std::size_t w = 0; w < first_.size(); ++w)

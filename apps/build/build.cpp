@@ -125,18 +125,15 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
 template <int d>
 World<d> build_world(const Scene& scene, std::function<void()> meanwhile, Hooks<d> hooks) {
   World<d> world;
-  if (scene.effects.find<ElasticTables>()) {
-    world.stepper = std::make_unique<coupling::StructureOnly>(build_solids<d>(scene, world), scene.time.dt_max);
-    return world;
-  }
+  const bool deforms = scene.effects.find<ElasticTables>() != nullptr;
   auto parts = parts_of<d>(scene);
   std::ranges::move(hooks.forces, std::back_inserter(parts.forces));
   auto fluid = scene.fluid    ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world)
                : scene.vortex ? build_vortex<d>(scene, world)
                               : nullptr;
-  auto bodies = fluid && scene.bodies.empty()
-                    ? nullptr
-                    : build_bodies<d>(bodies_with<d>(scene, std::move(parts.forces), hooks), world);
+  auto bodies = fluid && scene.bodies.empty() ? nullptr
+                : deforms                     ? build_solids<d>(scene, world)
+                          : build_bodies<d>(bodies_with<d>(scene, std::move(parts.forces), hooks), world);
   if (!fluid)
     world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
   else if (!bodies)

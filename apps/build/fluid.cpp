@@ -2,8 +2,10 @@
 #include <limits>
 
 #include "apps/build/build.hpp"
+#include "apps/effects/elastic/solid.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
+#include "core/geometry.hpp"
 #include "fluid/pfem/mesh/sizes/size_field.hpp"
 
 namespace splashdown::apps {
@@ -21,6 +23,17 @@ template <int d>
 fluid::WallSpec<d> hull(const Body& body) {
   const auto spec = body_spec<d>(body);
   return {.name = spec.name, .surface = spec.surface, .pose = spec.pose, .velocity = spec.velocity, .size = body.size};
+}
+
+/// The same of a body that deforms: in the world's frame, about whose origin its twist is told.
+template <int d>
+fluid::WallSpec<d> skin(const Body& body, const ElasticTable& table) {
+  fluid::WallSpec<d> rigid = hull<d>(body);
+  rigid.velocity.template head<d>() = rigid_velocity<d>(rigid.velocity, Vec<d>(-rigid.pose.translation()));
+  rigid.pose.setIdentity();
+  rigid.surface = solid_surface<d>(body, table);
+  rigid.deforms = true;
+  return rigid;
 }
 
 fluid::SizeSpec size_spec(const Sizes& size) {
@@ -64,6 +77,8 @@ fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
   spec.step = {.cfl = scene.time.cfl, .dt_max = scene.time.dt_max};
   for (const auto& region : liquid.regions) spec.liquids.push_back({outline<d>(region), velocity_field<d>(region)});
   for (const auto& body : scene.bodies) spec.walls.push_back(hull<d>(body));
+  if (const auto* elastic = scene.effects.find<ElasticTables>())
+    for (const auto& table : elastic->of_bodies) spec.walls[table.body] = skin<d>(scene.bodies[table.body], table);
   if (scene.tank) {
     fluid::WallSpec<d> tank;
     tank.name = "tank";

@@ -114,8 +114,10 @@ Frame<d> take_frame(const RecordInput<d>& input) {
   if (input.fluid) {
     take_fluid(*input.fluid, frame);
     const auto walls = input.fluid->walls();
-    for (std::size_t w = 0; w < walls.size(); ++w)
+    for (std::size_t w = 0; w < walls.size(); ++w) {
       frame.outlines.push_back(outline_at<d>(walls[w].name, walls[w].surface, input.fluid->wall_poses()[w]));
+      if (const auto* vertices = input.fluid->wall_vertices(w)) frame.outlines.back().surface.vertices = *vertices;
+    }
   }
   for (std::size_t w = 0; w < frame.outlines.size(); ++w) {
     auto& outline = frame.outlines[w];

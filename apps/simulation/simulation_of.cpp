@@ -53,7 +53,7 @@ RecordInput<d> SimulationOf<d>::known(const StepMade& step) const {
     for (std::size_t i = 0; i < solids->size(); ++i) {
       in.body_velocity_n.push_back(solids->velocity_n(i));
       in.body_acceleration_n.push_back(solids->acceleration_n(i));
-      in.body_load.push_back({});
+      in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : WallLoad<d>{});
     }
   }
   return world_.whole ? world_.whole->tell(std::move(in)) : in;

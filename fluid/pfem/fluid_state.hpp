@@ -20,8 +20,8 @@ struct Fluid<d>::State {
 
   Water<d> water;
   std::unique_ptr<WaterStep<d>> step;
-  StepResult<d> result = {};  ///< of the last solve
-  bool solved = false;        ///< it is of the begun step
+  StepResult<d> result = {};            ///< of the last solve
+  bool solved = false;                  ///< it is of the begun step
   std::vector<Isometry<d>> poses = {};  ///< of its walls, for those who look
 };
 

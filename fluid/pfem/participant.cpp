@@ -16,7 +16,8 @@ template <int d>
 std::size_t walls_in(Eigen::Index numbers, const WallLayout<d>& layout) {
   const int walls = layout.walls_of(numbers);
   if (walls < 0)
-    throw std::invalid_argument("fluid: " + std::to_string(numbers) + " numbers are not the coordinates of its first walls; all " +
+    throw std::invalid_argument("fluid: " + std::to_string(numbers) +
+                                " numbers are not the coordinates of its first walls; all " +
                                 std::to_string(layout.walls()) + " have " + std::to_string(layout.size()));
   return static_cast<std::size_t>(walls);
 }

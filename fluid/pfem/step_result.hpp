@@ -9,16 +9,16 @@
 
 namespace splashdown::fluid {
 
-using splashdown::Ledger;
 using splashdown::AtVertices;
+using splashdown::Ledger;
 using splashdown::WallLoad;
 using splashdown::WallVelocity;
 
 /// All of it world frame, half-step velocities at t_{n+1/2}. Empty but for the status where no solution was found.
 template <int d>
 struct StepResult {
-  Status status;                          ///< why there is no solution; ok: there is one
-  std::vector<WallLoad<d>> loads;         ///< on the walls, means over the kick
+  Status status;                   ///< why there is no solution; ok: there is one
+  std::vector<WallLoad<d>> loads;  ///< on the walls, means over the kick
   /// The same on the vertices of walls that deform, all that acts on them [N; 2D: N/m]; empty for rigid ones.
   std::vector<AtVertices<d>> at_vertices;
   std::vector<WallVelocity<d>> wall_velocities;  ///< half-step velocities that the walls end with

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -21,18 +22,30 @@ constexpr double most_elements = 2e5;  // 0.4 million nodes, whose factors take 
 
 std::string label_of(const ElasticTable& table) { return table.path.substr(0, table.path.rfind('.')); }
 
+/// Effects that act on elastic bodies, or on the fluid around them alone.
+bool meets_elastic(std::string_view effect) {
+  constexpr std::array<std::string_view, 7> all = {"gravity",         "force", "elastic", "viscosity",
+                                                   "compressibility", "waves", "absorber"};
+  return std::ranges::find(all, effect) != all.end();
+}
+
 /// What elastic bodies do not meet yet.
 void check_company(const Scene& scene, const ElasticTables& tables, Problems& problems) {
   const auto& path = tables.of_bodies.front().path;
+  if (scene.vortex)
+    problems.add(path, "a fluid on a grid presses on rigid bodies alone",
+                 "Remove the table for a rigid body, or formulation for a fluid of finite elements.");
   if (scene.has_fluid())
-    problems.add(path, "a body that deforms does not meet a fluid yet: fluids here press on rigid walls alone",
-                 "Remove the table for a rigid hull, or [fluid] for the body in dry space.");
+    for (const auto& table : tables.of_bodies)
+      if (problems.noted(table.path + ".scheme"))
+        problems.add(table.path + ".scheme",
+                     "in a fluid a body takes the fluid's steps, by kicks and the midpoint rule", "Remove it.");
   if (tables.of_bodies.size() != scene.bodies.size())
     problems.add(path, "elastic bodies and rigid ones do not share a scene yet", "Make all bodies elastic, or none.");
   if (!scene.joints.empty()) problems.add("joint", "joints do not hold elastic bodies", "Use clamp in [body.elastic].");
   if (scene.contact) problems.add("contact", "elastic bodies do not touch each other yet", "Remove the table.");
   for (const auto* kind : effect_kinds())
-    if (kind->present(scene) && kind->name() != "gravity" && kind->name() != "force" && kind->name() != "elastic")
+    if (kind->present(scene) && !meets_elastic(kind->name()))
       problems.add(std::string(kind->name()), "does not act on elastic bodies", "Remove the table.");
 }
 

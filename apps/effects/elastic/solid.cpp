@@ -6,6 +6,7 @@
 #include "apps/effects/force/force.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/named.hpp"
+#include "elastic/mesh/boundary.hpp"
 #include "elastic/mesh/gmsh_file.hpp"
 #include "elastic/mesh/outline_mesh.hpp"
 #include "elastic/participant.hpp"
@@ -165,6 +166,13 @@ std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTab
 }
 
 template <int d>
+Surface<d> solid_surface(const Body& body, const ElasticTable& table) {
+  auto mesh = solid_mesh<d>(body, table);
+  mesh.nodes = (shape_pose<d>(body) * mesh.nodes).eval();
+  return elastic::boundary_of(mesh).surface;
+}
+
+template <int d>
 std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
   std::vector<elastic::SolidSpec<d>> specs;
   for (const auto& table : scene.effects.find<ElasticTables>()->of_bodies) {
@@ -172,9 +180,12 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
     const auto mesh = solid_mesh<d>(body, table);
     auto& spec = specs.emplace_back();
     spec.solid = made<d>(body, table, mesh);
-    spec.scheme = [table](Dynamics dynamics) {
-      return named(scheme_rows(), table.scheme).make(table, std::move(dynamics));
-    };
+    if (scene.has_fluid())
+      spec.wall = elastic::WallChoice{};
+    else
+      spec.scheme = [table](Dynamics dynamics) {
+        return named(scheme_rows(), table.scheme).make(table, std::move(dynamics));
+      };
     spec.damping = {table.mass_damping, table.stiffness_damping};
     if (scene.gravity) spec.gravity = vec<d>(scene.gravity->acceleration);
     spec.forces = forces_of<d>(scene, table.body, *spec.solid, mesh);
@@ -191,6 +202,8 @@ template std::optional<elastic::Place<2>> place_in<2>(const elastic::SolidMesh<2
 template std::optional<elastic::Place<3>> place_in<3>(const elastic::SolidMesh<3>&, const Point&);
 template std::unique_ptr<elastic::Solid<2>> make_solid<2>(const Body&, const ElasticTable&);
 template std::unique_ptr<elastic::Solid<3>> make_solid<3>(const Body&, const ElasticTable&);
+template Surface<2> solid_surface<2>(const Body&, const ElasticTable&);
+template Surface<3> solid_surface<3>(const Body&, const ElasticTable&);
 template std::vector<elastic::SolidSpec<2>> solid_specs<2>(const Scene&);
 template std::vector<elastic::SolidSpec<3>> solid_specs<3>(const Scene&);
 

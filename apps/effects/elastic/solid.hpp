@@ -35,7 +35,10 @@ std::optional<elastic::Place<d>> place_in(const elastic::SolidMesh<d>& mesh, con
 /// The solid in the world frame at t = 0 with clamps and point masses.
 template <int d>
 std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table);
-/// Of all elastic bodies of a scene, with its gravity and its forces.
+/// The surface that a fluid meets: facets between all nodes of the solid's boundary, world frame at t = 0.
+template <int d>
+Surface<d> solid_surface(const Body& body, const ElasticTable& table);
+/// Of all elastic bodies of a scene, with its gravity and its forces; with walls where there is a fluid.
 template <int d>
 std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene);
 

@@ -30,8 +30,7 @@ Status SkinFriction<d>::begin(const StepView<d>& step) {
       if (std::count_if(cell.begin(), cell.end(), of_facet) == d)
         inner = *std::find_if_not(cell.begin(), cell.end(), of_facet);
     }
-    wetted_.push_back(
-        {f.nodes, inner, f.wall, centre, area.normalized(), area.norm()});
+    wetted_.push_back({f.nodes, inner, f.wall, centre, area.normalized(), area.norm()});
   }
   return {};
 }
@@ -69,7 +68,8 @@ double SkinFriction<d>::limit(const StepView<d>& step, std::size_t wall, std::sp
   if (modes.isZero(0)) return 1;
   Wrench<d> impulse = Wrench<d>::Zero();
   for (std::size_t k = 0; k < wetted_.size(); ++k)
-    if (static_cast<std::size_t>(wetted_[k].wall) == wall) impulse += wrench_of<d>(wetted_[k].centre - origin, rubbed[k].impulse);
+    if (static_cast<std::size_t>(wetted_[k].wall) == wall)
+      impulse += wrench_of<d>(wetted_[k].centre - origin, rubbed[k].impulse);
   const Eigen::VectorXd on_modes = modes.transpose() * impulse;
   const Eigen::VectorXd y = algebra::least_squares(step.answers->inertia, on_modes);
   const Twist<d> change = modes * y;

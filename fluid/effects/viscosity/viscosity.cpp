@@ -292,12 +292,16 @@ std::vector<typename Viscosity<d>::Passed> Viscosity<d>::pass(const StepView<d>&
 
 // The bodies' part of the implicit step: their motions take held nodes along, those the water around them.
 template <int d>
-bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted, std::vector<WallImpulse<d>>& on_walls) {
+bool Viscosity<d>::answer(const StepView<d>& step, const Predicted<d>& predicted,
+                          std::vector<WallImpulse<d>>& on_walls) {
   const ModalInertia& bodies = *step.answers;
   const Eigen::Index count = bodies.modes.cols();
-  auto on_modes = [&](std::span<const WallImpulse<d>> impulses) { return step.layout.on_modes(bodies.modes, impulses); };
+  auto on_modes = [&](std::span<const WallImpulse<d>> impulses) {
+    return step.layout.on_modes(bodies.modes, impulses);
+  };
   const std::vector<Vec<d>> still(step.nodes.size(), Vec<d>::Zero());
-  std::vector<Kicked> kicked(count, {{still, std::vector<WallVelocity<d>>(step.walls.size(), Twist<d>::Zero())}, still, {}});
+  std::vector<Kicked> kicked(count,
+                             {{still, std::vector<WallVelocity<d>>(step.walls.size(), Twist<d>::Zero())}, still, {}});
   for (Eigen::Index k = 0; k < count; ++k) {
     auto& [from, v, walls] = kicked[k];
     for (std::size_t w = 0; w < step.walls.size(); ++w) walls.push_back(step.layout.of_wall(w, bodies.modes.col(k)));

@@ -14,8 +14,8 @@ namespace splashdown::fluid {
 /// nodes of creases that are wetted on one side only and pass water fast, |v - w|^2 / 2 > g h upstream. Slower water
 /// stands at a crease like at any other place of a wall. `velocities`: of the walls, `gravity`: g.
 template <int d>
-void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls, std::span<const WallVelocity<d>> velocities,
-              double gravity);
+void separate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& walls,
+              std::span<const WallVelocity<d>> velocities, double gravity);
 
 /// A node where the flow leaves an edge, and a wetted neighbour of it, with their shares of the difference of velocities.
 template <int d>

@@ -36,11 +36,15 @@ template <int d>
 void ventilate(Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& at, std::span<const WallVelocity<d>> velocities,
                double density, double gravity);
 
-extern template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>,
-                                           std::span<const int>, std::span<const double>, double);
-extern template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>,
-                                           std::span<const int>, std::span<const double>, double);
-extern template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double, double);
-extern template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double, double);
+extern template void average_wall_pressure(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&,
+                                           std::span<const WallVelocity<2>>, std::span<const int>,
+                                           std::span<const double>, double);
+extern template void average_wall_pressure(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&,
+                                           std::span<const WallVelocity<3>>, std::span<const int>,
+                                           std::span<const double>, double);
+extern template void ventilate(Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>, double,
+                               double);
+extern template void ventilate(Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>, double,
+                               double);
 
 }  // namespace splashdown::fluid

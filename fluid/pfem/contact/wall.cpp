@@ -72,6 +72,14 @@ WallPlace<d> Wall<d>::place() const {
 }
 
 template <int d>
+WallVelocity<d> Wall<d>::velocity() const {
+  if (!spec_.deforms) return spec_.velocity;
+  AtVertices<d> v = spec_.surface.vertices;
+  for (auto column : v.colwise()) column = rigid_velocity<d>(spec_.velocity, Vec<d>(column));
+  return WallVelocity<d>::at_vertices(std::move(v));
+}
+
+template <int d>
 WallPlace<d> Wall<d>::moved(const WallPlace<d>& from, const WallVelocity<d>& s, double dt) const {
   if (!from.shape()) return fluid::moved<d>(from.pose(), s.rigid, dt);
   if (s.vertices.size() == 0) return from;
@@ -87,7 +95,8 @@ WallPlace<d> Wall<d>::shaped(AtVertices<d> vertices) const {
   shape->vertex_normal.resize(d, shape->vertices.cols());
   normals_of<d>(shape->vertices, *facets_, shape->normal, shape->vertex_normal);
   shape->tree = FacetTree<d>(shape->vertices, *facets_);
-  for (const auto& members : patch_facets_) shape->of_patch.emplace_back(shape->vertices, (*facets_)(Eigen::all, members));
+  for (const auto& members : patch_facets_)
+    shape->of_patch.emplace_back(shape->vertices, (*facets_)(Eigen::all, members));
   for (const auto vertex : shape->vertices.colwise()) shape->box.extend(vertex);
   return WallPlace<d>(std::move(shape));
 }

@@ -26,6 +26,8 @@ class Wall {
 
   /// Where it was made.
   WallPlace<d> place() const;
+  /// The velocity that it was made with.
+  WallVelocity<d> velocity() const;
   /// Where it is after `dt` [s] with velocity s.
   WallPlace<d> moved(const WallPlace<d>& from, const WallVelocity<d>& s, double dt) const;
   /// Its surface with the vertices there [m], world frame. Of a wall that deforms.
@@ -177,13 +179,13 @@ class Wall {
 
   WallSpec<d> spec_;
   std::shared_ptr<const Eigen::Matrix<int, d, Eigen::Dynamic>> facets_;  // for its shapes
-  FacetTree<d> tree_, solid_tree_;  // solid: only for tanks that end at a mirror
+  FacetTree<d> tree_, solid_tree_;                                       // solid: only for tanks that end at a mirror
   std::vector<FacetTree<d>> patch_tree_;
   std::vector<std::vector<int>> patch_facets_;
   std::vector<int> patch_of_;
-  std::vector<char> is_flat_;                               // of patches
-  AtVertices<d> normal_;                                    // of facets, unit
-  AtVertices<d> vertex_normal_;                             // mean over the facets around a vertex, by their angles
+  std::vector<char> is_flat_;    // of patches
+  AtVertices<d> normal_;         // of facets, unit
+  AtVertices<d> vertex_normal_;  // mean over the facets around a vertex, by their angles
   std::vector<std::vector<int>> facets_of_;
   Eigen::Matrix<int, d, Eigen::Dynamic> across_;          // 3D: facet beyond the edge from corner k to the next
   Eigen::Matrix<int, d, Eigen::Dynamic> crease_of_;       // 3D: crease that this edge is part of, -1: smooth

@@ -20,9 +20,9 @@ using splashdown::WallVelocity;
 /// The surface of a wall that deforms, at one instant, world frame. Made by its Wall.
 template <int d>
 struct WallShape {
-  AtVertices<d> vertices;                                             ///< [m]
+  AtVertices<d> vertices;                                               ///< [m]
   std::shared_ptr<const Eigen::Matrix<int, d, Eigen::Dynamic>> facets;  ///< the same at all instants
-  AtVertices<d> normal;                                               ///< of facets, unit, out of the solid
+  AtVertices<d> normal;                                                 ///< of facets, unit, out of the solid
   AtVertices<d> vertex_normal;  ///< mean over the facets around a vertex, by their angles
   FacetTree<d> tree;            ///< of all facets
   std::vector<FacetTree<d>> of_patch;
@@ -75,7 +75,8 @@ Vec<d> velocity_at(const WallPlace<d>& place, const WallVelocity<d>& s, const Ve
 
 /// Adds `times` an impulse that acts on the wall at a point x of it: as a wrench, or shared out among vertices.
 template <int d>
-void add_impulse(const WallPlace<d>& place, const Vec<d>& x, const Vec<d>& impulse, WallImpulse<d>& onto, double times = 1) {
+void add_impulse(const WallPlace<d>& place, const Vec<d>& x, const Vec<d>& impulse, WallImpulse<d>& onto,
+                 double times = 1) {
   if (!place.shape()) {
     onto.rigid += times * wrench_of<d>(x - place.translation(), impulse);
     return;

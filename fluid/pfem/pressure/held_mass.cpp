@@ -48,7 +48,8 @@ std::vector<WallImpulse<d>> HeldMass<d>::excess(std::span<const Vec<d>> v, std::
 
 template <int d>
 void HeldMass<d>::hold(std::span<Vec<d>> v, std::span<const WallVelocity<d>> s) const {
-  for (const HeldNode<d>& h : held_) v[h.node] += h.directions * (rigid_velocity<d>(s[h.wall].rigid, h.arm) - v[h.node]);
+  for (const HeldNode<d>& h : held_)
+    v[h.node] += h.directions * (rigid_velocity<d>(s[h.wall].rigid, h.arm) - v[h.node]);
 }
 
 // The transpose of the acceleration a(phi) = (1 + z + 2 z^2) M_L^-1 f(phi), z = 1 - M_L^-1 M_C, applied to sum_i N_i^T P_i m_i

@@ -286,9 +286,7 @@ void PressureEquation<d>::each_wall_row(std::span<const WallPlace<d>> places, Ac
     Vec<d> sum = Vec<d>::Zero();
     for (int n : f.nodes) sum += nodes_->x[n] - centre;
     for (int n : f.nodes)
-      act(f.wall, n, [&] {
-        return WallRow<d>{wrench_of<d>((sum + nodes_->x[n] - centre) / (d + 1), area / d)};
-      });
+      act(f.wall, n, [&] { return WallRow<d>{wrench_of<d>((sum + nodes_->x[n] - centre) / (d + 1), area / d)}; });
   }
 }
 

@@ -167,8 +167,8 @@ std::vector<double> PressureEquation<d>::continued(std::span<const double> surfa
 }
 
 template <int d>
-void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>> v, std::span<const WallPlace<d>> places,
-                               std::span<WallImpulse<d>> on_walls) const {
+void PressureEquation<d>::push(std::span<const double> impulse, std::span<Vec<d>> v,
+                               std::span<const WallPlace<d>> places, std::span<WallImpulse<d>> on_walls) const {
   lumped_change([&](int n) { return impulse[n]; }, v.size());
   spread_change(v);
   each_wall_row(places, [&](int wall, int n, const auto& row) { row().push(impulse[n], on_walls[wall]); });

@@ -68,7 +68,8 @@ struct Loader {
       if (!of[w].spec().deforms) continue;
       AtVertices<d> x(d, of[w].spec().surface.vertices.cols()), v(d, x.cols());
       for (auto numbers : {&x, &v})
-        in.read(reinterpret_cast<char*>(numbers->data()), static_cast<std::streamsize>(numbers->size() * sizeof(double)));
+        in.read(reinterpret_cast<char*>(numbers->data()),
+                static_cast<std::streamsize>(numbers->size() * sizeof(double)));
       if (!in || !x.allFinite()) throw std::runtime_error("the water's state is damaged or of another scene");
       places[w] = of[w].shaped(std::move(x));
       velocities[w] = WallVelocity<d>::at_vertices(std::move(v));

@@ -26,9 +26,9 @@ double gap_time(const Nodes<d>& nodes, const Mesh<d>& mesh, const WallsAt<d>& wa
 
 extern template double gap_time(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&);
 extern template double gap_time(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&);
-extern template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&, std::span<const WallVelocity<2>>,
-                                    double, double);
-extern template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&, std::span<const WallVelocity<3>>,
-                                    double, double);
+extern template double collision_dt(const Nodes<2>&, const Mesh<2>&, const WallsAt<2>&,
+                                    std::span<const WallVelocity<2>>, double, double);
+extern template double collision_dt(const Nodes<3>&, const Mesh<3>&, const WallsAt<3>&,
+                                    std::span<const WallVelocity<3>>, double, double);
 
 }  // namespace splashdown::fluid

@@ -110,8 +110,7 @@ bool Water<d>::rests_on_wall(int node, double length) const {
   const int wall = work.nodes.tie[node].wall;
   if (wall < 0) return false;
   const Vec<d> of_wall = velocity_at<d>(work.poses[wall], work.velocity[wall], work.nodes.x[node]);
-  const double squared_speed = (work.nodes.v[node] - of_wall).squaredNorm(),
-               squared = length * length / (few * few);
+  const double squared_speed = (work.nodes.v[node] - of_wall).squaredNorm(), squared = length * length / (few * few);
   return squared_speed * now.dt * now.dt <= squared && squared_speed * work.nodes.h[node] <= squared * gravity().norm();
 }
 

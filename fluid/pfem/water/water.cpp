@@ -20,7 +20,7 @@ Water<d>::Water(FluidSpec<d> from, std::vector<std::unique_ptr<Effect<d>>> with)
   for (const auto& w : spec.walls) {
     walls.emplace_back(w);
     now.poses.push_back(walls.back().place());
-    now.velocity.push_back(w.velocity);
+    now.velocity.push_back(walls.back().velocity());
     vertices.push_back(w.deforms ? w.surface.vertices.cols() : 0);
   }
   layout = WallLayout<d>(vertices);

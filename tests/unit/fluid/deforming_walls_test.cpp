@@ -104,11 +104,14 @@ TEST(DeformingWalls, have_the_added_mass_of_a_rigid_body_in_its_motions) {
   ASSERT_TRUE(rigid.begin(dt, dt, {}).ok());
   ASSERT_TRUE(soft.begin(dt, dt, {}).ok());
   const std::size_t box = 0;
-  const Eigen::MatrixXd G = rigid.added_mass({&box, 1}), all = soft.added_mass({&box, 1});
   const Eigen::MatrixXd Z = rigid_motions(*soft.wall_vertices(0), at);
-  EXPECT_LE((Z.transpose() * all * Z - G).norm(), 1e-9 * G.norm());
-  EXPECT_LE((all - all.transpose()).norm(), 1e-9 * all.norm());
-  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(all).eigenvalues().minCoeff(), -1e-9 * all.norm());
+  const Eigen::MatrixXd one = rigid.interface_slope({&box, 1}), each = soft.interface_slope({&box, 1});
+  EXPECT_LE((Z.transpose() * each * Z - one).norm(), 1e-9 * one.norm());
+  EXPECT_LE((each - each.transpose()).norm(), 1e-9 * each.norm());
+  EXPECT_LE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(each).eigenvalues().maxCoeff(), 1e-9 * each.norm());
+  // With the corrections of a step, which end where a thousandth is left of what they correct, and are not linear until then.
+  const Eigen::MatrixXd G = rigid.added_mass({&box, 1}), all = soft.added_mass({&box, 1});
+  EXPECT_LE((Z.transpose() * all * Z - G).norm(), 1e-3 * G.norm());
 }
 
 // The exact term: modes of the vertices that are the rigid motions, with the body's inertia.

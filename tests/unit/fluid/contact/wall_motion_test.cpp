@@ -19,7 +19,8 @@ template <int d>
 typename WallMotion<d>::Moved moved_by(const WallMotion<d>& motion, const scenes::Walls<d>& walls,
                                        const std::vector<Vec<d>>& v, double dt) {
   std::vector<WallPlace<d>> there;
-  for (std::size_t w = 0; w < walls.walls.size(); ++w) there.push_back(walls.walls[w].moved(walls.pose[w], walls.velocity[w], dt));
+  for (std::size_t w = 0; w < walls.walls.size(); ++w)
+    there.push_back(walls.walls[w].moved(walls.pose[w], walls.velocity[w], dt));
   typename WallMotion<d>::Moved out;
   motion.move(v, there, dt, out);
   return out;
