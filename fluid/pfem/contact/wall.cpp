@@ -98,6 +98,9 @@ WallPlace<d> Wall<d>::shaped(AtVertices<d> vertices) const {
   for (const auto& members : patch_facets_)
     shape->of_patch.emplace_back(shape->vertices, (*facets_)(Eigen::all, members));
   for (const auto vertex : shape->vertices.colwise()) shape->box.extend(vertex);
+  for (int f = 0; f < facets_->cols(); ++f)
+    shape->spacing += (shape->vertices.col((*facets_)(0, f)) - shape->vertices.col((*facets_)(1, f))).norm() /
+                      static_cast<double>(facets_->cols());
   return WallPlace<d>(std::move(shape));
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/facet_tree.hpp"
@@ -27,6 +28,7 @@ struct WallShape {
   FacetTree<d> tree;            ///< of all facets
   std::vector<FacetTree<d>> of_patch;
   Eigen::AlignedBox<double, d> box;
+  double spacing = 0;  ///< of its vertices: mean size of facets [m]
 };
 
 /// Where a wall is, wall frame to world. A wall that deforms has its vertices in the world: its frame is that.
@@ -62,6 +64,17 @@ struct Anchor {
 template <int d>
 Anchor<d> anchor_of(const WallShape<d>& shape, const Vec<d>& x);
 
+/// A point of a facet of the fluid: shares of its nodes, and what of its area the point stands for.
+template <int d>
+struct FacetPoint {
+  std::array<double, d> share;
+  double weight;
+};
+/// Points that integrate over a facet of this size [m] what a deforming wall does there: exact for products of linear functions on
+/// each of some parts of it, which are no larger than the wall's facets, but for their number.
+template <int d>
+std::span<const FacetPoint<d>> points_of_facet(const WallShape<d>& shape, double size);
+
 /// Velocity of the wall at a point x of it: V + w x r, or that of its vertices, interpolated [m/s].
 template <int d>
 Vec<d> velocity_at(const WallPlace<d>& place, const WallVelocity<d>& s, const Vec<d>& x) {
@@ -96,6 +109,8 @@ Wrench<d> resultant(const WallPlace<d>& place, const WallImpulse<d>& on) {
   return sum;
 }
 
+extern template std::span<const FacetPoint<2>> points_of_facet(const WallShape<2>&, double);
+extern template std::span<const FacetPoint<3>> points_of_facet(const WallShape<3>&, double);
 extern template Anchor<2> anchor_of(const WallShape<2>&, const Vec<2>&);
 extern template Anchor<3> anchor_of(const WallShape<3>&, const Vec<3>&);
 

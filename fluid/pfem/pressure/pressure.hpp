@@ -190,6 +190,8 @@ class PressureEquation {
   void add_surface_change(Impulse impulse_at) const;
   template <class Velocity>
   void add_flux(const Facet<d>& f, std::span<const Vec<d>> x, Velocity velocity, std::vector<double>& r) const;
+  void add_deforming_flux(const Facet<d>& f, std::span<const Vec<d>> x, const WallShape<d>& shape,
+                          const WallVelocity<d>& s, std::vector<double>& r) const;
   void measure(double density);
   double relative_density(std::size_t cell) const;
   void choose_unknowns();
@@ -247,6 +249,19 @@ class PressureEquation {
   Eigen::MatrixXd held_inertia_;  // Z^T (M_h + R Y): what the held mass adds to M + G
 };
 
+/// Length of the first edge of a facet [m].
+template <int d>
+double size_of(const Facet<d>& f, std::span<const Vec<d>> x) {
+  return (x[f.nodes[1]] - x[f.nodes[0]]).norm();
+}
+/// A point of a facet by the shares of its nodes [m].
+template <int d>
+Vec<d> point_of(const Facet<d>& f, const std::array<double, d>& share, std::span<const Vec<d>> x) {
+  Vec<d> point = Vec<d>::Zero();
+  for (int k = 0; k < d; ++k) point += share[k] * x[f.nodes[k]];
+  return point;
+}
+
 /// What a unit of pressure impulse at a node does to a wall by one of its facets.
 template <int d>
 struct WallRow {
@@ -269,17 +284,14 @@ void PressureEquation<d>::each_wall_row(std::span<const WallPlace<d>> places, Ac
     if (f.wall < 0) continue;
     const Vec<d> area = area_vector_of<d>(f, nodes_->x);
     if (const WallShape<d>* shape = places[f.wall].shape()) {
-      std::array<Anchor<d>, d> at;
-      for (int k = 0; k < d; ++k) at[k] = anchor_of<d>(*shape, nodes_->x[f.nodes[k]]);
-      for (int n : f.nodes)
-        act(f.wall, n, [&] {
-          WallRow<d> row;
-          for (int k = 0; k < d; ++k)
-            for (int j = 0; j < d; ++j)
-              row.at_vertices.emplace_back(at[k].vertex[j],
-                                           at[k].weight[j] * (f.nodes[k] == n ? 2 : 1) * area / (d * (d + 1)));
-          return row;
-        });
+      std::array<WallRow<d>, d> rows;
+      for (const auto& [share, weight] : points_of_facet<d>(*shape, size_of<d>(f, nodes_->x))) {
+        const Anchor<d> at = anchor_of<d>(*shape, point_of<d>(f, share, nodes_->x));
+        for (int k = 0; k < d; ++k)
+          for (int j = 0; j < d; ++j)
+            rows[k].at_vertices.emplace_back(at.vertex[j], share[k] * weight * at.weight[j] * area);
+      }
+      for (int k = 0; k < d; ++k) act(f.wall, f.nodes[k], [&] { return rows[k]; });
       continue;
     }
     const Vec<d> centre = places[f.wall].translation();

@@ -17,6 +17,21 @@ void PressureEquation<d>::add_flux(const Facet<d>& f, std::span<const Vec<d>> x,
     if (unknown_[f.nodes[k]] >= 0) r[unknown_[f.nodes[k]]] += area.dot(sum + w[k]);
 }
 
+// r(q) -= int_f q w.n dA of a wall that deforms, by the points at which B is integrated.
+template <int d>
+void PressureEquation<d>::add_deforming_flux(const Facet<d>& f, std::span<const Vec<d>> x, const WallShape<d>& shape,
+                                             const WallVelocity<d>& s, std::vector<double>& r) const {
+  if (s.vertices.size() == 0) return;
+  const Vec<d> area = area_vector_of<d>(f, x);
+  for (const auto& [share, weight] : points_of_facet<d>(shape, size_of<d>(f, x))) {
+    const Anchor<d> at = anchor_of<d>(shape, point_of<d>(f, share, x));
+    Vec<d> w = Vec<d>::Zero();
+    for (int j = 0; j < d; ++j) w += at.weight[j] * s.vertices.col(at.vertex[j]);
+    for (int k = 0; k < d; ++k)
+      if (unknown_[f.nodes[k]] >= 0) r[unknown_[f.nodes[k]]] -= share[k] * weight * area.dot(w);
+  }
+}
+
 template <int d>
 void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<const Vec<d>> v,
                                         std::span<const WallVelocity<d>> s, std::span<const WallPlace<d>> places,
@@ -36,13 +51,18 @@ void PressureEquation<d>::flux_residual(std::span<const Vec<d>> x, std::span<con
     for (const auto [c, k] : around_.around(node_[i])) sum += of_corner_[c][k];
     r[i] = sum;
   });
-  for (const auto& f : mesh_->boundary)
+  for (const auto& f : mesh_->boundary) {
+    if (f.wall >= 0 && places[f.wall].shape()) {
+      add_deforming_flux(f, x, *places[f.wall].shape(), s[f.wall], r);
+      continue;
+    }
     add_flux(
         f, x,
         [&](int n) -> Vec<d> {
           return f.wall < 0 ? Vec<d>(-v[n]) : Vec<d>(-velocity_at<d>(places[f.wall], s[f.wall], x[n]));
         },
         r);
+  }
 }
 
 template <int d>
@@ -70,6 +90,12 @@ void PressureEquation<d>::slide_residual(std::span<const Vec<d>> x, std::span<co
                                          std::span<const int> slides, std::vector<double>& r) const {
   for (int k : slides) {
     const auto& f = mesh_->boundary[k];
+    if (const WallShape<d>* shape = places[f.wall].shape()) {
+      add_flux(
+          f, x, [&](int n) -> Vec<d> { return u[n]; }, r);
+      add_deforming_flux(f, x, *shape, s[f.wall], r);
+      continue;
+    }
     add_flux(
         f, x, [&](int n) -> Vec<d> { return u[n] - velocity_at<d>(places[f.wall], s[f.wall], x[n]); }, r);
   }
