@@ -43,6 +43,8 @@ class Solid final : public System {
   const Law<d>& law() const { return *law_; }
   const Sparse& mass() const override { return mass_; }
   Field internal_force(const Field& u) const override;
+  /// The force of a step from `before` through `middle` (Law::stress_between) [N, N/m].
+  Field force_between(const Field& before, const Field& middle) const;
   void stiffness(const Field& u, Sparse& K) const override;
   double strain_energy(const Field& u) const override;
   double length() const override { return length_; }
@@ -87,6 +89,9 @@ class Solid final : public System {
   Mat<d> gradient(const Field& u, std::size_t cell, const Slopes& slopes) const;
   Slopes slopes_at(std::size_t cell, const Barycentric<d>& at, double* determinant = nullptr) const;
   Vec<d> at_rest(std::size_t cell, const Barycentric<d>& at) const;
+  /// f of P = stress(cell, slopes) at all points.
+  template <class Stress>
+  Field force_of(const Stress& stress) const;
   void make_pattern();
   void assemble_mass(double density);
   template <class Add>
