@@ -76,6 +76,7 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   const Twist<d>& velocity_n(std::size_t body) const override { return bodies_.at(body).state.velocity; }
   const Twist<d>& acceleration_n(std::size_t body) const override { return bodies_.at(body).acceleration; }
   Deformation<d> deformation(std::size_t body) const override;
+  DeformedSurface<d> deformed(std::size_t body) const override;
   std::vector<Diagnostic> displacements() const override;
   /// The surface of a body with a wall at t = 0, world frame: a wall of the fluid has the same. Throws std::out_of_range.
   const Surface<d>& surface(std::size_t body) const { return bodies_.at(body).wall->boundary().surface; }

@@ -286,6 +286,25 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
 }
 
 template <int d>
+std::vector<Mat<3>> Solid<d>::nodal_stress(const Field& u) const {
+  std::vector<Mat<3>> sums(static_cast<std::size_t>(mesh_.size()), Mat<3>::Zero());
+  std::vector<int> counts(sums.size(), 0);
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    for (int k = 0; k < cell_nodes<d>; ++k) {
+      Barycentric<d> at = Barycentric<d>::Zero();
+      if (k <= d)
+        at[k] = 1;
+      else
+        for (const int corner : cell_edges[static_cast<std::size_t>(k - d - 1)]) at[corner] = 0.5;
+      const auto a = static_cast<std::size_t>(mesh_.cells[c][static_cast<std::size_t>(k)]);
+      sums[a] += law_->cauchy(gradient(u, c, slopes_at(c, at)));
+      ++counts[a];
+    }
+  for (std::size_t a = 0; a < sums.size(); ++a) sums[a] /= counts[a];
+  return sums;
+}
+
+template <int d>
 double Solid<d>::least_volume_ratio(const Field& u) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < points_.size(); ++p)

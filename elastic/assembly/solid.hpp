@@ -73,6 +73,8 @@ class Solid final : public System {
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
   /// Cauchy's stress at a point [Pa].
   Mat<3> stress(const Field& u, const Place<d>& place) const;
+  /// Cauchy's stress at all nodes, mean of the elements around them [Pa].
+  std::vector<Mat<3>> nodal_stress(const Field& u) const;
   /// The least det F over all points of the rules; not above zero: an element is turned over.
   double least_volume_ratio(const Field& u) const;
   /// int |u - exact|^2 dX, for orders of convergence.
