@@ -341,7 +341,7 @@ TEST(ElasticWall, is_rigid_in_the_limit_of_stiffness) {
 
 template <int d>
 void keeps_its_momenta(const Made<d>& made, double revolution, int revolutions) {
-  constexpr int steps = 40;  // a turn: the midpoint rule itself gains energy then and ends
+  constexpr int steps = 100;  // a turn
   double energy_before = 0;
   const auto body = made.part();
   const auto before = body->momenta(0);
@@ -397,8 +397,8 @@ TEST(ElasticWall, answers_impulses_as_its_response_says) {
       EXPECT_LT((M - M.transpose()).norm(), 1e-14 * M.norm());
       const Vector expected = Z * M.ldlt().solve(Z.transpose() * impulse);
       const Vector found = body->solve(impulse) - response.free;
-      // In modes Z is that of t_n: half a step's turn away.
-      EXPECT_LT((found - expected).norm(), (modes == all_nodes || clamped ? 1e-5 : 0.02) * expected.norm())
+      // Z and M are those of the middle, or in modes of t_n; the solution's tangent is half a step's turn away.
+      EXPECT_LT((found - expected).norm(), (clamped ? 1e-3 : 0.02) * expected.norm())
           << modes << clamped;
       const Vector there = body->adopt(response.free + found);
       EXPECT_LT((there - response.free - found).norm(), 1e-9 * there.norm());
