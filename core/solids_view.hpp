@@ -20,6 +20,15 @@ struct Deformation {
   Vec<d> at = Vec<d>::Zero();   ///< where that is, in the undeformed body at t = 0, world frame [m]
 };
 
+/// The surface of a body as it is deformed, with what is known at its vertices.
+template <int d>
+struct DeformedSurface {
+  Surface<d> surface;                   ///< world frame [m]
+  std::vector<Vec<d>> displacement, v;  ///< against t = 0, and velocities [m, m/s]
+  std::vector<Mat<3>> stress;           ///< Cauchy's, mean of the elements around [Pa]
+  std::vector<double> von_mises;        ///< of that mean [Pa]
+};
+
 /// The bodies in the order of the scene; an index beyond the last throws std::out_of_range.
 template <int d>
 class SolidsView : public BodiesView<d> {
@@ -27,6 +36,7 @@ class SolidsView : public BodiesView<d> {
   virtual const Twist<d>& velocity_n(std::size_t body) const = 0;      ///< at t_n: momenta over mass and inertia
   virtual const Twist<d>& acceleration_n(std::size_t body) const = 0;  ///< at t_n: their rates, likewise
   virtual Deformation<d> deformation(std::size_t body) const = 0;      ///< at t_n
+  virtual DeformedSurface<d> deformed(std::size_t body) const = 0;     ///< at t_n
   /// Displacements of named points at t_n, NAME.ux and so on [m], always of the same names.
   virtual std::vector<Diagnostic> displacements() const = 0;
 };

@@ -281,6 +281,25 @@ Deformation<d> Participant<d>::deformation(std::size_t body) const {
 }
 
 template <int d>
+DeformedSurface<d> Participant<d>::deformed(std::size_t body) const {
+  const auto& [spec, now] = std::tie(bodies_.at(body).spec, bodies_.at(body).now);
+  auto boundary = boundary_of<d>(spec.solid->mesh());
+  const auto stress = spec.solid->nodal_stress(now.u);
+  DeformedSurface<d> all{
+      .surface = std::move(boundary.surface), .displacement = {}, .v = {}, .stress = {}, .von_mises = {}};
+  for (std::size_t k = 0; k < boundary.nodes.size(); ++k) {
+    const int a = boundary.nodes[k];
+    const Vec<d> u = now.u.template segment<d>(d * a);
+    all.surface.vertices.col(static_cast<Eigen::Index>(k)) += u;
+    all.displacement.push_back(u);
+    all.v.push_back(now.v.template segment<d>(d * a));
+    all.stress.push_back(stress[static_cast<std::size_t>(a)]);
+    all.von_mises.push_back(elastic::von_mises(all.stress.back()));
+  }
+  return all;
+}
+
+template <int d>
 std::vector<Diagnostic> Participant<d>::displacements() const {
   std::vector<Diagnostic> all;
   for (const auto& body : bodies_)

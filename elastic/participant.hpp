@@ -76,11 +76,13 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   const Twist<d>& velocity_n(std::size_t body) const override { return bodies_.at(body).state.velocity; }
   const Twist<d>& acceleration_n(std::size_t body) const override { return bodies_.at(body).acceleration; }
   Deformation<d> deformation(std::size_t body) const override;
+  DeformedSurface<d> deformed(std::size_t body) const override;
   std::vector<Diagnostic> displacements() const override;
   /// The surface of a body with a wall at t = 0, world frame: a wall of the fluid has the same. Throws std::out_of_range.
   const Surface<d>& surface(std::size_t body) const { return bodies_.at(body).wall->boundary().surface; }
-  /// Displacements of all nodes of a body at t_n [m].
-  const Field& nodes(std::size_t body) const { return bodies_.at(body).now.u; }
+  /// Of all nodes of a body at t_n: their velocities just before the kick of t_n, accelerations of the step before, if it has
+  /// a wall.
+  const SolidState& motion(std::size_t body) const { return bodies_.at(body).now; }
   /// Momentum of a body at t_n, just before the kick of t_n if it has a wall.
   Momenta<d> momenta(std::size_t body) const;
   /// Newton iterations of all steps so far.

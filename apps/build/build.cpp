@@ -10,6 +10,7 @@
 #include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/mirror.hpp"
 #include "coupling/accelerators/quasi_newton.hpp"
+#include "coupling/composite.hpp"
 #include "coupling/schemes/steppers.hpp"
 #include "elastic/participant.hpp"
 #include "fluid/pfem/participant.hpp"
@@ -73,7 +74,8 @@ template <int d>
 std::unique_ptr<rigid::Bodies<d>> bodies_with(const Scene& scene, std::vector<std::unique_ptr<rigid::Force<d>>> forces,
                                               const Hooks<d>& hooks = {}) {
   std::vector<rigid::BodySpec<d>> specs;
-  for (const auto& body : scene.bodies) specs.push_back(body_spec<d>(body));
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (!deforms(scene, i)) specs.push_back(body_spec<d>(scene.bodies[i]));
   for (const auto& [name, path] : hooks.paths) prescribe<d>(name, path, specs);
   auto joints = joint_specs(scene);
   for (const auto* kind : effect_kinds())
@@ -89,14 +91,29 @@ std::unique_ptr<coupling::StructurePart> build_bodies(std::unique_ptr<rigid::Bod
   return part;
 }
 
-/// Bodies that deform, alone: their rules see to it that nothing else is in the scene.
+/// Bodies that deform: they stand behind the rigid ones.
 template <int d>
 std::unique_ptr<coupling::StructurePart> build_solids(const Scene& scene, World<d>& world) {
   auto specs = solid_specs<d>(scene);
-  for (std::size_t i = 0; i < specs.size(); ++i) specs[i].body = body_spec<d>(scene.bodies[i]);
+  const auto& tables = scene.effects.find<ElasticTables>()->of_bodies;
+  for (std::size_t i = 0; i < specs.size(); ++i) specs[i].body = body_spec<d>(scene.bodies[tables[i].body]);
   auto part = std::make_unique<elastic::Participant<d>>(std::move(specs));
   world.solids = part.get();
   return part;
+}
+
+/// All bodies: rigid ones, elastic ones, or both as one structure.
+template <int d>
+std::unique_ptr<coupling::StructurePart> build_structure(const Scene& scene,
+                                                         std::vector<std::unique_ptr<rigid::Force<d>>> forces,
+                                                         const Hooks<d>& hooks, World<d>& world) {
+  const auto* tables = scene.effects.find<ElasticTables>();
+  const bool all_deform = tables && tables->of_bodies.size() == scene.bodies.size();
+  std::vector<std::unique_ptr<coupling::StructurePart>> parts;
+  if (!all_deform) parts.push_back(build_bodies<d>(bodies_with<d>(scene, std::move(forces), hooks), world));
+  if (tables) parts.push_back(build_solids<d>(scene, world));
+  if (parts.size() == 1) return std::move(parts.front());
+  return std::make_unique<coupling::Composite>(std::move(parts));
 }
 
 /// Added masses are of a step under way.
@@ -125,15 +142,13 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene) {
 template <int d>
 World<d> build_world(const Scene& scene, std::function<void()> meanwhile, Hooks<d> hooks) {
   World<d> world;
-  const bool deforms = scene.effects.find<ElasticTables>() != nullptr;
   auto parts = parts_of<d>(scene);
   std::ranges::move(hooks.forces, std::back_inserter(parts.forces));
   auto fluid = scene.fluid    ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world)
                : scene.vortex ? build_vortex<d>(scene, world)
                               : nullptr;
-  auto bodies = fluid && scene.bodies.empty() ? nullptr
-                : deforms                     ? build_solids<d>(scene, world)
-                          : build_bodies<d>(bodies_with<d>(scene, std::move(parts.forces), hooks), world);
+  auto bodies =
+      fluid && scene.bodies.empty() ? nullptr : build_structure<d>(scene, std::move(parts.forces), hooks, world);
   if (!fluid)
     world.stepper = std::make_unique<coupling::StructureOnly>(std::move(bodies), scene.time.dt_max);
   else if (!bodies)

@@ -9,6 +9,7 @@
 #include "apps/build/build.hpp"
 #include "apps/check/floating.hpp"
 #include "apps/check/words.hpp"
+#include "apps/effects/elastic/elastic.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/outlook/motion_guess.hpp"
 #include "core/geometry.hpp"
@@ -37,7 +38,7 @@ std::string release_text(const Body& body, int dimension) {
 }
 
 template <int d>
-std::string motion_text(const Body& body) {
+std::string motion_text(const Scene& scene, const Body& body) {
   const auto start = [&](const char* spin) {
     return fmt::format("{} m/s, {}{} deg/s", text<d>(vec<d>(body.velocity)), spin, spin_text<d>(body));
   };
@@ -52,6 +53,13 @@ std::string motion_text(const Body& body) {
              release_text(body, d);
     case Motion::free:
       break;
+  }
+  const auto* tables = scene.effects.find<ElasticTables>();
+  for (std::size_t k = 0; tables && k < tables->of_bodies.size(); ++k) {
+    const auto& table = tables->of_bodies[k];
+    if (&scene.bodies[table.body] != &body) continue;
+    return table.clamps.empty() ? "deforms and flies; starts with " + start("")
+                                : std::string("deforms; held by its clamps");
   }
   return fmt::format("free in {}; starts with {}", fmt::join(body.free, ", "), start(""));
 }
@@ -127,7 +135,7 @@ void print_body(const Scene& scene, std::size_t number, const std::optional<Rest
   const double volume = shape_of<d>(body.shape).at_unit_density.mass;
   const auto hull = outline<d>(body);
   fmt::print("body {}\n", body.name);
-  row("motion", motion_text<d>(body));
+  row("motion", motion_text<d>(scene, body));
   row("extent", fmt::format("{}, {} {:.6g} {}", sizes_text<d>(extents<d>(hull)), Units<d>::volume_name, volume,
                             Units<d>::volume));
   print_file(body.shape);

@@ -27,7 +27,7 @@ template <int d>
 struct RecordInput {
   const FluidView<d>* fluid = nullptr;        ///< null: a scene without liquid
   const BodiesView<d>* bodies = nullptr;      ///< null: a scene without bodies
-  const SolidsView<d>* solids = nullptr;      ///< the same bodies where they deform; null: they are rigid
+  const SolidsView<d>* solids = nullptr;      ///< those of them that deform; null: all are rigid
   std::vector<Twist<d>> body_velocity_n;      ///< mean of the half-step velocities around t_n
   std::vector<Twist<d>> body_acceleration_n;  ///< their difference over the kick
   std::vector<WallLoad<d>> body_load;         ///< about the centre of mass; zero where dry

@@ -142,6 +142,16 @@ Frame<d> take_frame(const RecordInput<d>& input) {
       outline.v.push_back(
           velocity_at<d>(outline.surface.vertices.col(i) - pose.translation(), input.body_velocity_n[b]));
   }
+  for (std::size_t b = 0; input.solids && b < input.solids->size(); ++b) {
+    auto& outline = *std::ranges::find(frame.outlines, input.solids->spec(b).name, &Outline<d>::name);
+    auto deformed = input.solids->deformed(b);
+    if (outline.surface.vertices.cols() != deformed.surface.vertices.cols()) outline.p.clear();  // of other vertices
+    outline.surface = std::move(deformed.surface);
+    outline.v = std::move(deformed.v);
+    outline.u = std::move(deformed.displacement);
+    outline.stress = std::move(deformed.stress);
+    outline.von_mises = std::move(deformed.von_mises);
+  }
   return frame;
 }
 

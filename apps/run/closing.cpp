@@ -46,11 +46,12 @@ Shown shown(const PulseSummary& pulses, const PulseGrades& grades, int dimension
   return {&pulses.raw, grades.raw ? &*grades.raw : nullptr, ""};
 }
 
-std::string impact_text(const BodySummary& body, int dimension) {
+std::string impact_text(const BodySummary& body, int dimension, bool is_dry_space) {
   const auto a = shown(body.acceleration, body.acceleration_grades, dimension);
   const auto f = shown(body.force, body.force_grades, dimension);
   if (body.landing.first_contact < 0)
-    return fmt::format("stayed dry, peak acceleration {:.3g} g{}", a.pulse->value, at(*a.pulse));
+    return fmt::format("{}peak acceleration {:.3g} g{}", is_dry_space ? "" : "stayed dry, ", a.pulse->value,
+                       at(*a.pulse));
   const std::string force = dimension == 2 ? "N/m" : "N";
   auto text = fmt::format("wet from {}, peak force{} {}{}{}, peak acceleration{} {:.3g} g{}{}",
                           with_unit(body.landing.first_contact, "s"), f.filter, with_unit(f.pulse->value, force),
@@ -102,8 +103,8 @@ std::string landing_text(const BodySummary& body) {
   return text;
 }
 
-std::string body_rows(const std::string& name, const BodySummary& body, int dimension) {
-  auto text = closing_row(name, impact_text(body, dimension));
+std::string body_rows(const std::string& name, const BodySummary& body, int dimension, bool is_dry_space) {
+  auto text = closing_row(name, impact_text(body, dimension, is_dry_space));
   if (const auto pulse = pulse_text(body.acceleration, body.acceleration_grades); !pulse.empty())
     text += closing_row("", pulse);
   if (body.landing.first_contact >= 0) text += closing_row("", landing_text(body));
@@ -229,7 +230,7 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
       "{}: {} {} in {} steps, {} of wall time\n", one_line(summary.scene), summary.status,
       with_unit(summary.simulated_time, "s"), summary.steps,
       summary.wall_seconds < 60 ? fmt::format("{:.3g} s", summary.wall_seconds) : clock_text(summary.wall_seconds));
-  for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension);
+  for (const auto& [name, body] : summary.bodies) text += body_rows(name, body, summary.dimension, !summary.ledger);
   for (const auto& [name, point] : summary.equipment) text += closing_row(name, equipment_text(point));
   for (const auto& [name, patch] : summary.patches)
     text += closing_row(name, fmt::format("peak pressure {}{}{}, mean over {:.3g} {}; impulse {}",

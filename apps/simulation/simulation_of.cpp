@@ -11,6 +11,7 @@ namespace splashdown::apps {
 template <int d>
 SimulationOf<d>::SimulationOf(const Scene& scene, World<d> world) : scene_(scene), world_(std::move(world)) {
   if (world_.bodies) walls_.emplace(scene_, *world_.bodies);
+  if (world_.bodies && world_.solids) all_.emplace(*world_.bodies, *world_.solids);
 }
 
 template <int d>
@@ -49,11 +50,12 @@ RecordInput<d> SimulationOf<d>::known(const StepMade& step) const {
     }
   }
   if (const auto* solids = world_.solids) {
-    in.bodies = in.solids = solids;
+    in.solids = solids;
+    in.bodies = all_ ? static_cast<const BodiesView<d>*>(&*all_) : solids;
     for (std::size_t i = 0; i < solids->size(); ++i) {
       in.body_velocity_n.push_back(solids->velocity_n(i));
       in.body_acceleration_n.push_back(solids->acceleration_n(i));
-      in.body_load.push_back(world_.fluid ? world_.fluid->loads()[i] : WallLoad<d>{});
+      in.body_load.push_back(world_.fluid ? world_.fluid->loads()[in.body_load.size()] : WallLoad<d>{});
     }
   }
   return world_.whole ? world_.whole->tell(std::move(in)) : in;

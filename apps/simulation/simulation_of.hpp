@@ -6,6 +6,7 @@
 #include "apps/build/build.hpp"
 #include "apps/record/recorder.hpp"
 #include "apps/scene/scene.hpp"
+#include "apps/simulation/all_bodies.hpp"
 #include "apps/simulation/steps.hpp"
 #include "apps/simulation/wall_watch.hpp"
 
@@ -30,7 +31,8 @@ class SimulationOf {
  private:
   const Scene& scene_;
   World<d> world_;
-  std::optional<WallWatch<d>> walls_;  // of scenes with bodies
+  std::optional<WallWatch<d>> walls_;  // of scenes with rigid bodies
+  std::optional<AllBodies<d>> all_;    // of scenes with rigid and elastic ones
 };
 
 extern template class SimulationOf<2>;

@@ -30,14 +30,18 @@ Answering answering(const StructurePart& structure) {
 /// Velocity change of the whole structure per unit impulse on the walls that answer.
 Eigen::MatrixXd compliance(const StructurePart& structure, const Answering& some) {
   const Response all = structure.response();
-  const Eigen::MatrixXd modes = all.modal.modes * all.contacts.directions;
+  const bool restricted = all.contacts.restrict_modes();
+  const Eigen::MatrixXd modes =
+      restricted ? Eigen::MatrixXd(all.modal.modes * all.contacts.directions) : all.modal.modes;
+  const Eigen::MatrixXd inertia =
+      restricted ? algebra::congruence(all.modal.inertia, all.contacts.directions) : all.modal.inertia;
   Eigen::MatrixXd of_some(modes.cols(), some.count);
   Eigen::Index at = 0;
   for (const auto& wall : some.coordinates) {
     of_some.middleCols(at, wall.count) = modes.middleRows(wall.first, wall.count).transpose();
     at += wall.count;
   }
-  return modes * algebra::symmetric_solution(algebra::congruence(all.modal.inertia, all.contacts.directions), of_some);
+  return modes * algebra::symmetric_solution(inertia, of_some);
 }
 
 }  // namespace

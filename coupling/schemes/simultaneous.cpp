@@ -49,7 +49,7 @@ StepReport Simultaneous::pass_by_pass(Response response, double dt) {
     report.pass_residuals.push_back(report.residual);
     if (!structure_->update_contacts(fluid_->solution().impulse)) return report;
     if (report.passes == max_passes_) {
-      report.cause = "contacts between bodies keep opening and closing";
+      report.cause = "contacts between bodies keep opening and closing, or a body bends too far within the step";
       return report;
     }
     response = structure_->response();

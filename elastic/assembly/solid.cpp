@@ -120,16 +120,29 @@ double Solid<d>::strain_energy(const Field& u) const {
 }
 
 template <int d>
-Field Solid<d>::internal_force(const Field& u) const {
-  Field f = Field::Zero(u.size());
+template <class Stress>
+Field Solid<d>::force_of(const Stress& stress) const {
+  Field f = Field::Zero(this->size());
   const std::size_t n = rule<d>().size();
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
     Displacements force = Displacements::Zero();
     for (std::size_t p = c * n; p < (c + 1) * n; ++p)
-      force += points_[p].weight * law_->stress(gradient(u, c, points_[p].slopes)) * points_[p].slopes;
+      force += points_[p].weight * stress(c, points_[p].slopes) * points_[p].slopes;
     for (int a = 0; a < cell_nodes<d>; ++a) f.segment<d>(d * mesh_.cells[c][a]) += force.col(a);
   }
   return f;
+}
+
+template <int d>
+Field Solid<d>::internal_force(const Field& u) const {
+  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> { return law_->stress(gradient(u, c, slopes)); });
+}
+
+template <int d>
+Field Solid<d>::force_between(const Field& before, const Field& middle) const {
+  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
+    return law_->stress_between(gradient(before, c, slopes), gradient(middle, c, slopes));
+  });
 }
 
 template <int d>
@@ -270,6 +283,25 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
     if (value > most.value) most = {value, at_rest(p / points.size(), points[p % points.size()].at)};
   }
   return most;
+}
+
+template <int d>
+std::vector<Mat<3>> Solid<d>::nodal_stress(const Field& u) const {
+  std::vector<Mat<3>> sums(static_cast<std::size_t>(mesh_.size()), Mat<3>::Zero());
+  std::vector<int> counts(sums.size(), 0);
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    for (int k = 0; k < cell_nodes<d>; ++k) {
+      Barycentric<d> at = Barycentric<d>::Zero();
+      if (k <= d)
+        at[k] = 1;
+      else
+        for (const int corner : cell_edges[static_cast<std::size_t>(k - d - 1)]) at[corner] = 0.5;
+      const auto a = static_cast<std::size_t>(mesh_.cells[c][static_cast<std::size_t>(k)]);
+      sums[a] += law_->cauchy(gradient(u, c, slopes_at(c, at)));
+      ++counts[a];
+    }
+  for (std::size_t a = 0; a < sums.size(); ++a) sums[a] /= counts[a];
+  return sums;
 }
 
 template <int d>

@@ -43,6 +43,8 @@ class Solid final : public System {
   const Law<d>& law() const { return *law_; }
   const Sparse& mass() const override { return mass_; }
   Field internal_force(const Field& u) const override;
+  /// The force of a step from `before` through `middle` (Law::stress_between) [N, N/m].
+  Field force_between(const Field& before, const Field& middle) const;
   void stiffness(const Field& u, Sparse& K) const override;
   double strain_energy(const Field& u) const override;
   double length() const override { return length_; }
@@ -71,6 +73,8 @@ class Solid final : public System {
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
   /// Cauchy's stress at a point [Pa].
   Mat<3> stress(const Field& u, const Place<d>& place) const;
+  /// Cauchy's stress at all nodes, mean of the elements around them [Pa].
+  std::vector<Mat<3>> nodal_stress(const Field& u) const;
   /// The least det F over all points of the rules; not above zero: an element is turned over.
   double least_volume_ratio(const Field& u) const;
   /// int |u - exact|^2 dX, for orders of convergence.
@@ -87,6 +91,9 @@ class Solid final : public System {
   Mat<d> gradient(const Field& u, std::size_t cell, const Slopes& slopes) const;
   Slopes slopes_at(std::size_t cell, const Barycentric<d>& at, double* determinant = nullptr) const;
   Vec<d> at_rest(std::size_t cell, const Barycentric<d>& at) const;
+  /// f of P = stress(cell, slopes) at all points.
+  template <class Stress>
+  Field force_of(const Stress& stress) const;
   void make_pattern();
   void assemble_mass(double density);
   template <class Add>

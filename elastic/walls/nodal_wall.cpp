@@ -7,21 +7,24 @@
 namespace splashdown::elastic {
 namespace {
 
-/// The same with more unknowns held: the inside of a solid whose surface is given.
-class Inside final : public System {
+/// The solid within a step from u: its force at a middle is that of the step. Unknowns that are given are held, too.
+template <int d>
+class WithinStep final : public System {
  public:
-  Inside(const System& whole, const std::vector<Eigen::Index>& given) : whole_(whole) {
-    held_ = whole.held();
-    for (const auto k : given) hold(k);
+  WithinStep(const Solid<d>& solid, const Field& u, const std::vector<Eigen::Index>& given = {})
+      : solid_(solid), u_(u) {
+    held_ = solid.held();
+    for (const auto k : given) this->hold(k);
   }
-  const Sparse& mass() const override { return whole_.mass(); }
-  Field internal_force(const Field& u) const override { return whole_.internal_force(u); }
-  void stiffness(const Field& u, Sparse& K) const override { whole_.stiffness(u, K); }
-  double strain_energy(const Field& u) const override { return whole_.strain_energy(u); }
-  double length() const override { return whole_.length(); }
+  const Sparse& mass() const override { return solid_.mass(); }
+  Field internal_force(const Field& middle) const override { return solid_.force_between(u_, middle); }
+  void stiffness(const Field& middle, Sparse& K) const override { solid_.stiffness(middle, K); }
+  double strain_energy(const Field& u) const override { return solid_.strain_energy(u); }
+  double length() const override { return solid_.length(); }
 
  private:
-  const System& whole_;
+  const Solid<d>& solid_;
+  const Field& u_;  // of whom it is made for
 };
 
 /// Numbers of unknowns within two groups; -1: in neither.
@@ -71,7 +74,8 @@ class NodalWall final : public Wall<d> {
   NodalWall(const Solid<d>& solid, Dynamics dynamics)
       : Wall<d>(solid, std::move(dynamics)),
         groups_(groups_of(solid, boundary_.nodes)),
-        inside_(solid, groups_.outer),
+        whole_(solid, u_),
+        inside_(solid, u_, groups_.outer),
         whole_solver_(dynamics_.newton),
         inside_solver_(dynamics_.newton),
         p_(Field::Zero(solid.size())),
@@ -110,7 +114,7 @@ class NodalWall final : public Wall<d> {
 
   Status move(const Eigen::VectorXd& impulse) override {
     Field middle = u_ + dt_ / 2 * s_;
-    const auto status = whole_solver_.solve(solid_, stage(2 / dt_ * (p_ + load_ + spread(impulse))), damping(), middle);
+    const auto status = whole_solver_.solve(whole_, stage(2 / dt_ * (p_ + load_ + spread(impulse))), damping(), middle);
     s_next_ = 2 / dt_ * (middle - u_);
     return status;
   }
@@ -174,7 +178,7 @@ class NodalWall final : public Wall<d> {
   Stage stage(const Field& g) const { return {.mass = 4 / (dt_ * dt_), .damping = 2 / dt_, .p = u_, .q = u_, .g = g}; }
   /// dt/2 (f + C s) of the trial.
   Field resistance() const {
-    Field all = dt_ / 2 * solid_.internal_force(u_ + dt_ / 2 * s_next_);
+    Field all = dt_ / 2 * whole_.internal_force(u_ + dt_ / 2 * s_next_);
     if (const auto* C = damping()) all += dt_ / 2 * (*C * s_next_);
     return all;
   }
@@ -196,7 +200,7 @@ class NodalWall final : public Wall<d> {
   }
 
   Groups groups_;
-  Inside inside_;
+  WithinStep<d> whole_, inside_;
   StageSolver whole_solver_, inside_solver_;
   Eigen::SimplicialLDLT<Sparse> mass_, inner_factor_;
   Field p_, free_middle_;

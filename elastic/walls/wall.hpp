@@ -4,8 +4,9 @@
 //   M s + dt/2 (f(x_{n+1/2}) + C s) = p_n + I + kick F(t_n),   p_{n+1} = M s - dt/2 (f(x_{n+1/2}) + C s)
 //
 // with x_{n+1/2} = (x_n + x_{n+1})/2: kicks, and the midpoint rule between them (Hairer, Lubich, Wanner 2006, section VI.4).
-// Second order with any steps, symplectic, stable for linear laws at any dt; momenta are exact, and rigid motions leapfrog.
-// p is the momentum just before the kick of t_n. The tangent of the left side is what the exact interface term knows,
+// Second order with any steps; momenta are exact, and rigid motions leapfrog. f is that of Law::stress_between, so that
+// between kicks energies of linear solids and of St. Venant and Kirchhoff's are exact at any dt: the midpoint rule itself gains
+// energy where a stiff body turns fast. p is the momentum just before the kick of t_n. The tangent of the left side is what the exact interface term knows,
 //
 //   M_s = M + dt/2 C + dt^2/4 K.
 #pragma once

@@ -1,6 +1,7 @@
 // [body.elastic]: a body that deforms.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -49,12 +50,19 @@ struct ElasticTable {
   double stiffness_damping = 0;  ///< Rayleigh's beta [s]
   std::vector<ElasticClamp> clamps;
   std::vector<ElasticPoint> point_masses, points;
-  int modes = 0;  ///< natural frequencies that are told before the run
+  int modes = 0;                      ///< natural frequencies that are told before the run
+  std::string coordinates = "nodes";  ///< of the wall that a fluid presses on: all nodes, or the `modes` lowest modes
 };
 
 struct ElasticTables {
   std::vector<ElasticTable> of_bodies;
 };
+
+/// Whether a body deforms.
+inline bool deforms(const Scene& scene, std::size_t body) {
+  const auto* tables = scene.effects.find<ElasticTables>();
+  return tables && std::ranges::find(tables->of_bodies, body, &ElasticTable::body) != tables->of_bodies.end();
+}
 
 class ElasticKind final : public EffectOf<ElasticKind, ElasticTables> {
  public:

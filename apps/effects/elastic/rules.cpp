@@ -40,8 +40,9 @@ void check_company(const Scene& scene, const ElasticTables& tables, Problems& pr
       if (problems.noted(table.path + ".scheme"))
         problems.add(table.path + ".scheme",
                      "in a fluid a body takes the fluid's steps, by kicks and the midpoint rule", "Remove it.");
-  if (tables.of_bodies.size() != scene.bodies.size())
-    problems.add(path, "elastic bodies and rigid ones do not share a scene yet", "Make all bodies elastic, or none.");
+  if (tables.of_bodies.front().body + tables.of_bodies.size() != scene.bodies.size())
+    problems.add(path, "rigid bodies stand before elastic ones in a scene",
+                 "Move the [[body]] tables of elastic bodies to the end.");
   if (!scene.joints.empty()) problems.add("joint", "joints do not hold elastic bodies", "Use clamp in [body.elastic].");
   if (scene.contact) problems.add("contact", "elastic bodies do not touch each other yet", "Remove the table.");
   for (const auto* kind : effect_kinds())
@@ -99,6 +100,12 @@ void check_clamps(const ElasticTable& table, const elastic::SolidMesh<d>& mesh, 
     problems.add(table.path + ".modes", fmt::format("must be below {}, the free unknowns of the mesh", d * free),
                  "Ask for fewer, or use smaller elements.");
   const bool is_held = static_cast<std::size_t>(free) < held.size();
+  const int fewest = is_held ? 1 : freedoms<d>;
+  if (table.coordinates == "modes" && table.modes < fewest)
+    problems.add(table.path + ".modes",
+                 fmt::format("must be {} at least with coordinates = \"modes\"{}", fewest,
+                             is_held ? "" : ": a body that nothing holds has so many rigid ones"),
+                 "Use e.g. 20, or coordinates = \"nodes\".");
   if (table.scheme == "steady" && !is_held)
     problems.add(table.path + ".scheme", "a body that nothing holds has no equilibrium",
                  "Add a clamp, or change the scheme.");

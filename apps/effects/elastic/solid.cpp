@@ -180,13 +180,11 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
     const auto mesh = solid_mesh<d>(body, table);
     auto& spec = specs.emplace_back();
     spec.solid = made<d>(body, table, mesh);
-    if (scene.has_fluid())
-      spec.wall = elastic::WallChoice{};
-    else
-      spec.scheme = [table](Dynamics dynamics) {
-        return named(scheme_rows(), table.scheme).make(table, std::move(dynamics));
-      };
+    spec.scheme = [table](Dynamics dynamics) {
+      return named(scheme_rows(), table.scheme).make(table, std::move(dynamics));
+    };
     spec.damping = {table.mass_damping, table.stiffness_damping};
+    if (scene.has_fluid()) spec.wall = elastic::WallChoice{table.coordinates == "modes" ? table.modes : 0};
     if (scene.gravity) spec.gravity = vec<d>(scene.gravity->acceleration);
     spec.forces = forces_of<d>(scene, table.body, *spec.solid, mesh);
     for (const auto& point : table.points) spec.points.push_back({point.name, *place_in<d>(mesh, point.point)});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/effects/elastic/elastic.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/mirror.hpp"
 #include "apps/scene/read/parts.hpp"
@@ -94,6 +95,7 @@ template <int d>
 void ForceKind::build_in(const Scene& scene, const EffectParts<d>& parts) const {
   std::vector<rigid::AppliedForceSpec<d>> specs;
   for (const auto& table : scene.effects.find<ForceTables>()->all) {
+    if (deforms(scene, table.body)) continue;
     auto& spec = specs.emplace_back();
     spec.body = table.body;
     spec.force = over_time<d>(table.force);

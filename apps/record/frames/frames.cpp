@@ -83,9 +83,12 @@ std::string file_name_of(const std::string& name) {
   return safe;
 }
 
+namespace {
+
+/// A surface with its forward direction, without its values.
 template <int d>
-void write_surface(const std::filesystem::path& path, double time, const Surface<d>& surface, const PointData& data,
-                   const Vec<d>& forward, const std::vector<Vec<d>>& v) {
+VtuGrid grid_of_surface(double time, const Surface<d>& surface, const PointData& data, const Vec<d>& forward,
+                        const std::vector<Vec<d>>& v) {
   VtuGrid grid;
   const auto& [vertices, facets] = surface;
   for (Eigen::Index i = 0; i < vertices.cols(); ++i) append<d>(grid.points, vertices.col(i));
@@ -94,13 +97,36 @@ void write_surface(const std::filesystem::path& path, double time, const Surface
   for (const auto& [name, values] : data) grid.point_data.push_back({name, values});
   grid.field_data = time_value(time);
   grid.field_data.push_back(vectors<d>("forward", std::vector<Vec<d>>{forward}));
-  write_vtu(path, grid);
+  return grid;
 }
 
 template <int d>
 PointData fields_of(const Outline<d>& outline) {
-  if (outline.p.empty()) return {};
-  return {{"p", outline.p}};
+  PointData all;
+  if (!outline.p.empty()) all.push_back({"p", outline.p});
+  if (!outline.von_mises.empty()) all.push_back({"von_mises", outline.von_mises});
+  return all;
+}
+
+template <int d>
+void write_outline(const std::filesystem::path& path, double time, const Outline<d>& outline) {
+  auto grid = grid_of_surface<d>(time, outline.surface, fields_of(outline), outline.forward, outline.v);
+  if (!outline.u.empty()) grid.point_data.push_back(vectors<d>("u", outline.u));
+  if (!outline.stress.empty()) {
+    std::vector<double> rows;
+    for (const auto& sigma : outline.stress) rows.insert(rows.end(), sigma.data(), sigma.data() + sigma.size());
+    grid.point_data.push_back({"stress", std::move(rows), 9});
+    grid.scalars = "von_mises";
+  }
+  write_vtu(path, grid);
+}
+
+}  // namespace
+
+template <int d>
+void write_surface(const std::filesystem::path& path, double time, const Surface<d>& surface, const PointData& data,
+                   const Vec<d>& forward, const std::vector<Vec<d>>& v) {
+  write_vtu(path, grid_of_surface<d>(time, surface, data, forward, v));
 }
 
 template <int d>
@@ -114,8 +140,7 @@ std::vector<std::pair<std::string, std::string>> write_pieces(const std::filesys
   }
   for (const auto& outline : frame.outlines) {
     pieces.emplace_back(outline.name, stem + "_" + file_name_of(outline.name) + ".vtu");
-    write_surface<d>(directory / pieces.back().second, frame.time, outline.surface, fields_of(outline), outline.forward,
-                     outline.v);
+    write_outline<d>(directory / pieces.back().second, frame.time, outline);
   }
   return pieces;
 }

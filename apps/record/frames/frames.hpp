@@ -1,7 +1,8 @@
 // Pictures of a state for ParaView: one .vtu for the fluid, one for each wall, listed in frames.pvd.
 //
 // Fluid point data: v [m/s], p [Pa], kind (NodeKind), wall (index, -1: none), drop_diameter [m] (0: no drop). Separated
-// drops are vertex cells. Wall point data: v [m/s], p [Pa] (0: dry). 2D points have z = 0.
+// drops are vertex cells. Wall point data: v [m/s], p [Pa] (0: dry); of elastic bodies, which are drawn as they are deformed, u [m],
+// von_mises [Pa] and stress [Pa], Cauchy's, nine numbers by rows. 2D points have z = 0.
 // docs/files.md.
 #pragma once
 
@@ -28,9 +29,12 @@ template <int d>
 struct Outline {
   std::string name;
   Surface<d> surface;
-  Vec<d> forward = Vec<d>::UnitX();  ///< where the x axis of its frame points
-  std::vector<Vec<d>> v = {};        ///< of its vertices [m/s]
-  std::vector<double> p = {};        ///< of the water at its vertices, 0 where it is dry [Pa]
+  Vec<d> forward = Vec<d>::UnitX();          ///< where the x axis of its frame points
+  std::vector<Vec<d>> v = {};                ///< of its vertices [m/s]
+  std::vector<double> p = {};                ///< of the water at its vertices, 0 where it is dry [Pa]
+  std::vector<Vec<d>> u = {};                ///< displacements of the vertices of an elastic body [m]
+  std::vector<Eigen::Matrix3d> stress = {};  ///< the same of Cauchy's stress [Pa]
+  std::vector<double> von_mises = {};        ///< of it [Pa]
 };
 
 template <int d>

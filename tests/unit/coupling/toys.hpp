@@ -1,6 +1,6 @@
 // The smallest fluid and the smallest structure behind the seam, with everything known in closed form.
 //
-//   fluid       I = phi + f,   A phi = -(s - s_before),   A = G^-1,   f = -kick (C s_before + K q)
+//   fluid       I = phi + f,   A phi = -(s - s_before),   A = G^-1,   f = -kick (C s_before + K (q - q_rest))
 //   structure   s = Z a',      M (a' - a'_before) = Z^T I + kick (F - S a)
 //
 // G, C, K: added mass, damping and spring of the water; s, q: velocities and places of the walls' coordinates. M, S, F: inertia,
@@ -40,6 +40,7 @@ class Water final : public FluidPart, private Linearised {
   }
 
   std::string unfit;  // why what was solved last may not be committed
+  Vector rest;        // where the spring is relaxed; empty: at zero
 
   State& state() { return now_; }
   const State& state() const { return now_; }
@@ -72,7 +73,8 @@ class Water final : public FluidPart, private Linearised {
   }
   Status solve(const Pass& pass) override {
     const Vector s_0 = pass.velocities.size() > 0 ? pass.velocities : Vector::Zero(G_.rows());
-    const Vector f = -step_.kick * (C_ * now_.rate + K_ * now_.place);
+    const Vector away = rest.size() > 0 ? Vector(now_.place - rest) : now_.place;
+    const Vector f = -step_.kick * (C_ * now_.rate + K_ * away);
     Vector lagged = Vector::Zero(G_.rows());
     if (!pieces_.empty()) lagged = pass.lagged;
     const Matrix A = G_.inverse() + Matrix(stand_in_.asDiagonal());

@@ -122,6 +122,38 @@ TEST(ElasticScene, goes_on_from_a_checkpoint_bit_by_bit) {
   EXPECT_THROW(other.stepper->load(cut), std::runtime_error);
 }
 
+TEST(ElasticScene, has_rigid_bodies_beside_elastic_ones) {
+  const std::string ball =
+      "[[body]]\nname = \"ball\"\nmass = 1\nposition = [9, 9]\nshape = {type = \"circle\", radius = 1}\n";
+  const auto both = build_world<2>(scene_of(with("[[body]]\nname = \"beam\"", ball + "[[body]]\nname = \"beam\"")));
+  const auto alone = build_world<2>(scene_of(beam));
+  ASSERT_NE(both.bodies, nullptr);
+  ASSERT_NE(both.solids, nullptr);
+  for (const auto* world : {&both, &alone})
+    for (int k = 0; k < 5; ++k) {
+      ASSERT_TRUE(world->stepper->attempt(0.01).ok());
+      world->stepper->commit();
+    }
+  EXPECT_EQ(tip(both), tip(alone)) << "the beam knows nothing of the ball";
+  // Leapfrog from rest: half a kick, then whole ones.
+  EXPECT_NEAR(both.bodies->state(0).velocity[1], -9.81 * 0.045, 1e-12);
+}
+
+TEST(ElasticScene, tells_the_deformed_surface_with_its_stresses) {
+  const auto world = build_world<2>(scene_of(with("modes = 2", "scheme = \"steady\"")));
+  ASSERT_TRUE(world.stepper->attempt(0.01).ok());
+  world.stepper->commit();
+  const auto skin = world.solids->deformed(0);
+  double lowest = 0, most = 0;
+  for (std::size_t k = 0; k < skin.displacement.size(); ++k) {
+    lowest = std::min(lowest, skin.displacement[k].y());
+    most = std::max(most, skin.von_mises[k]);
+  }
+  EXPECT_NEAR(lowest / tip(world), 1, 0.01) << "the tip comes lowest";
+  // The greatest stress of a beam is at its surface, beside the clamp: the rule's points lie inside, corners are singular.
+  EXPECT_NEAR(most / world.solids->deformation(0).von_mises, 1, 0.5);
+}
+
 TEST(ElasticScene, tells_natural_frequencies_before_the_run) {
   const auto scene = scene_of(beam);
   for (const auto* kind : effect_kinds())
@@ -165,9 +197,12 @@ const std::vector<Mistake> mistakes = {
      "[fluid]\ndensity = 1000\n[fluid.size]\nsurface = 0.1\n[[fluid.region]]\nshape = \"box\"\nmin = [-9, -9]\nmax = "
      "[9, 0]\n[gravity]",
      20, "body.beam.elastic", "does not meet a fluid yet"},
-    {"beside_a_rigid_body", "[gravity]",
-     "[[body]]\nname = \"ball\"\nmass = 1\nposition = [9, 9]\nshape = {type = \"circle\", radius = 1}\n[gravity]", 17,
-     "body.beam.elastic", "do not share a scene yet"},
+    {"before_a_rigid_body", "force = [0, 30]\npoint = [0.5, 0]\n",
+     "force = [0, 30]\npoint = [0.5, 0]\n[[body]]\nname = \"ball\"\nmass = 1\nposition = [9, 9]\n"
+     "shape = {type = \"circle\", radius = 1}\n",
+     12, "body.beam.elastic", "rigid bodies stand before elastic ones"},
+    {"modes_without_any", "modes = 2", "modes = 0\ncoordinates = \"modes\"", 19, "body.beam.elastic.modes = 0",
+     "must be 1 at least"},
     {"no_equilibrium", "clamp = [{min = [-0.5, -0.05], max = [-0.5, 0.05]}]", "scheme = \"steady\"", 16,
      "body.beam.elastic.scheme = \"steady\"", "has no equilibrium"},
     {"unknown_law", "size = 0.1", "size = 0.1\nlaw = \"ogden\"", 16, "body.beam.elastic.law = \"ogden\"",
