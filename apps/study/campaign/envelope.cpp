@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace splashdown::apps {
 namespace {
@@ -71,14 +72,22 @@ void EnvelopePlane::judge(const std::vector<Answer>& answers) {
   const double size = static_cast<double>(cells_.size()), number = std::max(1., static_cast<double>(told_.size()));
   const double b = std::max(narrowest, std::sqrt(size / (std::numbers::pi * number)));
   std::vector<double> yes(cells_.size(), 0.5), no(cells_.size(), 0.5);  // Jeffreys
-  for (const auto& [at, share] : answers)
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const double steps = steps_between(c, at);
-      if (steps > farthest * farthest * b * b) continue;
-      const double weight = worth_ * std::exp(-steps / (2 * b * b));
-      yes[c] += share * weight;
-      no[c] += (1 - share) * weight;
-    }
+  const auto reach = static_cast<std::size_t>(farthest * b);
+  const auto near = [&](std::size_t at, std::size_t number) {
+    return std::pair(at - std::min(at, reach), std::min(at + reach + 1, number));
+  };
+  for (const auto& [at, share] : answers) {
+    const auto [left, right] = near(cells_[at].x, cells_.size() / height_);
+    const auto [low, high] = near(cells_[at].y, height_);
+    for (std::size_t x = left; x < right; ++x)
+      for (std::size_t c = x * height_ + low; c < x * height_ + high; ++c) {
+        const double steps = steps_between(c, at);
+        if (steps > farthest * farthest * b * b) continue;
+        const double weight = worth_ * std::exp(-steps / (2 * b * b));
+        yes[c] += share * weight;
+        no[c] += (1 - share) * weight;
+      }
+  }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     auto& cell = cells_[c];
     const double own = static_cast<double>(cell.yes + cell.no);
