@@ -3,11 +3,11 @@
 
     tests/benchmark/study_bookkeeping.py build/release/splashdown --out build/bookkeeping [--runs 100 1000 10000]
 
-A ball in flight is the cheapest run there is. All runs but the last 20 are copies of one run with their own speed, so that a folder of 10 000
+A ball in flight is the cheapest run there is. All runs but the last 50 are copies of one run with their own speed, so that a folder of 10 000
 is there in seconds. Processor seconds, user and system, with those of child processes:
 
   plan      the study file and the scene of each run are read, and a folder of which nothing is there
-  each run  making the last 20, over what `splashdown run` takes for them by itself
+  each run  making the last 50, over what `splashdown run` takes for them by itself
   resume    the same command with all runs there: results are read and measured, tables and report are written
   report    `splashdown report`
 
@@ -22,7 +22,7 @@ import resource
 import shutil
 import subprocess
 
-left = 20
+left = 50
 scene = """title = "A ball flies"
 [time]
 end = 0.1

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/beta.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -21,6 +22,15 @@ std::optional<double> answer_in(const Outcome& outcome, const std::string& limit
   return found->second == "yes" ? 1 : found->second == "no" ? 0 : 0.5;
 }
 
+/// What chance has drawn for a run, as a number: runs of different cells may share it.
+std::size_t draw_of(const Study& study, const StudyRun& run) {
+  std::size_t draw = 0;
+  for (std::size_t a = 0; a < study.axes.size(); ++a)
+    if (const auto& axis = study.axes[a]; (axis.sampled || axis.replicates) && axis.leader == a)
+      draw = draw * axis.values.size() + run.value[a];
+  return draw;
+}
+
 }  // namespace
 
 EnvelopePlane::EnvelopePlane(const Study& study, const std::vector<StudyRun>& runs,
@@ -36,16 +46,20 @@ EnvelopePlane::EnvelopePlane(const Study& study, const std::vector<StudyRun>& ru
   std::vector<char> is_begun(runs.size(), 0);
   for (const std::size_t run : at_work) is_begun[run] = 1;
   std::vector<Answer> answers;
+  std::map<std::size_t, std::size_t> used;  // draws, by how many runs
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (outcomes[i].finished() || is_begun[i]) ++used[draw_of(study, runs[i])];
+    if (!outcomes[i].finished()) continue;
     auto& cell = cells_[cell_of(i)];
-    if (!outcomes[i].finished()) {
-      if (!is_begun[i] && !cell.next) cell.next = i;
-      continue;
-    }
     const auto yes = answer_in(outcomes[i], envelope_.limit);
     if (!yes) continue;
     answers.push_back({cell_of(i), *yes});
     (*yes > 0.5 ? cell.yes : *yes < 0.5 ? cell.no : cell.open) += 1;
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    auto& cell = cells_[cell_of(i)];
+    if (outcomes[i].finished() || is_begun[i]) continue;
+    if (!cell.next || used[draw_of(study, runs[i])] < used[draw_of(study, runs[*cell.next])]) cell.next = i;
   }
   judge(answers);
   if (at_work.empty()) return;
