@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "apps/files/run_files.hpp"
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
 #include "apps/record/passes.hpp"
@@ -164,6 +165,7 @@ class Checker {
 
   void check(const StudyQuantity& quantity) {
     const Origin origin{"quantity", quantity.name, quantity.place};
+    check_file(quantity, origin);
     check_body(quantity, origin);
     std::optional<Names> columns = Names{};
     if (!quantity.table.empty()) columns = columns_of(quantity.table, scene_);
@@ -186,6 +188,17 @@ class Checker {
   void tell(const Origin& origin, const char* key, const std::string& value, const std::string& what) {
     problems_.add_at(origin.place,
                      fmt::format("{}.{}.{} = {}: {}", origin.table, origin.name, key, toml_text(value), what));
+  }
+
+  /// A file of the run's folder itself that no run writes.
+  void check_file(const StudyQuantity& quantity, const Origin& origin) {
+    const auto file = quantity.table.substr(0, quantity.table.find(':'));
+    if (file.empty() || file.find('/') != std::string::npos || is_table(file)) return;
+    const Names valid(run_tables().begin(), run_tables().end());
+    const auto near = nearest(file, valid);
+    tell(origin, "table", quantity.table,
+         fmt::format("no run writes '{}'. {}", file,
+                     near.empty() ? "There is " + listing(valid) + "." : "Did you mean '" + near + "'?"));
   }
 
   void check_body(const StudyQuantity& quantity, const Origin& origin) {
@@ -224,7 +237,8 @@ class Checker {
       const auto near = nearest(name, valid);
       tell(origin, key, expression,
            fmt::format("unknown name '{}'. {}", name,
-                       near.empty() ? "Valid here: " + listing(valid) + ", and summary.PATH."
+                       near.empty() ? "Valid here: " + listing(valid) + ", and summary.PATH, a number of the run's " +
+                                          "summary.json."
                                     : "Did you mean '" + near + "'?"));
     }
   }

@@ -72,6 +72,22 @@ struct Findings {
   std::vector<std::string> elsewhere;
 };
 
+/// Of "axis.NAME: KEY=VALUE: KEY = VALUE: RULE": what has nothing to do with the value.
+std::string rule_of(const std::string& text) {
+  const auto argument = text.find(": ") + 2, said = text.find(": ", argument) + 2;
+  const auto key = text.substr(argument, text.find('=', argument) - argument) + " = ";
+  const auto rule = text.compare(said, key.size(), key) == 0 ? text.find(": ", said) : said;
+  return text.substr(rule == std::string::npos ? said : rule);
+}
+
+/// For an axis of numbers whose key takes a list.
+std::string hint_for(const std::string& text) {
+  const auto key = text.find(": ") + 2;
+  if (text.find("must be a list of") == std::string::npos || text.find("not a number") == std::string::npos) return {};
+  return fmt::format(" An axis of numbers sets one of its entries: key = \"{}.0\" is the first.",
+                     text.substr(key, text.find('=', key) - key));
+}
+
 /// The scene of the first run that is one.
 std::optional<Scene> resolve_into(const Study& study, std::vector<StudyRun>& runs, Findings& findings) {
   std::optional<Scene> first;
@@ -94,9 +110,8 @@ std::optional<Scene> resolve_into(const Study& study, std::vector<StudyRun>& run
         if (const auto place = origin(study, run, message)) {
           // What has nothing to do with the value is the same for all values of the axis.
           const auto& [where, text] = *place;
-          const auto rest = text.find(": ", text.find(": ") + 2);
-          if (findings.told.insert(fmt::format("{}:{}", where.line, text.substr(rest))).second)
-            findings.problems.add_at(where, text);
+          if (findings.told.insert(fmt::format("{}:{}", where.line, rule_of(text))).second)
+            findings.problems.add_at(where, text + hint_for(text));
         } else if (findings.told.insert(message).second) {
           findings.elsewhere.push_back(message);
         }

@@ -75,9 +75,9 @@ std::vector<std::string> foreign_places(const std::vector<StudyRun>& runs, const
   // Studies of earlier versions left no mark, but their table.
   const bool own = is_own(folder) || fs::exists(folder / "study.json");
   std::vector<std::string> files = {
-      "statistics.csv", "probabilities.csv", "effects.csv",   "sobol_indices.csv", "envelope.csv",   "study.csv",
-      "study.svg",      "study.png",         "study.gnuplot", "report.html",       "study.parallel", "study.joblog",
-      "parallel.log",   "study.sbatch",      "sbatch.log",    "collect.log",       "summary.json"};
+      "statistics.csv", "convergence.csv", "probabilities.csv", "effects.csv",   "sobol_indices.csv", "envelope.csv",
+      "study.csv",      "study.svg",       "study.png",         "study.gnuplot", "report.html",       "study.parallel",
+      "study.joblog",   "parallel.log",    "study.sbatch",      "sbatch.log",    "collect.log",       "summary.json"};
   for (const auto& run : runs) files.push_back(run.name + ".log");
   for (const auto& name : files)
     if (!own && is_there(folder / name))

@@ -175,6 +175,22 @@ void read_chart(Reader& reader, Study& study) {
     problems.add(reader.key("x"), "has values that a logarithmic scale cannot show", "Use scale_x = \"linear\".");
 }
 
+/// Axes by whose values statistics are told apart.
+void read_group(Reader& reader, Study& study) {
+  std::vector<std::string> valid, by;
+  for (const auto& axis : study.axes)
+    if (!axis.sampled && !axis.replicates) valid.push_back(axis.name);
+  if (!reader.holds("by"))
+    reader.context().problems.add_missing(reader.key("by"), "the axes that tell its runs apart",
+                                          "Name axes that are not random, e.g. by = [\"mass\"].");
+  reader.references("by", by, valid);
+  std::vector<std::size_t> axes;
+  for (const auto& name : by)
+    if (const auto found = std::ranges::find(study.axes, name, &Axis::name); found != study.axes.end())
+      axes.push_back(static_cast<std::size_t>(found - study.axes.begin()));
+  if (!axes.empty()) study.groups.push_back(std::move(axes));
+}
+
 void read_root(Reader& root, Study& study) {
   Problems& problems = root.context().problems;
   Columns columns(problems);
@@ -199,6 +215,7 @@ void read_root(Reader& root, Study& study) {
   check_axes_without_keys(study, problems);
   root.each_table("quantity", [&](Reader& reader) { read_quantity(reader, study, columns); });
   root.each_table("limit", [&](Reader& reader) { read_study_limit(reader, study, columns); });
+  root.each_table("group", [&](Reader& reader) { read_group(reader, study); });
   if (auto stop = root.table("stop")) read_stop(*stop, study);
   if (auto envelope = root.table("envelope")) read_envelope(*envelope, study);
   if (auto chart = root.table("chart")) read_chart(*chart, study);

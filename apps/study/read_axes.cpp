@@ -160,10 +160,17 @@ void read_axis(Reader& reader, Study& study, Columns& columns, std::vector<Rando
     reader.choice("spacing", spacing, {"linear", "log"});
     if (reader.holds("spacing") && !reader.holds("range"))
       problems.add(reader.key("spacing"), "has no range to space", "Remove it, or use range instead of values.");
-    ranged ? read_random(reader, study, random, spacing) : read_values(reader, axis, random.key);
+    const bool bounded = !ranged && (reader.holds("min") || reader.holds("max"));
+    for (const char* bound : {"min", "max"})
+      if (bounded)
+        reader.refuse(bound, "is no key of an axis",
+                      "Use range = [1, 5] for values between two ends, and [samples] for how many.");
+    if (ranged)
+      read_random(reader, study, random, spacing);
+    else if (!bounded)
+      read_values(reader, axis, random.key);
   }
-  if (ranged && reader.holds("values"))
-    problems.add(reader.key("values"), "must not stand beside range or distribution", "Use one of the two.");
+  if (ranged) reader.refuse("values", "must not stand beside range or distribution", "Use one of the two.");
   if (listed && cases) problems.add(reader.path(), "has both a key with values and cases", "Use one of the two.");
   reader.each_table("case", [&](Reader& one) { read_case(one, axis, random.weights); });
   if (!random.weights.empty() && random.weights.size() != axis.values.size())

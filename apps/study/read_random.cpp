@@ -150,6 +150,11 @@ void read_random(Reader& reader, const Study& study, RandomAxis& random, const s
   Problems& problems = reader.context().problems;
   reader.number("scale", random.scale, any("", "Use the factor from these values to the scene's key."));
   random.place = reader.place(reader.holds("range") ? "range" : "distribution");
+  if (!reader.context().sketch && reader.holds("distribution")) {
+    const char* const cure = "Write e.g. distribution = {type = \"normal\", mean = 3, sd = 0.5}.";
+    if (const auto* node = reader.node("distribution", Need::optional, {}, cure); !node->is_table())
+      return problems.add(reader.key("distribution"), "must be a table of its type and numbers", cure);
+  }
   if (auto table = reader.table("distribution")) {
     if (reader.holds("range"))
       problems.add(reader.key("range"), "must not stand beside distribution", "Use one of the two.");

@@ -111,6 +111,11 @@ class Runner {
     return EnvelopePlane(study_, runs_, outcomes_, at_work).next();
   }
 
+  /// An envelope leaves most of the plane's runs out.
+  std::size_t most_runs_made() const {
+    return study_.envelope ? std::min(runs_.size(), static_cast<std::size_t>(study_.envelope->runs)) : runs_.size();
+  }
+
   void enough() {
     queue_.clear();
     end_.enough = true;
@@ -168,7 +173,7 @@ class Runner {
     if (is_enough()) enough();
     // What a run says about its coupling stands in its summary.
     if (outcome.finished() && outcome.status != Outcome::Status::failed) fs::remove(log_of(i));
-    auto text = fmt::format("[{}/{}] {}: {}", before_ + made_, runs_.size(), name, word(outcome.status));
+    auto text = fmt::format("[{}/{}] {}: {}", before_ + made_, most_runs_made(), name, word(outcome.status));
     if (!outcome.verdict.empty()) text += ", " + outcome.verdict;
     const auto number = [&](const char* column, const char* format) {
       if (const auto found = outcome.numbers.find(column); found != outcome.numbers.end())
@@ -214,12 +219,13 @@ class Runner {
   void show() {
     if (!line_.is_due()) return;
     auto text =
-        fmt::format("{:3.0f} %  {} of {} runs, {} at work", 100. * double(before_ + made_) / double(runs_.size()),
-                    before_ + made_, runs_.size(), running_.size());
+        fmt::format("{:3.0f} %  {} of {} runs, {} at work", 100. * double(before_ + made_) / double(most_runs_made()),
+                    before_ + made_, most_runs_made(), running_.size());
     if (made_ > 0) {
       const double between = std::chrono::duration<double>(last_end_ - started_).count() / double(made_);
-      text +=
-          "  left " + clock_text(study_time_left(between, queue_.size() + running_.size(), seconds_since(last_end_)));
+      text += "  left " +
+              clock_text(study_time_left(between, most_runs_made() - std::min(most_runs_made(), before_ + made_),
+                                         seconds_since(last_end_)));
     }
     if (running_.empty() && busy_ > 0) text += fmt::format("  ({} still written by a study that was killed)", busy_);
     line_.show(text);

@@ -117,7 +117,8 @@ struct Study {
   std::optional<Samples> samples;
   std::vector<Axis> axes;
   std::vector<StudyQuantity> quantities;
-  std::vector<StudyLimit> limits;  ///< beside those of the scene
+  std::vector<StudyLimit> limits;                ///< beside those of the scene
+  std::vector<std::vector<std::size_t>> groups;  ///< axes: statistics of each combination of their values
   std::vector<DerivedKey> derived;
   std::optional<StudyEnvelope> envelope;
   std::optional<StudyStop> stop;

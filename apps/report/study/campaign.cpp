@@ -76,6 +76,7 @@ std::string probabilities(const Json& campaign) {
         html_escaped(text_at(row, "limit")), at_text(row), count_text(number_at(row, {"yes"})), count_text(answered),
         count_text(open), count_text(without), 100 * p, 100 * band.first, 100 * band.second, bar(p, band, 0, 1, 0));
   }
+  const bool chosen = campaign.contains("envelope");
   return table("How often a limit is passed",
                "<th>limit</th><th class=\"text\">runs</th><th>yes</th><th>open</th><th>no "
                "answer</th><th>probability</th><th>band "
@@ -83,12 +84,24 @@ std::string probabilities(const Json& campaign) {
                rows,
                "The band (Wilson 1927) is that of chance: so many runs say no more. Runs whose own band leaves the "
                "answer open count as no at its "
-               "lower end and as yes at its upper one. Runs without an answer broke down; they are in neither.");
+               "lower end and as yes at its upper one. Runs without an answer broke down; they are in neither." +
+                   std::string(chosen ? " Runs were chosen near the envelope's line: shares of all of them are not "
+                                        "those of all cases."
+                                      : ""));
 }
 
 std::string statistics(const Json& campaign) {
   std::string rows;
-  for (const auto& row : entries(campaign, "statistics")) {
+  std::vector<std::string> quantities;  // each with all its groups
+  for (const auto& row : entries(campaign, "statistics"))
+    if (const auto name = text_at(row, "quantity"); std::ranges::find(quantities, name) == quantities.end())
+      quantities.push_back(name);
+  std::vector<const Json*> sorted;
+  for (const auto& name : quantities)
+    for (const auto& row : entries(campaign, "statistics"))
+      if (text_at(row, "quantity") == name) sorted.push_back(&row);
+  for (const auto* entry : sorted) {
+    const auto& row = *entry;
     const auto mean_band = band_at(row, "mean_band"), median_band = band_at(row, "median_band");
     const auto number = [&](const char* name) { return digits(number_at(row, {name})); };
     const auto half = [](std::pair<double, double> band) {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "apps/report/data.hpp"
 #include "apps/report/page.hpp"
 #include "apps/report/words.hpp"
-#include "apps/statistics/quantile.hpp"
 #include "apps/text/number_text.hpp"
 
 namespace splashdown::apps {
@@ -101,60 +101,63 @@ std::string histogram(const Column& column) {
   return picture(body, low, high, column.label, "Number of runs. Above: the middle half, 90 % of all, and the median.");
 }
 
-/// The numbers of a quantity at one value of an axis.
-struct Level {
-  std::string label;
-  std::vector<double> values;
-};
+/// "K = 15, angle = 30" as "K 15, angle 30".
+std::string level_text(const Json& at) {
+  std::string text;
+  for (const auto& [axis, value] : at.items())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", axis,
+                        value.is_string() ? value.get<std::string>() : value.dump());
+  return text;
+}
 
-/// Of each axis that is neither random nor of replicates: a level a value, in the order of the runs.
-std::vector<Level> levels_of(const Json& study, const Column& column) {
-  constexpr std::size_t fewest = 3;  // runs a level: fewer have no box
-  std::vector<Level> all;
-  for (const auto& axis : entries(study, "axes")) {
-    if (axis.contains("random") || axis.contains("replicates")) continue;
-    const auto name = text_at(axis, "name");
-    std::vector<Level> levels;
-    for (std::size_t i = 0; i < column.runs.size(); ++i) {
-      const double number = number_at(*column.runs[i], {"axes", name.c_str()});
-      const auto label = fmt::format(
-          "{} {}", name,
-          std::isfinite(number) ? fmt::format("{:g}", number) : text_at((*column.runs[i])["axes"], name.c_str()));
-      auto level = std::ranges::find(levels, label, &Level::label);
-      if (level == levels.end()) level = levels.insert(level, {label, {}});
-      level->values.push_back(column.values[i]);
-    }
-    if (levels.size() > 1 && std::ranges::all_of(levels, [](const Level& l) { return l.values.size() >= fewest; }))
-      all.insert(all.end(), levels.begin(), levels.end());
+/// Rows of the statistics of a quantity by the values of one axis, and of several as long as they are few.
+std::vector<const Json*> levels_of(const Json& study, const std::string& quantity) {
+  constexpr double fewest = 3;  // runs a level: fewer have no box
+  constexpr std::size_t most = 40;
+  std::vector<std::pair<std::vector<std::string>, std::vector<const Json*>>> sets;
+  for (const auto& row : entries(study["campaign"], "statistics")) {
+    if (text_at(row, "quantity") != quantity || !row.contains("at") || !row["at"].is_object() || row["at"].empty())
+      continue;
+    std::vector<std::string> axes;
+    for (const auto& [axis, value] : row["at"].items()) axes.push_back(axis);
+    auto set = std::ranges::find(sets, axes, [](const auto& entry) { return entry.first; });
+    if (set == sets.end()) set = sets.insert(set, {axes, {}});
+    set->second.push_back(&row);
   }
-  return all;
+  std::ranges::stable_sort(sets, {}, [](const auto& entry) { return entry.first.size(); });
+  std::vector<const Json*> levels;
+  for (const auto& [axes, rows] : sets)
+    if (levels.size() + rows.size() <= most && rows.size() > 1 &&
+        std::ranges::all_of(rows, [&](const Json* row) { return number_at(*row, {"runs"}) >= fewest; }))
+      levels.insert(levels.end(), rows.begin(), rows.end());
+  return levels;
 }
 
 /// Box plots by factor: the middle half with the median, and all runs of a level, on the scale of all levels.
-std::string boxes(const Json& study, const Column& column) {
-  constexpr double row = 17, label = 118;
-  constexpr std::size_t most_rows = 40;
-  const auto levels = levels_of(study, column);
-  if (levels.empty() || levels.size() > most_rows) return {};
+std::string boxes(const Json& study, const std::string& quantity, const Column& column) {
+  constexpr double row = 17, letter = 6.2, widest = 190;  // of 11 pixels
+  const auto levels = levels_of(study, quantity);
+  if (levels.empty()) return {};
+  double label = 0;
+  for (const auto* level : levels)
+    label = std::min(widest, std::max(label, 8 + letter * static_cast<double>(level_text((*level)["at"]).size())));
   const auto [low, high] = column.range();
   const auto x = [&, from = low, to = high](double value) {
     return label + (Plot::width - Plot::right - label) * (to > from ? (value - from) / (to - from) : 0.5);
   };
   std::string body;
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    auto sorted = levels[k].values;
-    std::ranges::sort(sorted);
-    const double y = row * (static_cast<double>(k) + 0.5);
+    const auto number = [&](const char* name) { return number_at(*levels[k], {name}); };
+    const double y = row * (static_cast<double>(k) + 0.5), quarter = x(number("quarter"));
     body += fmt::format(
         "<text x=\"0\" y=\"{0:.1f}\">{1}</text><line x1=\"{2:.1f}\" x2=\"{3:.1f}\" y1=\"{4:.1f}\" y2=\"{4:.1f}\" "
         "stroke=\"currentColor\"/><rect x=\"{5:.1f}\" y=\"{6:.1f}\" width=\"{7:.1f}\" height=\"{8:.1f}\" "
         "fill-opacity=\"0.45\"><title>{9} runs: {10} to {11}</title></rect><circle cx=\"{12:.1f}\" cy=\"{4:.1f}\" "
         "r=\"4\" "
         "fill=\"#c8501e\"><title>{13}</title></circle>",
-        y + 4, html_escaped(levels[k].label), x(sorted.front()), x(sorted.back()), y, x(quantile_of(sorted, 0.25)),
-        y - 5, std::max(x(quantile_of(sorted, 0.75)) - x(quantile_of(sorted, 0.25)), 1.), 10., sorted.size(),
-        digits(sorted.front(), 3), digits(sorted.back(), 3), x(quantile_of(sorted, 0.5)),
-        digits(quantile_of(sorted, 0.5), 3));
+        y + 4, html_escaped(level_text((*levels[k])["at"])), x(number("least")), x(number("most")), y, quarter, y - 5,
+        std::max(x(number("three_quarters")) - quarter, 1.), 10., count_text(number("runs")),
+        digits(number("least"), 3), digits(number("most"), 3), x(number("median")), digits(number("median"), 3));
   }
   const double height = row * static_cast<double>(levels.size()) + 16;
   body += fmt::format(
@@ -167,13 +170,49 @@ std::string boxes(const Json& study, const Column& column) {
       Plot::width, height, body, html_escaped(column.label));
 }
 
+/// The mean of the first 2, 4, 8, ... runs with its band, on a logarithmic scale: each step halves the number of runs that a band stands for.
+std::string convergence(const Json& row, const Column& column) {
+  struct Part {
+    double runs, mean, low, high;
+  };
+  std::vector<Part> parts;
+  for (const auto& part : entries(row, "growth"))
+    if (part.contains("band") && part["band"].is_array() && part["band"].size() == 2 && part["band"][0].is_number() &&
+        part["band"][1].is_number())
+      parts.push_back({number_at(part, {"runs"}), number_at(part, {"mean"}), part["band"][0].get<double>(),
+                       part["band"][1].get<double>()});
+  // Two runs have a band 4 to 9 times as wide as four of them: it would hide all others.
+  std::erase_if(parts, [](const Part& part) { return part.runs < 4; });
+  if (parts.size() < 2) return {};
+  double low = parts.back().low, high = parts.back().high;
+  for (const auto& part : parts) low = std::min(low, part.low), high = std::max(high, part.high);
+  const auto y = [&](double value) { return upwards(high > low ? (value - low) / (high - low) : 0.5); };
+  std::string body;
+  for (const auto& part : parts) {
+    const double x = across(std::log(part.runs), std::log(parts.front().runs / 1.3), std::log(parts.back().runs * 1.3));
+    body += fmt::format(
+        "<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\" stroke=\"currentColor\" "
+        "stroke-width=\"3\" stroke-opacity=\"0.55\"/><circle cx=\"{0:.1f}\" cy=\"{3:.1f}\" r=\"4\" "
+        "fill=\"#c8501e\"><title>{4} runs: {5} ± {6}</title></circle>",
+        x, y(part.low), y(part.high), y(part.mean), count_text(part.runs), digits(part.mean),
+        digits((part.high - part.low) / 2, 2));
+  }
+  const auto at = row.contains("at") && row["at"].is_object() ? level_text(row["at"]) : std::string();
+  return picture(
+      body, parts.front().runs, parts.back().runs, "runs",
+      fmt::format("Mean of {}{} with its band of 95 %, of so many runs. From {} to {}.", html_escaped(column.label),
+                  at.empty() ? "" : ", " + html_escaped(at), digits(low, 3), digits(high, 3)));
+}
+
 std::string scatter(const Column& x, const Column& y) {
   const auto [x_low, x_high] = x.range();
   const auto [y_low, y_high] = y.range();
   std::string body;
+  auto next = x.runs.begin();  // both are in the order of the study
   for (std::size_t i = 0; i < y.values.size(); ++i) {
-    const auto at = std::ranges::find(x.runs, y.runs[i]);
+    const auto at = std::find(next, x.runs.end(), y.runs[i]);
     if (at == x.runs.end()) continue;
+    next = at;
     const auto name = html_escaped(text_at(*y.runs[i], "run"));
     body += fmt::format(
         "<a href=\"{0}/report.html\"><circle cx=\"{1:.1f}\" cy=\"{2:.1f}\" r=\"3\" fill-opacity=\"0.6\"><title>{0}: "
@@ -199,7 +238,12 @@ std::string distributions(const Json& study) {
       if (text_at(column, "name") == name) label = text_at(column, "label");
     const Column y(study, "numbers", name, label);
     if (y.values.size() < 5) continue;
-    html += histogram(y) + boxes(study, y);
+    html += histogram(y) + boxes(study, name, y);
+    std::size_t curves = 0;
+    constexpr std::size_t most_curves = 8;  // of groups
+    for (const auto& part : entries(study["campaign"], "statistics"))
+      if (text_at(part, "quantity") == name && part.contains("growth") && curves < most_curves)
+        html += convergence(part, y), ++curves;
     for (const auto& axis : entries(study, "axes")) {
       if (!axis.contains("random")) continue;
       const Column x(study, "axes", text_at(axis, "name"), text_at(axis, "label"));

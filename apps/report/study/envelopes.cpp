@@ -69,6 +69,8 @@ LimitPlane plane_of_groups(const Json& campaign, const std::string& limit) {
     for (const auto& [axis, value] : row["at"].items())
       if (const auto number = number_in(value)) at.emplace_back(axis, *number);
     if (at.size() != 2) continue;
+    // Groups by other pairs of axes have planes of their own, which nobody asked for.
+    if (!plane.columns.empty() && (plane.x != at[0].first || plane.y != at[1].first)) continue;
     plane.x = at[0].first;
     plane.y = at[1].first;
     plane.columns[at[0].second][at[1].second] = {.probability = number_at(row, {"probability"}),

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "apps/files/csv.hpp"
 #include "apps/report/curves/charts.hpp"
@@ -82,12 +83,16 @@ void add_verdicts(const StudyData& study, Banner& banner) {
 
 Banner banner_of(const StudyData& study) {
   const std::size_t all = study.runs().size();
-  const std::size_t open = study.count("waiting") + study.count("interrupted"), failed = study.count("failed");
+  // An envelope makes the runs that tell most and leaves out the others.
+  const bool chooses = study.root.contains("campaign") && study.root["campaign"].contains("envelope");
+  const std::size_t waiting = study.count("waiting"), failed = study.count("failed");
+  const std::size_t open = study.count("interrupted") + (chooses ? 0 : waiting);
   Banner banner{failed > 0 ? Mood::bad : open > 0 ? Mood::fair : Mood::good, {}, {}};
   banner.headline =
       open > 0 ? fmt::format("{} of {} runs have ended", all - open, all) : fmt::format("All {} runs have ended", all);
+  if (chooses) banner.headline = fmt::format("{} of {} runs are made, near the envelope's line", all - waiting, all);
   for (const auto& [status, mood, meaning] : all_status)
-    if (const auto number = study.count(status); number > 0)
+    if (const auto number = study.count(status); number > 0 && !(chooses && std::string_view(status) == "waiting"))
       banner.sentences.push_back(fmt::format("<b>{}</b> {}.", number, meaning));
   add_verdicts(study, banner);
   double sum = 0, longest = 0;

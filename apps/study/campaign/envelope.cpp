@@ -4,7 +4,9 @@
 #include <boost/math/distributions/beta.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace splashdown::apps {
 namespace {
@@ -18,6 +20,15 @@ std::optional<double> answer_in(const Outcome& outcome, const std::string& limit
   const auto found = outcome.limits.find(limit);
   if (outcome.status != Outcome::Status::converged || found == outcome.limits.end() || found->second.empty()) return {};
   return found->second == "yes" ? 1 : found->second == "no" ? 0 : 0.5;
+}
+
+/// What chance has drawn for a run, as a number: runs of different cells may share it.
+std::size_t draw_of(const Study& study, const StudyRun& run) {
+  std::size_t draw = 0;
+  for (std::size_t a = 0; a < study.axes.size(); ++a)
+    if (const auto& axis = study.axes[a]; (axis.sampled || axis.replicates) && axis.leader == a)
+      draw = draw * axis.values.size() + run.value[a];
+  return draw;
 }
 
 }  // namespace
@@ -35,16 +46,20 @@ EnvelopePlane::EnvelopePlane(const Study& study, const std::vector<StudyRun>& ru
   std::vector<char> is_begun(runs.size(), 0);
   for (const std::size_t run : at_work) is_begun[run] = 1;
   std::vector<Answer> answers;
+  std::map<std::size_t, std::size_t> used;  // draws, by how many runs
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (outcomes[i].finished() || is_begun[i]) ++used[draw_of(study, runs[i])];
+    if (!outcomes[i].finished()) continue;
     auto& cell = cells_[cell_of(i)];
-    if (!outcomes[i].finished()) {
-      if (!is_begun[i] && !cell.next) cell.next = i;
-      continue;
-    }
     const auto yes = answer_in(outcomes[i], envelope_.limit);
     if (!yes) continue;
     answers.push_back({cell_of(i), *yes});
     (*yes > 0.5 ? cell.yes : *yes < 0.5 ? cell.no : cell.open) += 1;
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    auto& cell = cells_[cell_of(i)];
+    if (outcomes[i].finished() || is_begun[i]) continue;
+    if (!cell.next || used[draw_of(study, runs[i])] < used[draw_of(study, runs[*cell.next])]) cell.next = i;
   }
   judge(answers);
   if (at_work.empty()) return;
@@ -71,14 +86,22 @@ void EnvelopePlane::judge(const std::vector<Answer>& answers) {
   const double size = static_cast<double>(cells_.size()), number = std::max(1., static_cast<double>(told_.size()));
   const double b = std::max(narrowest, std::sqrt(size / (std::numbers::pi * number)));
   std::vector<double> yes(cells_.size(), 0.5), no(cells_.size(), 0.5);  // Jeffreys
-  for (const auto& [at, share] : answers)
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const double steps = steps_between(c, at);
-      if (steps > farthest * farthest * b * b) continue;
-      const double weight = worth_ * std::exp(-steps / (2 * b * b));
-      yes[c] += share * weight;
-      no[c] += (1 - share) * weight;
-    }
+  const auto reach = static_cast<std::size_t>(farthest * b);
+  const auto near = [&](std::size_t at, std::size_t number) {
+    return std::pair(at - std::min(at, reach), std::min(at + reach + 1, number));
+  };
+  for (const auto& [at, share] : answers) {
+    const auto [left, right] = near(cells_[at].x, cells_.size() / height_);
+    const auto [low, high] = near(cells_[at].y, height_);
+    for (std::size_t x = left; x < right; ++x)
+      for (std::size_t c = x * height_ + low; c < x * height_ + high; ++c) {
+        const double steps = steps_between(c, at);
+        if (steps > farthest * farthest * b * b) continue;
+        const double weight = worth_ * std::exp(-steps / (2 * b * b));
+        yes[c] += share * weight;
+        no[c] += (1 - share) * weight;
+      }
+  }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     auto& cell = cells_[c];
     const double own = static_cast<double>(cell.yes + cell.no);

@@ -14,7 +14,7 @@ namespace splashdown::apps {
 struct EnvelopeCell {
   std::size_t x = 0, y = 0;               ///< values by index
   std::size_t yes = 0, no = 0, open = 0;  ///< answers of its own runs; open: within the run's own band, half a yes
-  std::optional<std::size_t> next;        ///< a run that is not begun; nothing: all are
+  std::optional<std::size_t> next;        ///< a run that is not begun, of the draw that is used least; nothing: all are
   double probability = 0.5;               ///< of a yes, by its own answers and those nearby
   double doubt = 0.5;                     ///< that the probability lies on the other side of the level
 };
@@ -22,7 +22,8 @@ struct EnvelopeCell {
 /// The plane of `study.envelope`, which is there. Answers count in cells nearby with the weight exp(-d^2/2b^2), d in steps of the axes. With
 /// more answers b shrinks: they then cover the plane as before, and more of them lie at the line. With Jeffreys' prior the
 /// probability of a cell has a beta distribution, and the doubt is what of it lies on the other side of the level. In studies without
-/// chance an answer counts as 20, and a cell that has its own is not in doubt.
+/// chance an answer counts as 20, and a cell that has its own is not in doubt. Of a cell's random runs the next is one whose draw the fewest
+/// runs of the plane have: with the same draw everywhere, answers nearby would say the same thing again.
 class EnvelopePlane {
  public:
   /// `at_work`: runs that are begun; until they end they count as what is expected of them.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace splashdown::apps {
 namespace {
@@ -23,25 +24,46 @@ bool has_chance(const Study& study) {
   return std::ranges::any_of(study.axes, [](const Axis& axis) { return axis.sampled || axis.replicates; });
 }
 
-/// All runs, and where other axes vary beside chance, those of each combination.
-std::vector<Group> groups_of(const Study& study, const std::vector<StudyRun>& runs) {
-  std::vector<Group> groups(1);
-  for (std::size_t i = 0; i < runs.size(); ++i) groups[0].runs.push_back(i);
+/// The sets of axes whose values make groups: where there is chance, all axes beside it; each factor; those that the study names. Runs of an
+/// envelope are chosen, so that its groups are those that it names alone.
+std::vector<std::vector<std::size_t>> sets_of_axes(const Study& study) {
+  constexpr std::size_t most_levels = 12;  // of a factor
   std::vector<std::size_t> fixed;
   for (std::size_t a = 0; a < study.axes.size(); ++a)
     if (!study.axes[a].sampled && !study.axes[a].replicates) fixed.push_back(a);
-  if (fixed.empty() || !has_chance(study)) return groups;
-  std::map<std::vector<std::size_t>, std::size_t> places;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    std::vector<std::size_t> at;
-    for (const std::size_t a : fixed) at.push_back(runs[i].value[a]);
-    const auto [place, is_new] = places.try_emplace(at, groups.size());
-    if (is_new) {
-      auto& group = groups.emplace_back();
-      for (const std::size_t a : fixed)
-        group.at.emplace_back(study.axes[a].name, study.axes[a].values[runs[i].value[a]].text);
+  std::vector<std::vector<std::size_t>> sets;
+  if (has_chance(study) && !fixed.empty()) sets.push_back(fixed);
+  for (const std::size_t a : fixed)
+    if (study.axes[a].leader == a && study.axes[a].values.size() <= most_levels && !study.envelope) sets.push_back({a});
+  sets.insert(sets.end(), study.groups.begin(), study.groups.end());
+  std::vector<std::vector<std::size_t>> once;
+  for (auto& set : sets)
+    if (std::ranges::find(once, set) == once.end()) once.push_back(std::move(set));
+  return once;
+}
+
+/// All runs, and those of each combination of values of each set of axes.
+std::vector<Group> groups_of(const Study& study, const std::vector<StudyRun>& runs) {
+  std::vector<Group> groups(1);
+  for (std::size_t i = 0; i < runs.size(); ++i) groups[0].runs.push_back(i);
+  const bool chance = has_chance(study);
+  groups[0].by_chance =
+      chance && std::ranges::all_of(study.axes, [](const Axis& axis) { return axis.sampled || axis.replicates; });
+  const auto fixed = std::ranges::count_if(study.axes, [](const Axis& a) { return !a.sampled && !a.replicates; });
+  for (const auto& set : sets_of_axes(study)) {
+    std::map<std::vector<std::size_t>, std::size_t> places;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      std::vector<std::size_t> at;
+      for (const std::size_t a : set) at.push_back(runs[i].value[a]);
+      const auto [place, is_new] = places.try_emplace(at, groups.size());
+      if (is_new) {
+        auto& group = groups.emplace_back();
+        group.by_chance = chance && static_cast<std::ptrdiff_t>(set.size()) == fixed;
+        for (const std::size_t a : set)
+          group.at.emplace_back(study.axes[a].name, study.axes[a].values[runs[i].value[a]].text);
+      }
+      groups[place->second].runs.push_back(i);
     }
-    groups[place->second].runs.push_back(i);
   }
   return groups;
 }
@@ -60,6 +82,20 @@ std::vector<double> values_of(const Group& group, const std::string& quantity, c
   return values;
 }
 
+/// Bands as they narrow with the number of runs.
+std::vector<PartialMean> growth_of(const std::vector<double>& values) {
+  std::vector<PartialMean> growth;
+  const auto add = [&](std::size_t n) {
+    const std::vector<double> first(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n));
+    growth.push_back({.runs = n,
+                      .mean = std::accumulate(first.begin(), first.end(), 0.) / static_cast<double>(n),
+                      .band = mean_band(first)});
+  };
+  for (std::size_t n = 2; n < values.size(); n *= 2) add(n);
+  if (values.size() > 1) add(values.size());
+  return growth;
+}
+
 void add_statistics(Campaign& campaign, const Group& group, const std::string& quantity,
                     const std::vector<Outcome>& outcomes) {
   const auto values = values_of(group, quantity, outcomes);
@@ -68,7 +104,8 @@ void add_statistics(Campaign& campaign, const Group& group, const std::string& q
   campaign.statistics.push_back({.quantity = quantity,
                                  .group = &group,
                                  .without = static_cast<std::size_t>(finished) - values.size(),
-                                 .found = statistics_of(values)});
+                                 .found = statistics_of(values),
+                                 .growth = group.by_chance ? growth_of(values) : std::vector<PartialMean>{}});
 }
 
 void add_probability(Campaign& campaign, const Group& group, const std::string& limit,
@@ -153,7 +190,7 @@ CampaignEnvelope envelope_of(const Study& study, const std::vector<StudyRun>& ru
 
 std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyRun>& runs,
                                     const std::vector<Outcome>& outcomes) {
-  if (!has_chance(study) && factors_of(study).size() < 2 && !study.envelope) return {};
+  if (!has_chance(study) && factors_of(study).size() < 2 && !study.envelope && study.groups.empty()) return {};
   Campaign campaign;
   campaign.groups = groups_of(study, runs);
   const auto limits = limit_names(outcomes);

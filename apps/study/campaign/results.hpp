@@ -16,10 +16,18 @@
 
 namespace splashdown::apps {
 
-/// Runs that differ by chance alone: one value of each axis that is neither random nor of replicates.
+/// Runs with one value of each of some axes that are neither random nor of replicates.
 struct Group {
   std::vector<std::pair<std::string, std::string>> at;  ///< axis and value; empty: all runs of the study
   std::vector<std::size_t> runs;
+  bool by_chance = false;  ///< nothing else tells its runs apart
+};
+
+/// The mean of a group's first runs.
+struct PartialMean {
+  std::size_t runs = 0;
+  double mean = 0;
+  std::optional<Band> band;
 };
 
 struct QuantityStatistics {
@@ -27,6 +35,7 @@ struct QuantityStatistics {
   const Group* group = nullptr;
   std::size_t without = 0;  ///< runs that ended without a number: broken down, most of them
   SampleStatistics found;
+  std::vector<PartialMean> growth;  ///< of the first 2, 4, 8, ... runs and of all, where they differ by chance alone
 };
 
 /// How often a limit's question is answered with yes. What the band of a single run leaves open counts as no in `least`, as yes in `most`.
@@ -87,7 +96,8 @@ std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyR
 /// For study.json.
 nlohmann::ordered_json json_of(const Campaign& campaign);
 
-/// statistics.csv, probabilities.csv, effects.csv, sobol_indices.csv, envelope.csv: those that have rows. Others of earlier calls are removed.
+/// statistics.csv, convergence.csv, probabilities.csv, effects.csv, sobol_indices.csv, envelope.csv: those that have rows. Others of earlier
+/// calls are removed.
 void write_campaign(const Campaign& campaign, const std::filesystem::path& folder);
 
 /// For the console: a line a limit, and the design.

@@ -50,6 +50,15 @@ std::string statistics_csv(const Campaign& campaign) {
   return text;
 }
 
+std::string convergence_csv(const Campaign& campaign) {
+  std::string text = "quantity,at,runs,mean,low,high\n";
+  for (const auto& entry : campaign.statistics)
+    for (const auto& partial : entry.growth)
+      text += fmt::format("{},{},{},{},{}\n", entry.quantity, csv_cell(where_text(*entry.group)), partial.runs,
+                          partial.mean, cells(partial.band));
+  return text;
+}
+
 std::string probabilities_csv(const Campaign& campaign) {
   std::string text = "limit,at,yes,no,within_the_band,without,probability,low,high,low_at_least_95,high_at_least_95\n";
   for (const auto& p : campaign.probabilities)
@@ -132,6 +141,9 @@ Json json_of_statistics(const Campaign& campaign) {
                     {"share_95", s.share_95},
                     {"most", s.most},
                     {"split", s.split ? Json(*s.split) : Json(nullptr)}});
+    for (const auto& partial : entry.growth)
+      list.back()["growth"].push_back(
+          {{"runs", partial.runs}, {"mean", partial.mean}, {"band", json_of_band(partial.band)}});
   }
   return list;
 }
@@ -201,6 +213,8 @@ void write_campaign(const Campaign& campaign, const fs::path& folder) {
     has_rows ? write_file_atomically(folder / name, text(campaign)) : void(fs::remove(folder / name));
   };
   write("statistics.csv", !campaign.statistics.empty(), statistics_csv);
+  write("convergence.csv", std::ranges::any_of(campaign.statistics, [](const auto& s) { return !s.growth.empty(); }),
+        convergence_csv);
   write("probabilities.csv", !campaign.probabilities.empty(), probabilities_csv);
   write("effects.csv", !campaign.effects.empty(), effects_csv);
   write("sobol_indices.csv", !campaign.indices.empty(), indices_csv);
@@ -212,6 +226,11 @@ std::string campaign_text(const Campaign& campaign, const Study& study) {
   for (const auto& p : campaign.probabilities) {
     if (p.group != &campaign.groups.front()) continue;
     const auto band = p.band();
+    if (campaign.envelope && campaign.envelope->limit == p.limit) {
+      text += fmt::format("  limit {}: yes in {} of {} runs, which were chosen near its line\n", p.limit, p.yes,
+                          p.answered());
+      continue;
+    }
     text += fmt::format("  limit {}: yes in {} of {} runs{}: {:.1f} %, band {:.1f} to {:.1f} %{}\n", p.limit, p.yes,
                         p.answered(), p.open > 0 ? fmt::format(", open in {}", p.open) : "", 100 * p.least().estimate(),
                         100 * band.low, 100 * band.high,

@@ -112,6 +112,20 @@ TEST(EnvelopePlane, runs_at_work_are_not_chosen_again_and_the_next_ones_lie_else
   }
 }
 
+TEST(EnvelopePlane, no_draw_comes_twice_before_each_has_come_once) {
+  constexpr std::size_t number = 6, draws = 9;
+  Plane plane(number, draws);
+  std::vector<int> used(draws, 0);
+  for (std::size_t made = 0; made < draws; ++made) {
+    const auto run = plane.judged().next();
+    ASSERT_TRUE(run);
+    ++used[plane.runs[*run].value[2]];
+    plane.answer(*run, made % 2 == 0);
+  }
+  for (const int times : used)
+    EXPECT_EQ(times, 1) << "with one draw for all cells, answers nearby would repeat each other";
+}
+
 const std::string sea_study = R"toml(scene = "scene.toml"
 [constants]
 base = 2
