@@ -79,7 +79,7 @@ void AleFlow::place_walls() {
     state_.placements.push_back(wall.motion->first());
     wall.numbers = state_.placements.back().size();
     Eigen::VectorXd rates = Eigen::VectorXd::Zero(wall.motion->coordinates());
-    rates.head<3>() = spec.velocity;
+    if (rates.size() == spec.velocity.size()) rates = spec.velocity;
     state_.rates.push_back(std::move(rates));
   }
 }
@@ -200,12 +200,11 @@ void AleFlow::give(const Nodes& walls, Unknowns& at) const {
     for (const int a : wall.nodes) at.segment<2>(equations_.velocity(a, 0)) = walls.col(a);
 }
 
-void AleFlow::begin(double kick, double dt) {
+Status AleFlow::begin(double kick, double dt) {
   kick_ = kick;
   dt_ = dt;
   is_begun_ = true;
   is_solved_ = false;
-  uses_pass_ = false;
   middle_ = state_.placements;
   for (std::size_t w = 0; w < moved_.size(); ++w)
     if (!state_.rates[w].isZero(0))
@@ -219,6 +218,29 @@ void AleFlow::begin(double kick, double dt) {
   fields_.force = {};
   if (spec_.force)
     fields_.force = [this](const Vec<2>& x) { return spec_.force(x, time_ + (fields_.theta - 0.5) * kick_); };
+  first_ = &kept_;
+  if (kept_.suits(fields_)) return {};
+  first_ = &of_step_;
+  Eigen::VectorXd rates(coordinates(moved_.size()));
+  for (std::size_t w = 0; w < moved_.size(); ++w)
+    rates.segment(moved_[w].first, state_.rates[w].size()) = state_.rates[w];
+  move_walls(rates);
+  if (factor(of_step_)) return {};
+  return {"the equations of the fluid are singular; use smaller elements or a smaller time.dt_max"};
+}
+
+/// The end of the step has these velocities of walls, the mesh those that fluid and walls share in its middle; all else is a guess.
+void AleFlow::move_walls(const Eigen::VectorXd& rates) {
+  if (!is_solved_) at_ = guess();
+  const Nodes walls = wall_velocities(middle_, rates);
+  give(walls, at_);
+  fields_.mesh_velocity.setZero(2, mesh_.size());
+  for (const auto& wall : moved_)
+    for (const int a : wall.nodes)
+      fields_.mesh_velocity.col(a) = fields_.theta * walls.col(a) + (1 - fields_.theta) * state_.velocity.col(a);
+  if (fields_.mesh_velocity.isZero(0)) return;
+  const Stopwatch watch(mesh_seconds_);
+  extension_.extend(fields_.mesh_velocity);
 }
 
 /// Velocities go on as they changed last.
@@ -232,21 +254,9 @@ Unknowns AleFlow::guess() const {
 
 Status AleFlow::solve(const Eigen::VectorXd& velocities, bool goes_on) {
   rates_ = all_rates(velocities);
-  if (!goes_on || !is_solved_) {
-    at_ = guess();
-    uses_pass_ = false;
-  }
-  const Nodes walls = wall_velocities(middle_, rates_);
-  give(walls, at_);
-  // On walls the mesh moves with the fluid.
-  fields_.mesh_velocity.setZero(2, mesh_.size());
-  for (const auto& wall : moved_)
-    for (const int a : wall.nodes)
-      fields_.mesh_velocity.col(a) = fields_.theta * walls.col(a) + (1 - fields_.theta) * state_.velocity.col(a);
-  if (!fields_.mesh_velocity.isZero(0)) {
-    const Stopwatch watch(mesh_seconds_);
-    extension_.extend(fields_.mesh_velocity);
-  }
+  is_solved_ = is_solved_ && goes_on;
+  if (!is_solved_) tangent_ = first_;
+  move_walls(rates_);
   pressure_.clear();
   const auto status = newton();
   is_solved_ = status.ok();
@@ -254,16 +264,14 @@ Status AleFlow::solve(const Eigen::VectorXd& velocities, bool goes_on) {
   return status;
 }
 
-bool AleFlow::refactor(bool is_kept) {
+bool AleFlow::factor(Tangent& tangent) {
   ++factorisations_;
-  uses_pass_ = !is_kept;
-  return (is_kept ? kept_ : pass_).make(equations_, given_, fields_, at_, assembly_seconds_, factor_seconds_);
+  tangent_ = &tangent;
+  return tangent.make(equations_, given_, fields_, at_, assembly_seconds_, factor_seconds_);
 }
 
 Status AleFlow::newton() {
   constexpr double slow = 0.25;  // of a change to the one before: another factor costs less
-  if (!tangent().suits(fields_) && !refactor(!uses_pass_))
-    return {"the equations of the fluid are singular; use smaller elements or a smaller time.dt_max"};
   double last = 0;
   bool is_fresh = false;
   Eigen::VectorXd residual;
@@ -275,7 +283,7 @@ Status AleFlow::newton() {
     Eigen::VectorXd change;
     {
       const Stopwatch watch(solve_seconds_);
-      change = tangent().correction(given_.gather(residual));
+      change = tangent_->correction(given_.gather(residual));
     }
     if (!change.allFinite()) return {"Newton's method of the fluid left all numbers; use a smaller time.dt_max"};
     const Nodes old = at_.head(2 * mesh_.size()).reshaped(2, mesh_.size());
@@ -285,7 +293,7 @@ Status AleFlow::newton() {
     if (step <= spec_.newton.tolerance * speed) return {};
     if (iterations_ > 1 && step > slow * last) {
       if (is_fresh && step > 1e3 * last) break;
-      if (!refactor(false)) break;
+      if (!factor(of_pass_)) break;
       is_fresh = true;
     }
     last = step;
@@ -308,9 +316,8 @@ Status AleFlow::acceptable() const {
 }
 
 void AleFlow::commit(const Eigen::VectorXd& placements) {
-  const std::size_t steps_before = moved_.size();
   Eigen::Index at = 0;
-  for (std::size_t w = 0; w < steps_before && at < placements.size(); ++w) {
+  for (std::size_t w = 0; w < moved_.size() && at < placements.size(); ++w) {
     state_.placements[w] = placements.segment(at, moved_[w].numbers);
     at += moved_[w].numbers;
   }
@@ -325,8 +332,9 @@ void AleFlow::commit(const Eigen::VectorXd& placements) {
   state_.dt = dt_;
   ++state_.steps;
   time_ += dt_;
-  if (uses_pass_) std::swap(kept_, pass_);
-  uses_pass_ = is_begun_ = is_solved_ = false;
+  if (tangent_ != &kept_) std::swap(kept_, *tangent_);
+  tangent_ = first_ = &kept_;
+  is_begun_ = is_solved_ = false;
   x_ = places_of(state_.placements);
   ledger_.kinetic_energy = equations_.kinetic_energy(x_, state_.velocity);
   look();

@@ -39,8 +39,8 @@ class AleFlow final : public FluidView<2> {
   /// The wall that a coordinate is of comes from its count; throws std::invalid_argument where they end within a wall.
   std::size_t walls_with(Eigen::Index coordinates) const;
 
-  /// Fixes a step of dt in which impulses act over the kick [s].
-  void begin(double kick, double dt);
+  /// Fixes a step of dt in which impulses act over the kick [s]. Refused where its equations are singular.
+  Status begin(double kick, double dt);
   /// The begun step ends with these velocities of the first walls' coordinates; all others stand still. `goes_on`: from the last
   /// solve, else from t_n. Refused where Newton's method fails.
   Status solve(const Eigen::VectorXd& velocities, bool goes_on = false);
@@ -58,7 +58,7 @@ class AleFlow final : public FluidView<2> {
   void load(std::istream& in);         ///< throws std::runtime_error for other bytes
   /// Of the last solve.
   int iterations() const { return iterations_; }
-  /// Factors made so far.
+  /// Factors made so far, of steps that were refused too.
   long factorisations() const { return factorisations_; }
   /// Velocities of nodes at t_{n-1/2} [m/s].
   const Nodes& velocity() const { return state_.velocity; }
@@ -108,11 +108,11 @@ class AleFlow final : public FluidView<2> {
   Nodes places_of(const std::vector<Eigen::VectorXd>& placements) const;
   Nodes wall_velocities(const std::vector<Eigen::VectorXd>& placements, const Eigen::VectorXd& rates) const;
   Eigen::VectorXd all_rates(const Eigen::VectorXd& of_first) const;
+  void move_walls(const Eigen::VectorXd& rates);
   void give(const Nodes& walls, Unknowns& at) const;
   Unknowns guess() const;
   Status newton();
-  bool refactor(bool is_kept);
-  const Tangent& tangent() const { return uses_pass_ ? pass_ : kept_; }
+  bool factor(Tangent& tangent);
   void find_loads();
   void add_buoyancy(Eigen::VectorXd& loads) const;
   void look();
@@ -130,10 +130,12 @@ class AleFlow final : public FluidView<2> {
   State state_;
   Nodes x_;  // at t_n
   Ledger ledger_;
-  Tangent kept_, pass_;
+  // Factors: of a step before, of the step under way where that does not suit it, of the last solve where neither converges.
+  Tangent kept_, of_step_, of_pass_;
+  Tangent *first_ = nullptr, *tangent_ = nullptr;  // that a solve from t_n begins with, that is used
   // Of the step under way.
   double kick_ = 0, dt_ = 0;
-  bool is_begun_ = false, is_solved_ = false, uses_pass_ = false;
+  bool is_begun_ = false, is_solved_ = false;
   StepFields fields_;
   std::vector<Eigen::VectorXd> middle_;  // placements foreseen at t_{n+1/2}
   Eigen::VectorXd rates_;                // of all walls

@@ -51,7 +51,8 @@ void AleFlow::add_buoyancy(Eigen::VectorXd& loads) const {
 
 Eigen::MatrixXd AleFlow::answer(Eigen::Index count) const {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count);
-  if (!tangent().is_ready()) return all;
+  const Tangent* tangent = is_solved_ ? tangent_ : first_;
+  if (!tangent || !tangent->is_ready()) return all;
   const std::size_t walls = walls_with(count);
   for (std::size_t mover = 0; mover < walls; ++mover) {
     const Eigen::MatrixXd basis = moved_[mover].motion->basis(middle_[mover]);
@@ -59,8 +60,8 @@ Eigen::MatrixXd AleFlow::answer(Eigen::Index count) const {
       Unknowns change = Unknowns::Zero(equations_.size());
       for (std::size_t a = 0; a < moved_[mover].nodes.size(); ++a)
         change.segment<2>(2 * moved_[mover].nodes[a]) = basis.col(k).segment<2>(2 * static_cast<Eigen::Index>(a));
-      given_.add(tangent().correction(given_.gather(tangent().times(change))), change);
-      const Eigen::VectorXd reactions = kick_ * tangent().times(change);
+      given_.add(tangent->correction(given_.gather(tangent->times(change))), change);
+      const Eigen::VectorXd reactions = kick_ * tangent->times(change);
       for (std::size_t w = 0; w < walls; ++w) {
         const auto& wall = moved_[w];
         Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));

@@ -15,8 +15,7 @@ coupling::Status Participant::begin(const coupling::Step& step, const coupling::
       throw std::invalid_argument("ale fluid: knows no local operators on hulls");
   step_ = step;
   modal_ = structure.modal;
-  fluid_->begin(step.kick, step.dt);
-  return {};
+  return fluid_->begin(step.kick, step.dt);
 }
 
 namespace {
@@ -37,14 +36,17 @@ Eigen::VectorXd next_modes(const coupling::ModalInertia& modal, const coupling::
 }  // namespace
 
 coupling::Status Participant::solve_exact(const coupling::Pass& pass) {
-  constexpr double agreed = 1e-10;  // of velocities: Newton's method squares what is left
+  constexpr double agreed = 1e-9;  // of velocities: Newton's method squares what is left
   constexpr int most = 30;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(modal_.modes.cols());
+  Eigen::MatrixXd answer;
+  long of_factor = -1;
   for (int k = 0; k < most; ++k) {
     solution_.velocities = pass.velocities + modal_.modes * y;
     if (!solution_.velocities.allFinite()) return {"the velocities of the bodies are not finite"};
     if (const auto status = fluid_->solve(solution_.velocities, k > 0); !status.ok()) return status;
-    const Eigen::MatrixXd answer = fluid_->answer(pass.velocities.size());
+    if (of_factor != fluid_->factorisations()) answer = fluid_->answer(pass.velocities.size());
+    of_factor = fluid_->factorisations();
     const Eigen::VectorXd next =
         next_modes(modal_, pass.contacts, answer, fluid_->impulse().head(pass.velocities.size()), y);
     const Eigen::VectorXd change = modal_.modes * (next - y);

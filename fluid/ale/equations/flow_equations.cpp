@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fluid/ale/equations/cell_rule.hpp"
+#include "fluid/ale/mesh/cell_rule.hpp"
 
 namespace splashdown::ale {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fluid/ale/equations/cell_rule.hpp"
+#include "fluid/ale/mesh/cell_rule.hpp"
 
 namespace splashdown::ale {
 

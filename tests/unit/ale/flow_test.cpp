@@ -158,7 +158,7 @@ TEST(AleFlow, refuses_to_fold_its_mesh) {
   spec.far = 0.4;
   spec.walls = {{.name = "body", .surface = scenes::box(0.4, 0.2), .size = 0.1}};
   AleFlow flow(spec);
-  flow.begin(0.5, 1);
+  ASSERT_TRUE(flow.begin(0.5, 1).ok());
   ASSERT_TRUE(flow.solve(Twist<2>(0.1, 0, 0)).ok());
   EXPECT_TRUE(flow.acceptable().ok());
   ASSERT_TRUE(flow.solve(Twist<2>(0.9, 0, 0)).ok());

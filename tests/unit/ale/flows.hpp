@@ -43,8 +43,9 @@ inline Isometry<2> at(double x, double y, double angle = 0) {
 /// A step of a flow with its own leapfrog clock. Throws std::runtime_error where it is refused.
 inline void step(AleFlow& flow, double dt, double& before, const Eigen::VectorXd& rates = {},
                  const Eigen::VectorXd& placements = {}) {
-  flow.begin(0.5 * (before + dt), dt);
-  if (const auto status = flow.solve(rates); !status.ok()) throw std::runtime_error(status.cause);
+  auto status = flow.begin(0.5 * (before + dt), dt);
+  if (status.ok()) status = flow.solve(rates);
+  if (!status.ok()) throw std::runtime_error(status.cause);
   flow.commit(placements);
   before = dt;
 }

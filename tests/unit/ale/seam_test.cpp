@@ -106,6 +106,56 @@ TEST(AleSeam, light_bodies_rise_without_an_explosion) {
   EXPECT_LT(state.velocity.norm(), 2);  // sqrt of twice the fall of as much fluid
 }
 
+/// A circle that breathes: one coordinate, the rate of its radius; its placement is the radius.
+class Breathing final : public WallMotion {
+ public:
+  explicit Breathing(const Nodes& nodes) : directions_(nodes.colwise().normalized()), radius_(nodes.col(0).norm()) {}
+  Eigen::Index coordinates() const override { return 1; }
+  Eigen::VectorXd first() const override { return Eigen::VectorXd::Constant(1, radius_); }
+  Nodes positions(const Eigen::VectorXd& placement) const override { return placement[0] * directions_; }
+  Eigen::MatrixXd basis(const Eigen::VectorXd&) const override { return directions_.reshaped(); }
+  Eigen::VectorXd moved(const Eigen::VectorXd& placement, const Eigen::VectorXd& rate, double dt) const override {
+    return placement + dt * rate;
+  }
+  Isometry<2> pose(const Eigen::VectorXd&) const override { return Isometry<2>::Identity(); }
+
+ private:
+  Nodes directions_;
+  double radius_;
+};
+
+// Walls in other coordinates than a twist: what it grows by leaves through the open side, and the fluid resists by an inertia.
+TEST(AleSeam, a_wall_that_breathes_pushes_out_what_it_grows_by) {
+  FreeBody scene{.outline = scenes::circle(0.5, 4000), .viscosity = 1e-3};
+  auto spec = scene.fluid();
+  spec.gravity.setZero();
+  spec.motions = {[](const Nodes& nodes) { return std::make_unique<Breathing>(nodes); }};
+  AleFlow flow(spec);
+  const Eigen::VectorXd rate = Eigen::VectorXd::Constant(1, 0.2);
+  double before = 0, radius = 0.5;
+  for (int k = 0; k < 5; ++k) {
+    const double dt = 0.05, middle = radius + (k == 0 ? 0 : 0.5 * dt * rate[0]);  // as it is foreseen
+    radius += dt * rate[0];
+    ASSERT_TRUE(flow.begin(0.5 * (before + dt), dt).ok());
+    ASSERT_TRUE(flow.solve(rate).ok());
+    const double inertia = flow.answer(1)(0, 0);
+    EXPECT_GT(inertia, pi * 0.25);
+    EXPECT_EQ(flow.impulse().size(), 1);
+    if (k == 0) EXPECT_NEAR(flow.impulse()[0], -inertia * rate[0], 0.1 * inertia * rate[0]);  // from rest
+    flow.commit(Eigen::VectorXd::Constant(1, radius));
+    before = dt;
+    double flux = 0;
+    for (const auto& edge : flow.mesh().boundary)
+      if (edge.side == top) {
+        const auto& v = flow.velocity();
+        const double length = (flow.mesh().nodes.col(edge.nodes[1]) - flow.mesh().nodes.col(edge.nodes[0])).norm();
+        flux += length * (v(1, edge.nodes[0]) + 4 * v(1, edge.nodes[2]) + v(1, edge.nodes[1])) / 6;
+      }
+    EXPECT_NEAR(flux, 2 * pi * middle * rate[0], 1e-3 * flux);
+  }
+  EXPECT_NEAR((flow.places().colwise().norm()).minCoeff(), radius, 1e-4);
+}
+
 TEST(AleSeam, refuses_walls_and_operators_that_it_does_not_know) {
   Participant fluid(std::make_unique<AleFlow>(FreeBody{}.fluid()));
   coupling::InterfaceModel model;
