@@ -11,12 +11,12 @@ namespace {
 
 struct SideName {
   std::string_view name;
-  ale::SideKind kind;
+  ale::BoundaryKind kind;
 };
-constexpr SideName side_kinds[] = {{"inflow", ale::SideKind::inflow},
-                                   {"outflow", ale::SideKind::outflow},
-                                   {"no_slip", ale::SideKind::no_slip},
-                                   {"slip", ale::SideKind::slip}};
+constexpr SideName side_kinds[] = {{"inflow", ale::BoundaryKind::inflow},
+                                   {"outflow", ale::BoundaryKind::outflow},
+                                   {"no_slip", ale::BoundaryKind::no_slip},
+                                   {"slip", ale::BoundaryKind::slip}};
 
 /// From rest to 1 within the ramp.
 double risen(double time, double ramp) {
@@ -24,7 +24,7 @@ double risen(double time, double ramp) {
 }
 
 /// Over the height of the side that it comes in by, 1 in the mean.
-ale::Field inflow_of(const AleFluid& fluid) {
+ale::FlowField inflow_of(const AleFluid& fluid) {
   const Vec<2> mean = vec<2>(fluid.velocity), min = vec<2>(fluid.min), size = vec<2>(fluid.max) - min;
   const double ramp = fluid.ramp;
   if (fluid.profile == "uniform") return [=](const Vec<2>&, double time) { return Vec<2>(risen(time, ramp) * mean); };

@@ -14,7 +14,7 @@ FlowMesh mesh_of(const AleFlowSpec& spec) {
   MeshSpec mesh{
       .min = spec.min, .max = spec.max, .far = spec.far, .growth = spec.growth, .hulls = {}, .corner = spec.corner};
   for (const auto& wall : spec.walls) {
-    Hull hull{.outline = wall.surface, .size = wall.size};
+    Hole hull{.outline = wall.surface, .size = wall.size};
     hull.outline.vertices = wall.pose * hull.outline.vertices;
     mesh.hulls.push_back(std::move(hull));
   }
@@ -23,7 +23,7 @@ FlowMesh mesh_of(const AleFlowSpec& spec) {
 
 std::array<bool, side_count> open_sides(const AleFlowSpec& spec) {
   std::array<bool, side_count> open{};
-  for (std::size_t s = 0; s < side_count; ++s) open[s] = spec.sides[s] == SideKind::outflow;
+  for (std::size_t s = 0; s < side_count; ++s) open[s] = spec.sides[s] == BoundaryKind::outflow;
   return open;
 }
 
@@ -95,9 +95,9 @@ std::vector<char> AleFlow::given_unknowns() const {
         if (edge.side < 0) continue;
         const auto kind = spec_.sides[static_cast<std::size_t>(edge.side)];
         const bool along_x = edge.side == left || edge.side == right;  // its normal
-        if (kind == SideKind::inflow || kind == SideKind::no_slip) is_given = 1;
-        if (kind == SideKind::slip && along_x == (axis == 0)) is_given = 1;
-        is_open = is_open || kind == SideKind::outflow;
+        if (kind == BoundaryKind::inflow || kind == BoundaryKind::no_slip) is_given = 1;
+        if (kind == BoundaryKind::slip && along_x == (axis == 0)) is_given = 1;
+        is_open = is_open || kind == BoundaryKind::outflow;
       }
   if (!is_open) given[static_cast<std::size_t>(equations_.pressure(0))] = 1;  // its level is nobody's
   return given;
@@ -183,14 +183,14 @@ Nodes AleFlow::wall_velocities(const std::vector<Eigen::VectorXd>& placements, c
 /// and walls before all.
 void AleFlow::give(const Nodes& walls, Unknowns& at) const {
   const double when = is_begun_ ? time_ + 0.5 * dt_ : time_;
-  for (const SideKind kind : {SideKind::slip, SideKind::inflow, SideKind::no_slip})
+  for (const BoundaryKind kind : {BoundaryKind::slip, BoundaryKind::inflow, BoundaryKind::no_slip})
     for (const auto& edge : mesh_.boundary) {
       if (edge.side < 0 || spec_.sides[static_cast<std::size_t>(edge.side)] != kind) continue;
       const int normal = edge.side == left || edge.side == right ? 0 : 1;
       for (const int a : edge.nodes) {
-        if (kind == SideKind::inflow)
+        if (kind == BoundaryKind::inflow)
           at.segment<2>(equations_.velocity(a, 0)) = inflow(mesh_.nodes.col(a), when);
-        else if (kind == SideKind::no_slip)
+        else if (kind == BoundaryKind::no_slip)
           at.segment<2>(equations_.velocity(a, 0)).setZero();
         else
           at[equations_.velocity(a, normal)] = 0;
@@ -264,7 +264,7 @@ Status AleFlow::solve(const Eigen::VectorXd& velocities, bool goes_on) {
   return status;
 }
 
-bool AleFlow::factor(Tangent& tangent) {
+bool AleFlow::factor(FactoredSlope& tangent) {
   ++factorisations_;
   tangent_ = &tangent;
   return tangent.make(equations_, given_, fields_, at_, assembly_seconds_, factor_seconds_);

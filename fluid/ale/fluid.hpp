@@ -87,9 +87,9 @@ class AleFlow final : public FluidView<2> {
 
  private:
   /// Nodes of a wall and what moves them.
-  struct MovedWall {
+  struct WallInMesh {
     std::vector<int> nodes;
-    std::unique_ptr<WallMotion> motion;
+    std::unique_ptr<MovingWall> motion;
     Eigen::Index first = 0, numbers = 0;  // of its coordinates and its placement's numbers among all
   };
   /// What lives at t_n.
@@ -112,7 +112,7 @@ class AleFlow final : public FluidView<2> {
   void give(const Nodes& walls, Unknowns& at) const;
   Unknowns guess() const;
   Status newton();
-  bool factor(Tangent& tangent);
+  bool factor(FactoredSlope& tangent);
   void find_loads();
   void add_buoyancy(Eigen::VectorXd& loads) const;
   void look();
@@ -122,7 +122,7 @@ class AleFlow final : public FluidView<2> {
   FlowMesh mesh_;
   FlowEquations equations_;
   Extension extension_;
-  std::vector<MovedWall> moved_;
+  std::vector<WallInMesh> moved_;
   std::vector<char> wall_node_;
   std::vector<int> wall_of_;  // of each node, -1: none
   GivenUnknowns given_;
@@ -131,8 +131,8 @@ class AleFlow final : public FluidView<2> {
   Nodes x_;  // at t_n
   Ledger ledger_;
   // Factors: of a step before, of the step under way where that does not suit it, of the last solve where neither converges.
-  Tangent kept_, of_step_, of_pass_;
-  Tangent *first_ = nullptr, *tangent_ = nullptr;  // that a solve from t_n begins with, that is used
+  FactoredSlope kept_, of_step_, of_pass_;
+  FactoredSlope *first_ = nullptr, *tangent_ = nullptr;  // that a solve from t_n begins with, that is used
   // Of the step under way.
   double kick_ = 0, dt_ = 0;
   bool is_begun_ = false, is_solved_ = false;

@@ -51,7 +51,7 @@ void AleFlow::add_buoyancy(Eigen::VectorXd& loads) const {
 
 Eigen::MatrixXd AleFlow::answer(Eigen::Index count) const {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count);
-  const Tangent* tangent = is_solved_ ? tangent_ : first_;
+  const FactoredSlope* tangent = is_solved_ ? tangent_ : first_;
   if (!tangent || !tangent->is_ready()) return all;
   const std::size_t walls = walls_with(count);
   for (std::size_t mover = 0; mover < walls; ++mover) {

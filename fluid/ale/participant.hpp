@@ -1,5 +1,5 @@
 // The fluid on a mesh that moves with its walls as a part of a coupling. Each wall says what its coordinates are
-// (walls/wall_motion.hpp), of a rigid one its twist; the structure's walls come first among the fluid's, all others stand still.
+// (walls/moving_wall.hpp), of a rigid one its twist; the structure's walls come first among the fluid's, all others stand still.
 //
 // The exact term (M + Z^T A Z) y = Z^T (I + A y) + known is found by Newton's method with the slope A of the factor that the
 // fluid has anyway: its first correction contains the added mass.

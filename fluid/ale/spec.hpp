@@ -7,12 +7,12 @@
 
 #include "core/fluid_view.hpp"
 #include "fluid/ale/mesh/flow_mesh.hpp"
-#include "fluid/ale/walls/wall_motion.hpp"
+#include "fluid/ale/walls/moving_wall.hpp"
 
 namespace splashdown::ale {
 
 /// What a side of the box does to the fluid.
-enum class SideKind {
+enum class BoundaryKind {
   inflow,   ///< velocities are given
   outflow,  ///< bears no traction: -p n + mu dv/dn = 0
   no_slip,  ///< at rest, and the fluid with it
@@ -20,7 +20,7 @@ enum class SideKind {
 };
 
 /// A field in space and time.
-using Field = std::function<Vec<2>(const Vec<2>& x, double time)>;
+using FlowField = std::function<Vec<2>(const Vec<2>& x, double time)>;
 
 /// How time is gone through: (v+ - v-)/k = theta F(v+) + (1 - theta) F(v-), its middle in between.
 struct ThetaScheme {
@@ -30,7 +30,7 @@ struct ThetaScheme {
 };
 
 /// When Newton's method ends.
-struct NewtonLimits {
+struct IterationLimits {
   double tolerance = 1e-8;  ///< of the last change, over the greatest velocity
   int max_iterations = 30;
 };
@@ -40,16 +40,17 @@ struct AleFlowSpec {
   double density = 1000;                              ///< [kg/m^3]
   double viscosity = 1e-3;                            ///< dynamic [Pa s]
   Vec<2> min = Vec<2>::Zero(), max = Vec<2>::Ones();  ///< corners of the box [m]
-  std::array<SideKind, side_count> sides = {SideKind::inflow, SideKind::outflow, SideKind::slip, SideKind::slip};
-  Field inflow = {};                            ///< on inflow sides [m/s]; empty: at rest
+  std::array<BoundaryKind, side_count> sides = {BoundaryKind::inflow, BoundaryKind::outflow, BoundaryKind::slip,
+                                                BoundaryKind::slip};
+  FlowField inflow = {};                        ///< on inflow sides [m/s]; empty: at rest
   double far = 0.1, growth = 0.15, corner = 1;  ///< MeshSpec
   Vec<2> gravity = Vec<2>::Zero();              ///< [m/s^2]
-  Field force = {};                             ///< besides it, per mass [m/s^2]; empty: none
-  Field start = {};                             ///< velocity at t = 0; empty: at rest
+  FlowField force = {};                         ///< besides it, per mass [m/s^2]; empty: none
+  FlowField start = {};                         ///< velocity at t = 0; empty: at rest
   ThetaScheme scheme = {};
-  NewtonLimits newton = {};
+  IterationLimits newton = {};
   std::vector<WallSpec<2>> walls = {};       ///< the structure's first; all stick
-  std::vector<MakeWallMotion> motions = {};  ///< of walls in their order; those without one are rigid
+  std::vector<MakeMovingWall> motions = {};  ///< of walls in their order; those without one are rigid
 };
 
 }  // namespace splashdown::ale

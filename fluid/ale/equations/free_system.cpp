@@ -38,8 +38,8 @@ Eigen::SparseMatrix<double> GivenUnknowns::inner(const Eigen::SparseMatrix<doubl
   return out;
 }
 
-bool Tangent::make(const FlowEquations& equations, const GivenUnknowns& given, const StepFields& fields,
-                   const Unknowns& at, double& assembly_seconds, double& factor_seconds) {
+bool FactoredSlope::make(const FlowEquations& equations, const GivenUnknowns& given, const StepFields& fields,
+                         const Unknowns& at, double& assembly_seconds, double& factor_seconds) {
   fields_ = fields;
   at_ = at;
   Eigen::SparseMatrix<double> inner;
@@ -52,7 +52,7 @@ bool Tangent::make(const FlowEquations& equations, const GivenUnknowns& given, c
   return solver_.factor(inner);
 }
 
-bool Tangent::suits(const StepFields& fields) const {
+bool FactoredSlope::suits(const StepFields& fields) const {
   constexpr double near = 0.05;  // of the rate: a factor that is off by so much still leads to the solution
   return solver_.is_ready() && fields.theta == fields_.theta &&
          std::abs(fields.rate - fields_.rate) <= near * fields.rate;

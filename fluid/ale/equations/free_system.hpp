@@ -28,7 +28,7 @@ class GivenUnknowns {
 };
 
 /// The slope of a step at a place, factored.
-class Tangent {
+class FactoredSlope {
  public:
   /// At these unknowns. False where it is singular.
   bool make(const FlowEquations& equations, const GivenUnknowns& given, const StepFields& fields, const Unknowns& at,

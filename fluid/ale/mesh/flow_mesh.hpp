@@ -38,7 +38,7 @@ struct FlowMesh {
 };
 
 /// A body in the box.
-struct Hull {
+struct Hole {
   Surface<2> outline;  ///< world frame [m]; counter-clockwise
   double size = 0;     ///< longest element edge on it [m]
 };
@@ -48,7 +48,7 @@ struct MeshSpec {
   Vec<2> min, max;           ///< corners of the box [m]
   double far = 0;            ///< longest edge [m]
   double growth = 0.15;      ///< dh/dx
-  std::vector<Hull> hulls;   ///< inside of the box; those that overlap are one hole
+  std::vector<Hole> hulls;   ///< inside of the box; those that overlap are one hole
   double corner = 1;         ///< size at corners of hulls that jut into the fluid, over that on the hull
   double corner_angle = 30;  ///< turns of an outline by more are corners, others are curves [deg]
 };

@@ -20,7 +20,7 @@ double distance_to(const Surface<2>& outline, const Vec<2>& point) {
   return least;
 }
 
-int nearest_wall(const std::vector<Hull>& hulls, const Vec<2>& point) {
+int nearest_wall(const std::vector<Hole>& hulls, const Vec<2>& point) {
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < hulls.size(); ++w)
@@ -120,7 +120,7 @@ void HullLine::divide(std::span<const double> sizes, const MeshSpec& spec) {
   std::ranges::sort(cuts_);
 }
 
-std::vector<HullLine> hull_lines(const std::vector<Hull>& hulls) {
+std::vector<HullLine> hull_lines(const std::vector<Hole>& hulls) {
   std::vector<Surface<2>> outlines;
   for (const auto& hull : hulls) outlines.push_back(hull.outline);
   const Surface<2> all = outlines.size() == 1 ? outlines.front() : united<2>(outlines);

@@ -40,6 +40,6 @@ class HullLine {
 };
 
 /// Outlines of the holes that hulls make together. Throws std::invalid_argument as core/surface/unite.hpp does.
-std::vector<HullLine> hull_lines(const std::vector<Hull>& hulls);
+std::vector<HullLine> hull_lines(const std::vector<Hole>& hulls);
 
 }  // namespace splashdown::ale

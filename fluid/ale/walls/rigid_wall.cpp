@@ -1,10 +1,10 @@
 #include "core/geometry.hpp"
-#include "fluid/ale/walls/wall_motion.hpp"
+#include "fluid/ale/walls/moving_wall.hpp"
 
 namespace splashdown::ale {
 namespace {
 
-class RigidWall final : public WallMotion {
+class RigidWall final : public MovingWall {
  public:
   RigidWall(const Isometry<2>& pose, const Nodes& nodes) : pose_(pose), nodes_(pose.inverse() * nodes) {}
 
@@ -41,7 +41,7 @@ class RigidWall final : public WallMotion {
 
 }  // namespace
 
-MakeWallMotion rigid_wall(const Isometry<2>& pose) {
+MakeMovingWall rigid_wall(const Isometry<2>& pose) {
   return [pose](const Nodes& nodes) { return std::make_unique<RigidWall>(pose, nodes); };
 }
 

@@ -27,7 +27,7 @@ struct FreeBody {
 
   AleFlowSpec fluid() const {
     AleFlowSpec spec{.density = 1, .viscosity = viscosity, .min = {-half, -half}, .max = {half, half}};
-    spec.sides = {SideKind::slip, SideKind::slip, SideKind::slip, SideKind::outflow};
+    spec.sides = {BoundaryKind::slip, BoundaryKind::slip, BoundaryKind::slip, BoundaryKind::outflow};
     spec.far = far;
     spec.gravity = {0, -g};
     spec.walls = {{.name = "body", .surface = outline, .pose = at(0, 0, angle), .size = size}};

@@ -7,7 +7,8 @@ namespace splashdown::ale {
 namespace {
 
 using std::numbers::pi;
-constexpr std::array<SideKind, 4> all_given = {SideKind::inflow, SideKind::inflow, SideKind::inflow, SideKind::inflow};
+constexpr std::array<BoundaryKind, 4> all_given = {BoundaryKind::inflow, BoundaryKind::inflow, BoundaryKind::inflow,
+                                                   BoundaryKind::inflow};
 
 /// Of p at t_n, without its mean.
 double pressure_error(const AleFlow& flow, const std::function<double(const Vec<2>&)>& exact) {
@@ -27,7 +28,7 @@ TEST(AleFlow, has_poiseuilles_flow_exactly) {
   };
   for (const bool is_steady : {true, false}) {
     AleFlowSpec spec{.density = rho, .viscosity = mu, .min = {0, 0}, .max = {2, height}};
-    spec.sides = {SideKind::inflow, SideKind::outflow, SideKind::no_slip, SideKind::no_slip};
+    spec.sides = {BoundaryKind::inflow, BoundaryKind::outflow, BoundaryKind::no_slip, BoundaryKind::no_slip};
     spec.inflow = [&](const Vec<2>& x, double) { return exact(x); };
     if (!is_steady) spec.start = spec.inflow;
     spec.far = 0.2;
@@ -109,7 +110,7 @@ TEST(AleFlow, is_of_second_order_in_time_with_the_midpoint_rule_and_of_first_wit
 TEST(AleFlow, does_not_feel_a_body_that_drifts_with_the_stream) {
   const Vec<2> stream(1, 0.25);
   AleFlowSpec spec{.density = 1000, .viscosity = 1, .min = {-1, -1}, .max = {1.5, 1}};
-  spec.sides = {SideKind::inflow, SideKind::outflow, SideKind::inflow, SideKind::inflow};
+  spec.sides = {BoundaryKind::inflow, BoundaryKind::outflow, BoundaryKind::inflow, BoundaryKind::inflow};
   spec.inflow = [&](const Vec<2>&, double) { return stream; };
   spec.start = spec.inflow;
   spec.far = 0.3;
@@ -136,7 +137,7 @@ TEST(AleFlow, does_not_feel_a_body_that_drifts_with_the_stream) {
 // Archimedes: gravity is in the pressure alone.
 TEST(AleFlow, lifts_a_body_at_rest_by_what_it_displaces) {
   AleFlowSpec spec{.density = 1000, .viscosity = 1, .min = {-1, -1}, .max = {1, 1}};
-  spec.sides = {SideKind::no_slip, SideKind::no_slip, SideKind::no_slip, SideKind::no_slip};
+  spec.sides = {BoundaryKind::no_slip, BoundaryKind::no_slip, BoundaryKind::no_slip, BoundaryKind::no_slip};
   spec.far = 0.4;
   spec.gravity = {0, -9.81};
   spec.walls = {{.name = "body", .surface = scenes::box(0.4, 0.2), .pose = scenes::at(0.2, 0, 0.3), .size = 0.1}};
@@ -154,7 +155,7 @@ TEST(AleFlow, lifts_a_body_at_rest_by_what_it_displaces) {
 // Nine tenths of the way to a side: no mesh of the same cells lies in what is left.
 TEST(AleFlow, refuses_to_fold_its_mesh) {
   AleFlowSpec spec{.density = 1, .viscosity = 1, .min = {-1, -1}, .max = {1, 1}};
-  spec.sides = {SideKind::slip, SideKind::outflow, SideKind::slip, SideKind::slip};
+  spec.sides = {BoundaryKind::slip, BoundaryKind::outflow, BoundaryKind::slip, BoundaryKind::slip};
   spec.far = 0.4;
   spec.walls = {{.name = "body", .surface = scenes::box(0.4, 0.2), .size = 0.1}};
   AleFlow flow(spec);

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-MeshSpec around(std::vector<Hull> hulls) {
+MeshSpec around(std::vector<Hole> hulls) {
   return {.min = {-1, -1}, .max = {1, 1}, .far = 0.3, .growth = 0.2, .hulls = std::move(hulls)};
 }
 
@@ -22,7 +22,7 @@ double area_of(const FlowMesh& mesh) {
                                  Nodes(Nodes::Unit(2, mesh.size(), 0).Zero(2, mesh.size()).colwise() + Vec<2>(1, 0)));
 }
 
-Hull moved_hull(Surface<2> outline, const Isometry<2>& pose, double size) {
+Hole moved_hull(Surface<2> outline, const Isometry<2>& pose, double size) {
   outline.vertices = pose * outline.vertices;
   return {std::move(outline), size};
 }

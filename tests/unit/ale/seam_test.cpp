@@ -107,7 +107,7 @@ TEST(AleSeam, light_bodies_rise_without_an_explosion) {
 }
 
 /// A circle that breathes: one coordinate, the rate of its radius; its placement is the radius.
-class Breathing final : public WallMotion {
+class Breathing final : public MovingWall {
  public:
   explicit Breathing(const Nodes& nodes) : directions_(nodes.colwise().normalized()), radius_(nodes.col(0).norm()) {}
   Eigen::Index coordinates() const override { return 1; }

@@ -13,9 +13,9 @@ namespace splashdown::ale {
 
 /// A wall as its nodes in the fluid see it. Placements and velocities are the wall's share of coupling::Placement and
 /// coupling::Velocities.
-class WallMotion {
+class MovingWall {
  public:
-  virtual ~WallMotion() = default;
+  virtual ~MovingWall() = default;
   virtual Eigen::Index coordinates() const = 0;  ///< how many velocities it has
   virtual Eigen::VectorXd first() const = 0;     ///< placement at t = 0
   /// Of the nodes [m].
@@ -30,10 +30,10 @@ class WallMotion {
 };
 
 /// Makes the motion of a wall whose nodes are there at t = 0 [m].
-using MakeWallMotion = std::function<std::unique_ptr<WallMotion>(const Nodes& nodes)>;
+using MakeMovingWall = std::function<std::unique_ptr<MovingWall>(const Nodes& nodes)>;
 
 /// Of a rigid body: coordinates are its twist about the wall's reference point, the placement the first two rows of its pose,
 /// by columns. `pose`: at t = 0.
-MakeWallMotion rigid_wall(const Isometry<2>& pose);
+MakeMovingWall rigid_wall(const Isometry<2>& pose);
 
 }  // namespace splashdown::ale
