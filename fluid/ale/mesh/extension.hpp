@@ -2,8 +2,9 @@
 //
 //   div(s grad d) = 0,   s = (mean area / area of the cell)^stiffening
 //
-// on the mesh as it was made, so that small cells, which lie at walls, move as if they were stiff (Masud & Hughes 1997). The
-// map is linear and knows no history: a wall that comes back brings every node back.
+// on the mesh as it was made, so that small cells, which lie at walls, move as if they were stiff (Masud & Hughes 1997). Corners
+// of cells follow by linear elements, middles of edges follow their ends: straight edges stay straight. The map is linear and
+// knows no history: a wall that comes back brings every node back.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -26,8 +27,9 @@ class Extension {
 
  private:
   std::vector<char> is_given_;
-  std::vector<int> free_;                 // number of each node among those that follow, -1: given
-  Eigen::SparseMatrix<double> coupling_;  // of those that follow with those that are given
+  std::vector<int> free_;                    // number of each corner among those that follow, -1: given
+  std::vector<std::array<int, 3>> middles_;  // that follow: a node and the ends of its edge
+  Eigen::SparseMatrix<double> coupling_;     // of those that follow with those that are given
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 

@@ -22,13 +22,14 @@ struct FreeBody {
   double density = 1;                                                 // over the fluid's
   double angle = 0;
   double half = 2;  // of the box [m]
-  double far = 0.5, size = 0.15;
+  double far = 0.5, size = 0.15, growth = 0.15;
   double viscosity = 0.01;
 
   AleFlowSpec fluid() const {
     AleFlowSpec spec{.density = 1, .viscosity = viscosity, .min = {-half, -half}, .max = {half, half}};
     spec.sides = {BoundaryKind::slip, BoundaryKind::slip, BoundaryKind::slip, BoundaryKind::outflow};
     spec.far = far;
+    spec.growth = growth;
     spec.gravity = {0, -g};
     spec.walls = {{.name = "body", .surface = outline, .pose = at(0, 0, angle), .size = size}};
     return spec;

@@ -17,9 +17,9 @@ MeshSpec around(std::vector<Hole> hulls) {
 }
 
 double area_of(const FlowMesh& mesh) {
-  return 2 * FlowEquations(mesh, 1, 1, {})
-                 .kinetic_energy(mesh.nodes,
-                                 Nodes(Nodes::Unit(2, mesh.size(), 0).Zero(2, mesh.size()).colwise() + Vec<2>(1, 0)));
+  Nodes drift = Nodes::Zero(2, mesh.size());
+  drift.row(0).setOnes();
+  return 2 * FlowEquations(mesh, 1, 1, {}).kinetic_energy(mesh.nodes, drift);
 }
 
 Hole moved_hull(Surface<2> outline, const Isometry<2>& pose, double size) {
