@@ -90,6 +90,11 @@ FLIGHT = r"""
 set xlabel 'x / m'; set ylabel 'y / m'
 plot 'bodies.csv' using 3:4 with lines ls 1 title 'centre of the plate'
 """
+RISING = r"""
+set xlabel 'time / s'; set ylabel 'force / (N/m)'; set yrange [0:16]
+plot 'bodies.csv' using 1:22 with lines ls 1 title 'drag', '' using 1:(10*$23) with lines ls 2 title 'lift times 10', \
+  14.29 with lines ls 4 title 'reference', 11.19 with lines ls 4 notitle
+"""
 SWING = r"""
 set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:2]; set yrange [-145:5]
 plot "< grep ',A.uy,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'u_y', "< grep ',A.ux,' probes.csv" using 1:(1000*$3) with lines ls 2 title 'u_x', \
@@ -148,6 +153,7 @@ CASES = [
     Case("flapping_foil", "scene.toml", FOIL_LOADS, 4),
     Case("sedimenting_cylinder", "scene.toml", SINKING, 12),
     Case("plate_trajectories", "scene.toml", FLIGHT, 40),
+    Case("turek_hron_cfd", "scene.toml", RISING, 15),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
          "--set time.end=2 --set time.dt_max=0.005", SWING, 8),
     Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),

@@ -13,6 +13,7 @@
 #include "coupling/composite.hpp"
 #include "coupling/schemes/steppers.hpp"
 #include "elastic/participant.hpp"
+#include "fluid/ale/participant.hpp"
 #include "fluid/pfem/participant.hpp"
 #include "fluid/vortex/participant.hpp"
 #include "rigid/participant.hpp"
@@ -54,6 +55,18 @@ std::unique_ptr<coupling::FluidPart> build_vortex(const Scene& scene, World<d>& 
     return part;
   } else {
     throw std::invalid_argument("fluid.formulation: \"vortex\" is plane");
+  }
+}
+
+/// The same of a fluid on a mesh that moves with bodies.
+template <int d>
+std::unique_ptr<coupling::FluidPart> build_ale(const Scene& scene, World<d>& world) {
+  if constexpr (d == 2) {
+    auto part = std::make_unique<ale::Participant>(std::make_unique<ale::AleFlow>(ale_spec(scene)));
+    world.fluid = &part->fluid();
+    return part;
+  } else {
+    throw std::invalid_argument("fluid.formulation: \"ale\" is plane");
   }
 }
 
@@ -146,6 +159,7 @@ World<d> build_world(const Scene& scene, std::function<void()> meanwhile, Hooks<
   std::ranges::move(hooks.forces, std::back_inserter(parts.forces));
   auto fluid = scene.fluid    ? build_fluid<d>(scene, std::move(parts.effects), std::move(meanwhile), world)
                : scene.vortex ? build_vortex<d>(scene, world)
+               : scene.ale    ? build_ale<d>(scene, world)
                               : nullptr;
   auto bodies =
       fluid && scene.bodies.empty() ? nullptr : build_structure<d>(scene, std::move(parts.forces), hooks, world);

@@ -12,6 +12,7 @@
 #include "apps/scene/scene.hpp"
 #include "core/solids_view.hpp"
 #include "coupling/schemes/stepper.hpp"
+#include "fluid/ale/spec.hpp"
 #include "fluid/pfem/fluid.hpp"
 #include "fluid/pfem/mesh/sizes/size_sources.hpp"
 #include "fluid/vortex/spec.hpp"
@@ -41,6 +42,8 @@ template <int d>
 fluid::FluidSpec<d> fluid_spec(const Scene& scene);
 /// Of a fluid on a grid, with the same walls.
 vortex::GridFlowSpec vortex_spec(const Scene& scene);
+/// Of a fluid on a mesh that moves with bodies, with a wall each.
+ale::AleFlowSpec ale_spec(const Scene& scene);
 /// What the effects of a scene make.
 template <int d>
 struct Parts {

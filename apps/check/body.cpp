@@ -147,8 +147,8 @@ void print_body(const Scene& scene, std::size_t number, const std::optional<Rest
   row("centre of mass",
       fmt::format("{} m now, {} m in the shape's frame", text<d>(rigid::Vec<d>(spec.pose.translation())),
                   text<d>(mass_properties<d>(body).centre)));
-  if (scene.vortex && spec.mass > 0 && (body.mass || body.density))
-    row("density ratio", fmt::format("{:.4g} of the fluid's", spec.mass / volume / scene.vortex->density));
+  if ((scene.vortex || scene.ale) && spec.mass > 0 && (body.mass || body.density))
+    row("density ratio", fmt::format("{:.4g} of the fluid's", spec.mass / volume / scene.fluid_density()));
   if (!scene.fluid) return;
   row("deadrise", deadrise_text<d>(body));
   const double corner = scene.fluid->size.corner;

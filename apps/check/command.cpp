@@ -91,9 +91,27 @@ void print_grid(const Scene& scene, const Scales& s) {
   if (scene.tank) row("tank", text<2>(extents<2>(*scene.tank)) + " m, its walls at rest like bodies");
 }
 
+void print_between_sides(const Scene& scene, const Scales& s) {
+  const auto& fluid = *scene.ale;
+  fmt::print("fluid between sides\n");
+  row("density", fmt::format("{:g} kg/m^3", fluid.density));
+  row("box", text<2>(Extents<2>(vec<2>(fluid.min), vec<2>(fluid.max))) + " m");
+  row("sides", fmt::format("left {}, right {}, bottom {}, top {}", fluid.sides.left, fluid.sides.right,
+                           fluid.sides.bottom, fluid.sides.top));
+  row("inflow", fmt::format("{} m/s in the mean, {}{}", text<2>(vec<2>(fluid.velocity)), fluid.profile,
+                            fluid.ramp > 0 ? fmt::format(", risen after {:g} s", fluid.ramp) : ""));
+  row("viscosity", fmt::format("Re = rho U L/mu = {:.4g}; boundary layer about {:.2g} m",
+                               fluid.density * s.speed * s.length / fluid.viscosity,
+                               std::sqrt(s.length * fluid.viscosity / (fluid.density * s.speed))));
+  row("element sizes", fmt::format("{:g} m at most, {:g} m at bodies, growing {:g} per metre; quadratic", fluid.far,
+                                   fluid.hull, fluid.growth));
+  row("scheme", fluid.scheme);
+}
+
 template <int d>
 void print_liquid(const Scene& scene) {
   if (scene.vortex) print_grid(scene, scales<d>(scene));
+  if (scene.ale) print_between_sides(scene, scales<d>(scene));
   if (!scene.fluid) return;
   const auto& fluid = *scene.fluid;
   fmt::print("liquid\n");

@@ -48,7 +48,7 @@ class Defaults {
   }
 
   void add_body(const Body& body) {
-    if (scene_.vortex) add_in_grid(body);
+    if (scene_.vortex || scene_.ale) add_in_stream(body);
     if (!scene_.fluid) return;
     const std::string of = "bodies." + body.name + ".", up = scene_.dimension == 2 ? "y" : "z";
     // CFC 60, of structures as a whole (SAE J211-1), is the headline, and there on all rungs; CFC 180 on those with short steps.
@@ -73,7 +73,7 @@ class Defaults {
     }
   }
   /// There is no impact but that of a start, whose force depends on the step.
-  void add_in_grid(const Body& body) {
+  void add_in_stream(const Body& body) {
     const auto table = "bodies.csv:" + body.name;
     if (body.becomes_free()) {
       expression(body.name + ".way", "m", table, "sqrt((last(x) - first(x))^2 + (last(y) - first(y))^2)");

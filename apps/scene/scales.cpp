@@ -74,6 +74,8 @@ Scales scales(const Scene& scene) {
     s.length = extents<d>(outline<d>(scene.fluid->regions.front())).sizes().maxCoeff();
   else if (scene.vortex)
     s.length = (scene.vortex->max - scene.vortex->min).maxCoeff();
+  else if (scene.ale)
+    s.length = (scene.ale->max - scene.ale->min).maxCoeff();
   s.gravity = scene.gravity ? scene.gravity->acceleration.norm() : 0;
   s.density = scene.fluid_density();
   for (const auto& body : scene.bodies) s.speed = std::max(s.speed, at_the_water<d>(scene, body));
@@ -81,6 +83,7 @@ Scales scales(const Scene& scene) {
     for (const auto& region : scene.fluid->regions) s.speed = std::max(s.speed, fastest<d>(region));
   if (scene.vortex)
     for (const auto& row : scene.vortex->stream) s.speed = std::max(s.speed, std::hypot(row[1], row[2]));
+  if (scene.ale) s.speed = std::max(s.speed, scene.ale->velocity.norm());
   s.level = still_water_level<d>(scene).value_or(0);
   if (s.speed == 0) s.speed = std::sqrt(s.gravity * s.length);  // what gravity will make of rest
   return s;

@@ -169,6 +169,31 @@ struct VortexFluid {
   std::string paths = "rk2";                ///< of particles: "rk2" | "rk4"
 };
 
+/// A fluid that fills a box between its sides, on a mesh that moves with bodies in it (ALE): [fluid] with formulation = "ale".
+/// Plane scenes only.
+struct AleFluid {
+  /// What a side of the box lets through: "inflow" | "outflow" | "no_slip" | "slip".
+  struct Sides {
+    std::string left = "inflow", right = "outflow", bottom = "slip", top = "slip";
+    /// In the order of their keys.
+    std::array<std::string, 4> all() const { return {left, right, bottom, top}; }
+  };
+  double density = 1000;                           ///< [kg/m^3]
+  double viscosity = 0;                            ///< dynamic [Pa s]
+  Point min = Point::Zero(), max = Point::Zero();  ///< corners of the box [m]
+  Sides sides;
+  Point velocity = Point::Zero();             ///< mean over an inflow side [m/s]
+  std::string profile = "uniform";            ///< of the inflow: "uniform" | "parabolic"
+  double ramp = 0;                            ///< how long the inflow takes to rise from rest [s]
+  double far = 0, growth = 0.15, refine = 1;  ///< largest element [m], dh/dx, what sizes are divided by
+  double corner = 0.05;                       ///< size at corners that jut into the fluid, over that on the hull
+  double hull = 0;                            ///< elements at bodies [m], default: a quarter of `far`
+  std::string scheme = "midpoint";            ///< "midpoint" | "shifted" | "implicit_euler" | "steady"
+  double shift = 0.01;                        ///< of "shifted": theta - 1/2
+  double tolerance = 1e-8;                    ///< of Newton's method, relative
+  int max_iterations = 30;
+};
+
 struct Tank {
   Point min = Point::Zero(), max = Point::Zero();  ///< corners [m]
   double size = 0;                                 ///< element size at the walls [m]; default: fluid.size.far
@@ -359,7 +384,8 @@ struct Scene {
   std::string title;
   Time time;
   std::optional<Fluid> fluid;         ///< a liquid with a free surface, by particle finite elements
-  std::optional<VortexFluid> vortex;  ///< a fluid on a grid; there is never more than one of the two
+  std::optional<VortexFluid> vortex;  ///< a fluid on a grid
+  std::optional<AleFluid> ale;  ///< a fluid on a mesh that moves with bodies; there is never more than one of the three
   std::optional<Tank> tank;
   std::optional<Gravity> gravity;
   Effects effects;  ///< tables of all others
@@ -372,9 +398,9 @@ struct Scene {
   std::vector<Limit> limits;  ///< of records, and those that stand alone
 
   /// Whether there is a fluid of any formulation.
-  bool has_fluid() const { return fluid || vortex; }
+  bool has_fluid() const { return fluid || vortex || ale; }
   /// Of the fluid there is [kg/m^3]; 0: there is none.
-  double fluid_density() const { return fluid ? fluid->density : vortex ? vortex->density : 0; }
+  double fluid_density() const { return fluid ? fluid->density : vortex ? vortex->density : ale ? ale->density : 0; }
 };
 
 }  // namespace splashdown::apps

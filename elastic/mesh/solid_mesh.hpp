@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "elastic/mesh/quadratic.hpp"
+#include "core/simplices/quadratic.hpp"
 
+/// Solids that deform: meshes, laws, equations of motion, modes. SI; two-dimensional quantities are per metre of depth.
 namespace splashdown::elastic {
 
 /// Corner numbers of straight simplices.

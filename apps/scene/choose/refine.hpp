@@ -5,9 +5,12 @@
 
 namespace splashdown::apps {
 
-/// fluid.size.refine of a liquid's mesh or of a grid; 1 without a fluid.
+/// fluid.size.refine of a mesh or of a grid; 1 without a fluid.
 inline double refine_of(const Scene& scene) {
-  return scene.fluid ? scene.fluid->size.refine : scene.vortex ? scene.vortex->refine : 1;
+  return scene.fluid    ? scene.fluid->size.refine
+         : scene.vortex ? scene.vortex->refine
+         : scene.ale    ? scene.ale->refine
+                        : 1;
 }
 
 }  // namespace splashdown::apps

@@ -20,7 +20,9 @@ std::span<const FormulationKind> formulation_kinds() {
   static const FormulationKind kinds[] = {
       {"fractional", "pressure, then corrections of what it leaves"},
       {"monolithic", "velocity and pressure in one stabilised system, solved to a tolerance", read_monolithic},
-      {"vortex", "vortices on a grid around penalised bodies, without a free surface", nullptr, true}};
+      {"vortex", "vortices on a grid around penalised bodies, without a free surface", nullptr, FluidMedium::grid},
+      {"ale", "quadratic elements on a mesh that moves with bodies, without a free surface", nullptr,
+       FluidMedium::mesh}};
   return kinds;
 }
 

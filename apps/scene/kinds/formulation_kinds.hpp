@@ -10,12 +10,19 @@
 
 namespace splashdown::apps {
 
+/// What a formulation computes on.
+enum class FluidMedium {
+  particles,  ///< nodes of the particle finite element method
+  grid,       ///< squares of a plane, without a free surface
+  mesh        ///< elements between sides that stay, without a free surface; plane
+};
+
 /// A way to compute the fluid.
 struct FormulationKind {
   std::string_view name;
   std::string_view about;                               ///< what `check` tells besides the name
   void (*read)(Reader& table, Fluid& fluid) = nullptr;  ///< reads [fluid.NAME]; null: it has no keys of its own
-  bool on_grid = false;  ///< squares of a plane without a free surface, not the particle finite element method
+  FluidMedium medium = FluidMedium::particles;
 };
 /// The default comes first.
 std::span<const FormulationKind> formulation_kinds();

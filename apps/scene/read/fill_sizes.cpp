@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "apps/scene/choose/sizes.hpp"
+#include "apps/scene/kinds/formulation_kinds.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -23,7 +25,11 @@ toml::table* table_of(toml::table& root, const ChosenSize& chosen) {
 
 bool sizes_are_open(const toml::table& root) {
   const auto* fluid = root["fluid"].as_table();
-  return fluid && root["fluid"]["formulation"].value_or(std::string_view()) != "vortex" &&
+  if (!fluid) return false;
+  const auto name = root["fluid"]["formulation"].value_or(formulation_kinds().front().name);
+  const auto kinds = formulation_kinds();
+  const auto kind = std::ranges::find(kinds, name, &FormulationKind::name);
+  return (kind == kinds.end() || kind->medium == FluidMedium::particles) &&
          (!fluid->contains("size") || (fluid->get("size")->is_table() && !root["fluid"]["size"]["surface"]));
 }
 

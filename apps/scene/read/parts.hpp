@@ -11,6 +11,8 @@ void read_fluid(Reader& reader, Fluid& fluid);
 void read_vortex(Reader& reader, VortexFluid& fluid);
 /// The rest of it, after the tank and the bodies.
 void finish_vortex(Reader& reader, Scene& scene);
+/// The table [fluid] of a fluid on a mesh that moves with bodies.
+void read_ale(Reader& reader, AleFluid& fluid);
 /// Points (r, z) of what is turned about the z axis.
 void read_profile(Reader& reader, std::string_view key, std::vector<std::array<double, 2>>& profile);
 /// The keys `points`, `degree`, `ends` and `tolerance`.

@@ -66,29 +66,34 @@ void read_effects(Reader& around, TablePlace place, Scene& scene, SceneLabels& l
   }
 }
 
-/// What only other formulations than the one on a grid, or only that one, know.
-void refuse_tables_of_others(Reader& reader, bool on_grid) {
-  if (!on_grid) {
-    for (const char* table : {"grid", "stream", "particles", "penalisation"})
-      reader.refuse(table, "belongs to formulation = \"vortex\"", "Ask for that formulation, or remove the table.");
-    return;
-  }
-  const std::string cure = "Remove it, or use formulation = \"fractional\" or \"monolithic\".";
-  for (const char* table : {"region", "monolithic"}) reader.refuse(table, "a fluid on a grid has none", cure);
+/// What only formulations on other media know.
+void refuse_tables_of_others(Reader& reader, FluidMedium medium) {
+  const auto refuse = [&](std::initializer_list<const char*> tables, const char* formulation) {
+    for (const char* table : tables)
+      reader.refuse(table, fmt::format("belongs to formulation = \"{}\"", formulation),
+                    "Ask for that formulation, or remove the table.");
+  };
+  if (medium != FluidMedium::grid) refuse({"grid", "stream", "particles", "penalisation"}, "vortex");
+  if (medium != FluidMedium::mesh) refuse({"domain", "sides", "inflow", "ale"}, "ale");
+  if (medium == FluidMedium::particles) return;
+  const std::string what = medium == FluidMedium::grid ? "a fluid on a grid" : "a fluid between sides",
+                    cure = "Remove it, or use formulation = \"fractional\" or \"monolithic\".";
+  for (const char* table : {"region", "monolithic"}) reader.refuse(table, what + " has none", cure);
   for (const EffectKind* kind : effect_kinds())
     if (kind->place() == TablePlace::fluid && kind->name() != "viscosity")
-      reader.refuse(kind->name(), "a fluid on a grid does not carry this effect", cure);
+      reader.refuse(kind->name(), what + " does not carry this effect", cure);
 }
 
 void read_formulation(Reader& reader, Scene& scene, SceneLabels& labels) {
   std::vector<std::string> valid;
   for (const auto& kind : formulation_kinds())
-    if (scene.dimension == 2 || !kind.on_grid) valid.emplace_back(kind.name);
+    if (scene.dimension == 2 || kind.medium == FluidMedium::particles) valid.emplace_back(kind.name);
   auto formulation = valid.front();
   if (!reader.choice("formulation", formulation, valid)) return reader.skip_all();
-  const bool on_grid = named(formulation_kinds(), formulation).on_grid;
-  refuse_tables_of_others(reader, on_grid);
-  if (on_grid) return read_vortex(reader, scene.vortex.emplace());
+  const FluidMedium medium = named(formulation_kinds(), formulation).medium;
+  refuse_tables_of_others(reader, medium);
+  if (medium == FluidMedium::grid) return read_vortex(reader, scene.vortex.emplace());
+  if (medium == FluidMedium::mesh) return read_ale(reader, scene.ale.emplace());
   auto& fluid = scene.fluid.emplace();
   fluid.formulation = formulation;
   read_fluid(reader, fluid);

@@ -258,6 +258,10 @@ void read_body(Reader& reader, Body& body, const Scene& scene) {
     body.size = scene.fluid->size.surface;
     reader.number("size", body.size,
                   refined(positive("m", "Use e.g. a fiftieth of the body's breadth."), scene.fluid->size.refine));
+  } else if (scene.ale) {
+    body.size = scene.ale->hull;
+    reader.number("size", body.size,
+                  refined(positive("m", "Use e.g. a twentieth of the body's breadth."), scene.ale->refine));
   } else {
     reader.skip("size");
   }

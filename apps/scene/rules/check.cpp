@@ -37,6 +37,7 @@ template <int d>
 void check_parts(const Scene& scene, const SceneLabels& labels, Problems& problems) {
   if (scene.fluid) check_fluid<d>(scene, labels, problems);
   if (scene.vortex) check_vortex(scene, labels, problems);
+  if (scene.ale) check_ale(scene, labels, problems);
   check_bodies<d>(scene, labels, problems);
   check_joints(scene, labels, problems);
   check_records<d>(scene, labels, problems);

@@ -19,6 +19,8 @@ template <int d>
 void check_fluid(const Scene& scene, const SceneLabels& labels, Problems& problems);
 /// Of plane scenes; in space there is no such fluid.
 void check_vortex(const Scene& scene, const SceneLabels& labels, Problems& problems);
+/// The same of a fluid between sides on a mesh that moves.
+void check_ale(const Scene& scene, const SceneLabels& labels, Problems& problems);
 void check_joints(const Scene& scene, const SceneLabels& labels, Problems& problems);
 template <int d>
 void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& problems);

@@ -146,6 +146,11 @@ void check_size(const Scene& scene, const Body& body, const rigid::Surface<d>& s
                "Use e.g. a fiftieth of it.");
 }
 
+/// Fixed bodies that a mesh is made around, such as a cylinder and what sticks out of it.
+bool make_one_obstacle(const Scene& scene, std::size_t a, std::size_t b) {
+  return scene.ale && scene.bodies[a].motion == Motion::fixed && scene.bodies[b].motion == Motion::fixed;
+}
+
 }  // namespace
 
 template <int d>
@@ -171,7 +176,7 @@ void check_bodies(const Scene& scene, const SceneLabels& labels, Problems& probl
     shape->vertices = shape_pose<d>(body) * shape->vertices;
     solids[i].emplace(*shape);
     for (std::size_t j = 0; j < i; ++j)
-      if (solids[j] && overlap<d>(*solids[i], *solids[j]))
+      if (solids[j] && !make_one_obstacle(scene, i, j) && overlap<d>(*solids[i], *solids[j]))
         problems.add(label + ".position", "overlaps " + labels.bodies[j], "Bodies may touch, but not share space.");
   }
 }

@@ -27,16 +27,20 @@ rule("bodies know no fluid" FILES "^rigid/" INCLUDES "^(fluid|elastic)/")
 rule("solids that deform know neither fluid nor rigid bodies" FILES "^elastic/" INCLUDES "^(fluid|rigid)/")
 rule("coupling says what a fluid and a structure are and includes neither" FILES "^coupling/" INCLUDES "^(fluid|rigid|elastic)/")
 rule("of coupling, a fluid and bodies know what they implement, in one file each" FILES "^(fluid|rigid|elastic)/"
-  BUT_FILES "^(fluid/(pfem|vortex)|rigid|elastic)/participant\\." INCLUDES "^coupling/")
+  BUT_FILES "^(fluid/(pfem|vortex|ale)|rigid|elastic)/participant\\." INCLUDES "^coupling/")
 rule("participants implement the seam, whatever scheme drives them" FILES "^(fluid|rigid|elastic)/" INCLUDES "^coupling/(schemes|accelerators|interface_)")
 rule("accelerators see vectors, the slope of a pass is what needs both sides" FILES "^coupling/accelerators/"
   BUT_FILES "/pass_slope\\." INCLUDES "^coupling/" BUT_INCLUDES "^coupling/accelerators/")
 rule("schemes and types are chosen in apps/build and apps/effects alone" FILES "^apps/" BUT_FILES "^apps/(build|effects/[a-z_]*)/[a-z_]*\\.cpp$"
-  INCLUDES "^((fluid/(pfem|vortex)|rigid|elastic)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
+  INCLUDES "^((fluid/(pfem|vortex|ale)|rigid|elastic)/participant\\.hpp|fluid/effects/|coupling/)" BUT_INCLUDES "^coupling/schemes/stepper\\.hpp$")
 
 # Rooms within a room.
 rule("the particle finite element method and vortices on a grid do not know each other" FILES "^fluid/(pfem|effects)/" INCLUDES "^fluid/vortex/")
 rule("vortices on a grid know neither finite elements nor their effects" FILES "^fluid/vortex/" INCLUDES "^fluid/(pfem|effects)/")
+rule("a mesh that moves knows neither other fluids nor their effects," FILES "^fluid/ale/" INCLUDES "^fluid/(pfem|vortex|effects)/")
+rule("other fluids do not know the mesh that moves" FILES "^fluid/(pfem|vortex|effects)/" INCLUDES "^fluid/ale/")
+rule("parts of the fluid on a mesh that moves do not know the whole" FILES "^fluid/ale/.*/" INCLUDES "^fluid/ale/(fluid|participant|spec)\\.hpp")
+rule("equations on a mesh that moves know no walls" FILES "^fluid/ale/(equations|linear|mesh)/" INCLUDES "^fluid/ale/walls/")
 rule("the grid's parts do not know the whole" FILES "^fluid/vortex/.*/" INCLUDES "^fluid/vortex/(fluid|participant|spec)\\.hpp")
 rule("equations on a grid know no bodies" FILES "^fluid/vortex/(poisson|transport)/" INCLUDES "^fluid/vortex/penalised/")
 rule("a fluid's parts do not know the whole" FILES "^fluid/(pfem/.*|effects)/" INCLUDES "^fluid/pfem/(fluid|fluid_state|participant)\\.hpp")
@@ -91,12 +95,13 @@ rule("nodes and mesh are the particle finite element method's own" FILES "^(apps
 rule("records look at views, in core, not at who solves" FILES "^apps/(record|statistics|report)/" INCLUDES "^(fluid|rigid)/")
 
 # Libraries, each with one home.
-rule("CGAL stays in core/surface, fluid/pfem/mesh/delaunay, fluid/pfem/initial and elastic/mesh" FILES "."
-  BUT_FILES "^(core/surface/|fluid/pfem/(mesh/delaunay|initial)/|elastic/mesh/outline_mesh\\.cpp$)" INCLUDES "^(CGAL|boost)/"
+rule("CGAL stays in core/surface, fluid/pfem/mesh/delaunay, fluid/pfem/initial, fluid/ale/mesh and elastic/mesh" FILES "."
+  BUT_FILES "^(core/surface/|fluid/pfem/(mesh/delaunay|initial)/|(fluid/ale/mesh/flow|elastic/mesh/outline)_mesh\\.cpp$)" INCLUDES "^(CGAL|boost)/"
   BUT_INCLUDES "^boost/(math|random)/")
 rule("Boost's distributions and sequences stay in apps/price, study/design and study/campaign" FILES "."
   BUT_FILES "^apps/(price|study/(design|campaign))/.*\\.cpp$" INCLUDES "^boost/(math|random)/")
-rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/pfem/linear" FILES "." BUT_FILES "^fluid/pfem/linear/.*\\.cpp$"
+rule("UMFPACK stays in fluid/ale/linear" FILES "." BUT_FILES "^fluid/ale/linear/.*\\.cpp$" INCLUDES "umfpack")
+rule("hypre, MPI, SuiteSparse and BLAS stay in fluid/pfem/linear" FILES "." BUT_FILES "^fluid/(pfem|ale)/linear/.*\\.cpp$"
   INCLUDES "^(HYPRE|_hypre|mpi\\.h|suitesparse/|cholmod|omp\\.h|cblas|lapacke)")
 rule("threads are started in core/parallel" FILES "." BUT_FILES "^(core/parallel\\.|fluid/)" INCLUDES "^tbb/")
 rule("FFTW stays in fluid/vortex/poisson" FILES "." BUT_FILES "^fluid/vortex/poisson/.*\\.cpp$" INCLUDES "^fftw")

@@ -1,8 +1,8 @@
-#include "elastic/mesh/quadratic.hpp"
+#include "core/simplices/quadratic.hpp"
 
 #include <cmath>
 
-namespace splashdown::elastic {
+namespace splashdown {
 namespace {
 
 /// All corners but one have the coordinate `a`.
@@ -60,4 +60,4 @@ const std::vector<RulePoint<3>>& rule<3>() {
   return points;
 }
 
-}  // namespace splashdown::elastic
+}  // namespace splashdown

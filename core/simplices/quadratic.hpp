@@ -12,8 +12,7 @@
 
 #include "core/types.hpp"
 
-/// Solids that deform: meshes, laws, equations of motion, modes. SI; two-dimensional quantities are per metre of depth.
-namespace splashdown::elastic {
+namespace splashdown {
 
 /// Nodes of a cell: 6 and 10.
 template <int d>
@@ -70,4 +69,4 @@ const std::vector<RulePoint<2>>& rule<2>();
 template <>
 const std::vector<RulePoint<3>>& rule<3>();
 
-}  // namespace splashdown::elastic
+}  // namespace splashdown

@@ -1,0 +1,348 @@
+#include "fluid/ale/fluid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/geometry.hpp"
+#include "core/stopwatch.hpp"
+
+namespace splashdown::ale {
+namespace {
+
+FlowMesh mesh_of(const AleFlowSpec& spec) {
+  MeshSpec mesh{
+      .min = spec.min, .max = spec.max, .far = spec.far, .growth = spec.growth, .hulls = {}, .corner = spec.corner};
+  for (const auto& wall : spec.walls) {
+    Hole hull{.outline = wall.surface, .size = wall.size};
+    hull.outline.vertices = wall.pose * hull.outline.vertices;
+    mesh.hulls.push_back(std::move(hull));
+  }
+  return flow_mesh(mesh);
+}
+
+std::array<bool, side_count> open_sides(const AleFlowSpec& spec) {
+  std::array<bool, side_count> open{};
+  for (std::size_t s = 0; s < side_count; ++s) open[s] = spec.sides[s] == BoundaryKind::outflow;
+  return open;
+}
+
+/// Speed of the fastest node.
+double fastest_of(const Nodes& velocity) { return velocity.colwise().norm().maxCoeff(); }
+
+constexpr double least_allowed = 0.05;  // of the area that a cell was made with, anywhere in it
+
+}  // namespace
+
+AleFlow::AleFlow(AleFlowSpec spec)
+    : spec_(std::move(spec)),
+      mesh_(mesh_of(spec_)),
+      equations_(mesh_, spec_.density, spec_.viscosity, open_sides(spec_)),
+      extension_(mesh_),
+      given_({}) {
+  place_walls();
+  given_ = GivenUnknowns(given_unknowns());
+  x_ = mesh_.nodes;
+  start();
+  pieces_ = straight_pieces(mesh_.cells);
+  for (const auto& edge : mesh_.boundary)
+    if (edge.wall >= 0) {
+      boundary_.push_back({{edge.nodes[0], edge.nodes[2]}, edge.wall});
+      boundary_.push_back({{edge.nodes[2], edge.nodes[1]}, edge.wall});
+    }
+  loads_.resize(spec_.walls.size());
+  ledger_.kinetic_energy = equations_.kinetic_energy(x_, state_.velocity);
+  ledger_.volume = ledger_.volume_initial = (spec_.max - spec_.min).prod();
+  look();
+}
+
+/// Nodes that two walls share belong to the first of them.
+void AleFlow::place_walls() {
+  wall_of_.assign(static_cast<std::size_t>(mesh_.size()), -1);
+  moved_.resize(spec_.walls.size());
+  for (const auto& edge : mesh_.boundary)
+    for (const int a : edge.nodes) {
+      auto& wall = wall_of_[static_cast<std::size_t>(a)];
+      if (edge.wall >= 0 && (wall < 0 || edge.wall < wall)) wall = edge.wall;
+    }
+  for (int a = 0; a < mesh_.size(); ++a)
+    if (const int wall = wall_of_[static_cast<std::size_t>(a)]; wall >= 0)
+      moved_[static_cast<std::size_t>(wall)].nodes.push_back(a);
+  Eigen::Index first = 0;
+  for (std::size_t w = 0; w < moved_.size(); ++w) {
+    auto& wall = moved_[w];
+    const auto& spec = spec_.walls[w];
+    const auto make = w < spec_.motions.size() && spec_.motions[w] ? spec_.motions[w] : rigid_wall(spec.pose);
+    wall.motion = make(mesh_.nodes(Eigen::all, wall.nodes));
+    wall.first = first;
+    first += wall.motion->coordinates();
+    state_.placements.push_back(wall.motion->first());
+    wall.numbers = state_.placements.back().size();
+    Eigen::VectorXd rates = Eigen::VectorXd::Zero(wall.motion->coordinates());
+    if (rates.size() == spec.velocity.size()) rates = spec.velocity;
+    state_.rates.push_back(std::move(rates));
+  }
+}
+
+std::vector<char> AleFlow::given_unknowns() const {
+  std::vector<char> given(static_cast<std::size_t>(equations_.size()), 0);
+  bool is_open = false;
+  for (const auto& edge : mesh_.boundary)
+    for (const int a : edge.nodes)
+      for (int axis = 0; axis < 2; ++axis) {
+        auto& is_given = given[static_cast<std::size_t>(equations_.velocity(a, axis))];
+        if (edge.wall >= 0) is_given = 1;
+        if (edge.side < 0) continue;
+        const auto kind = spec_.sides[static_cast<std::size_t>(edge.side)];
+        const bool along_x = edge.side == left || edge.side == right;  // its normal
+        if (kind == BoundaryKind::inflow || kind == BoundaryKind::no_slip) is_given = 1;
+        if (kind == BoundaryKind::slip && along_x == (axis == 0)) is_given = 1;
+        is_open = is_open || kind == BoundaryKind::outflow;
+      }
+  if (!is_open) given[static_cast<std::size_t>(equations_.pressure(0))] = 1;  // its level is nobody's
+  return given;
+}
+
+Vec<2> AleFlow::inflow(const Vec<2>& x, double time) const {
+  return spec_.inflow ? spec_.inflow(x, time) : Vec<2>(Vec<2>::Zero());
+}
+
+void AleFlow::start() {
+  auto& s = state_;
+  s.velocity.setZero(2, mesh_.size());
+  if (spec_.start)
+    for (int a = 0; a < mesh_.size(); ++a) s.velocity.col(a) = spec_.start(mesh_.nodes.col(a), 0);
+  Unknowns at = Unknowns::Zero(equations_.size());
+  at.head(2 * mesh_.size()) = s.velocity.reshaped();
+  Eigen::VectorXd rates(0);
+  for (const auto& of_wall : s.rates) {
+    rates.conservativeResize(rates.size() + of_wall.size());
+    rates.tail(of_wall.size()) = of_wall;
+  }
+  give(wall_velocities(s.placements, rates), at);
+  s.velocity = at.head(2 * mesh_.size()).reshaped(2, mesh_.size());
+  s.before = s.velocity;
+  s.pressure.setZero(mesh_.corners);
+  s.fastest = fastest_of(s.velocity);
+}
+
+Eigen::Index AleFlow::coordinates(std::size_t walls) const {
+  return walls == 0 ? 0 : moved_[walls - 1].first + moved_[walls - 1].motion->coordinates();
+}
+
+Eigen::Index AleFlow::placement_numbers(std::size_t walls) const {
+  Eigen::Index sum = 0;
+  for (std::size_t w = 0; w < walls; ++w) sum += moved_[w].numbers;
+  return sum;
+}
+
+std::size_t AleFlow::walls_with(Eigen::Index count) const {
+  for (std::size_t walls = 0; walls <= moved_.size(); ++walls)
+    if (coordinates(walls) == count) return walls;
+  throw std::invalid_argument("ale fluid: " + std::to_string(count) + " numbers are not of the first of its " +
+                              std::to_string(moved_.size()) + " walls");
+}
+
+Eigen::VectorXd AleFlow::all_rates(const Eigen::VectorXd& of_first) const {
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(coordinates(moved_.size()));
+  rates.head(of_first.size()) = of_first;
+  return rates;
+}
+
+Nodes AleFlow::places_of(const std::vector<Eigen::VectorXd>& placements) const {
+  const Stopwatch watch(mesh_seconds_);
+  bool moves = false;
+  Nodes d = Nodes::Zero(2, mesh_.size());
+  for (std::size_t w = 0; w < moved_.size(); ++w) {
+    const auto& wall = moved_[w];
+    if (placements[w] == wall.motion->first()) continue;
+    const Nodes places = wall.motion->positions(placements[w]);
+    for (std::size_t k = 0; k < wall.nodes.size(); ++k)
+      d.col(wall.nodes[k]) = places.col(static_cast<Eigen::Index>(k)) - mesh_.nodes.col(wall.nodes[k]);
+    moves = true;
+  }
+  if (!moves) return mesh_.nodes;
+  extension_.extend(d);
+  return mesh_.nodes + d;
+}
+
+Nodes AleFlow::wall_velocities(const std::vector<Eigen::VectorXd>& placements, const Eigen::VectorXd& rates) const {
+  Nodes v = Nodes::Zero(2, mesh_.size());
+  for (std::size_t w = 0; w < moved_.size(); ++w) {
+    const auto& wall = moved_[w];
+    const auto s = rates.segment(wall.first, wall.motion->coordinates());
+    if (s.isZero(0)) continue;
+    const Eigen::VectorXd of_nodes = wall.motion->basis(placements[w]) * s;
+    for (std::size_t k = 0; k < wall.nodes.size(); ++k)
+      v.col(wall.nodes[k]) = of_nodes.segment<2>(2 * static_cast<Eigen::Index>(k));
+  }
+  return v;
+}
+
+/// Velocities at walls and sides, of the end of the step under way. Where sides meet, those at rest come before those that slip,
+/// and walls before all.
+void AleFlow::give(const Nodes& walls, Unknowns& at) const {
+  const double when = is_begun_ ? time_ + 0.5 * dt_ : time_;
+  for (const BoundaryKind kind : {BoundaryKind::slip, BoundaryKind::inflow, BoundaryKind::no_slip})
+    for (const auto& edge : mesh_.boundary) {
+      if (edge.side < 0 || spec_.sides[static_cast<std::size_t>(edge.side)] != kind) continue;
+      const int normal = edge.side == left || edge.side == right ? 0 : 1;
+      for (const int a : edge.nodes) {
+        if (kind == BoundaryKind::inflow)
+          at.segment<2>(equations_.velocity(a, 0)) = inflow(mesh_.nodes.col(a), when);
+        else if (kind == BoundaryKind::no_slip)
+          at.segment<2>(equations_.velocity(a, 0)).setZero();
+        else
+          at[equations_.velocity(a, normal)] = 0;
+      }
+    }
+  for (const auto& wall : moved_)
+    for (const int a : wall.nodes) at.segment<2>(equations_.velocity(a, 0)) = walls.col(a);
+}
+
+Status AleFlow::begin(double kick, double dt) {
+  kick_ = kick;
+  dt_ = dt;
+  is_begun_ = true;
+  is_solved_ = false;
+  middle_ = state_.placements;
+  for (std::size_t w = 0; w < moved_.size(); ++w)
+    if (!state_.rates[w].isZero(0))
+      middle_[w] = moved_[w].motion->moved(state_.placements[w], state_.rates[w], 0.5 * dt);
+  fields_.x = x_;
+  fields_.x_after = places_of(middle_);
+  fields_.before = state_.velocity;
+  const auto& scheme = spec_.scheme;
+  fields_.rate = scheme.is_steady ? 0 : 1 / kick;
+  fields_.theta = scheme.is_steady || state_.steps < scheme.damped_steps ? 1 : scheme.theta;
+  fields_.force = {};
+  if (spec_.force)
+    fields_.force = [this](const Vec<2>& x) { return spec_.force(x, time_ + (fields_.theta - 0.5) * kick_); };
+  first_ = &kept_;
+  if (kept_.suits(fields_)) return {};
+  first_ = &of_step_;
+  Eigen::VectorXd rates(coordinates(moved_.size()));
+  for (std::size_t w = 0; w < moved_.size(); ++w)
+    rates.segment(moved_[w].first, state_.rates[w].size()) = state_.rates[w];
+  move_walls(rates);
+  if (factor(of_step_)) return {};
+  return {"the equations of the fluid are singular; use smaller elements or a smaller time.dt_max"};
+}
+
+/// The end of the step has these velocities of walls, the mesh those that fluid and walls share in its middle; all else is a guess.
+void AleFlow::move_walls(const Eigen::VectorXd& rates) {
+  if (!is_solved_) at_ = guess();
+  const Nodes walls = wall_velocities(middle_, rates);
+  give(walls, at_);
+  fields_.mesh_velocity.setZero(2, mesh_.size());
+  for (const auto& wall : moved_)
+    for (const int a : wall.nodes)
+      fields_.mesh_velocity.col(a) = fields_.theta * walls.col(a) + (1 - fields_.theta) * state_.velocity.col(a);
+  if (fields_.mesh_velocity.isZero(0)) return;
+  const Stopwatch watch(mesh_seconds_);
+  extension_.extend(fields_.mesh_velocity);
+}
+
+/// Velocities go on as they changed last.
+Unknowns AleFlow::guess() const {
+  const double ratio = state_.kick > 0 && !spec_.scheme.is_steady ? kick_ / state_.kick : 0;
+  Unknowns at(equations_.size());
+  at.head(2 * mesh_.size()) = (state_.velocity + ratio * (state_.velocity - state_.before)).reshaped();
+  at.tail(mesh_.corners) = state_.pressure;
+  return at;
+}
+
+Status AleFlow::solve(const Eigen::VectorXd& velocities, bool goes_on) {
+  rates_ = all_rates(velocities);
+  is_solved_ = is_solved_ && goes_on;
+  if (!is_solved_) tangent_ = first_;
+  move_walls(rates_);
+  pressure_.clear();
+  const auto status = newton();
+  is_solved_ = status.ok();
+  if (is_solved_) find_loads();
+  return status;
+}
+
+bool AleFlow::factor(FactoredSlope& tangent) {
+  ++factorisations_;
+  tangent_ = &tangent;
+  return tangent.make(equations_, given_, fields_, at_, assembly_seconds_, factor_seconds_);
+}
+
+Status AleFlow::newton() {
+  constexpr double slow = 0.25;  // of a change to the one before: another factor costs less
+  double last = 0;
+  bool is_fresh = false;
+  Eigen::VectorXd residual;
+  for (iterations_ = 1; iterations_ <= spec_.newton.max_iterations; ++iterations_) {
+    {
+      const Stopwatch watch(assembly_seconds_);
+      equations_.residual(fields_, at_, residual);
+    }
+    Eigen::VectorXd change;
+    {
+      const Stopwatch watch(solve_seconds_);
+      change = tangent_->correction(given_.gather(residual));
+    }
+    if (!change.allFinite()) return {"Newton's method of the fluid left all numbers; use a smaller time.dt_max"};
+    const Nodes old = at_.head(2 * mesh_.size()).reshaped(2, mesh_.size());
+    given_.add(change, at_);
+    const Nodes now = at_.head(2 * mesh_.size()).reshaped(2, mesh_.size());
+    const double step = fastest_of(now - old), speed = std::max(fastest_of(now), 1e-3 * state_.fastest);
+    if (step <= spec_.newton.tolerance * speed) return {};
+    if (iterations_ > 1 && step > slow * last) {
+      if (is_fresh && step > 1e3 * last) break;
+      if (!factor(of_pass_)) break;
+      is_fresh = true;
+    }
+    last = step;
+  }
+  return {"Newton's method of the fluid did not converge; use a smaller time.dt_max, or a longer fluid.inflow.ramp"};
+}
+
+Status AleFlow::acceptable() const {
+  auto placements = state_.placements;
+  bool moves = false;
+  for (std::size_t w = 0; w < moved_.size(); ++w) {
+    const Eigen::VectorXd s = rates_.segment(moved_[w].first, moved_[w].motion->coordinates());
+    if (s.isZero(0)) continue;
+    placements[w] = moved_[w].motion->moved(placements[w], s, dt_);
+    moves = true;
+  }
+  if (!moves || equations_.least_stretch(places_of(placements)) > least_allowed) return {};
+  return {
+      "the mesh of the fluid folds where bodies have moved it; end the run earlier, or start it with bodies midway"};
+}
+
+void AleFlow::commit(const Eigen::VectorXd& placements) {
+  Eigen::Index at = 0;
+  for (std::size_t w = 0; w < moved_.size() && at < placements.size(); ++w) {
+    state_.placements[w] = placements.segment(at, moved_[w].numbers);
+    at += moved_[w].numbers;
+  }
+  for (std::size_t w = 0; w < moved_.size(); ++w)
+    state_.rates[w] = rates_.segment(moved_[w].first, moved_[w].motion->coordinates());
+  ledger_.work_on_walls += impulse_.dot(rates_);
+  state_.before = state_.velocity;
+  state_.velocity = at_.head(2 * mesh_.size()).reshaped(2, mesh_.size());
+  state_.pressure = at_.tail(mesh_.corners);
+  state_.fastest = std::max(state_.fastest, fastest_of(state_.velocity));
+  state_.kick = kick_;
+  state_.dt = dt_;
+  ++state_.steps;
+  time_ += dt_;
+  if (tangent_ != &kept_) std::swap(kept_, *tangent_);
+  tangent_ = first_ = &kept_;
+  is_begun_ = is_solved_ = false;
+  x_ = places_of(state_.placements);
+  ledger_.kinetic_energy = equations_.kinetic_energy(x_, state_.velocity);
+  look();
+}
+
+std::vector<std::pair<std::string, double>> AleFlow::phase_seconds() const {
+  return {
+      {"assembly", assembly_seconds_}, {"factor", factor_seconds_}, {"solve", solve_seconds_}, {"mesh", mesh_seconds_}};
+}
+
+}  // namespace splashdown::ale

@@ -1,0 +1,86 @@
+// Loads on walls, and how they answer velocities of walls.
+#include <stdexcept>
+
+#include "core/geometry.hpp"
+#include "fluid/ale/fluid.hpp"
+
+namespace splashdown::ale {
+
+/// Reactions of the discrete equations where velocities are given: the load that makes momentum balance to roundoff, and that
+/// converges twice as fast as tractions of the solution's gradients do.
+void AleFlow::find_loads() {
+  Eigen::VectorXd reactions;
+  equations_.residual(fields_, at_, reactions);
+  nodal_loads_ = -reactions.head(2 * mesh_.size());
+  add_buoyancy(nodal_loads_);
+  impulse_ = Eigen::VectorXd::Zero(rates_.size());
+  for (std::size_t w = 0; w < moved_.size(); ++w) {
+    const auto& wall = moved_[w];
+    auto& load = loads_[w];
+    load = {};
+    const Vec<2> about = poses_[w].translation();
+    Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));
+    for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
+      const Vec<2> force = nodal_loads_.segment<2>(2 * wall.nodes[k]);
+      of_nodes.segment<2>(2 * static_cast<Eigen::Index>(k)) = force;
+      load.physical += wrench_of<2>(x_.col(wall.nodes[k]) - about, force);
+    }
+    impulse_.segment(wall.first, wall.motion->coordinates()) =
+        kick_ * wall.motion->basis(state_.placements[w]).transpose() * of_nodes;
+  }
+  for (const auto& f : boundary_)
+    loads_[static_cast<std::size_t>(f.wall)].wetted += area_vector_of<2>(f, points_).norm();
+}
+
+/// rho g . x, which the unknown pressure is without, on walls.
+void AleFlow::add_buoyancy(Eigen::VectorXd& loads) const {
+  if (spec_.gravity.isZero()) return;
+  for (const auto& edge : mesh_.boundary) {
+    if (edge.wall < 0) continue;
+    Eigen::Matrix<double, 2, 3> x;
+    for (int k = 0; k < 3; ++k) x.col(k) = x_.col(edge.nodes[static_cast<std::size_t>(k)]);
+    for (const auto& on : rule<1>()) {
+      const auto N = shapes<1>(on.at);
+      const Vec<2> along = x * shape_slopes<1>(on.at).transpose(), out(along.y(), -along.x());
+      const double head = spec_.density * spec_.gravity.dot(x * N - spec_.max);
+      for (int k = 0; k < 3; ++k)
+        loads.segment<2>(2 * edge.nodes[static_cast<std::size_t>(k)]) += on.weight * head * N[k] * out;
+    }
+  }
+}
+
+Eigen::MatrixXd AleFlow::answer(Eigen::Index count) const {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count);
+  const FactoredSlope* tangent = is_solved_ ? tangent_ : first_;
+  if (!tangent || !tangent->is_ready()) return all;
+  const std::size_t walls = walls_with(count);
+  for (std::size_t mover = 0; mover < walls; ++mover) {
+    const Eigen::MatrixXd basis = moved_[mover].motion->basis(middle_[mover]);
+    for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+      Unknowns change = Unknowns::Zero(equations_.size());
+      for (std::size_t a = 0; a < moved_[mover].nodes.size(); ++a)
+        change.segment<2>(2 * moved_[mover].nodes[a]) = basis.col(k).segment<2>(2 * static_cast<Eigen::Index>(a));
+      given_.add(tangent->correction(given_.gather(tangent->times(change))), change);
+      const Eigen::VectorXd reactions = kick_ * tangent->times(change);
+      for (std::size_t w = 0; w < walls; ++w) {
+        const auto& wall = moved_[w];
+        Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));
+        for (std::size_t a = 0; a < wall.nodes.size(); ++a)
+          of_nodes.segment<2>(2 * static_cast<Eigen::Index>(a)) = reactions.segment<2>(2 * wall.nodes[a]);
+        all.col(moved_[mover].first + k).segment(wall.first, wall.motion->coordinates()) =
+            wall.motion->basis(state_.placements[w]).transpose() * of_nodes;
+      }
+    }
+  }
+  return all;
+}
+
+Eigen::MatrixXd AleFlow::added_mass(std::span<const std::size_t> walls) const {
+  const Eigen::MatrixXd all = answer(coordinates(moved_.size()));
+  std::vector<Eigen::Index> of_walls;
+  for (const std::size_t w : walls)
+    for (Eigen::Index k = 0; k < 3; ++k) of_walls.push_back(moved_[w].first + k);
+  return all(of_walls, of_walls);
+}
+
+}  // namespace splashdown::ale

@@ -1,0 +1,56 @@
+// What a fluid on a mesh that moves with its walls is made from.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "core/fluid_view.hpp"
+#include "fluid/ale/mesh/flow_mesh.hpp"
+#include "fluid/ale/walls/moving_wall.hpp"
+
+namespace splashdown::ale {
+
+/// What a side of the box does to the fluid.
+enum class BoundaryKind {
+  inflow,   ///< velocities are given
+  outflow,  ///< bears no traction: -p n + mu dv/dn = 0
+  no_slip,  ///< at rest, and the fluid with it
+  slip      ///< nothing crosses it, nothing rubs
+};
+
+/// A field in space and time.
+using FlowField = std::function<Vec<2>(const Vec<2>& x, double time)>;
+
+/// How time is gone through: (v+ - v-)/k = theta F(v+) + (1 - theta) F(v-), its middle in between.
+struct ThetaScheme {
+  double theta = 0.5;      ///< 1/2: of second order; 1: implicit Euler
+  bool is_steady = false;  ///< without the rate: each step is a steady flow
+  int damped_steps = 4;    ///< implicit Euler before the first step with theta < 1 (Rannacher 1984)
+};
+
+/// When Newton's method ends.
+struct IterationLimits {
+  double tolerance = 1e-8;  ///< of the last change, over the greatest velocity
+  int max_iterations = 30;
+};
+
+/// Parameters, walls and the state at t = 0.
+struct AleFlowSpec {
+  double density = 1000;                              ///< [kg/m^3]
+  double viscosity = 1e-3;                            ///< dynamic [Pa s]
+  Vec<2> min = Vec<2>::Zero(), max = Vec<2>::Ones();  ///< corners of the box [m]
+  std::array<BoundaryKind, side_count> sides = {BoundaryKind::inflow, BoundaryKind::outflow, BoundaryKind::slip,
+                                                BoundaryKind::slip};
+  FlowField inflow = {};                        ///< on inflow sides [m/s]; empty: at rest
+  double far = 0.1, growth = 0.15, corner = 1;  ///< MeshSpec
+  Vec<2> gravity = Vec<2>::Zero();              ///< [m/s^2]
+  FlowField force = {};                         ///< besides it, per mass [m/s^2]; empty: none
+  FlowField start = {};                         ///< velocity at t = 0; empty: at rest
+  ThetaScheme scheme = {};
+  IterationLimits newton = {};
+  std::vector<WallSpec<2>> walls = {};       ///< the structure's first; all stick
+  std::vector<MakeMovingWall> motions = {};  ///< of walls in their order; those without one are rigid
+};
+
+}  // namespace splashdown::ale
