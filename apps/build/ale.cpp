@@ -63,14 +63,10 @@ ale::AleFlowSpec ale_spec(const Scene& scene) {
   if (scene.gravity) spec.gravity = vec<2>(scene.gravity->acceleration);
   spec.scheme = scheme_of(fluid);
   spec.newton = {.tolerance = fluid.tolerance, .max_iterations = fluid.max_iterations};
-  for (const auto& body : scene.bodies) {
-    const auto made = body_spec<2>(body);
-    spec.walls.push_back({.name = made.name,
-                          .surface = made.surface,
-                          .pose = made.pose,
-                          .velocity = made.velocity,
-                          .size = body.size,
-                          .sticks = true});
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    auto& wall = spec.walls.emplace_back(wall_of<2>(scene, b));
+    wall.sticks = true;
+    spec.motions.push_back(wall.deforms ? ale::deforming_wall(wall.surface) : ale::rigid_wall(wall.pose));
   }
   return spec;
 }

@@ -40,6 +40,9 @@ std::unique_ptr<rigid::Bodies<d>> bodies_of(const Scene& scene);
 /// Walls: one a body, in their order, then the tank if there is one.
 template <int d>
 fluid::FluidSpec<d> fluid_spec(const Scene& scene);
+/// The wall that a body is to a fluid: rigid, or with the skin of its solid, which deforms.
+template <int d>
+WallSpec<d> wall_of(const Scene& scene, std::size_t body);
 /// Of a fluid on a grid, with the same walls.
 vortex::GridFlowSpec vortex_spec(const Scene& scene);
 /// Of a fluid on a mesh that moves with bodies, with a wall each.

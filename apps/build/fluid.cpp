@@ -69,6 +69,14 @@ std::vector<fluid::SizeSource<d>> hull_spots(const Scene& scene, const Body& bod
 }
 
 template <int d>
+WallSpec<d> wall_of(const Scene& scene, std::size_t body) {
+  if (const auto* elastic = scene.effects.find<ElasticTables>())
+    for (const auto& table : elastic->of_bodies)
+      if (table.body == body) return skin<d>(scene.bodies[body], table);
+  return hull<d>(scene.bodies[body]);
+}
+
+template <int d>
 fluid::FluidSpec<d> fluid_spec(const Scene& scene) {
   const auto& liquid = *scene.fluid;
   fluid::FluidSpec<d> spec;
@@ -103,6 +111,8 @@ template std::vector<HullBend<2>> hull_bends<2>(const Scene&, const Body&);
 template std::vector<HullBend<3>> hull_bends<3>(const Scene&, const Body&);
 template std::vector<fluid::SizeSource<2>> hull_spots<2>(const Scene&, const Body&);
 template std::vector<fluid::SizeSource<3>> hull_spots<3>(const Scene&, const Body&);
+template WallSpec<2> wall_of<2>(const Scene&, std::size_t);
+template WallSpec<3> wall_of<3>(const Scene&, std::size_t);
 template fluid::FluidSpec<2> fluid_spec<2>(const Scene&);
 template fluid::FluidSpec<3> fluid_spec<3>(const Scene&);
 template Parts<2> parts_of<2>(const Scene&);

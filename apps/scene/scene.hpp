@@ -246,6 +246,7 @@ struct Body {
   std::optional<double> mass;           ///< [kg, kg/m]; exactly one of mass and density for free motion
   std::optional<double> density;        ///< mean density [kg/m^3]
   bool without_mass = false;            ///< the scene says 0; free in a fluid it has least_density then
+  bool deforms = false;                 ///< it has [body.elastic]
   std::optional<Point> centre_of_mass;  ///< in the shape's frame [m]; default: the centroid
   /// About the centre of mass, axes of the shape's frame [kg m^2]; default: of uniform density. In two dimensions the
   /// last entry alone [kg m].

@@ -103,6 +103,7 @@ void ElasticKind::read(Reader& reader, Scene& scene) const {
   const int dimension = scene.dimension;
   auto& table = scene.effects.table<ElasticTables>().of_bodies.emplace_back();
   table.body = scene.bodies.size() - 1;
+  scene.bodies.back().deforms = true;
   table.path = reader.path();
   read_law(reader, table, dimension);
   read_mesh(reader, table, dimension);

@@ -146,9 +146,10 @@ void check_size(const Scene& scene, const Body& body, const rigid::Surface<d>& s
                "Use e.g. a fiftieth of it.");
 }
 
-/// Fixed bodies that a mesh is made around, such as a cylinder and what sticks out of it.
+/// Bodies that a mesh is made around as one, such as a cylinder and what sticks out of it, fixed or elastic.
 bool make_one_obstacle(const Scene& scene, std::size_t a, std::size_t b) {
-  return scene.ale && scene.bodies[a].motion == Motion::fixed && scene.bodies[b].motion == Motion::fixed;
+  const auto stays = [&](std::size_t i) { return scene.bodies[i].motion == Motion::fixed || scene.bodies[i].deforms; };
+  return scene.ale && stays(a) && stays(b);
 }
 
 }  // namespace

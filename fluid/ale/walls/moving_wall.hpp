@@ -35,5 +35,8 @@ using MakeMovingWall = std::function<std::unique_ptr<MovingWall>(const Nodes& no
 /// Of a rigid body: coordinates are its twist about the wall's reference point, the placement the first two rows of its pose,
 /// by columns. `pose`: at t = 0.
 MakeMovingWall rigid_wall(const Isometry<2>& pose);
+/// Of a wall that deforms: coordinates are the velocities of the vertices of its surface, one after the other, the placement is
+/// where they are; between them it is linear. `surface`: at t = 0, world frame [m].
+MakeMovingWall deforming_wall(const Surface<2>& surface);
 
 }  // namespace splashdown::ale
