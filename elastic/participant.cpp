@@ -268,13 +268,22 @@ Momenta<d> Participant<d>::momenta(std::size_t body) const {
 }
 
 template <int d>
+double Participant<d>::energy(std::size_t body) const {
+  const auto& [spec, now] = std::tie(bodies_.at(body).spec, bodies_.at(body).now);
+  const auto* wall = bodies_.at(body).wall.get();
+  return 0.5 * now.v.dot(spec.solid->mass() * now.v) +
+         (wall ? wall->strain_energy() : spec.solid->strain_energy(now.u));
+}
+
+template <int d>
 Deformation<d> Participant<d>::deformation(std::size_t body) const {
   const auto& moving = bodies_.at(body);
   const auto& [spec, now] = std::tie(moving.spec, moving.now);
   const auto& solid = *spec.solid;
   const auto peak = solid.peak(now.u);
-  return {.strain_energy = moving.wall ? moving.wall->strain_energy() : solid.strain_energy(now.u),
-          .kinetic_energy = 0.5 * now.v.dot(solid.mass() * now.v),
+  const auto* wall = moving.wall.get();
+  return {.strain_energy = wall ? wall->strain_energy_between() : solid.strain_energy(now.u),
+          .kinetic_energy = wall ? wall->kinetic_energy_between() : 0.5 * now.v.dot(solid.mass() * now.v),
           .potential_energy = -now.u.dot(solid.mass() * solid.uniform(spec.gravity)),
           .von_mises = peak.value,
           .at = peak.at};

@@ -85,6 +85,8 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   const SolidState& motion(std::size_t body) const { return bodies_.at(body).now; }
   /// Momentum of a body at t_n, just before the kick of t_n if it has a wall.
   Momenta<d> momenta(std::size_t body) const;
+  /// U + p.v/2 of a body at t_n, just before the kick of t_n if it has a wall: what its equations keep between kicks [J, J/m].
+  double energy(std::size_t body) const;
   /// Newton iterations of all steps so far.
   long iterations() const;
 

@@ -51,6 +51,7 @@ class ModalWall final : public Wall<d> {
     arms_ = Eigen::Map<const Field>(solid.mesh().nodes.data(), solid.size()) - solid.uniform(centre);
     now_ = next_ = {centre, Mat<d>::Identity(), Eigen::VectorXd::Zero(count - frame_)};
     rates_ = Eigen::VectorXd::Zero(count);
+    between_ = now_.amplitudes;
   }
 
   void start(const Field& velocity) override {
@@ -60,6 +61,7 @@ class ModalWall final : public Wall<d> {
   }
   Field velocity() const override { return tangents(now_) * rates_; }
   double strain_energy() const override { return 0.5 * squares_.dot(now_.amplitudes.cwiseAbs2()); }
+  double strain_energy_between() const override { return 0.5 * squares_.dot(between_.cwiseAbs2()); }
   long iterations() const override { return iterations_; }
 
  protected:
@@ -129,6 +131,7 @@ class ModalWall final : public Wall<d> {
     Eigen::VectorXd momentum = (1 - dynamics_.damping.mass * dt_ / 2) * (MP.transpose() * s_next_);
     momentum.tail(squares_.size()) -= resistance();
     rates_ = (P.transpose() * MP).ldlt().solve(momentum);
+    between_ = 0.5 * (now_.amplitudes + next_.amplitudes);
     now_ = next_;
     u_ = places(now_) - places_at_rest();
   }
@@ -137,6 +140,7 @@ class ModalWall final : public Wall<d> {
     all << now_.centre, now_.turn.reshaped();
     write_field(out, all);
     write_field(out, now_.amplitudes);
+    write_field(out, between_);
     write_field(out, rates_);
   }
   void read(std::istream& in) override {
@@ -145,6 +149,7 @@ class ModalWall final : public Wall<d> {
     now_.centre = all.template head<d>();
     now_.turn = all.template tail<d * d>().reshaped(d, d);
     read_field(in, now_.amplitudes);
+    read_field(in, between_);
     read_field(in, rates_);
     u_ = places(now_) - places_at_rest();
   }
@@ -198,6 +203,7 @@ class ModalWall final : public Wall<d> {
   Eigen::VectorXd squares_;
   Field arms_;                                              // X - C
   Posture<d> now_, next_, free_posture_;                    // at t_n, of the trial, of the one without an impulse
+  Eigen::VectorXd between_;                                 // amplitudes in the middle of the last step
   Eigen::VectorXd rates_;                                   // v_n = P_n times these
   Eigen::MatrixXd tangents_, momenta_, inertia_, answers_;  // P, M P, P^T M P and rows of P on the surface, at t_n
   Eigen::VectorXd known_;

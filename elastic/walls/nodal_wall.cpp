@@ -98,6 +98,7 @@ class NodalWall final : public Wall<d> {
   }
   Field velocity() const override { return mass_.solve(p_); }
   double strain_energy() const override { return solid_.strain_energy(u_); }
+  double strain_energy_between() const override { return solid_.strain_energy(u_between_); }
   long iterations() const override { return whole_solver_.iterations() + inside_solver_.iterations(); }
 
  protected:
@@ -162,14 +163,17 @@ class NodalWall final : public Wall<d> {
   void accept() override {
     p_ = solid_.mass() * s_next_ - resistance();
     leave_out(solid_.held(), p_);
+    u_between_ = u_ + dt_ / 2 * s_next_;
     u_ += dt_ * s_next_;
   }
   void write(std::ostream& out) const override {
     write_field(out, u_);
+    write_field(out, u_between_);
     write_field(out, p_);
   }
   void read(std::istream& in) override {
     read_field(in, u_);
+    read_field(in, u_between_);
     read_field(in, p_);
   }
 
@@ -204,6 +208,7 @@ class NodalWall final : public Wall<d> {
   StageSolver whole_solver_, inside_solver_;
   Eigen::SimplicialLDLT<Sparse> mass_, inner_factor_;
   Field p_, free_middle_;
+  Field u_between_ = Field::Zero(solid_.size());
   Sparse C_, coupling_, tangent_;
   Eigen::MatrixXd shapes_, condensed_;
 };

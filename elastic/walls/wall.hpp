@@ -62,6 +62,11 @@ class Wall {
   const Field& acceleration() const { return a_; }
   /// U(u), as the step knows it [J, J/m].
   virtual double strain_energy() const = 0;
+  /// s.M s/2, of the last step [J, J/m]. With `strain_energy_between` it changes by I.(s_before + s)/2, what a fluid books as work;
+  /// p.v/2 also holds what vibrations too fast for the step would have got from a kick in no time.
+  double kinetic_energy_between() const { return 0.5 * s_.dot(solid_.mass() * s_); }
+  /// U in the middle of the last step [J, J/m].
+  virtual double strain_energy_between() const = 0;
   /// Newton iterations so far.
   virtual long iterations() const = 0;
   void save(std::ostream& out) const;
