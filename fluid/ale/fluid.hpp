@@ -79,6 +79,7 @@ class AleFlow final : public FluidView<2> {
   std::span<const double> repair_pressure() const override { return {}; }
   const Ledger& ledger() const override { return ledger_; }
   Vec<2> velocity_n(std::size_t point) const override;
+  /// Linear on straight pieces; nothing in bodies and beyond the box.
   std::optional<double> pressure_at(const Vec<2>& point) const override;
   /// Of gravity [J/kg].
   double potential(const Vec<2>& point) const override { return -spec_.gravity.dot(point); }

@@ -37,9 +37,11 @@ class FlowEquations {
   /// Density [kg/m^3], dynamic viscosity [Pa s]; edges of `open` sides bear no traction. Keeps a reference to the mesh.
   FlowEquations(const FlowMesh& mesh, double density, double viscosity, std::array<bool, side_count> open);
 
-  /// How many unknowns there are, and the numbers of some.
+  /// How many unknowns there are.
   Eigen::Index size() const { return 2 * mesh_->size() + mesh_->corners; }
+  /// Of a node's velocity along an axis.
   Eigen::Index velocity(int node, int axis) const { return 2 * node + axis; }
+  /// Of a corner's pressure.
   Eigen::Index pressure(int corner) const { return 2 * mesh_->size() + corner; }
 
   /// Residuals of all equations at (v+, p): momentum by nodes [N/m], continuity by corners [m^2/s]. At nodes where velocities

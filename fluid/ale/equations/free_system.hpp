@@ -13,6 +13,7 @@ class GivenUnknowns {
  public:
   /// `is_given`: of all unknowns.
   explicit GivenUnknowns(std::vector<char> is_given);
+  /// Whether an unknown is given.
   bool operator[](Eigen::Index unknown) const { return numbers_[static_cast<std::size_t>(unknown)] < 0; }
   Eigen::Index free() const { return free_; }  ///< how many are not given
   /// What belongs to those that are not given.
@@ -33,6 +34,7 @@ class FactoredSlope {
   /// At these unknowns. False where it is singular.
   bool make(const FlowEquations& equations, const GivenUnknowns& given, const StepFields& fields, const Unknowns& at,
             double& assembly_seconds, double& factor_seconds);
+  /// Whether there is a factor.
   bool is_ready() const { return solver_.is_ready(); }
   /// Forgets the factor.
   void drop() { solver_ = {}; }

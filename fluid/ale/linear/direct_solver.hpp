@@ -11,7 +11,9 @@ class DirectSolver {
  public:
   DirectSolver();
   ~DirectSolver();
+  /// Takes the factors over; what is left may only be destroyed or assigned to.
   DirectSolver(DirectSolver&&) noexcept;
+  /// The same.
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
   /// Factors the compressed matrix. False where it is singular or memory runs out; there is no factor then.

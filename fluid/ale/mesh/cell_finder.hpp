@@ -18,6 +18,7 @@ class PieceFinder {
  public:
   /// Where triangles are now [m].
   void place(std::span<const std::array<int, 3>> pieces, std::span<const Vec<2>> points);
+  /// A place in a straight triangle.
   struct Place {
     std::size_t piece;
     Barycentric<2> at;
