@@ -94,7 +94,7 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   struct Moving {
     SolidSpec<d> spec;
     std::unique_ptr<Scheme> scheme = nullptr;
-    std::unique_ptr<Wall<d>> wall = nullptr;
+    std::unique_ptr<ElasticWall<d>> wall = nullptr;
     Eigen::Index first = 0, count = 0;  // of its coordinates
     SolidState now = {}, next = {};
     BodyState<d> state = {};

@@ -32,12 +32,13 @@ struct Posture {
 };
 
 template <int d>
-class ModalWall final : public Wall<d> {
-  using Wall<d>::solid_, Wall<d>::dynamics_, Wall<d>::boundary_, Wall<d>::u_, Wall<d>::s_, Wall<d>::s_next_,
-      Wall<d>::load_, Wall<d>::dt_, Wall<d>::at_boundary, Wall<d>::spread;
+class ModalWall final : public ElasticWall<d> {
+  using ElasticWall<d>::solid_, ElasticWall<d>::dynamics_, ElasticWall<d>::boundary_, ElasticWall<d>::u_,
+      ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::dt_,
+      ElasticWall<d>::at_boundary, ElasticWall<d>::spread;
 
  public:
-  ModalWall(const Solid<d>& solid, Dynamics dynamics, int count) : Wall<d>(solid, std::move(dynamics)) {
+  ModalWall(const Solid<d>& solid, Dynamics dynamics, int count) : ElasticWall<d>(solid, std::move(dynamics)) {
     const bool is_held = std::ranges::find(solid.held(), true) != solid.held().end();
     frame_ = is_held ? 0 : freedoms<d>;
     if (count < std::max(1, frame_))
@@ -213,11 +214,11 @@ class ModalWall final : public Wall<d> {
 }  // namespace
 
 template <int d>
-std::unique_ptr<Wall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes) {
+std::unique_ptr<ElasticWall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes) {
   return std::make_unique<ModalWall<d>>(solid, std::move(dynamics), modes);
 }
 
-template std::unique_ptr<Wall<2>> modal_wall<2>(const Solid<2>&, Dynamics, int);
-template std::unique_ptr<Wall<3>> modal_wall<3>(const Solid<3>&, Dynamics, int);
+template std::unique_ptr<ElasticWall<2>> modal_wall<2>(const Solid<2>&, Dynamics, int);
+template std::unique_ptr<ElasticWall<3>> modal_wall<3>(const Solid<3>&, Dynamics, int);
 
 }  // namespace splashdown::elastic

@@ -66,13 +66,14 @@ Sparse part_of(const Sparse& A, const std::vector<Eigen::Index>& rows, Eigen::In
 }
 
 template <int d>
-class NodalWall final : public Wall<d> {
-  using Wall<d>::solid_, Wall<d>::dynamics_, Wall<d>::boundary_, Wall<d>::u_, Wall<d>::s_, Wall<d>::s_next_,
-      Wall<d>::load_, Wall<d>::dt_, Wall<d>::at_boundary, Wall<d>::spread;
+class NodalWall final : public ElasticWall<d> {
+  using ElasticWall<d>::solid_, ElasticWall<d>::dynamics_, ElasticWall<d>::boundary_, ElasticWall<d>::u_,
+      ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::dt_,
+      ElasticWall<d>::at_boundary, ElasticWall<d>::spread;
 
  public:
   NodalWall(const Solid<d>& solid, Dynamics dynamics)
-      : Wall<d>(solid, std::move(dynamics)),
+      : ElasticWall<d>(solid, std::move(dynamics)),
         groups_(groups_of(solid, boundary_.nodes)),
         whole_(solid, u_),
         inside_(solid, u_, groups_.outer),
@@ -216,11 +217,11 @@ class NodalWall final : public Wall<d> {
 }  // namespace
 
 template <int d>
-std::unique_ptr<Wall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics) {
+std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics) {
   return std::make_unique<NodalWall<d>>(solid, std::move(dynamics));
 }
 
-template std::unique_ptr<Wall<2>> nodal_wall<2>(const Solid<2>&, Dynamics);
-template std::unique_ptr<Wall<3>> nodal_wall<3>(const Solid<3>&, Dynamics);
+template std::unique_ptr<ElasticWall<2>> nodal_wall<2>(const Solid<2>&, Dynamics);
+template std::unique_ptr<ElasticWall<3>> nodal_wall<3>(const Solid<3>&, Dynamics);
 
 }  // namespace splashdown::elastic

@@ -7,13 +7,13 @@
 namespace splashdown::elastic {
 
 template <int d>
-Wall<d>::Wall(const Solid<d>& solid, Dynamics dynamics)
+ElasticWall<d>::ElasticWall(const Solid<d>& solid, Dynamics dynamics)
     : solid_(solid), dynamics_(std::move(dynamics)), boundary_(boundary_of<d>(solid.mesh())) {
   u_ = s_ = a_ = s_next_ = Field::Zero(solid.size());
 }
 
 template <int d>
-Eigen::VectorXd Wall<d>::at_boundary(const Field& field) const {
+Eigen::VectorXd ElasticWall<d>::at_boundary(const Field& field) const {
   Eigen::VectorXd all(d * static_cast<Eigen::Index>(boundary_.nodes.size()));
   Eigen::Index at = 0;
   for (const int a : boundary_.nodes) all.segment<d>(d * at++) = field.segment<d>(d * a);
@@ -21,7 +21,7 @@ Eigen::VectorXd Wall<d>::at_boundary(const Field& field) const {
 }
 
 template <int d>
-Field Wall<d>::spread(const Eigen::VectorXd& impulse) const {
+Field ElasticWall<d>::spread(const Eigen::VectorXd& impulse) const {
   Field all = Field::Zero(solid_.size());
   Eigen::Index at = 0;
   for (const int a : boundary_.nodes) all.segment<d>(d * a) = impulse.segment<d>(d * at++);
@@ -29,13 +29,13 @@ Field Wall<d>::spread(const Eigen::VectorXd& impulse) const {
 }
 
 template <int d>
-const Eigen::VectorXd& Wall<d>::tried(const Status& status) {
+const Eigen::VectorXd& ElasticWall<d>::tried(const Status& status) {
   status_ = begun_.ok() ? status : begun_;
   return trial_ = at_boundary(s_next_);
 }
 
 template <int d>
-void Wall<d>::begin(double t, double kick, double dt) {
+void ElasticWall<d>::begin(double t, double kick, double dt) {
   dt_ = dt;
   kick_ = kick;
   load_ = kick * dynamics_.load(t);
@@ -47,17 +47,17 @@ void Wall<d>::begin(double t, double kick, double dt) {
 }
 
 template <int d>
-const Eigen::VectorXd& Wall<d>::solve(const Eigen::VectorXd& impulse) {
+const Eigen::VectorXd& ElasticWall<d>::solve(const Eigen::VectorXd& impulse) {
   return tried(move(impulse));
 }
 
 template <int d>
-const Eigen::VectorXd& Wall<d>::adopt(const Eigen::VectorXd& velocities) {
+const Eigen::VectorXd& ElasticWall<d>::adopt(const Eigen::VectorXd& velocities) {
   return tried(follow(velocities));
 }
 
 template <int d>
-bool Wall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
+bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   if (!status_.ok() || !impulse.allFinite()) return false;  // it is refused
   const Eigen::LDLT<Eigen::MatrixXd> inertia(modal_.inertia);
   const Eigen::VectorXd obeyed = implied();
@@ -68,7 +68,7 @@ bool Wall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
 }
 
 template <int d>
-Status Wall<d>::acceptable() const {
+Status ElasticWall<d>::acceptable() const {
   if (!status_.ok()) return status_;
   if (!s_next_.allFinite()) return {"the solid's velocities are not finite"};
   if (!(solid_.least_volume_ratio(u_ + dt_ * s_next_) > 0)) return {"an element of the solid turns over"};
@@ -76,32 +76,32 @@ Status Wall<d>::acceptable() const {
 }
 
 template <int d>
-void Wall<d>::commit() {
+void ElasticWall<d>::commit() {
   accept();
   a_ = (s_next_ - s_) / kick_;
   s_ = s_next_;
 }
 
 template <int d>
-Eigen::VectorXd Wall<d>::placement() const {
+Eigen::VectorXd ElasticWall<d>::placement() const {
   return boundary_.surface.vertices.reshaped() + at_boundary(u_ + dt_ * s_next_);
 }
 
 template <int d>
-void Wall<d>::save(std::ostream& out) const {
+void ElasticWall<d>::save(std::ostream& out) const {
   write_field(out, s_);
   write_field(out, a_);
   write(out);
 }
 
 template <int d>
-void Wall<d>::load(std::istream& in) {
+void ElasticWall<d>::load(std::istream& in) {
   read_field(in, s_);
   read_field(in, a_);
   read(in);
 }
 
-template class Wall<2>;
-template class Wall<3>;
+template class ElasticWall<2>;
+template class ElasticWall<3>;
 
 }  // namespace splashdown::elastic

@@ -22,11 +22,11 @@ namespace splashdown::elastic {
 
 /// begin, any number of trials, commit. Trials start from t_n.
 template <int d>
-class Wall {
+class ElasticWall {
  public:
   /// Of a solid that outlives it; `dynamics`: its damping, loads, limits.
-  Wall(const Solid<d>& solid, Dynamics dynamics);
-  virtual ~Wall() = default;
+  ElasticWall(const Solid<d>& solid, Dynamics dynamics);
+  virtual ~ElasticWall() = default;
 
   /// The surface at rest, world frame at t = 0, and its nodes.
   const Boundary<d>& boundary() const { return boundary_; }
@@ -112,10 +112,10 @@ class Wall {
 /// All nodes: the coordinates of the exact term are those of all vertices that are not held, M is what the inside leaves of M_s
 /// on them (Schur complement), dense.
 template <int d>
-std::unique_ptr<Wall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics);
+std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics);
 /// The lowest natural modes, small vibrations about x = c + R (X - C + sum q_k phi_k) with a frame (c, R) that moves along if nothing is
 /// held; the frame then counts as 3 of the modes in the plane, 6 in space. Throws std::invalid_argument for fewer or too many.
 template <int d>
-std::unique_ptr<Wall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes);
+std::unique_ptr<ElasticWall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes);
 
 }  // namespace splashdown::elastic
