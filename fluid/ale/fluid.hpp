@@ -47,7 +47,7 @@ class AleFlow final : public FluidView<2> {
   /// Impulses on those coordinates.
   const Eigen::VectorXd& impulse() const { return impulse_; }
   /// Minus the slope of impulses by velocities of the first so many coordinates, of the factor that was used last [kg, ...].
-  Eigen::MatrixXd answer(Eigen::Index coordinates) const;
+  Eigen::MatrixXd answer(const Eigen::MatrixXd& motions) const;
   /// Whether cells stay unfolded where the walls of the last solve go.
   Status acceptable() const;
   /// Accepts it. `placements`: of the first walls at t_{n+1}; empty: all stay.
@@ -68,6 +68,9 @@ class AleFlow final : public FluidView<2> {
   double density() const override { return spec_.density; }
   std::span<const WallSpec<2>> walls() const override { return spec_.walls; }
   std::span<const Isometry<2>> wall_poses() const override { return poses_; }
+  const AtVertices<2>* wall_vertices(std::size_t wall) const override {
+    return spec_.walls[wall].deforms ? &vertices_[wall] : nullptr;
+  }
   std::span<const WallLoad<2>> loads() const override { return loads_; }
   std::span<const Vec<2>> points() const override { return points_; }
   /// Straight pieces: four of each cell.
@@ -146,6 +149,7 @@ class AleFlow final : public FluidView<2> {
   long factorisations_ = 0;
   // To be looked at.
   std::vector<Isometry<2>> poses_;
+  std::vector<AtVertices<2>> vertices_;  // of walls that deform
   std::vector<WallLoad<2>> loads_;
   std::vector<Vec<2>> points_;
   std::vector<std::array<int, 3>> pieces_;

@@ -49,37 +49,41 @@ void AleFlow::add_buoyancy(Eigen::VectorXd& loads) const {
   }
 }
 
-Eigen::MatrixXd AleFlow::answer(Eigen::Index count) const {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count);
+Eigen::MatrixXd AleFlow::answer(const Eigen::MatrixXd& motions) const {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
   const FactoredSlope* tangent = is_solved_ ? tangent_ : first_;
   if (!tangent || !tangent->is_ready()) return all;
-  const std::size_t walls = walls_with(count);
-  for (std::size_t mover = 0; mover < walls; ++mover) {
-    const Eigen::MatrixXd basis = moved_[mover].motion->basis(middle_[mover]);
-    for (Eigen::Index k = 0; k < basis.cols(); ++k) {
-      Unknowns change = Unknowns::Zero(equations_.size());
-      for (std::size_t a = 0; a < moved_[mover].nodes.size(); ++a)
-        change.segment<2>(2 * moved_[mover].nodes[a]) = basis.col(k).segment<2>(2 * static_cast<Eigen::Index>(a));
-      given_.add(tangent->correction(given_.gather(tangent->times(change))), change);
-      const Eigen::VectorXd reactions = kick_ * tangent->times(change);
-      for (std::size_t w = 0; w < walls; ++w) {
-        const auto& wall = moved_[w];
-        Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));
-        for (std::size_t a = 0; a < wall.nodes.size(); ++a)
-          of_nodes.segment<2>(2 * static_cast<Eigen::Index>(a)) = reactions.segment<2>(2 * wall.nodes[a]);
-        all.col(moved_[mover].first + k).segment(wall.first, wall.motion->coordinates()) =
-            wall.motion->basis(state_.placements[w]).transpose() * of_nodes;
-      }
+  const std::size_t walls = walls_with(motions.rows());
+  std::vector<Eigen::MatrixXd> moved, onto;  // velocities of nodes; impulses on coordinates by those on nodes
+  for (std::size_t w = 0; w < walls; ++w) {
+    const auto& wall = moved_[w];
+    moved.emplace_back(wall.motion->basis(middle_[w]) * motions.middleRows(wall.first, wall.motion->coordinates()));
+    onto.emplace_back(wall.motion->basis(state_.placements[w]).transpose());
+  }
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    Unknowns change = Unknowns::Zero(equations_.size());
+    for (std::size_t w = 0; w < walls; ++w)
+      for (std::size_t a = 0; a < moved_[w].nodes.size(); ++a)
+        change.segment<2>(2 * moved_[w].nodes[a]) = moved[w].col(k).segment<2>(2 * static_cast<Eigen::Index>(a));
+    given_.add(tangent->correction(given_.gather(tangent->times(change))), change);
+    const Eigen::VectorXd reactions = kick_ * tangent->times(change);
+    for (std::size_t w = 0; w < walls; ++w) {
+      const auto& wall = moved_[w];
+      Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));
+      for (std::size_t a = 0; a < wall.nodes.size(); ++a)
+        of_nodes.segment<2>(2 * static_cast<Eigen::Index>(a)) = reactions.segment<2>(2 * wall.nodes[a]);
+      all.col(k).segment(wall.first, wall.motion->coordinates()) = onto[w] * of_nodes;
     }
   }
   return all;
 }
 
 Eigen::MatrixXd AleFlow::added_mass(std::span<const std::size_t> walls) const {
-  const Eigen::MatrixXd all = answer(coordinates(moved_.size()));
+  const Eigen::Index count = coordinates(moved_.size());
+  const Eigen::MatrixXd all = answer(Eigen::MatrixXd::Identity(count, count));
   std::vector<Eigen::Index> of_walls;
   for (const std::size_t w : walls)
-    for (Eigen::Index k = 0; k < 3; ++k) of_walls.push_back(moved_[w].first + k);
+    for (Eigen::Index k = 0; k < moved_[w].motion->coordinates(); ++k) of_walls.push_back(moved_[w].first + k);
   return all(of_walls, of_walls);
 }
 

@@ -14,7 +14,12 @@ void AleFlow::look() {
   points_.resize(static_cast<std::size_t>(mesh_.size()));
   for (int a = 0; a < mesh_.size(); ++a) points_[static_cast<std::size_t>(a)] = x_.col(a);
   poses_.clear();
-  for (std::size_t w = 0; w < moved_.size(); ++w) poses_.push_back(moved_[w].motion->pose(state_.placements[w]));
+  vertices_.resize(moved_.size());
+  for (std::size_t w = 0; w < moved_.size(); ++w) {
+    const auto& placement = state_.placements[w];
+    poses_.push_back(moved_[w].motion->pose(placement));
+    if (spec_.walls[w].deforms) vertices_[w] = placement.reshaped(2, placement.size() / 2);
+  }
   pressure_.clear();
   finds_ = false;
 }

@@ -15,15 +15,19 @@ coupling::Status Participant::begin(const coupling::Step& step, const coupling::
       throw std::invalid_argument("ale fluid: knows no local operators on hulls");
   step_ = step;
   modal_ = structure.modal;
-  return fluid_->begin(step.kick, step.dt);
+  const auto status = fluid_->begin(step.kick, step.dt);
+  if (!status.ok() || modal_.modes.cols() == 0) return status;
+  answered_ = modal_.modes.transpose() * fluid_->answer(modal_.modes);
+  of_factor_ = fluid_->factorisations();
+  return status;
 }
 
 namespace {
 
 /// y' with W'^T (M y' - Z^T I' - known) = 0, where I' = I - A Z (y' - y): what the next solve is asked with.
 Eigen::VectorXd next_modes(const coupling::ModalInertia& modal, const coupling::ClosedContacts& contacts,
-                           const Eigen::MatrixXd& answer, const Eigen::VectorXd& impulse, const Eigen::VectorXd& y) {
-  const Eigen::MatrixXd answered = modal.modes.transpose() * answer * modal.modes, matrix = modal.inertia + answered;
+                           const Eigen::MatrixXd& answered, const Eigen::VectorXd& impulse, const Eigen::VectorXd& y) {
+  const Eigen::MatrixXd matrix = modal.inertia + answered;
   Eigen::VectorXd right = modal.modes.transpose() * impulse + answered * y;
   if (!contacts.restrict_modes()) return matrix.partialPivLu().solve(right);
   if (contacts.known.size() > 0) right += contacts.known;
@@ -39,16 +43,16 @@ coupling::Status Participant::solve_exact(const coupling::Pass& pass) {
   constexpr double agreed = 1e-9;  // of velocities: Newton's method squares what is left
   constexpr int most = 30;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(modal_.modes.cols());
-  Eigen::MatrixXd answer;
-  long of_factor = -1;
+  Eigen::MatrixXd answered = answered_;
+  long of_factor = of_factor_;
   for (int k = 0; k < most; ++k) {
     solution_.velocities = pass.velocities + modal_.modes * y;
     if (!solution_.velocities.allFinite()) return {"the velocities of the bodies are not finite"};
     if (const auto status = fluid_->solve(solution_.velocities, k > 0); !status.ok()) return status;
-    if (of_factor != fluid_->factorisations()) answer = fluid_->answer(pass.velocities.size());
+    if (of_factor != fluid_->factorisations()) answered = modal_.modes.transpose() * fluid_->answer(modal_.modes);
     of_factor = fluid_->factorisations();
     const Eigen::VectorXd next =
-        next_modes(modal_, pass.contacts, answer, fluid_->impulse().head(pass.velocities.size()), y);
+        next_modes(modal_, pass.contacts, answered, fluid_->impulse().head(pass.velocities.size()), y);
     const Eigen::VectorXd change = modal_.modes * (next - y);
     solution_.imbalance = change;
     const double scale = std::max(solution_.velocities.cwiseAbs().maxCoeff(), pass.velocities.cwiseAbs().maxCoeff());

@@ -45,6 +45,8 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
   std::unique_ptr<AleFlow> fluid_;
   coupling::Step step_;
   coupling::ModalInertia modal_;
+  Eigen::MatrixXd answered_;  // Z^T A Z as the step begins, of this factor of the fluid's
+  long of_factor_ = -1;
   coupling::Solution solution_;
 };
 

@@ -77,9 +77,9 @@ void triangulate(benchmark::State& state, int nodes) {
 
 void solve_laplacian(benchmark::State& state, int nodes) {
   const auto& f = moving(nodes, false).fluid();
-  const std::vector<Vec<2>> centres(1, Vec<2>::Zero());
+  const std::vector<fluid::WallPlace<2>> places(1);
   fluid::PressureEquation<2> equation;
-  equation.build(f.nodes(), f.mesh(), f.spec().density, centres, {});
+  equation.build(f.nodes(), f.mesh(), f.spec().density, places, fluid::WallLayout<2>::rigid(1), {});
   fluid::LinearSolver solver;
   std::vector<double> rhs(static_cast<std::size_t>(equation.size()), 1.0);
   for (auto _ : state)

@@ -95,9 +95,9 @@ void follow(benchmark::State& state, int nodes) {
 
 void solve(benchmark::State& state, int nodes, int largest_direct, double tolerance) {
   const auto& water = moving(nodes).fluid();
-  const std::vector<Vec<3>> centres(2, Vec<3>::Zero());
+  const std::vector<fluid::WallPlace<3>> places(2);
   fluid::PressureEquation<3> equation;
-  equation.build(water.nodes(), water.mesh(), water.spec().density, centres, {});
+  equation.build(water.nodes(), water.mesh(), water.spec().density, places, fluid::WallLayout<3>::rigid(2), {});
   std::vector<double> rhs(static_cast<std::size_t>(equation.size()));
   for (int i = 0; i < equation.size(); ++i) rhs[static_cast<std::size_t>(i)] = std::sin(0.01 * i);
   fluid::use_threads(2);

@@ -97,7 +97,7 @@ TEST(HingedPlate, gets_no_more_energy_than_its_buoyancy_gives) {
     dt = std::min(stepper->stable_dt(), 1.5 * dt);
     ASSERT_TRUE(stepper->attempt(dt).ok());
     const auto& state = stepper->bodies().state(0);
-    const rigid::Twist<2> s = 0.5 * (state.velocity + stepper->fluid().result().wall_velocities[0]);
+    const rigid::Twist<2> s = 0.5 * (state.velocity + stepper->fluid().result().wall_velocities[0].rigid);
     const double kinetic = 0.5 * body.mass * s.head<2>().squaredNorm() + 0.5 * body.inertia(0, 0) * s[2] * s[2] +
                            stepper->fluid().ledger().kinetic_energy;
     const double work = lift * (state.pose.translation().y() + depth);

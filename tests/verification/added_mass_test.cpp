@@ -31,7 +31,7 @@ double added_mass(double h, double mass, int axis) {
   const double instant = 1e-6;  // next to nothing moves; positions' roundoff over it is 1e-10 m/s
   EXPECT_TRUE(f.begin(instant, instant, response).ok());
   EXPECT_TRUE(f.solve(std::vector{s}).status.ok());
-  return mass * (1 / f.result().wall_velocities[0][axis] - 1);
+  return mass * (1 / f.result().wall_velocities[0].rigid[axis] - 1);
 }
 
 const double exact = water * std::numbers::pi * a * a * (b * b - a * a) / (b * b + a * a);
@@ -81,7 +81,7 @@ TEST(AddedMass, of_a_star_is_what_the_step_answers_with) {
   ASSERT_TRUE(f.begin(1e-6, 1e-6, {Eigen::Matrix3d::Identity(), M, {}}).ok());
   const Eigen::Matrix3d G = f.added_mass(star);
   ASSERT_TRUE(f.solve(std::vector<fluid::Twist<2>>{s}).status.ok());
-  const Eigen::Vector3d after = f.result().wall_velocities[0], expected = (M + G).ldlt().solve(M * s);
+  const Eigen::Vector3d after = f.result().wall_velocities[0].rigid, expected = (M + G).ldlt().solve(M * s);
   EXPECT_LE((after - expected).norm(), 1e-3 * expected.norm());
 }
 
@@ -114,7 +114,7 @@ TEST(AddedMass, in_a_tank_tends_to_that_in_open_water) {
     const InterfaceModel response{.modal = {Eigen::MatrixXd::Identity(3, 2), 100 * Eigen::Matrix2d::Identity()}};
     ASSERT_TRUE(f.begin(1e-6, 1e-6, response).ok());
     ASSERT_TRUE(f.solve(std::vector{fluid::Twist<2>(0, 1, 0)}).status.ok());
-    const double M = 100 * (1 / f.result().wall_velocities[0][1] - 1);
+    const double M = 100 * (1 / f.result().wall_velocities[0].rigid[1] - 1);
     error[i] = M / (water * std::numbers::pi * a * a) - 1;
   }
   EXPECT_GE(-order_of(half, error), 1) << error[0] << ' ' << error[1] << ' ' << error[2];

@@ -51,7 +51,7 @@ double divergence_of_a_step(double dt) {
   const auto nodes = stepper->fluid().nodes();
   stepper->commit();
   fluid::PressureEquation<2> equation;
-  EXPECT_TRUE(equation.build(nodes, mesh, water, {}, {}));
+  EXPECT_TRUE(equation.build(nodes, mesh, water, {}, {}, {}));
   std::vector<Vec> middle = x, u = x;
   for (std::size_t i = 0; i < x.size(); ++i) {
     u[i] = (stepper->fluid().nodes().x[i] - x[i]) / dt;
