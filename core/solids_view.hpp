@@ -23,10 +23,11 @@ struct Deformation {
 /// The surface of a body as it is deformed, with what is known at its vertices.
 template <int d>
 struct DeformedSurface {
-  Surface<d> surface;                   ///< world frame [m]
-  std::vector<Vec<d>> displacement, v;  ///< against t = 0, and velocities [m, m/s]
-  std::vector<Mat<3>> stress;           ///< Cauchy's, mean of the elements around [Pa]
-  std::vector<double> von_mises;        ///< of that mean [Pa]
+  Surface<d> surface;                ///< world frame [m]
+  std::vector<Vec<d>> displacement;  ///< against t = 0 [m]
+  std::vector<Vec<d>> v;             ///< velocities [m/s]
+  std::vector<Mat<3>> stress;        ///< Cauchy's, mean of the elements around [Pa]
+  std::vector<double> von_mises;     ///< of that mean [Pa]
 };
 
 /// The bodies in the order of the scene; an index beyond the last throws std::out_of_range.

@@ -35,27 +35,33 @@ struct WallVector {
     return out;
   }
 
+  /// In place, coordinate by coordinate.
   WallVector& operator+=(const WallVector& other) {
     rigid += other.rigid;
     if (other.vertices.size() > 0) at(other) += other.vertices;
     return *this;
   }
+  /// The same.
   WallVector& operator-=(const WallVector& other) {
     rigid -= other.rigid;
     if (other.vertices.size() > 0) at(other) -= other.vertices;
     return *this;
   }
+  /// The same.
   WallVector& operator*=(double factor) {
     rigid *= factor;
     vertices *= factor;
     return *this;
   }
+  /// The same.
   WallVector& operator/=(double divisor) {
     rigid /= divisor;
     vertices /= divisor;
     return *this;
   }
+  /// With the other sign.
   WallVector operator-() const { return -1.0 * *this; }
+  /// Zero in all coordinates.
   void setZero() { rigid.setZero(), vertices.setZero(); }
   /// Work, power: velocities by what is conjugate to them.
   double dot(const WallVector& other) const {
@@ -65,12 +71,18 @@ struct WallVector {
   }
   /// Of the whole wall: the largest speed of a vertex, or what bounds that of a rigid wall's twist.
   double norm() const { return vertices.size() > 0 ? vertices.colwise().norm().maxCoeff() : rigid.norm(); }
+  /// Whether no coordinate is infinite or no number.
   bool allFinite() const { return rigid.allFinite() && vertices.allFinite(); }
 
+  /// Coordinate by coordinate.
   friend WallVector operator+(WallVector a, const WallVector& b) { return a += b; }
+  /// The same.
   friend WallVector operator-(WallVector a, const WallVector& b) { return a -= b; }
+  /// The same.
   friend WallVector operator*(double factor, WallVector a) { return a *= factor; }
+  /// The same.
   friend WallVector operator/(WallVector a, double divisor) { return a /= divisor; }
+  /// The same numbers.
   friend bool operator==(const WallVector& a, const WallVector& b) {
     return a.rigid == b.rigid && a.vertices.cols() == b.vertices.cols() && a.vertices == b.vertices;
   }

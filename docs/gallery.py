@@ -100,6 +100,13 @@ set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:
 plot "< grep ',A.uy,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'u_y', "< grep ',A.ux,' probes.csv" using 1:(1000*$3) with lines ls 2 title 'u_x', \
   -66.10 with lines ls 4 title 'u_y at rest (CSM1)'
 """
+GATE = r"""
+set xlabel 'time / s'; set ylabel 'displacement of the end / mm'; set xrange [0:0.4]; set yrange [0:50]
+plot "< grep ',end.ux,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'downstream', \
+  "< grep ',end.uy,' probes.csv" using 1:(1000*$3) with lines ls 2 title 'upwards', \
+  "< grep '^x,' ../../../examples/elastic_gate/reference.csv" using 2:(1000*$3) with points ls 4 title 'measured', \
+  "< grep '^y,' ../../../examples/elastic_gate/reference.csv" using 2:(1000*$3) with points ls 4 notitle
+"""
 STYLE = r"""
 set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
 set terminal svg size 640,340 noenhanced font 'Helvetica,15'
@@ -154,6 +161,7 @@ CASES = [
     Case("sedimenting_cylinder", "scene.toml", SINKING, 12),
     Case("plate_trajectories", "scene.toml", FLIGHT, 40),
     Case("turek_hron_cfd", "scene.toml", RISING, 15),
+    Case("elastic_gate", "scene.toml", GATE, 40),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
          "--set time.end=2 --set time.dt_max=0.005", SWING, 8),
     Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),

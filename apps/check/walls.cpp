@@ -42,7 +42,7 @@ class Traveller {
     added_ = 2 * impact_mass(scene.fluid->density, hull_);
   }
 
-  bool is_free() const { return body_.motion == Motion::free && !is_tied_; }
+  bool is_free() const { return body_.motion == Motion::free && !is_tied_ && !body_.deforms; }  // clamps may hold it
   bool is_tied() const { return is_tied_; }
   const Body& body() const { return body_; }
   const Vec<d>& moved() const { return moved_; }

@@ -56,8 +56,8 @@ Eigen::Matrix<double, d, cell_nodes<d>> shape_slopes(const Barycentric<d>& L) {
 /// A point of an integration rule and its share of the simplex.
 template <int d>
 struct RulePoint {
-  Barycentric<d> at;
-  double weight;
+  Barycentric<d> at;  ///< where it is
+  double weight;      ///< what of the simplex it stands for
 };
 /// The rule of a segment, a triangle or a tetrahedron; weights sum to 1.
 template <int d>

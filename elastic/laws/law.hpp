@@ -29,7 +29,8 @@ class Law {
   virtual double energy(const Mat<d>& F) const = 0;
   /// P = d psi/dF [Pa].
   virtual Mat<d> stress(const Mat<d>& F) const = 0;
-  /// P of a step from `before` through `middle`. Where psi is quadratic in E its work over the step is the change of psi, exactly,
+  /// P of a step from `before` through `middle`. Where psi is quadratic in E its work over the step is the change of psi,
+  /// exactly,
   /// and P F^T is symmetric at the middle: F_middle S((E_before + E_after)/2) (Simo, Tarnow 1992). Else P(F_middle) [Pa].
   virtual Mat<d> stress_between(const Mat<d>& /*before*/, const Mat<d>& middle) const { return stress(middle); }
   /// dP/dF [Pa].

@@ -1,12 +1,14 @@
 // An elastic body whose surface a fluid presses on. Coordinates of the wall are the velocities of the vertices of its surface
-// (mesh/boundary.hpp), vertex by vertex, world frame. Impulses I act at t_n over a kick, walls move over dt with s = (x_{n+1} - x_n)/dt:
+// (mesh/boundary.hpp), vertex by vertex, world frame. Impulses I act at t_n over a kick, walls move over dt with
+// s = (x_{n+1} - x_n)/dt:
 //
 //   M s + dt/2 (f(x_{n+1/2}) + C s) = p_n + I + kick F(t_n),   p_{n+1} = M s - dt/2 (f(x_{n+1/2}) + C s)
 //
 // with x_{n+1/2} = (x_n + x_{n+1})/2: kicks, and the midpoint rule between them (Hairer, Lubich, Wanner 2006, section VI.4).
 // Second order with any steps; momenta are exact, and rigid motions leapfrog. f is that of Law::stress_between, so that
 // between kicks energies of linear solids and of St. Venant and Kirchhoff's are exact at any dt: the midpoint rule itself gains
-// energy where a stiff body turns fast. p is the momentum just before the kick of t_n. The tangent of the left side is what the exact interface term knows,
+// energy where a stiff body turns fast. p is the momentum just before the kick of t_n. The tangent of the left side is what
+// the exact interface term knows,
 //
 //   M_s = M + dt/2 C + dt^2/4 K.
 #pragma once
@@ -48,7 +50,7 @@ class ElasticWall {
   bool update(const Eigen::VectorXd& impulse, double tolerance);
   /// Whether the last trial is a solution and no element of it is turned over.
   Status acceptable() const;
-  void commit();
+  void commit();  ///< accepts the last trial
 
   /// Of the surface: where the last trial brings it [m].
   Eigen::VectorXd placement() const;
@@ -62,14 +64,14 @@ class ElasticWall {
   const Field& acceleration() const { return a_; }
   /// U(u), as the step knows it [J, J/m].
   virtual double strain_energy() const = 0;
-  /// s.M s/2, of the last step [J, J/m]. With `strain_energy_between` it changes by I.(s_before + s)/2, what a fluid books as work;
-  /// p.v/2 also holds what vibrations too fast for the step would have got from a kick in no time.
+  /// s.M s/2, of the last step [J, J/m]. With `strain_energy_between` it changes by I.(s_before + s)/2, what a fluid books as
+  /// work; p.v/2 also holds what vibrations too fast for the step would have got from a kick in no time.
   double kinetic_energy_between() const { return 0.5 * s_.dot(solid_.mass() * s_); }
   /// U in the middle of the last step [J, J/m].
   virtual double strain_energy_between() const = 0;
   /// Newton iterations so far.
   virtual long iterations() const = 0;
-  void save(std::ostream& out) const;
+  void save(std::ostream& out) const;  ///< the state at t_n, bit for bit
   /// Throws std::runtime_error for other bytes.
   void load(std::istream& in);
 
@@ -86,9 +88,12 @@ class ElasticWall {
   virtual Eigen::VectorXd implied() const = 0;
   /// Makes the trial the present.
   virtual void accept() = 0;
+  /// What a kind of wall adds to the state.
   virtual void write(std::ostream& out) const = 0;
+  /// The same read back.
   virtual void read(std::istream& in) = 0;
 
+  /// Of a field the numbers at the surface's vertices.
   Eigen::VectorXd at_boundary(const Field& field) const;
   /// The impulse on all nodes.
   Field spread(const Eigen::VectorXd& impulse) const;
@@ -113,8 +118,8 @@ class ElasticWall {
 /// on them (Schur complement), dense.
 template <int d>
 std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics);
-/// The lowest natural modes, small vibrations about x = c + R (X - C + sum q_k phi_k) with a frame (c, R) that moves along if nothing is
-/// held; the frame then counts as 3 of the modes in the plane, 6 in space. Throws std::invalid_argument for fewer or too many.
+/// The lowest natural modes, small vibrations about x = c + R (X - C + sum q_k phi_k) with a frame (c, R) that moves along if
+/// nothing is held; the frame then counts as 3 of the modes in the plane, 6 in space. Throws std::invalid_argument for fewer or too many.
 template <int d>
 std::unique_ptr<ElasticWall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes);
 

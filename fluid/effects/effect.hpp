@@ -13,13 +13,13 @@
 
 #include "core/response.hpp"
 #include "core/status.hpp"
-#include "fluid/pfem/contact/wall_place.hpp"
 #include "fluid/pfem/liquid_state.hpp"
 #include "fluid/pfem/mesh/mesh.hpp"
 #include "fluid/pfem/mesh/node_cells.hpp"
 #include "fluid/pfem/nodes.hpp"
 #include "fluid/pfem/spec.hpp"
 #include "fluid/pfem/types.hpp"
+#include "fluid/pfem/wall_place.hpp"
 
 namespace splashdown::fluid {
 
@@ -40,7 +40,7 @@ struct StepView {
   std::span<const double> lumped_volume;  ///< mass of nodes over `density` [m^d]
   const NodeCells<d>& around;             ///< the cells around each node
   std::span<const WallSpec<d>> walls;     ///< as they were made
-  std::span<const WallPlace<d>> poses;     ///< of walls, at t_n
+  std::span<const WallPlace<d>> poses;    ///< of walls, at t_n
   const WallLayout<d>& layout;            ///< of the walls' coordinates
   const ModalInertia* answers = nullptr;  ///< modes of walls that answer the fluid; nullptr: none does
   InTime in_time = InTime::euler;         ///< of terms that are solved implicitly
@@ -49,14 +49,14 @@ struct StepView {
 /// What effects act on: velocities at t_{n-1/2} of nodes [m/s] and walls.
 template <int d>
 struct Carried {
-  std::span<const Vec<d>> v;        ///< of nodes
+  std::span<const Vec<d>> v;               ///< of nodes
   std::span<const WallVelocity<d>> walls;  ///< of walls, about their origins
 };
 
 /// What effects add to.
 template <int d>
 struct Predicted {
-  std::span<Vec<d>> v;            ///< of nodes [m/s]
+  std::span<Vec<d>> v;                 ///< of nodes [m/s]
   std::span<WallImpulse<d>> on_walls;  ///< impulse on each wall about its origin [N s]
   /// Of the modes that answer: what an effect that solves for them with the fluid has changed in them, on_walls being the
   /// impulse that did it. nullptr: none answers.
@@ -66,7 +66,7 @@ struct Predicted {
 /// What all but one effect do in a kick, the pressure included.
 template <int d>
 struct Others {
-  std::span<const Vec<d>> change;   ///< of velocities of nodes [m/s]
+  std::span<const Vec<d>> change;          ///< of velocities of nodes [m/s]
   std::span<const WallVelocity<d>> walls;  ///< of walls, after it
 };
 

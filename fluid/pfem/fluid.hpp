@@ -93,7 +93,8 @@ class Fluid final : public FluidView<d> {
   std::span<const WallPlace<d>> wall_places()
       const;                            ///< at t_n, of the step under way between its begin and its commit
   const WallLayout<d>& layout() const;  ///< of the walls' coordinates
-  /// Where walls are of which this is the placement, as a coupling knows it (coupling/participant.hpp); others are where they were.
+  /// Where walls are of which this is the placement, as a coupling knows it (coupling/participant.hpp); others are where they
+  /// were.
   /// std::invalid_argument for numbers that end within a wall.
   std::vector<WallPlace<d>> places_of(const Eigen::VectorXd& placement) const;
   const Nodes<d>& nodes() const;  ///< of the mesh below

@@ -1,6 +1,6 @@
 // The fluid as a part of a coupling: coordinates of a rigid wall are its twist about the wall's reference point, in the world
-// frame, its placement the first d rows of its pose; of a wall that deforms, velocities and places of its vertices. The structure's walls come first among the fluid's; all others
-// stand still where they are.
+// frame, its placement the first d rows of its pose; of a wall that deforms, velocities and places of its vertices. The
+// structure's walls come first among the fluid's; all others stand still where they are.
 #pragma once
 
 #include <memory>

@@ -96,7 +96,8 @@ TEST_P(Agreement, work_of_the_fluid_is_the_energy_that_the_body_gains) {
       const double kick = i == 0 ? dt / 2 : dt, booked = stepper->fluid().ledger().work_on_walls;
       const fluid::Twist<2> before = stepper->bodies().state(0).velocity;
       ASSERT_TRUE(stepper->attempt(dt).ok());
-      const fluid::Twist<2> after = stepper->trial()[0].velocity, uses = stepper->fluid().result().wall_velocities[0].rigid;
+      const fluid::Twist<2> after = stepper->trial()[0].velocity,
+                            uses = stepper->fluid().result().wall_velocities[0].rigid;
       const auto f = stepper->fluid().result().loads[0].total();
       stepper->commit();
       const auto energy = [&](const fluid::Twist<2>& s) { return 0.5 * s.dot(M.cwiseProduct(s)); };

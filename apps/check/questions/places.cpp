@@ -151,7 +151,7 @@ template <int d>
 void about_water_below(const PreparedScene<d>& prepared, Questions& list) {
   if (!prepared.scene.fluid) return;
   for (const auto& of : prepared.bodies) {
-    if (of.body->motion == Motion::fixed) continue;
+    if (of.body->motion == Motion::fixed || of.body->deforms) continue;  // clamps may hold it
     const bool above = std::ranges::any_of(prepared.scene.fluid->regions, [&](const Region& region) {
       const auto box = extents<d>(outline<d>(region));
       bool meets = true;

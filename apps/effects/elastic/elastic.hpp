@@ -47,7 +47,8 @@ struct ElasticTable {
   double spectral_radius = 0.9;  ///< of generalised_alpha: five periods resolved by ten steps lose 1 % of a mode
   double shift = 1;              ///< of shifted_crank_nicolson [1/s]
   double mass_damping = 0;       ///< Rayleigh's alpha [1/s]
-  double stiffness_damping = 0;  ///< Rayleigh's beta [s]
+  /// Rayleigh's beta [s]; default: none in dry space, in a fluid what damps vibrations that its steps do not resolve.
+  std::optional<double> stiffness_damping;
   std::vector<ElasticClamp> clamps;
   std::vector<ElasticPoint> point_masses, points;
   int modes = 0;                      ///< natural frequencies that are told before the run

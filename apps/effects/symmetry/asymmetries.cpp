@@ -60,7 +60,12 @@ class Judge {
   }
 
   void region(const Region& region, const std::string& key) {
-    const auto boundary = outline<d>(region);
+    Surface<d> boundary;
+    try {
+      boundary = outline<d>(region);
+    } catch (const std::invalid_argument&) {  // its own rule speaks of it
+      return;
+    }
     const double length = extents<d>(boundary).diagonal().norm();
     if (const auto off = asymmetry_of<d>(mirror_, boundary); off.distance > written_digits * length)
       add(key,

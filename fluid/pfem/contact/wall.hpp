@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/facet_tree.hpp"
-#include "fluid/pfem/contact/wall_place.hpp"
 #include "fluid/pfem/nodes.hpp"
 #include "fluid/pfem/spec.hpp"
+#include "fluid/pfem/wall_place.hpp"
 
 namespace splashdown::fluid {
 

@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "fluid/pfem/contact/wall_place.hpp"
 #include "fluid/pfem/mesh/mesh.hpp"
 #include "fluid/pfem/mesh/node_cells.hpp"
+#include "fluid/pfem/wall_place.hpp"
 
 namespace splashdown::fluid {
 

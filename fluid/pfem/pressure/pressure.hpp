@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "core/response.hpp"
-#include "fluid/pfem/contact/wall_place.hpp"
 #include "fluid/pfem/linear/assembly.hpp"
 #include "fluid/pfem/linear/linear_solver.hpp"
 #include "fluid/pfem/mesh/mesh.hpp"
@@ -27,6 +26,7 @@
 #include "fluid/pfem/pressure/held_mass.hpp"
 #include "fluid/pfem/pressure/interface_laplacian.hpp"
 #include "fluid/pfem/pressure/mass_sweep.hpp"
+#include "fluid/pfem/wall_place.hpp"
 
 namespace splashdown::fluid {
 
@@ -86,8 +86,8 @@ class PressureEquation {
   /// `on_surface`: the same on all meshes.
   explicit PressureEquation(SurfaceUnknowns on_surface = SurfaceUnknowns::without_spikes) : on_surface_(on_surface) {}
   /// Assembles and factors the matrix at t_n; nodes and mesh must outlive its use. `density` [kg/m^3]; `places`:
-  /// of the walls; `structure`: of all walls, whose coordinates stand as in `layout`; `held`: nodes whose mass moves with walls. False if the
-  /// factor fails.
+  /// of the walls; `structure`: of all walls, whose coordinates stand as in `layout`; `held`: nodes whose mass moves with walls.
+  /// False if the factor fails.
   bool build(const Nodes<d>& nodes, const Mesh<d>& mesh, double density, std::span<const WallPlace<d>> places,
              const WallLayout<d>& layout, const InterfaceModel& structure, std::vector<HeldNode<d>> held = {});
   /// Restricts the motions to y = directions w, w of any size, with Newton's law asked for in as many `workless` ones:
@@ -265,7 +265,7 @@ Vec<d> point_of(const Facet<d>& f, const std::array<double, d>& share, std::span
 /// What a unit of pressure impulse at a node does to a wall by one of its facets.
 template <int d>
 struct WallRow {
-  Wrench<d> rigid = Wrench<d>::Zero();
+  Wrench<d> rigid = Wrench<d>::Zero();                   ///< of a rigid wall, about its reference point
   std::vector<std::pair<int, Vec<d>>> at_vertices = {};  ///< of a wall that deforms
 
   /// Adds what an impulse does.

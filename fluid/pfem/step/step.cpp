@@ -23,8 +23,8 @@ Status WaterStep<d>::begin(double kick, double dt, const InterfaceModel& structu
     const auto scope = water_.timer.scope(assemble);
     wall_motion_.emplace(water_.work.nodes, water_.work.mesh, water_.walls_at(water_.work.poses),
                          walls_that_answer<d>(structure.modal, water_.layout));
-    if (!equation_.build(water_.work.nodes, water_.work.mesh, water_.spec.density, water_.work.poses,
-                         water_.layout, structure, wall_motion_->held()))
+    if (!equation_.build(water_.work.nodes, water_.work.mesh, water_.spec.density, water_.work.poses, water_.layout,
+                         structure, wall_motion_->held()))
       return {"the pressure matrix could not be factored"};
     wall_motion_->meet_pressure(equation_.unknown(), equation_.lumped_volume());
   }
@@ -234,8 +234,8 @@ Status WaterStep<d>::solve_pressure(std::span<const WallVelocity<d>> given, std:
     trial_.s_after[w] += trial_.s_before[w] - water_.work.velocity[w];
   trial_.s_unloaded = trial_.s_after;
   middle(trial_.v, judged_at() * dt_);
-  equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_after,
-                          water_.moved_poses(trial_.s_after, judged_at() * dt_), trial_.phi);
+  equation_.flux_residual(trial_.x_mid, trial_.v, trial_.s_after, water_.moved_poses(trial_.s_after, judged_at() * dt_),
+                          trial_.phi);
   if (!previous.empty()) equation_.laplacian().add(previous, trial_.phi);
   equation_.add_sources(trial_.phi);
   if (!equation_.solve(trial_.phi, closely, carried_impulse())) return {"the pressure solve failed"};
@@ -314,8 +314,7 @@ void WaterStep<d>::what_is_left(std::span<const double> previous, std::vector<do
   });
   equation_.motion_residual(trial_.x_mid, trial_.moved.u, residual);
   equation_.slide_residual(trial_.x_mid, trial_.moved.u, trial_.s_after,
-                           water_.moved_poses(trial_.s_after, share * dt_), trial_.moved.slides,
-                           residual);
+                           water_.moved_poses(trial_.s_after, share * dt_), trial_.moved.slides, residual);
   lag(residual, previous, trial_.phi);
   equation_.add_sources(residual, trial_.phi);
 }
@@ -411,7 +410,8 @@ void WaterStep<d>::apply(const Correction<d>& correction, double share) {
 
 // Lets the motions answer to impulses.
 template <int d>
-void WaterStep<d>::answer_to(std::vector<double>& impulses, std::vector<WallVelocity<d>>& s, const Eigen::VectorXd& further) {
+void WaterStep<d>::answer_to(std::vector<double>& impulses, std::vector<WallVelocity<d>>& s,
+                             const Eigen::VectorXd& further) {
   if (equation_.mode_count() > 0) trial_.answer += equation_.respond(impulses, s, further);
 }
 

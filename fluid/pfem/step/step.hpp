@@ -79,11 +79,11 @@ class WaterStep {
 
   /// What a repair starts from.
   struct Unrepaired {
-    std::vector<WallVelocity<d>> s;   ///< of walls
-    std::vector<Vec<d>> free;  ///< of nodes, as if no wall held them
-    Eigen::VectorXd answer;    ///< of modes
-    double energy = 0;         ///< of the liquid [J]
-    double drops = 0;          ///< of the spray [J]
+    std::vector<WallVelocity<d>> s;  ///< of walls
+    std::vector<Vec<d>> free;        ///< of nodes, as if no wall held them
+    Eigen::VectorXd answer;          ///< of modes
+    double energy = 0;               ///< of the liquid [J]
+    double drops = 0;                ///< of the spray [J]
   };
   /// The carried velocities, before any repair.
   Unrepaired begin_repair();
@@ -115,7 +115,8 @@ class WaterStep {
   /// Lets the modes answer to impulses: changes both arguments.
   void answer_to(std::vector<double>& impulses, std::vector<WallVelocity<d>>& s, const Eigen::VectorXd& further);
   /// Work of impulses on walls that change their velocities from s_0 to s_1 [J].
-  double work_of(std::span<const double> impulses, std::span<const WallVelocity<d>> s_0, std::span<const WallVelocity<d>> s_1) const;
+  double work_of(std::span<const double> impulses, std::span<const WallVelocity<d>> s_0,
+                 std::span<const WallVelocity<d>> s_1) const;
   /// Kinetic energy of the spray [J].
   double energy_of_drops(std::span<const Vec<d>> v) const;
   /// Sets x_mid: where nodes are after `by` [s] with velocities u.
@@ -152,7 +153,8 @@ class WaterStep {
   }
 
   /// Repair, prediction, pressure and correction, in this order.
-  Status find_motion(std::span<const WallVelocity<d>> given, std::span<const double> previous, const ClosedContacts& contacts);
+  Status find_motion(std::span<const WallVelocity<d>> given, std::span<const double> previous,
+                     const ClosedContacts& contacts);
   /// Takes what would open or close closed contacts out of the bodies' answer to the repair.
   void restrict_repair(const ClosedContacts& contacts);
   /// Lets effects that are solved for with the pressure follow it: changes v_after and the impulses on walls.

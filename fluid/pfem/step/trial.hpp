@@ -43,38 +43,38 @@ struct Correction {
 /// What one solve works with.
 template <int d>
 struct Trial {
-  std::vector<Vec<d>> v;                         ///< of nodes, before the pressure
-  std::vector<Vec<d>> carried;                   ///< of nodes, before effects; empty: there are none
-  std::vector<WallVelocity<d>> carried_walls;           ///< of walls, before effects
-  typename FreeWater<d>::Moments free_water;     ///< what it has before the pressure
-  std::vector<WallVelocity<d>> s_before;                ///< of walls, repaired
-  std::vector<WallVelocity<d>> s_unloaded;              ///< of walls, before the pressure
-  std::vector<Vec<d>> x_mid;                     ///< where a motion is judged
-  std::vector<double> r, repaired;               ///< residual, repair impulse
+  std::vector<Vec<d>> v;                              ///< of nodes, before the pressure
+  std::vector<Vec<d>> carried;                        ///< of nodes, before effects; empty: there are none
+  std::vector<WallVelocity<d>> carried_walls;         ///< of walls, before effects
+  typename FreeWater<d>::Moments free_water;          ///< what it has before the pressure
+  std::vector<WallVelocity<d>> s_before;              ///< of walls, repaired
+  std::vector<WallVelocity<d>> s_unloaded;            ///< of walls, before the pressure
+  std::vector<Vec<d>> x_mid;                          ///< where a motion is judged
+  std::vector<double> r, repaired;                    ///< residual, repair impulse
   std::vector<WallImpulse<d>> on_walls;               ///< impulses of effects
-  std::vector<double> of_surface;                ///< impulses of a pressure on the surface, of nodes; empty: none
+  std::vector<double> of_surface;                     ///< impulses of a pressure on the surface, of nodes; empty: none
   std::vector<WallImpulse<d>> handed, repair_handed;  ///< impulses of held nodes: physical, of the repair
-  Eigen::VectorXd known, answer;                 ///< impulses on the motions besides the pressure's, and what they did
-  Eigen::VectorXd unanswered;                    ///< impulses that the motions have yet to answer
+  Eigen::VectorXd known, answer;  ///< impulses on the motions besides the pressure's, and what they did
+  Eigen::VectorXd unanswered;     ///< impulses that the motions have yet to answer
   double energy_before = 0, energy_repaired = 0,
          energy_unloaded = 0;            ///< of v: as carried, repaired, before the pressure
   std::vector<double> phi, uncorrected;  ///< physical impulse, with and without the corrections
   std::vector<Vec<d>> v_after;           ///< of nodes, with the pressure
-  std::vector<WallVelocity<d>> s_after;         ///< of walls
+  std::vector<WallVelocity<d>> s_after;  ///< of walls
   typename WallMotion<d>::Moved moved;   ///< along the walls
   /// What an effect whose work is booked has changed in a kick.
   struct Booked {
     std::size_t effect;
-    std::vector<Vec<d>> change;       ///< of velocities of nodes
+    std::vector<Vec<d>> change;            ///< of velocities of nodes
     std::vector<WallImpulse<d>> on_walls;  ///< impulse
   };
   std::vector<Booked> booked;
   /// Of effects that the formulation solves for with the pressure: what of their work is in v and on_walls.
   struct Following {
-    std::vector<Vec<d>> change;       ///< of velocities of nodes, before the pressure; empty: there are none
+    std::vector<Vec<d>> change;            ///< of velocities of nodes, before the pressure; empty: there are none
     std::vector<WallImpulse<d>> on_walls;  ///< impulse
-    Eigen::VectorXd given;            ///< impulse on modes, with what held nodes hand on
-    Eigen::VectorXd answered;         ///< what of it they have answered to
+    Eigen::VectorXd given;                 ///< impulse on modes, with what held nodes hand on
+    Eigen::VectorXd answered;              ///< what of it they have answered to
   };
   Following following;
 };

@@ -35,7 +35,7 @@ hull = 0.08
 [[body]]
 name = "plate"
 motion = "fixed"
-shape = {type = "rectangle", size = [0.4, 0.1]}
+shape = {type = "box", width = 0.4, height = 0.1}
 position = [1.0, 0.45]
 )";
 

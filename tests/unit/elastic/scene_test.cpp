@@ -193,10 +193,11 @@ const std::vector<Mistake> mistakes = {
      "is not in the body"},
     {"held_by_motion", "density = 1200", "density = 1200\nmotion = \"fixed\"", 10, "body.beam.motion = \"fixed\"",
      "use clamp"},
-    {"in_water", "[gravity]",
-     "[fluid]\ndensity = 1000\n[fluid.size]\nsurface = 0.1\n[[fluid.region]]\nshape = \"box\"\nmin = [-9, -9]\nmax = "
-     "[9, 0]\n[gravity]",
-     20, "body.beam.elastic", "does not meet a fluid yet"},
+    {"in_a_fluid_on_a_grid", "[gravity]",
+     "[fluid]\nformulation = \"vortex\"\ndensity = 1\nviscosity = {dynamic = 0.1}\ngrid = {min = [-9, -9], max = [9, "
+     "9], "
+     "size = 0.1}\n[gravity]",
+     17, "body.beam.elastic", "presses on rigid bodies alone"},
     {"before_a_rigid_body", "force = [0, 30]\npoint = [0.5, 0]\n",
      "force = [0, 30]\npoint = [0.5, 0]\n[[body]]\nname = \"ball\"\nmass = 1\nposition = [9, 9]\n"
      "shape = {type = \"circle\", radius = 1}\n",

@@ -32,8 +32,10 @@ struct Flight {
     else
       block = scenes::block(-size, size);
     walls.emplace_back(WallSpec<d>{"target", block, Isometry<d>::Identity(), Twist<d>::Zero(), 0.25});
-    poses[0].translation() = Vec<d>::Constant(0.5);
-    poses[0].translation()[d - 1] = 1 + gap + size[d - 1];
+    Isometry<d> pose = Isometry<d>::Identity();
+    pose.translation().setConstant(0.5);
+    pose.translation()[d - 1] = 1 + gap + size[d - 1];
+    poses[0] = pose;
   }
   double dt(double longest) const {
     return collision_dt<d>(water.nodes, water.mesh, {walls, poses}, velocity, cfl, longest);

@@ -229,7 +229,7 @@ const std::vector<Mistake> scenes = {
     {"scheme_unknown", "[output]", "[coupling]\nscheme = \"iterate\"\n[output]", 27, "coupling.scheme = \"iterate\"",
      "Did you mean 'iterated'?"},
     {"formulation_unknown", "density = 1000", "density = 1000\nformulation = \"euler\"", 11,
-     "fluid.formulation = \"euler\"", "'fractional', 'monolithic' or 'vortex'"},
+     "fluid.formulation = \"euler\"", "'fractional', 'monolithic', 'vortex' or 'ale'"},
     {"monolithic_scheme_unknown", "density = 1000",
      "density = 1000\nformulation = \"monolithic\"\nmonolithic = {scheme = \"bdf2\"}", 12,
      "fluid.monolithic.scheme = \"bdf2\"", "'midpoint' or 'implicit_euler'"},

@@ -283,7 +283,9 @@ TYPED_TEST(VolumeCorrection, the_surface_moves_into_no_wall) {
     lid = scenes::block(-size, size);
   const std::vector<Wall<d>> walls{Wall<d>({"lid", lid, Isometry<d>::Identity(), Twist<d>::Zero(), 0.25})};
   std::vector<WallPlace<d>> poses{Isometry<d>::Identity()};
-  poses[0].translation() = centre;
+  Isometry<d> pose = Isometry<d>::Identity();
+  pose.translation() = centre;
+  poses[0] = pose;
   p.nodes.owed.front() = lost;
   const auto x = p.nodes.x;
   give_volume_back(p, {walls, poses});

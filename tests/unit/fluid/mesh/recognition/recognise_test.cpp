@@ -250,7 +250,9 @@ TEST(Recognise, a_gap_that_closes_under_water_opens_no_cavity) {
     scenes::Placed placed(spec);
     auto liquid = fill<2>(spec, placed.at());
     const double down = 0.05 - gap;
-    placed.poses[1].translation().y() -= down;
+    Isometry<2> lower = placed.poses[1].pose();
+    lower.translation().y() -= down;
+    placed.poses[1] = lower;
     for (std::size_t i = 0; i < liquid.nodes.size(); ++i)
       if (liquid.nodes.tie[i].wall == 1) liquid.nodes.x[i].y() -= down;
     const auto mesh = recognise<2>(liquid.nodes, liquid.mesh.boundary, placed.at());

@@ -24,11 +24,11 @@ struct WallShape {
   AtVertices<d> vertices;                                               ///< [m]
   std::shared_ptr<const Eigen::Matrix<int, d, Eigen::Dynamic>> facets;  ///< the same at all instants
   AtVertices<d> normal;                                                 ///< of facets, unit, out of the solid
-  AtVertices<d> vertex_normal;  ///< mean over the facets around a vertex, by their angles
-  FacetTree<d> tree;            ///< of all facets
-  std::vector<FacetTree<d>> of_patch;
-  Eigen::AlignedBox<double, d> box;
-  double spacing = 0;  ///< of its vertices: mean size of facets [m]
+  AtVertices<d> vertex_normal;         ///< mean over the facets around a vertex, by their angles
+  FacetTree<d> tree;                   ///< of all facets
+  std::vector<FacetTree<d>> of_patch;  ///< of the facets of each smooth patch
+  Eigen::AlignedBox<double, d> box;    ///< around it
+  double spacing = 0;                  ///< of its vertices: mean size of facets [m]
 };
 
 /// Where a wall is, wall frame to world. A wall that deforms has its vertices in the world: its frame is that.
@@ -44,7 +44,7 @@ class WallPlace {
 
   const Isometry<d>& pose() const { return pose_; }                      ///< identity for walls that deform
   const WallShape<d>* shape() const { return shape_.get(); }             ///< nullptr: the wall is rigid
-  Vec<d> translation() const { return pose_.translation(); }             ///< reference point of a rigid wall [m]
+  const Vec<d> translation() const { return pose_.translation(); }       ///< reference point of a rigid wall [m]
   Mat<d> linear() const { return pose_.linear(); }                       ///< its rotation
   Isometry<d> inverse() const { return pose_.inverse(); }                ///< world to wall frame
   Vec<d> operator*(const Vec<d>& local) const { return pose_ * local; }  ///< wall frame to world
@@ -57,7 +57,7 @@ class WallPlace {
 /// The vertices that move a point of a deforming wall, with their weights.
 template <int d>
 struct Anchor {
-  std::array<int, d> vertex;
+  std::array<int, d> vertex;     ///< corners of the facet
   std::array<double, d> weight;  ///< not negative; their sum is 1
 };
 /// The anchor of the point of the surface that is nearest to x.
@@ -67,11 +67,11 @@ Anchor<d> anchor_of(const WallShape<d>& shape, const Vec<d>& x);
 /// A point of a facet of the fluid: shares of its nodes, and what of its area the point stands for.
 template <int d>
 struct FacetPoint {
-  std::array<double, d> share;
-  double weight;
+  std::array<double, d> share;  ///< of the facet's nodes
+  double weight;                ///< of its area; those of all points sum to 1
 };
-/// Points that integrate over a facet of this size [m] what a deforming wall does there: exact for products of linear functions on
-/// each of some parts of it, which are no larger than the wall's facets, but for their number.
+/// Points that integrate over a facet of this size [m] what a deforming wall does there: exact for products of linear
+/// functions on each of some parts of it, which are no larger than the wall's facets, but for their number.
 template <int d>
 std::span<const FacetPoint<d>> points_of_facet(const WallShape<d>& shape, double size);
 

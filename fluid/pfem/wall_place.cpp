@@ -1,4 +1,4 @@
-#include "fluid/pfem/contact/wall_place.hpp"
+#include "fluid/pfem/wall_place.hpp"
 
 #include <algorithm>
 #include <cmath>
