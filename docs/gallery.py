@@ -107,6 +107,10 @@ plot "< grep ',end.ux,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'dow
   "< grep '^x,' ../../../examples/elastic_gate/reference.csv" using 2:(1000*$3) with points ls 4 title 'measured', \
   "< grep '^y,' ../../../examples/elastic_gate/reference.csv" using 2:(1000*$3) with points ls 4 notitle
 """
+LIFTED = r"""
+set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:10]; set yrange [0:1]
+plot "< grep ',A.uy,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'u_y', 0.8208773 with lines ls 4 title 'at rest, Featflow'
+"""
 STYLE = r"""
 set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
 set terminal svg size 640,340 noenhanced font 'Helvetica,15'
@@ -161,6 +165,7 @@ CASES = [
     Case("sedimenting_cylinder", "scene.toml", SINKING, 12),
     Case("plate_trajectories", "scene.toml", FLIGHT, 40),
     Case("turek_hron_cfd", "scene.toml", RISING, 15),
+    Case("turek_hron_fsi", "scene.toml", LIFTED, 200),
     Case("elastic_gate", "scene.toml", GATE, 40),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
          "--set time.end=2 --set time.dt_max=0.005", SWING, 8),

@@ -119,7 +119,8 @@ class ElasticWall {
 template <int d>
 std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics);
 /// The lowest natural modes, small vibrations about x = c + R (X - C + sum q_k phi_k) with a frame (c, R) that moves along if
-/// nothing is held; the frame then counts as 3 of the modes in the plane, 6 in space. Throws std::invalid_argument for fewer or too many.
+/// nothing is held; the frame then counts as 3 of the modes in the plane, 6 in space. Throws std::invalid_argument for fewer
+/// or too many.
 template <int d>
 std::unique_ptr<ElasticWall<d>> modal_wall(const Solid<d>& solid, Dynamics dynamics, int modes);
 
