@@ -165,7 +165,7 @@ CASES = [
     Case("sedimenting_cylinder", "scene.toml", SINKING, 12),
     Case("plate_trajectories", "scene.toml", FLIGHT, 40),
     Case("turek_hron_cfd", "scene.toml", RISING, 15),
-    Case("turek_hron_fsi", "scene.toml", LIFTED, 200),
+    Case("turek_hron_fsi", "scene.toml", LIFTED, 150),
     Case("elastic_gate", "scene.toml", GATE, 40),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
          "--set time.end=2 --set time.dt_max=0.005", SWING, 8),
@@ -297,7 +297,7 @@ if __name__ == "__main__":
     parser.add_argument("--page", action="store_true")
     parser.add_argument("--print", action="store_true", help="the page, to the terminal")
     parser.add_argument("--list", action="store_true")
-    parser.add_argument("--budget", type=int, default=180, help="wall seconds; a run that needs more is left out")
+    parser.add_argument("--budget", type=int, default=300, help="wall seconds; a run that needs more is left out")
     options = parser.parse_args()
     program = shutil.which(options.program) if options.program else None
     if options.program and not program:
