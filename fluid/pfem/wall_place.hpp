@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/anchor.hpp"
 #include "core/facet_tree.hpp"
 #include "core/wall_vector.hpp"
 #include "fluid/pfem/geometry.hpp"
@@ -13,12 +14,13 @@
 
 namespace splashdown::fluid {
 
+using splashdown::Anchor;
 using splashdown::AtVertices;
 using splashdown::WallImpulse;
 using splashdown::WallLayout;
 using splashdown::WallVelocity;
 
-/// The surface of a wall that deforms, at one instant, world frame. Made by its Wall.
+/// The surface of a wall at one instant: of one that deforms in the world's frame, as it was made in the wall's. Made by its Wall.
 template <int d>
 struct WallShape {
   AtVertices<d> vertices;                                               ///< [m]
@@ -54,15 +56,11 @@ class WallPlace {
   std::shared_ptr<const WallShape<d>> shape_;
 };
 
-/// The vertices that move a point of a deforming wall, with their weights.
+/// What carries the point of a deforming wall that is nearest to x.
 template <int d>
-struct Anchor {
-  std::array<int, d> vertex;     ///< corners of the facet
-  std::array<double, d> weight;  ///< not negative; their sum is 1
-};
-/// The anchor of the point of the surface that is nearest to x.
-template <int d>
-Anchor<d> anchor_of(const WallShape<d>& shape, const Vec<d>& x);
+Anchor<d> anchor_of(const WallShape<d>& shape, const Vec<d>& x) {
+  return anchor_on<d>(shape.vertices, *shape.facets, shape.tree, x);
+}
 
 /// A point of a facet of the fluid: shares of its nodes, and what of its area the point stands for.
 template <int d>
@@ -79,11 +77,7 @@ std::span<const FacetPoint<d>> points_of_facet(const WallShape<d>& shape, double
 template <int d>
 Vec<d> velocity_at(const WallPlace<d>& place, const WallVelocity<d>& s, const Vec<d>& x) {
   if (!place.shape()) return rigid_velocity<d>(s.rigid, x - place.translation());
-  Vec<d> v = Vec<d>::Zero();
-  if (s.vertices.size() == 0) return v;
-  const Anchor<d> at = anchor_of<d>(*place.shape(), x);
-  for (int k = 0; k < d; ++k) v += at.weight[k] * s.vertices.col(at.vertex[k]);
-  return v;
+  return s.vertices.size() > 0 ? anchor_of<d>(*place.shape(), x).interpolate(s.vertices) : Vec<d>(Vec<d>::Zero());
 }
 
 /// Adds `times` an impulse that acts on the wall at a point x of it: as a wrench, or shared out among vertices.
@@ -111,7 +105,5 @@ Wrench<d> resultant(const WallPlace<d>& place, const WallImpulse<d>& on) {
 
 extern template std::span<const FacetPoint<2>> points_of_facet(const WallShape<2>&, double);
 extern template std::span<const FacetPoint<3>> points_of_facet(const WallShape<3>&, double);
-extern template Anchor<2> anchor_of(const WallShape<2>&, const Vec<2>&);
-extern template Anchor<3> anchor_of(const WallShape<3>&, const Vec<3>&);
 
 }  // namespace splashdown::fluid

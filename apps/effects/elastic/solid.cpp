@@ -93,11 +93,17 @@ std::function<Field(double)> forces_of(const Scene& scene, std::size_t body, con
   };
 }
 
+/// As it is at t = 0.
+template <int d>
+elastic::SolidMesh<d> in_world(const Body& body, elastic::SolidMesh<d> mesh) {
+  mesh.nodes = (shape_pose<d>(body) * mesh.nodes).eval();
+  return mesh;
+}
+
 template <int d>
 std::unique_ptr<elastic::Solid<d>> made(const Body& body, const ElasticTable& table,
                                         const elastic::SolidMesh<d>& mesh) {
-  auto placed = mesh;
-  placed.nodes = shape_pose<d>(body) * mesh.nodes;
+  auto placed = in_world<d>(body, mesh);
   const auto properties = mass_properties<d>(body);
   const double volume = rigid::mass_properties<d>(shape_of<d>(body.shape).surface).mass;
   auto solid =
@@ -167,9 +173,7 @@ std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTab
 
 template <int d>
 Surface<d> solid_surface(const Body& body, const ElasticTable& table) {
-  auto mesh = solid_mesh<d>(body, table);
-  mesh.nodes = (shape_pose<d>(body) * mesh.nodes).eval();
-  return elastic::boundary_of(mesh).surface;
+  return elastic::boundary_of(in_world<d>(body, solid_mesh<d>(body, table))).surface;
 }
 
 template <int d>

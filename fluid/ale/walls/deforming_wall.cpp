@@ -1,47 +1,27 @@
-#include <algorithm>
-#include <array>
-#include <limits>
 #include <vector>
 
+#include "core/anchor.hpp"
 #include "fluid/ale/walls/moving_wall.hpp"
 
 namespace splashdown::ale {
 namespace {
 
-/// A node on a facet of the surface: how much its two vertices carry of it.
-struct Carried {
-  std::array<Eigen::Index, 2> vertex;
-  std::array<double, 2> weight;
-};
-
-Carried carried_by(const Surface<2>& surface, const Vec<2>& x) {
-  Carried best{{0, 0}, {1, 0}};
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto facet : surface.facets.colwise()) {
-    const Vec<2> from = surface.vertices.col(facet[0]), along = surface.vertices.col(facet[1]) - from;
-    const double share = std::clamp(along.dot(x - from) / along.squaredNorm(), 0.0, 1.0);
-    const double distance = (from + share * along - x).squaredNorm();
-    if (distance < least) least = distance, best = {{facet[0], facet[1]}, {1 - share, share}};
-  }
-  return best;
-}
-
 class DeformingWall final : public MovingWall {
  public:
-  DeformingWall(const Surface<2>& surface, const Nodes& nodes)
-      : first_(surface.vertices.reshaped()), offset_(2, nodes.cols()) {
-    for (Eigen::Index a = 0; a < nodes.cols(); ++a) {
-      carried_.push_back(carried_by(surface, nodes.col(a)));
-      offset_.col(a) = nodes.col(a) - interpolated(first_, carried_.back());
+  DeformingWall(const Surface<2>& surface, const Nodes& nodes) : first_(surface.vertices.reshaped()), offset_(nodes) {
+    const FacetTree<2> tree(surface.vertices, surface.facets);
+    for (auto node : offset_.colwise()) {
+      carried_.push_back(anchor_on<2>(surface.vertices, surface.facets, tree, node));
+      node -= carried_.back().interpolate(surface.vertices);
     }
   }
 
   Eigen::Index coordinates() const override { return first_.size(); }
   Eigen::VectorXd first() const override { return first_; }
   Nodes positions(const Eigen::VectorXd& placement) const override {
+    const AtVertices<2> vertices = placement.reshaped(2, placement.size() / 2);
     Nodes x = offset_;
-    for (Eigen::Index a = 0; a < x.cols(); ++a)
-      x.col(a) += interpolated(placement, carried_[static_cast<std::size_t>(a)]);
+    for (Eigen::Index a = 0; a < x.cols(); ++a) x.col(a) += carried_[static_cast<std::size_t>(a)].interpolate(vertices);
     return x;
   }
   Eigen::MatrixXd basis(const Eigen::VectorXd&) const override {
@@ -60,13 +40,8 @@ class DeformingWall final : public MovingWall {
   Isometry<2> pose(const Eigen::VectorXd&) const override { return Isometry<2>::Identity(); }
 
  private:
-  static Vec<2> interpolated(const Eigen::VectorXd& vertices, const Carried& node) {
-    return node.weight[0] * vertices.segment<2>(2 * node.vertex[0]) +
-           node.weight[1] * vertices.segment<2>(2 * node.vertex[1]);
-  }
-
   Eigen::VectorXd first_;
-  std::vector<Carried> carried_;
+  std::vector<Anchor<2>> carried_;
   Nodes offset_;  // of nodes from the facets that carry them, at t = 0 [m]: the mesh has curves where facets are chords
 };
 

@@ -1,3 +1,4 @@
+// What is found once of a wall's surface: its sides, creases, corners, patches and bends.
 #include "fluid/pfem/contact/wall.hpp"
 
 #include <algorithm>
@@ -8,45 +9,17 @@
 #include "fluid/pfem/geometry.hpp"
 
 namespace splashdown::fluid {
-namespace {
-
-double angle_at(const std::array<Vec<2>, 2>&, int) { return 1; }
-double angle_at(const std::array<Vec<3>, 3>& c, int k) {
-  const Vec<3> a = c[(k + 1) % 3] - c[k], b = c[(k + 2) % 3] - c[k];
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-// Unit normals of facets, means of them around vertices; returns d times the volume enclosed.
-template <int d>
-double normals_of(const AtVertices<d>& vertices, const Eigen::Matrix<int, d, Eigen::Dynamic>& facets,
-                  AtVertices<d>& normal, AtVertices<d>& at_vertex) {
-  at_vertex.setZero();
-  double enclosed = 0;
-  for (int f = 0; f < facets.cols(); ++f) {
-    std::array<Vec<d>, d> corner;
-    for (int k = 0; k < d; ++k) corner[k] = vertices.col(facets(k, f));
-    normal.col(f) = area_vector(corner).normalized();
-    enclosed += corner[0].dot(area_vector(corner));
-    for (int k = 0; k < d; ++k) at_vertex.col(facets(k, f)) += angle_at(corner, k) * normal.col(f);
-  }
-  return enclosed;
-}
-
-}  // namespace
-
 template <int d>
 Wall<d>::Wall(const WallSpec<d>& spec)
     : spec_(spec),
-      facets_(std::make_shared<const Eigen::Matrix<int, d, Eigen::Dynamic>>(spec.surface.facets)),
-      tree_(spec.surface.vertices, spec.surface.facets),
-      normal_(d, spec.surface.facets.cols()),
-      vertex_normal_(d, spec.surface.vertices.cols()),
+      made_(std::make_shared<WallShape<d>>()),
       facets_of_(spec.surface.vertices.cols()),
       is_corner_(spec.surface.vertices.cols(), 0),
       is_sharp_(spec.surface.vertices.cols(), 0) {
-  for (int v = 0; v < spec_.surface.vertices.cols(); ++v) box_.extend(spec_.surface.vertices.col(v));
-  tiny_ = 1e-9 * box_.diagonal().norm();
-  find_normals();
+  made_->facets = std::make_shared<const Eigen::Matrix<int, d, Eigen::Dynamic>>(spec.surface.facets);
+  made_ = shape_of(spec.surface.vertices);
+  tiny_ = 1e-9 * diameter();
+  find_sides();
   find_sides_of_mirror();
   find_creases();
   find_corners();
@@ -58,65 +31,15 @@ Wall<d>::Wall(const WallSpec<d>& spec)
 }
 
 template <int d>
-void Wall<d>::find_normals() {
-  const auto& facets = spec_.surface.facets;
-  const double enclosed = normals_of<d>(spec_.surface.vertices, facets, normal_, vertex_normal_);
-  for (int f = 0; f < facets.cols(); ++f)
-    for (int k = 0; k < d; ++k) facets_of_[facets(k, f)].push_back(f);
+void Wall<d>::find_sides() {
+  const auto& [vertices, facets] = spec_.surface;
+  double enclosed = 0;
+  for (int f = 0; f < facets.cols(); ++f) {
+    std::array<Vec<d>, d> corner;
+    for (int k = 0; k < d; ++k) corner[k] = vertices.col(facets(k, f)), facets_of_[facets(k, f)].push_back(f);
+    enclosed += corner[0].dot(area_vector(corner));
+  }
   turned_inside_out_ = enclosed < 0;
-}
-
-template <int d>
-WallPlace<d> Wall<d>::place() const {
-  return spec_.deforms ? shaped(spec_.surface.vertices) : WallPlace<d>(spec_.pose);
-}
-
-template <int d>
-WallVelocity<d> Wall<d>::velocity() const {
-  if (!spec_.deforms) return spec_.velocity;
-  AtVertices<d> v = spec_.surface.vertices;
-  for (auto column : v.colwise()) column = rigid_velocity<d>(spec_.velocity, Vec<d>(column));
-  return WallVelocity<d>::at_vertices(std::move(v));
-}
-
-template <int d>
-WallPlace<d> Wall<d>::moved(const WallPlace<d>& from, const WallVelocity<d>& s, double dt) const {
-  if (!from.shape()) return fluid::moved<d>(from.pose(), s.rigid, dt);
-  if (s.vertices.size() == 0) return from;
-  return shaped(from.shape()->vertices + dt * s.vertices);
-}
-
-template <int d>
-WallPlace<d> Wall<d>::shaped(AtVertices<d> vertices) const {
-  auto shape = std::make_shared<WallShape<d>>();
-  shape->vertices = std::move(vertices);
-  shape->facets = facets_;
-  shape->normal.resize(d, facets_->cols());
-  shape->vertex_normal.resize(d, shape->vertices.cols());
-  normals_of<d>(shape->vertices, *facets_, shape->normal, shape->vertex_normal);
-  shape->tree = FacetTree<d>(shape->vertices, *facets_);
-  for (const auto& members : patch_facets_)
-    shape->of_patch.emplace_back(shape->vertices, (*facets_)(Eigen::all, members));
-  for (const auto vertex : shape->vertices.colwise()) shape->box.extend(vertex);
-  for (int f = 0; f < facets_->cols(); ++f)
-    shape->spacing += (shape->vertices.col((*facets_)(0, f)) - shape->vertices.col((*facets_)(1, f))).norm() /
-                      static_cast<double>(facets_->cols());
-  return WallPlace<d>(std::move(shape));
-}
-
-template <int d>
-Vec<d> Wall<d>::carried(const WallPlace<d>& pose, const Vec<d>& made) const {
-  if (!pose.shape()) return pose * made;
-  const WallPlace<d> as_made = place();
-  const Anchor<d> at = anchor_of<d>(*as_made.shape(), made);
-  Vec<d> x = Vec<d>::Zero();
-  for (int k = 0; k < d; ++k) x += at.weight[k] * pose.shape()->vertices.col(at.vertex[k]);
-  return x;
-}
-
-template <int d>
-Vec<d> Wall<d>::carried(const WallPlace<d>& from, const WallPlace<d>& to, const Vec<d>& x) const {
-  return from.shape() ? Vec<d>(x + centre_at(to) - centre_at(from)) : Vec<d>(to * (from.inverse() * x));
 }
 
 // A hull that reaches across the plane of symmetry has its facets on one side of it or on the other.
@@ -153,7 +76,7 @@ bool Wall<d>::lies_in_mirror(int f) const {
 
 template <int d>
 bool Wall<d>::is_crease(int f, int g) const {
-  return normal_.col(f).dot(normal_.col(g)) < least_smooth_cosine;
+  return made_->normal.col(f).dot(made_->normal.col(g)) < least_smooth_cosine;
 }
 
 // Whether a neighbour across an edge lies in front of a facet, with its own corners apart from the edge.
@@ -162,7 +85,7 @@ bool Wall<d>::is_hollow(int f, int g) const {
   const auto& facets = spec_.surface.facets;
   const auto from = spec_.surface.vertices.col(facets(0, f));
   for (int k = 0; k < d; ++k)
-    if ((spec_.surface.vertices.col(facets(k, g)) - from).dot(normal_.col(f)) > tiny_) return true;
+    if ((spec_.surface.vertices.col(facets(k, g)) - from).dot(made_->normal.col(f)) > tiny_) return true;
   return false;
 }
 
@@ -265,10 +188,10 @@ void Wall<d>::find_patches() {
           if (patch_of_[g] < 0 && neighbours(members[i], g)) patch_of_[g] = patch, members.push_back(g);
     Eigen::Matrix<int, d, Eigen::Dynamic> own(d, members.size());
     for (std::size_t i = 0; i < members.size(); ++i) own.col(i) = facets.col(members[i]);
-    patch_tree_.emplace_back(spec_.surface.vertices, std::move(own));
+    made_->of_patch.emplace_back(spec_.surface.vertices, std::move(own));
     constexpr double roundoff = 1e-12;
     is_flat_.push_back(std::all_of(members.begin(), members.end(), [&](int f) {
-      return (normal_.col(f) - normal_.col(seed)).squaredNorm() < roundoff;
+      return (made_->normal.col(f) - made_->normal.col(seed)).squaredNorm() < roundoff;
     }));
     patch_facets_.push_back(std::move(members));
   }
@@ -286,10 +209,10 @@ void Wall<d>::find_bends() {
       const int i = facets(k, f), j = facets((k + 1) % d, f);
       if (is_sharp_[i] || is_sharp_[j]) continue;
       const Vec<d> e = vertices.col(j) - vertices.col(i);
-      const double along = (vertex_normal_.col(j).normalized() - vertex_normal_.col(i).normalized()).dot(e);
+      const double along = (made_->vertex_normal.col(j).normalized() - made_->vertex_normal.col(i).normalized()).dot(e);
       for (int v : {i, j}) curvature[v] = std::max(curvature[v], std::abs(along) / e.squaredNorm());
     }
-  const double straight = 1e-6 / box_.diagonal().norm();  // roundoff of outlines that are subdivided
+  const double straight = 1e-6 / diameter();  // roundoff of outlines that are subdivided
   for (int v = 0; v < vertices.cols(); ++v)
     if (curvature[v] > straight) bends_.push_back({vertices.col(v), 1 / curvature[v]});
 }
@@ -320,7 +243,7 @@ void Wall<d>::find_convexity() {
     double in_front = 0;
     for (int f : facets_of_[v])
       for (int k = 0; k < d; ++k) {
-        in_front += (vertices.col(facets(k, f)) - vertices.col(v)).dot(vertex_normal_.col(v));
+        in_front += (vertices.col(facets(k, f)) - vertices.col(v)).dot(made_->vertex_normal.col(v));
         const int crease = crease_of_(k, f);
         if (crease < 0 || mirrored_crease_[crease] || (facets(k, f) != v && facets((k + 1) % d, f) != v)) continue;
         ends = true;
@@ -350,7 +273,7 @@ void Wall<d>::find_basin() {
   const auto& vertices = spec_.surface.vertices;
   const auto& facets = spec_.surface.facets;
   for (int f = 0; f < facets.cols() && turned_inside_out_; ++f) {
-    const Plane plane{normal_.col(f), normal_.col(f).dot(vertices.col(facets(0, f)))};
+    const Plane plane{made_->normal.col(f), made_->normal.col(f).dot(vertices.col(facets(0, f)))};
     const Eigen::VectorXd above = (plane.normal.transpose() * vertices).transpose().array() - plane.offset;
     const bool known = std::any_of(basin_.begin(), basin_.end(), [&](const Plane& p) {
       return (p.normal - plane.normal).norm() * diameter() + std::abs(p.offset - plane.offset) < tiny_;
@@ -363,15 +286,13 @@ void Wall<d>::find_basin() {
 // From cones with their tip in the middle of the box: V = sum v, V x = sum v (mean of corners), v = A.(x - tip) / d.
 template <int d>
 void Wall<d>::find_centre() {
-  centre_ = centre_of(spec_.surface.vertices);
+  centre_ = centre_of(*made_);
   depth_of_centre_ = -nearest(spec_.deforms ? place() : WallPlace<d>(), centre_, 2 * diameter()).distance;
 }
 
 template <int d>
-Vec<d> Wall<d>::centre_of(const AtVertices<d>& vertices) const {
-  Eigen::AlignedBox<double, d> box;
-  for (const auto vertex : vertices.colwise()) box.extend(vertex);
-  const Vec<d> tip = box.center();
+Vec<d> Wall<d>::centre_of(const WallShape<d>& shape) const {
+  const Vec<d> tip = shape.box.center();
   const auto& facets = spec_.surface.facets;
   Vec<d> sum = Vec<d>::Zero();
   double enclosed = 0;
@@ -379,7 +300,7 @@ Vec<d> Wall<d>::centre_of(const AtVertices<d>& vertices) const {
     std::array<Vec<d>, d> corner;
     Vec<d> mean = Vec<d>::Zero();
     for (int k = 0; k < d; ++k) {
-      corner[k] = vertices.col(facets(k, f)) - tip;
+      corner[k] = shape.vertices.col(facets(k, f)) - tip;
       mean += corner[k] / (d + 1);
     }
     const double cone = area_vector(corner).dot(corner[0]) / d;
@@ -387,126 +308,6 @@ Vec<d> Wall<d>::centre_of(const AtVertices<d>& vertices) const {
     enclosed += cone;
   }
   return enclosed != 0 ? Vec<d>(tip + sum / enclosed) : tip;
-}
-
-template <int d>
-typename Wall<d>::Near Wall<d>::near_of(const WallPlace<d>& pose, const Vec<d>& local,
-                                        const typename FacetTree<d>::Hit& hit, int facet) const {
-  // The side is taken from the normals of all facets that meet at the closest point, by their angles there (Baerentzen,
-  // Aanaes 2005).
-  const AtVertices<d>&of_facet = normals(pose), &places = vertices(pose);
-  const AtVertices<d>& of_vertex = pose.shape() ? pose.shape()->vertex_normal : vertex_normal_;
-  Vec<d> normal = of_facet.col(facet);
-  int vertex = -1, on_crease = -1;
-  const auto at = [&](int k) { return Vec<d>(places.col(spec_.surface.facets(k % d, facet))); };
-  for (int k = 0; k < d && d == 3; ++k) {
-    if (across_(k, facet) < 0 || (closest_on_segment<d>(at(k), at(k + 1), hit.point) - hit.point).norm() > tiny_)
-      continue;
-    normal = of_facet.col(facet) + of_facet.col(across_(k, facet));
-    if (crease_of_(k, facet) >= 0) on_crease = crease_of_(k, facet);
-  }
-  for (int k = 0; k < d; ++k) {
-    const int v = spec_.surface.facets(k, facet);
-    if ((at(k) - hit.point).norm() > tiny_) continue;
-    normal = of_vertex.col(v);
-    if (is_corner_[v]) vertex = v;
-  }
-  const double side = (local - hit.point).dot(normal) < 0 ? -1.0 : 1.0;
-  return {pose * hit.point,
-          pose.linear() * Vec<d>(of_facet.col(facet)),
-          side * std::sqrt(hit.squared_distance),
-          patch_of_[facet],
-          vertex,
-          vertex >= 0 ? -1 : on_crease};
-}
-
-template <int d>
-typename Wall<d>::Near Wall<d>::nearest(const WallPlace<d>& pose, const Vec<d>& x, double reach) const {
-  const Vec<d> local = pose.inverse() * x;
-  const auto hit = tree(pose).nearest(local, reach);
-  if (hit.facet < 0) return {x, Vec<d>::Zero(), reach, -1, -1};
-  return near_of(pose, local, hit, hit.facet);
-}
-
-template <int d>
-typename Wall<d>::Near Wall<d>::nearest_on_patch(const WallPlace<d>& pose, const Vec<d>& x, int patch) const {
-  const Vec<d> local = pose.inverse() * x;
-  const auto& own = pose.shape() ? pose.shape()->of_patch[patch] : patch_tree_[patch];
-  const auto hit = own.nearest(local, std::numeric_limits<double>::max());
-  if (hit.facet < 0) return {x, Vec<d>::Zero(), std::numeric_limits<double>::quiet_NaN(), patch, -1};  // x not finite
-  return near_of(pose, local, hit, patch_facets_[patch][hit.facet]);
-}
-
-template <int d>
-typename Wall<d>::OnCrease Wall<d>::on_crease(const WallPlace<d>& pose, const Vec<d>& local, int crease) const {
-  const AtVertices<d>& at = vertices(pose);
-  OnCrease best{Vec<d>::Constant(std::numeric_limits<double>::infinity()), Vec<d>::Zero()};
-  for (const auto& [a, b] : creases_[crease]) {
-    const Vec<d> from = at.col(a), to = at.col(b);
-    const Vec<d> c = closest_on_segment<d>(from, to, local);
-    if ((c - local).squaredNorm() < (best.point - local).squaredNorm()) best = {c, to - from};
-  }
-  return best;
-}
-
-template <int d>
-Vec<d> Wall<d>::nearest_on_crease(const WallPlace<d>& pose, const Vec<d>& x, int crease) const {
-  const Vec<d> point = pose * on_crease(pose, pose.inverse() * x, crease).point;
-  return mirrored_crease_[crease] ? spec_.mirror->template onto<d>(point) : point;
-}
-
-template <int d>
-typename Wall<d>::Crossing Wall<d>::nearest_in_mirror(const WallPlace<d>& pose, const Vec<d>& x) const {
-  Crossing best;
-  best.distance = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < creases_.size(); ++c) {
-    if (!mirrored_crease_[c]) continue;
-    const Vec<d> point = nearest_on_crease(pose, x, static_cast<int>(c));
-    if (const double distance = (point - x).norm(); distance < best.distance)
-      best = {static_cast<int>(c), point, distance, 0};
-  }
-  return best;
-}
-
-template <int d>
-Vec<d> Wall<d>::crease_direction(const WallPlace<d>& pose, const Vec<d>& x, int crease) const {
-  return pose.linear() * on_crease(pose, pose.inverse() * x, crease).along.normalized();
-}
-
-template <int d>
-typename Wall<d>::Crossing Wall<d>::nearest_crease(const WallPlace<d>& pose, const Vec<d>& from,
-                                                   const Vec<d>& to) const {
-  const AtVertices<d>& places = vertices(pose);
-  const Vec<d> a = pose.inverse() * from, along = pose.inverse() * to - a;
-  Crossing best;
-  best.distance = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < creases_.size(); ++c)
-    for (const auto& [i, j] : creases_[c]) {
-      // Closest points of two segments (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
-      const Vec<d> b = places.col(i), edge = places.col(j) - places.col(i);
-      const Vec<d> r = a - b;
-      const double aa = along.squaredNorm(), ee = edge.squaredNorm(), ae = along.dot(edge);
-      const double ar = along.dot(r), er = edge.dot(r), det = aa * ee - ae * ae;
-      double s = det > 1e-12 * aa * ee ? std::clamp((ae * er - ar * ee) / det, 0.0, 1.0) : 0.0;
-      const double t = std::clamp((ae * s + er) / ee, 0.0, 1.0);
-      s = aa > 0 ? std::clamp((t * ae - ar) / aa, 0.0, 1.0) : 0.0;
-      const Vec<d> on_crease = b + t * edge;
-      const double distance = (a + s * along - on_crease).norm();
-      if (distance < best.distance) best = {static_cast<int>(c), on_crease, distance, s};
-    }
-  best.point = pose * best.point;
-  return best;
-}
-
-template <int d>
-double Wall<d>::distance_unsigned(const WallPlace<d>& pose, const Vec<d>& x, double reach, double slack) const {
-  return std::sqrt(tree(pose).nearest(pose.inverse() * x, reach, slack).squared_distance);
-}
-
-template <int d>
-double Wall<d>::distance_of_solid(const WallPlace<d>& pose, const Vec<d>& x, double reach, double slack) const {
-  const auto& solid = solid_tree_.empty() ? tree(pose) : solid_tree_;
-  return std::sqrt(solid.nearest(pose.inverse() * x, reach, slack).squared_distance);
 }
 
 template class Wall<2>;

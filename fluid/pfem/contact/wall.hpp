@@ -89,15 +89,14 @@ class Wall {
   bool is_flat(int patch) const { return is_flat_[patch] != 0; }
   /// Of a flat patch, out of the solid, world frame.
   Vec<d> flat_normal(const WallPlace<d>& pose, int patch) const {
-    return pose.linear() * normals(pose).col(patch_facets_[patch].front());
+    return pose.linear() * shape(pose).normal.col(patch_facets_[patch].front());
   }
   /// In 3D; false in 2D.
   bool has_creases() const { return !creases_.empty(); }
   /// False only where the point is surely farther than `margin` from the solid; cheap.
   bool may_touch(const WallPlace<d>& pose, const Vec<d>& x, double margin) const {
-    if (pose.shape()) return pose.shape()->box.squaredExteriorDistance(x) <= margin * margin;
     const Vec<d> local = pose.linear().transpose() * (x - pose.translation());
-    if (!turned_inside_out_) return box_.squaredExteriorDistance(local) <= margin * margin;
+    if (!turned_inside_out_) return shape(pose).box.squaredExteriorDistance(local) <= margin * margin;
     return basin_.empty() || std::any_of(basin_.begin(), basin_.end(), [&](const Plane& p) {
              return p.normal.dot(local) - p.offset <= margin + tiny_;
            });
@@ -112,7 +111,7 @@ class Wall {
   bool ends_at_mirror() const { return turned_inside_out_ && spec_.mirror; }
   /// Vertex v of the surface, world frame [m].
   Vec<d> vertex(const WallPlace<d>& pose, int v) const {
-    const Vec<d> x = pose * Vec<d>(vertices(pose).col(v));
+    const Vec<d> x = pose * Vec<d>(shape(pose).vertices.col(v));
     return in_mirror_[v] && !turned_inside_out_ ? spec_.mirror->template onto<d>(x) : x;
   }
   /// Vertices that are corners, those included at which nothing but the plane of symmetry ends a patch: `is_smooth`.
@@ -136,24 +135,22 @@ class Wall {
   const Vec<d>& centre() const { return centre_; }
   /// The same in the world; in the plane of symmetry, if there is one.
   Vec<d> centre_at(const WallPlace<d>& pose) const {
-    const Vec<d> x = pose.shape() ? centre_of(pose.shape()->vertices) : pose * centre_;
+    const Vec<d> x = pose.shape() ? centre_of(*pose.shape()) : pose * centre_;
     return spec_.mirror ? spec_.mirror->template onto<d>(x) : x;
   }
   double depth_of_centre() const { return depth_of_centre_; }  ///< [m]
   bool encloses_fluid() const { return turned_inside_out_; }   ///< a tank
   /// Box around the surface in the wall frame.
-  const Eigen::AlignedBox<double, d>& box() const { return box_; }
+  const Eigen::AlignedBox<double, d>& box() const { return made_->box; }
   /// Diagonal of the box [m].
-  double diameter() const { return box_.diagonal().norm(); }
+  double diameter() const { return box().diagonal().norm(); }
 
  private:
-  const AtVertices<d>& vertices(const WallPlace<d>& pose) const {
-    return pose.shape() ? pose.shape()->vertices : spec_.surface.vertices;
-  }
-  const AtVertices<d>& normals(const WallPlace<d>& pose) const { return pose.shape() ? pose.shape()->normal : normal_; }
-  const FacetTree<d>& tree(const WallPlace<d>& pose) const { return pose.shape() ? pose.shape()->tree : tree_; }
-  Vec<d> centre_of(const AtVertices<d>& vertices) const;
-  void find_normals();
+  /// In the frame of the place: as it was made, unless it deforms.
+  const WallShape<d>& shape(const WallPlace<d>& pose) const { return pose.shape() ? *pose.shape() : *made_; }
+  std::shared_ptr<WallShape<d>> shape_of(AtVertices<d> vertices) const;
+  Vec<d> centre_of(const WallShape<d>& shape) const;
+  void find_sides();
   void find_sides_of_mirror();
   bool lies_in_mirror(int f) const;
   void find_centre();
@@ -178,14 +175,11 @@ class Wall {
   Near near_of(const WallPlace<d>& pose, const Vec<d>& local, const typename FacetTree<d>::Hit& hit, int facet) const;
 
   WallSpec<d> spec_;
-  std::shared_ptr<const Eigen::Matrix<int, d, Eigen::Dynamic>> facets_;  // for its shapes
-  FacetTree<d> tree_, solid_tree_;                                       // solid: only for tanks that end at a mirror
-  std::vector<FacetTree<d>> patch_tree_;
+  std::shared_ptr<WallShape<d>> made_;  // in its frame
+  FacetTree<d> solid_tree_;             // only for tanks that end at a mirror
   std::vector<std::vector<int>> patch_facets_;
   std::vector<int> patch_of_;
-  std::vector<char> is_flat_;    // of patches
-  AtVertices<d> normal_;         // of facets, unit
-  AtVertices<d> vertex_normal_;  // mean over the facets around a vertex, by their angles
+  std::vector<char> is_flat_;  // of patches
   std::vector<std::vector<int>> facets_of_;
   Eigen::Matrix<int, d, Eigen::Dynamic> across_;          // 3D: facet beyond the edge from corner k to the next
   Eigen::Matrix<int, d, Eigen::Dynamic> crease_of_;       // 3D: crease that this edge is part of, -1: smooth
@@ -197,8 +191,7 @@ class Wall {
   int mirror_patch_ = -1;                            // of a tank that ends at a plane of symmetry
   std::vector<signed char> side_;                    // of the plane of symmetry, of facets; 0: there is none
   std::vector<char> in_mirror_, mirrored_crease_, smooth_corner_;  // of vertices, of creases, of vertices
-  Eigen::AlignedBox<double, d> box_;
-  bool turned_inside_out_;  // the solid is outside
+  bool turned_inside_out_;                                         // the solid is outside
   bool is_convex_ = false;
   std::vector<Plane> basin_;  // that bound a convex tank of few sides; otherwise none
   Vec<d> centre_;

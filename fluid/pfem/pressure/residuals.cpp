@@ -24,9 +24,7 @@ void PressureEquation<d>::add_deforming_flux(const Facet<d>& f, std::span<const 
   if (s.vertices.size() == 0) return;
   const Vec<d> area = area_vector_of<d>(f, x);
   for (const auto& [share, weight] : points_of_facet<d>(shape, size_of<d>(f, x))) {
-    const Anchor<d> at = anchor_of<d>(shape, point_of<d>(f, share, x));
-    Vec<d> w = Vec<d>::Zero();
-    for (int j = 0; j < d; ++j) w += at.weight[j] * s.vertices.col(at.vertex[j]);
+    const Vec<d> w = anchor_of<d>(shape, point_of<d>(f, share, x)).interpolate(s.vertices);
     for (int k = 0; k < d; ++k)
       if (unknown_[f.nodes[k]] >= 0) r[unknown_[f.nodes[k]]] -= share[k] * weight * area.dot(w);
   }

@@ -4,12 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "coupling/accelerators/quasi_newton.hpp"
-#include "coupling/schemes/steppers.hpp"
 #include "flows.hpp"
 #include "fluid/ale/participant.hpp"
-#include "rigid/forces/gravity.hpp"
-#include "rigid/participant.hpp"
+#include "tests/unit/coupling/falling_body.hpp"
 
 namespace splashdown::ale::scenes {
 
@@ -46,37 +43,12 @@ struct FreeBody {
   }
 };
 
-/// Both parts and their stepper.
-struct Coupled {
-  const AleFlow* fluid;
-  const rigid::Bodies<2>* bodies;
-  std::unique_ptr<coupling::Coupled> stepper;
-
-  /// The accepted attempt of a step; throws the cause.
-  coupling::StepReport step(double dt) {
-    const auto report = stepper->attempt(dt);
-    if (!report.ok()) throw std::runtime_error(report.cause);
-    stepper->commit();
-    return report;
-  }
-};
+using Coupled = coupling::FallingBody<AleFlow>;
 
 inline Coupled coupled(const FreeBody& scene, std::unique_ptr<coupling::Accelerator> accelerator = nullptr,
                        coupling::CouplingLimits limits = {}) {
-  Coupled made;
-  auto fluid = std::make_unique<Participant>(std::make_unique<AleFlow>(scene.fluid()));
-  std::vector<std::unique_ptr<rigid::Force<2>>> forces;
-  forces.push_back(std::make_unique<rigid::Gravity<2>>(Vec<2>(0, -g)));
-  auto bodies = std::make_unique<rigid::Participant<2>>(
-      std::make_unique<rigid::Bodies<2>>(std::vector{scene.body()}, std::move(forces)));
-  made.fluid = &fluid->fluid();
-  made.bodies = &bodies->bodies();
-  if (accelerator)
-    made.stepper = std::make_unique<coupling::Partitioned>(
-        std::move(fluid), std::move(bodies), std::make_unique<coupling::NoTerm>(), std::move(accelerator), limits);
-  else
-    made.stepper = std::make_unique<coupling::Simultaneous>(std::move(fluid), std::move(bodies));
-  return made;
+  return coupling::falling_body<Participant>(std::make_unique<AleFlow>(scene.fluid()), scene.body(), g,
+                                             std::move(accelerator), limits);
 }
 
 }  // namespace splashdown::ale::scenes

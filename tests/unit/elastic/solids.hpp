@@ -8,21 +8,11 @@
 #include "elastic/assembly/solid.hpp"
 #include "elastic/mesh/outline_mesh.hpp"
 #include "elastic/steps/scheme.hpp"
+#include "tests/unit/core/outlines.hpp"
 
 namespace splashdown::elastic {
 
-/// Closed, its corners in order.
-inline Surface<2> polygon(const std::vector<Vec<2>>& corners) {
-  Surface<2> outline;
-  const auto n = static_cast<int>(corners.size());
-  outline.vertices.resize(2, n);
-  outline.facets.resize(2, n);
-  for (int k = 0; k < n; ++k) {
-    outline.vertices.col(k) = corners[static_cast<std::size_t>(k)];
-    outline.facets.col(k) << k, (k + 1) % n;
-  }
-  return outline;
-}
+using outlines::polygon;
 
 /// A box from the origin: n boxes along each axis, cut into two triangles or six tetrahedra each.
 template <int d>

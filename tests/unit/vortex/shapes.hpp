@@ -6,32 +6,13 @@
 #include <utility>
 
 #include "fluid/vortex/fluid.hpp"
+#include "tests/unit/core/outlines.hpp"
 
 namespace splashdown::vortex::scenes {
 
-inline Surface<2> polygon(std::vector<Vec<2>> corners) {
-  Surface<2> outline;
-  const auto n = static_cast<int>(corners.size());
-  outline.vertices.resize(2, n);
-  outline.facets.resize(2, n);
-  for (int k = 0; k < n; ++k) {
-    outline.vertices.col(k) = corners[static_cast<std::size_t>(k)];
-    outline.facets.col(k) << k, (k + 1) % n;
-  }
-  return outline;
-}
-inline Surface<2> circle(double radius, int corners = 200) {
-  std::vector<Vec<2>> all;
-  for (int k = 0; k < corners; ++k) {
-    const double a = 2 * std::numbers::pi * k / corners;
-    all.emplace_back(radius * std::cos(a), radius * std::sin(a));
-  }
-  return polygon(all);
-}
-inline Surface<2> box(double width, double height) {
-  return polygon(
-      {{-width / 2, -height / 2}, {width / 2, -height / 2}, {width / 2, height / 2}, {-width / 2, height / 2}});
-}
+using outlines::box;
+using outlines::polygon;
+inline Surface<2> circle(double radius, int corners = 200) { return outlines::circle(radius, corners); }
 
 /// n x n squares over [-1, 1]^2.
 inline Grid square_grid(int n, double half = 1) { return {.min = {-half, -half}, .h = 2 * half / n, .nx = n, .ny = n}; }
