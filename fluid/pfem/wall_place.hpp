@@ -24,7 +24,7 @@ using splashdown::WallVelocity;
 template <int d>
 struct WallShape {
   AtVertices<d> vertices;                                               ///< [m]
-  std::shared_ptr<const Eigen::Matrix<int, d, Eigen::Dynamic>> facets;  ///< the same at all instants
+  std::shared_ptr<const Eigen::Matrix<int, d, Eigen::Dynamic>> facets;  ///< the same always
   AtVertices<d> normal;                                                 ///< of facets, unit, out of the solid
   AtVertices<d> vertex_normal;         ///< mean over the facets around a vertex, by their angles
   FacetTree<d> tree;                   ///< of all facets
