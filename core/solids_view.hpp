@@ -17,6 +17,7 @@ struct Deformation {
   double kinetic_energy = 0;    ///< likewise: what the fluid's work has made of both [J, J/m]
   double potential_energy = 0;  ///< of its weight, against the undeformed place at t = 0 [J, J/m]
   double von_mises = 0;         ///< the largest [Pa]
+  double von_mises_error = 0;   ///< of it: what elements and their neighbours disagree about there [Pa]
   Vec<d> at = Vec<d>::Zero();   ///< where that is, in the undeformed body at t = 0, world frame [m]
 };
 

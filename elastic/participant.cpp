@@ -286,6 +286,7 @@ Deformation<d> Participant<d>::deformation(std::size_t body) const {
           .kinetic_energy = wall ? wall->kinetic_energy_between() : 0.5 * now.v.dot(solid.mass() * now.v),
           .potential_energy = -now.u.dot(solid.mass() * solid.uniform(spec.gravity)),
           .von_mises = peak.value,
+          .von_mises_error = solid.stress_error(now.u, peak),
           .at = peak.at};
 }
 

@@ -27,6 +27,7 @@
 #include "apps/record/tables/rows.hpp"
 #include "apps/record/view.hpp"
 #include "apps/statistics/statistics.hpp"
+#include "apps/statistics/stress_statistics.hpp"
 #include "core/geometry.hpp"
 
 namespace splashdown::apps {
@@ -63,6 +64,7 @@ struct Recorder<d>::State {
   std::vector<PulseStatistics> equipment;
   HullReadings<d> hulls;
   PointReadings points;
+  std::map<std::string, StressStatistics> stresses;  // of bodies that deform
   double peak_force = 0;
   std::vector<char> met_water;  ///< probes, then gauges, at any row
   std::vector<std::string> body_names;
@@ -96,7 +98,7 @@ struct Recorder<d>::State {
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
             max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, met_water, body_names, speed,
-            has_fluid, sections_due, sections, lines_due, cereal::binary_data(&ledger, sizeof ledger));
+            has_fluid, sections_due, sections, lines_due, stresses, cereal::binary_data(&ledger, sizeof ledger));
     if (passes) archive(*passes);
   }
 
@@ -178,6 +180,9 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
     new_peak = new_peak || bodies[b].peak_force() > peak_force;
     peak_force = std::max(peak_force, bodies[b].peak_force());
   }
+  if (input.solids)
+    for (std::size_t b = 0; b < input.solids->size(); ++b)
+      stresses[input.solids->spec(b).name].add(input.time, input.solids->deformation(b));
   for (std::size_t i = 0; i < equipment.size(); ++i) {
     const auto acceleration = equipment_acceleration(input, i);
     equipment[i].add(kick, {acceleration.data(), static_cast<std::size_t>(d)});
@@ -448,6 +453,12 @@ void Recorder<d>::summarise(Summary& summary) const {
     const auto* statistics = statistics_of(body);
     return statistics ? &statistics->evidence() : nullptr;
   };
+  for (const auto& [name, stress] : s.stresses) {
+    auto& told = summary.bodies[name].stress.emplace(stress.summary());
+    const double solid = told.evidence.stress;
+    if (const auto* steps = s.has_fluid ? steps_of(name) : nullptr) told.evidence = steps->at_pressure(told.peak.time);
+    told.evidence.stress = solid;
+  }
   add_pressure_evidence<d>(summary, s.settings, {s.hulls, s.points}, steps_of);
 }
 

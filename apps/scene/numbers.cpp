@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/scene/channel_classes.hpp"
+#include "apps/scene/kinds/effect_kind.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -13,6 +14,8 @@ class Numbers {
 
   std::vector<NamedNumber> all() && {
     for (const auto& body : scene_.bodies) add_body(body);
+    for (const auto* kind : effect_kinds())
+      for (auto& number : kind->numbers(scene_)) numbers_.push_back(std::move(number));
     for (const auto& record : scene_.records) std::visit([this](const auto& entry) { add(entry); }, record);
     return std::move(numbers_);
   }

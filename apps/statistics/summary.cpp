@@ -83,6 +83,7 @@ Json json_of(const Evidence& evidence) {
   put("sideways_share", evidence.sideways);
   put("patch_elements", evidence.pressed);
   put("sampling_share", evidence.sampling);
+  put("stress_share", evidence.stress);
   return json;
 }
 
@@ -112,6 +113,7 @@ Json json_of_grades(const BodySummary& body) {
   if (body.force_grades.raw) json["peak_force"] = json_of(*body.force_grades.raw);
   json["peak_force_filtered"] = json_of_classes(body.force_grades.cfc);
   if (body.maximum_pressure_grade) json["maximum_pressure"] = json_of(*body.maximum_pressure_grade);
+  if (body.stress && body.stress->grade) json["peak_von_mises"] = json_of(*body.stress->grade);
   return json;
 }
 
@@ -152,6 +154,10 @@ Json json_of(const BodySummary& body) {
   if (body.maximum_pressure) {
     json["maximum_pressure"] = json_of(body.maximum_pressure->peak);
     json["maximum_pressure"]["point"] = json_of(body.maximum_pressure->point);
+  }
+  if (body.stress) {
+    json["peak_von_mises"] = json_of(body.stress->peak);
+    json["peak_von_mises"]["point"] = json_of(body.stress->point);
   }
   json["verdict"] = json_of(body.verdict);
   json["grades"] = json_of_grades(body);

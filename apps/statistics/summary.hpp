@@ -50,6 +50,7 @@ struct Evidence {
   double sideways = std::numeric_limits<double>::quiet_NaN();  ///< load that symmetry forbids, over the load
   double pressed = std::numeric_limits<double>::quiet_NaN();   ///< elements on half of the width of a patch
   double sampling = std::numeric_limits<double>::quiet_NaN();  ///< what steps too long for the filter's class take
+  double stress = std::numeric_limits<double>::quiet_NaN();    ///< by which a solid's elements disagree, relative
 };
 
 /// Independent errors that make a band, relative.
@@ -126,6 +127,14 @@ struct MaximumPressure {
   Evidence evidence;
 };
 
+/// The largest von Mises stress of a body that deforms.
+struct StressSummary {
+  Peak peak;                  ///< [Pa]
+  std::vector<double> point;  ///< in the undeformed body at t = 0, world frame [m]
+  Evidence evidence;
+  std::optional<NumberGrade> grade;
+};
+
 struct PatchSummary {
   Peak pressure;                           ///< mean over the patch [Pa]
   double impulse = 0, impulse_repair = 0;  ///< time integral of that mean, repairs included; of what they add [Pa s]
@@ -182,6 +191,7 @@ struct BodySummary {
   Peak wetted;                         ///< wetted length or area [m, m^2]
   LandingSummary landing;
   std::optional<MaximumPressure> maximum_pressure;  ///< if a record asks for it
+  std::optional<StressSummary> stress;              ///< of bodies that deform
   double inertial = 1;  ///< |m a| over the load at the largest load, 1 for bodies that are not free
   PulseGrades acceleration_grades, force_grades;  ///< first with the evidence alone, then graded (grades.hpp)
   std::optional<NumberGrade> maximum_pressure_grade;

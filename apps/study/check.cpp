@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "apps/effects/elastic/elastic.hpp"
 #include "apps/files/run_files.hpp"
 #include "apps/quantity/expression.hpp"
 #include "apps/quantity/names.hpp"
@@ -48,6 +49,10 @@ BodySummary whole_body(const Scene& scene, std::size_t index) {
   for (std::size_t k = 0; k < attitude_names.size(); ++k)
     if (d == 3 || k == 1) body.landing.attitude.emplace_back(attitude_names[k], AngleSummary{0, {0, 0}, {0, 0}});
   body.landing.first_contact = body.landing.capsized_since = body.landing.settled = 0;
+  if (deforms(scene, index)) {
+    body.stress = StressSummary{.peak = {0, 0}, .point = std::vector<double>(d), .evidence = {}, .grade = {}};
+    body.stress->grade.emplace().evidence.stress = 0;
+  }
   for (const auto& record : scene.records)
     if (const auto* highest = std::get_if<MaximumPressureEntry>(&record); highest && highest->body == index)
       body.maximum_pressure_grade.emplace(),

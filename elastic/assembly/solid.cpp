@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 
@@ -280,9 +281,44 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
   const auto& points = rule<d>();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const double value = von_mises(law_->cauchy(gradient(u, p / points.size(), points_[p].slopes)));
-    if (value > most.value) most = {value, at_rest(p / points.size(), points[p % points.size()].at)};
+    if (!(value > most.value)) continue;
+    most.value = value;
+    most.cell = p / points.size();
+    most.in_cell = points[p % points.size()].at;
   }
+  most.at = at_rest(most.cell, most.in_cell);
   return most;
+}
+
+template <int d>
+Mat<3> Solid<d>::stress_at_node(const Field& u, std::size_t cell, int k) const {
+  Barycentric<d> at = Barycentric<d>::Zero();
+  if (k <= d)
+    at[k] = 1;
+  else
+    for (const int corner : cell_edges[static_cast<std::size_t>(k - d - 1)]) at[corner] = 0.5;
+  return law_->cauchy(gradient(u, cell, slopes_at(cell, at)));
+}
+
+template <int d>
+double Solid<d>::stress_error(const Field& u, const StressPeak<d>& peak) const {
+  const auto& own = mesh_.cells[peak.cell];
+  std::array<Mat<3>, cell_nodes<d>> sums;
+  sums.fill(Mat<3>::Zero());
+  std::array<int, cell_nodes<d>> counts{};
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+    for (int k = 0; k < cell_nodes<d>; ++k) {
+      const auto found = std::ranges::find(own, mesh_.cells[c][static_cast<std::size_t>(k)]);
+      if (found == own.end()) continue;
+      const auto node = static_cast<std::size_t>(found - own.begin());
+      sums[node] += stress_at_node(u, c, k);
+      ++counts[node];
+    }
+  const auto N = shapes<d>(peak.in_cell);
+  Mat<3> difference = -law_->cauchy(gradient(u, peak.cell, slopes_at(peak.cell, peak.in_cell)));
+  for (std::size_t node = 0; node < own.size(); ++node)
+    difference += N[static_cast<Eigen::Index>(node)] / counts[node] * sums[node];
+  return von_mises(difference);
 }
 
 template <int d>
@@ -291,13 +327,8 @@ std::vector<Mat<3>> Solid<d>::nodal_stress(const Field& u) const {
   std::vector<int> counts(sums.size(), 0);
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
     for (int k = 0; k < cell_nodes<d>; ++k) {
-      Barycentric<d> at = Barycentric<d>::Zero();
-      if (k <= d)
-        at[k] = 1;
-      else
-        for (const int corner : cell_edges[static_cast<std::size_t>(k - d - 1)]) at[corner] = 0.5;
       const auto a = static_cast<std::size_t>(mesh_.cells[c][static_cast<std::size_t>(k)]);
-      sums[a] += law_->cauchy(gradient(u, c, slopes_at(c, at)));
+      sums[a] += stress_at_node(u, c, k);
       ++counts[a];
     }
   for (std::size_t a = 0; a < sums.size(); ++a) sums[a] /= counts[a];

@@ -28,6 +28,8 @@ template <int d>
 struct StressPeak {
   double value = 0;            ///< [Pa]
   Vec<d> at = Vec<d>::Zero();  ///< at rest [m]
+  std::size_t cell = 0;
+  Barycentric<d> in_cell = Barycentric<d>::Zero();
 };
 
 /// A mesh with a law and a density.
@@ -71,6 +73,9 @@ class Solid final : public System {
   double total_mass() const;                 ///< point masses included [kg, kg/m]
   Vec<d> centre(const Field& u) const;       ///< of mass [m]
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
+  /// Error of the elements there: von Mises norm of their stress minus the one that is the mean of elements at nodes and between
+  /// nodes as displacements are (Zienkiewicz & Zhu 1987) [Pa].
+  double stress_error(const Field& u, const StressPeak<d>& peak) const;
   /// Cauchy's stress at a point [Pa].
   Mat<3> stress(const Field& u, const Place<d>& place) const;
   /// Cauchy's stress at all nodes, mean of the elements around them [Pa].
@@ -91,6 +96,7 @@ class Solid final : public System {
   Mat<d> gradient(const Field& u, std::size_t cell, const Slopes& slopes) const;
   Slopes slopes_at(std::size_t cell, const Barycentric<d>& at, double* determinant = nullptr) const;
   Vec<d> at_rest(std::size_t cell, const Barycentric<d>& at) const;
+  Mat<3> stress_at_node(const Field& u, std::size_t cell, int k) const;
   /// f of P = stress(cell, slopes) at all points.
   template <class Stress>
   Field force_of(const Stress& stress) const;

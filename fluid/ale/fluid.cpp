@@ -52,6 +52,7 @@ AleFlow::AleFlow(AleFlowSpec spec)
     }
   loads_.resize(spec_.walls.size());
   ledger_.kinetic_energy = equations_.kinetic_energy(x_, state_.velocity);
+  ledger_.potential_energy = potential_energy(x_);
   ledger_.volume = ledger_.volume_initial = (spec_.max - spec_.min).prod();
   look();
 }
@@ -321,9 +322,9 @@ void AleFlow::commit(const Eigen::VectorXd& placements) {
     state_.placements[w] = placements.segment(at, moved_[w].numbers);
     at += moved_[w].numbers;
   }
+  book_work();
   for (std::size_t w = 0; w < moved_.size(); ++w)
     state_.rates[w] = rates_.segment(moved_[w].first, moved_[w].motion->coordinates());
-  ledger_.work_on_walls += impulse_.dot(rates_);
   state_.before = state_.velocity;
   state_.velocity = at_.head(2 * mesh_.size()).reshaped(2, mesh_.size());
   state_.pressure = at_.tail(mesh_.corners);
@@ -336,7 +337,7 @@ void AleFlow::commit(const Eigen::VectorXd& placements) {
   tangent_ = first_ = &kept_;
   is_begun_ = is_solved_ = false;
   x_ = places_of(state_.placements);
-  ledger_.kinetic_energy = equations_.kinetic_energy(x_, state_.velocity);
+  book_energy(fields_.x);
   look();
 }
 

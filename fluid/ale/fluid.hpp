@@ -119,6 +119,10 @@ class AleFlow final : public FluidView<2> {
   bool factor(FactoredSlope& tangent);
   void find_loads();
   void add_buoyancy(Eigen::VectorXd& loads) const;
+  double power_through_sides() const;
+  double potential_energy(const Nodes& places) const;
+  void book_work();
+  void book_energy(const Nodes& places_before);
   void look();
   Vec<2> inflow(const Vec<2>& x, double time) const;
 
@@ -144,7 +148,7 @@ class AleFlow final : public FluidView<2> {
   std::vector<Eigen::VectorXd> middle_;  // placements foreseen at t_{n+1/2}
   Eigen::VectorXd rates_;                // of all walls
   Unknowns at_;
-  Eigen::VectorXd nodal_loads_, impulse_;
+  Eigen::VectorXd reactions_, nodal_loads_, impulse_;
   int iterations_ = 0;
   long factorisations_ = 0;
   // To be looked at.

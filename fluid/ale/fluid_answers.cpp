@@ -9,9 +9,8 @@ namespace splashdown::ale {
 /// Reactions of the discrete equations where velocities are given: the load that makes momentum balance to roundoff, and that
 /// converges twice as fast as tractions of the solution's gradients do.
 void AleFlow::find_loads() {
-  Eigen::VectorXd reactions;
-  equations_.residual(fields_, at_, reactions);
-  nodal_loads_ = -reactions.head(2 * mesh_.size());
+  equations_.residual(fields_, at_, reactions_);
+  nodal_loads_ = -reactions_.head(2 * mesh_.size());
   add_buoyancy(nodal_loads_);
   impulse_ = Eigen::VectorXd::Zero(rates_.size());
   for (std::size_t w = 0; w < moved_.size(); ++w) {

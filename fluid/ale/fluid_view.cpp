@@ -84,9 +84,10 @@ void get_ale(std::istream& in, Numbers& numbers) {
 /// The factor that is kept is stored as what it is of, and made again.
 void AleFlow::save(std::ostream& out) const {
   const bool is_kept = kept_.is_ready();
-  Eigen::Matrix<double, 10, 1> numbers;
+  Eigen::Matrix<double, 12, 1> numbers;
   numbers << time_, state_.kick, state_.dt, state_.fastest, static_cast<double>(state_.steps), ledger_.work_on_walls,
-      ledger_.kinetic_energy, is_kept, is_kept ? kept_.fields().rate : 0, is_kept ? kept_.fields().theta : 0;
+      ledger_.kinetic_energy, is_kept, is_kept ? kept_.fields().rate : 0, is_kept ? kept_.fields().theta : 0,
+      ledger_.work_of_effects, ledger_.potential_energy;
   put_ale(out, numbers);
   for (const auto* field : {&state_.velocity, &state_.before}) put_ale(out, *field);
   put_ale(out, state_.pressure);
@@ -101,7 +102,7 @@ void AleFlow::save(std::ostream& out) const {
 }
 
 void AleFlow::load(std::istream& in) {
-  Eigen::Matrix<double, 10, 1> numbers;
+  Eigen::Matrix<double, 12, 1> numbers;
   get_ale(in, numbers);
   if (!(numbers[0] >= 0 && numbers[1] >= 0 && numbers[2] >= 0 && numbers[4] >= 0 && numbers[4] < 1e15))
     throw std::runtime_error("holds no time of the fluid");
@@ -131,6 +132,8 @@ void AleFlow::load(std::istream& in) {
   state_.steps = static_cast<long>(numbers[4]);
   ledger_.work_on_walls = numbers[5];
   ledger_.kinetic_energy = numbers[6];
+  ledger_.work_of_effects = numbers[10];
+  ledger_.potential_energy = numbers[11];
   tangent_ = first_ = &kept_;
   is_begun_ = is_solved_ = false;
   x_ = places_of(state_.placements);

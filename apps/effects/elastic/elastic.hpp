@@ -73,6 +73,7 @@ class ElasticKind final : public EffectOf<ElasticKind, ElasticTables> {
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
+  std::vector<NamedNumber> numbers(const Scene& scene) const override;
 
  private:
   friend EffectOf;

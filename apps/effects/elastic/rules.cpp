@@ -187,6 +187,20 @@ void ElasticKind::check(const Scene& scene, Problems& problems) const {
     scene.dimension == 2 ? check_table<2>(scene, table, problems) : check_table<3>(scene, table, problems);
 }
 
+std::vector<NamedNumber> ElasticKind::numbers(const Scene& scene) const {
+  std::vector<NamedNumber> all;
+  const auto* tables = scene.effects.find<ElasticTables>();
+  if (!tables) return all;
+  for (const auto& table : tables->of_bodies) {
+    const auto& name = scene.bodies[table.body].name;
+    all.push_back({.name = name + ".peak_von_mises",
+                   .unit = "Pa",
+                   .paths = {"bodies." + name + ".peak_von_mises.value"},
+                   .body = name});
+  }
+  return all;
+}
+
 std::optional<EffectNote> ElasticKind::note(const Scene& scene, const Scales&) const {
   const auto* tables = scene.effects.find<ElasticTables>();
   if (!tables) return {};

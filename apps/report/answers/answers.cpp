@@ -154,6 +154,14 @@ std::string pressure_tiles(const RunData& run) {
   return html;
 }
 
+std::string stress_tiles(const RunData& run) {
+  std::string html;
+  for (const auto& [name, body] : member(run.summary, "bodies").items())
+    html += pressure_tile("highest von Mises stress in " + name, member(body, "peak_von_mises"),
+                          member(member(body, "grades"), "peak_von_mises"), mean_of(run, name + ".peak_von_mises"));
+  return html;
+}
+
 std::string load_tiles(const RunData& run) {
   std::string html;
   const auto& bodies = member(run.summary, "bodies");
@@ -182,8 +190,8 @@ std::string load_tiles(const RunData& run) {
 }  // namespace
 
 std::string answer_card(const RunData& run) {
-  return html_tiles(limit_tiles(run) + acceleration_tiles(run) + pressure_tiles(run) + load_tiles(run) +
-                    floating_tiles(run));
+  return html_tiles(limit_tiles(run) + acceleration_tiles(run) + pressure_tiles(run) + stress_tiles(run) +
+                    load_tiles(run) + floating_tiles(run));
 }
 
 std::string quiet_line(const RunData& run) {

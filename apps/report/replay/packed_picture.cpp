@@ -129,6 +129,7 @@ class Packer {
       orders_.push_back(std::move(order));
     }
     felt_.emplace_back(orders_.back().size(), std::uint8_t{0});
+    bent_.emplace_back(orders_.back().size(), Steps{});
   }
 
   nlohmann::json add_water(const MovingPart& water) {
@@ -144,6 +145,17 @@ class Packer {
       const auto now = level(part.pressure[index_of(orders_[body][i])]);
       hulls_.push_back(static_cast<std::uint8_t>(now - std::exchange(felt_[body][i], now)));
     }
+  }
+
+  /// `bends`: of its points beside the rigid motion, in the first frame's place [m].
+  void add_bends(std::size_t body, const Eigen::Matrix3Xd& bends) {
+    auto& before = bent_[body];
+    for (std::size_t i = 0; i < orders_[body].size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto now = static_cast<std::int32_t>(
+            std::lround(bends(static_cast<Eigen::Index>(k), orders_[body][i]) / lattice_.step));
+        bends_[k].push_back(folded(now - std::exchange(before[i][k], now)));
+      }
   }
 
   std::size_t points_of(std::size_t body) const { return orders_[body].size(); }
@@ -162,6 +174,7 @@ class Packer {
     write_array("segments", segments_);
     write_array("water", water_);
     write_array("hulls", hulls_);
+    for (std::size_t k = 0; k < 3; ++k) write_array(std::array{"bends_x", "bends_y", "bends_z"}[k], bends_[k]);
     return arrays;
   }
 
@@ -204,29 +217,50 @@ class Packer {
   double limit_;
   std::vector<std::vector<int>> orders_;         // of each body: the old number of each point
   std::vector<std::vector<std::uint8_t>> felt_;  // of each body: pressures of the frame before
+  std::vector<std::vector<Steps>> bent_;         // likewise what it is bent
   std::vector<std::uint8_t> steps_, water_, hulls_;
   std::vector<std::uint32_t> references_, segments_;
-  std::array<std::vector<std::uint32_t>, 3> places_;
+  std::array<std::vector<std::uint32_t>, 3> places_, bends_;
 };
 
-/// What moves a body's points from its first frame to another: x, y, z, qx, qy, qz, qw.
-std::array<double, 7> pose_of(const MovingPart& first, const MovingPart& now, double tolerance,
-                              const std::string& name) {
-  const auto changed = [&] {
-    return std::runtime_error(fmt::format("the hull of {} changes its shape between frames", name));
-  };
-  if (now.points.size() != first.points.size()) throw changed();
-  if (first.points.empty()) return {0, 0, 0, 0, 0, 0, 1};
+/// How a body's points come from its first frame to another: a rigid motion of points that are bent.
+struct Motion {
+  std::array<double, 7> pose{0, 0, 0, 0, 0, 0, 1};  // x, y, z, qx, qy, qz, qw
+  Eigen::Matrix3Xd bends;                           // in the first frame's place [m]
+};
+
+/// The rigid motion fits best (Umeyama 1991). Throws for other points.
+Motion motion_of(const MovingPart& first, const MovingPart& now, const std::string& name) {
+  if (now.points.size() != first.points.size())
+    throw std::runtime_error(fmt::format("the hull of {} has other points in another frame", name));
+  Motion motion;
+  if (first.points.empty()) return motion;
   const auto matrix = [](const MovingPart& part) {
     return Eigen::Map<const Eigen::Matrix3Xd>(part.points.front().data(), 3,
                                               static_cast<Eigen::Index>(part.points.size()));
   };
-  const Eigen::Isometry3d motion(Eigen::umeyama(matrix(first), matrix(now), false));
-  const double off = ((motion * matrix(first)) - matrix(now)).cwiseAbs().maxCoeff();
-  if (!(off <= tolerance)) throw changed();
-  const Eigen::Quaterniond q(motion.linear());
-  const auto& x = motion.translation();
-  return {x.x(), x.y(), x.z(), q.x(), q.y(), q.z(), q.w()};
+  const Eigen::Isometry3d rigid(Eigen::umeyama(matrix(first), matrix(now), false));
+  motion.bends = rigid.inverse() * matrix(now) - matrix(first);
+  const Eigen::Quaterniond q(rigid.linear());
+  const auto& x = rigid.translation();
+  motion.pose = {x.x(), x.y(), x.z(), q.x(), q.y(), q.z(), q.w()};
+  return motion;
+}
+
+/// Of each body, in each frame.
+std::vector<std::vector<Motion>> motions_of(const MovingPicture& picture) {
+  std::vector<std::vector<Motion>> all(picture.names.size());
+  for (std::size_t b = 0; b < all.size(); ++b)
+    for (const auto& frame : picture.frames)
+      all[b].push_back(motion_of(picture.frames.front().bodies[b], frame.bodies[b], picture.names[b]));
+  return all;
+}
+
+/// Whether places on the lattice show it.
+bool bends(const std::vector<Motion>& motions, double step) {
+  return std::ranges::any_of(motions, [&](const Motion& motion) {
+    return motion.bends.size() > 0 && !(motion.bends.cwiseAbs().maxCoeff() <= step);
+  });
 }
 
 }  // namespace
@@ -246,19 +280,24 @@ PackedPicture packed(const MovingPicture& picture) {
                       {"bodies", nlohmann::json::array()}};
   if (picture.mirror) json["mirror"] = {{"axis", picture.mirror->axis}, {"at", picture.mirror->at}};
   Packer packer(picture, lattice, result.limit);
+  const auto motions = motions_of(picture);
   const std::vector<MovingPart> none;
   const auto& bodies = picture.frames.empty() ? none : picture.frames.front().bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     packer.add_body(bodies[b]);
-    json["bodies"].push_back({{"points", packer.points_of(b)}, {"cells", bodies[b].cells.size()}});
+    json["bodies"].push_back({{"points", packer.points_of(b)},
+                              {"cells", bodies[b].cells.size()},
+                              {"bends", bends(motions[b], lattice.step)}});
   }
-  for (const auto& frame : picture.frames) {
+  for (std::size_t f = 0; f < picture.frames.size(); ++f) {
+    const auto& frame = picture.frames[f];
     auto entry = packer.add_water(frame.water);
     entry["time"] = frame.time;
     entry["poses"] = nlohmann::json::array();
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      entry["poses"].push_back(pose_of(bodies[b], frame.bodies[b], lattice.step, picture.names[b]));
+      entry["poses"].push_back(motions[b][f].pose);
       packer.add_pressures(b, frame.bodies[b]);
+      if (json["bodies"][b]["bends"]) packer.add_bends(b, motions[b][f].bends);
     }
     json["frames"].push_back(std::move(entry));
   }

@@ -58,30 +58,41 @@ function splashdown_stage(info, picture, colours, dark) {
     return found;
   }
   const ink = dark ? 0xe8eef3 : 0x17222d;
+  const filled = (body, x) => new THREE.ShapeBufferGeometry(loops(body).filter((loop) => loop.length > 2).map((loop) => new THREE.Shape(loop.map((i) => new THREE.Vector2(x[3 * i], x[3 * i + 1])))));
+  const corners = (body, x) => {
+    const all = new Float32Array(3 * body.cells.length);
+    body.cells.forEach((point, i) => { for (let k = 0; k < 3; ++k) all[3 * i + k] = x[3 * point + k]; });
+    return all;
+  };
   const bodies = picture.bodies.map((body) => {
     const geometry = new THREE.BufferGeometry();
     if (plane) {
       set(geometry, 'position', body.x);
       geometry.setIndex(new THREE.BufferAttribute(body.cells, 1));
       const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: ink }));
-      const shapes = loops(body).filter((loop) => loop.length > 2).map((loop) => new THREE.Shape(loop.map((i) => new THREE.Vector2(body.x[3 * i], body.x[3 * i + 1]))));
-      lines.add(new THREE.Mesh(new THREE.ShapeBufferGeometry(shapes), new THREE.MeshBasicMaterial({ color: dark ? 0x51606e : 0xc3ccd4, side: THREE.DoubleSide })));
+      lines.add(new THREE.Mesh(filled(body, body.x), new THREE.MeshBasicMaterial({ color: dark ? 0x51606e : 0xc3ccd4, side: THREE.DoubleSide })));
       lines.renderOrder = 3;
       return lines;
     }
-    const x = new Float32Array(3 * body.cells.length);
-    body.cells.forEach((point, i) => { for (let k = 0; k < 3; ++k) x[3 * i + k] = body.x[3 * point + k]; });
-    set(geometry, 'position', x);
+    set(geometry, 'position', corners(body, body.x));
     set(geometry, 'normal', normals(body.x, body.cells));
     return new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ map: scale, emissive: 0xffffff, emissiveMap: scale, emissiveIntensity: 0.14, side: THREE.DoubleSide, shininess: 25, specular: 0x1a1a1a }));
   });
   bodies.forEach((body) => scene.add(body));
+  function bend(body, told, x) {
+    set(body.geometry, 'position', plane ? x : corners(told, x));
+    body.geometry.computeBoundingSphere();
+    if (!plane) { set(body.geometry, 'normal', normals(x, told.cells)); return; }
+    const inside = body.children[0];
+    inside.geometry.dispose();
+    inside.geometry = filled(told, x);
+  }
 
   // Where bodies are: boxes around them.
   const point = new THREE.Vector3(), turn = new THREE.Quaternion(), matrix = new THREE.Matrix4(), one = new THREE.Vector3(1, 1, 1);
   const pose = (f, b) => { const [x, y, z, ...q] = frames[f].poses[b]; return matrix.compose(point.set(x, y, z), turn.set(...q), one); };
   function box_of(f, b, box) {
-    const motion = pose(f, b).clone(), x = picture.bodies[b].x;
+    const motion = pose(f, b).clone(), x = frames[f].shapes[b];
     for (let i = 0; i < x.length; i += 3) box.expandByPoint(point.fromArray(x, i).applyMatrix4(motion));
     // The mirror image of a body that stands aside.
     if (info.mirror && box.max.getComponent(info.mirror.axis) > info.mirror.at) {
@@ -260,6 +271,7 @@ function splashdown_stage(info, picture, colours, dark) {
     if (mesh.visible) { mesh.geometry.dispose(); mesh.geometry = new THREE.WireframeGeometry(geometry); }
     bodies.forEach((body, b) => {
       const { cells } = picture.bodies[b], p = felt(f, b);
+      if (info.bodies[b].bends) bend(body, picture.bodies[b], frames[f].shapes[b]);
       if (!plane) look_up(body.geometry, cells.length, (i) => p[cells[i]]);
       body.matrixAutoUpdate = false;
       body.matrix.copy(pose(f, b));

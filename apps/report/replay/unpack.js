@@ -1,5 +1,5 @@
-// What packed_picture.cpp packed: {bodies: [{x, cells}], frames: [{time, poses, pressures}], water(f): {x, p, cells}}. Places in m, three
-// coordinates a point, pressures 0 to 255. Water is unpacked when it is asked for.
+// What packed_picture.cpp packed: {bodies: [{x, cells}], frames: [{time, poses, pressures, shapes}], water(f): {x, p, cells}}. Places in m, three
+// coordinates a point, pressures 0 to 255; `shapes`: places of a body's points before its pose, x where it does not bend. Water is unpacked when it is asked for.
 function splashdown_unpack(info, buffer) {
   'use strict';
   const bytes = new Uint8Array(buffer), arrays = {};
@@ -11,6 +11,7 @@ function splashdown_unpack(info, buffer) {
   }
   if (at !== bytes.length) throw new Error('the replay is cut short');
   const { steps, references, segments, water, hulls } = arrays, places = [arrays.x, arrays.y, arrays.z];
+  const bends = [arrays.bends_x, arrays.bends_y, arrays.bends_z];
   const plane = info.dimension === 2;
   const unfolded = (v) => (v >>> 1) ^ -(v & 1);  // the lowest bit is the sign
   const metres = (q) => {
@@ -68,13 +69,19 @@ function splashdown_unpack(info, buffer) {
   const from = { steps: 0, references: 0, places: 0, segments: 0, water: 0 };
   const bodies = info.bodies.map(({ points, cells }) => (plane ? outline(points, cells, from) : triangles(points, cells, from, false)));
   const begins = [];
-  let felt = info.bodies.map(({ points }) => new Uint8Array(points)), hull = 0;
+  let felt = info.bodies.map(({ points }) => new Uint8Array(points)), hull = 0, bend = 0;
+  const ways = info.bodies.map(({ points, bends: bent }) => (bent ? new Int32Array(3 * points) : null));
+  const shape = ({ x }, way) => {
+    if (!way) return x;
+    for (let i = 0; i < way.length; i += 3, ++bend) for (let k = 0; k < 3; ++k) way[i + k] += unfolded(bends[k][bend]);
+    return x.map((at, i) => at + info.step * way[i]);
+  };
   const frames = info.frames.map((frame) => {
     begins.push({ ...from });
     from.steps += frame.steps; from.references += frame.references; from.places += frame.points;
     if (plane) from.water += frame.points;
     felt = felt.map((last) => last.map((v) => v + hulls[hull++]));
-    return { time: frame.time, poses: frame.poses, pressures: felt };
+    return { time: frame.time, poses: frame.poses, pressures: felt, shapes: bodies.map((body, b) => shape(body, ways[b])) };
   });
   begins.push(from);
   const known = [];

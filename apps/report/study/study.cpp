@@ -83,16 +83,24 @@ void add_verdicts(const StudyData& study, Banner& banner) {
 
 Banner banner_of(const StudyData& study) {
   const std::size_t all = study.runs().size();
-  // An envelope makes the runs that tell most and leaves out the others.
-  const bool chooses = study.root.contains("campaign") && study.root["campaign"].contains("envelope");
+  // An envelope makes the runs that tell most, and [stop] as many as tell enough: the others are left out.
+  const auto& campaign = member(study.root, "campaign");
+  const bool chooses = campaign.contains("envelope");
+  const auto& stop = member(campaign, "stop");
+  const bool is_enough = stop.is_object() && stop.value("reached", false);
+  const bool leaves_out = chooses || is_enough;
   const std::size_t waiting = study.count("waiting"), failed = study.count("failed");
-  const std::size_t open = study.count("interrupted") + (chooses ? 0 : waiting);
+  const std::size_t open = study.count("interrupted") + (leaves_out ? 0 : waiting);
   Banner banner{failed > 0 ? Mood::bad : open > 0 ? Mood::fair : Mood::good, {}, {}};
   banner.headline =
       open > 0 ? fmt::format("{} of {} runs have ended", all - open, all) : fmt::format("All {} runs have ended", all);
   if (chooses) banner.headline = fmt::format("{} of {} runs are made, near the envelope's line", all - waiting, all);
+  if (is_enough && waiting > 0)
+    banner.headline =
+        fmt::format("{} of {} runs are enough: the band of {} is {:.3g} wide, asked for were {:.3g}", all - waiting,
+                    all, html_escaped(text_at(stop, "of")), number_at(stop, {"width"}), number_at(stop, {"asked"}));
   for (const auto& [status, mood, meaning] : all_status)
-    if (const auto number = study.count(status); number > 0 && !(chooses && std::string_view(status) == "waiting"))
+    if (const auto number = study.count(status); number > 0 && !(leaves_out && std::string_view(status) == "waiting"))
       banner.sentences.push_back(fmt::format("<b>{}</b> {}.", number, meaning));
   add_verdicts(study, banner);
   double sum = 0, longest = 0;

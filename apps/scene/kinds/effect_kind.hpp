@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/scene/limit.hpp"
 #include "apps/scene/outlook/advice.hpp"
 #include "apps/scene/outlook/outlook.hpp"
 #include "apps/scene/scales.hpp"
@@ -98,6 +99,8 @@ class EffectKind {
   virtual std::optional<WantedSize> surface_size(const Scene& /*scene*/) const { return {}; }
   /// Rows of probes.csv beside what is measured, such as the sea without bodies.
   virtual std::vector<KnownSignal> signals(const Scene& /*scene*/) const { return {}; }
+  /// Numbers of a run that it adds, by name (scene/numbers.hpp).
+  virtual std::vector<NamedNumber> numbers(const Scene& /*scene*/) const { return {}; }
   /// Changes what the fluid is made from; after its own regions and walls are in.
   virtual void prepare(const Scene& scene, fluid::FluidSpec<2>& spec) const = 0;
   virtual void prepare(const Scene& scene, fluid::FluidSpec<3>& spec) const = 0;

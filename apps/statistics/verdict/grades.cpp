@@ -26,7 +26,7 @@ constexpr double mostly = 0.5;      // impulse
 constexpr double widest_band = 10;  // that says anything
 constexpr double at_rest_g = 0.02;  // doubtful_above of a g
 
-enum class Kind { acceleration, force, pressure };
+enum class Kind { acceleration, force, pressure, stress };
 
 /// One error with its words.
 struct Share {
@@ -74,6 +74,10 @@ bool is_impulse(const Evidence& e) { return e.repair >= mostly; }
 std::vector<Share> shares(const Of& of, const Evidence& e, double inertial) {
   const auto [dimension, kind, raw] = of;
   std::vector<Share> list;
+  if (std::isfinite(e.stress))
+    list.push_back({e.stress, fmt::format("the solid's elements disagree by {} there", percent_text(e.stress)),
+                    "the solid's elements are coarse for its stress", &BandParts::mesh});
+  if (kind == Kind::stress && !(e.elements > 0)) return list;  // no fluid acts
   const double near = std::isfinite(e.pressed) ? 1 + point_factor / (1 + e.pressed) : 1;
   const double mesh = mesh_band(dimension, e) * (kind == Kind::pressure ? near : kind == Kind::force ? inertial : 1);
   list.push_back(
@@ -205,6 +209,10 @@ void grade_numbers(Summary& summary) {
     grade(body.acceleration_grades, body.acceleration, at_rest_g, {d, Kind::acceleration}, body);
     grade(body.force_grades, body.force, 0, {d, Kind::force}, body);
     if (rises) is_to_come(body.acceleration_grades), is_to_come(body.force_grades);
+    if (body.stress && body.stress->peak.value > 0) {
+      body.stress->grade.emplace().evidence = body.stress->evidence;
+      grade(*body.stress->grade, {d, Kind::stress}, body);
+    }
     body.maximum_pressure_grade.reset();
     if (!body.maximum_pressure) continue;
     body.maximum_pressure_grade.emplace().evidence = body.maximum_pressure->evidence;

@@ -201,6 +201,9 @@ std::optional<Campaign> campaign_of(const Study& study, const std::vector<StudyR
   add_effects(campaign, study, runs, outcomes);
   add_indices(campaign, study, runs, outcomes);
   if (study.envelope) campaign.envelope = envelope_of(study, runs, outcomes);
+  if (study.stop)
+    if (const auto width = width_of(*study.stop, study, runs, outcomes))
+      campaign.stop = {study.stop->of, study.stop->width, *width};
   return campaign;
 }
 

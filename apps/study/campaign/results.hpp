@@ -73,6 +73,13 @@ struct CampaignEnvelope {
   std::vector<EnvelopeCell> cells;  ///< by x, then by y
 };
 
+/// The band that [stop] is about.
+struct CampaignStop {
+  std::string of;
+  double asked = 0, width = 0;  ///< in its unit
+  bool is_reached() const { return width <= asked; }
+};
+
 struct Campaign {
   std::vector<Group> groups;  ///< not empty
   std::vector<QuantityStatistics> statistics;
@@ -83,6 +90,7 @@ struct Campaign {
   std::vector<std::string> random_axes;
   std::vector<QuantityIndices> indices;
   std::optional<CampaignEnvelope> envelope;
+  std::optional<CampaignStop> stop;  ///< absent: not asked for, or too few runs yet
 
   Campaign() = default;
   Campaign(Campaign&&) = default;  // groups are pointed at

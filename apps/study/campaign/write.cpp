@@ -194,6 +194,8 @@ Json json_of(const Campaign& campaign) {
       root["fraction"]["words"].push_back(product_text(word, campaign.factors));
   }
   if (campaign.envelope) root["envelope"] = json_of_envelope(*campaign.envelope);
+  if (const auto& stop = campaign.stop)
+    root["stop"] = {{"of", stop->of}, {"asked", stop->asked}, {"width", stop->width}, {"reached", stop->is_reached()}};
   if (!campaign.effects.empty()) root["effects"] = json_of_effects(campaign);
   for (const auto& entry : campaign.indices)
     for (std::size_t a = 0; a < entry.indices.size(); ++a)

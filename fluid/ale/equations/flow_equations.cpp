@@ -197,6 +197,18 @@ void FlowEquations::linearise(const StepFields& fields, const Unknowns& at, Eige
   }
 }
 
+double FlowEquations::open_power(const StepFields& fields, const Unknowns& at) const {
+  double power = 0;
+  for (const auto& edge : open_) {
+    const Cell& cell = mesh_->cells[edge.cell];
+    CellVector R = CellVector::Zero();
+    add_open(fields, at, edge, R, nullptr);
+    const CellNodes mean = fields.theta * velocities(at, cell) + (1 - fields.theta) * of(fields.before, cell);
+    power -= R.head<12>().dot(mean.reshaped());
+  }
+  return power;
+}
+
 double FlowEquations::least_stretch(const Nodes& x) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < mesh_->cells.size(); ++c) {

@@ -49,6 +49,8 @@ class FlowEquations {
   void residual(const StepFields& fields, const Unknowns& at, Eigen::VectorXd& out) const;
   /// The same with their derivatives by (v+, p), a matrix whose pattern is always the same.
   void linearise(const StepFields& fields, const Unknowns& at, Eigen::SparseMatrix<double>& slope) const;
+  /// Of the traction of open edges that is not asked to vanish, mu (grad u)^T n, u the mean velocity of the step [W/m].
+  double open_power(const StepFields& fields, const Unknowns& at) const;
   /// Whether every cell is unfolded at these nodes: the least determinant over that of the mesh as it was made.
   double least_stretch(const Nodes& x) const;
   /// Of a velocity at these nodes [J/m].

@@ -16,7 +16,7 @@ splashdown_ensemble(drops_and_jets CI 1:8,13,14,17,18,21:23,25,28:33,36,41,42,45
 splashdown_ensemble(still_tanks NIGHTLY 1:20 BUDGET 900)
 splashdown_ensemble(slots CI 1:10,18,20,24,74,84,2006,2017,2057,2086,2097,2111,4053 NIGHTLY 1:219,2001:2150,4053 BUDGET 300)
 splashdown_ensemble(uav_attitudes NIGHTLY 0:15 BUDGET 900)
-splashdown_ensemble(effect_mixes CI 1:12,14,23,24,29,85,94,170 NIGHTLY 1:200 BUDGET 300)
+splashdown_ensemble(effect_mixes CI 1:4,14,23,24,29,85,94,170 NIGHTLY 1:200 BUDGET 300)
 
 # The same laws for the monolithic formulation: the second table of docs/stability.md.
 set(monolithic SET fluid.formulation=monolithic)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens the reports of two runs in headless Chromium: the replay is there, steps to another frame, and asks for nothing from outside.
+"""Opens the reports of runs in headless Chromium: the replay is there, steps to another frame, and asks for nothing from outside.
 
     replay_in_browser.py BINARY EXAMPLES
 
@@ -13,6 +13,7 @@ import tempfile
 
 RUNS = {
     "plane": ["capsule_drop_2d", "--refine", "0.35", "--until", "0.1", "--set", "output.frames=0.01"],
+    "bent": ["elastic_gate", "--set", "fluid.size.refine=0.4", "--until", "0.05", "--set", "output.frames=0.01"],
     "space": ["sphere_entry", "--refine", "0.35", "--until", "0.004", "--set", "output.frames=0.0005"],
 }
 # Appended to the page: what a reader does, and what the page has asked for.

@@ -52,6 +52,38 @@ void expect_patch() {
       EXPECT_LT((solid.stress(end.u, *place) - stress).norm(), 1e-12 * stress.norm());
     }
     EXPECT_NEAR(solid.peak(end.u).value, von_mises(stress), 1e-12 * stress.norm());
+    EXPECT_LT(solid.stress_error(end.u, solid.peak(end.u)), 1e-11 * stress.norm());
+  }
+}
+
+/// Of a wavy displacement at nodes, at its largest stress: true error and estimated one, both over the stress.
+template <int d>
+std::array<double, 2> stress_errors(int n) {
+  std::array<int, d> cells;
+  cells.fill(n);
+  const Solid<d> solid(shaken(box_mesh<d>(Vec<d>::Ones(), cells), 0.1 / n), small_strain<d>(soft), 1);
+  // u_x = sin(3x) cos(2y)/1000
+  const auto u_x = [](const Vec<d>& X) { return 1e-3 * std::sin(3 * X.x()) * std::cos(2 * X.y()); };
+  Field u = Field::Zero(solid.size());
+  for (int a = 0; a < solid.mesh().size(); ++a) u[d * a] = u_x(solid.mesh().nodes.col(a));
+  const auto peak = solid.peak(u);
+  Mat<d> F = Mat<d>::Identity();
+  F(0, 0) += 3e-3 * std::cos(3 * peak.at.x()) * std::cos(2 * peak.at.y());
+  F(0, 1) -= 2e-3 * std::sin(3 * peak.at.x()) * std::sin(2 * peak.at.y());
+  const auto place = locate<d>(solid.mesh(), peak.at, 1e-9);
+  const Mat<3> difference = solid.stress(u, *place) - solid.law().cauchy(F);
+  return {von_mises(difference) / peak.value, solid.stress_error(u, peak) / peak.value};
+}
+
+// Stresses of quadratic elements are of second order, and means at nodes of third inside: what they disagree about is the error.
+TEST(Solid, stress_error_is_of_the_true_size_and_of_second_order) {
+  for (const auto errors : {&stress_errors<2>, &stress_errors<3>}) {
+    const auto coarse = errors(4), fine = errors(8);
+    for (const auto& [is, told] : {coarse, fine}) {
+      EXPECT_GT(told, is / 3);
+      EXPECT_LT(told, is * 3);
+    }
+    EXPECT_LT(fine[1], coarse[1] / 2.5);
   }
 }
 

@@ -208,6 +208,28 @@ check "and ends before all are made" test "$(grep -c ',converged,' plane/study.c
 # Gravity takes 0.98 m/s from v. Cells whose speed is within 0.3 of the limit may be on either side.
 check "each cell is on its side of the line" test "$(awk -F, 'NR > 1 {s = sqrt($1^2 + ($2 - 0.98)^2); if ((s < 4.7 && $6 > 0.5) || (s > 5.3 && $6 < 0.5)) ++n} END {print n + 0}' plane/envelope.csv)" = 0
 check "the report draws the line" grep -q 'border-left:2px solid' plane/report.html
+# A study that ends once a band is narrow enough
+cat >enough.toml <<'ENOUGH'
+scene = "fall.toml"
+[samples]
+number = 60
+plan = "random"
+[[axis]]
+name = "u"
+key = "body.box.velocity.0"
+distribution = {type = "normal", mean = 3, sd = 0.1}
+[[quantity]]
+name = "speed"
+table = "bodies.csv:box"
+quantity = "last(vx)"
+[stop]
+of = "speed"
+width = 0.2
+ENOUGH
+check "a study ends when its band is narrow" exits 0 "$splashdown" study enough.toml --out enough --quiet
+check "before all runs are made" test "$(grep -c ',converged,' enough/study.csv)" -lt 60
+check "the report says that they are enough" grep -q 'of 60 runs are enough: the band of speed is 0.1' enough/report.html
+check "and none is waited for" test -z "$(grep 'are waiting' enough/report.html)"
 check "runs that are handed over at once cannot be chosen" exits 2 env PATH="$work/bin:$PATH" "$splashdown" study envelope.toml --on slurm --out never
 
 verdict
