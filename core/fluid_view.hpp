@@ -74,6 +74,12 @@ struct PointPlace {
   bool on_free_surface = false;  ///< with a wall: at the contact line
 };
 
+/// A load whose error the fluid knows.
+struct GoalValue {
+  std::string name;             ///< "BODY.x"
+  double value = 0, error = 0;  ///< value minus truth, as far as it is known [N, N/m]
+};
+
 /// World frame; of the step under way between its begin and its commit, else of t_n. Spans and numbers of points hold until the
 /// fluid is stepped on.
 template <int d>
@@ -112,6 +118,8 @@ class FluidView {
   virtual double potential(const Vec<d>& point) const = 0;
   /// What effects say about themselves at t_n: EFFECT_NAME and value, always of the same names.
   virtual std::vector<Diagnostic> diagnostics() const = 0;
+  /// Loads that it was asked for, with their errors at t_n: costs more than a step.
+  virtual std::vector<GoalValue> goals() const { return {}; }
   /// Instantaneous added mass G = B A^-1 B^T of some walls together at t_n [kg, kg m, kg m^2; 2D: per metre]: world
   /// frame, about the walls' reference points, d(d+1)/2 rows a wall. Of a step that is under way.
   virtual Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const = 0;

@@ -68,6 +68,12 @@ ale::AleFlowSpec ale_spec(const Scene& scene) {
     wall.sticks = true;
     spec.motions.push_back(wall.deforms ? ale::deforming_wall(wall.surface) : ale::rigid_wall(wall.pose));
   }
+  for (const auto& goal : fluid.goals) {
+    const auto body = std::ranges::find(scene.bodies, goal.body, &Body::name);
+    spec.goals.push_back({.name = goal.body + "." + goal.direction,
+                          .wall = static_cast<std::size_t>(body - scene.bodies.begin()),
+                          .direction = goal.direction == "x" ? Vec<2>::UnitX() : Vec<2>::UnitY()});
+  }
   return spec;
 }
 

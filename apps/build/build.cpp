@@ -62,7 +62,8 @@ std::unique_ptr<coupling::FluidPart> build_vortex(const Scene& scene, World<d>& 
 template <int d>
 std::unique_ptr<coupling::FluidPart> build_ale(const Scene& scene, World<d>& world) {
   if constexpr (d == 2) {
-    auto part = std::make_unique<ale::Participant>(std::make_unique<ale::AleFlow>(ale_spec(scene)));
+    auto part = std::make_unique<ale::Participant>(std::make_unique<ale::AleFlow>(
+        ale::adapted(ale_spec(scene), scene.ale->adapt, scene.time.dt_max, scene.ale->ramp)));
     world.fluid = &part->fluid();
     return part;
   } else {

@@ -65,6 +65,7 @@ struct Recorder<d>::State {
   HullReadings<d> hulls;
   PointReadings points;
   std::map<std::string, StressStatistics> stresses;  // of bodies that deform
+  std::vector<GoalSummary> goals;                    // once the run has ended
   double peak_force = 0;
   std::vector<char> met_water;  ///< probes, then gauges, at any row
   std::vector<std::string> body_names;
@@ -98,7 +99,7 @@ struct Recorder<d>::State {
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
             max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, met_water, body_names, speed,
-            has_fluid, sections_due, sections, lines_due, stresses, cereal::binary_data(&ledger, sizeof ledger));
+            has_fluid, sections_due, sections, lines_due, stresses, goals, cereal::binary_data(&ledger, sizeof ledger));
     if (passes) archive(*passes);
   }
 
@@ -326,6 +327,10 @@ void Recorder<d>::record(const RecordInput<d>& input) {
   s.add_statistics(input);
   if (first) write_pieces(s.settings.directory / "snapshots", "start", take_frame(input));
 
+  if (input.last && input.fluid) {
+    s.goals.clear();
+    for (const auto& [name, value, error] : input.fluid->goals()) s.goals.push_back({name, value, error});
+  }
   // Each schedule is asked at each step, so that a last row does not shift the ones after a resume.
   if (s.rows.due(input.time) || input.last) s.write_rows(input);
   for (std::size_t r = 0; input.fluid && r < s.surface_due.size(); ++r)
@@ -422,6 +427,7 @@ void Recorder<d>::summarise(Summary& summary) const {
     summary.elements = s.run.elements;
     s.energy.summarise(summary.ledger.emplace(summary_of(s.ledger)));
     summary.fluid = FluidSummary{s.speed, s.max_speed_peak};
+    summary.goals = s.goals;
   }
   if (summary.coupling && s.run.steps > 0) {
     summary.coupling->passes_mean = static_cast<double>(s.run.passes_sum) / static_cast<double>(s.run.steps);

@@ -192,6 +192,12 @@ struct AleFluid {
   double shift = 0.01;                        ///< of "shifted": theta - 1/2
   double tolerance = 1e-8;                    ///< of Newton's method, relative
   int max_iterations = 30;
+  /// The load on a body along an axis, whose error is told.
+  struct Goal {
+    std::string body, direction = "x";
+  };
+  std::vector<Goal> goals;
+  int adapt = 0;  ///< how often the mesh is refined for them before the run
 };
 
 struct Tank {

@@ -11,6 +11,11 @@ void serialize(Archive& archive, Peak& peak) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, GoalSummary& goal) {
+  archive(goal.name, goal.value, goal.error);
+}
+
+template <class Archive>
 void serialize(Archive& archive, RangeCount& count) {
   archive(count.initial, count.max, count.final);
 }

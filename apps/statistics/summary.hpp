@@ -220,6 +220,12 @@ struct LedgerSummary {
   double kinetic_deficit = 0;                           ///< lowest kinetic energy below 0, over `energy_scale`
 };
 
+/// A load with the error that the fluid knows of it (AleFlow::goals).
+struct GoalSummary {
+  std::string name;
+  double value = 0, error = 0;  ///< value minus truth [N, N/m]
+};
+
 struct FluidSummary {
   double max_speed = 0;       ///< of all nodes, at the end [m/s]
   double max_speed_peak = 0;  ///< at any time
@@ -284,6 +290,7 @@ struct Summary {
   std::optional<CouplingSummary> coupling;    ///< absent unless fluid and bodies are coupled
   std::optional<LedgerSummary> ledger;
   std::optional<FluidSummary> fluid;
+  std::vector<GoalSummary> goals;
   std::map<std::string, BodySummary> bodies;
   std::map<std::string, EquipmentSummary> equipment;
   std::map<std::string, PatchSummary> patches;

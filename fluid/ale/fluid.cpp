@@ -11,20 +11,19 @@ namespace splashdown::ale {
 namespace {
 
 FlowMesh mesh_of(const AleFlowSpec& spec) {
-  MeshSpec mesh{
-      .min = spec.min, .max = spec.max, .far = spec.far, .growth = spec.growth, .hulls = {}, .corner = spec.corner};
+  MeshSpec mesh{.min = spec.min,
+                .max = spec.max,
+                .far = spec.far,
+                .growth = spec.growth,
+                .hulls = {},
+                .corner = spec.corner,
+                .size = spec.size};
   for (const auto& wall : spec.walls) {
     Hole hull{.outline = wall.surface, .size = wall.size};
     hull.outline.vertices = wall.pose * hull.outline.vertices;
     mesh.hulls.push_back(std::move(hull));
   }
   return flow_mesh(mesh);
-}
-
-std::array<bool, side_count> open_sides(const AleFlowSpec& spec) {
-  std::array<bool, side_count> open{};
-  for (std::size_t s = 0; s < side_count; ++s) open[s] = spec.sides[s] == BoundaryKind::outflow;
-  return open;
 }
 
 /// Speed of the fastest node.
@@ -41,7 +40,7 @@ AleFlow::AleFlow(AleFlowSpec spec)
       extension_(mesh_),
       given_({}) {
   place_walls();
-  given_ = GivenUnknowns(given_unknowns());
+  given_ = GivenUnknowns(given_unknowns(spec_, mesh_, equations_));
   x_ = mesh_.nodes;
   start();
   pieces_ = straight_pieces(mesh_.cells);
@@ -85,27 +84,24 @@ void AleFlow::place_walls() {
   }
 }
 
-std::vector<char> AleFlow::given_unknowns() const {
-  std::vector<char> given(static_cast<std::size_t>(equations_.size()), 0);
+std::vector<char> AleFlow::given_unknowns(const AleFlowSpec& spec, const FlowMesh& mesh,
+                                          const FlowEquations& equations) {
+  std::vector<char> given(static_cast<std::size_t>(equations.size()), 0);
   bool is_open = false;
-  for (const auto& edge : mesh_.boundary)
+  for (const auto& edge : mesh.boundary)
     for (const int a : edge.nodes)
       for (int axis = 0; axis < 2; ++axis) {
-        auto& is_given = given[static_cast<std::size_t>(equations_.velocity(a, axis))];
+        auto& is_given = given[static_cast<std::size_t>(equations.velocity(a, axis))];
         if (edge.wall >= 0) is_given = 1;
         if (edge.side < 0) continue;
-        const auto kind = spec_.sides[static_cast<std::size_t>(edge.side)];
+        const auto kind = spec.sides[static_cast<std::size_t>(edge.side)];
         const bool along_x = edge.side == left || edge.side == right;  // its normal
         if (kind == BoundaryKind::inflow || kind == BoundaryKind::no_slip) is_given = 1;
         if (kind == BoundaryKind::slip && along_x == (axis == 0)) is_given = 1;
         is_open = is_open || kind == BoundaryKind::outflow;
       }
-  if (!is_open) given[static_cast<std::size_t>(equations_.pressure(0))] = 1;  // its level is nobody's
+  if (!is_open) given[static_cast<std::size_t>(equations.pressure(0))] = 1;  // its level is nobody's
   return given;
-}
-
-Vec<2> AleFlow::inflow(const Vec<2>& x, double time) const {
-  return spec_.inflow ? spec_.inflow(x, time) : Vec<2>(Vec<2>::Zero());
 }
 
 void AleFlow::start() {
@@ -180,23 +176,27 @@ Nodes AleFlow::wall_velocities(const std::vector<Eigen::VectorXd>& placements, c
   return v;
 }
 
-/// Velocities at walls and sides, of the end of the step under way. Where sides meet, those at rest come before those that slip,
-/// and walls before all.
-void AleFlow::give(const Nodes& walls, Unknowns& at) const {
-  const double when = is_begun_ ? time_ + 0.5 * dt_ : time_;
+/// Velocities at sides at a time. Where sides meet, those at rest come before those that slip.
+void AleFlow::give_sides(const AleFlowSpec& spec, const FlowMesh& mesh, const FlowEquations& equations, double time,
+                         Unknowns& at) {
   for (const BoundaryKind kind : {BoundaryKind::slip, BoundaryKind::inflow, BoundaryKind::no_slip})
-    for (const auto& edge : mesh_.boundary) {
-      if (edge.side < 0 || spec_.sides[static_cast<std::size_t>(edge.side)] != kind) continue;
+    for (const auto& edge : mesh.boundary) {
+      if (edge.side < 0 || spec.sides[static_cast<std::size_t>(edge.side)] != kind) continue;
       const int normal = edge.side == left || edge.side == right ? 0 : 1;
       for (const int a : edge.nodes) {
-        if (kind == BoundaryKind::inflow)
-          at.segment<2>(equations_.velocity(a, 0)) = inflow(mesh_.nodes.col(a), when);
-        else if (kind == BoundaryKind::no_slip)
-          at.segment<2>(equations_.velocity(a, 0)).setZero();
+        if (kind == BoundaryKind::inflow && spec.inflow)
+          at.segment<2>(equations.velocity(a, 0)) = spec.inflow(mesh.nodes.col(a), time);
+        else if (kind != BoundaryKind::slip)
+          at.segment<2>(equations.velocity(a, 0)).setZero();
         else
-          at[equations_.velocity(a, normal)] = 0;
+          at[equations.velocity(a, normal)] = 0;
       }
     }
+}
+
+/// Velocities at sides and walls, of the end of the step under way; walls come before sides.
+void AleFlow::give(const Nodes& walls, Unknowns& at) const {
+  give_sides(spec_, mesh_, equations_, is_begun_ ? time_ + 0.5 * dt_ : time_, at);
   for (const auto& wall : moved_)
     for (const int a : wall.nodes) at.segment<2>(equations_.velocity(a, 0)) = walls.col(a);
 }

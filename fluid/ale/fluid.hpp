@@ -8,6 +8,7 @@
 // third in space. Assumed: plane, laminar, no free surface, gravity a potential (the unknown pressure is without it).
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <span>
@@ -22,6 +23,18 @@
 #include "fluid/ale/spec.hpp"
 
 namespace splashdown::ale {
+
+/// A load with its error by the adjoint (fluid_goal.cpp).
+struct LoadGoal {
+  double value = 0;             ///< [N/m]
+  double error = 0;             ///< value minus truth, as far as it is known [N/m]
+  std::vector<double> by_cell;  ///< where the error comes from: shares by cells, not negative, of their sum [N/m]
+};
+
+/// The same with `size` of a mesh that was refined so often for its goals: half of what it was in those cells that hold most of
+/// their errors together, as few as have six tenths of it (Doerfler 1996). Each mesh takes steps of dt until a time, the ramp's
+/// end [s]. Throws std::runtime_error where a step fails.
+AleFlowSpec adapted(AleFlowSpec spec, int times, double dt, double until);
 
 /// The flow, and how it is looked at.
 class AleFlow final : public FluidView<2> {
@@ -54,6 +67,12 @@ class AleFlow final : public FluidView<2> {
   void commit(const Eigen::VectorXd& placements);
   /// Seconds spent so far in each phase.
   std::vector<std::pair<std::string, double>> phase_seconds() const;
+  /// Of a steady flow around bodies at rest: the load on a wall along a direction, and how far it is off. Costs the factor of a
+  /// mesh of four times as many cells. Throws std::logic_error for other flows, and before the first step.
+  LoadGoal load_goal(std::size_t wall, const Vec<2>& direction) const;
+  /// Longest edges of a mesh that is better for a load (MeshSpec::size): half of what they are in those cells that hold most of
+  /// the error, as few as have `share` of it; all others stay.
+  std::function<double(const Vec<2>&)> refined_size(const std::vector<double>& by_cell, double share) const;
   void save(std::ostream& out) const;  ///< the state at t_n, bit for bit
   void load(std::istream& in);         ///< throws std::runtime_error for other bytes
   /// Of the last solve.
@@ -87,6 +106,7 @@ class AleFlow final : public FluidView<2> {
   /// Of gravity [J/kg].
   double potential(const Vec<2>& point) const override { return -spec_.gravity.dot(point); }
   std::vector<Diagnostic> diagnostics() const override;
+  std::vector<GoalValue> goals() const override;
   Eigen::MatrixXd added_mass(std::span<const std::size_t> walls) const override;
 
  private:
@@ -108,7 +128,10 @@ class AleFlow final : public FluidView<2> {
 
   void place_walls();
   void start();
-  std::vector<char> given_unknowns() const;
+  static std::vector<char> given_unknowns(const AleFlowSpec& spec, const FlowMesh& mesh,
+                                          const FlowEquations& equations);
+  static void give_sides(const AleFlowSpec& spec, const FlowMesh& mesh, const FlowEquations& equations, double time,
+                         Unknowns& at);
   Nodes places_of(const std::vector<Eigen::VectorXd>& placements) const;
   Nodes wall_velocities(const std::vector<Eigen::VectorXd>& placements, const Eigen::VectorXd& rates) const;
   Eigen::VectorXd all_rates(const Eigen::VectorXd& of_first) const;
@@ -119,12 +142,12 @@ class AleFlow final : public FluidView<2> {
   bool factor(FactoredSlope& tangent);
   void find_loads();
   void add_buoyancy(Eigen::VectorXd& loads) const;
+  Vec<2> load_at(const Unknowns& at, std::size_t wall) const;
   double power_through_sides() const;
   double potential_energy(const Nodes& places) const;
   void book_work();
   void book_energy(const Nodes& places_before);
   void look();
-  Vec<2> inflow(const Vec<2>& x, double time) const;
 
   AleFlowSpec spec_;
   FlowMesh mesh_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/fluid_view.hpp"
@@ -35,6 +36,13 @@ struct IterationLimits {
   int max_iterations = 30;
 };
 
+/// The load on a wall along a unit vector.
+struct LoadOf {
+  std::string name;
+  std::size_t wall = 0;
+  Vec<2> direction = Vec<2>::UnitX();
+};
+
 /// Parameters, walls and the state at t = 0.
 struct AleFlowSpec {
   double density = 1000;                              ///< [kg/m^3]
@@ -42,15 +50,24 @@ struct AleFlowSpec {
   Vec<2> min = Vec<2>::Zero(), max = Vec<2>::Ones();  ///< corners of the box [m]
   std::array<BoundaryKind, side_count> sides = {BoundaryKind::inflow, BoundaryKind::outflow, BoundaryKind::slip,
                                                 BoundaryKind::slip};
-  FlowField inflow = {};                        ///< on inflow sides [m/s]; empty: at rest
-  double far = 0.1, growth = 0.15, corner = 1;  ///< MeshSpec
-  Vec<2> gravity = Vec<2>::Zero();              ///< [m/s^2]
-  FlowField force = {};                         ///< besides it, per mass [m/s^2]; empty: none
-  FlowField start = {};                         ///< velocity at t = 0; empty: at rest
+  FlowField inflow = {};                           ///< on inflow sides [m/s]; empty: at rest
+  double far = 0.1, growth = 0.15, corner = 1;     ///< MeshSpec
+  std::function<double(const Vec<2>&)> size = {};  ///< MeshSpec
+  Vec<2> gravity = Vec<2>::Zero();                 ///< [m/s^2]
+  FlowField force = {};                            ///< besides it, per mass [m/s^2]; empty: none
+  FlowField start = {};                            ///< velocity at t = 0; empty: at rest
   ThetaScheme scheme = {};
   IterationLimits newton = {};
   std::vector<WallSpec<2>> walls = {};       ///< the structure's first; all stick
+  std::vector<LoadOf> goals = {};            ///< loads whose errors are asked for
   std::vector<MakeMovingWall> motions = {};  ///< of walls in their order; those without one are rigid
 };
+
+/// Sides that bear no traction.
+inline std::array<bool, side_count> open_sides(const AleFlowSpec& spec) {
+  std::array<bool, side_count> open{};
+  for (std::size_t s = 0; s < side_count; ++s) open[s] = spec.sides[s] == BoundaryKind::outflow;
+  return open;
+}
 
 }  // namespace splashdown::ale

@@ -6,7 +6,7 @@
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/verification/order.hpp"
 
-namespace splashdown {
+namespace splashdown::added_mass_test {
 namespace {
 
 using coupling::scenes::water;
@@ -122,4 +122,4 @@ TEST(AddedMass, in_a_tank_tends_to_that_in_open_water) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::added_mass_test

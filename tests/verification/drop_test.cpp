@@ -7,7 +7,7 @@
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/verification/order.hpp"
 
-namespace splashdown {
+namespace splashdown::drop_test {
 namespace {
 
 using coupling::scenes::water;
@@ -163,4 +163,4 @@ TEST(Drop, fluid_and_body_together_keep_their_momentum) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::drop_test

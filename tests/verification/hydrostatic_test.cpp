@@ -3,7 +3,7 @@
 
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown {
+namespace splashdown::hydrostatic_test {
 namespace {
 
 namespace fs = fluid::scenes;
@@ -112,4 +112,4 @@ TEST(Hydrostatic, a_box_afloat_by_archimedes_is_at_rest) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::hydrostatic_test

@@ -5,7 +5,7 @@
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/verification/order.hpp"
 
-namespace splashdown {
+namespace splashdown::impact_test {
 namespace {
 
 using coupling::scenes::water;
@@ -98,4 +98,4 @@ TEST(FlatPlate, energy_lost_is_what_an_inelastic_impact_loses) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::impact_test

@@ -4,7 +4,7 @@
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/unit/coupling/watched.hpp"
 
-namespace splashdown {
+namespace splashdown::monolithic_test {
 namespace {
 
 namespace scenes = coupling::scenes;
@@ -95,4 +95,4 @@ TEST(Monolithic, a_jet_keeps_its_volume) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::monolithic_test

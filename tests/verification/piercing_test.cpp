@@ -10,7 +10,7 @@
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/verification/order.hpp"
 
-namespace splashdown {
+namespace splashdown::piercing_test {
 namespace {
 
 namespace scenes = coupling::scenes;
@@ -125,4 +125,4 @@ TEST(Piercing, a_box_let_go_accelerates_alike_in_its_first_steps_however_short) 
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::piercing_test

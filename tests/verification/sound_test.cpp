@@ -4,7 +4,7 @@
 #include "fluid/effects/compressibility/compressibility.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown {
+namespace splashdown::sound_test {
 namespace {
 
 namespace scenes = coupling::scenes;
@@ -77,4 +77,4 @@ TEST(Sound, leaves_the_impulse_of_a_flat_end_as_it_is) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::sound_test

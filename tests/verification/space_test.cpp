@@ -12,7 +12,7 @@
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/verification/order.hpp"
 
-namespace splashdown {
+namespace splashdown::space_test {
 namespace {
 
 namespace fs = fluid::scenes;
@@ -306,4 +306,4 @@ TEST(InSpace, axes_of_a_drop_follow_the_exact_solution_early) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::space_test

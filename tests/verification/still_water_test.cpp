@@ -4,7 +4,7 @@
 #include "fluid/pfem/water/wave_bound.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown {
+namespace splashdown::still_water_test {
 namespace {
 
 namespace fs = fluid::scenes;
@@ -76,4 +76,4 @@ TEST(WaveBound, leaves_the_usual_step_alone) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::still_water_test

@@ -7,7 +7,7 @@
 #include "fluid/effects/viscosity/viscosity.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown {
+namespace splashdown::viscous_formulations_test {
 namespace {
 
 namespace scenes = coupling::scenes;
@@ -144,4 +144,4 @@ TEST(ViscousFormulations, light_bodies_answer_pressure_and_stress_at_once) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::viscous_formulations_test

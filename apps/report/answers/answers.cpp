@@ -162,6 +162,19 @@ std::string stress_tiles(const RunData& run) {
   return html;
 }
 
+std::string goal_tiles(const RunData& run) {
+  std::string html;
+  const auto unit = force_unit(run.dimension());
+  for (const auto& [body, directions] : member(run.summary, "goals").items())
+    for (const auto& [direction, goal] : directions.items()) {
+      Lines lines;
+      lines.add(fmt::format("load on {} along {}", html_escaped(body), html_escaped(direction)));
+      lines.add("error of the mesh " + digits_with_unit(number_at(goal, {"error"}), unit, 2) + ", by the adjoint");
+      html += tile(digits_with_unit(number_at(goal, {"value"}), unit, 5), lines);
+    }
+  return html;
+}
+
 std::string load_tiles(const RunData& run) {
   std::string html;
   const auto& bodies = member(run.summary, "bodies");
@@ -191,7 +204,7 @@ std::string load_tiles(const RunData& run) {
 
 std::string answer_card(const RunData& run) {
   return html_tiles(limit_tiles(run) + acceleration_tiles(run) + pressure_tiles(run) + stress_tiles(run) +
-                    load_tiles(run) + floating_tiles(run));
+                    goal_tiles(run) + load_tiles(run) + floating_tiles(run));
 }
 
 std::string quiet_line(const RunData& run) {

@@ -55,6 +55,21 @@ void check_sides(const AleFluid& fluid, Problems& problems) {
                    "Turn it, or make that side an outflow.");
 }
 
+void check_goals(const Scene& scene, Problems& problems) {
+  const auto& fluid = *scene.ale;
+  if (fluid.adapt > 0 && fluid.goals.empty())
+    problems.add("fluid.ale.adapt", "there is no goal to refine the mesh for",
+                 "Add [[fluid.ale.goal]] with body = \"NAME\".");
+  for (std::size_t k = 0; k < fluid.goals.size(); ++k) {
+    const auto key = fmt::format("fluid.ale.goal[{}]", k);
+    if (fluid.scheme != "steady")
+      problems.add(key, "the adjoint is that of a steady flow",
+                   "Use fluid.ale.scheme = \"steady\", or remove the table.");
+    if (std::ranges::find(scene.bodies, fluid.goals[k].body, &Body::name) == scene.bodies.end())
+      problems.add(key + ".body", fmt::format("there is no body '{}'", fluid.goals[k].body), "Use the name of a body.");
+  }
+}
+
 void check_body(const AleFluid& fluid, const Body& body, const std::string& label, Problems& problems) {
   rigid::Surface<2> hull;
   try {
@@ -98,6 +113,7 @@ void check_ale(const Scene& scene, const SceneLabels& labels, Problems& problems
   if (problems.found_in("fluid")) return;
   check_box(fluid, problems);
   check_sides(fluid, problems);
+  check_goals(scene, problems);
   if (problems.found_in("fluid")) return;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (!problems.found_in(labels.bodies[i])) check_body(fluid, scene.bodies[i], labels.bodies[i], problems);

@@ -33,7 +33,8 @@ using Triangulation =
 /// Longest edges that are wanted at places.
 class WantedSize {
  public:
-  WantedSize(const MeshSpec& spec, const std::vector<HullLine>& lines) : far_(spec.far), growth_(spec.growth) {
+  WantedSize(const MeshSpec& spec, const std::vector<HullLine>& lines)
+      : far_(spec.far), growth_(spec.growth), size_(spec.size) {
     for (const auto& line : lines)
       for (std::size_t k = 0; k < line.cuts().size(); ++k) {
         const double from = line.cuts()[k],
@@ -43,7 +44,7 @@ class WantedSize {
       }
   }
   double at(const Vec<2>& x) const {
-    double least = far_;
+    double least = size_ ? std::min(far_, size_(x)) : far_;
     for (const auto& mark : marks_) least = std::min(least, mark.size + growth_ * (x - mark.at).norm());
     return least;
   }
@@ -54,6 +55,7 @@ class WantedSize {
     double size;
   };
   double far_, growth_;
+  std::function<double(const Vec<2>&)> size_;
   std::vector<Mark> marks_;
 };
 
@@ -231,6 +233,21 @@ FlowMesh flow_mesh(const MeshSpec& spec) {
   const WantedSize wanted(spec, lines);
   CGAL::refine_Delaunay_mesh_2(triangles, seeds.begin(), seeds.end(), SizedTriangles(wanted));
   return Collect(spec, lines, triangles).mesh();
+}
+
+DividedMesh divided(const FlowMesh& mesh) {
+  auto parts = split<2>(mesh.nodes, mesh.cells);
+  DividedMesh all;
+  all.mesh.nodes = std::move(parts.nodes);
+  all.mesh.corners = mesh.size();
+  all.mesh.cells = std::move(parts.cells);
+  all.places = std::move(parts.places);
+  for (const auto& edge : mesh.boundary) {
+    const auto [from, to, between] = edge.nodes;
+    for (const auto& [a, b] : {std::pair(from, between), std::pair(between, to)})
+      all.mesh.boundary.push_back({.nodes = {a, b, parts.middle(a, b)}, .wall = edge.wall, .side = edge.side});
+  }
+  return all;
 }
 
 }  // namespace splashdown::ale

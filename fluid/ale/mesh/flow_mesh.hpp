@@ -3,10 +3,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
-#include "core/simplices/quadratic.hpp"
+#include "core/simplices/split.hpp"
 
 /// An incompressible viscous fluid between sides and moving bodies, in an arbitrary Lagrangian-Eulerian frame.
 namespace splashdown::ale {
@@ -45,15 +46,23 @@ struct Hole {
 
 /// Where there is fluid, and how large elements are: min(far, size at hulls + growth times the distance).
 struct MeshSpec {
-  Vec<2> min, max;           ///< corners of the box [m]
-  double far = 0;            ///< longest edge [m]
-  double growth = 0.15;      ///< dh/dx
-  std::vector<Hole> hulls;   ///< inside of the box; those that overlap are one hole
-  double corner = 1;         ///< size at corners of hulls that jut into the fluid, over that on the hull
-  double corner_angle = 30;  ///< turns of an outline by more are corners, others are curves [deg]
+  Vec<2> min, max;          ///< corners of the box [m]
+  double far = 0;           ///< longest edge [m]
+  double growth = 0.15;     ///< dh/dx
+  std::vector<Hole> hulls;  ///< inside of the box; those that overlap are one hole
+  double corner = 1;        ///< size at corners of hulls that jut into the fluid, over that on the hull
+  std::function<double(const Vec<2>&)> size = {};  ///< longest edge at a place besides [m]; empty: no other bound
+  double corner_angle = 30;                        ///< turns of an outline by more are corners, others are curves [deg]
 };
 
 /// Throws std::invalid_argument for hulls that cross the box or each other without sharing area.
 FlowMesh flow_mesh(const MeshSpec& spec);
+
+/// Each triangle divided into four, the boundary with it; what is quadratic before is so after.
+struct DividedMesh {
+  FlowMesh mesh;
+  std::vector<SplitCells<2>::At> places;  ///< of its nodes in the mesh before
+};
+DividedMesh divided(const FlowMesh& mesh);
 
 }  // namespace splashdown::ale

@@ -3,7 +3,7 @@
 
 #include "bodies_in_flow.hpp"
 
-namespace splashdown::ale {
+namespace splashdown::ale::energy_test {
 namespace {
 
 /// What the ledger cannot explain but by viscosity, since the start.
@@ -81,4 +81,4 @@ TEST(AleEnergy, of_bodies_that_rise_and_sink_comes_from_gravity) {
 }
 
 }  // namespace
-}  // namespace splashdown::ale
+}  // namespace splashdown::ale::energy_test

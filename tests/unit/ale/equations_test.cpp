@@ -6,7 +6,7 @@
 #include "flows.hpp"
 #include "fluid/ale/equations/free_system.hpp"
 
-namespace splashdown::ale {
+namespace splashdown::ale::equations_test {
 namespace {
 
 FlowMesh some_mesh() {
@@ -93,4 +93,4 @@ TEST(DirectSolver, solves_what_it_has_factored_and_refuses_what_is_singular) {
 }
 
 }  // namespace
-}  // namespace splashdown::ale
+}  // namespace splashdown::ale::equations_test

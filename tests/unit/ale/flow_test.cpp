@@ -3,7 +3,7 @@
 
 #include "flows.hpp"
 
-namespace splashdown::ale {
+namespace splashdown::ale::flow_test {
 namespace {
 
 using std::numbers::pi;
@@ -169,4 +169,4 @@ TEST(AleFlow, refuses_to_fold_its_mesh) {
 }
 
 }  // namespace
-}  // namespace splashdown::ale
+}  // namespace splashdown::ale::flow_test

@@ -7,7 +7,7 @@
 #include "fluid/ale/mesh/extension.hpp"
 #include "fluid/ale/mesh/hull_line.hpp"
 
-namespace splashdown::ale {
+namespace splashdown::ale::mesh_test {
 namespace {
 
 using std::numbers::pi;
@@ -125,4 +125,4 @@ TEST(Extension, keeps_cells_unfolded) {
 }
 
 }  // namespace
-}  // namespace splashdown::ale
+}  // namespace splashdown::ale::mesh_test

@@ -7,7 +7,7 @@
 #include "apps/scene/read/read.hpp"
 #include "fluid/ale/fluid.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::scene_test {
 namespace {
 
 const std::string channel = R"(
@@ -153,4 +153,4 @@ TEST(AleScene, carries_a_free_body) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::scene_test

@@ -6,7 +6,7 @@
 #include "bodies_in_flow.hpp"
 #include "core/parallel.hpp"
 
-namespace splashdown::ale {
+namespace splashdown::ale::seam_test {
 namespace {
 
 using scenes::coupled;
@@ -170,4 +170,4 @@ TEST(AleSeam, refuses_walls_and_operators_that_it_does_not_know) {
 }
 
 }  // namespace
-}  // namespace splashdown::ale
+}  // namespace splashdown::ale::seam_test

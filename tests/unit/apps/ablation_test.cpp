@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::ablation_test {
 namespace {
 
 class AblationTest : public ::testing::Test, protected ScratchFolder {
@@ -133,4 +133,4 @@ TEST_F(AblationTest, a_scene_without_a_tank_has_none_to_grow) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::ablation_test

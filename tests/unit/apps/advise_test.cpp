@@ -11,7 +11,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::advise_test {
 namespace {
 
 using std::numbers::pi;
@@ -259,4 +259,4 @@ TEST(Friction, laws_meet_where_boundary_layers_turn) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::advise_test

@@ -10,7 +10,7 @@
 #include "apps/simulation/approach.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::build_test {
 namespace {
 
 constexpr double eps = 1e-14;  // a few round-offs of numbers of order one
@@ -209,4 +209,4 @@ shape = {type = "box", width = 1, height = 1}
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::build_test

@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::checkpoint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ TEST_F(CheckpointFolder, that_cannot_be_read_is_refused_and_never_taken_for_none
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::checkpoint_test

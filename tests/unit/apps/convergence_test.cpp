@@ -8,7 +8,7 @@
 #include <random>
 #include <span>
 
-namespace splashdown::apps {
+namespace splashdown::apps::convergence_test {
 namespace {
 
 const std::vector<double> usual = {2, std::sqrt(2.), 1, std::sqrt(0.5)};  // element sizes of the usual ladder
@@ -246,4 +246,4 @@ TEST(BayesianExtrapolation, of_a_value_still_to_be_measured_never_narrow_on_coar
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::convergence_test

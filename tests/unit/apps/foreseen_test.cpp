@@ -10,7 +10,7 @@
 #include "apps/scene/outlook/impact_theory.hpp"
 #include "scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::foreseen_test {
 namespace {
 
 using std::numbers::pi;
@@ -119,4 +119,4 @@ TEST(Statics, of_a_box_are_those_of_its_sides) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::foreseen_test

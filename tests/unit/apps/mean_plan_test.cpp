@@ -9,7 +9,7 @@
 
 #include "apps/price/price.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::mean_plan_test {
 namespace {
 
 /// Levels whose means are put together with known weights: band^2 = sum_l a_l^2 s_l^2 / N_l.
@@ -226,4 +226,4 @@ TEST(MeanOfRuns, holds_the_true_value_of_drawn_scenes_in_nineteen_of_twenty) { e
 TEST(MeanOfRunsNightly, holds_the_true_value_of_hundreds_of_drawn_scenes) { expect_true_values_within(400); }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::mean_plan_test

@@ -17,7 +17,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/hulls.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::new_test {
 namespace {
 
 using testing::ball;
@@ -373,4 +373,4 @@ TEST_F(Repair, refuses_what_has_no_thickness) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::new_test

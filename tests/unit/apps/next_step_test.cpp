@@ -11,7 +11,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::next_step_test {
 namespace {
 
 NextStep finer(double by) {
@@ -171,4 +171,4 @@ TEST(Advice, for_an_accuracy_goes_on_from_where_the_ladder_is) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::next_step_test

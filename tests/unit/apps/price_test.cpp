@@ -14,7 +14,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::price_test {
 namespace {
 
 Rung rung(double refine, double seconds, std::vector<double> values, Role role = Role::rung) {
@@ -425,4 +425,4 @@ TEST(Price, belongs_to_its_scene_whatever_its_refinement_and_title) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::price_test

@@ -9,7 +9,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::questions_test {
 namespace {
 
 template <int d>
@@ -140,4 +140,4 @@ max = [2, 2, 0]
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::questions_test

@@ -14,7 +14,7 @@
 #include "apps/render/plan.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::render_test {
 namespace {
 
 /// Frames from 0 to 0.3 s, a triangle of water each, and what a run leaves beside them.
@@ -51,7 +51,7 @@ struct Mistake {
   const char* said;
 };
 
-class RenderMistakes : public testing::TestWithParam<Mistake> {};
+class RenderMistakes : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(RenderMistakes, are_named_with_their_cure) {
   ScratchFolder folder;
@@ -66,7 +66,7 @@ TEST_P(RenderMistakes, are_named_with_their_cure) {
 
 INSTANTIATE_TEST_SUITE_P(
     Options, RenderMistakes,
-    testing::Values(
+    ::testing::Values(
         Mistake{"nothing", [](RenderOptions& o) { o.time.reset(); }, "Use --time T -o FILE.png, or --movie FILE.mp4"},
         Mistake{"both", [](RenderOptions& o) { o.movie = "f.mp4"; }, "a still or a film, not both"},
         Mistake{"movie_and_out",
@@ -295,4 +295,4 @@ TEST(Film, leaves_nothing_where_it_is_given_up_or_fails) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::render_test

@@ -8,7 +8,7 @@
 
 #include "apps/run/loop.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::run_loop_test {
 namespace {
 
 /// x' = x^2-like growth of the criterion's speed, so that dt varies from step to step.
@@ -329,4 +329,4 @@ TEST(RunLoop, checkpoints_change_nothing) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::run_loop_test

@@ -9,7 +9,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown {
+namespace splashdown::simulation_test {
 namespace {
 
 using apps::testing::replaced;
@@ -129,4 +129,4 @@ TEST(Simulation, wrong_scenes_are_told_as_the_command_tells_them) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::simulation_test

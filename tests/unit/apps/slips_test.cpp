@@ -17,7 +17,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::slips_test {
 namespace {
 
 constexpr const char* ten[] = {"wedge_drop/scene.toml",      "capsule_drop_2d/scene.toml",
@@ -165,4 +165,4 @@ TEST(Slip, of_each_kind_is_asked_about) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::slips_test

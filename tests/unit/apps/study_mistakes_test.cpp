@@ -2,7 +2,7 @@
 
 #include "tests/unit/apps/study_scene.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::study_mistakes_test {
 namespace {
 
 using testing::good_study;
@@ -136,4 +136,4 @@ INSTANTIATE_TEST_SUITE_P(Table, BadStudyIsRefused, ::testing::ValuesIn(studies),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::study_mistakes_test

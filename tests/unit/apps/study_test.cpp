@@ -17,7 +17,7 @@
 #include "apps/study/table.hpp"
 #include "tests/unit/apps/study_scene.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::study_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -363,4 +363,4 @@ TEST_F(StudyTest, until_stops_runs_and_a_later_one_lets_them_go_on) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::study_test

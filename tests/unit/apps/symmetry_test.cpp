@@ -5,7 +5,7 @@
 
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::symmetry_test {
 namespace {
 
 using Axes = std::vector<char>;
@@ -60,4 +60,4 @@ TEST(Symmetry, of_effects_is_broken_by_what_they_have_across_the_plane) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::symmetry_test

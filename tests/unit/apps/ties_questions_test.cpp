@@ -6,7 +6,7 @@
 #include "apps/statistics/verdict/verdict.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::ties_questions_test {
 namespace {
 
 const std::string box = R"([time]
@@ -107,4 +107,4 @@ TEST(Verdict, tells_of_a_body_that_never_moved_though_something_pulled_at_it) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::ties_questions_test

@@ -11,7 +11,7 @@
 #include "apps/simulation/wall_watch.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::walls_test {
 namespace {
 
 /// Water 1 m deep in a tank of 4 m, with bodies. Elements of 0.05 m.
@@ -238,4 +238,4 @@ TEST(WallQuestion, is_asked_of_heavy_bodies_of_any_kind_on_their_way_to_a_wall) 
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::walls_test

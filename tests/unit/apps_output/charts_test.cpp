@@ -15,7 +15,7 @@
 #include "apps/report/study/maps.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::charts_test {
 namespace {
 
 struct Samples {
@@ -248,4 +248,4 @@ TEST(Pairs, have_the_numbers_and_curves_of_all_runs_and_one_run_has_none) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::charts_test

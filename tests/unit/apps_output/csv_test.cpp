@@ -11,7 +11,7 @@
 #include "apps/record/tables/rows.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::csv_test {
 namespace {
 
 TEST(Csv, a_file_that_went_away_is_missed_and_can_be_copied_all_the_same) {
@@ -172,4 +172,4 @@ TEST(Columns, a_plane_row_fills_the_columns_of_a_spatial_one) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::csv_test

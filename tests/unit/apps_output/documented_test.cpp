@@ -13,7 +13,7 @@
 #include "apps/record/sections/velocity_lines.hpp"
 #include "apps/record/tables/rows.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::documented_test {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -84,4 +84,4 @@ TEST(Documented, fields_of_frames_are_named) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::documented_test

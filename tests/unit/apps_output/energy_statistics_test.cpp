@@ -13,7 +13,7 @@
 #include "box_of_water.hpp"
 #include "stand_ins.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::energy_statistics_test {
 namespace {
 
 constexpr double roundoff = 1e-13;  // a few hundred operations on numbers of the sums' size
@@ -199,4 +199,4 @@ TEST(EnergyStatistics, resumed_anywhere_end_as_if_never_stopped) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::energy_statistics_test

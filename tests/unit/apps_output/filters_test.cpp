@@ -8,7 +8,7 @@
 
 #include "apps/statistics/pulse.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::filters_test {
 namespace {
 
 std::vector<double> sine(double frequency, double dt, std::size_t count) {
@@ -220,4 +220,4 @@ TEST(Sampling, costs_nothing_where_nothing_is_quick) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::filters_test

@@ -7,7 +7,7 @@
 #include "apps/report/pictures/plane_picture.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::frames_test {
 namespace {
 
 /// A unit square of two triangles, a drop, and a body beside it.
@@ -180,4 +180,4 @@ TEST(Vtu, a_spatial_mesh_is_cut_in_the_middle_of_its_body) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::frames_test

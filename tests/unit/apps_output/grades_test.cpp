@@ -11,7 +11,7 @@
 #include "apps/statistics/verdict/next_step.hpp"
 #include "apps/statistics/verdict/verdict.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::grades_test {
 namespace {
 
 constexpr double end = 0.1, dt = 1e-3, touch = 0.02;
@@ -207,4 +207,4 @@ TEST(Grades, no_mesh_gives_the_peak_of_an_impulse_a_value) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::grades_test

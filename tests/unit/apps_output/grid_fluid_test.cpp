@@ -14,7 +14,7 @@
 #include "stand_ins.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::grid_fluid_test {
 namespace {
 
 constexpr int across = 16, down = 8, steps = 30;        // squares; steps of the record
@@ -298,4 +298,4 @@ TEST(GridFluid, without_a_free_surface_gauges_read_nothing_and_the_rest_stays) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::grid_fluid_test

@@ -7,7 +7,7 @@
 
 #include "box_of_water.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::hull_map_test {
 namespace {
 
 template <int d>
@@ -119,4 +119,4 @@ TEST(HullMap, the_other_side_of_a_thin_plate_is_not_wetted) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::hull_map_test

@@ -7,7 +7,7 @@
 #include "apps/report/inputs/hull_views.hpp"
 #include "box_of_water.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::inputs_test {
 namespace {
 
 DrawnHull box_hull(double length, double breadth, double height) {
@@ -93,4 +93,4 @@ TEST(HullViews, in_the_plane_are_one_outline) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::inputs_test

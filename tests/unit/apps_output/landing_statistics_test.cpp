@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace splashdown::apps {
+namespace splashdown::apps::landing_statistics_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -128,4 +128,4 @@ TEST(Landing, a_body_that_stays_dry_has_landed_in_no_way) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::landing_statistics_test

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-namespace splashdown::apps {
+namespace splashdown::apps::limits_test {
 namespace {
 
 constexpr double end = 0.5;
@@ -188,4 +188,4 @@ TEST(Limits, are_one_line_with_value_band_and_unit) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::limits_test

@@ -9,7 +9,7 @@
 #include "apps/statistics/verdict/next_step.hpp"
 #include "apps/statistics/verdict/verdict.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::missing_test {
 namespace {
 
 /// A scene of water and bodies of which nothing is known but their names.
@@ -198,4 +198,4 @@ TEST(Rise, is_none_of_loads_that_have_had_it_or_have_none) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::missing_test

@@ -15,7 +15,7 @@
 #include "apps/record/frames/vtu_blocks.hpp"
 #include "apps/report/replay/mesh_code.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::packed_picture_test {
 namespace {
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
@@ -333,4 +333,4 @@ TEST(PackedPicture, of_the_plane_tells_outlines_by_their_segments) {
 TEST(PackedPicture, of_nothing_is_nothing) { EXPECT_NO_THROW(packed(MovingPicture{})); }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::packed_picture_test

@@ -8,7 +8,7 @@
 
 #include "recorded_runs.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::passes_test {
 namespace {
 
 RecorderSettings<2> with_passes(const std::filesystem::path& directory, double every) {
@@ -118,4 +118,4 @@ TEST(Passes, of_steps_of_one_pass_are_no_picture) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::passes_test

@@ -3,7 +3,7 @@
 #include "apps/record/probes.hpp"
 #include "box_of_water.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::patch_test {
 namespace {
 
 template <int d>
@@ -85,4 +85,4 @@ TEST(Patch, that_misses_the_hull_has_no_area) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::patch_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace splashdown::apps {
+namespace splashdown::apps::probes_test {
 namespace {
 
 Surface<2> polygon(const std::vector<Vec<2>>& points) {
@@ -88,4 +88,4 @@ TEST(SurfacePressure, has_the_wetted_points_of_one_wall_in_order) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::probes_test

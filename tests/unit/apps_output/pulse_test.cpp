@@ -7,7 +7,7 @@
 
 #include "apps/statistics/statistics.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::pulse_test {
 namespace {
 
 constexpr double height = 100, width = 0.02, start = 0.05, step = 1e-5;
@@ -123,4 +123,4 @@ TEST(PulseStatistics, peak_is_in_the_unit_and_the_change_is_not) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::pulse_test

@@ -12,7 +12,7 @@
 #include "apps/statistics/verdict/grades.hpp"
 #include "recorded_runs.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::recorder_test {
 namespace {
 
 RecorderSettings<2> settings_in(const std::filesystem::path& directory) {
@@ -370,4 +370,4 @@ TEST(Recorder, a_record_of_an_unknown_body_is_an_error_that_names_it) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::recorder_test

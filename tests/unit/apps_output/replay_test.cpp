@@ -7,7 +7,7 @@
 #include "apps/report/replay/moving_picture.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::replay_test {
 namespace {
 
 /// Two triangles of water, a node that no cell names, and a body, a segment long.
@@ -105,4 +105,4 @@ TEST(Replay, needs_no_network) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::replay_test

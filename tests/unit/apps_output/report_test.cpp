@@ -16,7 +16,7 @@
 #include "stand_ins.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::report_test {
 namespace {
 
 void make_run(const std::filesystem::path& directory, const std::string& status = "done", double energy_gain = 0) {
@@ -298,4 +298,4 @@ TEST(Report, probes_have_the_units_of_their_records) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::report_test

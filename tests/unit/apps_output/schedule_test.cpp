@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace splashdown::apps {
+namespace splashdown::apps::schedule_test {
 namespace {
 
 TEST(Schedule, without_an_interval_each_step_is_due) {
@@ -46,4 +46,4 @@ TEST(Schedule, listed_times_are_each_met_by_the_first_step_at_or_after_them) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::schedule_test

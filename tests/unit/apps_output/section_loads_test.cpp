@@ -11,7 +11,7 @@
 #include "stand_ins.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::section_loads_test {
 namespace {
 
 constexpr double round_off =
@@ -206,4 +206,4 @@ TEST(SectionLoads, are_written_in_the_frame_of_the_shape_and_their_largest_are_k
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::section_loads_test

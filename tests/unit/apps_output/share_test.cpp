@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace splashdown::apps {
+namespace splashdown::apps::share_test {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -50,4 +50,4 @@ TEST(Share, of_an_impulse_is_none_where_loads_to_and_fro_cancel) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::share_test

@@ -10,7 +10,7 @@
 #include "apps/report/report.hpp"
 #include "recorded_runs.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::spatial_recorder_test {
 namespace {
 
 RecorderSettings<3> settings_in(const std::filesystem::path& directory) {
@@ -137,4 +137,4 @@ TEST(SpatialPicture, a_slice_has_the_outline_of_the_water) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::spatial_recorder_test

@@ -11,7 +11,7 @@
 #include "apps/statistics/verdict/next_step.hpp"
 #include "apps/statistics/verdict/verdict.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::statements_test {
 namespace {
 
 /// A graded run of up to three bodies, fine or coarse, filtered or not, in water that is right or wrong.
@@ -224,4 +224,4 @@ TEST(Bands, of_neighbours_are_said_once) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::statements_test

@@ -7,7 +7,7 @@
 
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::summary_test {
 namespace {
 
 Summary full() {
@@ -162,4 +162,4 @@ TEST(Peak, keeps_the_first_of_equal_values_and_ignores_nan) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::summary_test

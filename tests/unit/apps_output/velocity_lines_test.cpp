@@ -9,7 +9,7 @@
 #include "stand_ins.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::velocity_lines_test {
 namespace {
 
 /// A block from 0 to 1 along each axis as the simplices that share its diagonal, one for each order of the axes.
@@ -73,4 +73,4 @@ TEST(VelocityLines, tell_the_mirror_image_and_leave_out_what_is_dry) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::velocity_lines_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace splashdown::apps {
+namespace splashdown::apps::verdict_test {
 namespace {
 
 /// A run with a body that touched the water and one that stayed dry.
@@ -124,4 +124,4 @@ TEST(Verdict, a_scene_without_water_is_resolved) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::verdict_test

@@ -5,7 +5,7 @@
 #include "core/closest_point.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::facet_tree_test {
 namespace {
 
 using scenes::eps;
@@ -189,4 +189,4 @@ TYPED_TEST(FacetTreeIn, many_equal_facets_do_no_harm) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::facet_tree_test

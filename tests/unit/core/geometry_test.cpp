@@ -9,7 +9,7 @@
 #include "fluid/pfem/mesh/node_cells.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::geometry_test {
 namespace {
 
 using scenes::eps;
@@ -160,4 +160,4 @@ TEST(PointAcceleration, is_the_second_derivative_of_the_points_path) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::geometry_test

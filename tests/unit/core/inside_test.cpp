@@ -6,7 +6,7 @@
 #include "core/facet_tree.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::inside_test {
 namespace {
 
 template <int d>
@@ -168,4 +168,4 @@ TEST(InsideTest3, knows_the_inside_of_a_long_mast_of_many_rings) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::inside_test

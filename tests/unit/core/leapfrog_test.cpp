@@ -6,7 +6,7 @@
 
 #include "core/types.hpp"
 
-namespace splashdown {
+namespace splashdown::leapfrog_test {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -31,4 +31,4 @@ TEST(Leapfrog, velocities_that_are_linear_in_time_are_exact_at_t_n) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::leapfrog_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace splashdown {
+namespace splashdown::parallel_test {
 namespace {
 
 TEST(Parallel, a_sum_has_the_same_bits_on_any_number_of_threads) {
@@ -23,4 +23,4 @@ TEST(Parallel, a_sum_has_the_same_bits_on_any_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::parallel_test

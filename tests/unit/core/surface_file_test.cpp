@@ -13,7 +13,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::surface_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -310,4 +310,4 @@ TEST_F(SurfaceFileTest, ten_million_facets_are_refused_before_they_are_read) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::surface_file_test

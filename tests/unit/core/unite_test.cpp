@@ -9,7 +9,7 @@
 #include "rigid/shapes/mass_properties.hpp"
 #include "rigid/shapes/solids.hpp"
 
-namespace splashdown {
+namespace splashdown::unite_test {
 namespace {
 
 template <int d>
@@ -18,7 +18,7 @@ Surface<d> moved(Surface<d> surface, const Vec<d>& by) {
   return surface;
 }
 template <int d>
-double measure(const Surface<d>& surface) {
+double enclosed(const Surface<d>& surface) {
   return rigid::mass_properties<d>(surface).mass;
 }
 
@@ -40,7 +40,7 @@ void expect_sum_of_boxes(const Box& box) {
     const Vec<d> low = (centre[0] - size[0] / 2).cwiseMax(centre[1] - size[1] / 2),
                  high = (centre[0] + size[0] / 2).cwiseMin(centre[1] + size[1] / 2);
     const double shared = (high - low).cwiseMax(0).prod();
-    EXPECT_NEAR(measure<d>(united<d>(parts)), size[0].prod() + size[1].prod() - shared, 1e-9);
+    EXPECT_NEAR(enclosed<d>(united<d>(parts)), size[0].prod() + size[1].prod() - shared, 1e-9);
   }
 }
 
@@ -57,12 +57,12 @@ TEST(Union, of_frames_keeps_the_hole) {
       moved<2>(rigid::box(1, 3).surface, {-1, 0}), moved<2>(rigid::box(1, 3).surface, {1, 0})};
   const auto frame = united<2>(sides);
   EXPECT_EQ(frame.vertices.cols(), 8);
-  EXPECT_NEAR(measure<2>(frame), 8, 1e-12);
+  EXPECT_NEAR(enclosed<2>(frame), 8, 1e-12);
 }
 
 TEST(Union, of_parts_apart_keeps_both) {
   const std::array<Surface<2>, 2> apart{rigid::circle(1).surface, moved<2>(rigid::circle(1).surface, {3, 0})};
-  EXPECT_NEAR(measure<2>(united<2>(apart)), 2 * measure<2>(apart[0]), 1e-12);
+  EXPECT_NEAR(enclosed<2>(united<2>(apart)), 2 * enclosed<2>(apart[0]), 1e-12);
 }
 
 // A bird with a hemispherical face: half a sphere beside its cylinder.
@@ -70,8 +70,8 @@ TEST(Union, of_a_cylinder_and_a_sphere_at_its_end_is_a_bird) {
   const std::array<Vec<2>, 2> side{Vec<2>(1, 0), {1, 2}};
   const std::array<Surface<3>, 2> parts{rigid::revolved(side).surface, rigid::sphere(1).surface};
   const double exact = std::numbers::pi * (2 + 2. / 3);
-  EXPECT_NEAR(measure<3>(united<3>(parts)), exact, 1e-3 * exact);  // facets: 0.05 %
+  EXPECT_NEAR(enclosed<3>(united<3>(parts)), exact, 1e-3 * exact);  // facets: 0.05 %
 }
 
 }  // namespace
-}  // namespace splashdown
+}  // namespace splashdown::unite_test

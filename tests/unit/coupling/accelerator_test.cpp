@@ -8,7 +8,7 @@
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/maps.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::accelerator_test {
 namespace {
 
 using namespace maps;
@@ -166,4 +166,4 @@ TEST_P(Accelerators, a_residual_that_never_shrinks_gives_finite_iterates) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::accelerator_test

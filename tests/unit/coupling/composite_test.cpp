@@ -9,7 +9,7 @@
 #include "coupling/schemes/steppers.hpp"
 #include "tests/unit/coupling/toys.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::composite_test {
 namespace {
 
 using toys::Matrix;
@@ -138,4 +138,4 @@ TEST(Composite, wants_parts_at_one_time) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::composite_test

@@ -9,7 +9,7 @@
 #include "tests/unit/coupling/scenes.hpp"
 #include "tests/unit/coupling/toys.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::elastic_mode_test {
 namespace {
 
 using toys::Matrix;
@@ -142,4 +142,4 @@ TEST(ElasticMode, of_walls_in_water_is_inside_the_pressure_equation) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::elastic_mode_test

@@ -9,7 +9,7 @@
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::external_driver_test {
 namespace {
 
 constexpr double dt = 1e-3;
@@ -172,4 +172,4 @@ TEST(ExternalDriver, that_sends_numbers_of_other_walls_is_told) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::external_driver_test

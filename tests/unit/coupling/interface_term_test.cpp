@@ -4,7 +4,7 @@
 
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::interface_term_test {
 namespace {
 
 using scenes::eps;
@@ -76,4 +76,4 @@ TEST(InterfaceTerms, that_stand_in_give_translations_of_a_circle_their_energy) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::interface_term_test

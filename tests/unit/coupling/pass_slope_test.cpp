@@ -7,7 +7,7 @@
 
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::pass_slope_test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -94,4 +94,4 @@ TEST(PassSlope, is_that_of_passes_but_for_the_corrections_of_the_pressure) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::pass_slope_test

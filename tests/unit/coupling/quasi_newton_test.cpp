@@ -7,7 +7,7 @@
 
 #include "tests/unit/coupling/maps.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::quasi_newton_test {
 namespace {
 
 using namespace maps;
@@ -42,4 +42,4 @@ TEST(Secants, drop_columns_that_newer_ones_contain) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::quasi_newton_test

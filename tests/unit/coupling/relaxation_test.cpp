@@ -7,7 +7,7 @@
 #include "coupling/accelerators/accelerator.hpp"
 #include "tests/unit/coupling/maps.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::relaxation_test {
 namespace {
 
 using namespace maps;
@@ -58,4 +58,4 @@ TEST(Aitken, begins_each_step_anew_with_its_first_factor) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::relaxation_test

@@ -10,7 +10,7 @@
 #include "coupling/schemes/steppers.hpp"
 #include "tests/unit/coupling/toys.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::seam_test {
 namespace {
 
 using toys::Matrix;
@@ -257,4 +257,4 @@ TEST(Coupled, books_the_structure_under_its_name_and_restores_both_sides) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::seam_test

@@ -7,7 +7,7 @@
 #include "coupling/accelerators/quasi_newton.hpp"
 #include "tests/unit/coupling/scenes.hpp"
 
-namespace splashdown::coupling {
+namespace splashdown::coupling::steppers_test {
 namespace {
 
 using scenes::eps;
@@ -230,4 +230,4 @@ TEST(Gravity, that_a_scene_does_not_name_leaves_no_trace) {
 }
 
 }  // namespace
-}  // namespace splashdown::coupling
+}  // namespace splashdown::coupling::steppers_test

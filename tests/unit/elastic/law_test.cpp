@@ -2,7 +2,7 @@
 
 #include "solids.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::law_test {
 namespace {
 
 template <int d>
@@ -153,4 +153,4 @@ TEST(Law, von_mises_stress_of_a_pulled_bar_is_the_pull) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::law_test

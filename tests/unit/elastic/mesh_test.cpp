@@ -6,7 +6,7 @@
 #include "elastic/mesh/gmsh_file.hpp"
 #include "solids.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::mesh_test {
 namespace {
 
 /// int over the unit simplex of the product of L_k^n_k: d! prod n_k! / (sum n + d)!
@@ -224,4 +224,4 @@ TEST(GmshFile, counts_that_the_file_does_not_hold_allocate_nothing) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::mesh_test

@@ -4,7 +4,7 @@
 
 #include "solids.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::modes_test {
 namespace {
 
 TEST(Modes, a_cantilever_vibrates_as_a_beam_does) {
@@ -68,4 +68,4 @@ TEST(Modes, more_than_the_mesh_has_are_refused) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::modes_test

@@ -11,7 +11,7 @@
 #include "elastic/participant.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::scene_test {
 namespace {
 
 using testing::Mistake;
@@ -217,4 +217,4 @@ INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticScene, ::testing::ValuesIn(mistakes)
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::scene_test

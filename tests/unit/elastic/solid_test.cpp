@@ -2,7 +2,7 @@
 
 #include "solids.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::solid_test {
 namespace {
 
 template <int d>
@@ -228,4 +228,4 @@ TEST(Solid, a_density_is_positive) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::solid_test

@@ -5,7 +5,7 @@
 #include "elastic/modes/modes.hpp"
 #include "solids.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::steps_test {
 namespace {
 
 using Make = std::function<std::unique_ptr<Scheme>(Dynamics)>;
@@ -242,4 +242,4 @@ TEST(Steps, parameters_out_of_range_are_refused) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::steps_test

@@ -7,7 +7,7 @@
 
 #include "solids.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::turek_hron_test {
 namespace {
 
 /// From the circle of radius 0.05 about (0.2, 0.2), which holds it, to A = (0.6, 0.2); 0.02 high.
@@ -70,4 +70,4 @@ TEST(TurekHron, csm3_within_0_5_percent) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::turek_hron_test

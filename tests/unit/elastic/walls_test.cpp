@@ -13,7 +13,7 @@
 #include "solids.hpp"
 #include "tests/unit/coupling/toys.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::walls_test {
 namespace {
 
 using coupling::Accelerator;
@@ -437,4 +437,4 @@ TEST(ElasticWall, that_turns_over_is_refused_with_a_cause) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::walls_test

@@ -6,7 +6,7 @@
 
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::boxes_afloat_test {
 namespace {
 
 constexpr double half = 1.5, depth = 1.2;  // of the tank, m
@@ -96,4 +96,4 @@ TEST(ManyBoxesAfloat, still_water_stays_still) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::boxes_afloat_test

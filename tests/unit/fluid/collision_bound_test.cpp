@@ -4,7 +4,7 @@
 
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::collision_bound_test {
 namespace {
 
 template <class D>
@@ -125,4 +125,4 @@ TYPED_TEST(CollisionBound, gaps_that_open_and_water_at_one_wall_are_no_bound) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::collision_bound_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::counting_sort_test {
 namespace {
 
 using Item = std::pair<int, int>;  // key and number
@@ -54,4 +54,4 @@ TEST(CountingSort, sorts_by_key_and_keeps_the_order_of_each_key_on_any_number_of
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::counting_sort_test

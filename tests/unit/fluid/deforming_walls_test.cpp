@@ -7,7 +7,7 @@
 #include "fluid/pfem/fluid.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::deforming_walls_test {
 namespace {
 
 constexpr double size = 0.1, dt = 5e-3;
@@ -176,4 +176,4 @@ TEST(DeformingWalls, displace_what_they_sweep) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::deforming_walls_test

@@ -6,7 +6,7 @@
 #include "fluid/effects/viscosity/viscosity.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::fluid_step_test {
 namespace {
 
 constexpr double width = 1, depth = 0.5, size = 0.05;
@@ -227,4 +227,4 @@ TEST(FluidStep, water_between_a_drop_and_its_pool_comes_at_the_mean_velocity_of_
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::fluid_step_test

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::hulls_afloat_test {
 namespace {
 
 using scenes::Afloat;
@@ -64,4 +64,4 @@ TEST_P(HullsAfloat, still_water_stays_still) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::hulls_afloat_test

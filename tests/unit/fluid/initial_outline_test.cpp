@@ -11,7 +11,7 @@
 #include "fluid/pfem/initial/initial.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::initial_outline_test {
 namespace {
 
 using std::numbers::pi;
@@ -193,4 +193,4 @@ TEST(InitialOutline, small_drops_are_round) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::initial_outline_test

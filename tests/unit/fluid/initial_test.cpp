@@ -10,7 +10,7 @@
 #include "fluid/pfem/mesh/sizes/size_field.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::initial_test {
 namespace {
 
 using scenes::eps;
@@ -311,4 +311,4 @@ TEST(InitialLiquidInSpace, no_liquid_is_told) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::initial_test

@@ -9,7 +9,7 @@
 #include "fluid/pfem/linear/generalised_conjugate_residual.hpp"
 #include "fluid/pfem/parallel.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::linear_solver_test {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -223,4 +223,4 @@ TEST(GeneralisedConjugateResidual, solves_what_is_not_symmetric_in_as_many_steps
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::linear_solver_test

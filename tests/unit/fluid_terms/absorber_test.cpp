@@ -7,7 +7,7 @@
 #include "basin.hpp"
 #include "block_of_fluid.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::absorber_test {
 namespace {
 
 using testing::Basin;
@@ -66,4 +66,4 @@ TEST(Absorber, waves_die_out) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::absorber_test

@@ -8,7 +8,7 @@
 
 #include "basin.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::compressibility_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, density = 1000, sound = 100;
@@ -162,4 +162,4 @@ TEST(LiquidState, derivatives_of_its_law_are_its_compliance_and_its_energy) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::compressibility_test

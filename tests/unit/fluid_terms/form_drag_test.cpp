@@ -8,7 +8,7 @@
 
 #include "tests/unit/fluid_terms/still_mesh.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::form_drag_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -374,4 +374,4 @@ TEST(FormDrag, remembers_what_it_is_given_back) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::form_drag_test

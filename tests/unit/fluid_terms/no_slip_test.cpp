@@ -6,7 +6,7 @@
 #include "basin.hpp"
 #include "fluid/effects/viscosity/viscosity.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::no_slip_test {
 namespace {
 
 using testing::Basin;
@@ -81,4 +81,4 @@ TEST(NoSlip, more_energy_is_lost_than_between_slip_walls) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::no_slip_test

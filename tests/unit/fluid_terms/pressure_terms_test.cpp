@@ -5,7 +5,7 @@
 
 #include "basin.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::pressure_terms_test {
 namespace {
 
 using testing::Basin;
@@ -145,4 +145,4 @@ TEST(Gravity, alone_is_taken_for_gravity) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::pressure_terms_test

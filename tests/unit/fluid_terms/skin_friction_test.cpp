@@ -7,7 +7,7 @@
 
 #include "block_of_fluid.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::skin_friction_test {
 namespace {
 
 using testing::Block;
@@ -203,4 +203,4 @@ TEST(SkinFriction, brings_no_body_beyond_the_water) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::skin_friction_test

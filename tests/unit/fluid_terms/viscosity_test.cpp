@@ -8,7 +8,7 @@
 
 #include "block_of_fluid.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::viscosity_test {
 namespace {
 
 using testing::Block;
@@ -206,4 +206,4 @@ TEST(Viscosity, a_shear_wave_decays_at_its_rate) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::viscosity_test

@@ -7,7 +7,7 @@
 #include "basin.hpp"
 #include "fluid/effects/viscosity/viscosity.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::viscous_flow_test {
 namespace {
 
 using testing::Basin;
@@ -56,4 +56,4 @@ TEST(Viscosity, standing_waves_decay_as_lamb_says) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::viscous_flow_test

@@ -9,7 +9,7 @@
 #include "fluid/effects/waves/spectrum.hpp"
 #include "fluid/effects/waves/wave_field.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::sea_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -132,4 +132,4 @@ TEST(RegularWave, phase_counts_from_the_crest_that_has_passed) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::sea_test

@@ -10,7 +10,7 @@
 
 #include "fluid/effects/waves/dispersion.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::steady_wave_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, g = 9.81, infinity = std::numeric_limits<double>::infinity();
@@ -175,4 +175,4 @@ TEST(SteadyWave, breaking_ones_are_refused) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::steady_wave_test

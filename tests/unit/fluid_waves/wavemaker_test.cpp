@@ -9,7 +9,7 @@
 
 #include "fluid/effects/waves/dispersion.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::wavemaker_test {
 namespace {
 
 // The paddle's speed U(z) over the depth, taken apart in modes cosh k(d + z) and cosines: the share of the first, whose elevation
@@ -86,4 +86,4 @@ TEST(Wavemaker, moves_the_water_of_its_stroke_where_it_is_shallow_and_the_surfac
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::wavemaker_test

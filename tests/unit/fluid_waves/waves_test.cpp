@@ -8,7 +8,7 @@
 #include "tests/unit/fluid_terms/block_of_fluid.hpp"
 #include "wave_tank.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::waves_test {
 namespace {
 
 using testing::Block;
@@ -84,4 +84,4 @@ TEST(Waves, keep_their_height_and_speed_in_a_closed_tank) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::waves_test

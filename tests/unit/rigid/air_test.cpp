@@ -11,7 +11,7 @@
 #include "rigid/forces/applied/applied.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::air_test {
 namespace {
 
 constexpr double g = 9.81, air = 1.225;
@@ -294,4 +294,4 @@ TEST(AppliedForce, at_a_point_turns_the_body_about_its_centre) {
   EXPECT_EQ(wrench<3>(force, free_body<3>(1, Inertia<3>::Identity()), state), expected);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::air_test

@@ -6,7 +6,7 @@
 #include "rigid/forces/gravity.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::bodies_contract_test {
 
 namespace {
 
@@ -194,4 +194,4 @@ TEST(BadBody, is_refused_with_name_rule_and_value) {
   EXPECT_TRUE(says(body_failure(spec), "velocity is not finite"));
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::bodies_contract_test

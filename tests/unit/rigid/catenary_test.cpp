@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::catenary_test {
 namespace {
 
 constexpr double inextensible = 1e19;
@@ -194,4 +194,4 @@ TEST(Catenary, that_cannot_be_is_refused) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::catenary_test

@@ -4,7 +4,7 @@
 #include "rigid/shapes/shapes.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::contacts_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -208,4 +208,4 @@ TEST(Contact, a_concave_hull_takes_a_body_in) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::contacts_test

@@ -6,7 +6,7 @@
 #include "rigid/forces/gravity.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::flight_test {
 
 TEST(Flight, without_load_is_x_equals_v_t) {
   BodySpec<2> spec = planar_body();
@@ -90,4 +90,4 @@ TEST(Flight, gravity_is_a_force_like_the_load) {
   EXPECT_NEAR(heavy.state(0).velocity.y(), -9.81, 1000 * eps);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::flight_test

@@ -10,7 +10,7 @@
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::friction_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -260,4 +260,4 @@ TEST(Restitution, comes_to_rest_in_the_end) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::friction_test

@@ -10,7 +10,7 @@
 #include "rigid/lines/line.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::half_test {
 namespace {
 
 /// F = -c |V| V at the centre of mass.
@@ -107,4 +107,4 @@ TEST(HalfForce, goes_on_from_what_was_saved) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::half_test

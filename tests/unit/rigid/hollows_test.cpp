@@ -8,7 +8,7 @@
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::hollows_test {
 namespace {
 
 constexpr double rho = 1000;
@@ -133,4 +133,4 @@ TEST(Hollows, have_their_bottoms_where_liquid_would_gather) {
   EXPECT_TRUE(hollow_bottoms<2>(trough.surface(), at(0, std::numbers::pi)).empty());
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::hollows_test

@@ -8,7 +8,7 @@
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::hydrostatics_test {
 
 namespace {
 
@@ -301,4 +301,4 @@ TEST(RightingLevers, integrate_to_the_height_that_the_centres_part_by) {
   for (const auto& f : curve) EXPECT_NEAR(f.floating.submerged.centre.x(), f.floating.pose.translation().x(), 1e-8);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::hydrostatics_test

@@ -6,7 +6,7 @@
 #include "rigid/shapes/mass_properties.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::joints_test {
 namespace {
 
 using std::numbers::pi;
@@ -222,4 +222,4 @@ TEST(Slider, does_not_turn_about_its_axis_from_the_first_step_on) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::joints_test

@@ -9,7 +9,7 @@
 #include "rigid/lines/line.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::lines_test {
 namespace {
 
 using std::numbers::pi;
@@ -377,4 +377,4 @@ TEST(Line, that_cannot_be_is_refused) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::lines_test

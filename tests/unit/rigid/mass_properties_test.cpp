@@ -7,7 +7,7 @@
 #include "rigid/shapes/shapes.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::mass_properties_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST(MassProperties, of_a_surface_inside_out_are_refused) {
   EXPECT_THROW(mass_properties(s), std::invalid_argument);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::mass_properties_test

@@ -4,7 +4,7 @@
 
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::motion_test {
 
 TEST(HeldFreedoms, do_not_move) {
   for (std::size_t held = 0; held < 6; ++held) {
@@ -119,4 +119,4 @@ TEST(SeveralBodies, do_not_know_of_each_other) {
   EXPECT_TRUE(identical(both.state(0), single.state(0)));
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::motion_test

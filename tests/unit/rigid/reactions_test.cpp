@@ -5,7 +5,7 @@
 
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::reactions_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -78,4 +78,4 @@ TEST(Reactions, are_absent_without_joints_and_contacts) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::reactions_test

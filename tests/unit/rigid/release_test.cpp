@@ -7,7 +7,7 @@
 #include "core/geometry.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::release_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -171,4 +171,4 @@ TEST(Release, belongs_to_prescribed_motion) {
   EXPECT_THROW(alone<2>(spec), std::invalid_argument);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::release_test

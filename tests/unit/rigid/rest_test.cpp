@@ -11,7 +11,7 @@
 #include "tests/unit/rigid/rest_reference.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::rest_test {
 namespace {
 
 using std::numbers::pi;
@@ -360,4 +360,4 @@ TEST(AtRest, in_space_it_is_that_of_hydrostatics) {
   EXPECT_NEAR(held.bodies[0].submerged.volume, 0.3, 1e-8);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::rest_test

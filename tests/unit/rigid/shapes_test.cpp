@@ -8,7 +8,7 @@
 
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::shapes_test {
 
 namespace {
 
@@ -107,4 +107,4 @@ TEST(Shapes, with_impossible_measures_are_refused_with_rule_and_value) {
   EXPECT_EQ(failure([] { wedge(0.5, 1, -1); }), "wedge: side height is -1; it must not be negative");
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::shapes_test

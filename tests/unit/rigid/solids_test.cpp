@@ -10,7 +10,7 @@
 
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::solids_test {
 
 namespace {
 
@@ -175,4 +175,4 @@ TEST(Solids, that_are_none_are_refused_with_rule_and_value) {
   EXPECT_TRUE(says(failure([] { capsule_of_revolution(1e-3, 1e6); }), "too long for its width"));
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::solids_test

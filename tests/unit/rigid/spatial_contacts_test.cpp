@@ -7,7 +7,7 @@
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::spatial_contacts_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -116,4 +116,4 @@ TEST(SpatialContact, is_sought_where_it_is) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::spatial_contacts_test

@@ -7,7 +7,7 @@
 
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::springs_test {
 namespace {
 
 using std::numbers::pi;
@@ -192,4 +192,4 @@ TEST(Joint, with_a_stop_or_spring_that_makes_no_sense_is_refused) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::springs_test

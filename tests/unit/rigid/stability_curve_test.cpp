@@ -10,7 +10,7 @@
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::stability_curve_test {
 namespace {
 
 using std::numbers::pi;
@@ -159,4 +159,4 @@ TEST(StabilityCurve, of_an_open_pot_ends_where_water_comes_over_its_rim) {
   EXPECT_NEAR(curve.back().floating.freeboard, 0, 0.02 * radius);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::stability_curve_test

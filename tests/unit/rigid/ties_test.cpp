@@ -8,7 +8,7 @@
 
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::ties_test {
 namespace {
 
 using Joints = std::vector<JointSpec>;
@@ -124,4 +124,4 @@ TEST(Ties, tell_velocities_that_they_do_not_leave) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::ties_test

@@ -2,7 +2,7 @@
 
 #include "tests/unit/rigid/scenes.hpp"
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::tumbling_test {
 
 namespace {
 
@@ -142,4 +142,4 @@ TEST(Tumbling, at_an_absurd_step_stays_finite_and_keeps_its_momentum) {
   EXPECT_LT(bodies.state(0).velocity.tail<3>().norm(), 2.6 * 210);
 }
 
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::tumbling_test

@@ -6,7 +6,7 @@
 #include "fluid/vortex/transport/kernels.hpp"
 #include "shapes.hpp"
 
-namespace splashdown::vortex {
+namespace splashdown::vortex::advection_test {
 namespace {
 
 TEST(Kernels, keep_the_moments_of_their_order) {
@@ -107,4 +107,4 @@ TEST(Advection, a_quarter_turn_is_of_the_order_of_its_kernel_and_keeps_circulati
 }
 
 }  // namespace
-}  // namespace splashdown::vortex
+}  // namespace splashdown::vortex::advection_test

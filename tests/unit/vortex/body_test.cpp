@@ -3,7 +3,7 @@
 
 #include "bodies_in_grid.hpp"
 
-namespace splashdown::vortex {
+namespace splashdown::vortex::body_test {
 namespace {
 
 using scenes::coupled;
@@ -153,4 +153,4 @@ TEST(PenalisedBody, that_leaves_the_grid_ends_the_run_with_a_cause) {
 }
 
 }  // namespace
-}  // namespace splashdown::vortex
+}  // namespace splashdown::vortex::body_test

@@ -5,7 +5,7 @@
 
 #include "bodies_in_grid.hpp"
 
-namespace splashdown::vortex {
+namespace splashdown::vortex::control_volume_test {
 namespace {
 
 double of(const GridFlow& fluid, const std::string& name) {
@@ -62,4 +62,4 @@ TEST(ControlVolume, is_exact_for_a_start_and_says_when_it_does_not_fit) {
 }
 
 }  // namespace
-}  // namespace splashdown::vortex
+}  // namespace splashdown::vortex::control_volume_test

@@ -5,7 +5,7 @@
 
 #include "shapes.hpp"
 
-namespace splashdown::vortex {
+namespace splashdown::vortex::outline_test {
 namespace {
 
 TEST(Outline, moments_are_those_of_a_box_off_its_origin) {
@@ -84,4 +84,4 @@ TEST(Outline, inside_out_it_covers_the_rest) {
 }
 
 }  // namespace
-}  // namespace splashdown::vortex
+}  // namespace splashdown::vortex::outline_test

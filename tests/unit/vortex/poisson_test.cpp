@@ -9,7 +9,7 @@
 #include "fluid/vortex/transport/diffusion.hpp"
 #include "shapes.hpp"
 
-namespace splashdown::vortex {
+namespace splashdown::vortex::poisson_test {
 namespace {
 
 using std::numbers::pi;
@@ -177,4 +177,4 @@ TEST(BoxProjection, keeps_the_curl) {
 }
 
 }  // namespace
-}  // namespace splashdown::vortex
+}  // namespace splashdown::vortex::poisson_test

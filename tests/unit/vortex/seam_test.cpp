@@ -6,7 +6,7 @@
 #include "bodies_in_grid.hpp"
 #include "core/parallel.hpp"
 
-namespace splashdown::vortex {
+namespace splashdown::vortex::seam_test {
 namespace {
 
 using scenes::coupled;
@@ -102,4 +102,4 @@ TEST(VortexSeam, refuses_walls_and_operators_that_it_does_not_know) {
 }
 
 }  // namespace
-}  // namespace splashdown::vortex
+}  // namespace splashdown::vortex::seam_test

@@ -5,7 +5,7 @@
 
 #include "shapes.hpp"
 
-namespace splashdown::vortex {
+namespace splashdown::vortex::vortex_flow_test {
 namespace {
 
 using scenes::LambOseen;
@@ -172,4 +172,4 @@ TEST(VortexFlow, goes_on_from_what_was_saved_with_the_same_bits) {
 }
 
 }  // namespace
-}  // namespace splashdown::vortex
+}  // namespace splashdown::vortex::vortex_flow_test

@@ -37,6 +37,12 @@ void read_method(Reader& reader, AleFluid& fluid) {
     reader.skip("shift");
   reader.number("tolerance", fluid.tolerance, within(1e-13, 1e-3, "", "Use 1e-8."));
   reader.integer("max_iterations", fluid.max_iterations, within(1, 1000, "", "Use 30."));
+  reader.each_table("goal", [&](Reader& table) {
+    auto& goal = fluid.goals.emplace_back();
+    table.text("body", goal.body, "Use the name of a body, e.g. \"cylinder\".", Need::required);
+    table.choice("direction", goal.direction, {"x", "y"});
+  });
+  reader.integer("adapt", fluid.adapt, within(0, 20, "", "Use e.g. 5: the mesh is refined so often for the goals."));
 }
 
 }  // namespace

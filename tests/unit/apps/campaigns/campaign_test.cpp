@@ -13,7 +13,7 @@
 #include "apps/study/design/shares.hpp"
 #include "tests/unit/apps/study_scene.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::campaign_test {
 namespace {
 
 using testing::replaced;
@@ -319,4 +319,4 @@ TEST_F(StudyTest, mistakes_in_campaigns_are_told_with_a_cure) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::campaign_test

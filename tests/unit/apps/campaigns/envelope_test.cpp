@@ -12,7 +12,7 @@
 #include "apps/study/design/shares.hpp"
 #include "tests/unit/apps/study_scene.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::envelope_test {
 namespace {
 
 using testing::replaced;
@@ -224,4 +224,4 @@ TEST(EnvelopePlane, is_told_for_a_grid_without_chance) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::envelope_test

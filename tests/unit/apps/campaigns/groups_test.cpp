@@ -7,7 +7,7 @@
 #include "apps/study/campaign/results.hpp"
 #include "tests/unit/apps/study_scene.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::groups_test {
 namespace {
 
 using testing::StudyTest;
@@ -92,4 +92,4 @@ table = "bodies.csv:wedge"
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::groups_test

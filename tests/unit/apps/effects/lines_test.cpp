@@ -10,7 +10,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::lines_test {
 namespace {
 
 using testing::Mistake;
@@ -128,4 +128,4 @@ TEST(Lines, that_may_not_be_meant_are_asked_about) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::lines_test

@@ -10,7 +10,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::wavemaker_test {
 namespace {
 
 using testing::Mistake;
@@ -163,4 +163,4 @@ TEST(Wavemaker, gives_its_waves_forty_elements_where_sizes_are_left_open) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::wavemaker_test

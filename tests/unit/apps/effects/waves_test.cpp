@@ -17,7 +17,7 @@
 #include "fluid/pfem/spec.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::waves_test {
 namespace {
 
 using testing::Mistake;
@@ -225,4 +225,4 @@ TEST(WavesQuestions, are_asked_once) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::waves_test

@@ -7,7 +7,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::bad_scene_test {
 namespace {
 
 using testing::messages_of;
@@ -457,4 +457,4 @@ TEST(BadScene, an_absorber_needs_a_tank) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::bad_scene_test

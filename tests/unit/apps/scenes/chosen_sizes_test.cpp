@@ -8,7 +8,7 @@
 #include "apps/scene/choose/sizes.hpp"
 #include "apps/scene/read/read.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::chosen_sizes_test {
 namespace {
 
 /// The guide's first scene, `k` times as large with Froude's speeds and times.
@@ -146,4 +146,4 @@ TEST(ChosenSizes, of_a_scene_with_mistakes_are_not_among_them) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::chosen_sizes_test

@@ -10,7 +10,7 @@
 #include "apps/scene/sketch.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::dimension_test {
 namespace {
 
 const std::string in_space = R"(dimension = 3
@@ -165,4 +165,4 @@ TEST(GeometryThatCannotBeBuilt, is_refused_with_its_key) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::dimension_test

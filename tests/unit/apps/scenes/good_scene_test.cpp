@@ -14,7 +14,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::good_scene_test {
 namespace {
 
 Scene scene_of(const std::string& text) { return read_scene_text(text, "scene.toml").scene; }
@@ -471,4 +471,4 @@ TEST(SceneGeometry, a_wavy_region_has_the_stated_elevation) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::good_scene_test

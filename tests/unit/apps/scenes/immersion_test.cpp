@@ -5,7 +5,7 @@
 
 #include "apps/scene/outlook/motion_guess.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::immersion_test {
 namespace {
 
 constexpr double eps = 1e-12;
@@ -105,4 +105,4 @@ TEST_F(Falling, rises_to_where_it_floats) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::immersion_test

@@ -10,7 +10,7 @@
 #include "rigid/shapes/solids.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::mirrored_scene_test {
 namespace {
 
 const std::string half_wedge = testing::replaced(testing::wedge_drop, "[output]", "[symmetry]\n[output]");
@@ -201,4 +201,4 @@ TEST(MirroredScene, a_symmetric_surface_is_only_cut) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::mirrored_scene_test

@@ -6,7 +6,7 @@
 #include "apps/scene/read/read.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::override_scene_test {
 namespace {
 
 Scene with(std::vector<std::string> overrides) {
@@ -145,4 +145,4 @@ TEST(Override, of_an_option_of_its_own_is_told_apart_from_what_it_sets) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::override_scene_test

@@ -5,7 +5,7 @@
 
 #include "apps/scene/scene.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::solid_test {
 namespace {
 
 const BoxShape brick{.size = {0.4, 0.2, 0.1}};
@@ -72,4 +72,4 @@ TEST(SpatialSolids, fine_hulls_that_nearly_coincide_share_space_by_what_is_more_
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::solid_test

@@ -14,7 +14,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::spatial_scene_test {
 namespace {
 
 using std::numbers::pi;
@@ -373,4 +373,4 @@ shape = {type = "sphere", radius = 0.1}
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::spatial_scene_test

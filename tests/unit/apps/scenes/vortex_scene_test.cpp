@@ -4,7 +4,7 @@
 #include "apps/build/build.hpp"
 #include "apps/scene/read/read.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::vortex_scene_test {
 namespace {
 
 const std::string head =
@@ -143,4 +143,4 @@ TEST(Oscillation, is_harmonic_about_the_position) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::vortex_scene_test

@@ -16,7 +16,7 @@
 #include "tests/scratch_folder.hpp"
 #include "tests/unit/apps/scenes.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::words_test {
 namespace {
 
 Scene scene_of(const std::string& text) { return read_scene_text(text, "scene.toml").scene; }
@@ -183,4 +183,4 @@ TEST(Cost, steps_of_an_impact_follow_its_contact_lines) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::words_test

@@ -2,7 +2,7 @@
 
 #include "tests/unit/fluid/contact/contact.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::attachment_test {
 namespace {
 
 using scenes::eps;
@@ -234,4 +234,4 @@ TEST(AttachmentInSpace, a_node_near_the_crease_moves_onto_it) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::attachment_test

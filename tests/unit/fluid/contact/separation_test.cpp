@@ -2,7 +2,7 @@
 
 #include "tests/unit/fluid/contact/contact.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::separation_test {
 namespace {
 
 using scenes::eps;
@@ -193,4 +193,4 @@ TYPED_TEST(Upstream, without_water_is_left_alone) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::separation_test

@@ -8,7 +8,7 @@
 #include "fluid/pfem/contact/attachment.hpp"
 #include "tests/unit/fluid/contact/contact.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::ventilation_test {
 namespace {
 
 constexpr int columns = 20;
@@ -285,4 +285,4 @@ TEST(VentilationInSpace, air_gets_to_strong_suction_along_a_curved_hull) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::ventilation_test

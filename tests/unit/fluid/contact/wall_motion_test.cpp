@@ -4,7 +4,7 @@
 
 #include "tests/unit/fluid/contact/contact.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::wall_motion_test {
 namespace {
 
 using scenes::eps;
@@ -358,4 +358,4 @@ TYPED_TEST(WallMotions, the_flux_of_flat_walls_is_that_of_their_nodes) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::wall_motion_test

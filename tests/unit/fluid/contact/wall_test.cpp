@@ -7,7 +7,7 @@
 #include "core/closest_point.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::wall_test {
 namespace {
 
 using scenes::eps;
@@ -302,4 +302,4 @@ TEST(WallInMirror, the_side_of_a_tank_there_is_no_solid) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::wall_test

@@ -1,7 +1,7 @@
 // Bodies and interface operators in the pressure equation.
 #include "tests/unit/fluid/pressure/pressure_problem.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::body_elimination_test {
 namespace {
 
 using namespace pressure_tests;
@@ -184,4 +184,4 @@ TYPED_TEST(BodyElimination, without_unknowns_there_is_nothing_to_solve) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::body_elimination_test

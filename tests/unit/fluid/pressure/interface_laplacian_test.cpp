@@ -6,7 +6,7 @@
 
 #include "fluid/pfem/geometry.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::interface_laplacian_test {
 namespace {
 
 constexpr double eps = 1e-12;
@@ -126,4 +126,4 @@ TYPED_TEST(InterfacePieces, fall_to_parts_by_their_length_in_whatever_order_they
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::interface_laplacian_test

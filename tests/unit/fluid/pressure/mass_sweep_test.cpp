@@ -7,7 +7,7 @@
 #include "fluid/pfem/parallel.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::mass_sweep_test {
 namespace {
 
 // Cells between nodes whose numbers are near, of random masses; enough of them for several pieces of the parallel loops.
@@ -92,4 +92,4 @@ TYPED_TEST(MassSweeps, have_the_same_bits_on_any_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::mass_sweep_test

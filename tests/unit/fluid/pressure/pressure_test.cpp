@@ -1,6 +1,6 @@
 #include "tests/unit/fluid/pressure/pressure_problem.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::pressure_test {
 namespace {
 
 using namespace pressure_tests;
@@ -200,4 +200,4 @@ TYPED_TEST(Pressure, fluid_and_walls_exchange_momentum_exactly) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::pressure_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace splashdown::rigid {
+namespace splashdown::rigid::spline_test {
 namespace {
 
 using Points = std::vector<Vec<2>>;
@@ -128,4 +128,4 @@ TEST(Spline, refuses_what_is_no_outline) {
 }
 
 }  // namespace
-}  // namespace splashdown::rigid
+}  // namespace splashdown::rigid::spline_test

@@ -8,7 +8,7 @@
 #include "fluid/pfem/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::adapt_test {
 namespace {
 
 using scenes::eps;
@@ -247,4 +247,4 @@ TEST(Adapt, does_not_merge_across_a_thin_jet) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::adapt_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::displaced_volume_test {
 namespace {
 
 template <class D>
@@ -71,4 +71,4 @@ TYPED_TEST(DisplacedVolumes, are_none_where_air_or_another_wall_meets_the_hull) 
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::displaced_volume_test

@@ -4,7 +4,7 @@
 
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::field_energy_test {
 namespace {
 
 template <class D>
@@ -121,4 +121,4 @@ TYPED_TEST(FieldEnergy, passes_on_with_nodes_that_merge) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::field_energy_test

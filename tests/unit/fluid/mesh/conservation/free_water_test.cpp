@@ -5,7 +5,7 @@
 #include "fluid/pfem/mesh/recognition/recognise.hpp"
 #include "tests/unit/fluid/contact/contact.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::free_water_test {
 namespace {
 
 template <class D>
@@ -208,4 +208,4 @@ TYPED_TEST(FreeWaters, is_none_that_a_wall_touches) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::free_water_test

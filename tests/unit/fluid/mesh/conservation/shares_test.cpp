@@ -7,7 +7,7 @@
 
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::shares_test {
 namespace {
 
 template <class D>
@@ -88,4 +88,4 @@ TYPED_TEST(Shares, of_one_place_or_of_places_that_coincide_are_equal) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::shares_test

@@ -5,7 +5,7 @@
 #include "fluid/pfem/mesh/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::volume_correction_test {
 namespace {
 
 template <class D>
@@ -315,4 +315,4 @@ TEST(Parts, are_named_by_their_first_node_and_nodes_without_cells_by_themselves)
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::volume_correction_test

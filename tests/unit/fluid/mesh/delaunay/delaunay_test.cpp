@@ -10,7 +10,7 @@
 #include "fluid/pfem/parallel.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::delaunay_test {
 namespace {
 
 using scenes::eps;
@@ -385,4 +385,4 @@ TEST(Delaunay2, cells_beside_kept_facets_are_delaunay_as_far_as_those_allow) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::delaunay_test

@@ -4,7 +4,7 @@
 
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::coalescence_test {
 namespace {
 
 template <class D>
@@ -111,4 +111,4 @@ TYPED_TEST(Coalescence, water_of_one_part_and_new_nodes_is_not_mixed) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::coalescence_test

@@ -7,7 +7,7 @@
 
 #include "tests/unit/fluid/contact/contact.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::droplets_test {
 namespace {
 
 template <class D>
@@ -170,4 +170,4 @@ TYPED_TEST(Droplets, without_volume_leave_a_surface_without_area_where_it_is) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::droplets_test

@@ -7,7 +7,7 @@
 #include "fluid/pfem/mesh/conservation/field_energy.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::sheets_test {
 namespace {
 
 template <class D>
@@ -209,4 +209,4 @@ TYPED_TEST(Sheets, nodes_that_may_not_fly_do_so_only_without_cells) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::sheets_test

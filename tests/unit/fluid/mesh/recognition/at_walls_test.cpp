@@ -8,7 +8,7 @@
 #include "fluid/pfem/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::at_walls_test {
 namespace {
 
 /// A cell of nodes on one wall and a last one off it, of a mesh that had no boundary there before.
@@ -62,4 +62,4 @@ TEST(AtWalls, what_joins_both_sides_of_a_thin_hull_is_in_it) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::at_walls_test

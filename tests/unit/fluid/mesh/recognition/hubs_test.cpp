@@ -8,7 +8,7 @@
 #include "fluid/pfem/mesh/delaunay/moving_delaunay.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::hubs_test {
 namespace {
 
 using Cell = std::array<int, 4>;
@@ -147,4 +147,4 @@ TEST(Hubs, are_followed_where_they_go) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::hubs_test

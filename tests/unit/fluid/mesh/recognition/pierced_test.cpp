@@ -7,7 +7,7 @@
 
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::pierced_test {
 namespace {
 
 using scenes::eps;
@@ -89,4 +89,4 @@ TEST(Pierced, an_edge_that_is_removed_is_gone) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::pierced_test

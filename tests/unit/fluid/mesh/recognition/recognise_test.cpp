@@ -7,7 +7,7 @@
 #include "fluid/pfem/initial/parts.hpp"
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::recognise_test {
 namespace {
 
 using scenes::eps;
@@ -364,4 +364,4 @@ TEST(Recognise3, flat_cells_on_a_wall_are_films_if_all_of_their_facets_lie_on_it
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::recognise_test

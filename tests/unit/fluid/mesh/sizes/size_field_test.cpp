@@ -7,7 +7,7 @@
 
 #include "tests/unit/fluid/scenes.hpp"
 
-namespace splashdown::fluid {
+namespace splashdown::fluid::size_field_test {
 namespace {
 
 using scenes::eps;
@@ -203,4 +203,4 @@ TEST(SizeSources, a_tree_asks_for_what_all_ask_for) {
 }
 
 }  // namespace
-}  // namespace splashdown::fluid
+}  // namespace splashdown::fluid::size_field_test
