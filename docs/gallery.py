@@ -107,6 +107,13 @@ plot "< grep ',end.ux,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'dow
   "< grep '^x,' ../../../examples/elastic_gate/reference.csv" using 2:(1000*$3) with points ls 4 title 'measured', \
   "< grep '^y,' ../../../examples/elastic_gate/reference.csv" using 2:(1000*$3) with points ls 4 notitle
 """
+DEFLECTED = r"""
+set xlabel 'time / ms'; set ylabel 'deflection of the middle / mm'; set xrange [0:2.2]; set yrange [0:12]
+plot "< grep ',right.uy,' probes.csv" using (1000*$1):(1000*($3+30*$1)/0.984808) with lines ls 1 title 'computed', \
+  "< grep '^scolan_analytical,wB' ../../../examples/elastic_wedge/reference.csv" using (1000*$3):(1000*$4) with lines ls 4 title 'Scolan', \
+  "< grep '^fourey2010_sph_fem,wB' ../../../examples/elastic_wedge/reference.csv" using (1000*$3):(1000*$4) with points ls 2 title 'Fourey', \
+  "< grep '^li2015_sph_fem,wB' ../../../examples/elastic_wedge/reference.csv" using (1000*$3):(1000*$4) with points ls 3 title 'Li'
+"""
 LIFTED = r"""
 set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:10]; set yrange [0:1]
 plot "< grep ',A.uy,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'u_y', 0.8208773 with lines ls 4 title 'at rest, Featflow'
@@ -167,6 +174,7 @@ CASES = [
     Case("turek_hron_cfd", "scene.toml", RISING, 15),
     Case("turek_hron_fsi", "scene.toml", LIFTED, 150),
     Case("elastic_gate", "scene.toml", GATE, 40),
+    Case("elastic_wedge", "scene.toml", DEFLECTED, 10),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
          "--set time.end=2 --set time.dt_max=0.005", SWING, 8),
     Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),

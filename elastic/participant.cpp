@@ -97,9 +97,10 @@ void Participant<d>::start(Moving& body) {
   const auto& solid = *body.spec.solid;
   const Field weight = solid.mass() * solid.uniform(body.spec.gravity);
   const Dynamics dynamics{
-      .system = &solid, .damping = body.spec.damping, .load = [weight, forces = body.spec.forces](double t) -> Field {
-        return forces ? weight + forces(t) : weight;
-      }};
+      .system = &solid,
+      .damping = body.spec.damping,
+      .load = [weight, forces = body.spec.forces](double t) -> Field { return forces ? weight + forces(t) : weight; },
+      .drive = body.spec.drive};
   body.now.u = body.now.v = body.now.a = Field::Zero(solid.size());
   const Vec<d> centre = solid.centre(body.now.u);
   const auto& velocity = body.spec.body.velocity;
@@ -109,6 +110,7 @@ void Participant<d>::start(Moving& body) {
     body.now.v.template segment<d>(d * a) = velocity.template head<d>() + cross(spin, arm);
   }
   leave_out(solid.held(), body.now.v);
+  if (body.spec.drive) body.now.v += body.spec.drive(0);
   if (body.spec.wall) {
     const int modes = body.spec.wall->modes;
     body.wall = modes > 0 ? modal_wall<d>(solid, dynamics, modes) : nodal_wall<d>(solid, dynamics);
@@ -285,6 +287,8 @@ Deformation<d> Participant<d>::deformation(std::size_t body) const {
   return {.strain_energy = wall ? wall->strain_energy_between() : solid.strain_energy(now.u),
           .kinetic_energy = wall ? wall->kinetic_energy_between() : 0.5 * now.v.dot(solid.mass() * now.v),
           .potential_energy = -now.u.dot(solid.mass() * solid.uniform(spec.gravity)),
+          .dissipated = wall ? wall->dissipated() : 0,
+          .clamp_work = wall ? wall->driven() : 0,
           .von_mises = peak.value,
           .von_mises_error = solid.stress_error(now.u, peak),
           .at = peak.at};

@@ -38,6 +38,7 @@ struct SolidSpec {
   Rayleigh damping = {};
   Vec<d> gravity = Vec<d>::Zero();           ///< [m/s^2]
   std::function<Field(double)> forces = {};  ///< on nodes besides the weight, at a time [N, N/m]; empty: none
+  std::function<Field(double)> drive = {};  ///< velocities of held nodes (Dynamics); of bodies with a wall; empty: none
   std::vector<NamedPlace<d>> points = {};
   std::optional<WallChoice> wall = {};  ///< how it meets a fluid, without `scheme`; empty: not at all
 };

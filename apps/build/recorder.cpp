@@ -117,11 +117,12 @@ struct AddRecord {
   void operator()(const PassesEntry& entry) const { settings.passes = PassesRecord{entry.interval, entry.times}; }
   void operator()(const PatchEntry& entry) const {
     const auto& body = scene.bodies[entry.body];
-    const auto hull = body_spec<d>(body).surface;
+    const auto spec = body_spec<d>(body);
+    const auto& hull = spec.surface;
     const rigid::Vec<d> origin = mass_properties<d>(body).centre;
     auto region = patch_region<d>(entry, hull, origin);
     if (const auto mirror = mirror_in<d>(scene, body)) region = simulated(region, *mirror, origin, hull);
-    settings.patches.push_back({entry.name, body.name, region, patch_area<d>(region, hull)});
+    settings.patches.push_back({entry.name, body.name, region, patch_area<d>(region, hull), spec.pose});
   }
   void operator()(const MaximumPressureEntry& entry) const {
     const auto spec = body_spec<d>(scene.bodies[entry.body]);

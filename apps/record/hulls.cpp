@@ -50,7 +50,13 @@ void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
   pressures_.clear();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
     const auto& patch = settings_.patches[i];
-    const auto wall = wall_facets(fluid, wall_called(fluid, patch.body));
+    const int of_body = wall_called(fluid, patch.body);
+    auto wall = wall_facets(fluid, of_body);
+    const auto at_rest = points_at_rest(fluid, of_body);
+    if (!at_rest.empty()) {
+      wall.points = at_rest;
+      wall.pose = patch.pose;
+    }
     const auto mean = [&](std::span<const double> pressure) {
       return patch_force(wall, pressure, patch.region) / patch.area;
     };

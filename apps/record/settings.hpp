@@ -51,6 +51,8 @@ struct PressurePatch {
   std::string body;
   PatchRegion<d> region;  ///< body frame, origin at the centre of mass
   double area = 0;        ///< of the hull in it [m, m^2]
+  Isometry<d> pose =
+      Isometry<d>::Identity();  ///< of the body at t = 0: of one that deforms a patch is what it is there
 };
 
 /// The highest pressure of the run at points all over a body's hull, written to hull_NAME.vtu.

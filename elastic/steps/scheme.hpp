@@ -40,6 +40,8 @@ struct Dynamics {
   Rayleigh damping = {};
   std::function<Field(double)> load;  ///< F at a time [N, N/m]; of held unknowns it does not matter
   NewtonLimits newton = {};
+  /// Velocities of held unknowns at a time [m/s], zero for those that stay; empty: all stay. Walls alone obey it.
+  std::function<Field(double)> drive = {};
 };
 
 /// One scheme on one system.

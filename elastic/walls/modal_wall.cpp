@@ -34,7 +34,7 @@ struct Posture {
 template <int d>
 class ModalWall final : public ElasticWall<d> {
   using ElasticWall<d>::solid_, ElasticWall<d>::dynamics_, ElasticWall<d>::boundary_, ElasticWall<d>::u_,
-      ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::dt_,
+      ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::drive_, ElasticWall<d>::dt_,
       ElasticWall<d>::at_boundary, ElasticWall<d>::spread;
 
  public:
@@ -52,15 +52,19 @@ class ModalWall final : public ElasticWall<d> {
     arms_ = Eigen::Map<const Field>(solid.mesh().nodes.data(), solid.size()) - solid.uniform(centre);
     now_ = next_ = {centre, Mat<d>::Identity(), Eigen::VectorXd::Zero(count - frame_)};
     rates_ = Eigen::VectorXd::Zero(count);
+    last_slopes_ = Eigen::VectorXd::Zero(squares_.size());
+    last_damping_ = Eigen::VectorXd::Zero(squares_.size());
     between_ = now_.amplitudes;
   }
 
   void start(const Field& velocity) override {
+    if (dynamics_.drive) carrier_ = carrier_of(dynamics_.drive(0));
     const Eigen::MatrixXd P = tangents(now_), MP = solid_.mass() * P;
-    rates_ = (P.transpose() * MP).ldlt().solve(MP.transpose() * velocity);
-    s_ = P * rates_;
+    rates_ = (P.transpose() * MP).ldlt().solve(MP.transpose() * (velocity - solid_.uniform(carrier_)));
+    last_slopes_ = rates_.tail(squares_.size());
+    s_ = P * rates_ + solid_.uniform(carrier_);
   }
-  Field velocity() const override { return tangents(now_) * rates_; }
+  Field velocity() const override { return tangents(now_) * rates_ + solid_.uniform(carrier_); }
   double strain_energy() const override { return 0.5 * squares_.dot(now_.amplitudes.cwiseAbs2()); }
   double strain_energy_between() const override { return 0.5 * squares_.dot(between_.cwiseAbs2()); }
   long iterations() const override { return iterations_; }
@@ -71,6 +75,10 @@ class ModalWall final : public ElasticWall<d> {
     momenta_ = solid_.mass() * tangents_;
     inertia_ = tangents_.transpose() * momenta_;
     known_ = inertia_ * rates_ + tangents_.transpose() * load_;
+    if (drive_.size() > 0) {
+      known_ += momenta_.transpose() * solid_.uniform(carrier_);
+      next_carrier_ = carrier_of(drive_);
+    }
     answers_.resize(boundary_.nodes.size() * d, tangents_.cols());
     for (Eigen::Index k = 0; k < tangents_.cols(); ++k) answers_.col(k) = at_boundary(tangents_.col(k));
   }
@@ -78,6 +86,7 @@ class ModalWall final : public ElasticWall<d> {
   Status move(const Eigen::VectorXd& impulse) override {
     const Eigen::VectorXd goal = known_ + answers_.transpose() * impulse;
     next_ = now_;
+    next_.centre += dt_ * next_carrier_;
     go_on(next_, dt_ * rates_);
     double last = std::numeric_limits<double>::infinity();
     for (int k = 0; k < dynamics_.newton.most; ++k) {
@@ -131,31 +140,57 @@ class ModalWall final : public ElasticWall<d> {
     const Eigen::MatrixXd P = tangents(next_), MP = solid_.mass() * P;
     Eigen::VectorXd momentum = (1 - dynamics_.damping.mass * dt_ / 2) * (MP.transpose() * s_next_);
     momentum.tail(squares_.size()) -= resistance();
+    last_slopes_ = slopes();
+    last_damping_ = damping_of_modes();
+    carrier_ = next_carrier_;
+    last_dt_ = dt_;
+    if (drive_.size() > 0) momentum -= MP.transpose() * solid_.uniform(carrier_);
     rates_ = (P.transpose() * MP).ldlt().solve(momentum);
     between_ = 0.5 * (now_.amplitudes + next_.amplitudes);
     now_ = next_;
     u_ = places(now_) - places_at_rest();
   }
+  double damping_work() const override {
+    const Field mean = 0.5 * (s_ + s_next_);
+    return 0.5 * (last_slopes_ + slopes()).dot(last_damping_ + damping_of_modes()) +
+           dynamics_.damping.mass / 2 * mean.dot(solid_.mass() * (last_dt_ * s_ + dt_ * s_next_));
+  }
+  double drive_work(const Field& impulse) const override {
+    const Field drag = dynamics_.damping.mass / 2 * (last_dt_ * s_ + dt_ * s_next_);
+    const Field lacks = solid_.mass() * (s_next_ - s_ + drag) - load_ - impulse;
+    return lacks.dot(solid_.uniform(0.5 * (carrier_ + next_carrier_)));  // no other force has a resultant
+  }
   void write(std::ostream& out) const override {
-    Field all(d + d * d);
-    all << now_.centre, now_.turn.reshaped();
+    Field all(2 * d + d * d + 1);
+    all << now_.centre, now_.turn.reshaped(), carrier_, last_dt_;
     write_field(out, all);
-    write_field(out, now_.amplitudes);
-    write_field(out, between_);
-    write_field(out, rates_);
+    for (const auto* field : {&now_.amplitudes, &between_, &rates_, &last_slopes_, &last_damping_})
+      write_field(out, *field);
   }
   void read(std::istream& in) override {
-    Field all(d + d * d);
+    Field all(2 * d + d * d + 1);
     read_field(in, all);
     now_.centre = all.template head<d>();
-    now_.turn = all.template tail<d * d>().reshaped(d, d);
-    read_field(in, now_.amplitudes);
-    read_field(in, between_);
-    read_field(in, rates_);
+    now_.turn = all.template segment<d * d>(d).reshaped(d, d);
+    carrier_ = all.template segment<d>(d + d * d);
+    last_dt_ = all[2 * d + d * d];
+    for (auto* field : {&now_.amplitudes, &between_, &rates_, &last_slopes_, &last_damping_}) read_field(in, *field);
     u_ = places(now_) - places_at_rest();
   }
 
  private:
+  /// What moves clamps that all move alike: the mean over held unknowns, axis by axis.
+  Vec<d> carrier_of(const Field& drive) const {
+    Vec<d> sum = Vec<d>::Zero(), count = sum;
+    for (Eigen::Index k = 0; k < drive.size(); ++k)
+      if (solid_.held()[static_cast<std::size_t>(k)]) sum[k % d] += drive[k], count[k % d] += 1;
+    return sum.cwiseQuotient(count.cwiseMax(1));
+  }
+  Eigen::VectorXd slopes() const { return (next_.amplitudes - now_.amplitudes) / dt_; }
+  /// dt/2 beta L dq of the trial.
+  Eigen::VectorXd damping_of_modes() const {
+    return dt_ / 2 * dynamics_.damping.stiffness * squares_.cwiseProduct(slopes());
+  }
   Field places_at_rest() const { return arms_ + solid_.uniform(solid_.centre(Field::Zero(solid_.size()))); }
   Field places(const Posture<d>& posture) const {
     Field x = arms_ + shapes_ * posture.amplitudes;
@@ -202,10 +237,13 @@ class ModalWall final : public ElasticWall<d> {
   int frame_;               // columns of P that belong to it
   Eigen::MatrixXd shapes_;  // of the modes besides
   Eigen::VectorXd squares_;
-  Field arms_;                                              // X - C
-  Posture<d> now_, next_, free_posture_;                    // at t_n, of the trial, of the one without an impulse
-  Eigen::VectorXd between_;                                 // amplitudes in the middle of the last step
-  Eigen::VectorXd rates_;                                   // v_n = P_n times these
+  Field arms_;                            // X - C
+  Posture<d> now_, next_, free_posture_;  // at t_n, of the trial, of the one without an impulse
+  Eigen::VectorXd between_;               // amplitudes in the middle of the last step
+  Eigen::VectorXd rates_;                 // v_n = P_n times these, and the carrier
+  Vec<d> carrier_ = Vec<d>::Zero(), next_carrier_ = Vec<d>::Zero();  // clamps' velocity of the last step, of this one
+  Eigen::VectorXd last_slopes_, last_damping_;                       // of the last step: dq, dt/2 beta L dq
+  double last_dt_ = 0;
   Eigen::MatrixXd tangents_, momenta_, inertia_, answers_;  // P, M P, P^T M P and rows of P on the surface, at t_n
   Eigen::VectorXd known_;
   long iterations_ = 0;

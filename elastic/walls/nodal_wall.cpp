@@ -68,7 +68,7 @@ Sparse part_of(const Sparse& A, const std::vector<Eigen::Index>& rows, Eigen::In
 template <int d>
 class NodalWall final : public ElasticWall<d> {
   using ElasticWall<d>::solid_, ElasticWall<d>::dynamics_, ElasticWall<d>::boundary_, ElasticWall<d>::u_,
-      ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::dt_,
+      ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::drive_, ElasticWall<d>::dt_,
       ElasticWall<d>::at_boundary, ElasticWall<d>::spread;
 
  public:
@@ -95,9 +95,18 @@ class NodalWall final : public ElasticWall<d> {
   void start(const Field& velocity) override {
     s_ = velocity;
     p_ = solid_.mass() * velocity;
-    leave_out(solid_.held(), p_);
+    damped_ = Field::Zero(solid_.size());
+    let_go();
   }
-  Field velocity() const override { return mass_.solve(p_); }
+  Field velocity() const override {
+    if (!dynamics_.drive) return mass_.solve(p_);
+    Field clamps = s_;  // of held unknowns alone
+    for (Eigen::Index k = 0; k < clamps.size(); ++k)
+      if (!is_held(k)) clamps[k] = 0;
+    Field rest = p_ - solid_.mass() * clamps;
+    leave_out(solid_.held(), rest);
+    return mass_.solve(rest) + clamps;
+  }
   double strain_energy() const override { return solid_.strain_energy(u_); }
   double strain_energy_between() const override { return solid_.strain_energy(u_between_); }
   long iterations() const override { return whole_solver_.iterations() + inside_solver_.iterations(); }
@@ -116,6 +125,9 @@ class NodalWall final : public ElasticWall<d> {
 
   Status move(const Eigen::VectorXd& impulse) override {
     Field middle = u_ + dt_ / 2 * s_;
+    if (drive_.size() > 0)
+      for (Eigen::Index k = 0; k < middle.size(); ++k)
+        if (is_held(k)) middle[k] = u_[k] + dt_ / 2 * drive_[k];
     const auto status = whole_solver_.solve(whole_, stage(2 / dt_ * (p_ + load_ + spread(impulse))), damping(), middle);
     s_next_ = 2 / dt_ * (middle - u_);
     return status;
@@ -163,22 +175,42 @@ class NodalWall final : public ElasticWall<d> {
 
   void accept() override {
     p_ = solid_.mass() * s_next_ - resistance();
-    leave_out(solid_.held(), p_);
+    if (const auto* C = damping()) damped_ = dt_ / 2 * (*C * s_next_);
+    let_go();
     u_between_ = u_ + dt_ / 2 * s_next_;
     u_ += dt_ * s_next_;
+  }
+  double damping_work() const override {
+    const Field mean = 0.5 * (s_ + s_next_);
+    const auto* C = damping();
+    return mean.dot(damped_) + (C ? dt_ / 2 * mean.dot(*C * s_next_) : 0.0);
+  }
+  double drive_work(const Field& impulse) const override {
+    const Field rows = solid_.mass() * s_next_ + resistance() - reactions_ - load_ - impulse;
+    double sum = 0;
+    for (Eigen::Index k = 0; k < rows.size(); ++k)
+      if (is_held(k)) sum += 0.5 * (s_[k] + s_next_[k]) * rows[k];
+    return sum;
   }
   void write(std::ostream& out) const override {
     write_field(out, u_);
     write_field(out, u_between_);
-    write_field(out, p_);
+    for (const auto* field : {&p_, &damped_, &reactions_}) write_field(out, *field);
   }
   void read(std::istream& in) override {
     read_field(in, u_);
     read_field(in, u_between_);
-    read_field(in, p_);
+    for (auto* field : {&p_, &damped_, &reactions_}) read_field(in, *field);
   }
 
  private:
+  bool is_held(Eigen::Index k) const { return solid_.held()[static_cast<std::size_t>(k)]; }
+  /// Of p what stands in held rows is what clamps answer for.
+  void let_go() {
+    const Field all = p_;
+    leave_out(solid_.held(), p_);
+    reactions_ = all - p_;
+  }
   const Sparse* damping() const { return C_.nonZeros() > 0 ? &C_ : nullptr; }
   Stage stage(const Field& g) const { return {.mass = 4 / (dt_ * dt_), .damping = 2 / dt_, .p = u_, .q = u_, .g = g}; }
   /// dt/2 (f + C s) of the trial.
@@ -209,6 +241,7 @@ class NodalWall final : public ElasticWall<d> {
   StageSolver whole_solver_, inside_solver_;
   Eigen::SimplicialLDLT<Sparse> mass_, inner_factor_;
   Field p_, free_middle_;
+  Field reactions_ = p_, damped_ = p_;  // held rows of p; dt/2 C s of the last step
   Field u_between_ = Field::Zero(solid_.size());
   Sparse C_, coupling_, tangent_;
   Eigen::MatrixXd shapes_, condensed_;

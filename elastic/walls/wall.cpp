@@ -39,6 +39,7 @@ void ElasticWall<d>::begin(double t, double kick, double dt) {
   dt_ = dt;
   kick_ = kick;
   load_ = kick * dynamics_.load(t);
+  if (dynamics_.drive) drive_ = dynamics_.drive(t + dt / 2);
   begun_ = {};
   prepare();
   free_ = solve(Eigen::VectorXd::Zero(d * static_cast<Eigen::Index>(boundary_.nodes.size())));
@@ -48,6 +49,7 @@ void ElasticWall<d>::begin(double t, double kick, double dt) {
 
 template <int d>
 const Eigen::VectorXd& ElasticWall<d>::solve(const Eigen::VectorXd& impulse) {
+  impulse_ = impulse;
   return tried(move(impulse));
 }
 
@@ -59,6 +61,7 @@ const Eigen::VectorXd& ElasticWall<d>::adopt(const Eigen::VectorXd& velocities) 
 template <int d>
 bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   if (!status_.ok() || !impulse.allFinite()) return false;  // it is refused
+  impulse_ = impulse;
   const Eigen::LDLT<Eigen::MatrixXd> inertia(modal_.inertia);
   const Eigen::VectorXd obeyed = implied();
   const Eigen::VectorXd change = modal_.modes * inertia.solve(modal_.modes.transpose() * impulse - obeyed);
@@ -77,6 +80,8 @@ Status ElasticWall<d>::acceptable() const {
 
 template <int d>
 void ElasticWall<d>::commit() {
+  dissipated_ += damping_work();
+  if (drive_.size() > 0) driven_ += drive_work(spread(impulse_));
   accept();
   a_ = (s_next_ - s_) / kick_;
   s_ = s_next_;
@@ -91,6 +96,7 @@ template <int d>
 void ElasticWall<d>::save(std::ostream& out) const {
   write_field(out, s_);
   write_field(out, a_);
+  write_field(out, Eigen::Vector2d(dissipated_, driven_));
   write(out);
 }
 
@@ -98,6 +104,10 @@ template <int d>
 void ElasticWall<d>::load(std::istream& in) {
   read_field(in, s_);
   read_field(in, a_);
+  Field energies(2);
+  read_field(in, energies);
+  dissipated_ = energies[0];
+  driven_ = energies[1];
   read(in);
 }
 

@@ -11,6 +11,10 @@
 // the exact interface term knows,
 //
 //   M_s = M + dt/2 C + dt^2/4 K.
+//
+// Held unknowns move with what drives them in the middle of the step, or stay. Energies of a kick, with the mean s' of the
+// velocities of the steps before and after it: damping takes s'.(D_before + D), D = dt/2 C s, and what drives the held unknowns
+// gives s'.R over them, R being what their rows of the equations above lack.
 #pragma once
 
 #include <iosfwd>
@@ -69,6 +73,10 @@ class ElasticWall {
   double kinetic_energy_between() const { return 0.5 * s_.dot(solid_.mass() * s_); }
   /// U in the middle of the last step [J, J/m].
   virtual double strain_energy_between() const = 0;
+  /// What damping has taken of the body so far [J, J/m].
+  double dissipated() const { return dissipated_; }
+  /// What moving clamps have given it so far [J, J/m].
+  double driven() const { return driven_; }
   /// Newton iterations so far.
   virtual long iterations() const = 0;
   void save(std::ostream& out) const;  ///< the state at t_n, bit for bit
@@ -88,6 +96,10 @@ class ElasticWall {
   virtual Eigen::VectorXd implied() const = 0;
   /// Makes the trial the present.
   virtual void accept() = 0;
+  /// What the damping of the trial's step takes in its kick, and that of the step before [J, J/m].
+  virtual double damping_work() const = 0;
+  /// What moves the held unknowns gives in the trial's kick, under the impulse on all nodes [J, J/m].
+  virtual double drive_work(const Field& impulse) const = 0;
   /// What a kind of wall adds to the state.
   virtual void write(std::ostream& out) const = 0;
   /// The same read back.
@@ -104,13 +116,15 @@ class ElasticWall {
   Field u_, s_, a_;  // displacements at t_n; velocities of the last step and their rate
   Field s_next_;     // of the trial; displacements are u_ + dt s_next_
   Field load_;       // kick F(t_n)
+  Field drive_;      // velocities of held unknowns in the step, zero for others; empty: none moves
   double dt_ = 0, kick_ = 0;
 
  private:
   const Eigen::VectorXd& tried(const Status& status);
 
   ModalInertia modal_;
-  Eigen::VectorXd free_, trial_;
+  Eigen::VectorXd free_, trial_, impulse_;
+  double dissipated_ = 0, driven_ = 0;
   Status begun_, status_;
 };
 

@@ -16,6 +16,8 @@ struct ElasticClamp {
   std::optional<Point> centre;
   std::optional<double> radius;
   std::optional<Point> min, max;
+  std::vector<std::string> axes;              ///< of the world, along which it holds; empty: all
+  std::vector<std::vector<double>> velocity;  ///< rows of a time and components [m/s]; empty: it stays
 };
 
 struct ElasticPoint {
@@ -72,6 +74,7 @@ class ElasticKind final : public EffectOf<ElasticKind, ElasticTables> {
   bool knows_no_mesh() const override { return true; }  // its own rule speaks of all fluids
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
+  void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
   std::vector<NamedNumber> numbers(const Scene& scene) const override;
 

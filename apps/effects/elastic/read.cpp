@@ -89,6 +89,11 @@ void read_clamp(Reader& reader, ElasticClamp& clamp, int dimension) {
   reader.number("radius", clamp.radius, positive("m", "Use e.g. the radius of a bolt."));
   reader.point("min", clamp.min, place);
   reader.point("max", clamp.max, place);
+  const bool plane = dimension == 2;
+  reader.choices("axes", clamp.axes, plane ? Reader::Names{"x", "y"} : Reader::Names{"x", "y", "z"});
+  reader.curve("velocity", clamp.velocity, plane ? 3 : 4,
+               any("m/s", plane ? "Use [0.0, -30.0], or rows of a time and two components: [[0, 0, 0], [0.1, 0, -2]]."
+                                : "Use [0.0, 0.0, -30.0], or rows of a time and three components."));
   auto& problems = reader.context().problems;
   if (reader.context().sketch || problems.found_in(reader.path())) return;
   if ((clamp.centre && clamp.radius && !clamp.min && !clamp.max) ||

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "apps/effects/elastic/clamps.hpp"
 #include "apps/effects/elastic/elastic.hpp"
 #include "apps/effects/elastic/solid.hpp"
 #include "apps/effects/force/force.hpp"
@@ -81,37 +82,6 @@ void check_forces(const Scene& scene, const ElasticTable& table, const auto& lie
 }
 
 template <int d>
-void check_clamps(const ElasticTable& table, const elastic::SolidMesh<d>& mesh, Problems& problems) {
-  const double roundoff = 1e-9 * elastic::extent(mesh);
-  std::vector<bool> held(static_cast<std::size_t>(mesh.size()), false);
-  for (std::size_t k = 0; k < table.clamps.size(); ++k) {
-    bool holds = false;
-    for (int a = 0; a < mesh.size(); ++a)
-      if (covers(table.clamps[k], in_space<d>(mesh.nodes.col(a)), roundoff))
-        held[static_cast<std::size_t>(a)] = holds = true;
-    if (!holds)
-      problems.add(fmt::format("{}.clamp[{}]", table.path, k), "holds nothing: no node of the mesh lies there",
-                   "Move or enlarge it (shape's frame), or use smaller elements.");
-  }
-  const auto free = std::ranges::count(held, false);
-  if (free == 0)
-    problems.add(table.path + ".clamp", "holds the whole body", "Make it smaller, or make the body rigid.");
-  else if (table.modes >= d * free)
-    problems.add(table.path + ".modes", fmt::format("must be below {}, the free unknowns of the mesh", d * free),
-                 "Ask for fewer, or use smaller elements.");
-  const bool is_held = static_cast<std::size_t>(free) < held.size();
-  const int fewest = is_held ? 1 : freedoms<d>;
-  if (table.coordinates == "modes" && table.modes < fewest)
-    problems.add(table.path + ".modes",
-                 fmt::format("must be {} at least with coordinates = \"modes\"{}", fewest,
-                             is_held ? "" : ": a body that nothing holds has so many rigid ones"),
-                 "Use e.g. 20, or coordinates = \"nodes\".");
-  if (table.scheme == "steady" && !is_held)
-    problems.add(table.path + ".scheme", "a body that nothing holds has no equilibrium",
-                 "Add a clamp, or change the scheme.");
-}
-
-template <int d>
 void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problems) {
   const auto& body = scene.bodies[table.body];
   const auto label = label_of(table);
@@ -137,7 +107,7 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
                     (drawn.max() - box.max()).cwiseAbs().maxCoeff() > same * box.sizes().maxCoeff()))
     return problems.add(key, fmt::format("the mesh spans {} m, the shape {} m", text<d>(drawn), text<d>(box)),
                         "Draw both in the same frame; mesh.scale is metres per unit of the file.");
-  check_clamps<d>(table, mesh, problems);
+  check_clamps<d>(scene, table, mesh, problems);
   const auto lies_in = [&](const Point& point) { return place_in<d>(mesh, point).has_value(); };
   check_forces(scene, table, lies_in, problems);
   const std::string rule = "is not in the body", cure = "Move it into the undeformed body, in the shape's frame.";
@@ -199,6 +169,20 @@ std::vector<NamedNumber> ElasticKind::numbers(const Scene& scene) const {
                    .body = name});
   }
   return all;
+}
+
+void ElasticKind::ask(const AskedScene& asked, std::vector<std::string>& questions) const {
+  const auto* tables = asked.scene.effects.find<ElasticTables>();
+  if (!tables || !asked.scene.has_fluid()) return;
+  constexpr double coarse = 4;  // parts of a facet in which loads vary, but pressures do not
+  for (const auto& table : tables->of_bodies) {
+    const auto& body = asked.scene.bodies[table.body];
+    if (table.size > 0 && body.size > coarse * table.size)
+      questions.push_back(fmt::format(
+          "{}.size = {:g} m: the water's elements are {:.2g} times those of the body that bends, {:g} m: did you mean "
+          "{:.2g}? Loads would know nothing of what the body's elements resolve",
+          label_of(table), body.size, body.size / table.size, table.size, table.size));
+  }
 }
 
 std::optional<EffectNote> ElasticKind::note(const Scene& scene, const Scales&) const {

@@ -1,5 +1,6 @@
 #include "apps/effects/elastic/solid.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
@@ -93,6 +94,37 @@ std::function<Field(double)> forces_of(const Scene& scene, std::size_t body, con
   };
 }
 
+/// Of all clamps of a body that move.
+template <int d>
+std::function<Field(double)> drive_of(const ElasticTable& table, const elastic::SolidMesh<d>& mesh) {
+  struct Pull {
+    rigid::Curve<d> velocity;
+    std::vector<Eigen::Index> unknowns;
+  };
+  std::vector<Pull> pulls;
+  const double roundoff = 1e-9 * elastic::extent(mesh);
+  for (const auto& clamp : table.clamps) {
+    if (clamp.velocity.empty()) continue;
+    std::vector<typename rigid::Curve<d>::Row> rows;
+    for (const auto& row : clamp.velocity)
+      rows.push_back({row[0], Eigen::Map<const Eigen::Matrix<double, d, 1>>(row.data() + 1)});
+    auto& pull = pulls.emplace_back(Pull{rigid::Curve<d>(std::move(rows)), {}});
+    for (int a = 0; a < mesh.size(); ++a)
+      if (covers(clamp, in_space<d>(mesh.nodes.col(a)), roundoff))
+        for (int k = 0; k < d; ++k)
+          if (holds(clamp, k)) pull.unknowns.push_back(d * a + k);
+  }
+  if (pulls.empty()) return {};
+  return [pulls, size = d * mesh.size()](double t) {
+    Field all = Field::Zero(size);
+    for (const auto& pull : pulls) {
+      const auto velocity = pull.velocity.at(t);
+      for (const auto i : pull.unknowns) all[i] = velocity[i % d];
+    }
+    return all;
+  };
+}
+
 /// As it is at t = 0.
 template <int d>
 elastic::SolidMesh<d> in_world(const Body& body, elastic::SolidMesh<d> mesh) {
@@ -112,7 +144,8 @@ std::unique_ptr<elastic::Solid<d>> made(const Body& body, const ElasticTable& ta
   for (int a = 0; a < mesh.size(); ++a)
     for (const auto& clamp : table.clamps)
       if (covers(clamp, in_space<d>(mesh.nodes.col(a)), roundoff))
-        for (int k = 0; k < d; ++k) solid->hold(d * a + k);
+        for (int k = 0; k < d; ++k)
+          if (holds(clamp, k)) solid->hold(d * a + k);
   for (const auto& part : table.point_masses) solid->add_point_mass(*place_in<d>(mesh, part.point), part.mass);
   return solid;
 }
@@ -125,6 +158,10 @@ std::vector<std::string> elastic_laws() {
   return names;
 }
 std::vector<std::string> elastic_schemes() { return names_of(scheme_rows()); }
+
+bool holds(const ElasticClamp& clamp, int axis) {
+  return clamp.axes.empty() || std::ranges::find(clamp.axes, std::string(1, "xyz"[axis])) != clamp.axes.end();
+}
 
 bool covers(const ElasticClamp& clamp, const Point& point, double roundoff) {
   if (clamp.centre) return (point - *clamp.centre).norm() <= *clamp.radius + roundoff;
@@ -194,6 +231,7 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
     spec.damping = {table.mass_damping, table.stiffness_damping.value_or(none)};
     if (scene.has_fluid()) spec.wall = elastic::WallChoice{table.coordinates == "modes" ? table.modes : 0};
     if (scene.gravity) spec.gravity = vec<d>(scene.gravity->acceleration);
+    spec.drive = drive_of<d>(table, mesh);
     spec.forces = forces_of<d>(scene, table.body, *spec.solid, mesh);
     for (const auto& point : table.points) spec.points.push_back({point.name, *place_in<d>(mesh, point.point)});
   }

@@ -28,6 +28,8 @@ template <int d>
 std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticTable& table);
 /// Whether a clamp covers a point of the shape's frame, but for roundoff.
 bool covers(const ElasticClamp& clamp, const Point& point, double roundoff);
+/// Whether a clamp holds what it covers along an axis of the world.
+bool holds(const ElasticClamp& clamp, int axis);
 /// The place of a point of the shape's frame in the mesh; within a thousandth of the extent beside it.
 template <int d>
 std::optional<elastic::Place<d>> place_in(const elastic::SolidMesh<d>& mesh, const Point& point);

@@ -96,7 +96,8 @@ void write_row(CsvFile& file, const ElasticRow<d>& row) {
   const auto& now = row.now;
   std::array<double, 3> at{};
   for (int k = 0; k < d; ++k) at[static_cast<std::size_t>(k)] = now.at(k);
-  file << row.time << row.body << now.strain_energy << now.kinetic_energy << now.potential_energy << now.von_mises;
+  file << row.time << row.body << now.strain_energy << now.kinetic_energy << now.potential_energy << now.dissipated
+       << now.clamp_work << now.von_mises;
   put(file, at);
   file.end_row();
 }

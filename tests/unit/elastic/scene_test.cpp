@@ -6,6 +6,7 @@
 
 #include "apps/build/build.hpp"
 #include "apps/effects/elastic/elastic.hpp"
+#include "apps/effects/elastic/solid.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/scales.hpp"
 #include "elastic/participant.hpp"
@@ -185,6 +186,12 @@ const std::vector<Mistake> mistakes = {
      "body.beam.elastic.clamp[0]", "holds nothing"},
     {"holds_everything", "max = [-0.5, 0.05]", "max = [0.5, 0.05]", 16, "body.beam.elastic.clamp",
      "holds the whole body"},
+    {"moves_in_no_fluid", "max = [-0.5, 0.05]", "max = [-0.5, 0.05], velocity = [0, 1]", 16,
+     "body.beam.elastic.clamp[0].velocity", "meets no fluid"},
+    {"holds_along_no_axis", "max = [-0.5, 0.05]", "max = [-0.5, 0.05], axes = [\"z\"]", 16,
+     "body.beam.elastic.clamp[0].axes", "\"y\""},
+    {"slides_on_its_clamp", "max = [-0.5, 0.05]}]", "max = [-0.5, 0.05], axes = [\"x\"]}]\ncoordinates = \"modes\"", 16,
+     "body.beam.elastic.clamp", "leaves 1 of 3 rigid motions"},
     {"half_a_clamp", "max = [-0.5, 0.05]", "radius = 1", 16, "body.beam.elastic.clamp[0]", "says not what is held"},
     {"modes_beyond_the_mesh", "modes = 2", "modes = 1000", 19, "body.beam.elastic.modes = 1000", "must be below"},
     {"point_outside", "point = [0.5, 0]}]", "point = [0.6, 0]}]", 17, "body.beam.elastic.point.tip",
@@ -214,6 +221,69 @@ const std::vector<Mistake> mistakes = {
     {"no_such_mesh", "size = 0.1", "mesh = {file = \"none.msh\"}", 15, "body.beam.elastic.mesh", "none.msh"},
 };
 INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticScene, ::testing::ValuesIn(mistakes),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// The beam above water.
+const std::string wet = testing::replaced(testing::replaced(beam, "[gravity]", R"([tank]
+min = [-9, -9]
+max = [9, 9]
+[fluid]
+density = 1000
+[fluid.size]
+surface = 1
+far = 1
+[[fluid.region]]
+shape = "box"
+min = [-9, -9]
+max = [9, 0]
+[gravity])"),
+                                          "position = [1, 2]", "position = [1, 2]\nsize = 0.1");
+const std::string moves = "max = [-0.5, 0.05], velocity = [[0, 0, 0], [1, 0, -2]]";
+std::string wet_with(const std::string& from, const std::string& to) { return testing::replaced(wet, from, to); }
+
+TEST(ElasticScene, has_clamps_that_hold_along_axes_and_move) {
+  const auto scene = scene_of(wet_with("max = [-0.5, 0.05]", moves + ", axes = [\"x\", \"y\"]"));
+  const auto& clamp = scene.effects.find<ElasticTables>()->of_bodies.at(0).clamps.at(0);
+  EXPECT_EQ(clamp.axes, (std::vector<std::string>{"x", "y"}));
+  const auto specs = solid_specs<2>(scene);
+  const auto& held = specs.at(0).solid->held();
+  const elastic::Field drive = specs.at(0).drive(0.5);
+  for (Eigen::Index k = 0; k < drive.size(); ++k)
+    EXPECT_EQ(drive[k], held[static_cast<std::size_t>(k)] && k % 2 == 1 ? -1 : 0) << k;
+  const auto roller = solid_specs<2>(scene_of(wet_with("max = [-0.5, 0.05]", "max = [-0.5, 0.05], axes = [\"y\"]")));
+  for (std::size_t k = 0; k < held.size(); ++k) EXPECT_EQ(roller.at(0).solid->held()[k], held[k] && k % 2 == 1) << k;
+  EXPECT_FALSE(roller.at(0).drive) << "it stays";
+}
+
+TEST(ElasticScene, asks_about_water_far_coarser_than_the_body) {
+  std::vector<std::string> questions;
+  const auto ask = [&](const std::string& text) {
+    questions.clear();
+    const auto scene = scene_of(text);
+    ElasticKind().ask({.scene = scene, .level = {}}, questions);
+    return questions.size();
+  };
+  EXPECT_EQ(ask(wet), 0u);
+  EXPECT_EQ(ask(wet_with("position = [1, 2]\nsize = 0.1", "position = [1, 2]\nsize = 0.5")), 1u);
+  EXPECT_TRUE(questions.at(0).starts_with("body.beam.size = 0.5 m")) << questions.at(0);
+  EXPECT_EQ(ask(beam), 0u) << "there is no water";
+}
+
+class BadWetElasticScene : public ::testing::TestWithParam<Mistake> {};
+TEST_P(BadWetElasticScene, is_refused_with_place_rule_and_cure) {
+  const auto& bad = GetParam();
+  testing::expect_refused(wet_with(bad.from, bad.to), bad);
+}
+const std::vector<Mistake> wet_mistakes = {
+    {"slips_along_its_motion", "max = [-0.5, 0.05]", "max = [-0.5, 0.05], velocity = [0, 1], axes = [\"x\"]", 29,
+     "body.beam.elastic.clamp[0].velocity", "moves along y, along which"},
+    {"is_torn", "max = [-0.5, 0.05]}", "max = [-0.5, 0.05]}, {centre = [-0.5, 0], radius = 0.01, velocity = [0, 1]}",
+     29, "body.beam.elastic.clamp[1].velocity", "moves the same nodes differently"},
+    {"modes_of_two_motions", "max = [-0.5, 0.05]}]",
+     "max = [-0.5, 0.05]}, {centre = [0.5, 0], radius = 0.06, velocity = [0, 1]}]\ncoordinates = \"modes\"", 29,
+     "body.beam.elastic.clamp[1].velocity", "modes know one motion"},
+};
+INSTANTIATE_TEST_SUITE_P(Elastic, BadWetElasticScene, ::testing::ValuesIn(wet_mistakes),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

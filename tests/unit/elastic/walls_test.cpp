@@ -69,6 +69,7 @@ struct Made {
   Vec<d> gravity = Vec<d>::Zero();
   Twist<d> velocity = Twist<d>::Zero();
   Rayleigh damping = {};
+  std::function<Vec<d>(double)> drive = {};  ///< velocity of what is clamped
 
   std::unique_ptr<Solid<d>> solid() const {
     const Isotropic moduli{young_modulus, 0.33};
@@ -87,6 +88,13 @@ struct Made {
     spec.gravity = gravity;
     spec.damping = damping;
     spec.wall = WallChoice{modes};
+    if (drive)
+      spec.drive = [move = drive, held = spec.solid->held()](double t) {
+        Field all = Field::Zero(static_cast<Eigen::Index>(held.size()));
+        for (std::size_t k = 0; k < held.size(); ++k)
+          if (held[k]) all[static_cast<Eigen::Index>(k)] = move(t)[static_cast<Eigen::Index>(k) % d];
+        return all;
+      };
     return std::make_unique<Participant<d>>(std::move(specs));
   }
 };
@@ -110,6 +118,67 @@ std::unique_ptr<Water> water_for(const coupling::StructurePart& body, double hea
   water->rest = water->state().place = body.placement();
   if (goes_along) water->state().rate = body.velocities();
   return water;
+}
+
+/// Pushes the surface step by step, with steps of different lengths; looks at the body after each.
+template <int d>
+void push_on(Participant<d>& body, int steps, double dt, const std::function<Vector(double)>& force,
+             const std::function<void(double work, double t)>& look, bool same = false) {
+  double last = 0, t = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double length = !same && k % 3 == 0 ? 0.7 * dt : dt, kick = (last + length) / 2;
+    const Vector before = body.velocities(), impulse = kick * force(t);
+    body.begin({.kick = kick, .dt = length});
+    body.solve(impulse);
+    ASSERT_TRUE(body.acceptable().ok()) << body.acceptable().cause;
+    body.commit();
+    t += length;
+    last = length;
+    look(0.5 * impulse.dot(before + body.velocities()), t);
+  }
+}
+
+TEST(ElasticWall, with_clamps_that_move_is_the_one_at_rest_seen_from_a_train) {
+  const Vec<2> train(0.3, -0.2);
+  for (const bool linear : {true, false})
+    for (const int modes : {all_nodes, 6}) {
+      Made<2> made{.linear = linear, .clamped = true, .modes = modes, .gravity = {0.002, -0.01}, .damping = {0, 0.05}};
+      const auto at_rest = made.part();
+      made.drive = [&](double) { return train; };
+      made.velocity << train, 0;
+      const auto moving = made.part();
+      const auto force = [&](double t) -> Vector { return 1e-3 * std::sin(t) * Vector::Ones(moving->scales().size()); };
+      double end = 0;
+      push_on<2>(*at_rest, 30, 0.3, force, [](double, double) {});
+      push_on<2>(*moving, 30, 0.3, force, [&](double, double t) { end = t; });
+      const auto solid = made.solid();
+      const Field u = at_rest->motion(0).u, v = at_rest->motion(0).v;
+      EXPECT_GT(u.cwiseAbs().maxCoeff(), 1e-2);
+      EXPECT_LT((moving->motion(0).u - solid->uniform(end * train) - u).norm(), 1e-9 * u.norm()) << linear << modes;
+      EXPECT_LT((moving->motion(0).v - solid->uniform(train) - v).norm(), 1e-8 * v.norm()) << linear << modes;
+    }
+}
+
+/// Strain, motion and what damping has taken are what loads and clamps have given, kick by kick.
+TEST(ElasticWall, of_a_linear_body_accounts_for_damping_and_for_what_clamps_give) {
+  for (const int modes : {all_nodes, 6})
+    for (const bool shaken : {true, false}) {
+      Made<2> made{.linear = true, .clamped = true, .modes = modes, .damping = {0.03, 0.2}};
+      if (shaken) made.drive = [](double t) { return Vec<2>(0.02 * t, 0.1 * std::sin(t)); };
+      const auto body = made.part();
+      const auto force = [&](double t) -> Vector { return 1e-2 * std::cos(t) * Vector::Ones(body->scales().size()); };
+      double given = 0, most = 0, off = 0;
+      const auto look = [&](double work, double) {
+        given += work;
+        const auto now = body->deformation(0);
+        most = std::max(most, now.strain_energy + now.kinetic_energy);
+        off = std::max(off, std::abs(now.strain_energy + now.kinetic_energy + now.dissipated - now.clamp_work - given));
+      };
+      push_on<2>(*body, 60, 0.3, force, look, true);
+      EXPECT_LT(off, 1e-9 * most) << modes << shaken;
+      EXPECT_GT(body->deformation(0).dissipated, 0.05 * most);
+      EXPECT_EQ(body->deformation(0).clamp_work != 0, shaken);
+    }
 }
 
 /// A stepper and what is in it.
