@@ -46,6 +46,7 @@ class Solid final : public System {
   /// The force of a step from `before` through `middle` (Law::stress_between) [N, N/m].
   Field force_between(const Field& before, const Field& middle) const;
   void stiffness(const Field& u, Sparse& K) const override;
+  bool linear() const override { return law_->linear(); }
   double strain_energy(const Field& u) const override;
   double length() const override { return length_; }
 
@@ -71,6 +72,8 @@ class Solid final : public System {
   double total_mass() const;                 ///< point masses included [kg, kg/m]
   Vec<d> centre(const Field& u) const;       ///< of mass [m]
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
+  /// Green's strain (F^T F - 1)/2 at a point.
+  Mat<d> strain(const Field& u, const Place<d>& place) const;
   /// Cauchy's stress at a point [Pa].
   Mat<3> stress(const Field& u, const Place<d>& place) const;
   /// Cauchy's stress at all nodes, mean of the elements around them [Pa].
@@ -96,6 +99,7 @@ class Solid final : public System {
   Field force_of(const Stress& stress) const;
   void make_pattern();
   void assemble_mass(double density);
+  void assemble_stiffness(const Field& u, Sparse& K) const;
   template <class Add>
   void add_cell(std::size_t cell, Sparse& matrix, const Add& block) const;
 
@@ -104,6 +108,7 @@ class Solid final : public System {
   double length_;
   std::vector<Point> points_;  // of all cells in turn
   Sparse mass_;
+  Sparse constant_;         // K of a linear law, else empty
   std::vector<int> first_;  // of values: for each cell, nodes a and b and column k of b the row of a
 };
 

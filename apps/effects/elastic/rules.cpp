@@ -37,6 +37,10 @@ void check_company(const Scene& scene, const ElasticTables& tables, Problems& pr
                  "Remove the table for a rigid body, or formulation for a fluid of finite elements.");
   if (scene.has_fluid())
     for (const auto& table : tables.of_bodies)
+      if (table.start != "undeformed")
+        problems.add(table.path + ".start", "in a fluid a body begins undeformed", "Remove it.");
+  if (scene.has_fluid())
+    for (const auto& table : tables.of_bodies)
       if (problems.noted(table.path + ".scheme"))
         problems.add(table.path + ".scheme",
                      "in a fluid a body takes the fluid's steps, by kicks and the midpoint rule", "Remove it.");
@@ -109,6 +113,16 @@ void check_clamps(const ElasticTable& table, const elastic::SolidMesh<d>& mesh, 
   if (table.scheme == "steady" && !is_held)
     problems.add(table.path + ".scheme", "a body that nothing holds has no equilibrium",
                  "Add a clamp, or change the scheme.");
+  if (table.start == "equilibrium" && !is_held)
+    problems.add(table.path + ".start", "a body that nothing holds has no equilibrium", "Add a clamp, or remove it.");
+}
+
+template <int d>
+void check_patches(const ElasticTable& table, const elastic::SolidMesh<d>& mesh, Problems& problems) {
+  for (std::size_t k = 0; k < table.patches.size(); ++k)
+    if (!meets_boundary<d>(table.patches[k], mesh))
+      problems.add(fmt::format("{}.patch[{}]", table.path, k), "loads nothing: no part of the boundary lies there",
+                   "Move or enlarge it (shape's frame); a piezo's middle lies on the boundary.");
 }
 
 template <int d>
@@ -138,6 +152,7 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
     return problems.add(key, fmt::format("the mesh spans {} m, the shape {} m", text<d>(drawn), text<d>(box)),
                         "Draw both in the same frame; mesh.scale is metres per unit of the file.");
   check_clamps<d>(table, mesh, problems);
+  check_patches<d>(table, mesh, problems);
   const auto lies_in = [&](const Point& point) { return place_in<d>(mesh, point).has_value(); };
   check_forces(scene, table, lies_in, problems);
   const std::string rule = "is not in the body", cure = "Move it into the undeformed body, in the shape's frame.";
@@ -145,7 +160,7 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
     if (!lies_in(table.point_masses[k].point))
       problems.add(fmt::format("{}.point_mass[{}].point", table.path, k), rule, cure);
   for (const auto& point : table.points)
-    if (!lies_in(point.point)) problems.add(table.path + ".point." + point.name, rule, cure);
+    if (!lies_in(point.point)) problems.add(point.path, rule, cure);
 }
 
 template <int d>
