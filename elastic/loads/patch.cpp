@@ -47,35 +47,34 @@ std::vector<RulePoint<2>> points_of_parts<3>() {
 inline Vec<2> area_along(const Eigen::Matrix<double, 2, 1>& along) { return {along.y(), -along.x()}; }
 inline Vec<3> area_along(const Eigen::Matrix<double, 3, 2>& along) { return 0.5 * along.col(0).cross(along.col(1)); }
 
-/// `each(facet, shape functions, place, area vector)` at all points on the patch.
-template <int d, class Each>
-void at_points(const SolidMesh<d>& mesh, const OnPatch<d>& on, const Each& each) {
+/// `each(facet, shape functions, place, area vector)` at all points where `on(place, normal)` holds.
+template <int d, class On, class Each>
+void at_points(const SolidMesh<d>& mesh, const On& on, const Each& each) {
   const auto points = points_of_parts<d>();
   for (const auto& facet : mesh.facets)
     for (const auto& point : points) {
       const auto N = shapes<d - 1>(point.at);
-      Vec<d> X = Vec<d>::Zero();
-      for (int a = 0; a < facet_nodes<d>; ++a) X += N[a] * mesh.nodes.col(facet[a]);
-      if (!on(X)) continue;
       const auto slopes = shape_slopes<d - 1>(point.at);
+      Vec<d> X = Vec<d>::Zero();
       Eigen::Matrix<double, d, d - 1> along = decltype(along)::Zero();
-      for (int a = 0; a < facet_nodes<d>; ++a) along += mesh.nodes.col(facet[a]) * slopes.col(a).transpose();
-      each(facet, N, X, Vec<d>(point.weight * area_along(along)));
+      for (int a = 0; a < facet_nodes<d>; ++a) {
+        X += N[a] * mesh.nodes.col(facet[a]);
+        along += mesh.nodes.col(facet[a]) * slopes.col(a).transpose();
+      }
+      const Vec<d> area = point.weight * area_along(along);
+      if (on(X, area.normalized())) each(facet, N, X, area);
     }
 }
 
-}  // namespace
-
-template <int d>
-double patch_area(const SolidMesh<d>& mesh, const OnPatch<d>& on) {
+template <int d, class On>
+double area_where(const SolidMesh<d>& mesh, const On& on) {
   double sum = 0;
   at_points<d>(mesh, on, [&](const auto&, const auto&, const Vec<d>&, const Vec<d>& area) { sum += area.norm(); });
   return sum;
 }
 
-template <int d>
-Field patch_force(const SolidMesh<d>& mesh, const OnPatch<d>& on,
-                  const std::function<Vec<d>(const Vec<d>&, const Vec<d>&)>& traction) {
+template <int d, class On, class Traction>
+Field force_where(const SolidMesh<d>& mesh, const On& on, const Traction& traction) {
   Field F = Field::Zero(d * mesh.size());
   at_points<d>(mesh, on, [&](const auto& facet, const auto& N, const Vec<d>& X, const Vec<d>& area) {
     const Vec<d> force = area.norm() * traction(X, area.normalized());
@@ -85,17 +84,37 @@ Field patch_force(const SolidMesh<d>& mesh, const OnPatch<d>& on,
 }
 
 template <int d>
+auto whatever_normal(const OnPatch<d>& on) {
+  return [&on](const Vec<d>& X, const Vec<d>&) { return on(X); };
+}
+
+}  // namespace
+
+template <int d>
+double patch_area(const SolidMesh<d>& mesh, const OnPatch<d>& on) {
+  return area_where<d>(mesh, whatever_normal<d>(on));
+}
+
+template <int d>
+Field patch_force(const SolidMesh<d>& mesh, const OnPatch<d>& on,
+                  const std::function<Vec<d>(const Vec<d>&, const Vec<d>&)>& traction) {
+  return force_where<d>(mesh, whatever_normal<d>(on), traction);
+}
+
+template <int d>
 Field stretch_force(const SolidMesh<d>& mesh, const Vec<d>& centre, double radius) {
-  constexpr double rim = 0.1;  // of the radius: less than a wave sees, more than a part of a facet
-  const auto on_rim = [&](const Vec<d>& X) {
-    const double away = (X - centre).norm();
-    return away <= radius && away >= (1 - rim) * radius;
+  constexpr double rim = 0.1;   // of the radius: less than a wave sees, more than a part of a facet
+  constexpr double side = 0.3;  // sine of 17 degrees: curvature under a disc, not the other side of a thin plate
+  const auto on_rim = [&](const Vec<d>& X, const Vec<d>& normal) {
+    const Vec<d> out = X - centre;
+    const double away = out.norm();
+    return away <= radius && away >= (1 - rim) * radius && std::abs(out.dot(normal)) <= side * away;
   };
-  const double area = patch_area<d>(mesh, on_rim);
+  const double area = area_where<d>(mesh, on_rim);
   if (!(area > 0)) return Field::Zero(d * mesh.size());
   // As much in all as a unit along the rim: two ends in the plane, a circle in space.
   const double edge = d == 3 ? 2 * std::numbers::pi * radius : 2;
-  return patch_force<d>(mesh, on_rim, [&](const Vec<d>& X, const Vec<d>& normal) -> Vec<d> {
+  return force_where<d>(mesh, on_rim, [&](const Vec<d>& X, const Vec<d>& normal) -> Vec<d> {
     const Vec<d> out = X - centre, along = out - out.dot(normal) * normal;
     return edge / area * along.normalized();
   });
