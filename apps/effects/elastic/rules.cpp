@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "apps/effects/elastic/elastic.hpp"
@@ -52,6 +53,15 @@ void check_company(const Scene& scene, const ElasticTables& tables, Problems& pr
   for (const auto* kind : effect_kinds())
     if (kind->present(scene) && !meets_elastic(kind->name()))
       problems.add(std::string(kind->name()), "does not act on elastic bodies", "Remove the table.");
+}
+
+/// Of the rows of probes.csv.
+void check_names(const ElasticTables& tables, Problems& problems) {
+  std::set<std::string> names, told;
+  for (const auto& table : tables.of_bodies)
+    for (const auto& point : table.points)
+      if (!names.insert(point.name).second && told.insert(point.path).second)
+        problems.add(point.path, "is taken by another point", "Give every point its own name.");
 }
 
 /// Keys of [[body]] that rigid bodies have.
@@ -198,6 +208,7 @@ void ElasticKind::check(const Scene& scene, Problems& problems) const {
   const auto* tables = scene.effects.find<ElasticTables>();
   if (!tables) return;
   check_company(scene, *tables, problems);
+  check_names(*tables, problems);
   for (const auto& table : tables->of_bodies)
     scene.dimension == 2 ? check_table<2>(scene, table, problems) : check_table<3>(scene, table, problems);
 }
