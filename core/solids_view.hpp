@@ -41,8 +41,9 @@ class SolidsView : public BodiesView<d> {
   virtual const Twist<d>& acceleration_n(std::size_t body) const = 0;  ///< at t_n: their rates, likewise
   virtual Deformation<d> deformation(std::size_t body) const = 0;      ///< at t_n
   virtual DeformedSurface<d> deformed(std::size_t body) const = 0;     ///< at t_n
-  /// Displacements of named points at t_n, NAME.ux and so on [m], always of the same names.
-  virtual std::vector<Diagnostic> displacements() const = 0;
+  /// Of named points at t_n, what is looked at there, always of the same names: NAME.ux displacement [m], NAME.vx velocity
+  /// [m/s], NAME.ax acceleration [m/s^2], NAME.exx Green's strain, all along the world's axes.
+  virtual std::vector<Diagnostic> signals() const = 0;
 };
 
 }  // namespace splashdown

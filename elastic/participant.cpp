@@ -69,6 +69,29 @@ Mat<d> rotation_of(const Solid<d>& solid, const Field& u) {
   return svd.matrixU() * turn * svd.matrixV().transpose();
 }
 
+/// NAME.ux, NAME.exy and so on.
+template <int d>
+void add_signal(const Solid<d>& solid, const SolidState& now, const NamedPlace<d>& point, PointSignal signal,
+                std::vector<Diagnostic>& all) {
+  constexpr const char* axes = "xyz";
+  const auto vector = [&](const Field& field, char letter) {
+    const Vec<d> value = solid.value(field, point.place);
+    for (int k = 0; k < d; ++k) all.push_back({point.name + "." + letter + axes[k], value[k]});
+  };
+  switch (signal) {
+    case PointSignal::displacement:
+      return vector(now.u, 'u');
+    case PointSignal::velocity:
+      return vector(now.v, 'v');
+    case PointSignal::acceleration:
+      return vector(now.a, 'a');
+    case PointSignal::strain:
+      const Mat<d> E = solid.strain(now.u, point.place);
+      for (int i = 0; i < d; ++i)
+        for (int k = i; k < d; ++k) all.push_back({point.name + ".e" + axes[i] + axes[k], E(i, k)});
+  }
+}
+
 }  // namespace
 
 template <int d>
@@ -116,10 +139,20 @@ void Participant<d>::start(Moving& body) {
     body.wall = modes > 0 ? modal_wall<d>(solid, dynamics, modes) : nodal_wall<d>(solid, dynamics);
     body.wall->start(body.now.v);
   } else {
+    if (body.spec.from_equilibrium) settle(body, dynamics);
     body.scheme = body.spec.scheme(dynamics);
     if (const auto status = body.scheme->accelerate(body.now); !status.ok()) throw std::invalid_argument(status.cause);
   }
   look(body);
+}
+
+template <int d>
+void Participant<d>::settle(Moving& body, const Dynamics& dynamics) {
+  SolidState before = body.now, rest;
+  before.t = -1;  // one step of `steady` ends at t = 0
+  if (const auto status = steady(dynamics)->step(before, 1, rest); !status.ok())
+    throw std::invalid_argument(status.cause);
+  body.now.u = rest.u;
 }
 
 template <int d>
@@ -314,13 +347,11 @@ DeformedSurface<d> Participant<d>::deformed(std::size_t body) const {
 }
 
 template <int d>
-std::vector<Diagnostic> Participant<d>::displacements() const {
+std::vector<Diagnostic> Participant<d>::signals() const {
   std::vector<Diagnostic> all;
   for (const auto& body : bodies_)
-    for (const auto& [name, place] : body.spec.points) {
-      const Vec<d> u = body.spec.solid->value(body.now.u, place);
-      for (int k = 0; k < d; ++k) all.push_back({name + ".u" + "xyz"[k], u[k]});
-    }
+    for (const auto& point : body.spec.points)
+      for (const auto signal : point.signals) add_signal<d>(*body.spec.solid, body.now, point, signal, all);
   return all;
 }
 

@@ -17,11 +17,15 @@
 
 namespace splashdown::elastic {
 
-/// A point whose displacement is looked at.
+/// What is looked at in a point: a vector, or Green's strain.
+enum class PointSignal { displacement, velocity, acceleration, strain };
+
+/// A point of the solid that is looked at.
 template <int d>
 struct NamedPlace {
   std::string name;
   Place<d> place;
+  std::vector<PointSignal> signals = {PointSignal::displacement};
 };
 
 /// The exact term's coordinates of a body that a fluid presses on.
@@ -40,6 +44,7 @@ struct SolidSpec {
   std::function<Field(double)> forces = {};  ///< on nodes besides the weight, at a time [N, N/m]; empty: none
   std::function<Field(double)> drive = {};  ///< velocities of held nodes (Dynamics); of bodies with a wall; empty: none
   std::vector<NamedPlace<d>> points = {};
+  bool from_equilibrium = false;  ///< begins in equilibrium with the loads of t = 0, else undeformed; not with a wall
   std::optional<WallChoice> wall = {};  ///< how it meets a fluid, without `scheme`; empty: not at all
 };
 
@@ -47,7 +52,7 @@ struct SolidSpec {
 template <int d>
 class Participant final : public coupling::StructurePart, public SolidsView<d> {
  public:
-  /// At t = 0. Throws std::invalid_argument for bodies without mass.
+  /// At t = 0. Throws std::invalid_argument for bodies without mass, and where there is no equilibrium to begin with.
   explicit Participant(std::vector<SolidSpec<d>> specs);
 
   double time() const override { return time_; }
@@ -78,7 +83,7 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   const Twist<d>& acceleration_n(std::size_t body) const override { return bodies_.at(body).acceleration; }
   Deformation<d> deformation(std::size_t body) const override;
   DeformedSurface<d> deformed(std::size_t body) const override;
-  std::vector<Diagnostic> displacements() const override;
+  std::vector<Diagnostic> signals() const override;
   /// The surface of a body with a wall at t = 0, world frame: a wall of the fluid has the same. Throws std::out_of_range.
   const Surface<d>& surface(std::size_t body) const { return bodies_.at(body).wall->boundary().surface; }
   /// Of all nodes of a body at t_n: their velocities just before the kick of t_n, accelerations of the step before, if it has
@@ -102,6 +107,8 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
     Twist<d> acceleration = Twist<d>::Zero();
   };
   void start(Moving& body);
+  /// Puts a body where its loads of t = 0 hold it.
+  void settle(Moving& body, const Dynamics& dynamics);
   void look(Moving& body) const;
   /// Each wall of the trial.
   template <class Each>

@@ -1,4 +1,4 @@
-// splashdown new | run | check | advise | study | price | ablate | report | render | schema
+// splashdown new | run | check | advise | study | price | ablate | report | sensors | render | schema
 
 #include <fmt/format.h>
 
@@ -19,6 +19,7 @@
 #include "apps/run/command.hpp"
 #include "apps/scene/choose/presets.hpp"
 #include "apps/scene/rules/problems.hpp"
+#include "apps/sensors/command.hpp"
 #include "apps/study/command.hpp"
 #include "apps/text/shell_word.hpp"
 
@@ -359,6 +360,20 @@ CLI::App* add_render(CLI::App& app, RenderOptions& render) {
   return render_app;
 }
 
+CLI::App* add_sensors(CLI::App& app, SensorsOptions& sensors) {
+  auto* sensors_app = app.add_subcommand("sensors", "Say where signals of two runs differ most");
+  sensors_app->add_option("reference", sensors.reference, "folder of the run that others are compared with")
+      ->required();
+  sensors_app->add_option("other", sensors.other, "folder of a run with the same points in another state")->required();
+  sensors_app->add_option("--signal", sensors.kind, "what follows the dot in the names of probes, e.g. uy, vx or exx")
+      ->capture_default_str();
+  sensors_app->add_option("--count", sensors.count, "places that are chosen")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  sensors_app->add_flag("--all", sensors.all, "print all candidates, too");
+  return sensors_app;
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app("Light bodies landing on water: PFEM fluid, rigid bodies, strong coupling.", "splashdown");
   app.set_version_flag("--version", version_text);
@@ -390,6 +405,8 @@ int command_line(int argc, char** argv) {
       app.add_subcommand("report", "Write report.html from the files of a run, a study, a price or an ablation");
   report_app->add_option("directory", directory, "folder of the run, the study, the price or the ablation")->required();
 
+  SensorsOptions sensors;
+  const auto* sensors_app = add_sensors(app, sensors);
   RenderOptions render;
   const auto* render_app = add_render(app, render);
 
@@ -411,6 +428,7 @@ int command_line(int argc, char** argv) {
   if (*price_app) return price_command(price);
   if (*advise_app) return advise_command(advise);
   if (*ablate_app) return ablate_command(ablate);
+  if (*sensors_app) return sensors_command(sensors);
   if (*render_app) return render_command(render);
   if (*schema_app) {
     fmt::print("{}", schema_of == "scene" ? scene_schema() : study_schema());

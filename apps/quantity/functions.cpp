@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "apps/quantity/curves.hpp"
+#include "apps/quantity/signals.hpp"
 
 namespace splashdown::quantity {
 
@@ -165,6 +166,12 @@ const std::map<std::string, Function>& functions() {
       {"crossings",
        of_pair(0, [](const Arguments& a) { return Value::column(upward_crossings(a[0].numbers, a[1].numbers)); })},
       {"peaks", of_pair(0, [](const Arguments& a) { return Value::column(peak_heights(a[0].numbers, a[1].numbers)); })},
+      {"lag",
+       of_pair(1, [](const Arguments& a) { return Value::number(lag(a[0].numbers, a[1].numbers, scalar(a[2]))); })},
+      {"delay",
+       of_pair(1, [](const Arguments& a) { return Value::number(delay(a[0].numbers, a[1].numbers, scalar(a[2]))); })},
+      {"envelope", of_pair(0, [](const Arguments& a) { return Value::column(envelope(a[0].numbers, a[1].numbers)); })},
+      {"arrival", of_pair(0, [](const Arguments& a) { return Value::number(arrival(a[0].numbers, a[1].numbers)); })},
       {"group_max",
        of_pair(0, [](const Arguments& a) { return group_extremes(a[0].numbers, a[1].numbers, a[0].numbers); })},
       {"group_argmax",

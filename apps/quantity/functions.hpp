@@ -12,6 +12,8 @@
 //   largest_mean(y, x, width)           over a window of x, wherever it lies; x in any order
 //   crossings(y, x)                     x of upward zeros; a first positive value after nan is one
 //   peaks(y, x)                         heights of local maxima (parabola through three points)
+//   lag(y, x, f), delay(y, x, f)        of the tone f: phase by which it is late [0, 2 pi), time when its packet passes
+//   envelope(y, x), arrival(y, x)       of a signal; x where the envelope first reaches half of its largest value
 //   group_max(y, key), group_argmax(y, key, x)   per run of equal keys
 //   bins(y, x, low, high, n), bin_centres(low, high, n)   mean of y in n equal bins of x
 //   column(a, b, ...), index(y), select(y, mask)

@@ -269,7 +269,7 @@ void Recorder<d>::State::write_probes(const RecordInput<d>& input) {
     for (std::size_t i = 0; i < settings.patches.size(); ++i) put(settings.patches[i].name, hulls.pressures()[i]);
   }
   if (input.solids)
-    for (const auto& [name, value] : input.solids->displacements()) put(name, value);
+    for (const auto& [name, value] : input.solids->signals()) put(name, value);
   for (std::size_t i = 0; i < equipment.size(); ++i) {
     const auto acceleration = equipment_acceleration(input, i);
     for (int k = 0; k < d; ++k) put(settings.equipment[i].name + ".a" + "xyz"[k], acceleration(k));

@@ -23,6 +23,7 @@ Solid<d>::Solid(SolidMesh<d> mesh, std::unique_ptr<const Law<d>> law, double den
     }
   make_pattern();
   assemble_mass(density);
+  if (law_->linear()) assemble_stiffness(Field::Zero(d * mesh_.size()), constant_);
 }
 
 template <int d>
@@ -113,6 +114,7 @@ void Solid<d>::assemble_mass(double density) {
 
 template <int d>
 double Solid<d>::strain_energy(const Field& u) const {
+  if (linear()) return 0.5 * u.dot(constant_ * u);
   double sum = 0;
   const std::size_t n = rule<d>().size();
   for (std::size_t p = 0; p < points_.size(); ++p)
@@ -136,6 +138,7 @@ Field Solid<d>::force_of(const Stress& stress) const {
 
 template <int d>
 Field Solid<d>::internal_force(const Field& u) const {
+  if (linear()) return constant_ * u;
   return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> { return law_->stress(gradient(u, c, slopes)); });
 }
 
@@ -148,6 +151,14 @@ Field Solid<d>::force_between(const Field& before, const Field& middle) const {
 
 template <int d>
 void Solid<d>::stiffness(const Field& u, Sparse& K) const {
+  if (linear())
+    K = constant_;
+  else
+    assemble_stiffness(u, K);
+}
+
+template <int d>
+void Solid<d>::assemble_stiffness(const Field& u, Sparse& K) const {
   if (K.nonZeros() != mass_.nonZeros()) K = mass_;
   K.coeffs().setZero();
   constexpr int n = cell_nodes<d>;
@@ -341,6 +352,13 @@ double Solid<d>::least_volume_ratio(const Field& u) const {
   for (std::size_t p = 0; p < points_.size(); ++p)
     least = std::min(least, gradient(u, p / rule<d>().size(), points_[p].slopes).determinant());
   return least;
+}
+
+template <int d>
+Mat<d> Solid<d>::strain(const Field& u, const Place<d>& place) const {
+  const auto cell = static_cast<std::size_t>(place.cell);
+  const Mat<d> F = gradient(u, cell, slopes_at(cell, place.at));
+  return 0.5 * (F.transpose() * F - Mat<d>::Identity());
 }
 
 template <int d>

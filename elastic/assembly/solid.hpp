@@ -48,6 +48,7 @@ class Solid final : public System {
   /// The force of a step from `before` through `middle` (Law::stress_between) [N, N/m].
   Field force_between(const Field& before, const Field& middle) const;
   void stiffness(const Field& u, Sparse& K) const override;
+  bool linear() const override { return law_->linear(); }
   double strain_energy(const Field& u) const override;
   double length() const override { return length_; }
 
@@ -76,6 +77,8 @@ class Solid final : public System {
   /// Error of the elements there: von Mises norm of their stress minus the one that is the mean of elements at nodes and between
   /// nodes as displacements are (Zienkiewicz & Zhu 1987) [Pa].
   double stress_error(const Field& u, const StressPeak<d>& peak) const;
+  /// Green's strain (F^T F - 1)/2 at a point.
+  Mat<d> strain(const Field& u, const Place<d>& place) const;
   /// Cauchy's stress at a point [Pa].
   Mat<3> stress(const Field& u, const Place<d>& place) const;
   /// Cauchy's stress at all nodes, mean of the elements around them [Pa].
@@ -102,6 +105,7 @@ class Solid final : public System {
   Field force_of(const Stress& stress) const;
   void make_pattern();
   void assemble_mass(double density);
+  void assemble_stiffness(const Field& u, Sparse& K) const;
   template <class Add>
   void add_cell(std::size_t cell, Sparse& matrix, const Add& block) const;
 
@@ -110,6 +114,7 @@ class Solid final : public System {
   double length_;
   std::vector<Point> points_;  // of all cells in turn
   Sparse mass_;
+  Sparse constant_;         // K of a linear law, else empty
   std::vector<int> first_;  // of values: for each cell, nodes a and b and column k of b the row of a
 };
 

@@ -27,6 +27,8 @@ class System {
   virtual Field internal_force(const Field& u) const = 0;
   /// K(u) = df/du [N/m, N/m^2], in the pattern of the mass.
   virtual void stiffness(const Field& u, Sparse& K) const = 0;
+  /// Whether f = K u with one K.
+  virtual bool linear() const { return false; }
   /// Strain energy, f = dU/du [J, J/m].
   virtual double strain_energy(const Field& u) const = 0;
   /// A length that displacements are small or large against [m].

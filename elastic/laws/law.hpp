@@ -37,6 +37,8 @@ class Law {
   virtual Tangent<d> tangent(const Mat<d>& F) const = 0;
   /// sigma [Pa], with what plane strain needs across the plane.
   virtual Mat<3> cauchy(const Mat<d>& F) const = 0;
+  /// Whether the stress is linear in F, so that the tangent is the same everywhere.
+  virtual bool linear() const { return false; }
   /// Of waves of compression, the fastest in the unloaded solid, squared and times the density [Pa].
   virtual double wave_modulus() const = 0;
 };

@@ -125,6 +125,7 @@ class SmallStrain final : public Law<d> {
     sigma.reshaped() = c_ * e.reshaped();
     return sigma;
   }
+  bool linear() const override { return true; }
   double wave_modulus() const override { return std::max({c_(0, 0), c_(4, 4), c_(8, 8)}); }
 
  private:

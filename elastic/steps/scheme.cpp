@@ -17,6 +17,7 @@ Status Scheme::accelerate(SolidState& motion) {
 const Sparse* Scheme::damping_at(const SolidState& now, double half) {
   const auto& [mass, stiffness] = dynamics_.damping;
   if (mass == 0 && stiffness == 0) return nullptr;
+  if (system().linear() && C_.nonZeros() > 0) return &C_;
   C_ = system().mass();
   C_.coeffs() *= mass;
   if (stiffness != 0) {

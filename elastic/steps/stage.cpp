@@ -16,6 +16,7 @@ bool StageSolver::factor(const System& system, Sparse& matrix) {
 
 Status StageSolver::solve_mass(const System& system, const Field& r, Field& x) {
   A_ = system.mass();
+  factored_.reset();
   if (!factor(system, A_)) return {"the solid's mass matrix is singular"};
   Field right = r;
   leave_out(system.held(), right);
@@ -23,23 +24,36 @@ Status StageSolver::solve_mass(const System& system, const Field& r, Field& x) {
   return {};
 }
 
+bool StageSolver::factor_tangent(const System& system, const Stage& stage, const Sparse* C, const Field& u) {
+  const std::array<double, 3> factors{stage.mass, C ? stage.damping : 0, stage.force};
+  if (factored_ == factors) return true;
+  factored_.reset();
+  system.stiffness(u, K_);
+  A_ = K_;
+  A_.coeffs() *= stage.force;
+  if (stage.mass != 0) A_.coeffs() += stage.mass * system.mass().coeffs();
+  if (C) A_.coeffs() += stage.damping * C->coeffs();
+  if (!factor(system, A_)) return false;
+  if (system.linear()) factored_ = factors;
+  return true;
+}
+
 Status StageSolver::solve(const System& system, const Stage& stage, const Sparse* C, Field& u) {
   const Field start = u;
   // Coordinates have no more digits than this.
   const double roundoff = 1e-14 * system.length();
-  double last = std::numeric_limits<double>::infinity();
+  constexpr double solved = 1e-10;  // of the first residual: a hundredth of `tolerance`
+  double last = std::numeric_limits<double>::infinity(), first = 0;
   for (int k = 0; k < limits_.most; ++k, ++iterations_) {
     Field residual = stage.force * system.internal_force(u) - stage.g;
     if (stage.mass != 0) residual += stage.mass * (system.mass() * (u - stage.p));
     if (C) residual += stage.damping * (*C * (u - stage.q));
     leave_out(system.held(), residual);
     if (!residual.allFinite()) return {"the solid turns inside out: its elements are crushed within the step"};
-    system.stiffness(u, K_);
-    A_ = K_;
-    A_.coeffs() *= stage.force;
-    if (stage.mass != 0) A_.coeffs() += stage.mass * system.mass().coeffs();
-    if (C) A_.coeffs() += stage.damping * C->coeffs();
-    if (!factor(system, A_)) return {"the solid's equations are singular: it buckles, or is not held"};
+    // One correction solves a linear system; what roundoff leaves of ill-conditioned ones takes another.
+    if (k == 0) first = residual.norm();
+    if (k > 0 && system.linear() && residual.norm() <= solved * first) return {};
+    if (!factor_tangent(system, stage, C, u)) return {"the solid's equations are singular: it buckles, or is not held"};
     const Field correction = factor_.solve(residual);
     u -= correction;
     const double size = correction.cwiseAbs().maxCoeff(), way = (u - start).cwiseAbs().maxCoeff();

@@ -3,10 +3,12 @@
 //   m M (u - p) + c C (u - q) + w f(u) = g,
 //
 // solved by Newton's method with the full tangent, m M + c C + w K(u), factored as LDL^T. It ends when a correction is below
-// `tolerance` of the way that u has come, or at roundoff. Convergence is quadratic: what is left is the square of that.
+// `tolerance` of the way that u has come, or at roundoff. Convergence is quadratic: what is left is the square of that. Of a
+// linear system the factor is kept until m, c or w change.
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <array>
 #include <optional>
 
 #include "core/status.hpp"
@@ -44,11 +46,14 @@ class StageSolver {
 
  private:
   bool factor(const System& system, Sparse& matrix);
+  /// The factor of m M + c C + w K(u), or the one that there is.
+  bool factor_tangent(const System& system, const Stage& stage, const Sparse* C, const Field& u);
 
   NewtonLimits limits_;
   Eigen::SimplicialLDLT<Sparse> factor_;
   Eigen::Index analysed_ = 0;
   Sparse K_, A_;
+  std::optional<std::array<double, 3>> factored_;  // m, c, w of the factor of a linear system
   long iterations_ = 0;
 };
 

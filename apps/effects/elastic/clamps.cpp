@@ -109,6 +109,8 @@ void check_clamps(const Scene& scene, const ElasticTable& table, const elastic::
   if (table.scheme == "steady" && left > 0)
     problems.add(table.path + ".scheme", "a body that nothing holds has no equilibrium",
                  "Add a clamp, or change the scheme.");
+  if (table.start == "equilibrium" && left > 0)
+    problems.add(table.path + ".start", "a body that nothing holds has no equilibrium", "Add a clamp, or remove it.");
 }
 
 template void check_clamps<2>(const Scene&, const ElasticTable&, const elastic::SolidMesh<2>&, Problems&);

@@ -11,19 +11,35 @@
 
 namespace splashdown::apps {
 
-/// What of a body is held: what a disc around `centre`, or the box between `min` and `max`, covers; shape's frame.
-struct ElasticClamp {
+/// A part of a body, held or loaded: what a disc around `centre`, or the box between `min` and `max`, covers; shape's frame.
+struct ElasticRegion {
   std::optional<Point> centre;
   std::optional<double> radius;
   std::optional<Point> min, max;
+};
+
+struct ElasticClamp : ElasticRegion {
   std::vector<std::string> axes;              ///< of the world, along which it holds; empty: all
   std::vector<std::vector<double>> velocity;  ///< rows of a time and components [m/s]; empty: it stays
 };
 
 struct ElasticPoint {
-  std::string name;
-  Point point = Point::Zero();  ///< undeformed, shape's frame [m]
-  double mass = 0;              ///< of a point mass [kg, kg/m]
+  std::string name, path;                               ///< path of its table in messages
+  Point point = Point::Zero();                          ///< undeformed, shape's frame [m]
+  double mass = 0;                                      ///< of a point mass [kg, kg/m]
+  std::vector<std::string> signals = {"displacement"};  ///< of a point that is looked at, of `elastic_signals`
+};
+
+/// A load on the boundary of a body within a region. Rows begin with a time [s]; one of the three lists has any.
+struct ElasticPatch {
+  ElasticRegion region;
+  std::vector<std::vector<double>> traction;  ///< components, shape's frame at t = 0, per undeformed area [Pa]
+  std::vector<std::vector<double>> pressure;  ///< against the outward normal at rest [Pa]
+  std::vector<std::vector<double>>
+      stretch;                      ///< of a bonded disc or strip, along its rim and away from its middle [N/m]
+  std::optional<double> frequency;  ///< of a tone burst that the load is multiplied by [Hz]
+  double cycles = 5;                ///< of the burst
+  double start = 0;                 ///< of the burst [s]
 };
 
 /// Nine moduli of law = "orthotropic".
@@ -52,6 +68,8 @@ struct ElasticTable {
   /// Rayleigh's beta [s]; default: none in dry space, in a fluid what damps vibrations that its steps do not resolve.
   std::optional<double> stiffness_damping;
   std::vector<ElasticClamp> clamps;
+  std::vector<ElasticPatch> patches;
+  std::string start = "undeformed";  ///< or "equilibrium" with the loads of t = 0
   std::vector<ElasticPoint> point_masses, points;
   int modes = 0;                      ///< natural frequencies that are told before the run
   std::string coordinates = "nodes";  ///< of the wall that a fluid presses on: all nodes, or the `modes` lowest modes

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "apps/effects/elastic/elastic.hpp"
 #include "apps/effects/elastic/solid.hpp"
 #include "apps/scene/read/parts.hpp"
@@ -83,23 +85,78 @@ void read_scheme(Reader& reader, ElasticTable& table) {
                   not_negative("s", "Use twice the damping ratio of a mode over its w."));
 }
 
-void read_clamp(Reader& reader, ElasticClamp& clamp, int dimension) {
+/// `act`: what of the region, "held" or "loaded".
+void read_region(Reader& reader, ElasticRegion& region, int dimension, const std::string& act) {
   const Rule place = place_rule(dimension);
-  reader.point("centre", clamp.centre, place);
-  reader.number("radius", clamp.radius, positive("m", "Use e.g. the radius of a bolt."));
-  reader.point("min", clamp.min, place);
-  reader.point("max", clamp.max, place);
+  reader.point("centre", region.centre, place);
+  reader.number("radius", region.radius, positive("m", "Use e.g. the radius of a bolt or of a piezo."));
+  reader.point("min", region.min, place);
+  reader.point("max", region.max, place);
+  auto& problems = reader.context().problems;
+  if (reader.context().sketch || problems.found_in(reader.path())) return;
+  if ((region.centre && region.radius && !region.min && !region.max) ||
+      (region.min && region.max && !region.centre && !region.radius))
+    return;
+  problems.add(reader.path(), "says not what is " + act, "Use centre and radius, or min and max.");
+}
+
+void read_clamp(Reader& reader, ElasticClamp& clamp, int dimension) {
   const bool plane = dimension == 2;
   reader.choices("axes", clamp.axes, plane ? Reader::Names{"x", "y"} : Reader::Names{"x", "y", "z"});
   reader.curve("velocity", clamp.velocity, plane ? 3 : 4,
                any("m/s", plane ? "Use [0.0, -30.0], or rows of a time and two components: [[0, 0, 0], [0.1, 0, -2]]."
                                 : "Use [0.0, 0.0, -30.0], or rows of a time and three components."));
+  read_region(reader, clamp, dimension, "held");
+}
+
+void read_patch(Reader& reader, ElasticPatch& patch, int dimension) {
+  read_region(reader, patch.region, dimension, "loaded");
+  const bool plane = dimension == 2;
+  reader.curve("traction", patch.traction, plane ? 3 : 4,
+               any("Pa", plane ? "Use [0.0, 1e3], or rows of a time and two components."
+                               : "Use [0.0, 0.0, 1e3], or rows of a time and three components."));
+  reader.curve("pressure", patch.pressure, 2, any("Pa", "Use e.g. 1e3, or rows of a time and a pressure."));
+  reader.curve("stretch", patch.stretch, 2, any("N/m", "Use e.g. 100, or rows of a time and a force along the rim."));
+  if (auto burst = reader.table("burst")) {
+    patch.frequency.emplace();
+    burst->number("frequency", *patch.frequency, positive("Hz", "Use that of the tone, e.g. 100e3."), Need::required);
+    burst->number("cycles", patch.cycles,
+                  within(1, 1000, "", "Use e.g. 5: more make a narrower spectrum and a longer signal."));
+    burst->number("start", patch.start, not_negative("s", "Use when the burst begins."));
+  }
   auto& problems = reader.context().problems;
   if (reader.context().sketch || problems.found_in(reader.path())) return;
-  if ((clamp.centre && clamp.radius && !clamp.min && !clamp.max) ||
-      (clamp.min && clamp.max && !clamp.centre && !clamp.radius))
+  const auto loads = !patch.traction.empty() + !patch.pressure.empty() + !patch.stretch.empty();
+  if (loads != 1)
+    problems.add(reader.path(), loads == 0 ? "has no load" : "has more than one load",
+                 "Give one of traction, pressure and stretch; add patches for more.");
+  else if (!patch.stretch.empty() && !patch.region.centre)
+    problems.add(reader.key("stretch"), "acts on the rim of a disc, in the plane on both ends of a strip",
+                 "Use centre and radius in place of min and max.");
+}
+
+/// One, or `count` on the way to `to`: NAME_1 and so on, with as many digits as the last has.
+void read_points(Reader& reader, std::vector<ElasticPoint>& all, int dimension) {
+  ElasticPoint point;
+  const Rule place = place_rule(dimension);
+  read_name(reader, point.name, "tip");
+  point.path = reader.path();
+  reader.point("point", point.point, place, Need::required);
+  reader.choices("signals", point.signals, elastic_signals());
+  std::optional<Point> to;
+  reader.point("to", to, place);
+  if (!to && !reader.context().sketch) {
+    reader.refuse("count", "one point is no line", "Remove it, or add to, where the line of points ends.");
+    all.push_back(point);
     return;
-  problems.add(reader.path(), "says not what is held", "Use centre and radius, or min and max.");
+  }
+  int count = 10;
+  reader.integer("count", count, within(2, 1000, "", "Use how many points there are from point to to."));
+  for (int k = 0; to && k < count; ++k) {
+    auto& one = all.emplace_back(point);
+    one.name = fmt::format("{}_{:0{}}", point.name, k + 1, std::to_string(count).size());
+    one.point += k * (*to - point.point) / (count - 1);
+  }
 }
 
 }  // namespace
@@ -114,17 +171,15 @@ void ElasticKind::read(Reader& reader, Scene& scene) const {
   read_mesh(reader, table, dimension);
   read_scheme(reader, table);
   reader.each_table("clamp", [&](Reader& clamp) { read_clamp(clamp, table.clamps.emplace_back(), dimension); });
+  reader.each_table("patch", [&](Reader& patch) { read_patch(patch, table.patches.emplace_back(), dimension); });
+  reader.choice("start", table.start, {"undeformed", "equilibrium"});
   const Rule place = place_rule(dimension);
   reader.each_table("point_mass", [&](Reader& part) {
     auto& mass = table.point_masses.emplace_back();
     part.number("mass", mass.mass, positive(mass_unit(dimension), "Use the mass of what is attached."), Need::required);
     part.point("point", mass.point, place, Need::required);
   });
-  reader.each_table("point", [&](Reader& part) {
-    auto& point = table.points.emplace_back();
-    read_name(part, point.name, "tip");
-    part.point("point", point.point, place, Need::required);
-  });
+  reader.each_table("point", [&](Reader& part) { read_points(part, table.points, dimension); });
   reader.integer("modes", table.modes, within(0, 1000, "", "Use how many natural frequencies are to be told."));
   reader.choice("coordinates", table.coordinates, {"nodes", "modes"});
 }

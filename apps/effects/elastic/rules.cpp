@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "apps/effects/elastic/clamps.hpp"
@@ -38,6 +39,10 @@ void check_company(const Scene& scene, const ElasticTables& tables, Problems& pr
                  "Remove the table for a rigid body, or formulation for a fluid of finite elements.");
   if (scene.has_fluid())
     for (const auto& table : tables.of_bodies)
+      if (table.start != "undeformed")
+        problems.add(table.path + ".start", "in a fluid a body begins undeformed", "Remove it.");
+  if (scene.has_fluid())
+    for (const auto& table : tables.of_bodies)
       if (problems.noted(table.path + ".scheme"))
         problems.add(table.path + ".scheme",
                      "in a fluid a body takes the fluid's steps, by kicks and the midpoint rule", "Remove it.");
@@ -49,6 +54,15 @@ void check_company(const Scene& scene, const ElasticTables& tables, Problems& pr
   for (const auto* kind : effect_kinds())
     if (kind->present(scene) && !meets_elastic(kind->name()))
       problems.add(std::string(kind->name()), "does not act on elastic bodies", "Remove the table.");
+}
+
+/// Of the rows of probes.csv.
+void check_names(const ElasticTables& tables, Problems& problems) {
+  std::set<std::string> names, told;
+  for (const auto& table : tables.of_bodies)
+    for (const auto& point : table.points)
+      if (!names.insert(point.name).second && told.insert(point.path).second)
+        problems.add(point.path, "is taken by another point", "Give every point its own name.");
 }
 
 /// Keys of [[body]] that rigid bodies have.
@@ -82,6 +96,14 @@ void check_forces(const Scene& scene, const ElasticTable& table, const auto& lie
 }
 
 template <int d>
+void check_patches(const ElasticTable& table, const elastic::SolidMesh<d>& mesh, Problems& problems) {
+  for (std::size_t k = 0; k < table.patches.size(); ++k)
+    if (!meets_boundary<d>(table.patches[k], mesh))
+      problems.add(fmt::format("{}.patch[{}]", table.path, k), "loads nothing: no part of the boundary lies there",
+                   "Move or enlarge it (shape's frame); a piezo's middle lies on the boundary.");
+}
+
+template <int d>
 void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problems) {
   const auto& body = scene.bodies[table.body];
   const auto label = label_of(table);
@@ -108,6 +130,7 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
     return problems.add(key, fmt::format("the mesh spans {} m, the shape {} m", text<d>(drawn), text<d>(box)),
                         "Draw both in the same frame; mesh.scale is metres per unit of the file.");
   check_clamps<d>(scene, table, mesh, problems);
+  check_patches<d>(table, mesh, problems);
   const auto lies_in = [&](const Point& point) { return place_in<d>(mesh, point).has_value(); };
   check_forces(scene, table, lies_in, problems);
   const std::string rule = "is not in the body", cure = "Move it into the undeformed body, in the shape's frame.";
@@ -115,7 +138,7 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
     if (!lies_in(table.point_masses[k].point))
       problems.add(fmt::format("{}.point_mass[{}].point", table.path, k), rule, cure);
   for (const auto& point : table.points)
-    if (!lies_in(point.point)) problems.add(table.path + ".point." + point.name, rule, cure);
+    if (!lies_in(point.point)) problems.add(point.path, rule, cure);
 }
 
 template <int d>
@@ -153,6 +176,7 @@ void ElasticKind::check(const Scene& scene, Problems& problems) const {
   const auto* tables = scene.effects.find<ElasticTables>();
   if (!tables) return;
   check_company(scene, *tables, problems);
+  check_names(*tables, problems);
   for (const auto& table : tables->of_bodies)
     scene.dimension == 2 ? check_table<2>(scene, table, problems) : check_table<3>(scene, table, problems);
 }

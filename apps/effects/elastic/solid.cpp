@@ -4,7 +4,6 @@
 #include <functional>
 #include <stdexcept>
 
-#include "apps/effects/force/force.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/named.hpp"
 #include "elastic/mesh/boundary.hpp"
@@ -54,6 +53,25 @@ const std::vector<LawRow<d>>& law_rows() {
   return rows;
 }
 
+struct SignalRow {
+  std::string name;
+  elastic::PointSignal signal;
+};
+const std::vector<SignalRow>& signal_rows() {
+  using elastic::PointSignal;
+  static const std::vector<SignalRow> rows = {{"displacement", PointSignal::displacement},
+                                              {"velocity", PointSignal::velocity},
+                                              {"acceleration", PointSignal::acceleration},
+                                              {"strain", PointSignal::strain}};
+  return rows;
+}
+
+std::vector<elastic::PointSignal> signals_of(const ElasticPoint& point) {
+  std::vector<elastic::PointSignal> all;
+  for (const auto& name : point.signals) all.push_back(named(signal_rows(), name).signal);
+  return all;
+}
+
 /// Unit vectors: along the fibres, across them in the ply, along the normal.
 Eigen::Matrix3d axes_of(const ElasticPly& ply) {
   Eigen::Matrix3d axes;
@@ -61,37 +79,6 @@ Eigen::Matrix3d axes_of(const ElasticPly& ply) {
   axes.col(1) = ply.normal.cross(axes.col(0)).normalized();
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return axes;
-}
-
-/// Of all [[body.force]] tables of a body, forces alone, that do not turn: their rules are checked.
-template <int d>
-std::function<Field(double)> forces_of(const Scene& scene, std::size_t body, const elastic::Solid<d>& solid,
-                                       const elastic::SolidMesh<d>& mesh) {
-  struct Push {
-    rigid::Curve<d> force;
-    std::array<Field, d> nodes;  // of a unit force along each axis
-  };
-  std::vector<Push> pushes;
-  const auto* tables = scene.effects.find<ForceTables>();
-  if (!tables) return {};
-  for (const auto& table : tables->all) {
-    if (table.body != body) continue;
-    std::vector<typename rigid::Curve<d>::Row> rows;
-    for (const auto& row : table.force)
-      rows.push_back({row[0], Eigen::Map<const Eigen::Matrix<double, d, 1>>(row.data() + 1)});
-    auto& push = pushes.emplace_back(Push{rigid::Curve<d>(std::move(rows)), {}});
-    const auto place = place_in<d>(mesh, *table.point);
-    for (int k = 0; k < d; ++k) push.nodes[static_cast<std::size_t>(k)] = solid.point_force(*place, Vec<d>::Unit(k));
-  }
-  if (pushes.empty()) return {};
-  return [pushes, size = solid.size()](double t) {
-    Field all = Field::Zero(size);
-    for (const auto& push : pushes) {
-      const auto force = push.force.at(t);
-      for (int k = 0; k < d; ++k) all += force[k] * push.nodes[static_cast<std::size_t>(k)];
-    }
-    return all;
-  };
 }
 
 /// Of all clamps of a body that move.
@@ -158,12 +145,13 @@ std::vector<std::string> elastic_laws() {
   return names;
 }
 std::vector<std::string> elastic_schemes() { return names_of(scheme_rows()); }
+std::vector<std::string> elastic_signals() { return names_of(signal_rows()); }
 
 bool holds(const ElasticClamp& clamp, int axis) {
   return clamp.axes.empty() || std::ranges::find(clamp.axes, std::string(1, "xyz"[axis])) != clamp.axes.end();
 }
 
-bool covers(const ElasticClamp& clamp, const Point& point, double roundoff) {
+bool covers(const ElasticRegion& clamp, const Point& point, double roundoff) {
   if (clamp.centre) return (point - *clamp.centre).norm() <= *clamp.radius + roundoff;
   return ((point - *clamp.min).array() >= -roundoff).all() && ((*clamp.max - point).array() >= -roundoff).all();
 }
@@ -232,8 +220,10 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
     if (scene.has_fluid()) spec.wall = elastic::WallChoice{table.coordinates == "modes" ? table.modes : 0};
     if (scene.gravity) spec.gravity = vec<d>(scene.gravity->acceleration);
     spec.drive = drive_of<d>(table, mesh);
-    spec.forces = forces_of<d>(scene, table.body, *spec.solid, mesh);
-    for (const auto& point : table.points) spec.points.push_back({point.name, *place_in<d>(mesh, point.point)});
+    spec.forces = solid_loads<d>(scene, table, *spec.solid, mesh);
+    spec.from_equilibrium = table.start == "equilibrium";
+    for (const auto& point : table.points)
+      spec.points.push_back({point.name, *place_in<d>(mesh, point.point), signals_of(point)});
   }
   return specs;
 }

@@ -1,6 +1,7 @@
 // A body of a scene as an elastic solid.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,6 +20,8 @@ namespace splashdown::apps {
 /// What may stand for `law` and `scheme`, in the order of docs/scene.md.
 std::vector<std::string> elastic_laws();
 std::vector<std::string> elastic_schemes();
+/// What may be looked at in a point.
+std::vector<std::string> elastic_signals();
 
 /// Undeformed, in the shape's frame. Throws elastic::MeshError.
 template <int d>
@@ -27,9 +30,16 @@ elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table);
 template <int d>
 std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticTable& table);
 /// Whether a clamp covers a point of the shape's frame, but for roundoff.
-bool covers(const ElasticClamp& clamp, const Point& point, double roundoff);
+bool covers(const ElasticRegion& clamp, const Point& point, double roundoff);
 /// Whether a clamp holds what it covers along an axis of the world.
 bool holds(const ElasticClamp& clamp, int axis);
+/// Whether any of the boundary is loaded; mesh in the shape's frame.
+template <int d>
+bool meets_boundary(const ElasticPatch& patch, const elastic::SolidMesh<d>& mesh);
+/// Of a body at a time: all [[body.force]] tables and patches [N, N/m]; empty: there are none. `mesh`: in the shape's frame.
+template <int d>
+std::function<elastic::Field(double)> solid_loads(const Scene& scene, const ElasticTable& table,
+                                                  const elastic::Solid<d>& solid, const elastic::SolidMesh<d>& mesh);
 /// The place of a point of the shape's frame in the mesh; within a thousandth of the extent beside it.
 template <int d>
 std::optional<elastic::Place<d>> place_in(const elastic::SolidMesh<d>& mesh, const Point& point);

@@ -68,7 +68,7 @@ TEST(ElasticScene, builds_a_world_of_solids_alone_and_none_without_the_table) {
   EXPECT_EQ(build_world<2>(scene_of(testing::wedge_drop)).solids, nullptr);
 }
 
-double tip(const World<2>& world) { return world.solids->displacements().at(1).second; }
+double tip(const World<2>& world) { return world.solids->signals().at(1).second; }
 
 TEST(ElasticScene, comes_to_the_place_that_its_loads_hold) {
   // Euler-Bernoulli in plane strain with its weight, a mass at 0.9 L and a force at L; L/h = 10: shear adds 1 %.
@@ -102,7 +102,7 @@ TEST(ElasticScene, of_turek_and_hron_is_where_the_library_has_it) {
   const auto world = build_world<2>(read_scene(SPLASHDOWN_EXAMPLES "/turek_hron_csm/scene.toml").scene);
   ASSERT_TRUE(world.stepper->attempt(0.5).ok());
   world.stepper->commit();
-  EXPECT_NEAR(world.solids->displacements().at(0).second / -7.187e-3, 1, 0.003);
+  EXPECT_NEAR(world.solids->signals().at(0).second / -7.187e-3, 1, 0.003);
   EXPECT_NEAR(tip(world) / -66.10e-3, 1, 0.003);
 }
 
@@ -166,6 +166,43 @@ TEST(ElasticScene, tells_natural_frequencies_before_the_run) {
     }
 }
 
+TEST(ElasticScene, looks_at_rows_of_points_and_at_what_is_asked_for) {
+  const auto world = build_world<2>(scene_of(with("point = [0.5, 0]}]",
+                                                  "point = [0, 0], to = [0.5, 0], count = 3, signals = "
+                                                  "[\"velocity\", \"strain\"]}]")));
+  const auto signals = world.solids->signals();
+  ASSERT_EQ(signals.size(), 15u);
+  EXPECT_EQ(signals[0].first, "tip_1.vx");
+  EXPECT_EQ(signals[3].first, "tip_1.exy");
+  EXPECT_EQ(signals[14].first, "tip_3.eyy");
+}
+
+TEST(ElasticScene, begins_where_its_loads_hold_it) {
+  const auto steady = build_world<2>(scene_of(with("modes = 2", "scheme = \"steady\"")));
+  const auto moving = build_world<2>(scene_of(with("modes = 2", "start = \"equilibrium\"")));
+  ASSERT_TRUE(steady.stepper->attempt(0.01).ok());
+  steady.stepper->commit();
+  EXPECT_NEAR(tip(moving) / tip(steady), 1, 1e-9);
+  for (int k = 0; k < 5; ++k) {
+    ASSERT_TRUE(moving.stepper->attempt(0.01).ok());
+    moving.stepper->commit();
+  }
+  EXPECT_NEAR(tip(moving) / tip(steady), 1, 1e-6) << "and stays there";
+}
+
+TEST(ElasticScene, is_bent_by_a_traction_on_its_end_as_by_a_force_there) {
+  // 300 Pa on a height of 0.1 m are 30 N/m; how they are spread there matters at a height's distance alone.
+  const auto patch = build_world<2>(scene_of(with(
+      "modes = 2", "scheme = \"steady\"\npatch = [{min = [0.5, -0.05], max = [0.5, 0.05], traction = [0, 300]}]")));
+  const auto force = build_world<2>(
+      scene_of(testing::replaced(with("modes = 2", "scheme = \"steady\""), "force = [0, 30]", "force = [0, 60]")));
+  for (const auto* world : {&patch, &force}) {
+    ASSERT_TRUE(world->stepper->attempt(0.01).ok());
+    world->stepper->commit();
+  }
+  EXPECT_NEAR(tip(patch) / tip(force), 1, 0.02);
+}
+
 class BadElasticScene : public ::testing::TestWithParam<Mistake> {};
 TEST_P(BadElasticScene, is_refused_with_place_rule_and_cure) {
   const auto& bad = GetParam();
@@ -218,6 +255,26 @@ const std::vector<Mistake> mistakes = {
     {"radius_of_another_scheme", "size = 0.1", "size = 0.1\nscheme = \"midpoint\"\nspectral_radius = 0.5", 17,
      "body.beam.elastic.spectral_radius", "only scheme = \"generalised_alpha\" has one"},
     {"turning_force", "axes = \"world\"", "axes = \"body\"", 20, "body.beam.force", "do not turn with them"},
+    {"patch_without_a_load", "modes = 2", "modes = 2\npatch = [{min = [-0.5, -0.05], max = [0.5, 0.05]}]", 20,
+     "body.beam.elastic.patch[0]", "has no load"},
+    {"patch_with_two_loads", "modes = 2",
+     "modes = 2\npatch = [{min = [-0.5, -0.05], max = [0.5, 0.05], pressure = 1, traction = [1, 0]}]", 20,
+     "body.beam.elastic.patch[0]", "has more than one load"},
+    {"patch_nowhere", "modes = 2", "modes = 2\npatch = [{pressure = 1}]", 20, "body.beam.elastic.patch[0]",
+     "says not what is loaded"},
+    {"patch_beside_the_body", "modes = 2", "modes = 2\npatch = [{centre = [3, 3], radius = 0.1, pressure = 1}]", 20,
+     "body.beam.elastic.patch[0]", "loads nothing"},
+    {"piezo_between_corners", "modes = 2", "modes = 2\npatch = [{min = [-0.5, -0.05], max = [0.5, 0.05], stretch = 1}]",
+     20, "body.beam.elastic.patch[0].stretch", "on the rim of a disc"},
+    {"burst_without_a_frequency", "modes = 2",
+     "modes = 2\npatch = [{centre = [0, 0.05], radius = 0.1, pressure = 1, burst = {cycles = 3}}]", 20,
+     "body.beam.elastic.patch[0].burst.frequency", "is missing"},
+    {"equilibrium_of_a_free_body", "clamp = [{min = [-0.5, -0.05], max = [-0.5, 0.05]}]", "start = \"equilibrium\"", 16,
+     "body.beam.elastic.start = \"equilibrium\"", "has no equilibrium"},
+    {"count_without_a_line", "point = [0.5, 0]}]", "point = [0.5, 0], count = 3}]", 17,
+     "body.beam.elastic.point.tip.count", "one point is no line"},
+    {"two_points_of_a_name", "point = [0.5, 0]}]", "point = [0.5, 0]}, {name = \"tip\", point = [0, 0]}]", 17,
+     "body.beam.elastic.point.tip", "is taken by another point"},
     {"no_such_mesh", "size = 0.1", "mesh = {file = \"none.msh\"}", 15, "body.beam.elastic.mesh", "none.msh"},
 };
 INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticScene, ::testing::ValuesIn(mistakes),

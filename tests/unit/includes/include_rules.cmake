@@ -82,7 +82,7 @@ rule("of a scene, what is recorded and told knows plain structs" FILES "^apps/(s
   BUT_INCLUDES "^apps/scene/(channel_classes|limit|patch_region)\\.hpp$")
 
 # Layers of the program, from below: a room includes itself and what stands before it.
-set(layers quantity text files process scene effects statistics record report render build simulation check new advise run study price ablate cli)
+set(layers quantity text files process scene effects statistics record report render build simulation check new advise run study price ablate sensors cli)
 set(below "")
 foreach(room IN LISTS layers)
   list(APPEND below ${room})
