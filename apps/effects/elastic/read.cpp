@@ -121,7 +121,7 @@ void ElasticKind::read(Reader& reader, Scene& scene) const {
     part.point("point", point.point, place, Need::required);
   });
   reader.integer("modes", table.modes, within(0, 1000, "", "Use how many natural frequencies are to be told."));
-  reader.choice("coordinates", table.coordinates, {"nodes", "modes"});
+  reader.choice("coordinates", table.coordinates, {"nodes", "modes", "both"});
 }
 
 }  // namespace splashdown::apps

@@ -101,9 +101,9 @@ void check_clamps(const ElasticTable& table, const elastic::SolidMesh<d>& mesh, 
                  "Ask for fewer, or use smaller elements.");
   const bool is_held = static_cast<std::size_t>(free) < held.size();
   const int fewest = is_held ? 1 : freedoms<d>;
-  if (table.coordinates == "modes" && table.modes < fewest)
+  if (table.coordinates != "nodes" && table.modes < fewest)
     problems.add(table.path + ".modes",
-                 fmt::format("must be {} at least with coordinates = \"modes\"{}", fewest,
+                 fmt::format("must be {} at least with coordinates = \"{}\"{}", fewest, table.coordinates,
                              is_held ? "" : ": a body that nothing holds has so many rigid ones"),
                  "Use e.g. 20, or coordinates = \"nodes\".");
   if (table.scheme == "steady" && !is_held)
