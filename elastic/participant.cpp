@@ -135,8 +135,8 @@ void Participant<d>::start(Moving& body) {
   leave_out(solid.held(), body.now.v);
   if (body.spec.drive) body.now.v += body.spec.drive(0);
   if (body.spec.wall) {
-    const int modes = body.spec.wall->modes;
-    body.wall = modes > 0 ? modal_wall<d>(solid, dynamics, modes) : nodal_wall<d>(solid, dynamics);
+    const auto [modes, all_nodes] = *body.spec.wall;
+    body.wall = modes > 0 && !all_nodes ? modal_wall<d>(solid, dynamics, modes) : nodal_wall<d>(solid, dynamics, modes);
     body.wall->start(body.now.v);
   } else {
     if (body.spec.from_equilibrium) settle(body, dynamics);

@@ -30,7 +30,8 @@ struct NamedPlace {
 
 /// The exact term's coordinates of a body that a fluid presses on.
 struct WallChoice {
-  int modes = 0;  ///< the lowest natural modes, rigid ones of free bodies among them; 0: all nodes
+  int modes = 0;           ///< the lowest natural modes, rigid ones of free bodies among them; 0: all nodes
+  bool all_nodes = false;  ///< move, with modes too: the exact term has the modes, passes bring the rest
 };
 
 /// An elastic body, its loads and how it is stepped.

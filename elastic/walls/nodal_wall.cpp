@@ -1,6 +1,8 @@
-// A wall with all nodes of its body.
+// A wall with all nodes of its body: the exact term has all of its surface's vertices, or answers to a few loads.
 #include <Eigen/SparseCholesky>
+#include <stdexcept>
 
+#include "elastic/modes/modes.hpp"
 #include "elastic/stored_field.hpp"
 #include "elastic/walls/wall.hpp"
 
@@ -66,7 +68,8 @@ Sparse part_of(const Sparse& A, const std::vector<Eigen::Index>& rows, Eigen::In
 }
 
 template <int d>
-class NodalWall final : public ElasticWall<d> {
+class NodalWall : public ElasticWall<d> {
+ protected:
   using ElasticWall<d>::solid_, ElasticWall<d>::dynamics_, ElasticWall<d>::boundary_, ElasticWall<d>::u_,
       ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::drive_, ElasticWall<d>::dt_,
       ElasticWall<d>::at_boundary, ElasticWall<d>::spread;
@@ -128,6 +131,11 @@ class NodalWall final : public ElasticWall<d> {
     if (drive_.size() > 0)
       for (Eigen::Index k = 0; k < middle.size(); ++k)
         if (is_held(k)) middle[k] = u_[k] + dt_ / 2 * drive_[k];
+    return move_from(std::move(middle), impulse);
+  }
+
+  /// By Newton's method from a middle of the step.
+  Status move_from(Field middle, const Eigen::VectorXd& impulse) {
     const auto status = whole_solver_.solve(whole_, stage(2 / dt_ * (p_ + load_ + spread(impulse))), damping(), middle);
     s_next_ = 2 / dt_ * (middle - u_);
     return status;
@@ -161,16 +169,25 @@ class NodalWall final : public ElasticWall<d> {
   }
 
   ModalInertia linearised() override {
+    if (Sparse A = tangent(); !is_known(A)) {
+      condense(A);
+      tangent_ = std::move(A);
+    }
+    return {shapes_, condensed_};
+  }
+  /// M_s about the trial, which is the one without an impulse.
+  Sparse tangent() {
     free_middle_ = u_ + dt_ / 2 * s_next_;
     Sparse K;
     solid_.stiffness(free_middle_, K);
     Sparse A = solid_.mass();
     A.coeffs() += dt_ * dt_ / 4 * K.coeffs();
     if (const auto* C = damping()) A.coeffs() += dt_ / 2 * C->coeffs();
-    const bool same = A.nonZeros() == tangent_.nonZeros() && (A.coeffs() == tangent_.coeffs()).all();
-    if (!same) condense(A);
-    tangent_ = std::move(A);
-    return {shapes_, condensed_};
+    return A;
+  }
+  /// Whether it is that of the step before.
+  bool is_known(const Sparse& A) const {
+    return A.nonZeros() == tangent_.nonZeros() && (A.coeffs() == tangent_.coeffs()).all();
   }
 
   void accept() override {
@@ -243,18 +260,83 @@ class NodalWall final : public ElasticWall<d> {
   Field p_, free_middle_;
   Field reactions_ = p_, damped_ = p_;  // held rows of p; dt/2 C s of the last step
   Field u_between_ = Field::Zero(solid_.size());
-  Sparse C_, coupling_, tangent_;
+  Sparse C_, coupling_;
   Eigen::MatrixXd shapes_, condensed_;
+
+ protected:
+  Sparse tangent_;
+};
+
+/// All nodes, of which the exact term knows the answers to a few loads: F = M phi, the inertia of the lowest modes at rest,
+///
+///   Z = M_s^-1 F,   Z^T M_s Z = Z^T F,   on the surface.
+///
+/// What else an impulse does is found by passes. Modes that are stiff and narrow answer little to it: they contract.
+template <int d>
+class LoadedWall final : public NodalWall<d> {
+  using NodalWall<d>::solid_, NodalWall<d>::u_, NodalWall<d>::s_next_, NodalWall<d>::dt_, NodalWall<d>::at_boundary,
+      NodalWall<d>::boundary_, NodalWall<d>::tangent_;
+  using typename ElasticWall<d>::Renewed;
+
+ public:
+  LoadedWall(const Solid<d>& solid, Dynamics dynamics, int modes) : NodalWall<d>(solid, std::move(dynamics)) {
+    const auto lowest = lowest_modes(solid, modes, Field::Zero(solid.size()));
+    if (!lowest.status.ok()) throw std::invalid_argument(lowest.status.cause);
+    loads_ = solid.mass() * lowest.shapes;
+    for (auto column : loads_.colwise())
+      for (Eigen::Index k = 0; k < column.size(); ++k)
+        if (solid.held()[static_cast<std::size_t>(k)]) column[k] = 0;
+  }
+
+ protected:
+  ModalInertia linearised() override {
+    free_ = s_next_;
+    if (Sparse A = this->tangent(); !this->is_known(A)) {
+      Sparse free = A;
+      leave_out(solid_.held(), 1, free);
+      factor_.compute(free);
+      answers_ = factor_.solve(loads_);
+      tangent_ = std::move(A);
+      on_surface_.resize(static_cast<Eigen::Index>(boundary_.nodes.size()) * d, answers_.cols());
+      for (Eigen::Index k = 0; k < answers_.cols(); ++k) on_surface_.col(k) = at_boundary(answers_.col(k));
+      const Eigen::MatrixXd inertia = answers_.transpose() * loads_;
+      inertia_ = 0.5 * (inertia + inertia.transpose());
+    }
+    return {on_surface_, inertia_};
+  }
+
+  /// Within the span of the answers.
+  Status follow(const Eigen::VectorXd& velocities) override {
+    const Eigen::VectorXd y = on_surface_.colPivHouseholderQr().solve(velocities - at_boundary(free_));
+    s_next_ = free_ + answers_ * y;
+    return y.allFinite() ? Status{} : Status{"the solid's velocities are not finite"};
+  }
+
+  Renewed renewed(const Eigen::VectorXd& impulse) override {
+    Renewed all;
+    all.status = this->move_from(u_ + dt_ / 2 * s_next_, impulse);
+    const Eigen::VectorXd y = inertia_.ldlt().solve(on_surface_.transpose() * impulse);
+    free_ = s_next_ - answers_ * y;
+    all.velocities = at_boundary(s_next_);
+    all.free = at_boundary(free_);
+    return all;
+  }
+
+ private:
+  Eigen::MatrixXd loads_, answers_, on_surface_, inertia_;  // F; Z in all nodes and on the surface; Z^T F
+  Eigen::SimplicialLDLT<Sparse> factor_;
+  Field free_;  // of all nodes, without what the answers hold of an impulse
 };
 
 }  // namespace
 
 template <int d>
-std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics) {
+std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics, int modes) {
+  if (modes > 0) return std::make_unique<LoadedWall<d>>(solid, std::move(dynamics), modes);
   return std::make_unique<NodalWall<d>>(solid, std::move(dynamics));
 }
 
-template std::unique_ptr<ElasticWall<2>> nodal_wall<2>(const Solid<2>&, Dynamics);
-template std::unique_ptr<ElasticWall<3>> nodal_wall<3>(const Solid<3>&, Dynamics);
+template std::unique_ptr<ElasticWall<2>> nodal_wall<2>(const Solid<2>&, Dynamics, int);
+template std::unique_ptr<ElasticWall<3>> nodal_wall<3>(const Solid<3>&, Dynamics, int);
 
 }  // namespace splashdown::elastic

@@ -62,12 +62,23 @@ template <int d>
 bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   if (!status_.ok() || !impulse.allFinite()) return false;  // it is refused
   impulse_ = impulse;
+  auto all = renewed(impulse);
+  status_ = all.status;
+  if (!status_.ok()) return false;
+  const double change = (all.velocities - trial_).norm();
+  if (change <= tolerance * (trial_.norm() + free_.norm())) return false;
+  free_ = std::move(all.free);
+  return true;
+}
+
+/// The tangent of the begun step tells how far the last trial is from the one under the impulse.
+template <int d>
+typename ElasticWall<d>::Renewed ElasticWall<d>::renewed(const Eigen::VectorXd& impulse) {
   const Eigen::LDLT<Eigen::MatrixXd> inertia(modal_.inertia);
   const Eigen::VectorXd obeyed = implied();
-  const Eigen::VectorXd change = modal_.modes * inertia.solve(modal_.modes.transpose() * impulse - obeyed);
-  if (change.norm() <= tolerance * (trial_.norm() + free_.norm())) return false;
-  free_ = trial_ - modal_.modes * inertia.solve(obeyed);
-  return true;
+  return {.status = {},
+          .velocities = trial_ + modal_.modes * inertia.solve(modal_.modes.transpose() * impulse - obeyed),
+          .free = trial_ - modal_.modes * inertia.solve(obeyed)};
 }
 
 template <int d>

@@ -94,6 +94,13 @@ class ElasticWall {
   virtual ModalInertia linearised() = 0;
   /// Z^T of the impulse that the last trial of `follow` obeys.
   virtual Eigen::VectorXd implied() const = 0;
+  /// What an impulse makes of the last trial, and the velocities without what Z and M answer of it.
+  struct Renewed {
+    Status status;
+    Eigen::VectorXd velocities, free;
+  };
+  /// Of the surface. May put the trial anew, near enough to be accepted in its stead.
+  virtual Renewed renewed(const Eigen::VectorXd& impulse);
   /// Makes the trial the present.
   virtual void accept() = 0;
   /// What the damping of the trial's step takes in its kick, and that of the step before [J, J/m].
@@ -129,9 +136,10 @@ class ElasticWall {
 };
 
 /// All nodes: the coordinates of the exact term are those of all vertices that are not held, M is what the inside leaves of M_s
-/// on them (Schur complement), dense.
+/// on them (Schur complement), dense. `modes`: in their stead the answers of the deformed body to the inertia of its lowest modes,
+/// 0: all vertices; what else moves takes passes. Throws std::invalid_argument for more modes than the body has.
 template <int d>
-std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics);
+std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics, int modes = 0);
 /// The lowest natural modes, small vibrations about x = c + R (X - C + sum q_k phi_k) with a frame (c, R) that moves along if
 /// nothing is held; the frame then counts as 3 of the modes in the plane, 6 in space. Throws std::invalid_argument for fewer
 /// or too many.

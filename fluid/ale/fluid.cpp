@@ -206,6 +206,8 @@ Status AleFlow::begin(double kick, double dt) {
   dt_ = dt;
   is_begun_ = true;
   is_solved_ = false;
+  step_answers_.factor = -1;
+  answers_ = &kept_answers_;
   middle_ = state_.placements;
   for (std::size_t w = 0; w < moved_.size(); ++w)
     if (!state_.rates[w].isZero(0))
@@ -244,64 +246,6 @@ void AleFlow::move_walls(const Eigen::VectorXd& rates) {
   extension_.extend(fields_.mesh_velocity);
 }
 
-/// Velocities go on as they changed last.
-Unknowns AleFlow::guess() const {
-  const double ratio = state_.kick > 0 && !spec_.scheme.is_steady ? kick_ / state_.kick : 0;
-  Unknowns at(equations_.size());
-  at.head(2 * mesh_.size()) = (state_.velocity + ratio * (state_.velocity - state_.before)).reshaped();
-  at.tail(mesh_.corners) = state_.pressure;
-  return at;
-}
-
-Status AleFlow::solve(const Eigen::VectorXd& velocities, bool goes_on) {
-  rates_ = all_rates(velocities);
-  is_solved_ = is_solved_ && goes_on;
-  if (!is_solved_) tangent_ = first_;
-  move_walls(rates_);
-  pressure_.clear();
-  const auto status = newton();
-  is_solved_ = status.ok();
-  if (is_solved_) find_loads();
-  return status;
-}
-
-bool AleFlow::factor(FactoredSlope& tangent) {
-  ++factorisations_;
-  tangent_ = &tangent;
-  return tangent.make(equations_, given_, fields_, at_, assembly_seconds_, factor_seconds_);
-}
-
-Status AleFlow::newton() {
-  constexpr double slow = 0.25;  // of a change to the one before: another factor costs less
-  double last = 0;
-  bool is_fresh = false;
-  Eigen::VectorXd residual;
-  for (iterations_ = 1; iterations_ <= spec_.newton.max_iterations; ++iterations_) {
-    {
-      const Stopwatch watch(assembly_seconds_);
-      equations_.residual(fields_, at_, residual);
-    }
-    Eigen::VectorXd change;
-    {
-      const Stopwatch watch(solve_seconds_);
-      change = tangent_->correction(given_.gather(residual));
-    }
-    if (!change.allFinite()) return {"Newton's method of the fluid left all numbers; use a smaller time.dt_max"};
-    const Nodes old = at_.head(2 * mesh_.size()).reshaped(2, mesh_.size());
-    given_.add(change, at_);
-    const Nodes now = at_.head(2 * mesh_.size()).reshaped(2, mesh_.size());
-    const double step = fastest_of(now - old), speed = std::max(fastest_of(now), 1e-3 * state_.fastest);
-    if (step <= spec_.newton.tolerance * speed) return {};
-    if (iterations_ > 1 && step > slow * last) {
-      if (is_fresh && step > 1e3 * last) break;
-      if (!factor(of_pass_)) break;
-      is_fresh = true;
-    }
-    last = step;
-  }
-  return {"Newton's method of the fluid did not converge; use a smaller time.dt_max, or a longer fluid.inflow.ramp"};
-}
-
 Status AleFlow::acceptable() const {
   auto placements = state_.placements;
   bool moves = false;
@@ -334,6 +278,8 @@ void AleFlow::commit(const Eigen::VectorXd& placements) {
   ++state_.steps;
   time_ += dt_;
   if (tangent_ != &kept_) std::swap(kept_, *tangent_);
+  if (answers_ != &kept_answers_) std::swap(kept_answers_, step_answers_);
+  answers_ = &kept_answers_;
   tangent_ = first_ = &kept_;
   is_begun_ = is_solved_ = false;
   x_ = places_of(state_.placements);

@@ -36,6 +36,11 @@ struct LoadGoal {
 /// end [s]. Throws std::runtime_error where a step fails.
 AleFlowSpec adapted(AleFlowSpec spec, int times, double dt, double until);
 
+/// What bodies make of an impulse: amplitudes of modes by the impulse on the walls at amplitudes y. `answered`: what the impulse
+/// on the modes loses for each amplitude, nearly.
+using NextAmplitudes = std::function<Eigen::VectorXd(const Eigen::MatrixXd& answered, const Eigen::VectorXd& impulse,
+                                                     const Eigen::VectorXd& y)>;
+
 /// The flow, and how it is looked at.
 class AleFlow final : public FluidView<2> {
  public:
@@ -57,6 +62,13 @@ class AleFlow final : public FluidView<2> {
   /// The begun step ends with these velocities of the first walls' coordinates; all others stand still. `goes_on`: from the last
   /// solve, else from t_n. Refused where Newton's method fails.
   Status solve(const Eigen::VectorXd& velocities, bool goes_on = false);
+  /// The same with velocities + modes y, y = next(impulse, y): flow and walls by one Newton's method.
+  Status solve(const Eigen::VectorXd& velocities, const Eigen::MatrixXd& modes, const NextAmplitudes& next,
+               bool goes_on = false);
+  /// y of the last of these solves.
+  const Eigen::VectorXd& amplitudes() const { return amplitudes_; }
+  /// What the impulse on these modes loses for each amplitude, with what the last solve knew of it.
+  Eigen::MatrixXd answered(const Eigen::MatrixXd& modes) const { return modes.transpose() * answers_->impulses; }
   /// Impulses on those coordinates.
   const Eigen::VectorXd& impulse() const { return impulse_; }
   /// Minus the slope of impulses by velocities of the first so many coordinates, of the factor that was used last [kg, ...].
@@ -125,6 +137,20 @@ class AleFlow final : public FluidView<2> {
     double fastest = 0;                              // speed so far
     long steps = 0;
   };
+  /// How the flow answers motions of walls, by a factor.
+  struct Answers {
+    Eigen::MatrixXd motions;                          // of coordinates, one a column
+    std::vector<Eigen::VectorXd> middle, placements;  // of walls in the step's middle and at t_n
+    double kick = 0;
+    Eigen::MatrixXd impulses, fields;  // what impulses lose; changes of the unknowns that are not given
+    long factor = -1;                  // that they are of
+  };
+  /// Walls that move with velocities + modes y.
+  struct WithModes {
+    const Eigen::VectorXd& velocities;
+    const Eigen::MatrixXd& modes;
+    const NextAmplitudes& next;
+  };
 
   void place_walls();
   void start();
@@ -138,8 +164,13 @@ class AleFlow final : public FluidView<2> {
   void move_walls(const Eigen::VectorXd& rates);
   void give(const Nodes& walls, Unknowns& at) const;
   Unknowns guess() const;
-  Status newton();
+  Status newton(const WithModes* bodies);
   bool factor(FactoredSlope& tangent);
+  Eigen::VectorXd impulse_of(const Eigen::VectorXd& nodal_loads) const;
+  Eigen::VectorXd correct(const WithModes& bodies, const Eigen::VectorXd& residual, Eigen::VectorXd& change);
+  void find_answers(const FactoredSlope& tangent, Answers& answers) const;
+  const Answers& answers_to(const Eigen::MatrixXd& modes);
+  void load_answers(std::istream& in, double rows, double columns, double kick);
   void find_loads();
   void add_buoyancy(Eigen::VectorXd& loads) const;
   Vec<2> load_at(const Unknowns& at, std::size_t wall) const;
@@ -164,6 +195,8 @@ class AleFlow final : public FluidView<2> {
   // Factors: of a step before, of the step under way where that does not suit it, of the last solve where neither converges.
   FactoredSlope kept_, of_step_, of_pass_;
   FactoredSlope *first_ = nullptr, *tangent_ = nullptr;  // that a solve from t_n begins with, that is used
+  Answers kept_answers_, step_answers_;                  // of a step before, of the step under way
+  const Answers* answers_ = &kept_answers_;              // that are used
   // Of the step under way.
   double kick_ = 0, dt_ = 0;
   bool is_begun_ = false, is_solved_ = false;
@@ -171,7 +204,7 @@ class AleFlow final : public FluidView<2> {
   std::vector<Eigen::VectorXd> middle_;  // placements foreseen at t_{n+1/2}
   Eigen::VectorXd rates_;                // of all walls
   Unknowns at_;
-  Eigen::VectorXd reactions_, nodal_loads_, impulse_;
+  Eigen::VectorXd reactions_, nodal_loads_, impulse_, amplitudes_;
   int iterations_ = 0;
   long factorisations_ = 0;
   // To be looked at.

@@ -48,33 +48,63 @@ void AleFlow::add_buoyancy(Eigen::VectorXd& loads) const {
   }
 }
 
-Eigen::MatrixXd AleFlow::answer(const Eigen::MatrixXd& motions) const {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
-  const FactoredSlope* tangent = is_solved_ ? tangent_ : first_;
-  if (!tangent || !tangent->is_ready()) return all;
+/// On coordinates of all walls, of loads on nodes.
+Eigen::VectorXd AleFlow::impulse_of(const Eigen::VectorXd& nodal_loads) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(coordinates(moved_.size()));
+  for (const auto& wall : moved_) {
+    Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));
+    for (std::size_t k = 0; k < wall.nodes.size(); ++k)
+      of_nodes.segment<2>(2 * static_cast<Eigen::Index>(k)) = nodal_loads.segment<2>(2 * wall.nodes[k]);
+    const auto w = static_cast<std::size_t>(&wall - moved_.data());
+    all.segment(wall.first, wall.motion->coordinates()) =
+        kick_ * wall.motion->basis(state_.placements[w]).transpose() * of_nodes;
+  }
+  return all;
+}
+
+/// One solve with the factor for each motion.
+void AleFlow::find_answers(const FactoredSlope& tangent, Answers& answers) const {
+  const auto& motions = answers.motions;
+  answers.factor = tangent.number();
+  answers.impulses = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
+  answers.fields = Eigen::MatrixXd::Zero(given_.free(), motions.cols());
+  if (!tangent.is_ready()) return;
   const std::size_t walls = walls_with(motions.rows());
   std::vector<Eigen::MatrixXd> moved, onto;  // velocities of nodes; impulses on coordinates by those on nodes
   for (std::size_t w = 0; w < walls; ++w) {
     const auto& wall = moved_[w];
-    moved.emplace_back(wall.motion->basis(middle_[w]) * motions.middleRows(wall.first, wall.motion->coordinates()));
-    onto.emplace_back(wall.motion->basis(state_.placements[w]).transpose());
+    moved.emplace_back(wall.motion->basis(answers.middle[w]) *
+                       motions.middleRows(wall.first, wall.motion->coordinates()));
+    onto.emplace_back(wall.motion->basis(answers.placements[w]).transpose());
   }
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
     Unknowns change = Unknowns::Zero(equations_.size());
     for (std::size_t w = 0; w < walls; ++w)
       for (std::size_t a = 0; a < moved_[w].nodes.size(); ++a)
         change.segment<2>(2 * moved_[w].nodes[a]) = moved[w].col(k).segment<2>(2 * static_cast<Eigen::Index>(a));
-    given_.add(tangent->correction(given_.gather(tangent->times(change))), change);
-    const Eigen::VectorXd reactions = kick_ * tangent->times(change);
+    answers.fields.col(k) = tangent.correction(given_.gather(tangent.times(change)));
+    given_.add(answers.fields.col(k), change);
+    const Eigen::VectorXd reactions = answers.kick * tangent.times(change);
     for (std::size_t w = 0; w < walls; ++w) {
       const auto& wall = moved_[w];
       Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));
       for (std::size_t a = 0; a < wall.nodes.size(); ++a)
         of_nodes.segment<2>(2 * static_cast<Eigen::Index>(a)) = reactions.segment<2>(2 * wall.nodes[a]);
-      all.col(k).segment(wall.first, wall.motion->coordinates()) = onto[w] * of_nodes;
+      answers.impulses.col(k).segment(wall.first, wall.motion->coordinates()) = onto[w] * of_nodes;
     }
   }
-  return all;
+}
+
+Eigen::MatrixXd AleFlow::answer(const Eigen::MatrixXd& motions) const {
+  Answers answers;
+  answers.motions = motions;
+  answers.middle = middle_;
+  answers.placements = state_.placements;
+  answers.kick = kick_;
+  const FactoredSlope* tangent = is_solved_ ? tangent_ : first_;
+  if (!tangent || !tangent->is_ready()) return Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
+  find_answers(*tangent, answers);
+  return answers.impulses;
 }
 
 Eigen::MatrixXd AleFlow::added_mass(std::span<const std::size_t> walls) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace splashdown::ale {
 
@@ -15,11 +16,8 @@ coupling::Status Participant::begin(const coupling::Step& step, const coupling::
       throw std::invalid_argument("ale fluid: knows no local operators on hulls");
   step_ = step;
   modal_ = structure.modal;
-  const auto status = fluid_->begin(step.kick, step.dt);
-  if (!status.ok() || modal_.modes.cols() == 0) return status;
-  answered_ = modal_.modes.transpose() * fluid_->answer(modal_.modes);
-  of_factor_ = fluid_->factorisations();
-  return status;
+  is_first_pass_ = true;
+  return fluid_->begin(step.kick, step.dt);
 }
 
 namespace {
@@ -40,26 +38,17 @@ Eigen::VectorXd next_modes(const coupling::ModalInertia& modal, const coupling::
 }  // namespace
 
 coupling::Status Participant::solve_exact(const coupling::Pass& pass) {
-  constexpr double agreed = 1e-9;  // of velocities: Newton's method squares what is left
-  constexpr int most = 30;
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(modal_.modes.cols());
-  Eigen::MatrixXd answered = answered_;
-  long of_factor = of_factor_;
-  for (int k = 0; k < most; ++k) {
-    solution_.velocities = pass.velocities + modal_.modes * y;
-    if (!solution_.velocities.allFinite()) return {"the velocities of the bodies are not finite"};
-    if (const auto status = fluid_->solve(solution_.velocities, k > 0); !status.ok()) return status;
-    if (of_factor != fluid_->factorisations()) answered = modal_.modes.transpose() * fluid_->answer(modal_.modes);
-    of_factor = fluid_->factorisations();
-    const Eigen::VectorXd next =
-        next_modes(modal_, pass.contacts, answered, fluid_->impulse().head(pass.velocities.size()), y);
-    const Eigen::VectorXd change = modal_.modes * (next - y);
-    solution_.imbalance = change;
-    const double scale = std::max(solution_.velocities.cwiseAbs().maxCoeff(), pass.velocities.cwiseAbs().maxCoeff());
-    if (change.cwiseAbs().maxCoeff() <= agreed * scale) return {};
-    y = next;
-  }
-  return {"fluid and bodies do not agree; use a smaller time.dt_max"};
+  const NextAmplitudes next = [&](const Eigen::MatrixXd& answered, const Eigen::VectorXd& impulse,
+                                  const Eigen::VectorXd& y) {
+    return next_modes(modal_, pass.contacts, answered, impulse, y);
+  };
+  const bool goes_on = !std::exchange(is_first_pass_, false);
+  if (const auto status = fluid_->solve(pass.velocities, modal_.modes, next, goes_on); !status.ok()) return status;
+  const Eigen::VectorXd& y = fluid_->amplitudes();
+  solution_.velocities = pass.velocities + modal_.modes * y;
+  solution_.imbalance =
+      modal_.modes * (next(fluid_->answered(modal_.modes), fluid_->impulse().head(pass.velocities.size()), y) - y);
+  return {};
 }
 
 coupling::Status Participant::solve(const coupling::Pass& pass) {

@@ -1,8 +1,8 @@
 // The fluid on a mesh that moves with its walls as a part of a coupling. Each wall says what its coordinates are
 // (walls/moving_wall.hpp), of a rigid one its twist; the structure's walls come first among the fluid's, all others stand still.
 //
-// The exact term (M + Z^T A Z) y = Z^T (I + A y) + known is found by Newton's method with the slope A of the factor that the
-// fluid has anyway: its first correction contains the added mass.
+// The exact term (M + Z^T A Z) y = Z^T (I + A y) + known is a part of Newton's method for the flow: the factor that the fluid has
+// anyway tells A, which contains the added mass, and each iteration corrects flow and bodies together (AleFlow::solve).
 #pragma once
 
 #include <memory>
@@ -45,8 +45,7 @@ class Participant final : public coupling::FluidPart, private coupling::Linearis
   std::unique_ptr<AleFlow> fluid_;
   coupling::Step step_;
   coupling::ModalInertia modal_;
-  Eigen::MatrixXd answered_;  // Z^T A Z as the step begins, of this factor of the fluid's
-  long of_factor_ = -1;
+  bool is_first_pass_ = true;  // of the begun step: later ones go on from the flow of the one before
   coupling::Solution solution_;
 };
 

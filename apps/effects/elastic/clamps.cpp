@@ -101,9 +101,9 @@ void check_clamps(const Scene& scene, const ElasticTable& table, const elastic::
     problems.add(table.path + ".clamp",
                  fmt::format("leaves {} of {} rigid motions, which modes do not follow", left, freedoms<d>),
                  "Hold more of the body, or use coordinates = \"nodes\".");
-  else if (modal && table.modes < fewest)
+  else if (table.coordinates != "nodes" && table.modes < fewest)
     problems.add(table.path + ".modes",
-                 fmt::format("must be {} at least with coordinates = \"modes\"{}", fewest,
+                 fmt::format("must be {} at least with coordinates = \"{}\"{}", fewest, table.coordinates,
                              left == 0 ? "" : ": a body that nothing holds has so many rigid ones"),
                  "Use e.g. 20, or coordinates = \"nodes\".");
   if (table.scheme == "steady" && left > 0)

@@ -71,8 +71,9 @@ struct ElasticTable {
   std::vector<ElasticPatch> patches;
   std::string start = "undeformed";  ///< or "equilibrium" with the loads of t = 0
   std::vector<ElasticPoint> point_masses, points;
-  int modes = 0;                      ///< natural frequencies that are told before the run
-  std::string coordinates = "nodes";  ///< of the wall that a fluid presses on: all nodes, or the `modes` lowest modes
+  int modes = 0;  ///< natural frequencies that are told before the run
+  /// Of the wall that a fluid presses on: all nodes, the `modes` lowest modes, or all nodes with modes in the exact term.
+  std::string coordinates = "nodes";
 };
 
 struct ElasticTables {

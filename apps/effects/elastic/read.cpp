@@ -181,7 +181,7 @@ void ElasticKind::read(Reader& reader, Scene& scene) const {
   });
   reader.each_table("point", [&](Reader& part) { read_points(part, table.points, dimension); });
   reader.integer("modes", table.modes, within(0, 1000, "", "Use how many natural frequencies are to be told."));
-  reader.choice("coordinates", table.coordinates, {"nodes", "modes"});
+  reader.choice("coordinates", table.coordinates, {"nodes", "modes", "both"});
 }
 
 }  // namespace splashdown::apps

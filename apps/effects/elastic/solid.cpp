@@ -217,7 +217,8 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
     constexpr double unresolved = 0.05;  // of the longest step
     const double none = scene.has_fluid() ? unresolved * scene.time.dt_max : 0.0;
     spec.damping = {table.mass_damping, table.stiffness_damping.value_or(none)};
-    if (scene.has_fluid()) spec.wall = elastic::WallChoice{table.coordinates == "modes" ? table.modes : 0};
+    if (scene.has_fluid())
+      spec.wall = elastic::WallChoice{table.coordinates == "nodes" ? 0 : table.modes, table.coordinates != "modes"};
     if (scene.gravity) spec.gravity = vec<d>(scene.gravity->acceleration);
     spec.drive = drive_of<d>(table, mesh);
     spec.forces = solid_loads<d>(scene, table, *spec.solid, mesh);

@@ -16,12 +16,12 @@ struct Mapped {
   CellSlopes grad;
   double area;
 };
-Mapped map(const CellPoint& point, const Eigen::Matrix<double, 2, 6>& x) {
+inline Mapped map(const CellPoint& point, const Eigen::Matrix<double, 2, 6>& x) {
   const Mat<2> J = x * point.slopes.transpose();
   const double det = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
   Mat<2> inverse;
-  inverse << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0);
-  return {inverse.transpose() * point.slopes / det, point.weight * det};
+  inverse << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);  // transposed
+  return {(inverse / det) * point.slopes, point.weight * det};
 }
 
 }  // namespace
@@ -98,6 +98,7 @@ void FlowEquations::add_cell(const StepFields& fields, const Unknowns& at, std::
                   after = velocities(at, cell), w = of(fields.mesh_velocity, cell);
   const double theta = fields.theta, rate = fields.rate, rho = density_, mu = viscosity_;
   const CellNodes mean = theta * after + (1 - theta) * before, change = rate * (after - before);
+  const bool moves = x != x_after;
   Eigen::Vector3d p;
   for (int k = 0; k < 3; ++k) p[k] = at[pressure(cell[static_cast<std::size_t>(k)])];
   for (const auto& point : cell_rule()) {
@@ -109,7 +110,7 @@ void FlowEquations::add_cell(const StepFields& fields, const Unknowns& at, std::
     const Mat<2> stress = mu * (gradient + gradient.transpose()) - p.dot(point.L) * Mat<2>::Identity();
     const Eigen::Matrix<double, 2, 6> momentum = area * (rho * inertia * point.N.transpose() + stress * g);
     for (int a = 0; a < 6; ++a) R.segment<2>(2 * a) += momentum.col(a);
-    const auto [g_after, area_after] = map(point, x_after);
+    const auto [g_after, area_after] = moves ? map(point, x_after) : Mapped{g, area};
     const double divergence = after.cwiseProduct(g_after).sum();
     R.tail<3>() -= area_after * divergence * point.L;
     if (!K) continue;

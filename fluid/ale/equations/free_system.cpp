@@ -11,6 +11,12 @@ GivenUnknowns::GivenUnknowns(std::vector<char> is_given) : numbers_(is_given.siz
     if (!is_given[i]) numbers_[i] = static_cast<int>(free_++);
 }
 
+Eigen::Index GivenUnknowns::free_among(Eigen::Index first) const {
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < first; ++i) count += (*this)[i] ? 0 : 1;
+  return count;
+}
+
 Eigen::VectorXd GivenUnknowns::gather(const Eigen::VectorXd& all) const {
   Eigen::VectorXd out(free_);
   for (std::size_t i = 0; i < numbers_.size(); ++i)

@@ -16,6 +16,8 @@ class GivenUnknowns {
   /// Whether an unknown is given.
   bool operator[](Eigen::Index unknown) const { return numbers_[static_cast<std::size_t>(unknown)] < 0; }
   Eigen::Index free() const { return free_; }  ///< how many are not given
+  /// How many of the first so many unknowns are not given.
+  Eigen::Index free_among(Eigen::Index first) const;
   /// What belongs to those that are not given.
   Eigen::VectorXd gather(const Eigen::VectorXd& all) const;
   /// Adds to them.
@@ -38,6 +40,10 @@ class FactoredSlope {
   bool is_ready() const { return solver_.is_ready(); }
   /// Forgets the factor.
   void drop() { solver_ = {}; }
+  /// A number that tells factors apart.
+  long number() const { return number_; }
+  /// Gives it one.
+  void number(long n) { number_ = n; }
   /// Whether it is of steps as long as this one, and of the same scheme.
   bool suits(const StepFields& fields) const;
   /// Change of what is not given that takes this away from its residuals.
@@ -53,6 +59,7 @@ class FactoredSlope {
   Unknowns at_;
   Eigen::SparseMatrix<double> slope_;
   DirectSolver solver_;
+  long number_ = 0;
 };
 
 }  // namespace splashdown::ale

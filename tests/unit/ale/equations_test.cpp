@@ -1,10 +1,12 @@
 // The equations by themselves: what they preserve, that slopes are slopes.
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <random>
 
 #include "flows.hpp"
 #include "fluid/ale/equations/free_system.hpp"
+#include "fluid/ale/linear/mixing.hpp"
 
 namespace splashdown::ale::equations_test {
 namespace {
@@ -90,6 +92,21 @@ TEST(DirectSolver, solves_what_it_has_factored_and_refuses_what_is_singular) {
   matrix.coeffRef(2, 2) = 0;
   EXPECT_FALSE(solver.factor(matrix));
   EXPECT_FALSE(solver.is_ready());
+}
+
+// A linear map with three eigenvalues: four changes span what is left (Walker & Ni 2011, theorem 2.2), where the sequence by itself
+// diverges.
+TEST(Mixing, ends_when_it_has_seen_as_many_changes_as_there_are_eigenvalues) {
+  constexpr Eigen::Index n = 40;
+  Eigen::VectorXd eigenvalues(n);
+  for (Eigen::Index k = 0; k < n; ++k) eigenvalues[k] = 0.2 + 1.2 * static_cast<double>(k % 3);
+  const Eigen::MatrixXd Q = Eigen::MatrixXd::Random(n, n).householderQr().householderQ();
+  const Eigen::MatrixXd A = Q * eigenvalues.asDiagonal() * Q.transpose();
+  const Eigen::VectorXd right = Eigen::VectorXd::Random(n);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  Mixing mixing(n);
+  for (int k = 0; k < 4; ++k) x += mixing.way(right - A * x);
+  EXPECT_LT((right - A * x).norm(), 1e-10 * right.norm());
 }
 
 }  // namespace
