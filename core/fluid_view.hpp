@@ -76,8 +76,9 @@ struct PointPlace {
 
 /// A load whose error the fluid knows.
 struct GoalValue {
-  std::string name;             ///< "BODY.x"
-  double value = 0, error = 0;  ///< value minus truth, as far as it is known [N, N/m]
+  std::string name;  ///< "BODY.x"
+  double value = 0;  ///< [N, N/m]
+  double error = 0;  ///< value minus truth, as far as it is known [N, N/m]
 };
 
 /// World frame; of the step under way between its begin and its commit, else of t_n. Spans and numbers of points hold until the

@@ -5,12 +5,9 @@
 //   M s + dt/2 (f(x_{n+1/2}) + C s) = p_n + I + kick F(t_n),   p_{n+1} = M s - dt/2 (f(x_{n+1/2}) + C s)
 //
 // with x_{n+1/2} = (x_n + x_{n+1})/2: kicks, and the midpoint rule between them (Hairer, Lubich, Wanner 2006, section VI.4).
-// Second order with any steps; momenta are exact, and rigid motions leapfrog. f is that of Law::stress_between, so that
-// between kicks energies of linear solids and of St. Venant and Kirchhoff's are exact at any dt: the midpoint rule itself gains
-// energy where a stiff body turns fast. p is the momentum just before the kick of t_n. The tangent of the left side is what
-// the exact interface term knows,
-//
-//   M_s = M + dt/2 C + dt^2/4 K.
+// Second order with any steps; momenta are exact, and rigid motions leapfrog. f is that of Law::stress_between, so that between
+// kicks energies of linear solids and of St. Venant and Kirchhoff's are exact at any dt. p is the momentum just before the kick
+// of t_n. The tangent of the left side, M_s = M + dt/2 C + dt^2/4 K, is what the exact interface term knows.
 //
 // Held unknowns move with what drives them in the middle of the step, or stay. Energies of a kick, with the mean s' of the
 // velocities of the steps before and after it: damping takes s'.(D_before + D), D = dt/2 C s, and what drives the held unknowns
@@ -136,8 +133,8 @@ class ElasticWall {
 };
 
 /// All nodes: the coordinates of the exact term are those of all vertices that are not held, M is what the inside leaves of M_s
-/// on them (Schur complement), dense. `modes`: in their stead the answers of the deformed body to the inertia of its lowest modes,
-/// 0: all vertices; what else moves takes passes. Throws std::invalid_argument for more modes than the body has.
+/// on them (Schur complement), dense. `modes`: in their stead the answers of the deformed body to the inertia of its lowest
+/// modes, 0: all vertices; what else moves takes passes. Throws std::invalid_argument for more modes than the body has.
 template <int d>
 std::unique_ptr<ElasticWall<d>> nodal_wall(const Solid<d>& solid, Dynamics dynamics, int modes = 0);
 /// The lowest natural modes, small vibrations about x = c + R (X - C + sum q_k phi_k) with a frame (c, R) that moves along if

@@ -20,7 +20,8 @@ using splashdown::WallImpulse;
 using splashdown::WallLayout;
 using splashdown::WallVelocity;
 
-/// The surface of a wall at one instant: of one that deforms in the world's frame, as it was made in the wall's. Made by its Wall.
+/// The surface of a wall at one instant: of one that deforms in the world's frame, as it was made in the wall's. Its Wall makes
+/// it.
 template <int d>
 struct WallShape {
   AtVertices<d> vertices;                                               ///< [m]

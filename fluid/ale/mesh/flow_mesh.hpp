@@ -58,11 +58,12 @@ struct MeshSpec {
 /// Throws std::invalid_argument for hulls that cross the box or each other without sharing area.
 FlowMesh flow_mesh(const MeshSpec& spec);
 
-/// Each triangle divided into four, the boundary with it; what is quadratic before is so after.
+/// A mesh after, and where its nodes lie before.
 struct DividedMesh {
   FlowMesh mesh;
   std::vector<SplitCells<2>::At> places;  ///< of its nodes in the mesh before
 };
+/// Each triangle divided into four, the boundary with it; what is quadratic before is so after.
 DividedMesh divided(const FlowMesh& mesh);
 
 }  // namespace splashdown::ale
