@@ -19,8 +19,8 @@ inline constexpr const char* bodies_header =
 inline constexpr const char* probes_header = "time,probe,value";
 /// x, y, z: in the undeformed body at t = 0, world frame.
 inline constexpr const char* elastic_header =
-    "time,body,strain_energy,kinetic_energy,potential_energy,dissipated_energy,clamp_work,von_mises,von_mises_x,von_"
-    "mises_y,von_mises_z";
+    "time,body,strain_energy,kinetic_energy,potential_energy,dissipated_energy,clamp_work,"
+    "von_mises,von_mises_x,von_mises_y,von_mises_z";
 
 /// `effect_columns`: behind all others.
 std::string fluid_header(const std::vector<std::string>& effect_columns);
