@@ -9,9 +9,7 @@
 // kicks energies of linear solids and of St. Venant and Kirchhoff's are exact at any dt. p is the momentum just before the kick
 // of t_n. The tangent of the left side, M_s = M + dt/2 C + dt^2/4 K, is what the exact interface term knows.
 //
-// Held unknowns move with what drives them in the middle of the step, or stay. Energies of a kick, with the mean s' of the
-// velocities of the steps before and after it: damping takes s'.(D_before + D), D = dt/2 C s, and what drives the held unknowns
-// gives s'.R over them, R being what their rows of the equations above lack.
+// Held unknowns move with what drives them in the middle of the step, or stay.
 #pragma once
 
 #include <iosfwd>
@@ -70,9 +68,10 @@ class ElasticWall {
   double kinetic_energy_between() const { return 0.5 * s_.dot(solid_.mass() * s_); }
   /// U in the middle of the last step [J, J/m].
   virtual double strain_energy_between() const = 0;
-  /// What damping has taken of the body so far [J, J/m].
+  /// What damping has taken of the body so far: in a kick s'.(D_before + D) with the mean s' of the velocities before and after
+  /// it and D = dt/2 C s [J, J/m].
   double dissipated() const { return dissipated_; }
-  /// What moving clamps have given it so far [J, J/m].
+  /// What moving clamps have given it so far: in a kick s'.R, R being what the equations of held unknowns lack [J, J/m].
   double driven() const { return driven_; }
   /// Newton iterations so far.
   virtual long iterations() const = 0;

@@ -6,7 +6,7 @@
 
 bodies: they land on water, or are let go under it; shapes, stiffness, density down to a thousandth of water's. Laws: the run ends at
 its end; all numbers are finite; strain, motion and what damping has taken are what the body began with and the water's work on it,
-to 2 % of the largest of these, from when the first steps have grown to equal ones; with modes as coordinates passes do not exceed three in the mean.
+to 2 % of the largest of these, wherever two steps are equal; with modes as coordinates passes do not exceed three in the mean.
 
 plates: held at their ends, clamped or simply supported, as the bottom of a column of water or afloat on deep water; they are let go
 with a velocity. Law: the lowest frequency is that of the plate with the added mass of its lowest dry mode, to 2 %.
@@ -103,9 +103,9 @@ def bodies(binary, seed, options, folder):
     work = works(fluid, own[1] + taken[1] - own[0])
     kept = [e + d - w for e, d, w in zip(own[1:], taken[1:], work)]
     largest = max(max(abs(v) for v in values) for values in (own, work, weight))
-    # The first steps grow by half each, and what vibrates is not that of equal steps then.
-    grown = next(n for n in range(1, len(fluid)) if fluid[n]["dt"] == fluid[n - 1]["dt"])
-    gained, lost = max(v - kept[grown] for v in kept[grown:]), max(kept[grown] - v for v in kept[grown:])
+    # Where steps change their length, energies between them are not comparable: strain is that of their middles.
+    level = [kept[n] for n in range(1, len(kept)) if fluid[n]["dt"] == fluid[n - 1]["dt"]]
+    gained, lost = max(v - level[0] for v in level), max(level[0] - v for v in level)
     with open(os.path.join(out, "summary.json")) as f:
         passes = json.load(f)["coupling"]["passes_mean"]
     words = (f"density {density:.2g}, stiffness {stiffness:.1e}, {'modes' if modal else 'nodes'}: energy +{100 * gained / largest:.2f} "

@@ -2,6 +2,7 @@
 
 #include "apps/record/probes.hpp"
 #include "box_of_water.hpp"
+#include "stand_ins.hpp"
 
 namespace splashdown::apps::patch_test {
 namespace {
@@ -82,6 +83,33 @@ TEST(Patch, on_a_thin_plate_takes_one_side) {
 TEST(Patch, that_misses_the_hull_has_no_area) {
   EXPECT_EQ((patch_area<3>(box_region<3>({2, 2, 2}, {3, 3, 3}), unit_box<3>())), 0);
   EXPECT_EQ((patch_area<3>(box_region<3>({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}), unit_box<3>())), 0);
+}
+
+// A wall that is stretched and turned: what water touches goes back to where it was, in the same share of its facet.
+TEST(Patch, of_a_wall_that_deforms_is_what_it_was_at_rest) {
+  const auto square = unit_box<2>();
+  DrawnFluid<2> fluid;
+  fluid.made = {{.name = "square", .surface = square, .deforms = true}};
+  fluid.poses = {Isometry<2>::Identity()};
+  const Eigen::Rotation2Dd turn(0.7);
+  const auto moved = [&](const Vec<2>& X) -> Vec<2> { return turn * Vec<2>(3 * X.x(), 0.5 * X.y()) + Vec<2>(5, -2); };
+  std::vector<Vec<2>> rest;
+  for (Eigen::Index f = 0; f < square.facets.cols(); ++f)
+    for (const double share : {0.2, 0.9}) {
+      rest.emplace_back((1 - share) * square.vertices.col(square.facets(0, f)) +
+                        share * square.vertices.col(square.facets(1, f)));
+      fluid.x.push_back(moved(rest.back()));
+    }
+  for (int f = 0; f < 4; ++f) fluid.facets.push_back({{2 * f + 1, 2 * f}, 0});
+  const Vec<2> far(9, 9);
+  fluid.x.push_back(far);
+  EXPECT_TRUE(points_at_rest<2>(fluid, 0).empty()) << "it is rigid";
+  fluid.bent = {square.vertices};
+  for (Eigen::Index v = 0; v < square.vertices.cols(); ++v) fluid.bent[0].col(v) = moved(square.vertices.col(v));
+  const auto found = points_at_rest<2>(fluid, 0);
+  ASSERT_EQ(found.size(), fluid.x.size());
+  for (std::size_t k = 0; k < rest.size(); ++k) EXPECT_LT((found[k] - rest[k]).norm(), 1e-13) << k;
+  EXPECT_EQ(found.back(), far) << "on no wall";
 }
 
 }  // namespace

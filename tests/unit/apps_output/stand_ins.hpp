@@ -26,11 +26,13 @@ class DrawnFluid final : public FluidView<d> {
   double volume_of_drop = 0;   ///< [m^d]
   std::vector<double> repair;  ///< empty: none was made
   Ledger books;
-  double gravity = 0;  ///< 0: no such effect
+  double gravity = 0;               ///< 0: no such effect
+  std::vector<AtVertices<d>> bent;  ///< of walls, those that deform; empty: all are rigid
 
   double density() const override { return 1000; }
   std::span<const WallSpec<d>> walls() const override { return made; }
   std::span<const Isometry<d>> wall_poses() const override { return poses; }
+  const AtVertices<d>* wall_vertices(std::size_t wall) const override { return bent.empty() ? nullptr : &bent[wall]; }
   std::span<const WallLoad<d>> loads() const override { return {}; }
   std::span<const Vec<d>> points() const override { return x; }
   std::span<const std::array<int, d + 1>> cells() const override { return simplices; }

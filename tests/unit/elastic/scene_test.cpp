@@ -226,7 +226,7 @@ const std::vector<Mistake> mistakes = {
     {"moves_in_no_fluid", "max = [-0.5, 0.05]", "max = [-0.5, 0.05], velocity = [0, 1]", 16,
      "body.beam.elastic.clamp[0].velocity", "meets no fluid"},
     {"holds_along_no_axis", "max = [-0.5, 0.05]", "max = [-0.5, 0.05], axes = [\"z\"]", 16,
-     "body.beam.elastic.clamp[0].axes", "\"y\""},
+     "body.beam.elastic.clamp[0].axes", "'y'"},
     {"slides_on_its_clamp", "max = [-0.5, 0.05]}]", "max = [-0.5, 0.05], axes = [\"x\"]}]\ncoordinates = \"modes\"", 16,
      "body.beam.elastic.clamp", "leaves 1 of 3 rigid motions"},
     {"half_a_clamp", "max = [-0.5, 0.05]", "radius = 1", 16, "body.beam.elastic.clamp[0]", "says not what is held"},
