@@ -1,5 +1,5 @@
-// Tractions on a patch of a solid's boundary, and how they go in time. A patch is what a function says of places at rest; tractions
-// are per area at rest and keep their direction (dead loads). Facets are integrated in parts, so that a patch may end within one.
+// Tractions on a patch of a solid's boundary, and how they go in time. A patch is what a function says of places at rest;
+// tractions are per area at rest and keep their direction (dead loads). Facets are integrated in parts, so that a patch may end within one.
 #pragma once
 
 #include <functional>
@@ -21,9 +21,10 @@ template <int d>
 Field patch_force(const SolidMesh<d>& mesh, const OnPatch<d>& on,
                   const std::function<Vec<d>(const Vec<d>&, const Vec<d>&)>& traction);
 
-/// Forces on nodes of a disc (2D: a strip) of unit stretch that is bonded to the boundary: 1 N per metre of its rim (2D: 1 N/m at
-/// each end) along the boundary away from its middle. Shear is passed on at the rim alone, which is the limit of a thin, stiff bond
-/// (pin force; Crawley, de Luis 1987); it acts over the outer tenth of the radius. Zero where no boundary is.
+/// Forces on nodes of a disc (2D: a strip) of unit stretch that is bonded to the boundary: 1 N per metre of its rim (2D: 1 N/m
+/// at each end) along the boundary away from its middle. Shear is passed on at the rim alone, which is the limit of a thin, stiff
+/// bond (pin force; Crawley, de Luis 1987); it acts over the outer tenth of the radius, on the side of the boundary that the
+/// middle is on. Zero where no boundary is.
 template <int d>
 Field stretch_force(const SolidMesh<d>& mesh, const Vec<d>& centre, double radius);
 
