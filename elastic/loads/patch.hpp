@@ -1,5 +1,6 @@
 // Tractions on a patch of a solid's boundary, and how they go in time. A patch is what a function says of places at rest;
-// tractions are per area at rest and keep their direction (dead loads). Facets are integrated in parts, so that a patch may end within one.
+// tractions are per area at rest and keep their direction (dead loads). Facets are integrated in parts, so that a patch may end
+// within one.
 #pragma once
 
 #include <functional>
