@@ -118,6 +118,17 @@ LIFTED = r"""
 set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:10]; set yrange [0:1]
 plot "< grep ',A.uy,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'u_y', 0.8208773 with lines ls 4 title 'at rest, Featflow'
 """
+PACKET = r"""
+set xlabel 'time / microseconds'; set ylabel 'velocity / (micrometres/s)'; set xrange [0:80]
+plot "< grep ',near.vy,' probes.csv" using (1e6*$1):(1e6*$3) with lines ls 1 title '30 mm from the end', \
+  "< grep ',far.vy,' probes.csv" using (1e6*$1):(1e6*$3) with lines ls 2 title '80 mm'
+"""
+PIEZO = r"""
+set xlabel 'time / microseconds'; set ylabel 'deflection / micrometres'; set xrange [0:560]
+plot "< grep ',top_05.uy,' probes.csv" using (1e6*$1):(1e6*$3) with lines ls 1 title '45 mm from the piezos', \
+  "< grep ',top_20.uy,' probes.csv" using (1e6*$1):(1e6*$3) with lines ls 2 title '137 mm', \
+  "< grep ',top_35.uy,' probes.csv" using (1e6*$1):(1e6*$3) with lines ls 3 title '229 mm'
+"""
 STYLE = r"""
 set datafile separator ','; set datafile columnheaders; set output 'picture.svg'
 set terminal svg size 640,340 noenhanced font 'Helvetica,15'
@@ -177,6 +188,8 @@ CASES = [
     Case("elastic_wedge", "scene.toml", DEFLECTED, 10),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
          "--set time.end=2 --set time.dt_max=0.005", SWING, 8),
+    Case("lamb_waves", "scene.toml", PACKET, 6),
+    Case("sensor_placement", "scene.toml", PIEZO, 6),
     Case("glider_ditching", "scene.toml", "body_glider_attitude", 5),
 ]
 

@@ -1,8 +1,9 @@
 // Where sensors tell two states of a structure apart. Each candidate place has a signal s(t) in the reference and r(t) in another
 // state, both less their first values, on the times of the reference. With D = r - s and <D, E> = int D E dt
 //
-//   distance    sqrt(<D, D>/max <s, s>): against the strongest signal of the reference, so that noise where nothing comes is small
-//   new         sqrt of the same of what is left of D when its part along those of the places before it is taken away (Gram-Schmidt)
+//   distance    sqrt(<D, D>/max <s, s>): against the strongest signal of the reference, so that noise where nothing comes is
+//               small
+//   new         the same of what is left of D when its part along those of the places before it is taken away (Gram-Schmidt)
 //
 // Places are chosen one by one, the one with most that is new first: a Cholesky factorisation with pivots.
 #pragma once

@@ -23,8 +23,9 @@ Field patch_force(const SolidMesh<d>& mesh, const OnPatch<d>& on,
                   const std::function<Vec<d>(const Vec<d>&, const Vec<d>&)>& traction);
 
 /// Forces on nodes of a disc (2D: a strip) of unit stretch that is bonded to the boundary: 1 N per metre of its rim (2D: 1 N/m
-/// at each end) along the boundary away from its middle. Shear is passed on at the rim alone, which is the limit of a thin,
-/// stiff bond (pin force; Crawley, de Luis 1987); it acts over the outer tenth of the radius. Zero where no boundary is.
+/// at each end) along the boundary away from its middle. Shear is passed on at the rim alone, which is the limit of a thin, stiff
+/// bond (pin force; Crawley, de Luis 1987); it acts over the outer tenth of the radius, on the side of the boundary that the
+/// middle is on. Zero where no boundary is.
 template <int d>
 Field stretch_force(const SolidMesh<d>& mesh, const Vec<d>& centre, double radius);
 

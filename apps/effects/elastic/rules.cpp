@@ -57,7 +57,7 @@ void check_company(const Scene& scene, const ElasticTables& tables, Problems& pr
 }
 
 /// Of the rows of probes.csv.
-void check_names(const ElasticTables& tables, Problems& problems) {
+void check_point_names(const ElasticTables& tables, Problems& problems) {
   std::set<std::string> names, told;
   for (const auto& table : tables.of_bodies)
     for (const auto& point : table.points)
@@ -176,7 +176,7 @@ void ElasticKind::check(const Scene& scene, Problems& problems) const {
   const auto* tables = scene.effects.find<ElasticTables>();
   if (!tables) return;
   check_company(scene, *tables, problems);
-  check_names(*tables, problems);
+  check_point_names(*tables, problems);
   for (const auto& table : tables->of_bodies)
     scene.dimension == 2 ? check_table<2>(scene, table, problems) : check_table<3>(scene, table, problems);
 }

@@ -7,7 +7,7 @@
 #include "apps/sensors/places.hpp"
 #include "tests/scratch_folder.hpp"
 
-namespace splashdown::apps {
+namespace splashdown::apps::sensors_test {
 namespace {
 
 /// Signals on a second; both states begin alike.
@@ -62,4 +62,4 @@ TEST(Sensors, are_read_from_the_probes_that_both_runs_have) {
 }
 
 }  // namespace
-}  // namespace splashdown::apps
+}  // namespace splashdown::apps::sensors_test

@@ -12,7 +12,7 @@
 #include "elastic/loads/patch.hpp"
 #include "solids.hpp"
 
-namespace splashdown::elastic {
+namespace splashdown::elastic::lamb_test {
 namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
@@ -235,7 +235,9 @@ void expect_balanced(const SolidMesh<d>& mesh, const Vec<d>& centre, double radi
   double outward = 0;
   for (int a = 0; a < mesh.size(); ++a) outward += nodes.col(a).dot(mesh.nodes.col(a) - centre);
   for (int a = 0; a < mesh.size(); ++a)
-    if (mesh.nodes(d - 1, a) < centre[d - 1] - 1e-9) EXPECT_EQ(nodes.col(a).norm(), 0) << "on its own side alone";
+    if (mesh.nodes(d - 1, a) < centre[d - 1] - 1e-9) {
+      EXPECT_EQ(nodes.col(a).norm(), 0) << "on its own side alone";
+    }
   EXPECT_NEAR(outward / (edge * radius), 0.95, 0.05) << "a unit along the rim, over its outer tenth";
   EXPECT_LT(nodes.row(d - 1).norm(), 1e-12) << "along the boundary";
 }
@@ -275,4 +277,4 @@ TEST(Steps, of_linear_solids_solve_the_equations_with_the_factor_that_is_kept) {
 }
 
 }  // namespace
-}  // namespace splashdown::elastic
+}  // namespace splashdown::elastic::lamb_test
