@@ -231,7 +231,7 @@ bool enters(const Scene& scene, const std::vector<GuessedBody<d>>& bodies) {
 
 /// Squares instead of nodes: measured with one body and one pass of its own.
 Cost cost_on_grid(const Scene& scene, double speed) {
-  constexpr double bytes_a_square = 250, seconds_a_square = 35e-9,
+  constexpr double bytes_a_square = 890, seconds_a_square = 35e-9,
                    of_flow = 1.7;  // around bodies, over the speed far away
   const auto& fluid = *scene.vortex;
   const auto grid = vortex_spec(scene).grid;

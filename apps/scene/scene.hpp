@@ -153,9 +153,9 @@ struct Fluid {
 
 /// A fluid on a grid, without a free surface: [fluid] with formulation = "vortex". Plane scenes only.
 struct VortexFluid {
-  double density = 1000;               ///< [kg/m^3]
-  double viscosity = 0;                ///< dynamic [Pa s]
-  std::string stencil = "five_point";  ///< of diffusion: "five_point" | "fourth_order"
+  double density = 1000;                 ///< [kg/m^3]
+  double viscosity = 0;                  ///< dynamic [Pa s]
+  std::string stencil = "fourth_order";  ///< of diffusion: "five_point" | "fourth_order"
   Point min = Point::Zero(),
         max = Point::Zero();  ///< corners of the grid [m]; with a tank they default to a rim around it
   double size = 0;            ///< of a square [m], divided by `refine`
@@ -165,7 +165,7 @@ struct VortexFluid {
   double smoothing = 0;                     ///< of bodies' outlines, half the width in squares; 0.5 where one moves
   std::optional<double> rate;               ///< lambda of the penalty [1/s]; absent: its limit
   int passes = 0;                           ///< that make free bodies rigid; 0: chosen by their slenderness
-  std::string kernel = "m4";                ///< that gives particles back to the grid: "m4" | "m6"
+  std::string kernel = "m6";                ///< that gives particles back to the grid: "m4" | "m6"
   std::string paths = "rk2";                ///< of particles: "rk2" | "rk4"
 };
 

@@ -30,7 +30,8 @@ GridFlow::GridFlow(GridFlowSpec spec)
     : spec_(std::move(spec)),
       stream_function_(spec_.grid, spec_.sides),
       advection_(spec_.grid, spec_.remeshing, spec_.paths),
-      diffusion_(spec_.grid, spec_.diffusion_order) {
+      diffusion_(spec_.grid, spec_.diffusion_order),
+      wake_(spec_.grid) {
   check();
   const std::size_t nodes = spec_.grid.nodes();
   omega_ = spec_.vorticity.empty() ? NodeField(nodes, 0.0) : spec_.vorticity;
@@ -62,7 +63,8 @@ void GridFlow::check() const {
 }
 
 void GridFlow::solve_velocity(const NodeField& omega, double at_time, FaceField& velocity) {
-  stream_function_.solve(faded(omega, stream(at_time)), psi_);
+  const auto& ended = wake_.ended(omega, fading(stream(at_time)));
+  stream_function_.solve(ended, psi_, wake_.beyond());
   velocities_of(spec_.grid, psi_, stream(at_time), velocity);
 }
 

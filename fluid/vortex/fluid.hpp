@@ -21,6 +21,7 @@
 #include "core/status.hpp"
 #include "fluid/vortex/penalised/wall.hpp"
 #include "fluid/vortex/spec.hpp"
+#include "fluid/vortex/wake.hpp"
 
 namespace splashdown::vortex {
 
@@ -90,7 +91,6 @@ class GridFlow final : public FluidView<2> {
   void pass_together(double share, int passes, std::size_t mover, int mode, std::span<const char> answers);
   Wrench<2> load_by_control_volume(std::size_t wall) const;
   Vec<2> fading(const Vec<2>& stream) const;
-  const NodeField& faded(const NodeField& omega, const Vec<2>& stream);
   void solve_velocity(const NodeField& omega, double at_time, FaceField& velocity);
   void book(double kick, const Speeds& speeds);
   double kinetic_energy(const Speeds& speeds) const;
@@ -103,6 +103,7 @@ class GridFlow final : public FluidView<2> {
   StreamFunction stream_function_;
   Advection advection_;
   Diffusion diffusion_;
+  Wake wake_;
   Projections projections_;
   std::vector<PenalisedWall> penalised_;
   // At t_n.
@@ -117,7 +118,7 @@ class GridFlow final : public FluidView<2> {
   // Of the step under way.
   double kick_ = 0, dt_ = 0;
   bool is_begun_ = false;
-  NodeField trial_omega_, psi_, faded_;
+  NodeField trial_omega_, psi_;
   FaceField trial_velocity_;
   std::vector<Twist<2>> trial_twists_;
   std::vector<ImpulseLaw> laws_;

@@ -81,28 +81,4 @@ Vec<2> GridFlow::fading(const Vec<2>& stream) const {
   return share * way.cwiseMax(0).cwiseProduct(stream.normalized());
 }
 
-/// What velocities are of: a wake that is cut off where it leaves the grid would pull at all that is left of it, and its vortices
-/// of either sense would do so in turn.
-const NodeField& GridFlow::faded(const NodeField& omega, const Vec<2>& stream) {
-  const auto& g = spec_.grid;
-  const Vec<2> reach = fading(stream);
-  if (reach.isZero()) return omega;
-  const auto share = [](double from_side, double width) {
-    const double x = width > 0 ? std::clamp(from_side / width, 0., 1.) : 1;
-    return x * x * (3 - 2 * x);
-  };
-  faded_.resize(omega.size());
-  std::vector<double> along_x;
-  for (int i = 0; i <= g.nx; ++i) along_x.push_back(share(g.h * (g.nx - i), reach.x()) * share(g.h * i, -reach.x()));
-  const auto row = static_cast<std::size_t>(g.nx + 1);
-  in_pieces(static_cast<std::size_t>(g.ny + 1), 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t j = first; j < last; ++j) {
-      const double y = g.h * static_cast<double>(j);
-      const double along_y = share(g.h * g.ny - y, reach.y()) * share(y, -reach.y());
-      for (std::size_t i = 0; i < row; ++i) faded_[j * row + i] = along_y * along_x[i] * omega[j * row + i];
-    }
-  });
-  return faded_;
-}
-
 }  // namespace splashdown::vortex

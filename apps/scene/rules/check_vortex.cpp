@@ -14,7 +14,7 @@ namespace splashdown::apps {
 namespace {
 
 constexpr double least_squares = 16, most_squares = 1 << 26;  // each way; in all, 10 GB
-constexpr double rim = 4;                                     // squares around bodies, for the kernels
+constexpr double rim = 6;                                     // squares around bodies, for the kernels
 constexpr double least_width = 2;                             // squares across a body
 
 /// The least distance of two parallel lines that a body lies between, one of them along one of its sides.
@@ -75,7 +75,7 @@ void check_body(const VortexFluid& fluid, const Body& body, const std::string& l
   const Extents<2> inner(vec<2>(fluid.min).array() + margin, vec<2>(fluid.max).array() - margin);
   if (!inner.contains(box))
     problems.add(label + (body.path.empty() || body.oscillation ? ".position" : ".path"),
-                 fmt::format("the body spans {} m and does not lie four squares or more inside the grid {} m",
+                 fmt::format("the body spans {} m and does not lie six squares or more inside the grid {} m",
                              text<2>(box), text<2>(Extents<2>(vec<2>(fluid.min), vec<2>(fluid.max)))),
                  "Move the body or enlarge fluid.grid.");
 }

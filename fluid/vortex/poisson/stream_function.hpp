@@ -23,8 +23,8 @@ class StreamFunction {
  public:
   /// Plans and factors for this grid.
   StreamFunction(const Grid& grid, SideKind sides);
-  /// psi at all nodes [m^2/s].
-  void solve(const NodeField& omega, NodeField& psi);
+  /// psi at all nodes [m^2/s]. `beyond`: of vorticity outside of the grid, on free sides.
+  void solve(const NodeField& omega, NodeField& psi, const Sides* beyond = nullptr);
 
  private:
   /// Factors of the chains of some neighbouring modes, (2 + h^2 lambda - c_{j-1}) c_j = 1, until they no longer change.

@@ -31,9 +31,9 @@ void finish_vortex(Reader& reader, Scene& scene) {
                  Need::required);
     const Rule place = place_rule(2);
     const Need need = scene.tank ? Need::optional : Need::required;
-    if (scene.tank) {  // its walls are kept at rest like bodies, four squares deep
-      fluid.min = scene.tank->min - 4 * fluid.size * Point(1, 1, 0);
-      fluid.max = scene.tank->max + 4 * fluid.size * Point(1, 1, 0);
+    if (scene.tank) {  // its walls are kept at rest like bodies, six squares deep
+      fluid.min = scene.tank->min - 6 * fluid.size * Point(1, 1, 0);
+      fluid.max = scene.tank->max + 6 * fluid.size * Point(1, 1, 0);
       fluid.sides = "slip";
     }
     grid->point("min", fluid.min, place, need);

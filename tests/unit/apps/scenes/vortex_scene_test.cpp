@@ -95,7 +95,7 @@ struct Bad {
 TEST(VortexScene, what_cannot_be_is_refused_with_rule_and_cure) {
   const Bad all[] = {
       {"body outside", head + grid + fixed + "position = [1.9, 0]\n",
-       "does not lie four squares or more inside the grid"},
+       "does not lie six squares or more inside the grid"},
       {"thin body",
        head + grid + "[[body]]\nname = \"a\"\nmotion = \"fixed\"\nshape = {type = \"box\", width = 1, height = 0.08}\n",
        "less than two squares"},
