@@ -23,8 +23,8 @@ WallFacets<d> wall_facets(const FluidView<d>& fluid, int wall) {
   return {fluid.points(), fluid.boundary(), wall, fluid.wall_poses()[static_cast<std::size_t>(wall)]};
 }
 
-/// Of all points of the fluid on a wall that deforms: where what of the wall they touch was at t = 0, world frame [m]; others stay
-/// where they are. Of a rigid wall: none.
+/// Of all points of the fluid on a wall that deforms: where what of the wall they touch was at t = 0, world frame [m]; others
+/// stay where they are. Of a rigid wall: none.
 template <int d>
 std::vector<Vec<d>> points_at_rest(const FluidView<d>& fluid, int wall) {
   const auto w = static_cast<std::size_t>(wall);
