@@ -43,16 +43,19 @@ Status StageSolver::solve(const System& system, const Stage& stage, const Sparse
   // Coordinates have no more digits than this.
   const double roundoff = 1e-14 * system.length();
   constexpr double solved = 1e-10;  // of the first residual: a hundredth of `tolerance`
-  double last = std::numeric_limits<double>::infinity(), first = 0;
+  double last = std::numeric_limits<double>::infinity(), first = 0, before = 0;
   for (int k = 0; k < limits_.most; ++k, ++iterations_) {
     Field residual = stage.force * system.internal_force(u) - stage.g;
     if (stage.mass != 0) residual += stage.mass * (system.mass() * (u - stage.p));
     if (C) residual += stage.damping * (*C * (u - stage.q));
     leave_out(system.held(), residual);
     if (!residual.allFinite()) return {"the solid turns inside out: its elements are crushed within the step"};
-    // One correction solves a linear system; what roundoff leaves of ill-conditioned ones takes another.
-    if (k == 0) first = residual.norm();
-    if (k > 0 && system.linear() && residual.norm() <= solved * first) return {};
+    // One correction solves a linear system. Of ill-conditioned ones, nearly incompressible solids, roundoff leaves more, and
+    // further corrections leave as much again.
+    const double left = residual.norm();
+    if (k == 0) first = left;
+    if (k > 0 && system.linear() && (left <= solved * first || (left > 0.5 * before && left < 0.01 * first))) return {};
+    before = left;
     if (!factor_tangent(system, stage, C, u)) return {"the solid's equations are singular: it buckles, or is not held"};
     const Field correction = factor_.solve(residual);
     u -= correction;
