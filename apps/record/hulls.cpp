@@ -33,6 +33,17 @@ double above_neighbours(const HullMap<d>& map, std::size_t point) {
   return sum > 0 ? std::abs(map.pressure()[point] / (sum / count) - 1) : std::numeric_limits<double>::infinity();
 }
 
+/// A wall as the fluid meets it; of one that deforms as it was at t = 0, with the body's pose then.
+template <int d>
+WallFacets<d> as_made(const FluidView<d>& fluid, int wall, const std::vector<Vec<d>>& at_rest,
+                      const Isometry<d>& pose) {
+  auto facets = wall_facets(fluid, wall);
+  if (at_rest.empty()) return facets;
+  facets.points = at_rest;
+  facets.pose = pose;
+  return facets;
+}
+
 }  // namespace
 
 template <int d>
@@ -51,12 +62,8 @@ void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
     const auto& patch = settings_.patches[i];
     const int of_body = wall_called(fluid, patch.body);
-    auto wall = wall_facets(fluid, of_body);
     const auto at_rest = points_at_rest(fluid, of_body);
-    if (!at_rest.empty()) {
-      wall.points = at_rest;
-      wall.pose = patch.pose;
-    }
+    const auto wall = as_made(fluid, of_body, at_rest, patch.pose);
     const auto mean = [&](std::span<const double> pressure) {
       return patch_force(wall, pressure, patch.region) / patch.area;
     };
@@ -69,8 +76,10 @@ void HullReadings<d>::read(const FluidView<d>& fluid, const Kick& kick) {
     histories_[i].append(kick.end, {&pressures_[i], 1});
   }
   for (std::size_t i = 0; i < maps_.size(); ++i) {
-    const int wall = wall_called(fluid, settings_.hull_maps[i].body);
-    maps_[i].add(wall_facets(fluid, wall), fluid.pressure(), fluid.repair_pressure(), kick);
+    const auto& record = settings_.hull_maps[i];
+    const int of_body = wall_called(fluid, record.body);
+    const auto at_rest = points_at_rest(fluid, of_body);
+    maps_[i].add(as_made(fluid, of_body, at_rest, record.pose), fluid.pressure(), fluid.repair_pressure(), kick);
   }
 }
 
