@@ -184,6 +184,7 @@ CASES = [
     Case("plate_trajectories", "scene.toml", FLIGHT, 40),
     Case("turek_hron_cfd", "scene.toml", RISING, 15),
     Case("turek_hron_fsi", "scene.toml", LIFTED, 150),
+    Case("double_wedge", "scene_rigid.toml", "end", 5, (0.0, 1.0, 0.0, 0.41)),
     Case("elastic_gate", "scene.toml", GATE, 40),
     Case("elastic_wedge", "scene.toml", DEFLECTED, 10),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
