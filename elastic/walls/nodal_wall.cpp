@@ -2,6 +2,7 @@
 #include <Eigen/SparseCholesky>
 #include <stdexcept>
 
+#include "core/mixing.hpp"
 #include "elastic/modes/modes.hpp"
 #include "elastic/stored_field.hpp"
 #include "elastic/walls/wall.hpp"
@@ -271,7 +272,7 @@ class NodalWall : public ElasticWall<d> {
 ///
 ///   Z = M_s^-1 F,   Z^T M_s Z = Z^T F,   on the surface.
 ///
-/// What else an impulse does is found by passes. Modes that are stiff and narrow answer little to it: they contract.
+/// What else an impulse does is found by passes, which are mixed. Modes that are stiff and narrow answer little to it: they contract.
 template <int d>
 class LoadedWall final : public NodalWall<d> {
   using NodalWall<d>::solid_, NodalWall<d>::u_, NodalWall<d>::s_next_, NodalWall<d>::dt_, NodalWall<d>::at_boundary,
@@ -291,6 +292,7 @@ class LoadedWall final : public NodalWall<d> {
  protected:
   ModalInertia linearised() override {
     free_ = s_next_;
+    mixing_.forget();
     if (Sparse A = this->tangent(); !this->is_known(A)) {
       Sparse free = A;
       leave_out(solid_.held(), 1, free);
@@ -316,7 +318,7 @@ class LoadedWall final : public NodalWall<d> {
     Renewed all;
     all.status = this->move_from(u_ + dt_ / 2 * s_next_, impulse);
     const Eigen::VectorXd y = inertia_.ldlt().solve(on_surface_.transpose() * impulse);
-    free_ = s_next_ - answers_ * y;
+    free_ += mixing_.way(s_next_ - answers_ * y - free_);
     all.velocities = at_boundary(s_next_);
     all.free = at_boundary(free_);
     return all;
@@ -326,6 +328,7 @@ class LoadedWall final : public NodalWall<d> {
   Eigen::MatrixXd loads_, answers_, on_surface_, inertia_;  // F; Z in all nodes and on the surface; Z^T F
   Eigen::SimplicialLDLT<Sparse> factor_;
   Field free_;  // of all nodes, without what the answers hold of an impulse
+  Mixing mixing_{solid_.size()};
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "core/stopwatch.hpp"
 #include "fluid/ale/fluid.hpp"
-#include "fluid/ale/linear/mixing.hpp"
+#include "core/mixing.hpp"
 
 namespace splashdown::ale {
 namespace {

@@ -102,7 +102,8 @@ template <int d>
 void about_drop_speed(const PreparedScene<d>& prepared, const PreparedBody<d>& of, Questions& list) {
   const double g = 9.81, fast = 12, many = 20;
   const auto& body = *of.body;
-  if (body.motion == Motion::fixed || !body.path.empty() || !prepared.level) return;
+  // Without gravity nothing falls: such scenes are of impacts alone.
+  if (body.motion == Motion::fixed || !body.path.empty() || !prepared.level || prepared.pull <= 0) return;
   const double down = -body.velocity[d - 1], height = down * down / (2 * g), length = of.box.sizes().maxCoeff();
   if (down <= fast || height <= many * length) return;
   list.push_back(

@@ -6,7 +6,7 @@
 
 #include "flows.hpp"
 #include "fluid/ale/equations/free_system.hpp"
-#include "fluid/ale/linear/mixing.hpp"
+#include "core/mixing.hpp"
 
 namespace splashdown::ale::equations_test {
 namespace {

@@ -274,7 +274,7 @@ const std::vector<Mistake> mistakes = {
     {"count_without_a_line", "point = [0.5, 0]}]", "point = [0.5, 0], count = 3}]", 17,
      "body.beam.elastic.point.tip.count", "one point is no line"},
     {"two_points_of_a_name", "point = [0.5, 0]}]", "point = [0.5, 0]}, {name = \"tip\", point = [0, 0]}]", 17,
-     "body.beam.elastic.point.tip", "is taken by another point"},
+     "body.beam.elastic.point[1]", "is taken by another point"},
     {"no_such_mesh", "size = 0.1", "mesh = {file = \"none.msh\"}", 15, "body.beam.elastic.mesh", "none.msh"},
 };
 INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticScene, ::testing::ValuesIn(mistakes),

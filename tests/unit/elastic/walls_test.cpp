@@ -268,7 +268,8 @@ TEST(ElasticWall, moves_alike_with_every_scheme) {
       }
 }
 
-// What the exact term does not have of an impulse is brought by passes: in the end all nodes move as if it had all.
+// What the exact term does not have of an impulse is brought by passes: in the end all nodes move as if it had all. The water here weighs
+// the same on the shortest waves as on long ones, which no real one does: the answers help least, and must not harm.
 TEST(ElasticWall, with_a_few_answers_in_the_exact_term_moves_as_with_all) {
   for (const bool linear : {true, false})
     for (const double heaviness : {0.1, 0.5}) {
@@ -277,10 +278,11 @@ TEST(ElasticWall, with_a_few_answers_in_the_exact_term_moves_as_with_all) {
       few.modes = 8;
       few.both = true;
       const auto expected = exact(all, heaviness, 0.1), found = exact(few, heaviness, 0.1);
+      const auto without = by_passes(all, heaviness, 0.1, std::make_unique<coupling::IqnIls>(0.1));
       ASSERT_GT(run(*expected.stepper, 8, 0.5), 0);
-      const int passes = run(*found.stepper, 8, 0.5);
+      const int passes = run(*found.stepper, 8, 0.5), most = run(*without.stepper, 8, 0.5);
       EXPECT_GT(passes, 0);
-      EXPECT_LE(passes, 10) << linear << ' ' << heaviness;
+      EXPECT_LE(passes, most) << linear << ' ' << heaviness;
       const Vector u = expected.body->motion(0).u;
       // Both end where a pass changes velocities by 1e-7.
       EXPECT_LT((found.body->motion(0).u - u).norm(), 8 * 1e-6 * u.norm()) << linear << ' ' << heaviness;

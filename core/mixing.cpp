@@ -1,8 +1,8 @@
-#include "fluid/ale/linear/mixing.hpp"
+#include "core/mixing.hpp"
 
 #include <Eigen/QR>
 
-namespace splashdown::ale {
+namespace splashdown {
 
 Eigen::VectorXd Mixing::way(const Eigen::VectorXd& c) {
   constexpr std::size_t most = 6;  // that are remembered
@@ -33,4 +33,4 @@ void Mixing::forget() {
   changes_.clear();
 }
 
-}  // namespace splashdown::ale
+}  // namespace splashdown

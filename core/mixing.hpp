@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace splashdown::ale {
+namespace splashdown {
 
 /// Made anew where the slope changes.
 class Mixing {
@@ -23,4 +23,4 @@ class Mixing {
   std::vector<Eigen::VectorXd> ways_, changes_;  // differences, the oldest first
 };
 
-}  // namespace splashdown::ale
+}  // namespace splashdown
