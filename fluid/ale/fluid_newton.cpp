@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mixing.hpp"
 #include "core/stopwatch.hpp"
 #include "fluid/ale/fluid.hpp"
-#include "core/mixing.hpp"
 
 namespace splashdown::ale {
 namespace {

@@ -16,6 +16,7 @@ void ViscosityKind::read(Reader& reader, Scene& scene) const {
   auto& table = scene.effects.table<Viscosity>();
   reader.number("dynamic", table.dynamic, positive("Pa s", "Use e.g. 1e-3 for water; leave the table out for none."));
   reader.choice("walls", table.walls, {"slip", "no_slip"});
+  if (reader.context().sketch) reader.skip("stencil");  // of a fluid on a grid: no rule of these walls
 }
 
 // Water has 1.8e-3 Pa s at 0 C and 2.8e-4 at 100 C; liquid hydrogen 1.3e-5, pitch more than anything that splashes.

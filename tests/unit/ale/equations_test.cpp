@@ -4,9 +4,9 @@
 #include <Eigen/QR>
 #include <random>
 
+#include "core/mixing.hpp"
 #include "flows.hpp"
 #include "fluid/ale/equations/free_system.hpp"
-#include "core/mixing.hpp"
 
 namespace splashdown::ale::equations_test {
 namespace {
