@@ -115,7 +115,7 @@ plot "< grep ',right.uy,' probes.csv" using (1000*$1):(1000*($3+30*$1)/0.984808)
   "< grep '^li2015_sph_fem,wB' ../../../examples/elastic_wedge/reference.csv" using (1000*$3):(1000*$4) with points ls 3 title 'Li'
 """
 LIFTED = r"""
-set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:10]; set yrange [0:1]
+set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:8]; set yrange [-0.4:1]
 plot "< grep ',A.uy,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'u_y', 0.8208773 with lines ls 4 title 'at rest, Featflow'
 """
 PACKET = r"""
@@ -183,7 +183,7 @@ CASES = [
     Case("sedimenting_cylinder", "scene.toml", SINKING, 12),
     Case("plate_trajectories", "scene.toml", FLIGHT, 40),
     Case("turek_hron_cfd", "scene.toml", RISING, 15),
-    Case("turek_hron_fsi", "scene.toml", LIFTED, 150),
+    Case("turek_hron_fsi", "scene.toml", LIFTED, 15),
     Case("double_wedge", "scene_rigid.toml", "end", 5, (0.0, 1.0, 0.0, 0.41)),
     Case("elastic_gate", "scene.toml", GATE, 40),
     Case("elastic_wedge", "scene.toml", DEFLECTED, 10),
