@@ -75,8 +75,9 @@ struct Recorder<d>::State {
   // Not part of the checkpoint.
   std::optional<Frame<d>> peak;  ///< state at the largest load, until it is written
   std::map<std::size_t, SurfaceRuler<d>> rulers;
-  std::vector<HullExtent> extents;  ///< of the bodies, once known
-  std::vector<double> submergence;  ///< of the bodies at this step [m]
+  std::vector<HullExtent> extents;           ///< of the bodies, once known
+  std::vector<double> submergence;           ///< of the bodies at this step [m]
+  std::vector<Deformation<d>> deformations;  ///< at this step, of the bodies that deform
 
   explicit State(RecorderSettings<d> s)
       : settings(std::move(s)),
@@ -169,6 +170,7 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
   bool new_peak = false;
   body_names.clear();
   submergence.clear();
+  deformations.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto& spec = input.bodies->spec(b);
     const auto& pose = input.bodies->state(b).pose;
@@ -183,7 +185,7 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
   }
   if (input.solids)
     for (std::size_t b = 0; b < input.solids->size(); ++b)
-      stresses[input.solids->spec(b).name].add(input.time, input.solids->deformation(b));
+      stresses[input.solids->spec(b).name].add(input.time, deformations.emplace_back(input.solids->deformation(b)));
   for (std::size_t i = 0; i < equipment.size(); ++i) {
     const auto acceleration = equipment_acceleration(input, i);
     equipment[i].add(kick, {acceleration.data(), static_cast<std::size_t>(d)});
@@ -234,7 +236,7 @@ template <int d>
 void Recorder<d>::State::write_deformations(const RecordInput<d>& input) {
   for (std::size_t b = 0; b < input.solids->size(); ++b)
     write_row(file("elastic.csv", elastic_header),
-              ElasticRow<d>{input.time, input.solids->spec(b).name, input.solids->deformation(b)});
+              ElasticRow<d>{input.time, input.solids->spec(b).name, deformations[b]});
 }
 
 template <int d>

@@ -31,6 +31,17 @@ inline constexpr std::array<std::array<int, 2>, 6> cell_edges = {{{0, 1}, {1, 2}
 template <int d>
 using Barycentric = Eigen::Matrix<double, d + 1, 1>;
 
+/// Where a node of a cell lies in it.
+template <int d>
+Barycentric<d> node_place(int node) {
+  Barycentric<d> at = Barycentric<d>::Zero();
+  if (node <= d)
+    at[node] = 1;
+  else
+    for (const int corner : cell_edges[static_cast<std::size_t>(node - d - 1)]) at[corner] = 0.5;
+  return at;
+}
+
 /// Values of a cell's shape functions.
 template <int d>
 Eigen::Matrix<double, cell_nodes<d>, 1> shapes(const Barycentric<d>& L) {

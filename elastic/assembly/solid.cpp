@@ -303,12 +303,7 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
 
 template <int d>
 Mat<3> Solid<d>::stress_at_node(const Field& u, std::size_t cell, int k) const {
-  Barycentric<d> at = Barycentric<d>::Zero();
-  if (k <= d)
-    at[k] = 1;
-  else
-    for (const int corner : cell_edges[static_cast<std::size_t>(k - d - 1)]) at[corner] = 0.5;
-  return law_->cauchy(gradient(u, cell, slopes_at(cell, at)));
+  return law_->cauchy(gradient(u, cell, slopes_at(cell, node_place<d>(k))));
 }
 
 template <int d>

@@ -173,6 +173,7 @@ class AleFlow final : public FluidView<2> {
   void load_answers(std::istream& in, double rows, double columns, double kick);
   void find_loads();
   void add_buoyancy(Eigen::VectorXd& loads) const;
+  StepFields steady_fields(const Nodes& x) const;
   Vec<2> load_at(const Unknowns& at, std::size_t wall) const;
   double power_through_sides() const;
   double potential_energy(const Nodes& places) const;

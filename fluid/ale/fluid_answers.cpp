@@ -3,6 +3,7 @@
 
 #include "core/geometry.hpp"
 #include "fluid/ale/fluid.hpp"
+#include "fluid/ale/mesh/edge_rule.hpp"
 
 namespace splashdown::ale {
 
@@ -12,20 +13,13 @@ void AleFlow::find_loads() {
   equations_.residual(fields_, at_, reactions_);
   nodal_loads_ = -reactions_.head(2 * mesh_.size());
   add_buoyancy(nodal_loads_);
-  impulse_ = Eigen::VectorXd::Zero(rates_.size());
+  impulse_ = impulse_of(nodal_loads_);
   for (std::size_t w = 0; w < moved_.size(); ++w) {
-    const auto& wall = moved_[w];
     auto& load = loads_[w];
     load = {};
     const Vec<2> about = poses_[w].translation();
-    Eigen::VectorXd of_nodes(2 * static_cast<Eigen::Index>(wall.nodes.size()));
-    for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
-      const Vec<2> force = nodal_loads_.segment<2>(2 * wall.nodes[k]);
-      of_nodes.segment<2>(2 * static_cast<Eigen::Index>(k)) = force;
-      load.physical += wrench_of<2>(x_.col(wall.nodes[k]) - about, force);
-    }
-    impulse_.segment(wall.first, wall.motion->coordinates()) =
-        kick_ * wall.motion->basis(state_.placements[w]).transpose() * of_nodes;
+    for (const int a : moved_[w].nodes)
+      load.physical += wrench_of<2>(x_.col(a) - about, nodal_loads_.segment<2>(2 * a));
   }
   for (const auto& f : boundary_)
     loads_[static_cast<std::size_t>(f.wall)].wetted += area_vector_of<2>(f, points_).norm();
@@ -36,15 +30,11 @@ void AleFlow::add_buoyancy(Eigen::VectorXd& loads) const {
   if (spec_.gravity.isZero()) return;
   for (const auto& edge : mesh_.boundary) {
     if (edge.wall < 0) continue;
-    Eigen::Matrix<double, 2, 3> x;
-    for (int k = 0; k < 3; ++k) x.col(k) = x_.col(edge.nodes[static_cast<std::size_t>(k)]);
-    for (const auto& on : rule<1>()) {
-      const auto N = shapes<1>(on.at);
-      const Vec<2> along = x * shape_slopes<1>(on.at).transpose(), out(along.y(), -along.x());
-      const double head = spec_.density * spec_.gravity.dot(x * N - spec_.max);
+    at_edge_points(edge, x_, [&](const EdgePoint& point) {
+      const double head = spec_.density * spec_.gravity.dot(point.x - spec_.max);
       for (int k = 0; k < 3; ++k)
-        loads.segment<2>(2 * edge.nodes[static_cast<std::size_t>(k)]) += on.weight * head * N[k] * out;
-    }
+        loads.segment<2>(2 * edge.nodes[static_cast<std::size_t>(k)]) += head * point.N[k] * point.normal;
+    });
   }
 }
 

@@ -4,29 +4,9 @@
 //
 // r: reactions of nodes whose velocities are given (equations/flow_equations.hpp), n out of the fluid.
 #include "fluid/ale/fluid.hpp"
+#include "fluid/ale/mesh/edge_rule.hpp"
 
 namespace splashdown::ale {
-namespace {
-
-/// An edge between its nodes at one of its points: place, and the normal to its left times the length that the point stands for.
-struct EdgePoint {
-  Eigen::Vector3d N;
-  Vec<2> x, normal;
-};
-
-template <class F>
-void at_points(const BoundaryEdge& edge, const Nodes& nodes, F&& add) {
-  Eigen::Matrix<double, 2, 3> x;
-  for (int k = 0; k < 3; ++k) x.col(k) = nodes.col(edge.nodes[static_cast<std::size_t>(k)]);
-  for (const auto& on : rule<1>()) {
-    const Eigen::Vector3d N = shapes<1>(on.at);
-    const Vec<2> along = x * shape_slopes<1>(on.at).transpose();
-    add(EdgePoint{N, x * N, on.weight * Vec<2>(along.y(), -along.x())});
-  }
-}
-
-}  // namespace
-
 /// Of what acts at nodes of sides, less what flows out with the fluid [W/m].
 double AleFlow::power_through_sides() const {
   const double theta = fields_.theta;
@@ -35,7 +15,7 @@ double AleFlow::power_through_sides() const {
   std::vector<char> seen(static_cast<std::size_t>(mesh_.size()), 0);
   for (const auto& edge : mesh_.boundary) {
     if (edge.side < 0) continue;
-    at_points(edge, fields_.x, [&](const EdgePoint& point) {
+    at_edge_points(edge, fields_.x, [&](const EdgePoint& point) {
       Vec<2> there = Vec<2>::Zero();
       for (int k = 0; k < 3; ++k) there += point.N[k] * u.col(edge.nodes[static_cast<std::size_t>(k)]);
       power -= 0.5 * spec_.density * there.squaredNorm() * there.dot(point.normal);
@@ -56,7 +36,7 @@ double AleFlow::potential_energy(const Nodes& places) const {
   double sum = 0;
   for (const auto& edge : mesh_.boundary) {
     if (edge.wall < 0) continue;
-    at_points(edge, places, [&](const EdgePoint& point) {
+    at_edge_points(edge, places, [&](const EdgePoint& point) {
       const double head = spec_.gravity.dot(point.x - spec_.max);
       sum -= head * head * spec_.gravity.dot(point.normal);
     });

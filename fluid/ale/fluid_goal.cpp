@@ -101,13 +101,18 @@ Unknowns restricted(const FlowEquations& coarse, const FlowEquations& fine, cons
 
 }  // namespace
 
+/// Of a step to a steady flow on a mesh that stands.
+StepFields AleFlow::steady_fields(const Nodes& x) const {
+  const Nodes none = Nodes::Zero(2, x.cols());
+  StepFields fields{.x = x, .x_after = x, .before = none, .mesh_velocity = none, .theta = 1};
+  if (spec_.force) fields.force = [this](const Vec<2>& place) { return spec_.force(place, time_); };
+  return fields;
+}
+
 /// Of a steady flow with these unknowns.
 Vec<2> AleFlow::load_at(const Unknowns& at, std::size_t wall) const {
-  const Nodes none = Nodes::Zero(2, mesh_.size());
-  StepFields fields{.x = x_, .x_after = x_, .before = none, .mesh_velocity = none, .theta = 1};
-  if (spec_.force) fields.force = [this](const Vec<2>& x) { return spec_.force(x, time_); };
   Eigen::VectorXd residual;
-  equations_.residual(fields, at, residual);
+  equations_.residual(steady_fields(x_), at, residual);
   Eigen::VectorXd loads = -residual.head(2 * mesh_.size());
   add_buoyancy(loads);
   Vec<2> sum = Vec<2>::Zero();
@@ -126,10 +131,7 @@ LoadGoal AleFlow::load_goal(std::size_t wall, const Vec<2>& direction) const {
   at << state_.velocity.reshaped(), state_.pressure;
   Unknowns flow = prolonged(equations_, fine, at);
   give_sides(spec_, after.mesh, fine, time_ - 0.5 * state_.dt, flow);
-  const Nodes none = Nodes::Zero(2, after.mesh.size());
-  StepFields fields{
-      .x = after.mesh.nodes, .x_after = after.mesh.nodes, .before = none, .mesh_velocity = none, .theta = 1};
-  if (spec_.force) fields.force = [this](const Vec<2>& x) { return spec_.force(x, time_); };
+  const StepFields fields = steady_fields(after.mesh.nodes);
   Eigen::VectorXd residual;
   fine.residual(fields, flow, residual);
   Eigen::SparseMatrix<double> slope;

@@ -85,13 +85,7 @@ void Wake::go_on(int axis, bool at_end, const std::vector<double>& mean) {
   const auto& psi = exit(axis, at_end);
   for (std::size_t s = 0; s <= strips; ++s) {
     if (of_strip[s] == 0) continue;
-    const auto add = [&](const std::vector<double>& from, std::vector<double>& to) {
-      for (std::size_t i = 0; i < to.size(); ++i) to[i] += of_strip[s] * from[i];
-    };
-    add(psi.of_strip[s].bottom, sides_.bottom);
-    add(psi.of_strip[s].top, sides_.top);
-    add(psi.of_strip[s].left, sides_.left);
-    add(psi.of_strip[s].right, sides_.right);
+    sides_.add(of_strip[s], psi.of_strip[s]);
     goes_on_ = true;
   }
 }

@@ -87,7 +87,7 @@ Banner banner_of(const StudyData& study) {
   const auto& campaign = member(study.root, "campaign");
   const bool chooses = campaign.contains("envelope");
   const auto& stop = member(campaign, "stop");
-  const bool is_enough = stop.is_object() && stop.value("reached", false);
+  const bool is_enough = stop.value("reached", false);
   const bool leaves_out = chooses || is_enough;
   const std::size_t waiting = study.count("waiting"), failed = study.count("failed");
   const std::size_t open = study.count("interrupted") + (leaves_out ? 0 : waiting);

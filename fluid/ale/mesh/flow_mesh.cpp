@@ -236,7 +236,7 @@ FlowMesh flow_mesh(const MeshSpec& spec) {
 }
 
 DividedMesh divided(const FlowMesh& mesh) {
-  auto parts = split<2>(mesh.nodes, mesh.cells);
+  auto parts = split(mesh.nodes, mesh.cells);
   DividedMesh all;
   all.mesh.nodes = std::move(parts.nodes);
   all.mesh.corners = mesh.size();

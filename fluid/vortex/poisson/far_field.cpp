@@ -41,6 +41,11 @@ std::array<double, 6> lagrange(double t) {
 
 }  // namespace
 
+void Sides::add(double times, const Sides& others) {
+  for (const auto side : {&Sides::bottom, &Sides::top, &Sides::left, &Sides::right})
+    for (std::size_t i = 0; i < (this->*side).size(); ++i) (this->*side)[i] += times * (others.*side)[i];
+}
+
 FarField::FarField(const Grid& grid)
     : grid_(grid), sums_(grid.nx / factor + 1 + 2 * pad, grid.ny / factor + 1 + 2 * pad, logarithm) {}
 

@@ -15,6 +15,9 @@ namespace splashdown::vortex {
 struct Sides {
   std::vector<double> bottom, top;  ///< nx + 1 numbers
   std::vector<double> left, right;  ///< ny + 1 numbers
+
+  /// Adds so many times those of others, which are as long.
+  void add(double times, const Sides& others);
 };
 
 /// Values on the sides of a grid.

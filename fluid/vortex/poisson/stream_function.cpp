@@ -78,15 +78,7 @@ void StreamFunction::solve_chain(const Chain& chain, NodeField& psi) const {
 
 void StreamFunction::solve(const NodeField& omega, NodeField& psi, const Sides* beyond) {
   if (far_) far_->evaluate(omega, sides_);
-  if (far_ && beyond) {
-    const auto more = [](const std::vector<double>& from, std::vector<double>& to) {
-      for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
-    };
-    more(beyond->bottom, sides_.bottom);
-    more(beyond->top, sides_.top);
-    more(beyond->left, sides_.left);
-    more(beyond->right, sides_.right);
-  }
+  if (far_ && beyond) sides_.add(1, *beyond);
   const auto n = static_cast<std::size_t>(grid_.nx + 1), ny = static_cast<std::size_t>(grid_.ny);
   psi.resize(grid_.nodes());
   // What sides give to their neighbours' equations; sums of rows there and back are nx/2 of themselves.
