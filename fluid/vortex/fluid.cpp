@@ -16,7 +16,8 @@ namespace splashdown::vortex {
 namespace {
 
 constexpr double diffusion_limit = 0.2;  // nu dt/h^2: the splitting's error grows beyond
-constexpr double faintest = 1e-20;       // vorticity that is none, over that of the fastest fluid across a square
+constexpr std::size_t pieces_of_copies = 1 << 16;
+constexpr double faintest = 1e-20;  // vorticity that is none, over that of the fastest fluid across a square
 
 double speed_of(const WallSpec<2>& wall, const Twist<2>& twist) {
   const auto& vertices = wall.surface.vertices;
@@ -41,13 +42,12 @@ GridFlow::GridFlow(GridFlowSpec spec)
     twists_.push_back(wall.velocity);
   }
   loads_.resize(spec_.walls.size());
-  solve_velocity(omega_, 0, velocity_);
+  trial_speeds_ = solve_velocity(omega_, 0, velocity_);
   before_ = velocity_;
-  const auto speeds = speeds_of(spec_.grid, velocity_, stream(0));
-  speed_ = speeds.speed;
+  speed_ = trial_speeds_.speed;
   buoyant_at_start_ = buoyant_energy();
   trial_velocity_ = velocity_;
-  ledger_.kinetic_energy = kinetic_energy(speeds);
+  ledger_.kinetic_energy = kinetic_energy(0);
   const Vec<2> size = spec_.grid.max() - spec_.grid.min;
   ledger_.volume = ledger_.volume_initial = size.prod();
   add_samples();
@@ -62,10 +62,15 @@ void GridFlow::check() const {
     throw std::invalid_argument("vortex fluid: vorticity needs one number a node");
 }
 
-void GridFlow::solve_velocity(const NodeField& omega, double at_time, FaceField& velocity) {
-  const auto& ended = wake_.ended(omega, fading(stream(at_time)));
-  stream_function_.solve(ended, psi_, wake_.beyond());
-  velocities_of(spec_.grid, psi_, stream(at_time), velocity);
+Speeds GridFlow::solve_velocity(const NodeField& omega, double at_time, FaceField& velocity) {
+  psi_.resize(omega.size());
+  in_pieces(omega.size(), pieces_of_copies, [&](std::size_t first, std::size_t last) {
+    std::copy(omega.begin() + static_cast<std::ptrdiff_t>(first), omega.begin() + static_cast<std::ptrdiff_t>(last),
+              psi_.begin() + static_cast<std::ptrdiff_t>(first));
+  });
+  wake_.end(psi_, fading(stream(at_time)));
+  stream_function_.solve(psi_, wake_.beyond());
+  return velocities_of(spec_.grid, psi_, stream(at_time), velocity);
 }
 
 double GridFlow::stable_dt() const {
@@ -87,9 +92,10 @@ Status GridFlow::begin(double kick, double dt, std::span<const char> answers) {
     return {"the fluid crosses more than a square in a step; use a smaller time.dt_max or time.cfl"};
   {
     const Stopwatch watch(advection_seconds_);
-    trial_omega_ = omega_;
-    for (const auto& wall : penalised_) wall.predict_before(trial_omega_, ratio);
-    advection_.move(trial_omega_, {velocity_, before_, ahead}, kick);
+    std::vector<NodeField> without;
+    for (const auto& wall : penalised_) without.push_back(wall.predict_before(omega_, ratio));
+    advection_.move(omega_, {velocity_, before_, ahead}, kick, trial_omega_);
+    for (std::size_t w = penalised_.size(); w-- > 0;) penalised_[w].forget_prediction(without[w], omega_);
   }
   const double middle = time_ + 0.5 * dt;
   for (std::size_t w = 0; w < penalised_.size(); ++w) {
@@ -107,7 +113,7 @@ Status GridFlow::begin(double kick, double dt, std::span<const char> answers) {
   }
   {
     const Stopwatch watch(poisson_seconds_);
-    solve_velocity(trial_omega_, middle, trial_velocity_);
+    trial_speeds_ = solve_velocity(trial_omega_, middle, trial_velocity_);
   }
   const Stopwatch watch(bodies_seconds_);
   ratio_ = ratio;
@@ -132,11 +138,11 @@ void GridFlow::solve(std::span<const Twist<2>> twists) {
   }
 }
 
-/// Perturbations of the stream, outside of the bodies [J/m].
-double GridFlow::kinetic_energy(const Speeds& speeds) const {
-  const Vec<2> far = stream(time_);
+/// Perturbations of the stream at the time of the trial's velocities, outside of the bodies [J/m].
+double GridFlow::kinetic_energy(double at_time) const {
+  const Vec<2> far = stream(at_time);
   const auto& g = spec_.grid;
-  double sum = speeds.squares;
+  double sum = trial_speeds_.squares;
   for (const auto& wall : penalised_) {
     const auto& [box, chi] = wall.chi();
     for (int j = 0; j < box.height && !chi.u.empty(); ++j)
@@ -159,14 +165,14 @@ double GridFlow::buoyant_energy() const {
   return sum;
 }
 
-void GridFlow::book(double kick, const Speeds& speeds) {
+void GridFlow::book(double kick) {
   const Vec<2> far = stream(time_);
   for (std::size_t w = 0; w < loads_.size(); ++w) {
     const Wrench<2> impulse = kick * loads_[w].total();
     ledger_.work_on_walls += impulse.dot(trial_twists_[w]);
     ledger_.work_of_effects += impulse.head<2>().dot(far);  // of the stream, in whose frame energies are
   }
-  ledger_.kinetic_energy = kinetic_energy(speeds);
+  ledger_.kinetic_energy = kinetic_energy(time_ - 0.5 * dt_);
   ledger_.potential_energy = buoyant_energy() - buoyant_at_start_;
 }
 
@@ -182,16 +188,15 @@ void GridFlow::commit(std::span<const Isometry<2>> poses) {
   std::copy(poses.begin(), poses.end(), poses_.begin());
   twists_ = trial_twists_;
   omega_.swap(trial_omega_);
-  if (is_starting()) solve_velocity(omega_, time_ + 0.5 * dt_, trial_velocity_);
+  if (is_starting()) trial_speeds_ = solve_velocity(omega_, time_ + 0.5 * dt_, trial_velocity_);
   time_ += dt_;
-  const auto speeds = speeds_of(spec_.grid, trial_velocity_, stream(time_));
-  book(kick_, speeds);
+  book(kick_);
   std::swap(before_, velocity_);
   std::swap(velocity_, trial_velocity_);
   kick_before_ = kick_;
   dt_before_ = dt_;
   ++steps_;
-  speed_ = speeds.speed;
+  speed_ = trial_speeds_.speed;
   is_begun_ = false;
   pressure_.clear();
   place_samples();

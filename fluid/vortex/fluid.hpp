@@ -91,9 +91,9 @@ class GridFlow final : public FluidView<2> {
   void pass_together(double share, int passes, std::size_t mover, int mode, std::span<const char> answers);
   Wrench<2> load_by_control_volume(std::size_t wall) const;
   Vec<2> fading(const Vec<2>& stream) const;
-  void solve_velocity(const NodeField& omega, double at_time, FaceField& velocity);
-  void book(double kick, const Speeds& speeds);
-  double kinetic_energy(const Speeds& speeds) const;
+  Speeds solve_velocity(const NodeField& omega, double at_time, FaceField& velocity);
+  void book(double kick);
+  double kinetic_energy(double at_time) const;
   double buoyant_energy() const;
   void solve_pressure() const;
   double node_pressure(const Vec<2>& point) const;
@@ -120,6 +120,7 @@ class GridFlow final : public FluidView<2> {
   bool is_begun_ = false;
   NodeField trial_omega_, psi_;
   FaceField trial_velocity_;
+  Speeds trial_speeds_;
   std::vector<Twist<2>> trial_twists_;
   std::vector<ImpulseLaw> laws_;
   double ratio_ = 0;  // of its kick to the last one

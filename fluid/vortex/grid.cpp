@@ -40,6 +40,16 @@ SPLASHDOWN_WIDE void speeds_of_row(const double* __restrict u, const double* __r
   }
 }
 
+Speeds together(const std::vector<Speeds>& rows) {
+  Speeds all;
+  for (const auto& one : rows) {
+    all.squares += one.squares;
+    all.speed = std::max(all.speed, one.speed);
+  }
+  all.speed = std::sqrt(all.speed);
+  return all;
+}
+
 }  // namespace
 
 Speeds speeds_of(const Grid& grid, const FaceField& velocity, const Vec<2>& stream) {
@@ -49,13 +59,7 @@ Speeds speeds_of(const Grid& grid, const FaceField& velocity, const Vec<2>& stre
     for (std::size_t j = first; j < last; ++j)
       speeds_of_row(velocity.u.data() + j * row, velocity.v.data() + j * row, stream.x(), stream.y(), row - 1, rows[j]);
   });
-  Speeds all;
-  for (const auto& one : rows) {
-    all.squares += one.squares;
-    all.speed = std::max(all.speed, one.speed);
-  }
-  all.speed = std::sqrt(all.speed);
-  return all;
+  return together(rows);
 }
 
 void add_curl(const Grid& grid, const FaceField& f, double factor, NodeField& omega) {
@@ -68,23 +72,27 @@ void add_curl(const Grid& grid, const FaceField& f, double factor, NodeField& om
   });
 }
 
-void velocities_of(const Grid& grid, const NodeField& psi, const Vec<2>& stream, FaceField& velocity) {
-  const std::size_t row = static_cast<std::size_t>(grid.nx + 1);
+Speeds velocities_of(const Grid& grid, const NodeField& psi, const Vec<2>& stream, FaceField& velocity) {
+  const std::size_t row = static_cast<std::size_t>(grid.nx + 1), ny = static_cast<std::size_t>(grid.ny);
   velocity.u.resize(grid.nodes());
   velocity.v.resize(grid.nodes());
   const double scale = 1 / grid.h;
-  in_pieces(static_cast<std::size_t>(grid.ny + 1), 16, [&](std::size_t first, std::size_t last) {
+  std::vector<Speeds> rows(ny);
+  in_pieces(ny + 1, 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t j = first; j < last; ++j) {
       const double* here = psi.data() + j * row;
-      double* u = velocity.u.data() + j * row;
-      if (j == static_cast<std::size_t>(grid.ny))
+      double *u = velocity.u.data() + j * row, *v = velocity.v.data() + j * row;
+      difference(stream.y(), -scale, here + 1, here, row - 1, v);
+      v[row - 1] = 0;
+      if (j == ny) {
         clear_row(u, row);
-      else
-        difference(stream.x(), scale, here + row, here, row, u);
-      difference(stream.y(), -scale, here + 1, here, row - 1, velocity.v.data() + j * row);
-      velocity.v[(j + 1) * row - 1] = 0;
+        continue;
+      }
+      difference(stream.x(), scale, here + row, here, row, u);
+      speeds_of_row(u, v, stream.x(), stream.y(), row - 1, rows[j]);
     }
   });
+  return together(rows);
 }
 
 }  // namespace splashdown::vortex

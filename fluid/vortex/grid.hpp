@@ -50,14 +50,14 @@ struct FaceField {
 /// omega += factor curl f at the inner nodes [unit of f / h].
 void add_curl(const Grid& grid, const FaceField& f, double factor, NodeField& omega);
 
-/// Velocities of a stream function, with a uniform stream: u = stream.x + d psi/dy, v = stream.y - d psi/dx.
-void velocities_of(const Grid& grid, const NodeField& psi, const Vec<2>& stream, FaceField& velocity);
-
 /// How fast a flow is.
 struct Speeds {
   double squares = 0;  ///< of velocities beyond the stream, summed over faces [m^2/s^2]
   double speed = 0;    ///< the greatest [m/s]
 };
+
+/// Velocities of a stream function, with a uniform stream: u = stream.x + d psi/dy, v = stream.y - d psi/dx; and how fast they are.
+Speeds velocities_of(const Grid& grid, const NodeField& psi, const Vec<2>& stream, FaceField& velocity);
 
 /// Of velocities in a stream; the same for any number of threads.
 Speeds speeds_of(const Grid& grid, const FaceField& velocity, const Vec<2>& stream);

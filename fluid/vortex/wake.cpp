@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/parallel.hpp"
+#include "fluid/vortex/wide.hpp"
 
 namespace splashdown::vortex {
 namespace {
@@ -19,6 +20,28 @@ double half_line(double a, double b) {
 double kept(double x) { return x * x * (3 - 2 * x); }
 double slope(double x) { return 6 * x * (1 - x); }
 
+constexpr std::size_t lanes = 8;  // sums that do not wait for each other
+
+SPLASHDOWN_WIDE double dot(const double* __restrict a, const double* __restrict b, std::size_t count) {
+  double sums[lanes] = {}, sum = 0;
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+    for (std::size_t l = 0; l < lanes; ++l) sums[l] += a[i + l] * b[i + l];
+  for (; i < count; ++i) sum += a[i] * b[i];
+  for (const double s : sums) sum += s;
+  return sum;
+}
+SPLASHDOWN_WIDE void add(double factor, const double* __restrict from, std::size_t count, double* __restrict to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += factor * from[i];
+}
+/// omega = s omega + (1 - s) mean, of one mean, and of one s.
+SPLASHDOWN_WIDE void turn_to(double mean, const double* __restrict s, std::size_t count, double* __restrict omega) {
+  for (std::size_t i = 0; i < count; ++i) omega[i] = s[i] * omega[i] + (1 - s[i]) * mean;
+}
+SPLASHDOWN_WIDE void turn_to(const double* __restrict mean, double s, std::size_t count, double* __restrict omega) {
+  for (std::size_t i = 0; i < count; ++i) omega[i] = s * omega[i] + (1 - s) * mean[i];
+}
+
 /// Without circulation, that far fields stay finite.
 void balance(std::vector<double>& mean) {
   double sum = 0, size = 0;
@@ -31,43 +54,46 @@ void balance(std::vector<double>& mean) {
 
 }  // namespace
 
-const NodeField& Wake::ended(const NodeField& omega, const Vec<2>& reach) {
+void Wake::end(NodeField& omega, const Vec<2>& reach) {
   goes_on_ = false;
-  if (reach.isZero()) return omega;
-  ended_ = omega;
+  if (reach.isZero()) return;
   for (auto* side : {&sides_.bottom, &sides_.top}) side->assign(static_cast<std::size_t>(grid_.nx) + 1, 0.0);
   for (auto* side : {&sides_.left, &sides_.right}) side->assign(static_cast<std::size_t>(grid_.ny) + 1, 0.0);
   for (int axis = 0; axis < 2; ++axis)
-    if (reach[axis] != 0) turn(axis, reach[axis]);
-  return ended_;
+    if (reach[axis] != 0) turn(omega, axis, reach[axis]);
 }
 
-/// Of the whole field; lines lie along the side, one by one towards it.
-void Wake::turn(int axis, double reach) {
+/// Places across the stream have their means each. Of the places along it, one by one, `kept` says what stays of each and
+/// `share` its part in the mean.
+void Wake::turn(NodeField& omega, int axis, double reach) {
   const bool at_end = reach > 0;
-  const int along = axis == 0 ? grid_.ny : grid_.nx, across = axis == 0 ? grid_.nx : grid_.ny;
-  const std::size_t row = static_cast<std::size_t>(grid_.nx) + 1, step = axis == 0 ? row : 1,
-                    lines = axis == 0 ? 1 : row;
-  const double width = std::min(std::abs(reach) / grid_.h, static_cast<double>(across));
-  const int count = static_cast<int>(std::ceil(width));
-  std::vector<double> mean(static_cast<std::size_t>(along) + 1);
-  double weights = 0;
-  for (int d = 0; d < count; ++d) weights += slope(d / width);
-  if (!(weights > 0)) return;
-  const auto line = [&](int d) { return ended_.data() + static_cast<std::size_t>(at_end ? across - d : d) * lines; };
-  in_pieces(mean.size(), 16, [&](std::size_t first, std::size_t last) {
-    for (int d = 0; d < count; ++d)
-      for (std::size_t k = first; k < last; ++k) mean[k] += slope(d / width) / weights * line(d)[k * step];
+  const auto row = static_cast<std::size_t>(grid_.nx) + 1, column = static_cast<std::size_t>(grid_.ny) + 1,
+             across = axis == 0 ? column : row, along = axis == 0 ? row : column;
+  const double width = std::min(std::abs(reach) / grid_.h, static_cast<double>(along - 1));
+  const auto count = static_cast<std::size_t>(std::ceil(width));
+  std::vector<double> mean(across), share(count), stays(count);
+  double sum = 0;
+  for (std::size_t d = 0; d < count; ++d) {  // from the side on
+    const std::size_t at = at_end ? count - 1 - d : d;
+    share[at] = slope(static_cast<double>(d) / width);
+    stays[at] = kept(static_cast<double>(d) / width);
+    sum += share[at];
+  }
+  if (!(sum > 0)) return;
+  for (double& s : share) s /= sum;
+  double* first = omega.data() + (at_end ? along - count : 0) * (axis == 0 ? 1 : row);
+  in_pieces(across, 16, [&](std::size_t begin, std::size_t end) {
+    if (axis == 0)
+      for (std::size_t k = begin; k < end; ++k) mean[k] = dot(share.data(), first + k * row, count);
+    else
+      for (std::size_t d = 0; d < count; ++d) add(share[d], first + d * row + begin, end - begin, &mean[begin]);
   });
   balance(mean);
-  in_pieces(mean.size(), 16, [&](std::size_t first, std::size_t last) {
-    for (int d = 0; d < count; ++d) {
-      const double s = kept(d / width);
-      for (std::size_t k = first; k < last; ++k) {
-        double& w = line(d)[k * step];
-        w = s * w + (1 - s) * mean[k];
-      }
-    }
+  in_pieces(across, 16, [&](std::size_t begin, std::size_t end) {
+    if (axis == 0)
+      for (std::size_t k = begin; k < end; ++k) turn_to(mean[k], stays.data(), count, first + k * row);
+    else
+      for (std::size_t d = 0; d < count; ++d) turn_to(&mean[begin], stays[d], end - begin, first + d * row + begin);
   });
   go_on(axis, at_end, mean);
 }

@@ -22,9 +22,9 @@ class Wake {
  public:
   /// Of this grid.
   explicit Wake(const Grid& grid) : grid_(grid) {}
-  /// The vorticity with its wake's end. `reach`: how far before a side each way the turn begins [m], positive towards
-  /// the far side, negative towards the near one. Without reach it is what is given.
-  const NodeField& ended(const NodeField& omega, const Vec<2>& reach);
+  /// Gives a vorticity its wake's end. `reach`: how far before a side each way the turn begins [m], positive towards the
+  /// far side, negative towards the near one, zero where there is none.
+  void end(NodeField& omega, const Vec<2>& reach);
   /// Of what goes on beyond the grid, on its sides; null: nothing does.
   const Sides* beyond() const { return goes_on_ ? &sides_ : nullptr; }
 
@@ -33,12 +33,11 @@ class Wake {
   struct Exit {                              // psi on the sides of a strip's vorticity, strip by strip
     std::vector<Sides> of_strip;
   };
-  void turn(int axis, double reach);
+  void turn(NodeField& omega, int axis, double reach);
   void go_on(int axis, bool at_end, const std::vector<double>& mean);
   const Exit& exit(int axis, bool at_end);
 
   Grid grid_;
-  NodeField ended_;
   Sides sides_;
   bool goes_on_ = false;
   std::array<Exit, 4> exits_;

@@ -9,7 +9,7 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 /// Before a function: compiled twice, the better one is taken where the program runs.
-#define SPLASHDOWN_WIDE __attribute__((target_clones("avx2", "default")))
+#define SPLASHDOWN_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 /// Before a function: as it is.
 #define SPLASHDOWN_WIDE

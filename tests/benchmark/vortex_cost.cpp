@@ -21,6 +21,8 @@ vortex::GridFlowSpec spec() {
   vortex::GridFlowSpec spec;
   spec.density = 1;
   spec.viscosity = 1e-3;
+  spec.remeshing = vortex::Remeshing::m6;  // as scenes have it
+  spec.diffusion_order = 4;
   spec.grid = vortex::scenes::square_grid(n, 8);
   // Everywhere, so that no row is passed over.
   spec.vorticity = vortex::scenes::sampled(
@@ -95,12 +97,13 @@ int main(int argc, char** argv) {
   vortex::Diffusion diffusion(made.grid, made.diffusion_order);
   vortex::StreamFunction poisson(made.grid, made.sides);
   auto omega = steps.fluid.vorticity();
+  vortex::NodeField moved;
   vortex::NodeField psi;
   vortex::FaceField velocity;
   poisson.solve(omega, psi);
   velocities_of(made.grid, psi, {1, 0}, velocity);
   part("step", [&] { steps.make(); });
-  part("advection", [&] { advection.move(omega, {velocity, velocity, 0.5}, 1e-6); });
+  part("advection", [&] { advection.move(omega, {velocity, velocity, 0.5}, 1e-6, moved); });
   part("diffusion", [&] { diffusion.apply(omega, 0.1 * made.grid.h * made.grid.h, 0); });
   part("poisson", [&] { poisson.solve(omega, psi); });
   part("velocities", [&] { velocities_of(made.grid, psi, {1, 0}, velocity); });

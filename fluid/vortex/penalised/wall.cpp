@@ -73,8 +73,23 @@ Wrench<2> PenalisedWall::impulse_of(const BoxField& f, const Vec<2>& about) cons
   return grid_.h * grid_.h * sum;
 }
 
-void PenalisedWall::predict_before(NodeField& omega, double ratio) const {
-  if (!force_.field.u.empty()) add_curl_of(force_, 0.5 * ratio, omega);
+NodeField PenalisedWall::predict_before(NodeField& omega, double ratio) const {
+  NodeField without;
+  if (force_.field.u.empty()) return without;
+  without.reserve(force_.box.size());
+  for (int j = 0; j < force_.box.height; ++j) {
+    const double* row = omega.data() + grid_.at(force_.box.i0, force_.box.j0 + j);
+    without.insert(without.end(), row, row + force_.box.width);
+  }
+  add_curl_of(force_, 0.5 * ratio, omega);
+  return without;
+}
+
+void PenalisedWall::forget_prediction(const NodeField& without, NodeField& omega) const {
+  if (without.empty()) return;
+  for (int j = 0; j < force_.box.height; ++j)
+    std::copy_n(without.begin() + static_cast<std::ptrdiff_t>(force_.box.at(0, j)), force_.box.width,
+                omega.begin() + static_cast<std::ptrdiff_t>(grid_.at(force_.box.i0, force_.box.j0 + j)));
 }
 
 /// The last step's forces, moved with the wall, where it is now.

@@ -49,8 +49,10 @@ class PenalisedWall {
   /// `smoothing`: half width of chi's ramp, in squares; `stream`: velocity of the fluid inside at t = 0 [m/s].
   PenalisedWall(const Grid& grid, const WallSpec<2>& spec, double smoothing, const Vec<2>& stream);
 
-  /// Adds half of the last step's forces to the vorticity, for a step that is `ratio` times as long.
-  void predict_before(NodeField& omega, double ratio) const;
+  /// Adds half of the last step's forces to the vorticity, for a step that is `ratio` times as long. What its box had before:
+  NodeField predict_before(NodeField& omega, double ratio) const;
+  /// Puts that back, bit for bit.
+  void forget_prediction(const NodeField& without, NodeField& omega) const;
   /// Covers the grid at a pose, and adds the other half where the wall is now.
   void cover_at(const Isometry<2>& pose, NodeField& omega, double ratio);
   /// Whether its box, with the nodes that the kernels reach, lies in the grid.

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t rows_a_piece = 16, modes_a_chain = 64;
 
-SPLASHDOWN_WIDE void weigh(double scale, const double* __restrict omega, std::size_t count, double* __restrict to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] = scale * omega[i];
+SPLASHDOWN_WIDE void weigh(double scale, std::size_t count, double* __restrict row) {
+  for (std::size_t i = 0; i < count; ++i) row[i] *= scale;
 }
 SPLASHDOWN_WIDE void add(double scale, const double* __restrict side, std::size_t count, double* __restrict to) {
   for (std::size_t i = 0; i < count; ++i) to[i] += scale * side[i];
@@ -76,18 +76,17 @@ void StreamFunction::solve_chain(const Chain& chain, NodeField& psi) const {
   for (std::size_t j = ny - 2; j > 0; --j) substitute(factors(j), row + (j + 1) * n, chain.count, row + j * n);
 }
 
-void StreamFunction::solve(const NodeField& omega, NodeField& psi, const Sides* beyond) {
-  if (far_) far_->evaluate(omega, sides_);
+void StreamFunction::solve(NodeField& psi, const Sides* beyond) {
+  if (far_) far_->evaluate(psi, sides_);
   if (far_ && beyond) sides_.add(1, *beyond);
   const auto n = static_cast<std::size_t>(grid_.nx + 1), ny = static_cast<std::size_t>(grid_.ny);
-  psi.resize(grid_.nodes());
   // What sides give to their neighbours' equations; sums of rows there and back are nx/2 of themselves.
   const double scale = 2. / grid_.nx, square = scale * grid_.h * grid_.h;
   in_pieces(ny - 1, rows_a_piece, [&](std::size_t first, std::size_t last) {
     TransformRoom room(transform_.room());
     for (std::size_t j = first + 1; j < last + 1; ++j) {
       double* row = psi.data() + j * n;
-      weigh(square, omega.data() + j * n, n, row);
+      weigh(square, n, row);
       row[1] += scale * sides_.left[j];
       row[n - 2] += scale * sides_.right[j];
       if (j == 1) add(scale, sides_.bottom.data(), n, row);

@@ -23,8 +23,13 @@ class StreamFunction {
  public:
   /// Plans and factors for this grid.
   StreamFunction(const Grid& grid, SideKind sides);
-  /// psi at all nodes [m^2/s]. `beyond`: of vorticity outside of the grid, on free sides.
-  void solve(const NodeField& omega, NodeField& psi, const Sides* beyond = nullptr);
+  /// Makes of a vorticity [1/s] its psi at all nodes [m^2/s]. `beyond`: of vorticity outside of the grid, on free sides.
+  void solve(NodeField& field, const Sides* beyond = nullptr);
+  /// The same into another field.
+  void solve(const NodeField& omega, NodeField& psi) {
+    psi = omega;
+    solve(psi);
+  }
 
  private:
   /// Factors of the chains of some neighbouring modes, (2 + h^2 lambda - c_{j-1}) c_j = 1, until they no longer change.

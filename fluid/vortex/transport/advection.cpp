@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
+#include <vector>
 
 #include "core/parallel.hpp"
 #include "fluid/vortex/wide.hpp"
@@ -10,9 +11,10 @@
 namespace splashdown::vortex {
 namespace {
 
-constexpr std::size_t block = 256;      // particles at a time: their shares stay in the nearest cache
-constexpr std::size_t most_shares = 7;  // of M'6
-constexpr std::size_t rim = 3;          // nodes beyond a block that its particles reach
+constexpr std::size_t most_columns = 256;  // of a strip: its rows stay in the nearest caches
+constexpr std::size_t fewest_rows =
+    128;                        // of a strip, where threads share it: the moves of rows around it are made twice
+constexpr std::size_t rim = 3;  // nodes beyond a row that its particles reach
 
 /// Velocities of a row of nodes in squares a move, means of two faces each of two instants.
 struct FaceRows {
@@ -28,233 +30,161 @@ SPLASHDOWN_WIDE void velocities(const FaceRows& faces, std::size_t count, double
     to[i] = own * (now[i] + now_beside[i]) + last * (before[i] + before_beside[i]);
 }
 
-// Without branches, which would keep loops out of wide registers; exact.
-inline double positive_part(double x) { return 0.5 * (x + std::abs(x)); }
-inline double within_one(double x) { return x - std::copysign(positive_part(std::abs(x) - 1), x); }
-
-/// How far a particle moves, in squares: velocities before, at and after it, linear in between.
-inline double way_by_midpoint(double before, double here, double after) {
-  const double x = 0.5 * here, ahead = positive_part(x);
-  return here + ahead * (after - here) + (x - ahead) * (here - before);
-}
-inline double way_by_four_stages(double before, double here, double after) {
-  const double right = after - here, left = here - before;
-  const auto at = [&](double x) { return here + positive_part(x) * right - positive_part(-x) * left; };
-  const double half = at(0.5 * here), third = at(0.5 * half);
-  const double end = at(within_one(third));
-  return (here + 2 * half + 2 * third + end) / 6;
-}
-
-/// What nodes -2 ... 2 from a particle get of it by M'4 (kernels.hpp), for a way m of at most a square: with s = |m|, its even and odd
-/// parts.
-inline void share_by_m4(double way, double omega, double* far_back, double* back, double* own, double* ahead,
-                        double* far_ahead) {
-  const double m = within_one(way), s = std::abs(m), p = 0.5 * (s + m), q = 0.5 * (s - m);
-  const double g = s * (1 - s), half = 0.5 * omega, far = half * g;
-  const double even = half * (s * s * (3 - 2 * s)), odd = half * (m * (1 + g));
-  *far_back = -far * q;
-  *back = even - odd;
-  *own = omega * (1 + s * s * (1.5 * s - 2.5));
-  *ahead = even + odd;
-  *far_ahead = -far * p;
-}
-
-inline double inner(double a) { return -(a - 1) * ((((25 * a - 38) * a - 3) * a + 12) * a + 12) / 12; }
-inline double middle(double a) { return (a - 1) * (a - 2) * (((25 * a - 114) * a + 153) * a - 48) / 24; }
-inline double outer(double a) { return -(a - 2) * (a - 3) * (a - 3) * (a - 3) * (5 * a - 8) / 24; }
-
-/// The same of nodes -3 ... 3 by M'6: each share is a polynomial of the way ahead plus one of the way back, one of
-/// which is zero with its way.
-inline void share_by_m6(double way, double w, double* a, double* b, double* c, double* d, double* e, double* f,
-                        double* g) {
-  const double m = within_one(way), p = positive_part(m), q = positive_part(-m);
-  *a = w * outer(3 - q);
-  *b = w * (middle(2 - q) + outer(2 + p));
-  *c = w * (inner(1 - q) + middle(1 + p));
-  *d = w * inner(p + q);
-  *e = w * (inner(1 - p) + middle(1 + q));
-  *f = w * (middle(2 - p) + outer(2 + q));
-  *g = w * outer(3 - p);
-}
-
-/// Rows of particles: velocities before, at and after each [squares a move], and its circulation; what nodes around get of it. (Each row
-/// is a parameter of its own, that the compiler sees that none overlaps another.)
-SPLASHDOWN_WIDE void m4_by_midpoint(const double* __restrict before, const double* __restrict here,
-                                    const double* __restrict after, const double* __restrict w, std::size_t count,
-                                    double* __restrict a, double* __restrict b, double* __restrict c,
-                                    double* __restrict d, double* __restrict e) {
-  for (std::size_t i = 0; i < count; ++i)
-    share_by_m4(way_by_midpoint(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i);
-}
-SPLASHDOWN_WIDE void m4_by_four_stages(const double* __restrict before, const double* __restrict here,
-                                       const double* __restrict after, const double* __restrict w, std::size_t count,
-                                       double* __restrict a, double* __restrict b, double* __restrict c,
-                                       double* __restrict d, double* __restrict e) {
-  for (std::size_t i = 0; i < count; ++i)
-    share_by_m4(way_by_four_stages(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i);
-}
-SPLASHDOWN_WIDE void m6_by_midpoint(const double* __restrict before, const double* __restrict here,
-                                    const double* __restrict after, const double* __restrict w, std::size_t count,
-                                    double* __restrict a, double* __restrict b, double* __restrict c,
-                                    double* __restrict d, double* __restrict e, double* __restrict f,
-                                    double* __restrict g) {
-  for (std::size_t i = 0; i < count; ++i)
-    share_by_m6(way_by_midpoint(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i, f + i, g + i);
-}
-SPLASHDOWN_WIDE void m6_by_four_stages(const double* __restrict before, const double* __restrict here,
-                                       const double* __restrict after, const double* __restrict w, std::size_t count,
-                                       double* __restrict a, double* __restrict b, double* __restrict c,
-                                       double* __restrict d, double* __restrict e, double* __restrict f,
-                                       double* __restrict g) {
-  for (std::size_t i = 0; i < count; ++i)
-    share_by_m6(way_by_four_stages(before[i], here[i], after[i]), w[i], a + i, b + i, c + i, d + i, e + i, f + i,
-                g + i);
-}
-
-/// Sums of what particles give to each of `count` nodes.
-SPLASHDOWN_WIDE void gather_five(const std::array<const double*, most_shares>& from, std::size_t count,
-                                 double* __restrict to) {
-  const double *a = from[0], *b = from[1], *c = from[2], *d = from[3], *e = from[4];
-  for (std::size_t i = 0; i < count; ++i) to[i] = (a[i] + e[i]) + (b[i] + d[i]) + c[i];
-}
-SPLASHDOWN_WIDE void gather_seven(const std::array<const double*, most_shares>& from, std::size_t count,
-                                  double* __restrict to) {
-  const double *a = from[0], *b = from[1], *c = from[2], *d = from[3], *e = from[4], *f = from[5], *g = from[6];
-  for (std::size_t i = 0; i < count; ++i) to[i] = (a[i] + g[i]) + (b[i] + f[i]) + (c[i] + e[i]) + d[i];
-}
-
-/// The rules of a kernel and of paths.
-struct Rules {
-  Remeshing kernel;
-  PathRule paths;
-  std::size_t reach() const { return kernel == Remeshing::m4 ? 2 : 3; }
-
-  /// `here`: velocities along a row, of which those before and after are read, too; `pitch`: between rows of shares.
-  void share(const double* here, const double* omega, std::size_t count, std::size_t pitch, double* to) const {
-    share(here - 1, here, here + 1, omega, count, [&](std::size_t k) { return to + k * pitch; });
-  }
-  template <class Row>
-  void share(const double* before, const double* here, const double* after, const double* omega, std::size_t count,
-             Row row) const {
-    const bool midpoint = paths == PathRule::rk2;
-    if (kernel == Remeshing::m4)
-      (midpoint ? m4_by_midpoint : m4_by_four_stages)(before, here, after, omega, count, row(0), row(1), row(2), row(3),
-                                                      row(4));
-    else
-      (midpoint ? m6_by_midpoint : m6_by_four_stages)(before, here, after, omega, count, row(0), row(1), row(2), row(3),
-                                                      row(4), row(5), row(6));
-  }
-  void gather(const std::array<const double*, most_shares>& from, std::size_t count, double* to) const {
-    (kernel == Remeshing::m4 ? gather_five : gather_seven)(from, count, to);
+/// Neighbouring nodes of a row or column, [first, last).
+struct Range {
+  std::size_t first, last;
+  std::size_t count() const { return last - first; }
+  /// So many more on both sides, as far as they are inner nodes of a row of n.
+  Range widened(std::size_t by, std::size_t n) const {
+    return {first > by ? first - by : 1, std::min(last + by, n - 1)};
   }
 };
 
-constexpr std::size_t widest = block + 4 * rim + 2;  // particles of a block and its rims, and zeros on both sides
+/// All three moves of some columns. Rows of particles come in one by one, move along x, then along y; as soon as a row
+/// of nodes has all that moves along y give it, it moves along x again and is done.
+class Strip {
+ public:
+  Strip(const Grid& grid, const Shares& shares, const MidVelocity& velocity, double dt, Range columns)
+      : shares_(shares),
+        velocity_(velocity),
+        n_(static_cast<std::size_t>(grid.nx + 1)),
+        ny_(static_cast<std::size_t>(grid.ny)),
+        step_(dt / grid.h),
+        columns_(columns),
+        through_(columns.widened(shares.reach(), n_)),
+        particles_(through_.widened(shares.reach(), n_)),
+        ring_(shares.count()),
+        moved_(n_),
+        crossed_(n_),
+        given_x_(ring_ * (particles_.count() + 2 * rim)),
+        given_y_(ring_ * ring_ * through_.count()),
+        v_(3 * through_.count()),
+        u_((shares.reach() + 1) * n_),
+        u_of_(shares.reach() + 1, none),
+        v_of_(3, none),
+        is_calm_(ring_, true) {}
+
+  /// Rows [first, last) of the nodes.
+  void run(const NodeField& omega, std::size_t first, std::size_t last, NodeField& to) {
+    const std::size_t reach = shares_.reach();
+    for (std::size_t j = first > reach ? first - reach : 0; j < last + reach; ++j) {
+      take(omega, j);
+      if (j < first + reach) continue;
+      give(j - reach, to.data() + (j - reach) * n_);
+    }
+  }
+
+ private:
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  /// Of a row, at the nodes of the particles and one beyond on both sides, by columns of the grid.
+  const double* u_of(std::size_t j) {
+    const std::size_t slot = j % u_of_.size();
+    double* u = u_.data() + slot * n_;
+    if (std::exchange(u_of_[slot], j) != j) {
+      const std::size_t at = particles_.first - 1, here = j * n_ + at, below = here - n_;
+      const double *now = velocity_.now.u.data(), *before = velocity_.before.u.data();
+      velocities({now + here, now + below, before + here, before + below, 0.25 * step_ * (1 + velocity_.ahead),
+                  -0.25 * step_ * velocity_.ahead},
+                 particles_.count() + 2, u + at);
+    }
+    return u;
+  }
+
+  /// Of a row, at the nodes that rows of particles go through.
+  const double* v_of(std::size_t j) {
+    const std::size_t slot = j % v_of_.size();
+    double* v = v_.data() + slot * through_.count();
+    if (std::exchange(v_of_[slot], j) != j) {
+      const std::size_t here = j * n_ + through_.first;
+      const double *now = velocity_.now.v.data() + here, *before = velocity_.before.v.data() + here;
+      velocities(
+          {now, now - 1, before, before - 1, 0.5 * step_ * (1 + velocity_.ahead), -0.5 * step_ * velocity_.ahead},
+          through_.count(), v);
+    }
+    return v;
+  }
+
+  /// A row's particles move along x: nodes get their shares. Rows by columns of the grid; false: nothing is there.
+  bool move_along_x(std::size_t j, const double* omega, Range nodes, double* to) {
+    const std::size_t reach = shares_.reach();
+    const Range from = nodes.widened(reach, n_);
+    if (all_zero(omega + from.first, from.count())) return false;
+    const double* u = u_of(j) + from.first;
+    // Shares stand `rim` further, between zeros: there are no particles beyond.
+    const std::size_t pitch = particles_.count() + 2 * rim;
+    for (std::size_t k = 0; k < ring_; ++k) {
+      double* share = given_x_.data() + k * pitch;
+      std::fill_n(share, rim, 0.0);
+      std::fill_n(share + rim + from.count(), rim, 0.0);
+    }
+    shares_.give({u - 1, u, u + 1}, omega + from.first, from.count(), pitch, given_x_.data() + rim);
+    std::array<const double*, Shares::most> given{};
+    for (std::size_t k = 0; k < ring_; ++k)  // node i gets share k of the particle i - (k - reach)
+      given[k] = given_x_.data() + k * pitch + rim + nodes.first - from.first + reach - k;
+    shares_.gather(given, nodes.count(), to + nodes.first);
+    return true;
+  }
+
+  /// A row of particles moves along x, and then along y: what it gives is kept.
+  void take(const NodeField& omega, std::size_t j) {
+    const std::size_t slot = j % ring_;
+    double* given = given_y_.data() + slot * ring_ * through_.count();
+    if (j > 0 && j < ny_ && move_along_x(j, omega.data() + j * n_, through_, moved_.data())) {
+      shares_.give({v_of(j - 1), v_of(j), v_of(j + 1)}, moved_.data() + through_.first, through_.count(),
+                   through_.count(), given);
+      is_calm_[slot] = false;
+    } else if (!is_calm_[slot]) {
+      clear_row(given, ring_ * through_.count());
+      is_calm_[slot] = true;
+    }
+  }
+
+  /// A row of nodes that has all of moves along y: along x again.
+  void give(std::size_t row, double* to) {
+    const std::size_t reach = shares_.reach(), last = row + reach;
+    const bool any = std::ranges::any_of(is_calm_, [](char calm) { return !calm; });
+    if (any) {
+      std::array<const double*, Shares::most> given{};
+      for (std::size_t k = 0; k < ring_; ++k)  // share k of the row of particles row - (k - reach)
+        given[k] = given_y_.data() + ((last + ring_ - k) % ring_ * ring_ + k) * through_.count();
+      shares_.gather(given, through_.count(), crossed_.data() + through_.first);
+    }
+    if (!any || !move_along_x(row, crossed_.data(), columns_, to)) clear_row(to + columns_.first, columns_.count());
+  }
+
+  Shares shares_;
+  MidVelocity velocity_;
+  std::size_t n_, ny_;
+  double step_;
+  Range columns_, through_, particles_;  // that are made; that rows of particles go through; that particles come from
+  std::size_t ring_;                     // rows that a particle gives to
+  std::vector<double> moved_, crossed_;  // a row after its move along x, and after those along y
+  std::vector<double> given_x_, given_y_;
+  std::vector<double> v_, u_;
+  std::vector<std::size_t> u_of_, v_of_;  // rows that slots of them hold
+  std::vector<char> is_calm_;             // rows of given_y_ that are zero
+};
 
 }  // namespace
 
-void Advection::along_x(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const {
-  const Rules rules{kernel_, rule_};
-  const auto n = static_cast<std::size_t>(grid_.nx + 1);
-  const double own = 0.5 * dt / grid_.h * (1 + velocity.ahead), last = -0.5 * dt / grid_.h * velocity.ahead;
+void Advection::move(const NodeField& omega, const MidVelocity& velocity, double dt, NodeField& moved) const {
+  const Shares shares(kernel_, rule_);
+  const auto n = static_cast<std::size_t>(grid_.nx + 1), ny = static_cast<std::size_t>(grid_.ny), inner = n - 2;
+  moved.resize(omega.size());
+  const std::size_t strips = (inner + most_columns - 1) / most_columns,
+                    parts = std::clamp(ny / fewest_rows, std::size_t{1}, static_cast<std::size_t>(threads()));
+  in_pieces(strips * parts, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t strip = k / parts, part = k % parts, rows = ny - 1;
+      const Range columns{1 + inner * strip / strips, 1 + inner * (strip + 1) / strips};
+      Strip(grid_, shares, velocity, dt, columns)
+          .run(omega, 1 + rows * part / parts, 1 + rows * (part + 1) / parts, moved);
+    }
+  });
   clear_row(moved.data(), n);
-  clear_row(moved.data() + static_cast<std::size_t>(grid_.ny) * n, n);
-  in_pieces(static_cast<std::size_t>(grid_.ny - 1), 16, [&](std::size_t first, std::size_t end) {
-    std::array<double, widest> u;
-    std::array<double, most_shares * widest> shares;
-    for (std::size_t j = first + 1; j < end + 1; ++j) {
-      const double* w = omega.data() + j * n;
-      double* to = moved.data() + j * n;
-      to[0] = to[n - 1] = 0;
-      for (std::size_t left = 1; left < n - 1; left += block) {
-        const std::size_t right = std::min(left + block, n - 1);  // nodes [left, right) get theirs
-        // From particles of the inner nodes around.
-        const std::size_t from = left > rules.reach() ? left - rules.reach() : 1,
-                          till = std::min(right + rules.reach(), n - 1);
-        if (all_zero(w + from, till - from)) {
-          clear_row(to + left, right - left);
-          continue;
-        }
-        const auto row = [&](const std::vector<double>& f) { return f.data() + j * n + from - 1; };
-        const double *now = row(velocity.now.u), *before = row(velocity.before.u);
-        velocities({now, now - n, before, before - n, own, last}, till - from + 2, u.data());
-        // Shares stand `rim` further, between zeros: there are no particles beyond.
-        for (std::size_t k = 0; k <= 2 * rules.reach(); ++k) {
-          double* share = shares.data() + k * widest;
-          std::fill_n(share, rim, 0.0);
-          std::fill_n(share + rim + till - from, rim, 0.0);
-        }
-        rules.share(u.data() + 1, w + from, till - from, widest, shares.data() + rim);
-        std::array<const double*, most_shares> given{};
-        for (std::size_t k = 0; k <= 2 * rules.reach(); ++k)  // node i gets share k of the particle i - (k - reach)
-          given[k] = shares.data() + k * widest + rim + left - from + rules.reach() - k;
-        rules.gather(given, right - left, to + left);
-      }
-    }
-  });
-}
-
-void Advection::along_y(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const {
-  const Rules rules{kernel_, rule_};
-  const auto n = static_cast<std::size_t>(grid_.nx + 1), ny = static_cast<std::size_t>(grid_.ny);
-  const std::size_t ring = 2 * rules.reach() + 1;
-  const double own = 0.5 * dt / grid_.h * (1 + velocity.ahead), last = -0.5 * dt / grid_.h * velocity.ahead;
-  in_pieces((n - 2 + block - 1) / block, 1, [&](std::size_t first, std::size_t end) {
-    std::array<std::array<double, block>, 3> v;
-    std::vector<double> shares(ring * ring * block);  // of the last rows of particles, in turn
-    std::array<bool, most_shares> is_calm;
-    for (std::size_t b = first; b < end; ++b) {
-      const std::size_t left = 1 + b * block, count = std::min(block, n - 1 - left);
-      const auto read = [&](std::size_t j) {
-        const double *now = velocity.now.v.data() + j * n + left, *before = velocity.before.v.data() + j * n + left;
-        velocities({now, now - 1, before, before - 1, own, last}, count, v[j % 3].data());
-      };
-      const auto calm = [&](std::size_t j) {
-        const std::size_t slot = j % ring;
-        if (is_calm[slot]) return;
-        clear_row(shares.data() + slot * ring * block, ring * block);
-        is_calm[slot] = true;
-      };
-      is_calm.fill(false);
-      for (std::size_t j = 0; j < ring; ++j) calm(j);
-      clear_row(&moved[left], count);
-      clear_row(&moved[ny * n + left], count);
-      std::size_t known = 0;  // rows of velocities below this one have been read
-      for (std::size_t j = 1; j < ny + rules.reach(); ++j) {
-        if (j >= ny || all_zero(omega.data() + j * n + left, count)) {
-          calm(j);
-        } else {
-          for (known = std::max(known, j - 1); known <= j + 1; ++known) read(known);
-          double* to = shares.data() + j % ring * ring * block;
-          rules.share(v[(j - 1) % 3].data(), v[j % 3].data(), v[(j + 1) % 3].data(), omega.data() + j * n + left, count,
-                      [to](std::size_t k) { return to + k * block; });
-          is_calm[j % ring] = false;
-        }
-        if (j <= rules.reach()) continue;
-        const std::size_t row = j - rules.reach();  // nodes of it have all that particles give them
-        double* to = moved.data() + row * n + left;
-        if (std::all_of(is_calm.begin(), is_calm.begin() + static_cast<std::ptrdiff_t>(ring),
-                        [](bool b) { return b; })) {
-          clear_row(to, count);
-          continue;
-        }
-        std::array<const double*, most_shares> given{};
-        for (std::size_t k = 0; k < ring;
-             ++k)  // share k of the row of particles row - (k - reach), at 2 reach - k below j
-          given[k] = shares.data() + ((j + ring - k) % ring * ring + k) * block;
-        rules.gather(given, count, to);
-      }
-    }
-  });
-  for (std::size_t j = 0; j <= ny; ++j) moved[j * n] = moved[(j + 1) * n - 1] = 0;
-}
-
-void Advection::move(NodeField& omega, const MidVelocity& velocity, double dt) {
-  moved_.resize(omega.size());
-  along_x(velocity, 0.5 * dt, omega, moved_);
-  along_y(velocity, dt, moved_, omega);
-  along_x(velocity, 0.5 * dt, omega, moved_);
-  omega.swap(moved_);
+  clear_row(moved.data() + ny * n, n);
+  for (std::size_t j = 1; j < ny; ++j) moved[j * n] = moved[(j + 1) * n - 1] = 0;
 }
 
 }  // namespace splashdown::vortex

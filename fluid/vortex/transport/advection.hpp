@@ -5,13 +5,9 @@
 #pragma once
 
 #include "fluid/vortex/grid.hpp"
+#include "fluid/vortex/transport/shares.hpp"
 
 namespace splashdown::vortex {
-
-/// What gives particles back to the grid (kernels.hpp).
-enum class Remeshing { m4, m6 };
-/// How particles' paths are integrated along an axis: midpoint rule, or Runge and Kutta's rule of four stages.
-enum class PathRule { rk2, rk4 };
 
 /// A velocity in the middle of a step, now + ahead (now - before).
 struct MidVelocity {
@@ -25,18 +21,14 @@ class Advection {
  public:
   /// Keeps nothing of the fields that it moves.
   Advection(const Grid& grid, Remeshing kernel, PathRule rule) : grid_(grid), kernel_(kernel), rule_(rule) {}
-  /// Moves omega for dt [s]. No particle may cross more than a square in a move: |u| dt <= h. Vorticity on the sides
-  /// is dropped.
-  void move(NodeField& omega, const MidVelocity& velocity, double dt);
+  /// omega after dt [s], in another field. No particle may cross more than a square in a move: |u| dt <= h. Vorticity on the
+  /// sides is dropped.
+  void move(const NodeField& omega, const MidVelocity& velocity, double dt, NodeField& moved) const;
 
  private:
-  void along_x(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const;
-  void along_y(const MidVelocity& velocity, double dt, const NodeField& omega, NodeField& moved) const;
-
   Grid grid_;
   Remeshing kernel_;
   PathRule rule_;
-  NodeField moved_;
 };
 
 }  // namespace splashdown::vortex

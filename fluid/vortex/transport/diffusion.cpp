@@ -1,7 +1,6 @@
 #include "fluid/vortex/transport/diffusion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,9 +10,10 @@
 namespace splashdown::vortex {
 namespace {
 
-constexpr double left_out = 1e-13;   // of a sum
-constexpr int widest_kernel = 13;    // less than the smallest grid
-constexpr double most_spread = 0.3;  // of h^2, at which that many are enough
+constexpr double left_out = 1e-13;        // of a sum
+constexpr int widest_kernel = 13;         // less than the smallest grid
+constexpr double most_spread = 0.3;       // of h^2, at which that many are enough
+constexpr std::size_t fewest_rows = 128;  // that threads share: rows around them are made twice
 
 /// to = c from.
 SPLASHDOWN_WIDE void scale_row(double c, const double* __restrict from, std::size_t count, double* __restrict to) {
@@ -60,74 +60,95 @@ void Diffusion::prepare(double spread) {
   if (kernel_.size() % 2 != 0) kernel_.push_back(0.0);  // pairs
 }
 
-/// From the field to along_x_, rows without vorticity apart.
-void Diffusion::along_x(const NodeField& omega) {
-  const auto n = static_cast<std::size_t>(grid_.nx + 1), inner = n - 2, reach = kernel_.size() - 1;
-  in_pieces(static_cast<std::size_t>(grid_.ny - 1), 16, [&](std::size_t first, std::size_t last) {
-    std::vector<double> row(n + 2 * reach);
-    for (std::size_t j = first + 1; j < last + 1; ++j) {
-      const double* from = omega.data() + j * n;
-      is_zero_[j] = all_zero(from + 1, inner) ? 1 : 0;
-      if (is_zero_[j]) continue;
-      double* w = row.data() + reach;  // odd about both sides
-      std::copy_n(from + 1, inner, w + 1);
-      w[0] = w[n - 1] = 0;
-      for (std::size_t k = 1; k <= reach; ++k) {
-        *(w - k) = -w[k];
-        w[n - 1 + k] = -w[n - 1 - k];
-      }
-      double* to = along_x_.data() + j * n + 1;
-      weigh_three(kernel_[0], w + 1, kernel_[1], w, w + 2, inner, to);
-      for (std::size_t k = 2; k < reach; k += 2)
-        add_pairs(kernel_[k], w + 1 - k, w + 1 + k, kernel_[k + 1], w - k, w + 2 + k, inner, to);
-    }
-  });
-}
+/// Rows of a field after diffusion along x: as many as diffusion along y of one row asks for.
+class Diffusion::Rows {
+ public:
+  Rows(const Diffusion& of, const NodeField& omega)
+      : kernel_(of.kernel_),
+        omega_(omega),
+        n_(static_cast<std::size_t>(of.grid_.nx + 1)),
+        top_(of.grid_.ny),
+        reach_(static_cast<std::ptrdiff_t>(kernel_.size()) - 1),
+        wide_(n_ + 2 * kernel_.size()),
+        kept_(static_cast<std::size_t>(2 * reach_ + 1) * n_),
+        mirrored_(4 * n_),
+        zeros_(n_, 0.0),
+        is_zero_(static_cast<std::size_t>(2 * reach_ + 1), 1) {}
 
-/// And back.
-void Diffusion::along_y(NodeField& omega, double nothing) const {
-  constexpr std::size_t block = 512;
-  const auto n = static_cast<std::size_t>(grid_.nx + 1);
-  const auto top = static_cast<std::ptrdiff_t>(grid_.ny), reach = static_cast<std::ptrdiff_t>(kernel_.size()) - 1;
-  const NodeField zeros(block, 0.0);
-  in_pieces(static_cast<std::size_t>(top - 1), 16, [&](std::size_t first, std::size_t last) {
-    std::array<std::array<double, block>, 4> mirrored;
-    for (auto j = static_cast<std::ptrdiff_t>(first) + 1; j < static_cast<std::ptrdiff_t>(last) + 1; ++j) {
-      const bool any = std::any_of(is_zero_.begin() + std::max<std::ptrdiff_t>(0, j - reach),
-                                   is_zero_.begin() + std::min(top, j + reach) + 1, [](char zero) { return !zero; });
-      for (std::size_t left = 1; left < n - 1; left += block) {
-        const std::size_t count = std::min(block, n - 1 - left);
-        double* to = omega.data() + static_cast<std::size_t>(j) * n + left;
-        if (!any) {
-          clear_row(to, count);
-          continue;
-        }
-        const auto row = [&](std::ptrdiff_t at, std::size_t spare) -> const double* {
-          const auto inside = static_cast<std::size_t>(at < 0 ? -at : at > top ? 2 * top - at : at);
-          if (is_zero_[inside]) return zeros.data();
-          const double* found = along_x_.data() + inside * n + left;
-          if (at >= 0 && at <= top) return found;
-          scale_row(-1, found, count, mirrored[spare].data());
-          return mirrored[spare].data();
-        };
-        weigh_three(kernel_[0], row(j, 0), kernel_[1], row(j - 1, 0), row(j + 1, 1), count, to);
-        for (std::ptrdiff_t k = 2; k < reach; k += 2)
-          add_pairs(kernel_[static_cast<std::size_t>(k)], row(j - k, 0), row(j + k, 1),
-                    kernel_[static_cast<std::size_t>(k) + 1], row(j - k - 1, 2), row(j + k + 1, 3), count, to);
-        drop_small(nothing, count, to);
-      }
+  /// Makes row `j` after `reach` rows before it; and its sums along y with those that are there already.
+  void to_row(std::ptrdiff_t j, double nothing, double* to) {
+    for (made_ = std::max({made_, std::ptrdiff_t{1}, j - reach_}); made_ <= std::min(top_ - 1, j + reach_); ++made_)
+      along_x(made_);
+    bool any = false;
+    for (std::ptrdiff_t at = std::max<std::ptrdiff_t>(1, j - reach_); at <= std::min(top_ - 1, j + reach_); ++at)
+      any = any || !is_zero_[slot(at)];
+    to[0] = to[n_ - 1] = 0;
+    if (!any) return clear_row(to, n_);
+    const std::size_t inner = n_ - 2;
+    weigh_three(kernel_[0], row(j, 0), kernel_[1], row(j - 1, 0), row(j + 1, 1), inner, to + 1);
+    for (std::ptrdiff_t k = 2; k < reach_; k += 2)
+      add_pairs(kernel_[static_cast<std::size_t>(k)], row(j - k, 0), row(j + k, 1),
+                kernel_[static_cast<std::size_t>(k) + 1], row(j - k - 1, 2), row(j + k + 1, 3), inner, to + 1);
+    drop_small(nothing, inner, to + 1);
+  }
+
+ private:
+  std::size_t slot(std::ptrdiff_t j) const { return static_cast<std::size_t>(j % (2 * reach_ + 1)); }
+
+  void along_x(std::ptrdiff_t j) {
+    const double* from = omega_.data() + static_cast<std::size_t>(j) * n_;
+    const std::size_t inner = n_ - 2, reach = static_cast<std::size_t>(reach_);
+    is_zero_[slot(j)] = all_zero(from + 1, inner) ? 1 : 0;
+    if (is_zero_[slot(j)]) return;
+    double* w = wide_.data() + reach;  // odd about both sides
+    std::copy_n(from + 1, inner, w + 1);
+    w[0] = w[n_ - 1] = 0;
+    for (std::size_t k = 1; k <= reach; ++k) {
+      *(w - k) = -w[k];
+      w[n_ - 1 + k] = -w[n_ - 1 - k];
     }
-  });
-}
+    double* to = kept_.data() + slot(j) * n_;
+    weigh_three(kernel_[0], w + 1, kernel_[1], w, w + 2, inner, to);
+    for (std::size_t k = 2; k < reach; k += 2)
+      add_pairs(kernel_[k], w + 1 - k, w + 1 + k, kernel_[k + 1], w - k, w + 2 + k, inner, to);
+  }
+
+  /// Inner nodes of a row, odd about bottom and top.
+  const double* row(std::ptrdiff_t at, std::size_t spare) {
+    const std::ptrdiff_t inside = at < 0 ? -at : at > top_ ? 2 * top_ - at : at;
+    if (inside == 0 || inside == top_ || is_zero_[slot(inside)]) return zeros_.data();
+    const double* found = kept_.data() + slot(inside) * n_;
+    if (at == inside) return found;
+    scale_row(-1, found, n_ - 2, mirrored_.data() + spare * n_);
+    return mirrored_.data() + spare * n_;
+  }
+
+  const std::vector<double>& kernel_;
+  const NodeField& omega_;
+  std::size_t n_;
+  std::ptrdiff_t top_, reach_;
+  std::ptrdiff_t made_ = 0;  // rows below this one have been made
+  std::vector<double> wide_, kept_, mirrored_, zeros_;
+  std::vector<char> is_zero_;
+};
 
 void Diffusion::apply(NodeField& omega, double spread, double nothing) {
   if (spread <= 0) return;
   if (spread != prepared_) prepare(spread);
-  along_x_.resize(omega.size());
-  is_zero_.assign(static_cast<std::size_t>(grid_.ny) + 1, 1);
+  const auto n = static_cast<std::size_t>(grid_.nx + 1), ny = static_cast<std::size_t>(grid_.ny);
+  spread_.resize(omega.size());
+  clear_row(spread_.data(), n);
+  clear_row(spread_.data() + ny * n, n);
   for (int piece = 0; piece < pieces_; ++piece) {
-    along_x(omega);
-    along_y(omega, nothing);
+    const std::size_t parts = std::clamp(ny / fewest_rows, std::size_t{1}, static_cast<std::size_t>(threads()));
+    in_pieces(parts, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t part = first; part < last; ++part) {
+        Rows rows(*this, omega);
+        for (std::size_t j = 1 + (ny - 1) * part / parts; j < 1 + (ny - 1) * (part + 1) / parts; ++j)
+          rows.to_row(static_cast<std::ptrdiff_t>(j), nothing, spread_.data() + j * n);
+      }
+    });
+    omega.swap(spread_);
   }
 }
 

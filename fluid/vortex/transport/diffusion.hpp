@@ -22,17 +22,15 @@ class Diffusion {
   void apply(NodeField& omega, double spread, double nothing);
 
  private:
+  class Rows;
   void prepare(double spread);
-  void along_x(const NodeField& omega);
-  void along_y(NodeField& omega, double nothing) const;
 
   Grid grid_;
   int order_;
   double prepared_ = -1;        // spread that the kernel is for
   int pieces_ = 1;              // that it is divided into
   std::vector<double> kernel_;  // c_0, c_1 ...
-  NodeField along_x_;
-  std::vector<char> is_zero_;  // rows of it
+  NodeField spread_;
 };
 
 }  // namespace splashdown::vortex

@@ -26,10 +26,9 @@ Vec<2> ahead(double length, double reach, double waves) {
   const auto g = grid(length);
   Wake wake_end(g);
   StreamFunction solver(g, SideKind::free);
-  NodeField psi;
-  const auto omega = wake(g, waves);
-  const auto& ended = wake_end.ended(omega, {reach, 0});
-  solver.solve(ended, psi, wake_end.beyond());
+  NodeField psi = wake(g, waves);
+  wake_end.end(psi, {reach, 0});
+  solver.solve(psi, wake_end.beyond());
   FaceField u;
   velocities_of(g, psi, Vec<2>::Zero(), u);
   const std::size_t k = g.at(16, 32);  // a unit ahead
@@ -54,10 +53,11 @@ TEST(Wake, lets_vortices_of_either_sense_go) {
 
 TEST(Wake, without_reach_is_what_it_was) {
   const auto g = grid(6);
-  const auto omega = wake(g, 1);
-  Wake end(g);
-  EXPECT_EQ(&end.ended(omega, Vec<2>::Zero()), &omega);
-  EXPECT_EQ(end.beyond(), nullptr);
+  auto omega = wake(g, 1);
+  Wake wake_end(g);
+  wake_end.end(omega, Vec<2>::Zero());
+  EXPECT_EQ(omega, wake(g, 1));
+  EXPECT_EQ(wake_end.beyond(), nullptr);
 }
 
 }  // namespace
