@@ -4,7 +4,9 @@
 // a mesh that moves or a grid that stays, is the fluid's own matter: a grid gives its squares as triangles, two each.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -113,6 +115,13 @@ class FluidView {
   virtual const Ledger& ledger() const = 0;  ///< to t_n
   /// Velocity of a point at t_n [m/s]; of fluids that know it at half steps the mean of those around (core/leapfrog.hpp).
   virtual Vec<d> velocity_n(std::size_t point) const = 0;
+  /// The greatest of all points at t_n [m/s].
+  virtual double max_speed() const {
+    double squared = 0;
+    for (std::size_t point = 0; point < points().size(); ++point)
+      squared = std::max(squared, velocity_n(point).squaredNorm());
+    return std::sqrt(squared);
+  }
   /// Pressure anywhere at t_n [Pa], as the fluid interpolates it; nothing where there is no fluid.
   virtual std::optional<double> pressure_at(const Vec<d>& point) const = 0;
   /// Potential energy per unit mass at a point [J/kg], the sum over all effects.

@@ -114,6 +114,11 @@ plot "< grep ',right.uy,' probes.csv" using (1000*$1):(1000*($3+30*$1)/0.984808)
   "< grep '^fourey2010_sph_fem,wB' ../../../examples/elastic_wedge/reference.csv" using (1000*$3):(1000*$4) with points ls 2 title 'Fourey', \
   "< grep '^li2015_sph_fem,wB' ../../../examples/elastic_wedge/reference.csv" using (1000*$3):(1000*$4) with points ls 3 title 'Li'
 """
+STRUCK = r"""
+set xlabel 'time / ms'; set ylabel 'deflection of the middle / mm'; set xrange [0:4]; set yrange [0:2.5]
+plot "< grep ',middle.uy,' probes.csv" using (1000*$1):(1000*($3+$1)) with lines ls 1 title 'computed', \
+  '../../../examples/elastic_plate/reference.csv' using (1000*$1):(1000*$2) with lines ls 4 title 'linear theory'
+"""
 LIFTED = r"""
 set xlabel 'time / s'; set ylabel 'displacement of the tip / mm'; set xrange [0:8]; set yrange [-0.4:1]
 plot "< grep ',A.uy,' probes.csv" using 1:(1000*$3) with lines ls 1 title 'u_y', 0.8208773 with lines ls 4 title 'at rest, Featflow'
@@ -187,6 +192,7 @@ CASES = [
     Case("double_wedge", "scene_rigid.toml", "end", 5, (0.0, 1.0, 0.0, 0.41)),
     Case("elastic_gate", "scene.toml", GATE, 40),
     Case("elastic_wedge", "scene.toml", DEFLECTED, 10),
+    Case("elastic_plate", "scene.toml", STRUCK, 3),
     Case("turek_hron_csm", "scene.toml --set body.flag.elastic.scheme=midpoint --set body.flag.elastic.size=0.01 "
          "--set time.end=2 --set time.dt_max=0.005", SWING, 8),
     Case("lamb_waves", "scene.toml", PACKET, 6),

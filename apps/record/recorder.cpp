@@ -162,7 +162,7 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
   if (input.fluid) {
     run.add_mesh(input.fluid->points().size(), input.fluid->cells().size());
     ledger = input.fluid->ledger();
-    speed = max_speed(*input.fluid);
+    speed = input.fluid->max_speed();
     max_speed_peak = std::max(max_speed_peak, speed);
     energy.add(input.time, ledger, body_energies(input));
   }

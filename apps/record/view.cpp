@@ -177,14 +177,6 @@ std::size_t body_index(const BodiesView<d>& bodies, const std::string& name) {
 }
 
 template <int d>
-double max_speed(const FluidView<d>& fluid) {
-  double squared = 0;
-  const std::size_t count = fluid.points().size();
-  for (std::size_t i = 0; i < count; ++i) squared = std::max(squared, fluid.velocity_n(i).squaredNorm());
-  return std::sqrt(squared);
-}
-
-template <int d>
 double water_level(const FluidView<d>& fluid) {
   const auto points = fluid.points();
   double level = std::numeric_limits<double>::quiet_NaN();
@@ -200,7 +192,6 @@ double water_level(const FluidView<d>& fluid) {
   template int wall_index<d>(const FluidView<d>&, const std::string&);          \
   template int wall_called<d>(const FluidView<d>&, const std::string&);         \
   template std::size_t body_index<d>(const BodiesView<d>&, const std::string&); \
-  template double max_speed<d>(const FluidView<d>&);                            \
   template double water_level<d>(const FluidView<d>&);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)

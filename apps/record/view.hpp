@@ -21,9 +21,6 @@ int wall_called(const FluidView<d>& fluid, const std::string& name);
 template <int d>
 std::size_t body_index(const BodiesView<d>& bodies, const std::string& name);
 
-template <int d>
-double max_speed(const FluidView<d>& fluid);
-
 /// Highest point of the free surface, without drops; nan if there is none [m].
 template <int d>
 double water_level(const FluidView<d>& fluid);

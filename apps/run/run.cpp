@@ -141,8 +141,8 @@ Checkpoint Run<d>::present() {
           .wall_seconds = wall_seconds(),
           .processor_seconds = own_processor_seconds(),
           .phases = phases(),
-          .stepper = stepper.str(),
-          .recorder = recorder.str()};
+          .stepper = std::move(stepper).str(),
+          .recorder = std::move(recorder).str()};
 }
 
 template <int d>

@@ -53,7 +53,7 @@ class Descriptor {
   ~Descriptor() { ::close(descriptor_); }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
-  void write(const std::string& bytes) {
+  void write(std::string_view bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
       const auto count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
       if (count < 0 && errno != EINTR) refuse("cannot write", path_);
@@ -136,18 +136,19 @@ void put_back(const Checkpoint& from, coupling::Stepper& stepper, LoopState& loo
 }
 
 void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
-  std::ostringstream body, whole;
+  std::ostringstream body, head;
   {
     cereal::BinaryOutputArchive archive(body);
     archive_all(archive, checkpoint);
-    cereal::BinaryOutputArchive frame(whole);
-    frame(std::string(magic), digest(body.str()), body.str());
+    cereal::BinaryOutputArchive frame(head);
+    frame(std::string(magic), digest(body.view()), std::uint64_t{body.view().size()});
   }
   fs::create_directories(folder);
   const fs::path fresh = folder / "state.new", state = folder / "state", previous = folder / "previous";
   {
     Descriptor file(fresh, O_WRONLY | O_CREAT | O_TRUNC);
-    file.write(whole.str());
+    file.write(head.view());
+    file.write(body.view());
     file.sync();
   }
   if (fs::exists(state)) fs::rename(state, previous);

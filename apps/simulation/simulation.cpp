@@ -255,7 +255,7 @@ void Simulation::save(const std::filesystem::path& folder) {
                             .wall_seconds = 0,
                             .processor_seconds = 0,
                             .phases = {},
-                            .stepper = stepper.str(),
+                            .stepper = std::move(stepper).str(),
                             .recorder = {}});
 }
 

@@ -67,6 +67,7 @@ class GridFlow final : public FluidView<2> {
   std::span<const double> repair_pressure() const override { return {}; }
   const Ledger& ledger() const override { return ledger_; }
   Vec<2> velocity_n(std::size_t point) const override;
+  double max_speed() const override;
   /// Bilinear between nodes; nothing in bodies and beyond the grid.
   std::optional<double> pressure_at(const Vec<2>& point) const override;
   /// Of gravity [J/kg].
