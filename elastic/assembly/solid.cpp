@@ -110,6 +110,7 @@ void Solid<d>::assemble_mass(double density) {
     }
     add_cell(c, mass_, [&](int a, int b) -> Mat<d> { return m(a, b) * Mat<d>::Identity(); });
   }
+  sum_mass();
 }
 
 template <int d>
@@ -197,6 +198,12 @@ void Solid<d>::add_point_mass(const Place<d>& place, double mass) {
   const auto N = shapes<d>(place.at);
   add_cell(static_cast<std::size_t>(place.cell), mass_,
            [&](int a, int b) -> Mat<d> { return mass * N[a] * N[b] * Mat<d>::Identity(); });
+  sum_mass();
+}
+
+template <int d>
+void Solid<d>::sum_mass() {
+  of_node_ = Field(mass_ * uniform(Vec<d>::UnitX())).reshaped(d, mesh_.size()).row(0).transpose();
 }
 
 template <int d>
@@ -276,14 +283,12 @@ Momenta<d> Solid<d>::momenta(const Field& u, const Field& v) const {
 
 template <int d>
 double Solid<d>::total_mass() const {
-  const Field along = uniform(Vec<d>::UnitX());
-  return along.dot(mass_ * along);
+  return of_node_.sum();
 }
 
 template <int d>
 Vec<d> Solid<d>::centre(const Field& u) const {
-  const Field x = Eigen::Map<const Field>(mesh_.nodes.data(), mesh_.nodes.size()) + u;
-  return momenta(u, x).linear / total_mass();
+  return (mesh_.nodes + u.reshaped(d, mesh_.size())) * of_node_ / total_mass();
 }
 
 template <int d>

@@ -105,6 +105,7 @@ class Solid final : public System {
   Field force_of(const Stress& stress) const;
   void make_pattern();
   void assemble_mass(double density);
+  void sum_mass();
   void assemble_stiffness(const Field& u, Sparse& K) const;
   template <class Add>
   void add_cell(std::size_t cell, Sparse& matrix, const Add& block) const;
@@ -114,6 +115,7 @@ class Solid final : public System {
   double length_;
   std::vector<Point> points_;  // of all cells in turn
   Sparse mass_;
+  Eigen::VectorXd of_node_;  // mass: sums of its rows along one axis
   Sparse constant_;         // K of a linear law, else empty
   std::vector<int> first_;  // of values: for each cell, nodes a and b and column k of b the row of a
 };

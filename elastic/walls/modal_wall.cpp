@@ -55,32 +55,29 @@ class ModalWall final : public ElasticWall<d> {
     last_slopes_ = Eigen::VectorXd::Zero(squares_.size());
     last_damping_ = Eigen::VectorXd::Zero(squares_.size());
     between_ = now_.amplitudes;
+    at_rest_ = arms_ + solid.uniform(centre);
+    set_tangents();
   }
 
   void start(const Field& velocity) override {
     if (dynamics_.drive) carrier_ = carrier_of(dynamics_.drive(0));
-    const Eigen::MatrixXd P = tangents(now_), MP = solid_.mass() * P;
-    rates_ = (P.transpose() * MP).ldlt().solve(MP.transpose() * (velocity - solid_.uniform(carrier_)));
+    rates_ = inertia_.ldlt().solve(momenta_.transpose() * (velocity - solid_.uniform(carrier_)));
     last_slopes_ = rates_.tail(squares_.size());
-    s_ = P * rates_ + solid_.uniform(carrier_);
+    s_ = tangents_ * rates_ + solid_.uniform(carrier_);
   }
-  Field velocity() const override { return tangents(now_) * rates_ + solid_.uniform(carrier_); }
+  Field velocity() const override { return (turns() ? tangents(now_) : tangents_) * rates_ + solid_.uniform(carrier_); }
   double strain_energy() const override { return 0.5 * squares_.dot(now_.amplitudes.cwiseAbs2()); }
   double strain_energy_between() const override { return 0.5 * squares_.dot(between_.cwiseAbs2()); }
   long iterations() const override { return iterations_; }
 
  protected:
   void prepare() override {
-    tangents_ = tangents(now_);
-    momenta_ = solid_.mass() * tangents_;
-    inertia_ = tangents_.transpose() * momenta_;
+    if (turns()) set_tangents();
     known_ = inertia_ * rates_ + tangents_.transpose() * load_;
     if (drive_.size() > 0) {
       known_ += momenta_.transpose() * solid_.uniform(carrier_);
       next_carrier_ = carrier_of(drive_);
     }
-    answers_.resize(boundary_.nodes.size() * d, tangents_.cols());
-    for (Eigen::Index k = 0; k < tangents_.cols(); ++k) answers_.col(k) = at_boundary(tangents_.col(k));
   }
 
   Status move(const Eigen::VectorXd& impulse) override {
@@ -94,7 +91,8 @@ class ModalWall final : public ElasticWall<d> {
       look_at(next_);
       const Eigen::VectorXd residual = momentum_of_trial() - goal;
       if (!residual.allFinite()) break;
-      Eigen::MatrixXd J = (1 + dynamics_.damping.mass * dt_ / 2) / dt_ * momenta_.transpose() * tangents(next_);
+      Eigen::MatrixXd J = (1 + dynamics_.damping.mass * dt_ / 2) / dt_ *
+                          (turns() ? Eigen::MatrixXd(momenta_.transpose() * tangents(next_)) : inertia_);
       J.diagonal().tail(squares_.size()) += (dt_ / 4 + dynamics_.damping.stiffness / 2) * squares_;
       const Eigen::VectorXd correction = J.partialPivLu().solve(residual);
       const double size = (answers_ * correction).cwiseAbs().maxCoeff();
@@ -115,14 +113,13 @@ class ModalWall final : public ElasticWall<d> {
     Eigen::VectorXd misses = velocities - at_boundary(s_next_);
     constexpr int most = 10;  // Gauss and Newton's method: two are usual
     for (int k = 0; k < most && misses.allFinite(); ++k) {
-      const Eigen::MatrixXd P = tangents(next_);
-      Eigen::MatrixXd along(answers_.rows(), P.cols());
-      for (Eigen::Index c = 0; c < P.cols(); ++c) along.col(c) = at_boundary(P.col(c));
-      const Eigen::VectorXd change = dt_ * along.completeOrthogonalDecomposition().solve(misses);
+      if (turns()) on_surface_ = rows_on_surface(tangents(next_));
+      if (turns() || fit_.rows() == 0) fit_.compute(on_surface_);
+      const Eigen::VectorXd change = dt_ * fit_.solve(misses);
       go_on(next_, change);
       look_at(next_);
       misses = velocities - at_boundary(s_next_);
-      if ((along * change).norm() <= 1e-12 * dt_ * velocities.norm()) break;
+      if ((on_surface_ * change).norm() <= 1e-12 * dt_ * velocities.norm()) break;
     }
     return misses.allFinite() ? Status{} : Status{"the solid's velocities are not finite"};
   }
@@ -137,18 +134,23 @@ class ModalWall final : public ElasticWall<d> {
   }
 
   void accept() override {
-    const Eigen::MatrixXd P = tangents(next_), MP = solid_.mass() * P;
-    Eigen::VectorXd momentum = (1 - dynamics_.damping.mass * dt_ / 2) * (MP.transpose() * s_next_);
+    Eigen::MatrixXd momenta = momenta_, inertia = inertia_;
+    if (turns()) {
+      const Eigen::MatrixXd P = tangents(next_);
+      momenta = solid_.mass() * P;
+      inertia = P.transpose() * momenta;
+    }
+    Eigen::VectorXd momentum = (1 - dynamics_.damping.mass * dt_ / 2) * (momenta.transpose() * s_next_);
     momentum.tail(squares_.size()) -= resistance();
     last_slopes_ = slopes();
     last_damping_ = damping_of_modes();
     carrier_ = next_carrier_;
     last_dt_ = dt_;
-    if (drive_.size() > 0) momentum -= MP.transpose() * solid_.uniform(carrier_);
-    rates_ = (P.transpose() * MP).ldlt().solve(momentum);
+    if (drive_.size() > 0) momentum -= momenta.transpose() * solid_.uniform(carrier_);
+    rates_ = inertia.ldlt().solve(momentum);
     between_ = 0.5 * (now_.amplitudes + next_.amplitudes);
     now_ = next_;
-    u_ = places(now_) - places_at_rest();
+    u_ = places(now_) - at_rest_;
   }
   double damping_work() const override {
     const Field mean = 0.5 * (s_ + s_next_);
@@ -175,10 +177,23 @@ class ModalWall final : public ElasticWall<d> {
     carrier_ = all.template segment<d>(d + d * d);
     last_dt_ = all[2 * d + d * d];
     for (auto* field : {&now_.amplitudes, &between_, &rates_, &last_slopes_, &last_damping_}) read_field(in, *field);
-    u_ = places(now_) - places_at_rest();
+    u_ = places(now_) - at_rest_;
   }
 
  private:
+  /// Whether tangents change: those of a body that is held do not.
+  bool turns() const { return frame_ > 0; }
+  void set_tangents() {
+    tangents_ = tangents(now_);
+    momenta_ = solid_.mass() * tangents_;
+    inertia_ = tangents_.transpose() * momenta_;
+    answers_ = on_surface_ = rows_on_surface(tangents_);
+  }
+  Eigen::MatrixXd rows_on_surface(const Eigen::MatrixXd& tangents) const {
+    Eigen::MatrixXd rows(boundary_.nodes.size() * d, tangents.cols());
+    for (Eigen::Index k = 0; k < tangents.cols(); ++k) rows.col(k) = at_boundary(tangents.col(k));
+    return rows;
+  }
   /// What moves clamps that all move alike: the mean over held unknowns, axis by axis.
   Vec<d> carrier_of(const Field& drive) const {
     Vec<d> sum = Vec<d>::Zero(), count = sum;
@@ -191,9 +206,9 @@ class ModalWall final : public ElasticWall<d> {
   Eigen::VectorXd damping_of_modes() const {
     return dt_ / 2 * dynamics_.damping.stiffness * squares_.cwiseProduct(slopes());
   }
-  Field places_at_rest() const { return arms_ + solid_.uniform(solid_.centre(Field::Zero(solid_.size()))); }
   Field places(const Posture<d>& posture) const {
     Field x = arms_ + shapes_ * posture.amplitudes;
+    if (!turns()) return x + solid_.uniform(posture.centre);
     for (Eigen::Index a = 0; a < x.size(); a += d) x.segment<d>(a) = posture.centre + posture.turn * x.segment<d>(a);
     return x;
   }
@@ -237,7 +252,7 @@ class ModalWall final : public ElasticWall<d> {
   int frame_;               // columns of P that belong to it
   Eigen::MatrixXd shapes_;  // of the modes besides
   Eigen::VectorXd squares_;
-  Field arms_;                            // X - C
+  Field arms_, at_rest_;                  // X - C, X
   Posture<d> now_, next_, free_posture_;  // at t_n, of the trial, of the one without an impulse
   Eigen::VectorXd between_;               // amplitudes in the middle of the last step
   Eigen::VectorXd rates_;                 // v_n = P_n times these, and the carrier
@@ -245,6 +260,8 @@ class ModalWall final : public ElasticWall<d> {
   Eigen::VectorXd last_slopes_, last_damping_;                       // of the last step: dq, dt/2 beta L dq
   double last_dt_ = 0;
   Eigen::MatrixXd tangents_, momenta_, inertia_, answers_;  // P, M P, P^T M P and rows of P on the surface, at t_n
+  Eigen::MatrixXd on_surface_;  // rows of the trial's P on the surface, and their least squares
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit_;
   Eigen::VectorXd known_;
   long iterations_ = 0;
 };
