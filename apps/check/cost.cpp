@@ -13,6 +13,8 @@
 #include "apps/scene/outlook/motion_guess.hpp"
 #include "apps/scene/scales.hpp"
 #include "apps/scene/solid.hpp"
+#include "fluid/ale/mesh/node_count.hpp"
+#include "fluid/ale/mesh_spec.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -246,32 +248,11 @@ Cost cost_on_grid(const Scene& scene, double speed) {
   return cost;
 }
 
-/// Nodes of quadratic triangles: the integral of 1/h^2 over the box, around hulls in layers and around corners that jut out
-/// in three quarters of rings. Nodes and seconds are measured with a cylinder and its flag.
+/// Bytes and seconds are measured with a cylinder and its flag.
 Cost cost_between_sides(const Scene& scene) {
-  constexpr double nodes_of_h2 = 10, bytes_a_node = 15e3, seconds_a_node = 12e-6, of_corner = 0.75;
-  const auto& fluid = *scene.ale;
-  const double g = fluid.growth, far = fluid.far, pi = std::numbers::pi;
-  const Vec<2> size = vec<2>(fluid.max - fluid.min);
-  double area = size.prod(), sum = 0;
-  for (const auto& body : scene.bodies) {
-    const auto hull = outline<2>(body);
-    const double perimeter = measure(hull), s = std::min(body.size, far);
-    const double reach = std::min((far - s) / g, 0.5 * size.minCoeff()), last = s + g * reach;
-    sum += perimeter / g * (1 / s - 1 / last) + 2 * pi / (g * g) * (std::log(last / s) - 1 + s / last);
-    area -= perimeter * reach + pi * reach * reach;
-    constexpr double corner = 0.5;  // [rad]
-    int corners = 0;
-    for (Eigen::Index f = 0; f < hull.facets.cols(); ++f) {
-      const Eigen::Index next = (f + 1) % hull.facets.cols();
-      const Vec<2> a = hull.vertices.col(hull.facets(1, f)) - hull.vertices.col(hull.facets(0, f)),
-                   b = hull.vertices.col(hull.facets(1, next)) - hull.vertices.col(hull.facets(0, next));
-      corners += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)) > corner ? 1 : 0;
-    }
-    sum += corners * of_corner * 2 * pi / (g * g) * (std::log(1 / fluid.corner) - 1 + fluid.corner);
-  }
+  constexpr double bytes_a_node = 15e3, seconds_a_node = 12e-6;
   Cost cost;
-  cost.nodes = cost.nodes_most = nodes_of_h2 * (sum + std::max(area, 0.) / (far * far));
+  cost.nodes = cost.nodes_most = ale::foreseen_nodes(ale::mesh_spec(ale_spec(scene)));
   cost.bytes = bytes_a_node * cost.nodes + bytes_of_program;
   cost.seconds_per_step = seconds_a_node * cost.nodes;
   cost.seconds_to_start = 5 * cost.seconds_per_step;

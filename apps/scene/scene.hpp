@@ -192,6 +192,7 @@ struct AleFluid {
   double shift = 0.01;                        ///< of "shifted": theta - 1/2
   double tolerance = 1e-8;                    ///< of Newton's method, relative
   int max_iterations = 30;
+  std::string extension = "laplace";  ///< of walls' motions to nodes: "laplace" | "biharmonic"
   /// The load on a body along an axis, whose error is told.
   struct Goal {
     std::string body, direction = "x";

@@ -39,18 +39,23 @@ coupling::StepReport attempt(coupling::Stepper& stepper, double dt) {
 /// Halves dt until the step is accepted, or not worth trying.
 Attempt attempt_with_cuts(coupling::Stepper& stepper, double dt, double criterion, LoopState& state, StepHost& host) {
   const double wanted = dt;
+  std::string first;  // what the step as it was wanted is refused for: later ones may be so for being too short
   for (int refusals = 1;; ++refusals, dt *= 0.5) {
     auto report = attempt(stepper, dt);
     if (report.ok()) return {std::move(report), dt};
     ++state.rejected[kind_of(report.cause)];
+    if (refusals == 1) first = report.cause;
     if (stepper.time() >= state.refused_end) state.refused_end = stepper.time() + dt, state.refused_on_the_way = 0;
     ++state.refused_on_the_way;
     host.refused(stepper.time(), dt, report);
     if (state.is_stuck())
       report.cause += fmt::format(" ({} refusals on the way to {:.9g} s, {:.1e} s from here)", state.refused_on_the_way,
                                   state.refused_end, state.refused_end - stepper.time());
-    if (dt < smallest_share * criterion || refusals == most_refusals || state.is_stuck())
+    if (dt < smallest_share * criterion || refusals == most_refusals || state.is_stuck()) {
+      if (kind_of(first) != kind_of(report.cause))
+        report.cause = fmt::format("{}; with dt = {:.1e} s: {}", first, dt, report.cause);
       return {std::move(report), dt};
+    }
     if (refusals == refusals_for_release && report.of_fluid && stepper.release_fragment()) {
       ++state.released;
       state.refused_on_the_way = 0;  // other water

@@ -6,11 +6,19 @@
 
 #include "core/geometry.hpp"
 #include "core/stopwatch.hpp"
+#include "fluid/ale/mesh_spec.hpp"
 
 namespace splashdown::ale {
 namespace {
 
-FlowMesh mesh_of(const AleFlowSpec& spec) {
+/// Speed of the fastest node.
+double fastest_of(const Nodes& velocity) { return velocity.colwise().norm().maxCoeff(); }
+
+constexpr double least_allowed = 0.05;  // of the area that a cell was made with, anywhere in it
+
+}  // namespace
+
+MeshSpec mesh_spec(const AleFlowSpec& spec) {
   MeshSpec mesh{.min = spec.min,
                 .max = spec.max,
                 .far = spec.far,
@@ -23,21 +31,14 @@ FlowMesh mesh_of(const AleFlowSpec& spec) {
     hull.outline.vertices = wall.pose * hull.outline.vertices;
     mesh.hulls.push_back(std::move(hull));
   }
-  return flow_mesh(mesh);
+  return mesh;
 }
-
-/// Speed of the fastest node.
-double fastest_of(const Nodes& velocity) { return velocity.colwise().norm().maxCoeff(); }
-
-constexpr double least_allowed = 0.05;  // of the area that a cell was made with, anywhere in it
-
-}  // namespace
 
 AleFlow::AleFlow(AleFlowSpec spec)
     : spec_(std::move(spec)),
-      mesh_(mesh_of(spec_)),
+      mesh_(flow_mesh(mesh_spec(spec_))),
       equations_(mesh_, spec_.density, spec_.viscosity, open_sides(spec_)),
-      extension_(mesh_),
+      extension_(mesh_, spec_.extension),
       given_({}) {
   place_walls();
   given_ = GivenUnknowns(given_unknowns(spec_, mesh_, equations_));
@@ -256,6 +257,8 @@ Status AleFlow::acceptable() const {
     moves = true;
   }
   if (!moves || equations_.least_stretch(places_of(placements)) > least_allowed) return {};
+  if (spec_.extension == ExtensionLaw::laplace)
+    return {"the mesh of the fluid folds where bodies have moved it; use fluid.ale.extension = \"biharmonic\""};
   return {
       "the mesh of the fluid folds where bodies have moved it; end the run earlier, or start it with bodies midway"};
 }

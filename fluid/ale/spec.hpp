@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/fluid_view.hpp"
-#include "fluid/ale/mesh/flow_mesh.hpp"
+#include "fluid/ale/mesh/extension.hpp"
 #include "fluid/ale/walls/moving_wall.hpp"
 
 namespace splashdown::ale {
@@ -53,6 +53,7 @@ struct AleFlowSpec {
   FlowField inflow = {};                           ///< on inflow sides [m/s]; empty: at rest
   double far = 0.1, growth = 0.15, corner = 1;     ///< MeshSpec
   std::function<double(const Vec<2>&)> size = {};  ///< MeshSpec
+  ExtensionLaw extension = ExtensionLaw::laplace;  ///< how nodes follow walls
   Vec<2> gravity = Vec<2>::Zero();                 ///< [m/s^2]
   FlowField force = {};                            ///< besides it, per mass [m/s^2]; empty: none
   FlowField start = {};                            ///< velocity at t = 0; empty: at rest

@@ -12,7 +12,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "fluid/ale/mesh/hull_line.hpp"
+#include "fluid/ale/mesh/wanted_size.hpp"
 
 namespace splashdown::ale {
 namespace {
@@ -29,35 +29,6 @@ using Vertices = CGAL::Triangulation_vertex_base_with_info_2<OnLine, Kernel>;
 using Structure = CGAL::Triangulation_data_structure_2<Vertices, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
-
-/// Longest edges that are wanted at places.
-class WantedSize {
- public:
-  WantedSize(const MeshSpec& spec, const std::vector<HullLine>& lines)
-      : far_(spec.far), growth_(spec.growth), size_(spec.size) {
-    for (const auto& line : lines)
-      for (std::size_t k = 0; k < line.cuts().size(); ++k) {
-        const double from = line.cuts()[k],
-                     to = k + 1 < line.cuts().size() ? line.cuts()[k + 1] : line.length() + line.cuts()[0];
-        marks_.push_back({line.at(from), to - from});
-        marks_.push_back({line.at(0.5 * (from + to)), to - from});
-      }
-  }
-  double at(const Vec<2>& x) const {
-    double least = size_ ? std::min(far_, size_(x)) : far_;
-    for (const auto& mark : marks_) least = std::min(least, mark.size + growth_ * (x - mark.at).norm());
-    return least;
-  }
-
- private:
-  struct Mark {
-    Vec<2> at;
-    double size;
-  };
-  double far_, growth_;
-  std::function<double(const Vec<2>&)> size_;
-  std::vector<Mark> marks_;
-};
 
 /// CGAL's concept MeshingCriteria_2: no angle below 20.7 degrees, no edge longer than is wanted there.
 class SizedTriangles {
@@ -217,11 +188,7 @@ class Collect {
 }  // namespace
 
 FlowMesh flow_mesh(const MeshSpec& spec) {
-  std::vector<HullLine> lines;
-  if (!spec.hulls.empty()) lines = hull_lines(spec.hulls);
-  std::vector<double> sizes;
-  for (const auto& hull : spec.hulls) sizes.push_back(hull.size);
-  for (auto& line : lines) line.divide(sizes, spec);
+  const auto lines = divided_lines(spec);
   Triangulation triangles;
   try {
     insert_lines(spec, lines, triangles);

@@ -146,4 +146,13 @@ std::vector<HullLine> hull_lines(const std::vector<Hole>& hulls) {
   return lines;
 }
 
+std::vector<HullLine> divided_lines(const MeshSpec& spec) {
+  std::vector<HullLine> lines;
+  if (!spec.hulls.empty()) lines = hull_lines(spec.hulls);
+  std::vector<double> sizes;
+  for (const auto& hull : spec.hulls) sizes.push_back(hull.size);
+  for (auto& line : lines) line.divide(sizes, spec);
+  return lines;
+}
+
 }  // namespace splashdown::ale

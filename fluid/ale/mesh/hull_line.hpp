@@ -41,5 +41,7 @@ class HullLine {
 
 /// Outlines of the holes that hulls make together. Throws std::invalid_argument as core/surface/unite.hpp does.
 std::vector<HullLine> hull_lines(const std::vector<Hole>& hulls);
+/// The same of a mesh, divided into its edges; none without hulls.
+std::vector<HullLine> divided_lines(const MeshSpec& spec);
 
 }  // namespace splashdown::ale

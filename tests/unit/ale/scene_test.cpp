@@ -74,6 +74,8 @@ TEST(AleScene, makes_the_inflow_that_it_says) {
   EXPECT_NEAR(spec.inflow({0, 0.5}, 0.1).x(), 0.75 * 0.5, 1e-15);  // midway in the ramp
   EXPECT_EQ(spec.scheme.theta, 0.5);
   EXPECT_TRUE(ale_spec(read(channel, {"fluid.ale.scheme=steady"})).scheme.is_steady);
+  EXPECT_EQ(spec.extension, ale::ExtensionLaw::laplace);
+  EXPECT_EQ(ale_spec(read(channel, {"fluid.ale.extension=biharmonic"})).extension, ale::ExtensionLaw::biharmonic);
 }
 
 TEST(AleScene, refuses_what_cannot_be) {
@@ -87,6 +89,7 @@ TEST(AleScene, refuses_what_cannot_be) {
       {"body.plate.size=0.25", "half of the length"},
       {"fluid.viscosity.dynamic=0", "must be positive"},
       {"fluid.ale.scheme=leapfrog", "must be"},
+      {"fluid.ale.extension=springs", "must be"},
       {"fluid.grid.size=0.1", "belongs to formulation = \"vortex\""},
       {"tank.min=[0.0, 0.0]", "sides of its own"}};
   for (const auto& [set, rule] : wrong) {

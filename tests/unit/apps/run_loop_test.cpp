@@ -170,6 +170,18 @@ TEST(RunLoop, gives_up_with_the_cause_and_a_checkpoint_of_the_last_good_state) {
   EXPECT_EQ(story.loop.rejected.at("no fluid"), 20);
 }
 
+// Short steps may be refused for being short.
+TEST(RunLoop, gives_up_with_what_the_wanted_step_was_refused_for) {
+  Story story;
+  story.stepper.refuse = [](double time, double dt) {
+    return time < 0.1 ? "" : dt > 1e-4 ? "the mesh folds" : "passes do not end";
+  };
+  story.run(0.5);
+  EXPECT_EQ(story.end.status, LoopEnd::Status::failed);
+  EXPECT_EQ(story.end.cause.find("the mesh folds; with dt = "), 0u) << story.end.cause;
+  EXPECT_NE(story.end.cause.find(": passes do not end"), std::string::npos) << story.end.cause;
+}
+
 TEST(RunLoop, ends_before_a_step_that_must_not_be_made_with_its_cure) {
   Story story;
   story.host.in_the_way = [](double time) {
