@@ -110,8 +110,8 @@ std::optional<double> PricedQuantity::told_band(double refine) const {
   if (points.size() < 2)
     return points[0].second * std::pow(points[0].first / refine, refine > points[0].first ? 1 : 4) / least_effectivity;
   const auto right = std::clamp<std::ptrdiff_t>(after - points.begin(), 1, std::ssize(points) - 1);
-  const auto& [a, from] = points[static_cast<std::size_t>(right - 1)],
-                  &[ b, to ] = points[static_cast<std::size_t>(right)];
+  const auto& [a, from] = points[static_cast<std::size_t>(right - 1)];
+  const auto& [b, to] = points[static_cast<std::size_t>(right)];
   if (!(from > 0 && to > 0)) return std::max(from, to) / least_effectivity;
   double order = std::log(from / to) / std::log(b / a);
   if (after == points.end()) order = std::clamp(order, 1., 4.);
