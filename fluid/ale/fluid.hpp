@@ -24,8 +24,8 @@
 
 namespace splashdown::ale {
 
-/// The same with `size` of a mesh that was refined so often for its goals (core/goals/refined_size.hpp). Each mesh takes steps of dt until a time, the ramp's
-/// end [s]. Throws std::runtime_error where a step fails.
+/// The same with `size` of a mesh that was refined so often for its goals (core/goals/refined_size.hpp). Each mesh takes steps
+/// of dt until a time, the ramp's end [s]. Throws std::runtime_error where a step fails.
 AleFlowSpec adapted(AleFlowSpec spec, int times, double dt, double until);
 
 /// What bodies make of an impulse: amplitudes of modes by the impulse on the walls at amplitudes y. `answered`: what the impulse
