@@ -15,6 +15,7 @@
 
 #include "core/diagnostic.hpp"
 #include "core/facet.hpp"
+#include "core/goals/goal.hpp"
 #include "core/mirror.hpp"
 #include "core/wall_vector.hpp"
 
@@ -74,13 +75,6 @@ struct PointPlace {
   int wall = -1;                 ///< index of the wall that it lies on, -1: none
   bool at_corner = false;        ///< of that wall's surface
   bool on_free_surface = false;  ///< with a wall: at the contact line
-};
-
-/// A load whose error the fluid knows.
-struct GoalValue {
-  std::string name;  ///< "BODY.x"
-  double value = 0;  ///< [N, N/m]
-  double error = 0;  ///< value minus truth, as far as it is known [N, N/m]
 };
 
 /// World frame; of the step under way between its begin and its commit, else of t_n. Spans and numbers of points hold until the

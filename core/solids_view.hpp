@@ -7,20 +7,22 @@
 
 #include "core/bodies_view.hpp"
 #include "core/diagnostic.hpp"
+#include "core/goals/goal.hpp"
 
 namespace splashdown {
 
 /// How a body is deformed and what it holds. Two-dimensional energies are per metre of depth.
 template <int d>
 struct Deformation {
-  double strain_energy = 0;     ///< in the middle of the last step where a fluid is around [J, J/m]
-  double kinetic_energy = 0;    ///< likewise: what the fluid's work has made of both [J, J/m]
-  double potential_energy = 0;  ///< of its weight, against the undeformed place at t = 0 [J, J/m]
-  double dissipated = 0;        ///< by its damping so far where a fluid is around [J, J/m]
-  double clamp_work = 0;        ///< of moving clamps so far [J, J/m]
-  double von_mises = 0;         ///< the largest [Pa]
-  double von_mises_error = 0;   ///< of it: what elements and their neighbours disagree about there [Pa]
-  Vec<d> at = Vec<d>::Zero();   ///< where that is, in the undeformed body at t = 0, world frame [m]
+  double strain_energy = 0;          ///< in the middle of the last step where a fluid is around [J, J/m]
+  double kinetic_energy = 0;         ///< likewise: what the fluid's work has made of both [J, J/m]
+  double potential_energy = 0;       ///< of its weight, against the undeformed place at t = 0 [J, J/m]
+  double dissipated = 0;             ///< by its damping so far where a fluid is around [J, J/m]
+  double clamp_work = 0;             ///< of moving clamps so far [J, J/m]
+  double von_mises = 0;              ///< the largest [Pa]
+  double von_mises_error = 0;        ///< of it: what elements and their neighbours disagree about there [Pa]
+  Vec<d> at = Vec<d>::Zero();        ///< where that is, in the undeformed body at t = 0, world frame [m]
+  std::size_t nodes = 0, cells = 0;  ///< of its mesh
 };
 
 /// The surface of a body as it is deformed, with what is known at its vertices.
@@ -44,6 +46,8 @@ class SolidsView : public BodiesView<d> {
   /// Of named points at t_n, what is looked at there, always of the same names: NAME.ux displacement [m], NAME.vx velocity
   /// [m/s], NAME.ax acceleration [m/s^2], NAME.exx Green's strain, all along the world's axes.
   virtual std::vector<Diagnostic> signals() const = 0;
+  /// What it was asked for, with its errors at t_n: costs more than a step.
+  virtual std::vector<GoalValue> goals() const { return {}; }
 };
 
 }  // namespace splashdown

@@ -324,7 +324,9 @@ Deformation<d> Participant<d>::deformation(std::size_t body) const {
           .clamp_work = wall ? wall->driven() : 0,
           .von_mises = peak.value,
           .von_mises_error = solid.stress_error(now.u, peak),
-          .at = peak.at};
+          .at = peak.at,
+          .nodes = static_cast<std::size_t>(solid.mesh().size()),
+          .cells = solid.mesh().cells.size()};
 }
 
 template <int d>
@@ -352,6 +354,23 @@ std::vector<Diagnostic> Participant<d>::signals() const {
   for (const auto& body : bodies_)
     for (const auto& point : body.spec.points)
       for (const auto signal : point.signals) add_signal<d>(*body.spec.solid, body.now, point, signal, all);
+  return all;
+}
+
+template <int d>
+std::vector<GoalValue> Participant<d>::goals() const {
+  std::vector<GoalValue> all;
+  for (const auto& body : bodies_) {
+    const auto& spec = body.spec;
+    const LoadOn<d> load = [&](const Solid<d>& solid) -> Field {
+      const Field weight = solid.mass() * solid.uniform(spec.gravity);
+      return spec.forces_on ? weight + spec.forces_on(solid, time_) : weight;
+    };
+    for (const auto& goal : spec.goals) {
+      const auto found = goal_error(goal, *spec.solid, body.now.u, load);
+      all.push_back({goal.name, found.value, found.error, goal.unit()});
+    }
+  }
   return all;
 }
 

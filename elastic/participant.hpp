@@ -11,7 +11,7 @@
 
 #include "core/solids_view.hpp"
 #include "coupling/participant.hpp"
-#include "elastic/assembly/solid.hpp"
+#include "elastic/goals/goals.hpp"
 #include "elastic/steps/scheme.hpp"
 #include "elastic/walls/wall.hpp"
 
@@ -45,6 +45,9 @@ struct SolidSpec {
   std::function<Field(double)> forces = {};  ///< on nodes besides the weight, at a time [N, N/m]; empty: none
   std::function<Field(double)> drive = {};  ///< velocities of held nodes (Dynamics); of bodies with a wall; empty: none
   std::vector<NamedPlace<d>> points = {};
+  std::vector<SolidGoal<d>> goals = {};  ///< whose errors are asked for; displacements: of equilibria
+  /// `forces` as other meshes of the body have them; empty: there are none.
+  std::function<Field(const Solid<d>&, double)> forces_on = {};
   bool from_equilibrium = false;  ///< begins in equilibrium with the loads of t = 0, else undeformed; not with a wall
   std::optional<WallChoice> wall = {};  ///< how it meets a fluid, without `scheme`; empty: not at all
 };
@@ -85,6 +88,7 @@ class Participant final : public coupling::StructurePart, public SolidsView<d> {
   Deformation<d> deformation(std::size_t body) const override;
   DeformedSurface<d> deformed(std::size_t body) const override;
   std::vector<Diagnostic> signals() const override;
+  std::vector<GoalValue> goals() const override;
   /// The surface of a body with a wall at t = 0, world frame: a wall of the fluid has the same. Throws std::out_of_range.
   const Surface<d>& surface(std::size_t body) const { return bodies_.at(body).wall->boundary().surface; }
   /// Of all nodes of a body at t_n: their velocities just before the kick of t_n, accelerations of the step before, if it has

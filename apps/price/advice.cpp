@@ -51,8 +51,10 @@ std::string advice_for(const Price& price, const AccuracyWanted& wanted) {
   }
   const double finer = 2 * own;
   auto set = wanted.set;
-  std::erase_if(set, [](const std::string& word) { return word.starts_with("fluid.size.refine="); });
-  set.push_back(fmt::format("fluid.size.refine={:.3g}", finer));
+  for (const auto& key : refine_keys_of(wanted.scene, wanted.set)) {
+    std::erase_if(set, [&](const std::string& word) { return word.starts_with(key + "="); });
+    set.push_back(fmt::format("{}={:.3g}", key, finer));
+  }
   if (!scene_at(wanted.scene, set, 2 * price.finest()))
     return "the scene allows no finer mesh: ask for less, or name what matters with --quantity";
   const auto folder = wanted.folder.string() + "_finer";

@@ -123,6 +123,7 @@ LadderOrder probe_order(const RunOptions& options, const Scene& scene) {
   order.scene = options.scene;
   order.folder = probe_folder(options);
   order.set = options.overrides;
+  order.refine_keys = refine_keys_of(order.scene, order.set);
   order.threads = options.threads;
   order.budget = options.seconds;
   order.large = options.large;
@@ -280,15 +281,20 @@ void choose_by_accuracy(Aim& aim, const RunOptions& options) {
 /// Throws SceneError.
 Aim aim_of(const RunOptions& options) {
   const auto file = read_scene(options.scene, options.overrides);
-  if (!file.scene.has_fluid())
+  if (refine_keys(file.scene).empty())
     throw SceneError(
-        {fmt::format("{}: has no [fluid], so there is no mesh to choose. Leave --accuracy and --seconds "
-                     "out.",
+        {fmt::format("{}: has no [fluid] and no [body.elastic], so there is no mesh to choose. Leave --accuracy and "
+                     "--seconds out.",
                      options.scene.string())});
   if (const auto refused = unwritable(options.out.value_or(default_directory(options.scene))))
     throw SceneError({*refused});
   const double begin = wall();
   auto listed = listed_price(options);
+  if (!listed && options.seconds && !file.scene.has_fluid())
+    throw SceneError(
+        {fmt::format("--seconds {:g}: without a fluid a mesh is chosen by a price list alone. Make it with "
+                     "splashdown price {}.",
+                     *options.seconds, options.scene.string())});
   Aim aim{listed ? std::move(*listed) : probed_price(options, file.scene)};
   aim.begun = begin;
   if (interrupt_received()) return aim;
@@ -383,10 +389,11 @@ int aimed_run_command(const RunOptions& options) {
   }
   if (interrupt_received()) return exit_code::interrupted;
   auto chosen = options;
-  chosen.overrides.push_back(fmt::format("{} (refine {:g}): fluid.size.refine={}",
-                                         options.accuracy ? fmt::format("--accuracy {:g}%", *options.accuracy)
-                                                          : fmt::format("--seconds {:g}", *options.seconds),
-                                         aim.refine, aim.refine));
+  for (const auto& key : refine_keys_of(options.scene, options.overrides))
+    chosen.overrides.push_back(fmt::format("{} (refine {:g}): {}={}",
+                                           options.accuracy ? fmt::format("--accuracy {:g}%", *options.accuracy)
+                                                            : fmt::format("--seconds {:g}", *options.seconds),
+                                           aim.refine, key, aim.refine));
   const auto folder = options.out.value_or(default_directory(options.scene));
   try {
     chosen.resume = taken_over(aim, chosen, folder);

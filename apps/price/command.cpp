@@ -29,6 +29,7 @@ struct PricePlan {
   bool goes_on = false;         ///< to the finer ones, until one has it
   std::string title, digest;
   bool has_tank = false;
+  bool replicates = true;  ///< meshes of equal size tell how values scatter
 };
 
 /// What a list begins with: without a mesh that has it, a budget is better spent than kept.
@@ -45,9 +46,11 @@ std::vector<double> finer_than(const std::vector<double>& refines, const PriceOp
 PricePlan plan_of(const PriceOptions& options) {
   const auto file = read_scene(options.scene, options.set);
   const auto& scene = file.scene;
-  if (!scene.has_fluid())
-    throw SceneError({fmt::format("{}: has no [fluid], so there is no mesh to refine. Use splashdown run.",
-                                  options.scene.string())});
+  if (refine_keys(scene).empty())
+    throw SceneError(
+        {fmt::format("{}: has no [fluid] and no [body.elastic], so there is no mesh to refine. Use "
+                     "splashdown run.",
+                     options.scene.string())});
   PricePlan plan;
   plan.title = scene.title;
   plan.has_tank = scene.tank.has_value();
@@ -61,6 +64,7 @@ PricePlan plan_of(const PriceOptions& options) {
   // Absolute: the runs' messages name their folders.
   order.folder = fs::absolute(options.out.value_or(price_directory(options.scene))).lexically_normal();
   order.set = options.set;
+  order.refine_keys = refine_keys(scene);
   order.threads = options.threads;
   order.budget = options.budget;
   order.large = options.large;
@@ -78,6 +82,8 @@ PricePlan plan_of(const PriceOptions& options) {
     quantities.push_back(std::move(quantity));
   }
   check_price_quantities(quantities, scene);
+  plan.replicates = std::ranges::any_of(
+      quantities, [](const PriceQuantity& quantity) { return quantity.counts && quantity.told.empty(); });
   if (quantities.empty())
     throw SceneError(
         {fmt::format("{}: has no body and no record to measure. Name what matters, e.g. --quantity "
@@ -169,7 +175,7 @@ int price_command(const PriceOptions& options) {
     return bad_input(trouble(error));
   }
   catch_interrupts(options.quiet ? "" : "\nstopping: the run saves its checkpoint\n");
-  climb_all(*ladder, plan.refines, options.open_water);
+  climb_all(*ladder, plan.refines, options.open_water, plan.replicates);
   if (plan.goes_on)
     climb_to(*ladder, {plan.accuracy, plan.finer, [&] {
                          std::vector<std::string> unused;

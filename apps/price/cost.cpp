@@ -40,6 +40,8 @@ double exponent_of(const std::vector<double>& pairs, Usual usual) {
 ExpectedNodes expected_nodes(const std::filesystem::path& scene, std::vector<std::string> set, double coarsest,
                              double finest, double seconds) {
   ExpectedNodes points;
+  const auto before = read_scene(scene, set).scene;
+  if (!before.has_fluid()) return points;
   set.emplace_back();
   for (double refine = coarsest; refine < 1.01 * finest; refine *= 2) {
     set.back() = fmt::format("fluid.size.refine={}", refine);

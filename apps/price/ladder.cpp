@@ -16,6 +16,7 @@
 #include "apps/quantity/names.hpp"
 #include "apps/quantity/table.hpp"
 #include "apps/run/progress.hpp"
+#include "apps/scene/choose/refine.hpp"
 #include "apps/scene/read/echo.hpp"
 #include "apps/scene/read/read.hpp"
 #include "apps/study/folder.hpp"
@@ -30,15 +31,15 @@ namespace fs = std::filesystem;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-Axis refine_axis(const std::vector<RungSpec>& specs, const std::vector<std::string>& larger_tank) {
+Axis refine_axis(const std::vector<RungSpec>& specs, const LadderOrder& order) {
   Axis axis;
   axis.name = axis.label = "refine";
   for (const auto& spec : specs) {
     const auto text = digits_of(spec.refine);
-    AxisValue value{text, spec.refine, {"fluid.size.refine=" + text}, {}};
+    AxisValue value{text, spec.refine, refined_by(order.refine_keys, spec.refine), {}};
     if (spec.role == Role::larger_tank) {
       value.text += "_larger_tank";
-      value.set.insert(value.set.end(), larger_tank.begin(), larger_tank.end());
+      value.set.insert(value.set.end(), order.larger_tank.begin(), order.larger_tank.end());
     }
     axis.values.push_back(std::move(value));
   }
@@ -66,9 +67,19 @@ std::vector<double> rung_refines(int rungs, double scene) {
   return refines;
 }
 
+std::vector<std::string> refined_by(const std::vector<std::string>& keys, double refine) {
+  std::vector<std::string> set;
+  for (const auto& key : keys) set.push_back(key + "=" + digits_of(refine));
+  return set;
+}
+
+std::vector<std::string> refine_keys_of(const fs::path& scene, const std::vector<std::string>& set) {
+  return refine_keys(read_scene(scene, set).scene);
+}
+
 std::optional<Scene> scene_at(const fs::path& scene, std::vector<std::string> set, double refine) {
-  set.push_back("fluid.size.refine=" + digits_of(refine));
   try {
+    for (auto& word : refined_by(refine_keys_of(scene, set), refine)) set.push_back(std::move(word));
     return read_scene(scene, set).scene;
   } catch (const SceneError&) {
     return {};
@@ -82,16 +93,17 @@ Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
   study_.large = order_.large;
   study_.threads = order_.threads;
   study_.reports = false;  // the price list has a page of its own
-  study_.axes = {refine_axis(possible, order_.larger_tank)};
+  study_.axes = {refine_axis(possible, order_)};
   runs_ = expand(study_);
   try {
     resolve(study_, runs_);
   } catch (const SceneError& error) {
     auto messages = error.messages();
     messages.push_back(
-        fmt::format("{}: the ladder begins at fluid.size.refine = {} and needs a scene there. Begin finer: --set "
-                    "fluid.size.refine=X, about which the ladder is built.",
-                    order_.scene.string(), digits_of(possible.front().refine)));
+        fmt::format("{}: the ladder begins at {} = {} and needs a scene there. Begin finer: --set "
+                    "{}=X, about which the ladder is built.",
+                    order_.scene.string(), order_.refine_keys.front(), digits_of(possible.front().refine),
+                    order_.refine_keys.front()));
     throw SceneError(std::move(messages));
   }
 }
@@ -99,7 +111,7 @@ Ladder::Ladder(LadderOrder order, const std::vector<RungSpec>& possible)
 bool Ladder::allow(const RungSpec& spec) {
   if (std::ranges::any_of(possible_, [&](const RungSpec& other) { return same(spec, other); })) return true;
   auto one = study_;
-  one.axes = {refine_axis({spec}, order_.larger_tank)};
+  one.axes = {refine_axis({spec}, order_)};
   auto runs = expand(one);
   try {
     resolve(one, runs);
@@ -224,6 +236,7 @@ Rung rung_in(const fs::path& folder, const RungSpec& spec, const std::vector<Pri
   for (const auto& quantity : quantities) {
     std::string why;
     rung.values.push_back(value_in(folder, quantity, why));
+    rung.told.push_back(told_error_in(folder, quantity));
     if (quantity.asked && !why.empty())
       notes.push_back(fmt::format("{} at refine {}: {}", quantity.name, digits_of(spec.refine), why));
   }
@@ -273,10 +286,10 @@ std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool op
   return specs;
 }
 
-void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water) {
+void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water, bool replicates) {
   const auto beside = [&](double refine) {
     for (const int k : {0, 1})
-      if (!ladder.climb({replicate_refine(refine, k), Role::replicate})) return;
+      if (replicates && !ladder.climb({replicate_refine(refine, k), Role::replicate})) return;
     if (open_water) ladder.climb({refine, Role::larger_tank});
   };
   for (std::size_t k = 0; k < refines.size(); ++k) {

@@ -34,6 +34,7 @@ struct Rung {
   double seconds = 0, steps = 0, node_steps = 0, memory_mb = 0;
   double setup_seconds = 0, output_seconds = 0;  ///< of these seconds
   std::vector<double> values;                    ///< of the quantities, in their order; nan: none
+  std::vector<double> told = {};                 ///< errors that the run tells of them; nan, or empty: none
 };
 
 /// A run that is done.
@@ -49,9 +50,15 @@ std::vector<double> rung_refines(int rungs, double scene);
 /// The scene on that mesh; nothing: it does not allow it.
 std::optional<Scene> scene_at(const std::filesystem::path& scene, std::vector<std::string> set, double refine);
 
+/// Arguments of --set that give a scene this refinement, by the keys that refine its meshes.
+std::vector<std::string> refined_by(const std::vector<std::string>& keys, double refine);
+/// Those keys. Throws SceneError.
+std::vector<std::string> refine_keys_of(const std::filesystem::path& scene, const std::vector<std::string>& set);
+
 struct LadderOrder {
   std::filesystem::path scene, folder;
   std::vector<std::string> set;
+  std::vector<std::string> refine_keys = {"fluid.size.refine"};
   std::vector<PriceQuantity> quantities;
   std::optional<int> threads;  ///< nothing: the program's choice
   std::optional<double> budget;
@@ -109,8 +116,8 @@ class Ladder {
 std::vector<std::string> larger_tank_of(const Scene& scene, const std::string& name);
 
 /// Rungs from the coarsest on, and before the last one two replicates of the one before it, and that one in a larger tank, as
-/// the budget allows.
-void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water);
+/// the budget allows. `replicates`: false where meshes tell their errors themselves.
+void climb_all(Ladder& ladder, const std::vector<double>& refines, bool open_water, bool replicates = true);
 /// All that `climb_all` may want.
 std::vector<RungSpec> possible_rungs(const std::vector<double>& refines, bool open_water);
 

@@ -98,13 +98,35 @@ double PricedQuantity::expected_band(std::span<const RunsOfSize> runs, std::size
   return with(*U, band_of_scatter(*fit->noise(runs[mean].h), runs[mean].runs));
 }
 
+std::optional<double> PricedQuantity::told_band(double refine) const {
+  if (told.empty()) return {};
+  // Errors of single meshes pass through zero: none counts for less than those of finer ones.
+  std::vector<std::pair<double, double>> points = told;
+  for (std::size_t k = points.size() - 1; k-- > 0;) points[k].second = std::max(points[k].second, points[k + 1].second);
+  const auto after =
+      std::ranges::find_if(points, [&](const auto& point) { return point.first >= refine * (1 - 1e-9); });
+  if (after != points.end() && std::abs(after->first / refine - 1) < 1e-9) return after->second / least_effectivity;
+  // Between two meshes a power law; beyond them that of the outermost two, of first to fourth order.
+  if (points.size() < 2)
+    return points[0].second * std::pow(points[0].first / refine, refine > points[0].first ? 1 : 4) / least_effectivity;
+  const auto right = std::clamp<std::ptrdiff_t>(after - points.begin(), 1, std::ssize(points) - 1);
+  const auto& [a, from] = points[static_cast<std::size_t>(right - 1)];
+  const auto& [b, to] = points[static_cast<std::size_t>(right)];
+  if (!(from > 0 && to > 0)) return std::max(from, to) / least_effectivity;
+  double order = std::log(from / to) / std::log(b / a);
+  if (after == points.end()) order = std::clamp(order, 1., 4.);
+  return to * std::pow(b / refine, order) / least_effectivity;
+}
+
 std::optional<double> PricedQuantity::band(double refine) const {
+  if (const auto band = told_band(refine)) return band;
   if (!fit) return {};
   return with_scatter_and_tank(fit->band(1 / refine));
 }
 
 std::optional<double> PricedQuantity::band_of(const RungSpec& spec) const {
   const double measured = at(spec);
+  if (!told.empty()) return told_band(spec.refine);
   if (!fit || !std::isfinite(measured)) return band(spec.refine);
   return with_scatter_and_tank(fit->band({1 / spec.refine, measured}));
 }
@@ -192,7 +214,7 @@ BandOfMean Price::expected_of_mean() const {
 std::vector<std::string> Price::without_band(const RungSpec& spec) const {
   std::vector<std::string> names;
   for (const auto& quantity : quantities)
-    if (quantity.what.counts && !(quantity.fit && std::isfinite(quantity.at(spec))))
+    if (quantity.what.counts && !((quantity.fit || !quantity.told.empty()) && std::isfinite(quantity.at(spec))))
       names.push_back(quantity.what.name);
   return names;
 }
@@ -205,9 +227,15 @@ std::vector<PriceQuantity> quantities_of(const Price& price) {
 
 std::vector<Rung> measured_runs(const Price& price) {
   auto runs = price.rungs;
-  for (auto& run : runs) run.values.clear();
-  for (const auto& quantity : price.quantities)
-    for (auto& run : runs) run.values.push_back(quantity.at(run.spec));
+  for (auto& run : runs) {
+    run.values.clear();
+    run.told.clear();
+    for (const auto& quantity : price.quantities) {
+      run.values.push_back(quantity.at(run.spec));
+      const auto told = std::ranges::find(quantity.told, run.spec.refine, &std::pair<double, double>::first);
+      run.told.push_back(told == quantity.told.end() ? std::nan("") : told->second);
+    }
+  }
   return runs;
 }
 
@@ -243,14 +271,17 @@ Price price_of(const std::vector<Rung>& rungs, const std::vector<PriceQuantity>&
     priced.value = priced.rungs.back().second;
     priced.scatter = scatter_of(priced);
     priced.tank = tank_influence(priced, dimension);
-    priced.fit = fit_of(priced);
+    for (const auto& [rung, value] : priced.rungs)
+      if (q < rung.told.size() && std::isfinite(rung.told[q]))
+        priced.told.emplace_back(rung.spec.refine, std::abs(rung.told[q]));
+    if (priced.told.empty()) priced.fit = fit_of(priced);
     price.quantities.push_back(std::move(priced));
   }
   return price;
 }
 
 std::string digest_of_scene(const std::filesystem::path& scene, std::vector<std::string> set) {
-  set.emplace_back("fluid.size.refine=1");
+  for (auto& word : refined_by(refine_keys_of(scene, set), 1)) set.push_back(std::move(word));
   auto table = toml::parse(read_scene(scene, set).resolved);
   table.erase("title");
   table.erase("output");

@@ -4,6 +4,7 @@
 //
 // U: of the fit over the ladder (convergence.hpp); s: standard deviation between meshes of equal size, the quantity's
 // replicates with the rung that they repeat. A single run is one of such meshes, whatever the fit says of their mean.
+// Where a mesh tells its error by itself (PriceQuantity::told), the band is that over `least_effectivity`, without ladder and scatter.
 // The mean of N runs on meshes of one size has U of itself and Student's t s / sqrt(N) with their own s (mean_plan.hpp).
 // T, where the tank stands for open water: the change by a tank g = 1.5 times as large over 1 - g^-d. A body and its images in the
 // walls are dipoles, whose flow falls with the distance to the power d (Newman 1977, section 4.9).
@@ -19,6 +20,9 @@
 #include "apps/price/means/mean_plan.hpp"
 
 namespace splashdown::apps {
+
+/// Of errors that meshes tell of themselves over the true ones, at least: what tests of goals hold.
+inline constexpr double least_effectivity = 0.7;
 
 /// As price lists have them, 1, 2, 5, and one that is asked for.
 std::vector<double> listed_percent(std::optional<double> asked);
@@ -53,7 +57,9 @@ struct PricedQuantity {
   double value = 0;                ///< of the finest rung
   std::optional<double> scatter;   ///< s; absent: no replicates
   std::optional<double> tank;      ///< T; absent: not asked for
-  std::optional<Convergence> fit;  ///< absent: too few rungs
+  std::optional<Convergence> fit;  ///< absent: too few rungs, or `told`
+  /// By refine, from the coarsest on: errors that its meshes tell of themselves, without their signs; empty: none do.
+  std::vector<std::pair<double, double>> told = {};
   /// With the value, from the coarsest on.
   std::vector<std::pair<Rung, double>> rungs, replicates, in_larger_tank;
   std::vector<PriceRow> rows;  ///< what it costs by itself; empty: it does not count or has no fit
@@ -75,6 +81,7 @@ struct PricedQuantity {
   std::optional<double> accuracy(double refine) const;
 
  private:
+  std::optional<double> told_band(double refine) const;
   double with(double U, double scatter_band) const;
   double with_scatter_and_tank(double U) const;
 };

@@ -28,6 +28,7 @@ class Defaults {
   std::vector<PriceQuantity> all() && {
     for (const auto& body : scene_.bodies) add_body(body);
     for (const auto& record : scene_.records) std::visit([this](const auto& entry) { add(entry); }, record);
+    add_goals();
     return std::move(quantities_);
   }
 
@@ -45,6 +46,18 @@ class Defaults {
     quantity.measured.table = table;
     quantity.measured.quantity = text;
     quantities_.push_back(std::move(quantity));
+  }
+
+  /// A scene that says what it is made for is priced by that.
+  void add_goals() {
+    const std::string of = "goals.";
+    if (std::ranges::none_of(numbers_, [&](const NamedNumber& number) { return number.name.starts_with(of); })) return;
+    for (auto& quantity : quantities_) quantity.counts = false;
+    for (const auto& number : numbers_) {
+      if (!number.name.starts_with(of)) continue;
+      entry(number.name);
+      quantities_.back().told = number.name + ".error";
+    }
   }
 
   void add_body(const Body& body) {
@@ -165,12 +178,25 @@ void check_price_quantities(const std::vector<PriceQuantity>& quantities, const 
 }
 
 double node_steps_in(const std::filesystem::path& folder) {
+  const auto summary = quantity::read_summary(folder);
+  const double steps = summary.value("steps", 0.);
+  if (!std::filesystem::exists(folder / "fluid.csv")) {  // bodies that deform keep their meshes
+    const auto nodes = quantity::find_entry(summary, "nodes.max");
+    return nodes ? nodes->numbers.front() * steps : 0;
+  }
   const auto table = quantity::read_table(folder, "fluid.csv");
   const auto* nodes = table.find("nodes");
   if (nodes == nullptr || nodes->empty()) return 0;
   double sum = 0;
   for (const double n : *nodes) sum += n;
-  return sum / static_cast<double>(nodes->size()) * quantity::read_summary(folder).value("steps", 0.);
+  return sum / static_cast<double>(nodes->size()) * steps;
+}
+
+double told_error_in(const std::filesystem::path& folder, const PriceQuantity& quantity) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (quantity.told.empty()) return none;
+  const auto entry = quantity::find_entry(quantity::read_summary(folder), quantity.told);
+  return entry ? entry->numbers.front() : none;
 }
 
 double value_in(const std::filesystem::path& folder, const PriceQuantity& quantity, std::string& why) {

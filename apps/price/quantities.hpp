@@ -21,6 +21,8 @@ struct PriceQuantity {
   /// A number of summary.json below whose least the mesh is too coarse for a value; empty: there is none.
   std::string resolution = {};
   double least_resolution = 0;
+  /// Of its error in summary.json, which a mesh knows by itself (core/goals/goal.hpp); empty: it does not.
+  std::string told = {};
 };
 
 std::vector<PriceQuantity> default_quantities(const Scene& scene);
@@ -33,6 +35,9 @@ void check_price_quantities(const std::vector<PriceQuantity>& quantities, const 
 
 /// Of every step if every step was recorded, else by the mean of the rows.
 double node_steps_in(const std::filesystem::path& folder);
+
+/// The error that the run tells of itself; nan: none.
+double told_error_in(const std::filesystem::path& folder, const PriceQuantity& quantity);
 
 /// In the folder of a run that is done; nan where it has none, then `why` says it.
 double value_in(const std::filesystem::path& folder, const PriceQuantity& quantity, std::string& why);

@@ -29,11 +29,13 @@ Json json_of(const Rung& rung) {
           {"memory_mb", rung.memory_mb}};
 }
 
-Json json_of(const std::vector<std::pair<Rung, double>>& rungs) {
+Json json_of(const std::vector<std::pair<Rung, double>>& rungs, const PricedQuantity& quantity) {
   Json list = Json::array();
   for (const auto& [rung, value] : rungs) {
     Json entry = {{"refine", rung.spec.refine}, {"value", value}};
     entry.update(json_of(rung));
+    const auto told = std::ranges::find(quantity.told, rung.spec.refine, &std::pair<double, double>::first);
+    if (told != quantity.told.end() && rung.spec.role == Role::rung) entry["told_error"] = told->second;
     list.push_back(std::move(entry));
   }
   return list;
@@ -85,7 +87,9 @@ Json json_of(const PricedQuantity& quantity) {
           {"unit", quantity.what.unit},
           {"counts", quantity.what.counts},
           {"richardson", fit ? number(fit->extrapolated()) : Json(nullptr)},
-          {"refused", fit ? fit->refusal() : "fewer than three meshes have a value"},
+          {"refused", fit                     ? fit->refusal()
+                      : quantity.told.empty() ? "fewer than three meshes have a value"
+                                              : "meshes tell their errors themselves"},
           {"path", quantity.what.path},
           {"expression", quantity.what.measured.quantity},
           {"from", quantity.what.measured.table},
@@ -94,10 +98,11 @@ Json json_of(const PricedQuantity& quantity) {
           {"least_resolution", quantity.what.least_resolution},
           {"rows", json_of(quantity.rows)},
           {"means", means_of(quantity)},
-          {"rungs", json_of(quantity.rungs)},
-          {"replicates", json_of(quantity.replicates)},
+          {"told", quantity.what.told},
+          {"rungs", json_of(quantity.rungs, quantity)},
+          {"replicates", json_of(quantity.replicates, quantity)},
           {"tank", number(quantity.tank)},
-          {"in_larger_tank", json_of(quantity.in_larger_tank)}};
+          {"in_larger_tank", json_of(quantity.in_larger_tank, quantity)}};
 }
 
 Role role_of(const std::string& word) {
@@ -132,6 +137,7 @@ PriceQuantity quantity_of(const std::string& name, const Json& json) {
   quantity.measured.where = json.at("where").get<std::string>();
   quantity.resolution = json.value("resolution", "");
   quantity.least_resolution = json.value("least_resolution", 0.);
+  quantity.told = json.value("told", "");
   return quantity;
 }
 
@@ -232,6 +238,8 @@ std::string means_text(const Price& price, std::size_t width, std::size_t band_w
 
 /// Why a quantity plays no part in the rows; empty: it does.
 std::string not_counted(const PricedQuantity& quantity) {
+  if (!quantity.told.empty())
+    return quantity.what.counts ? "  (told by each mesh)" : "  (told by each mesh, not counted)";
   if (!quantity.fit) return fmt::format("  (on {}: too few)", counted(quantity.rungs.size(), "mesh", "meshes"));
   return quantity.what.counts ? "" : "  (not counted)";
 }
@@ -302,15 +310,20 @@ Price read_price(const std::filesystem::path& file) {
     price.dimension = root.at("dimension").get<int>();
     std::vector<PriceQuantity> quantities;
     for (const auto& run : root.at("runs")) price.rungs.push_back(rung_of(run));
-    for (auto& rung : price.rungs) rung.values.assign(root.at("quantities").size(), NAN);
+    for (auto& rung : price.rungs) {
+      rung.values.assign(root.at("quantities").size(), NAN);
+      rung.told = rung.values;
+    }
     std::size_t q = 0;
     for (const auto& [name, entry] : root.at("quantities").items()) {
       quantities.push_back(quantity_of(name, entry));
       for (const auto& [list, role] : lists)
         for (const auto& measured : entry.at(list))
           for (auto& rung : price.rungs)
-            if (rung.spec.refine == measured.at("refine").get<double>() && rung.spec.role == role)
+            if (rung.spec.refine == measured.at("refine").get<double>() && rung.spec.role == role) {
               rung.values[q] = measured.at("value").get<double>();
+              rung.told[q] = measured.value("told_error", NAN);
+            }
       ++q;
     }
     std::vector<std::string> unused;

@@ -186,6 +186,11 @@ void Recorder<d>::State::add_statistics(const RecordInput<d>& input) {
   if (input.solids)
     for (std::size_t b = 0; b < input.solids->size(); ++b)
       stresses[input.solids->spec(b).name].add(input.time, deformations.emplace_back(input.solids->deformation(b)));
+  if (input.solids && !input.fluid) {
+    std::size_t nodes = 0, cells = 0;
+    for (const auto& deformation : deformations) nodes += deformation.nodes, cells += deformation.cells;
+    run.add_mesh(nodes, cells);
+  }
   for (std::size_t i = 0; i < equipment.size(); ++i) {
     const auto acceleration = equipment_acceleration(input, i);
     equipment[i].add(kick, {acceleration.data(), static_cast<std::size_t>(d)});
@@ -329,9 +334,13 @@ void Recorder<d>::record(const RecordInput<d>& input) {
   s.add_statistics(input);
   if (first) write_pieces(s.settings.directory / "snapshots", "start", take_frame(input));
 
-  if (input.last && input.fluid) {
+  if (input.last) {
     s.goals.clear();
-    for (const auto& [name, value, error] : input.fluid->goals()) s.goals.push_back({name, value, error});
+    const auto add = [&](const std::vector<GoalValue>& goals) {
+      for (const auto& [name, value, error, unit] : goals) s.goals.push_back({name, value, error, unit});
+    };
+    if (input.fluid) add(input.fluid->goals());
+    if (input.solids) add(input.solids->goals());
   }
   // Each schedule is asked at each step, so that a last row does not shift the ones after a resume.
   if (s.rows.due(input.time) || input.last) s.write_rows(input);
@@ -424,12 +433,14 @@ template <int d>
 void Recorder<d>::summarise(Summary& summary) const {
   const State& s = *s_;
   summary.dimension = d;
-  if (s.has_fluid) {
+  if (s.has_fluid || !s.stresses.empty()) {
     summary.nodes = s.run.nodes;
     summary.elements = s.run.elements;
+  }
+  summary.goals = s.goals;
+  if (s.has_fluid) {
     s.energy.summarise(summary.ledger.emplace(summary_of(s.ledger)));
     summary.fluid = FluidSummary{s.speed, s.max_speed_peak};
-    summary.goals = s.goals;
   }
   if (summary.coupling && s.run.steps > 0) {
     summary.coupling->passes_mean = static_cast<double>(s.run.passes_sum) / static_cast<double>(s.run.steps);

@@ -243,12 +243,10 @@ std::string closing_text(const Summary& summary, const std::filesystem::path& di
                                           band_text(patch.grade ? &*patch.grade : nullptr), patch.area,
                                           summary.dimension == 2 ? "m" : "m^2", with_unit(patch.impulse, "Pa s")));
   if (summary.nodes && summary.ledger) text += closing_row("liquid", liquid_text(summary));
-  for (const auto& goal : summary.goals) {
-    const char* unit = summary.dimension == 2 ? "N/m" : "N";
+  for (const auto& goal : summary.goals)
     text += closing_row("goal", fmt::format("{} {}, error of the mesh {} by the adjoint ({:.2g} %)", goal.name,
-                                            with_unit(goal.value, unit), with_unit(goal.error, unit),
+                                            with_unit(goal.value, goal.unit), with_unit(goal.error, goal.unit),
                                             100 * std::abs(goal.error / goal.value)));
-  }
   if (summary.coupling) text += closing_row("coupling", coupling_text(*summary.coupling));
   if (summary.rejected_steps > 0) text += closing_row("refused", refused_text(summary));
   if (summary.wall_seconds > 0) text += closing_row("spent on", time_text(summary));

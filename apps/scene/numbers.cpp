@@ -14,6 +14,11 @@ class Numbers {
 
   std::vector<NamedNumber> all() && {
     for (const auto& body : scene_.bodies) add_body(body);
+    if (scene_.ale)
+      for (const auto& goal : scene_.ale->goals) {
+        const auto of = "goals." + goal.body + "." + goal.direction;
+        numbers_.push_back({.name = of, .unit = "N/m", .paths = {of + ".value"}, .body = goal.body, .peak = false});
+      }
     for (const auto* kind : effect_kinds())
       for (auto& number : kind->numbers(scene_)) numbers_.push_back(std::move(number));
     for (const auto& record : scene_.records) std::visit([this](const auto& entry) { add(entry); }, record);

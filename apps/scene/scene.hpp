@@ -254,6 +254,7 @@ struct Body {
   std::optional<double> density;        ///< mean density [kg/m^3]
   bool without_mass = false;            ///< the scene says 0; free in a fluid it has least_density then
   bool deforms = false;                 ///< it has [body.elastic]
+  double refine = 1;                    ///< what the size of its elements is divided by, if it deforms
   std::optional<Point> centre_of_mass;  ///< in the shape's frame [m]; default: the centroid
   /// About the centre of mass, axes of the shape's frame [kg m^2]; default: of uniform density. In two dimensions the
   /// last entry alone [kg m].

@@ -12,7 +12,7 @@ void serialize(Archive& archive, Peak& peak) {
 
 template <class Archive>
 void serialize(Archive& archive, GoalSummary& goal) {
-  archive(goal.name, goal.value, goal.error);
+  archive(goal.name, goal.value, goal.error, goal.unit);
 }
 
 template <class Archive>

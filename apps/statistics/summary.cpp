@@ -277,9 +277,9 @@ std::string to_json(const Summary& summary) {
     json["fluid"] = {{"max_speed", number(summary.fluid->max_speed)},
                      {"max_speed_peak", number(summary.fluid->max_speed_peak)}};
   for (const auto& goal : summary.goals) {
-    const auto dot = goal.name.rfind('.');  // "BODY.x"
-    json["goals"][goal.name.substr(0, dot)][goal.name.substr(dot + 1)] = {{"value", number(goal.value)},
-                                                                          {"error", number(goal.error)}};
+    const auto dot = goal.name.rfind('.');  // "BODY.x", "POINT.uy", "BODY.f1"
+    json["goals"][goal.name.substr(0, dot)][goal.name.substr(dot + 1)] = {
+        {"value", number(goal.value)}, {"error", number(goal.error)}, {"unit", goal.unit}};
   }
   if (const auto& water = summary.still_water)
     json["still_water"] = {{"density", water->density}, {"gravity", water->gravity}, {"level", water->level}};

@@ -220,10 +220,11 @@ struct LedgerSummary {
   double kinetic_deficit = 0;                           ///< lowest kinetic energy below 0, over `energy_scale`
 };
 
-/// A load with the error that the fluid knows of it (AleFlow::goals).
+/// A number with the error that the mesh leaves in it (core/goals/goal.hpp).
 struct GoalSummary {
   std::string name;
-  double value = 0, error = 0;  ///< value minus truth [N, N/m]
+  double value = 0, error = 0;  ///< value minus truth
+  std::string unit;
 };
 
 struct FluidSummary {
@@ -286,7 +287,7 @@ struct Summary {
   std::map<std::string, Foreseen> foreseen;   ///< by body
   std::vector<std::string> not_foreseen;      ///< of it, what could not be computed, and why
   std::optional<StillWater> still_water;      ///< absent: no water, or no gravity that points down
-  std::optional<RangeCount> nodes, elements;  ///< absent without a fluid
+  std::optional<RangeCount> nodes, elements;  ///< of a fluid, without one of bodies that deform
   std::optional<CouplingSummary> coupling;    ///< absent unless fluid and bodies are coupled
   std::optional<LedgerSummary> ledger;
   std::optional<FluidSummary> fluid;

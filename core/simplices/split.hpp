@@ -1,5 +1,5 @@
-// Quadratic triangles divided into four each. Parts keep the shape of the cell that they lie in, a curved one as well: what is
-// quadratic on the cells before is so on those after. Neighbours fit.
+// Quadratic simplices divided, triangles into four and tetrahedra into eight. Parts keep the shape of the cell that they lie in,
+// a curved one as well: what is quadratic on the cells before is so on those after. Neighbours fit.
 #pragma once
 
 #include <array>
@@ -11,15 +11,21 @@
 
 namespace splashdown {
 
+/// Parts of a cell: 4 and 8.
+template <int d>
+inline constexpr int part_count = 1 << d;
+
 /// Cells after, and where they lie before.
-struct SplitTriangles {
+template <int d>
+struct SplitCells {
   /// A point of a cell before.
   struct At {
     int cell;           ///< its number
-    Barycentric<2> at;  ///< where in it
+    Barycentric<d> at;  ///< where in it
   };
-  Eigen::Matrix2Xd nodes;                             ///< those before keep their numbers and are the corners [m]
-  std::vector<std::array<int, cell_nodes<2>>> cells;  ///< four one after the other for each cell
+  /// Those before keep their numbers and are the corners [m].
+  Eigen::Matrix<double, d, Eigen::Dynamic> nodes;
+  std::vector<std::array<int, cell_nodes<d>>> cells;  ///< `part_count` one after the other for each cell
   std::vector<At> places;                             ///< of nodes
   std::map<std::array<int, 2>, int> middles;          ///< the node between two corners, the lower number first
 
@@ -28,6 +34,17 @@ struct SplitTriangles {
 };
 
 /// Divides all cells.
-SplitTriangles split(const Eigen::Matrix2Xd& nodes, std::span<const std::array<int, cell_nodes<2>>> cells);
+template <int d>
+SplitCells<d> split(const Eigen::Matrix<double, d, Eigen::Dynamic>& nodes,
+                    std::span<const std::array<int, cell_nodes<d>>> cells);
+
+/// The part of a cell that holds a point of it, and where in the part.
+template <int d>
+typename SplitCells<d>::At in_part(const Barycentric<d>& at);
+
+extern template SplitCells<2> split<2>(const Eigen::Matrix2Xd&, std::span<const std::array<int, cell_nodes<2>>>);
+extern template SplitCells<3> split<3>(const Eigen::Matrix3Xd&, std::span<const std::array<int, cell_nodes<3>>>);
+extern template SplitCells<2>::At in_part<2>(const Barycentric<2>&);
+extern template SplitCells<3>::At in_part<3>(const Barycentric<3>&);
 
 }  // namespace splashdown

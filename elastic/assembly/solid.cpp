@@ -11,8 +11,8 @@
 namespace splashdown::elastic {
 
 template <int d>
-Solid<d>::Solid(SolidMesh<d> mesh, std::unique_ptr<const Law<d>> law, double density)
-    : mesh_(std::move(mesh)), law_(std::move(law)), length_(extent(mesh_)) {
+Solid<d>::Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double density)
+    : mesh_(std::move(mesh)), law_(std::move(law)), density_(density), length_(extent(mesh_)) {
   if (!(density > 0)) throw std::invalid_argument("density must be positive");
   held_.assign(static_cast<std::size_t>(d * mesh_.size()), false);
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
@@ -22,8 +22,26 @@ Solid<d>::Solid(SolidMesh<d> mesh, std::unique_ptr<const Law<d>> law, double den
       points_.push_back({slopes, point.weight * determinant / factorial<d>});
     }
   make_pattern();
-  assemble_mass(density);
+  assemble_mass();
   if (law_->linear()) assemble_stiffness(Field::Zero(d * mesh_.size()), constant_);
+}
+
+template <int d>
+std::pair<Solid<d>, std::vector<typename SplitCells<d>::At>> Solid<d>::divided() const {
+  auto parts = split<d>(mesh_.nodes, mesh_.cells);
+  Solid fine(solid_mesh<d>(parts.nodes, std::move(parts.cells)), law_, density_);
+  for (int a = 0; a < fine.mesh().size(); ++a) {
+    const auto& [cell, at] = parts.places[static_cast<std::size_t>(a)];
+    const auto N = shapes<d>(at);
+    for (int k = 0; k < d; ++k) {
+      bool is_held = true;
+      for (int b = 0; b < cell_nodes<d>; ++b)
+        is_held &= N[b] == 0 || held_[static_cast<std::size_t>(d * mesh_.cells[static_cast<std::size_t>(cell)][b] + k)];
+      if (is_held) fine.hold(d * a + k);
+    }
+  }
+  for (const auto& [place, mass] : point_masses_) fine.add_point_mass(in_divided<d>(place), mass);
+  return {std::move(fine), std::move(parts.places)};
 }
 
 template <int d>
@@ -100,13 +118,13 @@ void Solid<d>::add_cell(std::size_t cell, Sparse& matrix, const Add& block) cons
 }
 
 template <int d>
-void Solid<d>::assemble_mass(double density) {
+void Solid<d>::assemble_mass() {
   const auto& points = rule<d>();
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
     Eigen::Matrix<double, cell_nodes<d>, cell_nodes<d>> m = decltype(m)::Zero();
     for (std::size_t q = 0; q < points.size(); ++q) {
       const auto N = shapes<d>(points[q].at);
-      m += density * points_[c * points.size() + q].weight * N * N.transpose();
+      m += density_ * points_[c * points.size() + q].weight * N * N.transpose();
     }
     add_cell(c, mass_, [&](int a, int b) -> Mat<d> { return m(a, b) * Mat<d>::Identity(); });
   }
@@ -195,6 +213,7 @@ int Solid<d>::clamp(const std::function<bool(const Vec<d>&)>& inside) {
 
 template <int d>
 void Solid<d>::add_point_mass(const Place<d>& place, double mass) {
+  point_masses_.emplace_back(place, mass);
   const auto N = shapes<d>(place.at);
   add_cell(static_cast<std::size_t>(place.cell), mass_,
            [&](int a, int b) -> Mat<d> { return mass * N[a] * N[b] * Mat<d>::Identity(); });

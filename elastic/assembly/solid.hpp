@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "elastic/assembly/system.hpp"
@@ -37,8 +38,11 @@ template <int d>
 class Solid final : public System {
  public:
   /// Throws std::invalid_argument unless the density is positive.
-  Solid(SolidMesh<d> mesh, std::unique_ptr<const Law<d>> law, double density);
+  Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double density);
 
+  /// The same solid with each cell divided (core/simplices/split.hpp), and where its nodes lie in the cells before. Held are
+  /// nodes where all fields that this solid can have are zero.
+  std::pair<Solid, std::vector<typename SplitCells<d>::At>> divided() const;
   /// At rest.
   const SolidMesh<d>& mesh() const { return mesh_; }
   /// The same everywhere.
@@ -104,15 +108,16 @@ class Solid final : public System {
   template <class Stress>
   Field force_of(const Stress& stress) const;
   void make_pattern();
-  void assemble_mass(double density);
+  void assemble_mass();
   void sum_mass();
   void assemble_stiffness(const Field& u, Sparse& K) const;
   template <class Add>
   void add_cell(std::size_t cell, Sparse& matrix, const Add& block) const;
 
   SolidMesh<d> mesh_;
-  std::unique_ptr<const Law<d>> law_;
-  double length_;
+  std::shared_ptr<const Law<d>> law_;
+  double density_, length_;
+  std::vector<std::pair<Place<d>, double>> point_masses_;
   std::vector<Point> points_;  // of all cells in turn
   Sparse mass_;
   Eigen::VectorXd of_node_;  // mass: sums of its rows along one axis

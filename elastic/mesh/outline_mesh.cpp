@@ -7,6 +7,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "core/surface/sized_triangles.hpp"
+
 namespace splashdown::elastic {
 namespace {
 
@@ -16,9 +18,7 @@ using Structure = CGAL::Triangulation_data_structure_2<Vertices, CGAL::Delaunay_
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
-}  // namespace
-
-SolidMesh<2> outline_mesh(const Surface<2>& outline, double size) {
+Triangulation outlined(const Surface<2>& outline) {
   Triangulation triangles;
   try {
     for (Eigen::Index f = 0; f < outline.facets.cols(); ++f) {
@@ -28,8 +28,10 @@ SolidMesh<2> outline_mesh(const Surface<2>& outline, double size) {
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
     throw MeshError("the outline crosses itself", "Give its corners in turn, once around.");
   }
-  constexpr double shape = 0.125;  // sin^2 of the least angle that refinement is proven to end with
-  CGAL::refine_Delaunay_mesh_2(triangles, CGAL::Delaunay_mesh_size_criteria_2<Triangulation>(shape, size));
+  return triangles;
+}
+
+SolidMesh<2> collected(Triangulation& triangles) {
   Points<2> corners(2, triangles.number_of_vertices());
   int count = 0;
   for (const auto vertex : triangles.finite_vertex_handles()) {
@@ -41,6 +43,22 @@ SolidMesh<2> outline_mesh(const Surface<2>& outline, double size) {
     if (face->is_in_domain())
       simplices.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
   return quadratic_mesh<2>(corners, simplices);
+}
+
+}  // namespace
+
+SolidMesh<2> outline_mesh(const Surface<2>& outline, double size) {
+  auto triangles = outlined(outline);
+  constexpr double shape = 0.125;  // sin^2 of the least angle that refinement is proven to end with
+  CGAL::refine_Delaunay_mesh_2(triangles, CGAL::Delaunay_mesh_size_criteria_2<Triangulation>(shape, size));
+  return collected(triangles);
+}
+
+SolidMesh<2> outline_mesh(const Surface<2>& outline, const std::function<double(const Vec<2>&)>& size) {
+  auto triangles = outlined(outline);
+  const SizedTriangles<Triangulation> criteria(size);
+  CGAL::refine_Delaunay_mesh_2(triangles, criteria);
+  return collected(triangles);
 }
 
 }  // namespace splashdown::elastic

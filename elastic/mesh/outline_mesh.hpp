@@ -2,11 +2,15 @@
 // but where the outline itself has one.
 #pragma once
 
+#include <functional>
+
 #include "elastic/mesh/solid_mesh.hpp"
 
 namespace splashdown::elastic {
 
 /// Edges of triangles are at most `size` long [m]. Throws MeshError for an outline that crosses itself.
 SolidMesh<2> outline_mesh(const Surface<2>& outline, double size);
+/// The same where the longest edge is a function of the place, positive.
+SolidMesh<2> outline_mesh(const Surface<2>& outline, const std::function<double(const Vec<2>&)>& size);
 
 }  // namespace splashdown::elastic

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/simplices/quadratic.hpp"
+#include "core/simplices/split.hpp"
 
 /// Solids that deform: meshes, laws, equations of motion, modes. SI; two-dimensional quantities are per metre of depth.
 namespace splashdown::elastic {
@@ -52,6 +52,13 @@ struct Place {
   int cell = 0;
   Barycentric<d> at = Barycentric<d>::Zero();
 };
+
+/// The same point where each cell is divided (core/simplices/split.hpp).
+template <int d>
+Place<d> in_divided(const Place<d>& place) {
+  const auto part = in_part<d>(place.at);
+  return {part_count<d> * place.cell + part.cell, part.at};
+}
 
 /// The cell where a point of the body at rest lies, within `near` of its surface [m]; nothing: it is outside.
 template <int d>

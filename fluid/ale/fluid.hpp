@@ -16,24 +16,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/simplices/piece_finder.hpp"
 #include "core/status.hpp"
 #include "fluid/ale/equations/free_system.hpp"
-#include "fluid/ale/mesh/cell_finder.hpp"
 #include "fluid/ale/mesh/extension.hpp"
 #include "fluid/ale/spec.hpp"
 
 namespace splashdown::ale {
 
-/// A load with its error by the adjoint (fluid_goal.cpp).
-struct LoadGoal {
-  double value = 0;             ///< [N/m]
-  double error = 0;             ///< value minus truth, as far as it is known [N/m]
-  std::vector<double> by_cell;  ///< where the error comes from: shares by cells, not negative, of their sum [N/m]
-};
-
-/// The same with `size` of a mesh that was refined so often for its goals: half of what it was in those cells that hold most of
-/// their errors together, as few as have six tenths of it (Doerfler 1996). Each mesh takes steps of dt until a time, the ramp's
-/// end [s]. Throws std::runtime_error where a step fails.
+/// The same with `size` of a mesh that was refined so often for its goals (core/goals/refined_size.hpp). Each mesh takes steps
+/// of dt until a time, the ramp's end [s]. Throws std::runtime_error where a step fails.
 AleFlowSpec adapted(AleFlowSpec spec, int times, double dt, double until);
 
 /// What bodies make of an impulse: amplitudes of modes by the impulse on the walls at amplitudes y. `answered`: what the impulse
@@ -81,10 +73,7 @@ class AleFlow final : public FluidView<2> {
   std::vector<std::pair<std::string, double>> phase_seconds() const;
   /// Of a steady flow around bodies at rest: the load on a wall along a direction, and how far it is off. Costs the factor of a
   /// mesh of four times as many cells. Throws std::logic_error for other flows, and before the first step.
-  LoadGoal load_goal(std::size_t wall, const Vec<2>& direction) const;
-  /// Longest edges of a mesh that is better for a load (MeshSpec::size): half of what they are in those cells that hold most of
-  /// the error, as few as have `share` of it; all others stay.
-  std::function<double(const Vec<2>&)> refined_size(const std::vector<double>& by_cell, double share) const;
+  GoalError load_goal(std::size_t wall, const Vec<2>& direction) const;
   void save(std::ostream& out) const;  ///< the state at t_n, bit for bit
   void load(std::istream& in);         ///< throws std::runtime_error for other bytes
   /// Of the last solve.

@@ -4,19 +4,14 @@
 //   J(U) - J(divided) = R . (z - I z) + O(|U - U_divided|^2),   K^T z = dJ/dU,   z = the direction on the wall
 //
 // I: interpolation on the mesh before, whose test functions leave no residual. Where R (z - I z) is large the mesh is too coarse
-// for this load. What the divided mesh is off itself is added by its order q, 1/(2^q - 1) of each share: loads are of fourth order
-// with quadratic elements, and of order 2 lambda in cells at an edge of a body, where velocities go like r^lambda (Moffatt 1964):
-//
-//   sin(lambda w) + lambda sin(w) = 0,   w: the angle that the fluid has there
-#include <algorithm>
+// for this load. What the divided mesh is off itself is added by its order q, 1/(2^q - 1) of each share (core/goals/corner_order.hpp).
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 
+#include "core/goals/corner_order.hpp"
+#include "core/goals/refined_size.hpp"
 #include "fluid/ale/fluid.hpp"
 #include "fluid/ale/linear/direct_solver.hpp"
 
@@ -49,22 +44,8 @@ class Prolongation {
   const DividedMesh* after_;
 };
 
-/// Exponent of velocities at an edge around which the fluid has an angle between pi and 2 pi.
-double edge_exponent(double angle) {
-  double low = 0.5, high = 1;  // the only root between
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (std::sin(middle * angle) + middle * std::sin(angle) > 0 ? low : high) = middle;
-  }
-  return low;
-}
-
-/// What an error is over its part that a divided mesh shows, by the order of the load.
-double over_shown(double order) { return 1 / (1 - std::exp2(-order)); }
-
-/// The same for each cell.
+/// What an error is over its part that a divided mesh shows, for each cell.
 std::vector<double> whole_errors(const FlowMesh& mesh) {
-  constexpr double least_turn = 10 * std::numbers::pi / 180;  // less is curved, or as good as straight
   const auto node = [&](int a) { return Vec<2>(mesh.nodes.col(a)); };
   std::map<int, Vec<2>> comes, goes;  // directions of the boundary at ends of its edges
   for (const auto& edge : mesh.boundary) {
@@ -79,11 +60,12 @@ std::vector<double> whole_errors(const FlowMesh& mesh) {
     if (to == goes.end()) continue;
     const Vec<2>& t = to->second;
     const double left = std::atan2(from.x() * t.y() - from.y() * t.x(), from.dot(t));
-    if (left < -least_turn) at_corner[a] = over_shown(2 * edge_exponent(std::numbers::pi - left));
+    if (left < -least_corner_turn)
+      at_corner[a] = over_shown(2 * corner_exponent(std::numbers::pi - left, CornerSide::held, CornerSide::held, 1));
   }
   std::vector<double> all;
   for (const auto& cell : mesh.cells) {
-    double factor = over_shown(4);
+    double factor = over_shown(smooth_order);
     for (std::size_t k = 0; k < 3; ++k)
       if (const auto found = at_corner.find(cell[k]); found != at_corner.end()) factor = found->second;
     all.push_back(factor);
@@ -120,7 +102,7 @@ Vec<2> AleFlow::load_at(const Unknowns& at, std::size_t wall) const {
   return sum;
 }
 
-LoadGoal AleFlow::load_goal(std::size_t wall, const Vec<2>& direction) const {
+GoalError AleFlow::load_goal(std::size_t wall, const Vec<2>& direction) const {
   if (!spec_.scheme.is_steady || state_.steps == 0 || !state_.velocity.allFinite())
     throw std::logic_error("ale fluid: loads have an error of their own in steady flows alone, after a step");
   const auto after = divided(mesh_);
@@ -147,7 +129,7 @@ LoadGoal AleFlow::load_goal(std::size_t wall, const Vec<2>& direction) const {
     throw std::runtime_error("the adjoint of the load is singular; use smaller elements");
   given.add(solver.solve(-given.gather(slope.transpose() * z)), z);
 
-  LoadGoal goal;
+  GoalError goal;
   goal.by_cell.assign(mesh_.cells.size(), 0);
   goal.value = load_at(at, wall).dot(direction);
   const Unknowns share = residual.cwiseProduct(z - prolonged(equations_, fine, restricted(equations_, fine, mesh_, z)));
@@ -156,51 +138,16 @@ LoadGoal AleFlow::load_goal(std::size_t wall, const Vec<2>& direction) const {
     const auto cell = static_cast<std::size_t>(after.places[static_cast<std::size_t>(a)].cell);
     double sum = share.segment<2>(fine.velocity(a, 0)).sum();
     if (a < after.mesh.corners) sum += share[fine.pressure(a)];
-    goal.error += whole[cell] * sum;
-    goal.by_cell[cell] += whole[cell] * std::abs(sum);
+    goal.add(cell, whole[cell] * sum);
   }
   return goal;
-}
-
-std::function<double(const Vec<2>&)> AleFlow::refined_size(const std::vector<double>& by_cell, double share) const {
-  if (by_cell.size() != mesh_.cells.size())
-    throw std::invalid_argument("ale fluid: shares of the error must be of its cells");
-  std::vector<std::size_t> order(by_cell.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater(), [&](std::size_t c) { return by_cell[c]; });
-  std::vector<char> is_refined(by_cell.size(), 0);
-  double left = share * std::accumulate(by_cell.begin(), by_cell.end(), 0.);
-  for (std::size_t k = 0; k < order.size() && left > 0; left -= by_cell[order[k++]]) is_refined[order[k]] = 1;
-  struct Sizes {
-    std::vector<Vec<2>> points;
-    std::vector<std::array<int, 3>> cells;
-    std::vector<double> size;
-    PieceFinder finder;
-  };
-  auto sizes = std::make_shared<Sizes>();
-  for (int a = 0; a < mesh_.size(); ++a) sizes->points.emplace_back(mesh_.nodes.col(a));
-  // New meshes have edges a little below what is allowed.
-  constexpr double kept = 1.2;
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-    const auto& cell = mesh_.cells[c];
-    sizes->cells.push_back({cell[0], cell[1], cell[2]});
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      longest = std::max(longest, (mesh_.nodes.col(cell[k]) - mesh_.nodes.col(cell[(k + 1) % 3])).norm());
-    sizes->size.push_back(longest * (is_refined[c] ? 0.5 : kept));
-  }
-  sizes->finder.place(sizes->cells, sizes->points);
-  return [sizes](const Vec<2>& x) {
-    const auto found = sizes->finder.find(x);
-    return found ? sizes->size[found->piece] : std::numeric_limits<double>::infinity();
-  };
 }
 
 std::vector<GoalValue> AleFlow::goals() const {
   std::vector<GoalValue> all;
   for (const auto& [name, wall, direction] : spec_.goals) {
     const auto goal = load_goal(wall, direction);
-    all.push_back({name, goal.value, goal.error});
+    all.push_back({name, goal.value, goal.error, "N/m"});
   }
   return all;
 }
@@ -216,13 +163,9 @@ AleFlowSpec adapted(AleFlowSpec spec, int times, double dt, double until) {
       flow.commit({});
       before = dt;
     } while (flow.time() - 0.5 * dt < until);
-    std::vector<double> together(flow.mesh().cells.size(), 0);
-    for (const auto& [name, wall, direction] : spec.goals) {
-      const auto by_cell = flow.load_goal(wall, direction).by_cell;
-      const double sum = std::accumulate(by_cell.begin(), by_cell.end(), 0.);
-      for (std::size_t c = 0; c < by_cell.size() && sum > 0; ++c) together[c] += by_cell[c] / sum;
-    }
-    spec.size = flow.refined_size(together, 0.6);
+    JointShares together(flow.mesh().cells.size());
+    for (const auto& [name, wall, direction] : spec.goals) together.add(flow.load_goal(wall, direction).by_cell);
+    spec.size = refined_size(flow.mesh().nodes, flow.mesh().cells, together.all(), refined_share);
   }
   return spec;
 }

@@ -42,6 +42,19 @@ struct ElasticPatch {
   double start = 0;                 ///< of the burst [s]
 };
 
+/// A displacement, or a natural frequency, that is told with its error.
+struct ElasticGoal {
+  std::string path;             ///< of its table in messages
+  std::string point;            ///< name of a point; empty: `mode`
+  std::string direction = "y";  ///< world axis that the point is displaced along
+  int mode = 0;                 ///< number of a natural frequency, 1 the lowest
+};
+
+/// What summary.json and tables call it.
+inline std::string name_of(const ElasticGoal& goal, const std::string& body) {
+  return goal.mode > 0 ? body + ".f" + std::to_string(goal.mode) : goal.point + ".u" + goal.direction;
+}
+
 /// Nine moduli of law = "orthotropic".
 struct ElasticPly {
   std::vector<double> young_moduli;    ///< along the fibres, across them, along the normal [Pa]
@@ -53,14 +66,14 @@ struct ElasticPly {
 
 struct ElasticTable {
   std::size_t body = 0;
-  std::string path;                          ///< of the table in messages
-  std::string law = "st_venant_kirchhoff";   ///< of `elastic_laws`
-  double young_modulus = 0;                  ///< [Pa]
-  double poisson_ratio = 0;                  ///< -1 to 1/2
-  ElasticPly ply;                            ///< of law = "orthotropic"
-  double size = 0;                           ///< of elements [m]; of a mesh from a file what it is
-  std::string mesh_file;                     ///< of Gmsh, absolute; empty: the shape is meshed
-  double mesh_scale = 1;                     ///< metres per unit of the file
+  std::string path;                         ///< of the table in messages
+  std::string law = "st_venant_kirchhoff";  ///< of `elastic_laws`
+  double young_modulus = 0;                 ///< [Pa]
+  double poisson_ratio = 0;                 ///< -1 to 1/2
+  ElasticPly ply;                           ///< of law = "orthotropic"
+  double size = 0;        ///< of elements [m], divided by Body::refine; of a mesh from a file what it is
+  std::string mesh_file;  ///< of Gmsh, absolute; empty: the shape is meshed
+  double mesh_scale = 1;  ///< metres per unit of the file
   std::string scheme = "generalised_alpha";  ///< of `elastic_schemes`
   double spectral_radius = 0.9;  ///< of generalised_alpha: five periods resolved by ten steps lose 1 % of a mode
   double shift = 1;              ///< of shifted_crank_nicolson [1/s]
@@ -71,6 +84,8 @@ struct ElasticTable {
   std::vector<ElasticPatch> patches;
   std::string start = "undeformed";  ///< or "equilibrium" with the loads of t = 0
   std::vector<ElasticPoint> point_masses, points;
+  std::vector<ElasticGoal> goals;
+  int adapt = 0;  ///< how often the mesh is refined for them before the run
   int modes = 0;  ///< natural frequencies that are told before the run
   /// Of the wall that a fluid presses on: all nodes, the `modes` lowest modes, or all nodes with modes in the exact term.
   std::string coordinates = "nodes";

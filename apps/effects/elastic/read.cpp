@@ -52,7 +52,7 @@ void read_law(Reader& reader, ElasticTable& table, int dimension) {
                  cure);
 }
 
-void read_mesh(Reader& reader, ElasticTable& table, int dimension) {
+void read_mesh(Reader& reader, ElasticTable& table, double& refine, int dimension) {
   const bool needs_file = dimension == 3, sketch = reader.context().sketch != nullptr;
   auto mesh = reader.table("mesh", needs_file ? Need::required : Need::optional,
                            "Add mesh = {file = \"body.msh\"}: a solid in space is meshed with Gmsh.");
@@ -61,11 +61,15 @@ void read_mesh(Reader& reader, ElasticTable& table, int dimension) {
     mesh->number("scale", table.mesh_scale,
                  positive("", "Use metres per unit of the file: 0.001 if it is in millimetres."));
   }
-  if (needs_file || (mesh && !sketch))
-    reader.refuse("size", "the elements are those of the mesh", "Remove it, or the mesh.");
-  else
-    reader.number("size", table.size, positive("m", "Use half of the thinnest part, e.g. 0.01."),
-                  sketch ? Need::optional : Need::required);
+  if (needs_file || (mesh && !sketch)) {
+    for (const char* key : {"size", "refine", "adapt"})
+      reader.refuse(key, "the elements are those of the mesh", "Remove it, or the mesh.");
+    return;
+  }
+  refine = reader.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for elements of half the size."), presets);
+  reader.number("size", table.size, refined(positive("m", "Use half of the thinnest part, e.g. 0.01."), refine),
+                sketch ? Need::optional : Need::required);
+  reader.integer("adapt", table.adapt, within(0, 20, "", "Use e.g. 5: the mesh is refined so often for the goals."));
 }
 
 void read_scheme(Reader& reader, ElasticTable& table) {
@@ -159,6 +163,18 @@ void read_points(Reader& reader, std::vector<ElasticPoint>& all, int dimension) 
   }
 }
 
+void read_goal(Reader& reader, ElasticGoal& goal, int dimension) {
+  goal.path = reader.path();
+  reader.text("point", goal.point, "Use the name of a [[body.elastic.point]], e.g. \"tip\".");
+  reader.choice("direction", goal.direction, dimension == 2 ? Reader::Names{"x", "y"} : Reader::Names{"x", "y", "z"});
+  reader.integer("mode", goal.mode, within(1, 1000, "", "Use 1 for the lowest natural frequency."));
+  auto& problems = reader.context().problems;
+  if (reader.context().sketch || problems.found_in(reader.path())) return;
+  if (goal.point.empty() == (goal.mode == 0))
+    problems.add(reader.path(), goal.mode > 0 ? "asks for a point and for a mode" : "says not what is asked for",
+                 "Give point, whose displacement is told, or mode, whose frequency is.");
+}
+
 }  // namespace
 
 void ElasticKind::read(Reader& reader, Scene& scene) const {
@@ -168,7 +184,7 @@ void ElasticKind::read(Reader& reader, Scene& scene) const {
   scene.bodies.back().deforms = true;
   table.path = reader.path();
   read_law(reader, table, dimension);
-  read_mesh(reader, table, dimension);
+  read_mesh(reader, table, scene.bodies.back().refine, dimension);
   read_scheme(reader, table);
   reader.each_table("clamp", [&](Reader& clamp) { read_clamp(clamp, table.clamps.emplace_back(), dimension); });
   reader.each_table("patch", [&](Reader& patch) { read_patch(patch, table.patches.emplace_back(), dimension); });
@@ -180,6 +196,7 @@ void ElasticKind::read(Reader& reader, Scene& scene) const {
     part.point("point", mass.point, place, Need::required);
   });
   reader.each_table("point", [&](Reader& part) { read_points(part, table.points, dimension); });
+  reader.each_table("goal", [&](Reader& part) { read_goal(part, table.goals.emplace_back(), dimension); });
   reader.integer("modes", table.modes, within(0, 1000, "", "Use how many natural frequencies are to be told."));
   reader.choice("coordinates", table.coordinates, {"nodes", "modes", "both"});
 }

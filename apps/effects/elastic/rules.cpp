@@ -103,6 +103,29 @@ void check_patches(const ElasticTable& table, const elastic::SolidMesh<d>& mesh,
                    "Move or enlarge it (shape's frame); a piezo's middle lies on the boundary.");
 }
 
+void check_goals(const Scene& scene, const ElasticTable& table, int unknowns, Problems& problems) {
+  if (table.adapt > 0 && table.goals.empty())
+    problems.add(table.path + ".adapt", "there is no goal to refine the mesh for",
+                 "Add [[body.elastic.goal]] with point = \"NAME\" or mode = 1.");
+  if (table.adapt > 0 && scene.has_fluid())
+    problems.add(table.path + ".adapt", "in a fluid the mesh is not refined for goals",
+                 "Remove it, or use a smaller size.");
+  for (const auto& goal : table.goals) {
+    const int most = unknowns / 4;  // of what clamps leave free
+    if (goal.mode > most)
+      problems.add(goal.path + ".mode", fmt::format("must be {} at most on this mesh", most),
+                   "Ask for a lower one, or use smaller elements.");
+    if (goal.mode > 0) continue;
+    if (std::ranges::find(table.points, goal.point, &ElasticPoint::name) == table.points.end())
+      problems.add(goal.path + ".point", fmt::format("there is no point '{}'", goal.point),
+                   "Use the name of a [[body.elastic.point]] of this body.");
+    if (scene.has_fluid() || table.scheme != "steady")
+      problems.add(goal.path, "the adjoint of a displacement is that of an equilibrium",
+                   scene.has_fluid() ? "Remove the table, or ask for a mode."
+                                     : "Use scheme = \"steady\", ask for a mode, or remove the table.");
+  }
+}
+
 template <int d>
 void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problems) {
   const auto& body = scene.bodies[table.body];
@@ -131,6 +154,7 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
                         "Draw both in the same frame; mesh.scale is metres per unit of the file.");
   check_clamps<d>(scene, table, mesh, problems);
   check_patches<d>(table, mesh, problems);
+  check_goals(scene, table, d * mesh.size(), problems);
   const auto lies_in = [&](const Point& point) { return place_in<d>(mesh, point).has_value(); };
   check_forces(scene, table, lies_in, problems);
   const std::string rule = "is not in the body", cure = "Move it into the undeformed body, in the shape's frame.";
@@ -161,7 +185,8 @@ void check_table(const Scene& scene, const ElasticTable& table, Problems& proble
 template <int d>
 std::string frequencies_of(const Scene& scene, const ElasticTable& table) {
   const auto solid = make_solid<d>(scene.bodies[table.body], table);
-  const auto nodes = fmt::format("{} nodes", solid->mesh().size());
+  const auto nodes = fmt::format("{} nodes{}", solid->mesh().size(),
+                                 table.adapt > 0 ? fmt::format(" before it is refined {} times", table.adapt) : "");
   if (table.modes == 0) return nodes;
   const auto modes = elastic::lowest_modes(*solid, table.modes, elastic::Field::Zero(solid->size()));
   std::string list;
@@ -191,6 +216,11 @@ std::vector<NamedNumber> ElasticKind::numbers(const Scene& scene) const {
                    .unit = "Pa",
                    .paths = {"bodies." + name + ".peak_von_mises.value"},
                    .body = name});
+    for (const auto& goal : table.goals) {
+      const auto of = "goals." + name_of(goal, name);
+      all.push_back(
+          {.name = of, .unit = goal.mode > 0 ? "Hz" : "m", .paths = {of + ".value"}, .body = name, .peak = false});
+    }
   }
   return all;
 }

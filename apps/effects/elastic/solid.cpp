@@ -119,9 +119,11 @@ elastic::SolidMesh<d> in_world(const Body& body, elastic::SolidMesh<d> mesh) {
   return mesh;
 }
 
+}  // namespace
+
 template <int d>
-std::unique_ptr<elastic::Solid<d>> made(const Body& body, const ElasticTable& table,
-                                        const elastic::SolidMesh<d>& mesh) {
+std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table,
+                                              const elastic::SolidMesh<d>& mesh) {
   auto placed = in_world<d>(body, mesh);
   const auto properties = mass_properties<d>(body);
   const double volume = rigid::mass_properties<d>(shape_of<d>(body.shape).surface).mass;
@@ -136,8 +138,6 @@ std::unique_ptr<elastic::Solid<d>> made(const Body& body, const ElasticTable& ta
   for (const auto& part : table.point_masses) solid->add_point_mass(*place_in<d>(mesh, part.point), part.mass);
   return solid;
 }
-
-}  // namespace
 
 std::vector<std::string> elastic_laws() {
   auto names = names_of(law_rows<2>());
@@ -193,7 +193,7 @@ std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const Elastic
 
 template <int d>
 std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table) {
-  return made<d>(body, table, solid_mesh<d>(body, table));
+  return make_solid<d>(body, table, solid_mesh<d>(body, table));
 }
 
 template <int d>
@@ -206,9 +206,9 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
   std::vector<elastic::SolidSpec<d>> specs;
   for (const auto& table : scene.effects.find<ElasticTables>()->of_bodies) {
     const auto& body = scene.bodies[table.body];
-    const auto mesh = solid_mesh<d>(body, table);
+    const auto mesh = goal_mesh<d>(scene, table);
     auto& spec = specs.emplace_back();
-    spec.solid = made<d>(body, table, mesh);
+    spec.solid = make_solid<d>(body, table, mesh);
     spec.scheme = [table](Dynamics dynamics) {
       return named(scheme_rows(), table.scheme).make(table, std::move(dynamics));
     };
@@ -222,6 +222,8 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
     if (scene.gravity) spec.gravity = vec<d>(scene.gravity->acceleration);
     spec.drive = drive_of<d>(table, mesh);
     spec.forces = solid_loads<d>(scene, table, *spec.solid, mesh);
+    spec.goals = solid_goals<d>(body, table, mesh);
+    if (!spec.goals.empty()) spec.forces_on = loads_on<d>(scene, table);
     spec.from_equilibrium = table.start == "equilibrium";
     for (const auto& point : table.points)
       spec.points.push_back({point.name, *place_in<d>(mesh, point.point), signals_of(point)});
@@ -237,6 +239,10 @@ template std::optional<elastic::Place<2>> place_in<2>(const elastic::SolidMesh<2
 template std::optional<elastic::Place<3>> place_in<3>(const elastic::SolidMesh<3>&, const Point&);
 template std::unique_ptr<elastic::Solid<2>> make_solid<2>(const Body&, const ElasticTable&);
 template std::unique_ptr<elastic::Solid<3>> make_solid<3>(const Body&, const ElasticTable&);
+template std::unique_ptr<elastic::Solid<2>> make_solid<2>(const Body&, const ElasticTable&,
+                                                          const elastic::SolidMesh<2>&);
+template std::unique_ptr<elastic::Solid<3>> make_solid<3>(const Body&, const ElasticTable&,
+                                                          const elastic::SolidMesh<3>&);
 template Surface<2> solid_surface<2>(const Body&, const ElasticTable&);
 template Surface<3> solid_surface<3>(const Body&, const ElasticTable&);
 template std::vector<elastic::SolidSpec<2>> solid_specs<2>(const Scene&);

@@ -13,6 +13,8 @@
 namespace splashdown::elastic {
 template <int d>
 struct SolidSpec;
+template <int d>
+struct SolidGoal;
 }  // namespace splashdown::elastic
 
 namespace splashdown::apps {
@@ -47,6 +49,21 @@ std::optional<elastic::Place<d>> place_in(const elastic::SolidMesh<d>& mesh, con
 /// The solid in the world frame at t = 0 with clamps and point masses.
 template <int d>
 std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table);
+/// The same on a mesh of its own, in the shape's frame.
+template <int d>
+std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table,
+                                              const elastic::SolidMesh<d>& mesh);
+/// What is asked of it; `mesh` in the shape's frame.
+template <int d>
+std::vector<elastic::SolidGoal<d>> solid_goals(const Body& body, const ElasticTable& table,
+                                               const elastic::SolidMesh<d>& mesh);
+/// `solid_loads` on any mesh of the body at a time.
+template <int d>
+std::function<elastic::Field(const elastic::Solid<d>&, double)> loads_on(const Scene& scene, const ElasticTable& table);
+/// The mesh of a body, refined for its goals as often as its table says, in the shape's frame: of displacements in equilibrium
+/// with the loads of the run's end. Throws elastic::MeshError, and std::runtime_error where there is no equilibrium.
+template <int d>
+elastic::SolidMesh<d> goal_mesh(const Scene& scene, const ElasticTable& table);
 /// The surface that a fluid meets: facets between all nodes of the solid's boundary, world frame at t = 0.
 template <int d>
 Surface<d> solid_surface(const Body& body, const ElasticTable& table);

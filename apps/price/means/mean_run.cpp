@@ -23,6 +23,7 @@ LadderOrder order_of(const MeanOrder& mean) {
   order.scene = mean.options.scene;
   order.folder = fs::absolute(mean.folder / replicates_folder).lexically_normal();
   order.set = mean.options.overrides;
+  order.refine_keys = refine_keys_of(order.scene, order.set);
   order.threads = mean.options.threads;
   order.budget = mean.seconds;
   order.large = mean.options.large;

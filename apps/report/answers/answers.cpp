@@ -162,13 +162,21 @@ std::string stress_tiles(const RunData& run) {
   return html;
 }
 
+/// "x", "uy" or "f1" of what it is named after.
+std::string goal_words(const std::string& of, const std::string& goal) {
+  const auto rest = html_escaped(goal.substr(1));
+  if (goal.size() == 1) return fmt::format("load on {} along {}", html_escaped(of), html_escaped(goal));
+  if (goal.front() == 'f') return fmt::format("natural frequency {} of {}", rest, html_escaped(of));
+  return fmt::format("displacement of {} along {}", html_escaped(of), rest);
+}
+
 std::string goal_tiles(const RunData& run) {
   std::string html;
-  const auto unit = force_unit(run.dimension());
-  for (const auto& [body, directions] : member(run.summary, "goals").items())
-    for (const auto& [direction, goal] : directions.items()) {
+  for (const auto& [of, goals] : member(run.summary, "goals").items())
+    for (const auto& [name, goal] : goals.items()) {
+      const auto unit = goal.value("unit", force_unit(run.dimension()));
       Lines lines;
-      lines.add(fmt::format("load on {} along {}", html_escaped(body), html_escaped(direction)));
+      lines.add(goal_words(of, name));
       lines.add("error of the mesh " + digits_with_unit(number_at(goal, {"error"}), unit, 2) + ", by the adjoint");
       html += tile(digits_with_unit(number_at(goal, {"value"}), unit, 5), lines);
     }

@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "core/surface/sized_triangles.hpp"
 #include "fluid/ale/mesh/wanted_size.hpp"
 
 namespace splashdown::ale {
@@ -29,48 +30,6 @@ using Vertices = CGAL::Triangulation_vertex_base_with_info_2<OnLine, Kernel>;
 using Structure = CGAL::Triangulation_data_structure_2<Vertices, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
-
-/// CGAL's concept MeshingCriteria_2: no angle below 20.7 degrees, no edge longer than is wanted there.
-class SizedTriangles {
- public:
-  struct Quality {
-    double sine = 0, size = 0;  // square of the least sine, of the longest edge over what is wanted
-    bool operator<(const Quality& other) const {
-      if (size > 1 || other.size > 1) return size > other.size;
-      return sine < other.sine;
-    }
-  };
-  class Is_bad {
-   public:
-    explicit Is_bad(const WantedSize& wanted) : wanted_(&wanted) {}
-    CGAL::Mesh_2::Face_badness operator()(const Quality& quality) const {
-      constexpr double least_sine = 0.125;  // that refinement is proven to end with
-      if (quality.size > 1) return CGAL::Mesh_2::IMPERATIVELY_BAD;
-      return quality.sine < least_sine ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
-    }
-    CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face, Quality& quality) const {
-      Vec<2> x[3];
-      for (int k = 0; k < 3; ++k) x[k] = {face->vertex(k)->point().x(), face->vertex(k)->point().y()};
-      double edges[3];
-      for (int k = 0; k < 3; ++k) edges[k] = (x[(k + 1) % 3] - x[k]).squaredNorm();
-      std::sort(edges, edges + 3);
-      const Vec<2> a = x[1] - x[0], b = x[2] - x[0];
-      const double twice = a.x() * b.y() - a.y() * b.x();
-      quality.sine = twice * twice / (edges[1] * edges[2]);
-      const double wanted = wanted_->at((x[0] + x[1] + x[2]) / 3);
-      quality.size = edges[2] / (wanted * wanted);
-      return (*this)(quality);
-    }
-
-   private:
-    const WantedSize* wanted_;
-  };
-  explicit SizedTriangles(const WantedSize& wanted) : wanted_(&wanted) {}
-  Is_bad is_bad_object() const { return Is_bad(*wanted_); }
-
- private:
-  const WantedSize* wanted_;
-};
 
 Kernel::Point_2 point_of(const Vec<2>& x) { return {x.x(), x.y()}; }
 
@@ -198,12 +157,13 @@ FlowMesh flow_mesh(const MeshSpec& spec) {
   }
   const auto seeds = seeds_of(triangles, lines);
   const WantedSize wanted(spec, lines);
-  CGAL::refine_Delaunay_mesh_2(triangles, seeds.begin(), seeds.end(), SizedTriangles(wanted));
+  CGAL::refine_Delaunay_mesh_2(triangles, seeds.begin(), seeds.end(),
+                               SizedTriangles<Triangulation>([&](const Vec<2>& x) { return wanted.at(x); }));
   return Collect(spec, lines, triangles).mesh();
 }
 
 DividedMesh divided(const FlowMesh& mesh) {
-  auto parts = split(mesh.nodes, mesh.cells);
+  auto parts = split<2>(mesh.nodes, mesh.cells);
   DividedMesh all;
   all.mesh.nodes = std::move(parts.nodes);
   all.mesh.corners = mesh.size();

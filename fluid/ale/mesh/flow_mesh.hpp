@@ -61,7 +61,7 @@ FlowMesh flow_mesh(const MeshSpec& spec);
 /// A mesh after, and where its nodes lie before.
 struct DividedMesh {
   FlowMesh mesh;
-  std::vector<SplitTriangles::At> places;  ///< of its nodes in the mesh before
+  std::vector<SplitCells<2>::At> places;  ///< of its nodes in the mesh before
 };
 /// Each triangle divided into four, the boundary with it; what is quadratic before is so after.
 DividedMesh divided(const FlowMesh& mesh);

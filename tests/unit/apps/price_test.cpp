@@ -424,5 +424,57 @@ TEST(Price, belongs_to_its_scene_whatever_its_refinement_and_title) {
   EXPECT_NE(digest({}), digest({"fluid.size.surface=0.02"}));
 }
 
+/// Of a goal whose meshes tell these errors.
+Price told_price(const std::vector<std::pair<double, double>>& told) {
+  std::vector<Rung> rungs;
+  for (const auto& [refine, error] : told) {
+    rungs.push_back(rung(refine, 2 * refine * refine, {10 + error}));
+    rungs.back().told = {error};
+  }
+  auto goal = named("goals.tip.uy");
+  goal.told = "goals.tip.uy.error";
+  std::vector<std::string> notes;
+  auto price = price_of(rungs, {goal}, 2, notes);
+  list_rows(price);
+  price.scene = "scene.toml", price.scene_digest = "0";
+  return price;
+}
+
+TEST(Price, of_a_goal_goes_by_the_errors_that_meshes_tell) {
+  const auto list = told_price({{1, 0.7}, {2, -0.07}});  // falls by 10 where elements are halved
+  const auto& goal = list.quantities.front();
+  EXPECT_FALSE(goal.fit);
+  EXPECT_NEAR(*goal.band(1), 1, 1e-12);
+  EXPECT_NEAR(*goal.band(2), 0.1, 1e-12);
+  EXPECT_NEAR(*goal.band(std::sqrt(2.)), std::sqrt(0.1), 1e-12);
+  EXPECT_NEAR(*goal.band(4), 0.01, 1e-12);
+  EXPECT_EQ(list.rows.front().decided_by, "goals.tip.uy");
+  const auto* row = row_for(list.rows, 1.1);
+  ASSERT_NE(row, nullptr);
+  EXPECT_LE(*row->refine, 2.01);
+  EXPECT_TRUE(list.without_band({2, Role::rung}).empty());
+}
+
+TEST(Price, of_a_goal_believes_no_mesh_that_is_better_than_a_finer_one) {
+  const auto list = told_price({{1, 0.7}, {2, 1e-6}, {4, 0.035}});
+  EXPECT_NEAR(*list.quantities.front().band(2), 0.05, 1e-12);
+  EXPECT_NEAR(*list.quantities.front().band(4), 0.05, 1e-12);
+}
+
+TEST(Price, of_a_goal_is_known_from_one_mesh_on) {
+  const auto list = told_price({{1, 0.07}});
+  ASSERT_FALSE(list.rows.empty());
+  EXPECT_NEAR(*list.quantities.front().band(1), 0.1, 1e-12);
+  EXPECT_NEAR(*list.quantities.front().band(2), 0.05, 1e-12);  // first order: no less is sure
+}
+
+TEST(Price, of_a_goal_is_written_and_read_back) {
+  const auto list = told_price({{1, 0.7}, {2, -0.07}});
+  const ScratchFolder folder;
+  const auto again = read_price(folder.write("price.json", price_json(list)));
+  EXPECT_EQ(price_json(again), price_json(list));
+  EXPECT_NEAR(*again.quantities.front().band(2), 0.1, 1e-12);
+}
+
 }  // namespace
 }  // namespace splashdown::apps::price_test

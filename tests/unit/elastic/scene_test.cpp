@@ -58,6 +58,37 @@ TEST(ElasticScene, is_read_with_its_defaults) {
   EXPECT_EQ(table.modes, 2);
 }
 
+/// The beam in equilibrium with its weight alone, with goals: forces at points have no finite displacement of their own.
+std::string with_goals(const std::string& more) {
+  auto text = testing::replaced(beam, "point_mass = [{mass = 2, point = [0.4, 0]}]\n", "");
+  text = testing::replaced(text, "[[body.force]]\naxes = \"world\"\nforce = [0, 30]\npoint = [0.5, 0]\n", "");
+  return testing::replaced(text, "modes = 2\n", "scheme = \"steady\"\ngoal = [{point = \"tip\"}, {mode = 1}]\n" + more);
+}
+
+// Refined meshes tell less, and what they tell is what has changed.
+TEST(ElasticScene, tells_goals_with_their_errors_and_refines_its_mesh_for_them) {
+  const auto told = [](const std::string& text) {
+    auto world = build_world<2>(scene_of(text));
+    EXPECT_TRUE(world.stepper->attempt(0.01).ok());
+    world.stepper->commit();
+    return world.solids->goals();
+  };
+  const auto coarse = told(with_goals("")), fine = told(with_goals("adapt = 4\n")),
+             same = told(with_goals("refine = 2\n"));
+  ASSERT_EQ(coarse.size(), 2u);
+  EXPECT_EQ(coarse[0].name, "tip.uy");
+  EXPECT_EQ(coarse[0].unit, "m");
+  EXPECT_EQ(coarse[1].name, "beam.f1");
+  EXPECT_EQ(coarse[1].unit, "Hz");
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double truth = fine[k].value - fine[k].error;
+    EXPECT_LT(std::abs(fine[k].error), 0.2 * std::abs(coarse[k].error));
+    EXPECT_LT(std::abs(same[k].error), std::abs(coarse[k].error));
+    EXPECT_GT(coarse[k].error / (coarse[k].value - truth), 0.7);
+    EXPECT_LT(coarse[k].error / (coarse[k].value - truth), 1.5);
+  }
+}
+
 TEST(ElasticScene, builds_a_world_of_solids_alone_and_none_without_the_table) {
   const auto world = build_world<2>(scene_of(beam));
   ASSERT_NE(world.solids, nullptr);
@@ -210,6 +241,13 @@ TEST_P(BadElasticScene, is_refused_with_place_rule_and_cure) {
 }
 
 const std::vector<Mistake> mistakes = {
+    {"goal_of_nothing", "modes = 2", "goal = [{direction = \"x\"}]", 19, "body.beam.elastic.goal[0]",
+     "says not what is asked for"},
+    {"goal_of_a_motion", "modes = 2", "goal = [{point = \"tip\"}]", 19, "body.beam.elastic.goal[0]",
+     "is that of an equilibrium"},
+    {"goal_of_no_point", "modes = 2", "goal = [{point = \"end\"}]\nscheme = \"steady\"", 19,
+     "body.beam.elastic.goal[0].point", "there is no point 'end'"},
+    {"refined_for_nothing", "modes = 2", "adapt = 2", 19, "body.beam.elastic.adapt", "there is no goal"},
     {"incompressible", "poisson_ratio = 0.3", "poisson_ratio = 0.5", 14, "body.beam.elastic.poisson_ratio = 0.5",
      "must be below 0.5"},
     {"ratio_beyond", "poisson_ratio = 0.3", "poisson_ratio = 0.6", 14, "body.beam.elastic.poisson_ratio = 0.6",

@@ -111,7 +111,7 @@ rule("XML and zlib stay in apps/record/frames" FILES "." BUT_FILES "^apps/record
 rule("TOML, JSON and archives stay in apps" FILES "." BUT_FILES "^apps/" INCLUDES "^(toml\\+\\+|nlohmann|cereal)/")
 rule("the command line is read in apps/cli/main.cpp" FILES "." BUT_FILES "^apps/cli/main\\.cpp$" INCLUDES "^CLI/")
 rule("public headers need Eigen and the standard library alone, core/parallel.hpp adds TBB" FILES "^(core|fluid|rigid|elastic|coupling)/.*\\.hpp$"
-  BUT_FILES "^(core/(parallel|surface/soup)|fluid/pfem/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
+  BUT_FILES "^(core/(parallel|surface/(sized_triangles|soup))|fluid/pfem/(initial/space_parts|mesh/delaunay/triangulation))\\.hpp$" INCLUDES "[./]"
   BUT_INCLUDES "^(core|fluid|rigid|elastic|coupling|Eigen)/")
 
 # The line of the first inclusion of a header in a file.

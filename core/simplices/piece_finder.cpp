@@ -1,11 +1,11 @@
-#include "fluid/ale/mesh/cell_finder.hpp"
+#include "core/simplices/piece_finder.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace splashdown::ale {
+namespace splashdown {
 
-std::vector<std::array<int, 3>> straight_pieces(std::span<const Cell> cells) {
+std::vector<std::array<int, 3>> straight_pieces(std::span<const std::array<int, cell_nodes<2>>> cells) {
   std::vector<std::array<int, 3>> pieces;
   for (const auto& c : cells) {  // middles 3, 4, 5 lie between corners 0 1, 1 2, 0 2
     pieces.push_back({c[0], c[3], c[5]});
@@ -62,4 +62,4 @@ std::optional<PieceFinder::Place> PieceFinder::find(const Vec<2>& point) const {
   return {};
 }
 
-}  // namespace splashdown::ale
+}  // namespace splashdown

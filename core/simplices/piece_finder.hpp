@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "fluid/ale/mesh/flow_mesh.hpp"
+#include "core/simplices/quadratic.hpp"
 
-namespace splashdown::ale {
+namespace splashdown {
 
 /// Straight triangles between corners and middles, positively oriented.
-std::vector<std::array<int, 3>> straight_pieces(std::span<const Cell> cells);
+std::vector<std::array<int, 3>> straight_pieces(std::span<const std::array<int, cell_nodes<2>>> cells);
 
 /// Buckets of triangles for points.
 class PieceFinder {
@@ -35,4 +35,4 @@ class PieceFinder {
   std::vector<std::vector<int>> buckets_;
 };
 
-}  // namespace splashdown::ale
+}  // namespace splashdown
