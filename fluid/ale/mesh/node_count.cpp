@@ -11,6 +11,7 @@ namespace {
 
 /// The integral of 1/h^2 over the part of a rectangle that no hull holds. It is quartered until it is as small as the elements in
 /// it, h growing by `growth` per unit distance at most; each quarter looks at those marks alone that may give the least h in it.
+/// Where that makes too many, rectangles are four elements wide, or sixteen.
 class Elements {
  public:
   Elements(const std::vector<HullLine>& lines, const WantedSize& wanted) : lines_(lines), wanted_(wanted) {}
@@ -18,11 +19,15 @@ class Elements {
   double in(const Vec<2>& middle, const Vec<2>& size) {
     std::vector<int> marks(wanted_.marks().size());
     std::iota(marks.begin(), marks.end(), 0);
-    return in(middle, size, marks);
+    for (breadth_ = 1;; breadth_ *= 4) {
+      count_ = 0;
+      const double sum = in(middle, size, marks);
+      if (count_ < most_) return sum;
+    }
   }
 
  private:
-  static constexpr int most_ = 400'000;  // rectangles that are looked at; what is left then counts by its middle
+  static constexpr int most_ = 100'000;  // rectangles that are looked at
 
   /// Of the places where h is told, those that may give the least one within a circle.
   std::vector<int> nearest(const std::vector<int>& marks, const Vec<2>& middle, double radius) const {
@@ -40,11 +45,12 @@ class Elements {
   }
 
   double in(const Vec<2>& middle, const Vec<2>& size, const std::vector<int>& of_parent) {
-    ++count_;
+    if (++count_ >= most_) return 0;
     const double radius = 0.5 * size.norm();
     const auto marks = nearest(of_parent, middle, radius);
     const double h = wanted_.at(middle, marks);
-    if (size.maxCoeff() > h - wanted_.growth() * radius && size.maxCoeff() > 0.5 * h && count_ < most_) {
+    const double most = size.maxCoeff() / breadth_;
+    if (most > h - wanted_.growth() * radius && most > 0.5 * h) {
       double sum = 0;
       for (const double x : {-0.25, 0.25})
         for (const double y : {-0.25, 0.25}) sum += in(middle + Vec<2>(x, y).cwiseProduct(size), 0.5 * size, marks);
@@ -56,6 +62,7 @@ class Elements {
 
   const std::vector<HullLine>& lines_;
   const WantedSize& wanted_;
+  double breadth_ = 1;  // of a rectangle, in elements
   int count_ = 0;
 };
 

@@ -117,6 +117,13 @@ TEST(FlowMesh, has_as_many_nodes_as_foreseen) {
   }
 }
 
+// Where elements are far smaller at a hull than away from it, there are as many as fit along it, over h: also where they are too
+// many to be made.
+TEST(FlowMesh, foresees_twice_as_many_nodes_with_half_the_size_at_hulls) {
+  const auto foreseen = [](double size) { return foreseen_nodes(around({{scenes::circle(0.3), size}})); };
+  for (const double size : {1e-3, 2e-4}) EXPECT_NEAR(foreseen(size / 2) / foreseen(size), 2, 0.3) << size;
+}
+
 constexpr ExtensionLaw laws[] = {ExtensionLaw::laplace, ExtensionLaw::biharmonic};
 
 /// Moves hulls and says what nodes do.
