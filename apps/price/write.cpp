@@ -322,7 +322,7 @@ Price read_price(const std::filesystem::path& file) {
           for (auto& rung : price.rungs)
             if (rung.spec.refine == measured.at("refine").get<double>() && rung.spec.role == role) {
               rung.values[q] = measured.at("value").get<double>();
-              rung.told[q] = measured.value("told_error", NAN);
+              rung.told[q] = measured.value("told_error", std::nan(""));
             }
       ++q;
     }
