@@ -14,15 +14,16 @@ namespace splashdown {
 /// How a body is deformed and what it holds. Two-dimensional energies are per metre of depth.
 template <int d>
 struct Deformation {
-  double strain_energy = 0;          ///< in the middle of the last step where a fluid is around [J, J/m]
-  double kinetic_energy = 0;         ///< likewise: what the fluid's work has made of both [J, J/m]
-  double potential_energy = 0;       ///< of its weight, against the undeformed place at t = 0 [J, J/m]
-  double dissipated = 0;             ///< by its damping so far where a fluid is around [J, J/m]
-  double clamp_work = 0;             ///< of moving clamps so far [J, J/m]
-  double von_mises = 0;              ///< the largest [Pa]
-  double von_mises_error = 0;        ///< of it: what elements and their neighbours disagree about there [Pa]
-  Vec<d> at = Vec<d>::Zero();        ///< where that is, in the undeformed body at t = 0, world frame [m]
-  std::size_t nodes = 0, cells = 0;  ///< of its mesh
+  double strain_energy = 0;     ///< in the middle of the last step where a fluid is around [J, J/m]
+  double kinetic_energy = 0;    ///< likewise: what the fluid's work has made of both [J, J/m]
+  double potential_energy = 0;  ///< of its weight, against the undeformed place at t = 0 [J, J/m]
+  double dissipated = 0;        ///< by its damping so far where a fluid is around [J, J/m]
+  double clamp_work = 0;        ///< of moving clamps so far [J, J/m]
+  double von_mises = 0;         ///< the largest [Pa]
+  double von_mises_error = 0;   ///< of it: what elements and their neighbours disagree about there [Pa]
+  Vec<d> at = Vec<d>::Zero();   ///< where that is, in the undeformed body at t = 0, world frame [m]
+  std::size_t nodes = 0;        ///< of its mesh
+  std::size_t cells = 0;        ///< of its mesh
 };
 
 /// The surface of a body as it is deformed, with what is known at its vertices.

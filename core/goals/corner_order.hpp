@@ -1,5 +1,5 @@
-// How errors of goals fall with the elements, and what of them a mesh shows of which each cell is divided. Quadratic elements have
-// an order of 4 where fields are smooth, and of 2 lambda at corners, where displacements or slow flow go like r^lambda. With
+// How errors of goals fall with the elements, and what of them a mesh shows of which each cell is divided. Quadratic elements
+// have an order of 4 where fields are smooth, and of 2 lambda at corners, where displacements or slow flow go like r^lambda. With
 // kappa = 3 - 4 nu in plane strain and w the angle of the material (Williams 1952; Moffatt 1964 for slow flow, kappa = 1):
 //
 //   both sides free     sin(lambda w) = +- lambda sin(w)

@@ -20,8 +20,8 @@ class PieceFinder {
   void place(std::span<const std::array<int, 3>> pieces, std::span<const Vec<2>> points);
   /// A place in a straight triangle.
   struct Place {
-    std::size_t piece;
-    Barycentric<2> at;
+    std::size_t piece;  ///< its number
+    Barycentric<2> at;  ///< where in it
   };
   /// The triangle around a point, nothing outside of all.
   std::optional<Place> find(const Vec<2>& point) const;

@@ -121,8 +121,8 @@ class Solid final : public System {
   std::vector<Point> points_;  // of all cells in turn
   Sparse mass_;
   Eigen::VectorXd of_node_;  // mass: sums of its rows along one axis
-  Sparse constant_;         // K of a linear law, else empty
-  std::vector<int> first_;  // of values: for each cell, nodes a and b and column k of b the row of a
+  Sparse constant_;          // K of a linear law, else empty
+  std::vector<int> first_;   // of values: for each cell, nodes a and b and column k of b the row of a
 };
 
 }  // namespace splashdown::elastic

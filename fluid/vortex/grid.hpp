@@ -56,7 +56,8 @@ struct Speeds {
   double speed = 0;    ///< the greatest [m/s]
 };
 
-/// Velocities of a stream function, with a uniform stream: u = stream.x + d psi/dy, v = stream.y - d psi/dx; and how fast they are.
+/// Velocities of a stream function, with a uniform stream: u = stream.x + d psi/dy, v = stream.y - d psi/dx; and how fast they
+/// are.
 Speeds velocities_of(const Grid& grid, const NodeField& psi, const Vec<2>& stream, FaceField& velocity);
 
 /// Of velocities in a stream; the same for any number of threads.

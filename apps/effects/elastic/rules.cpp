@@ -43,7 +43,7 @@ void check_company(const Scene& scene, const ElasticTables& tables, Problems& pr
         problems.add(table.path + ".start", "in a fluid a body begins undeformed", "Remove it.");
   if (scene.has_fluid())
     for (const auto& table : tables.of_bodies)
-      if (problems.noted(table.path + ".scheme"))
+      if (problems.noted(table.path + ".scheme") && table.scheme != ElasticTable{}.scheme)
         problems.add(table.path + ".scheme",
                      "in a fluid a body takes the fluid's steps, by kicks and the midpoint rule", "Remove it.");
   if (tables.of_bodies.front().body + tables.of_bodies.size() != scene.bodies.size())
@@ -70,8 +70,9 @@ void check_body_keys(const Body& body, const std::string& label, Problems& probl
   if (body.motion != Motion::free)
     problems.add(label + ".motion", "an elastic body is free but for what is clamped",
                  "Remove it, and use clamp in [body.elastic].");
+  const bool is_free_in_all = body.free == freedom_names(2) || body.free == freedom_names(3);
   for (const char* key : {".free", ".inertia", ".centre_of_mass"})
-    if (problems.noted(label + key))
+    if (problems.noted(label + key) && !(is_free_in_all && std::string_view(key) == ".free"))
       problems.add(label + key, "an elastic body has it from its mesh",
                    "Remove it; use clamp and point_mass in [body.elastic].");
   if (body.without_mass)

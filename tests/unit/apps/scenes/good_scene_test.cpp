@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "apps/effects/compressibility/compressibility.hpp"
 #include "apps/effects/form_drag/form_drag.hpp"
@@ -468,6 +469,26 @@ TEST(SceneGeometry, a_wavy_region_has_the_stated_elevation) {
   }
   EXPECT_DOUBLE_EQ(highest, 0.1);
   EXPECT_NEAR(area, 2, 1e-12);  // half a wave has no mean: the trapezoidal rule is exact by symmetry
+}
+
+// Text of scene.resolved.toml is a scene, and the same one.
+TEST(GoodScene, of_every_example_is_read_back_from_what_it_was_read_to) {
+  int count = 0;
+  for (const auto& example : std::filesystem::directory_iterator(SPLASHDOWN_EXAMPLES)) {
+    if (!example.is_directory()) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(example.path())) {
+      const auto file = entry.path();
+      if (file.extension() != ".toml" || !file.stem().string().starts_with("scene")) continue;
+      ++count;
+      const auto resolved = read_scene(file).resolved;
+      try {
+        EXPECT_EQ(read_scene_text(resolved, (example.path() / "resolved.toml").string()).resolved, resolved) << file;
+      } catch (const SceneError& error) {
+        ADD_FAILURE() << file << ": " << error.what();
+      }
+    }
+  }
+  EXPECT_GT(count, 50);
 }
 
 }  // namespace
