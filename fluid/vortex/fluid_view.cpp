@@ -33,8 +33,6 @@ struct NodeRows {
   const double *below, *above, *along;
 };
 
-constexpr std::size_t lanes = 8;  // greatest values that do not wait for each other
-
 /// The greatest square of velocities at the inner nodes of a row of `count`, linear between two instants.
 SPLASHDOWN_WIDE double most_square(const NodeRows& before, const NodeRows& after, double ahead, std::size_t count) {
   const double *__restrict a = before.below, *__restrict b = before.above, *__restrict c = before.along,

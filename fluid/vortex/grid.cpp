@@ -16,8 +16,6 @@ SPLASHDOWN_WIDE void difference(double stream, double scale, const double* __res
   for (std::size_t i = 0; i < count; ++i) to[i] = stream + scale * (after[i] - before[i]);
 }
 
-constexpr std::size_t lanes = 8;  // sums and greatest values that do not wait for each other
-
 /// Squares of a row of velocities beyond a stream, summed, and the greatest square of the velocities themselves.
 SPLASHDOWN_WIDE void speeds_of_row(const double* __restrict u, const double* __restrict v, double stream_x,
                                    double stream_y, std::size_t count, Speeds& speeds) {

@@ -20,8 +20,6 @@ double half_line(double a, double b) {
 double kept(double x) { return x * x * (3 - 2 * x); }
 double slope(double x) { return 6 * x * (1 - x); }
 
-constexpr std::size_t lanes = 8;  // sums that do not wait for each other
-
 SPLASHDOWN_WIDE double dot(const double* __restrict a, const double* __restrict b, std::size_t count) {
   double sums[lanes] = {}, sum = 0;
   std::size_t i = 0;

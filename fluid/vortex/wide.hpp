@@ -17,6 +17,9 @@
 
 namespace splashdown::vortex {
 
+/// Sums and greatest values of a row that do not wait for each other.
+constexpr std::size_t lanes = 8;
+
 /// Whether all numbers are zero, of either sign.
 bool all_zero(const double* numbers, std::size_t count);
 

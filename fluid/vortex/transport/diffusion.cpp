@@ -75,7 +75,7 @@ class Diffusion::Rows {
         zeros_(n_, 0.0),
         is_zero_(static_cast<std::size_t>(2 * reach_ + 1), 1) {}
 
-  /// Makes row `j` after `reach` rows before it; and its sums along y with those that are there already.
+  /// A row of the result; rows are asked for in ascending order.
   void to_row(std::ptrdiff_t j, double nothing, double* to) {
     for (made_ = std::max({made_, std::ptrdiff_t{1}, j - reach_}); made_ <= std::min(top_ - 1, j + reach_); ++made_)
       along_x(made_);
