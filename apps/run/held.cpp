@@ -26,7 +26,7 @@ void mark_held(const Scene& scene, double time, Summary& summary) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto& body = scene.bodies[b];
     const auto found = summary.bodies.find(body.name);
-    if (found == summary.bodies.end() || body.motion != Motion::free || is_welded(scene, b)) continue;
+    if (found == summary.bodies.end() || body.motion != Motion::free || body.deforms || is_welded(scene, b)) continue;
     auto& of = found->second;
     const double mass = mass_properties<d>(body).mass, length = extents<d>(outline<d>(body)).sizes().maxCoeff();
     if (of.fastest * time > still * length || of.impulse.size() != d) continue;

@@ -3,7 +3,8 @@
 //   m (V(T) - V(0)) = I + m g T + R      I: impulse of the water's loads, R: of joints
 //
 // A body at rest in balance has R = 0. One that floor or hulls may carry is at rest with reason: nothing is said of scenes with
-// [contact], of welds, and of directions in which a body is not free.
+// [contact], of welds, of bodies that deform, which clamps may hold and patches load, and of directions in which a body is not
+// free.
 #pragma once
 
 #include "apps/scene/scene.hpp"

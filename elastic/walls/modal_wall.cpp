@@ -31,6 +31,10 @@ struct Posture {
   Eigen::VectorXd amplitudes;
 };
 
+/// What a posture has more than another. Differences of places would be roundoff in steps of microseconds.
+template <int d>
+using Way = Posture<d>;
+
 template <int d>
 class ModalWall final : public ElasticWall<d> {
   using ElasticWall<d>::solid_, ElasticWall<d>::dynamics_, ElasticWall<d>::boundary_, ElasticWall<d>::u_,
@@ -51,11 +55,11 @@ class ModalWall final : public ElasticWall<d> {
     const Vec<d> centre = solid.centre(zero);
     arms_ = Eigen::Map<const Field>(solid.mesh().nodes.data(), solid.size()) - solid.uniform(centre);
     now_ = next_ = {centre, Mat<d>::Identity(), Eigen::VectorXd::Zero(count - frame_)};
+    way_ = {Vec<d>::Zero(), Mat<d>::Zero(), now_.amplitudes};
     rates_ = Eigen::VectorXd::Zero(count);
     last_slopes_ = Eigen::VectorXd::Zero(squares_.size());
     last_damping_ = Eigen::VectorXd::Zero(squares_.size());
     between_ = now_.amplitudes;
-    at_rest_ = arms_ + solid.uniform(centre);
     set_tangents();
   }
 
@@ -83,12 +87,13 @@ class ModalWall final : public ElasticWall<d> {
   Status move(const Eigen::VectorXd& impulse) override {
     const Eigen::VectorXd goal = known_ + answers_.transpose() * impulse;
     next_ = now_;
-    next_.centre += dt_ * next_carrier_;
-    go_on(next_, dt_ * rates_);
+    way_ = {dt_ * next_carrier_, Mat<d>::Zero(), Eigen::VectorXd::Zero(squares_.size())};
+    next_.centre += way_.centre;
+    go_on(dt_ * rates_);
     double last = std::numeric_limits<double>::infinity();
     for (int k = 0; k < dynamics_.newton.most; ++k) {
       ++iterations_;
-      look_at(next_);
+      look_at_next();
       const Eigen::VectorXd residual = momentum_of_trial() - goal;
       if (!residual.allFinite()) break;
       Eigen::MatrixXd J = (1 + dynamics_.damping.mass * dt_ / 2) / dt_ *
@@ -96,10 +101,10 @@ class ModalWall final : public ElasticWall<d> {
       J.diagonal().tail(squares_.size()) += (dt_ / 4 + dynamics_.damping.stiffness / 2) * squares_;
       const Eigen::VectorXd correction = J.partialPivLu().solve(residual);
       const double size = (answers_ * correction).cwiseAbs().maxCoeff();
-      go_on(next_, -correction);
+      go_on(-correction);
       const double way = (answers_ * rates_).cwiseAbs().maxCoeff() * dt_ + size;
       if (size <= dynamics_.newton.tolerance * way || (size > 0.5 * last && size < 1e-12 * solid_.length())) {
-        look_at(next_);
+        look_at_next();
         return {};
       }
       last = size;
@@ -109,15 +114,16 @@ class ModalWall final : public ElasticWall<d> {
 
   Status follow(const Eigen::VectorXd& velocities) override {
     next_ = free_posture_;
-    look_at(next_);
+    way_ = free_way_;
+    look_at_next();
     Eigen::VectorXd misses = velocities - at_boundary(s_next_);
     constexpr int most = 10;  // Gauss and Newton's method: two are usual
     for (int k = 0; k < most && misses.allFinite(); ++k) {
       if (turns()) on_surface_ = rows_on_surface(tangents(next_));
       if (turns() || fit_.rows() == 0) fit_.compute(on_surface_);
       const Eigen::VectorXd change = dt_ * fit_.solve(misses);
-      go_on(next_, change);
-      look_at(next_);
+      go_on(change);
+      look_at_next();
       misses = velocities - at_boundary(s_next_);
       if ((on_surface_ * change).norm() <= 1e-12 * dt_ * velocities.norm()) break;
     }
@@ -128,6 +134,7 @@ class ModalWall final : public ElasticWall<d> {
 
   ModalInertia linearised() override {
     free_posture_ = next_;
+    free_way_ = way_;
     Eigen::MatrixXd inertia = (1 + dynamics_.damping.mass * dt_ / 2) * inertia_;
     inertia.diagonal().tail(squares_.size()) += dt_ / 2 * (dt_ / 2 + dynamics_.damping.stiffness) * squares_;
     return {answers_, inertia};
@@ -148,9 +155,9 @@ class ModalWall final : public ElasticWall<d> {
     last_dt_ = dt_;
     if (drive_.size() > 0) momentum -= momenta.transpose() * solid_.uniform(carrier_);
     rates_ = inertia.ldlt().solve(momentum);
-    between_ = 0.5 * (now_.amplitudes + next_.amplitudes);
+    between_ = now_.amplitudes + 0.5 * way_.amplitudes;
     now_ = next_;
-    u_ = places(now_) - at_rest_;
+    u_ = displacements();
   }
   double damping_work() const override {
     const Field mean = 0.5 * (s_ + s_next_);
@@ -177,7 +184,7 @@ class ModalWall final : public ElasticWall<d> {
     carrier_ = all.template segment<d>(d + d * d);
     last_dt_ = all[2 * d + d * d];
     for (auto* field : {&now_.amplitudes, &between_, &rates_, &last_slopes_, &last_damping_}) read_field(in, *field);
-    u_ = places(now_) - at_rest_;
+    u_ = displacements();
   }
 
  private:
@@ -201,7 +208,7 @@ class ModalWall final : public ElasticWall<d> {
       if (solid_.held()[static_cast<std::size_t>(k)]) sum[k % d] += drive[k], count[k % d] += 1;
     return sum.cwiseQuotient(count.cwiseMax(1));
   }
-  Eigen::VectorXd slopes() const { return (next_.amplitudes - now_.amplitudes) / dt_; }
+  Eigen::VectorXd slopes() const { return way_.amplitudes / dt_; }
   /// dt/2 beta L dq of the trial.
   Eigen::VectorXd damping_of_modes() const {
     return dt_ / 2 * dynamics_.damping.stiffness * squares_.cwiseProduct(slopes());
@@ -227,20 +234,40 @@ class ModalWall final : public ElasticWall<d> {
     }
     return P;
   }
-  /// Along tangents.
-  void go_on(Posture<d>& posture, const Eigen::VectorXd& way) const {
+  /// The trial, along tangents. exp(w) - 1 = (h - h^T) h with h = exp(w/2).
+  void go_on(const Eigen::VectorXd& change) {
     if (frame_ > 0) {
-      posture.centre += way.head<d>();
-      posture.turn = rotation(Eigen::Matrix<double, rotations<d>, 1>(way.segment<rotations<d>>(d))) * posture.turn;
+      const Eigen::Matrix<double, rotations<d>, 1> w = change.segment<rotations<d>>(d);
+      const Mat<d> half = rotation((0.5 * w).eval());
+      next_.centre += change.head<d>();
+      way_.centre += change.head<d>();
+      way_.turn += (half - half.transpose()) * half * next_.turn;
+      next_.turn = rotation(w) * next_.turn;
     }
-    posture.amplitudes += way.tail(shapes_.cols());
+    way_.amplitudes += change.tail(shapes_.cols());
+    next_.amplitudes = now_.amplitudes + way_.amplitudes;
   }
-  void look_at(const Posture<d>& posture) { s_next_ = (places(posture) - places(now_)) / dt_; }
+  /// How far places are from those of another posture, which has the turn R: shift + way.turn (X - C + sum q_k phi_k) + R way.q_k phi_k.
+  Field moved(const Posture<d>& to, const Way<d>& way, const Mat<d>& R) const {
+    Field x = shapes_ * way.amplitudes;
+    const Field arms = frame_ > 0 ? Field(arms_ + shapes_ * to.amplitudes) : Field();
+    for (Eigen::Index a = 0; a < x.size(); a += d) {
+      const Vec<d> own = x.segment<d>(a);
+      x.segment<d>(a) = way.centre + R * own;
+      if (frame_ > 0) x.segment<d>(a) += way.turn * arms.segment<d>(a);
+    }
+    return x;
+  }
+  void look_at_next() { s_next_ = moved(next_, way_, now_.turn) / dt_; }
+  Field displacements() const {
+    const Mat<d> one = Mat<d>::Identity();
+    return moved(now_, {now_.centre - solid_.centre(Field::Zero(solid_.size())), now_.turn - one, now_.amplitudes},
+                 one);
+  }
   /// dt/2 L (q_mid + beta dq) of the trial.
   Eigen::VectorXd resistance() const {
-    const Eigen::VectorXd middle = 0.5 * (now_.amplitudes + next_.amplitudes),
-                          rate = (next_.amplitudes - now_.amplitudes) / dt_;
-    return dt_ / 2 * squares_.cwiseProduct(middle + dynamics_.damping.stiffness * rate);
+    return dt_ / 2 *
+           squares_.cwiseProduct(now_.amplitudes + 0.5 * way_.amplitudes + dynamics_.damping.stiffness * slopes());
   }
   /// Left side of the equations.
   Eigen::VectorXd momentum_of_trial() const {
@@ -252,8 +279,9 @@ class ModalWall final : public ElasticWall<d> {
   int frame_;               // columns of P that belong to it
   Eigen::MatrixXd shapes_;  // of the modes besides
   Eigen::VectorXd squares_;
-  Field arms_, at_rest_;                  // X - C, X
+  Field arms_;                            // X - C
   Posture<d> now_, next_, free_posture_;  // at t_n, of the trial, of the one without an impulse
+  Way<d> way_, free_way_;                 // from now_ to these two
   Eigen::VectorXd between_;               // amplitudes in the middle of the last step
   Eigen::VectorXd rates_;                 // v_n = P_n times these, and the carrier
   Vec<d> carrier_ = Vec<d>::Zero(), next_carrier_ = Vec<d>::Zero();  // clamps' velocity of the last step, of this one

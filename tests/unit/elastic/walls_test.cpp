@@ -497,6 +497,21 @@ TEST(ElasticWall, answers_impulses_as_its_response_says) {
     }
 }
 
+TEST(ElasticWall, with_modes_answers_faint_impulses_in_short_steps_without_the_roundoff_of_places) {
+  constexpr double dt = 1e-6, faint = 1e-20;  // places are good for eps / dt, 1e-10 in velocity
+  for (const bool clamped : {true, false}) {
+    const auto body = Made<2>{.linear = true, .clamped = clamped, .modes = 8}.part();
+    const Vector impulse = faint * Vector::LinSpaced(body->scales().size(), -1, 1);
+    body->begin({.kick = dt, .dt = dt});
+    const auto response = body->response();
+    const auto& [Z, M] = response.modal;
+    const Vector expected = Z * M.ldlt().solve(Z.transpose() * impulse);
+    EXPECT_LT((body->solve(impulse) - expected).norm(), 1e-9 * expected.norm()) << clamped;
+    EXPECT_LT((body->adopt(expected) - expected).norm(), 1e-9 * expected.norm()) << clamped;
+    EXPECT_FALSE(body->update_contacts(impulse)) << clamped;
+  }
+}
+
 TEST(ElasticWall, goes_on_from_a_checkpoint_bit_by_bit) {
   for (const int modes : {all_nodes, 8}) {
     Made<2> made{.modes = modes, .gravity = {0, -0.01}};
