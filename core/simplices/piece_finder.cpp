@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/simplices/split.hpp"
+
 namespace splashdown {
 
 std::vector<std::array<int, 3>> straight_pieces(std::span<const std::array<int, cell_nodes<2>>> cells) {
   std::vector<std::array<int, 3>> pieces;
-  for (const auto& c : cells) {  // middles 3, 4, 5 lie between corners 0 1, 1 2, 0 2
-    pieces.push_back({c[0], c[3], c[5]});
-    pieces.push_back({c[3], c[1], c[4]});
-    pieces.push_back({c[5], c[4], c[2]});
-    pieces.push_back({c[3], c[4], c[5]});
-  }
+  for (const auto& cell : cells)
+    for (const auto& [a, b, c] : cell_parts<2>())
+      pieces.push_back(
+          {cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)], cell[static_cast<std::size_t>(c)]});
   return pieces;
 }
 

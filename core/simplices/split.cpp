@@ -4,26 +4,6 @@
 #include <algorithm>
 
 namespace splashdown {
-namespace {
-
-/// Corners of parts, by nodes of the cell. The inside of a tetrahedron is cut around the line between the middles 6 and 9.
-template <int d>
-constexpr std::array<std::array<int, d + 1>, part_count<d>> parts_of() {
-  if constexpr (d == 2)
-    return {{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
-  else
-    return {{{0, 4, 6, 7},
-             {4, 1, 5, 9},
-             {6, 5, 2, 8},
-             {7, 9, 8, 3},
-             {6, 9, 4, 5},
-             {6, 9, 5, 8},
-             {6, 9, 8, 7},
-             {6, 9, 7, 4}}};
-}
-
-}  // namespace
-
 template <int d>
 SplitCells<d> split(const Eigen::Matrix<double, d, Eigen::Dynamic>& nodes,
                     std::span<const std::array<int, cell_nodes<d>>> cells) {
@@ -37,7 +17,7 @@ SplitCells<d> split(const Eigen::Matrix<double, d, Eigen::Dynamic>& nodes,
       x.col(k) = nodes.col(node);
       all.places[static_cast<std::size_t>(node)] = {static_cast<int>(c), node_place<d>(k)};
     }
-    for (const auto& part : parts_of<d>()) {
+    for (const auto& part : cell_parts<d>()) {
       std::array<int, cell_nodes<d>> cell{};
       for (std::size_t k = 0; k <= d; ++k) cell[k] = cells[c][static_cast<std::size_t>(part[k])];
       for (std::size_t e = 0; e < edge_count<d>; ++e) {
@@ -66,7 +46,7 @@ typename SplitCells<d>::At in_part(const Barycentric<d>& at) {
   typename SplitCells<d>::At best{0, at};
   double most = -1e300;
   int number = 0;
-  for (const auto& part : parts_of<d>()) {
+  for (const auto& part : cell_parts<d>()) {
     Eigen::Matrix<double, d + 1, d + 1> corners;
     for (int k = 0; k <= d; ++k) corners.col(k) = node_place<d>(part[static_cast<std::size_t>(k)]);
     const Barycentric<d> own = corners.inverse() * at;

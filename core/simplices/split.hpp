@@ -15,6 +15,22 @@ namespace splashdown {
 template <int d>
 inline constexpr int part_count = 1 << d;
 
+/// Corners of parts, by nodes of the cell. The inside of a tetrahedron is cut around the line between the middles 6 and 9.
+template <int d>
+constexpr std::array<std::array<int, d + 1>, part_count<d>> cell_parts() {
+  if constexpr (d == 2)
+    return {{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+  else
+    return {{{0, 4, 6, 7},
+             {4, 1, 5, 9},
+             {6, 5, 2, 8},
+             {7, 9, 8, 3},
+             {6, 9, 4, 5},
+             {6, 9, 5, 8},
+             {6, 9, 8, 7},
+             {6, 9, 7, 4}}};
+}
+
 /// Cells after, and where they lie before.
 template <int d>
 struct SplitCells {

@@ -117,15 +117,16 @@ class ModalWall final : public ElasticWall<d> {
     way_ = free_way_;
     look_at_next();
     Eigen::VectorXd misses = velocities - at_boundary(s_next_);
-    constexpr int most = 10;  // Gauss and Newton's method: two are usual
+    Eigen::MatrixXd at_trial;  // of a body that turns, what answers_ are at t_n
+    constexpr int most = 10;   // Gauss and Newton's method: two are usual
     for (int k = 0; k < most && misses.allFinite(); ++k) {
-      if (turns()) on_surface_ = rows_on_surface(tangents(next_));
-      if (turns() || fit_.rows() == 0) fit_.compute(on_surface_);
+      if (turns()) at_trial = rows_on_surface(tangents(next_));
+      if (turns() || fit_.rows() == 0) fit_.compute(turns() ? at_trial : answers_);
       const Eigen::VectorXd change = dt_ * fit_.solve(misses);
       go_on(change);
       look_at_next();
       misses = velocities - at_boundary(s_next_);
-      if ((on_surface_ * change).norm() <= 1e-12 * dt_ * velocities.norm()) break;
+      if (((turns() ? at_trial : answers_) * change).norm() <= 1e-12 * dt_ * velocities.norm()) break;
     }
     return misses.allFinite() ? Status{} : Status{"the solid's velocities are not finite"};
   }
@@ -194,7 +195,7 @@ class ModalWall final : public ElasticWall<d> {
     tangents_ = tangents(now_);
     momenta_ = solid_.mass() * tangents_;
     inertia_ = tangents_.transpose() * momenta_;
-    answers_ = on_surface_ = rows_on_surface(tangents_);
+    answers_ = rows_on_surface(tangents_);
   }
   Eigen::MatrixXd rows_on_surface(const Eigen::MatrixXd& tangents) const {
     Eigen::MatrixXd rows(boundary_.nodes.size() * d, tangents.cols());
@@ -287,9 +288,8 @@ class ModalWall final : public ElasticWall<d> {
   Vec<d> carrier_ = Vec<d>::Zero(), next_carrier_ = Vec<d>::Zero();  // clamps' velocity of the last step, of this one
   Eigen::VectorXd last_slopes_, last_damping_;                       // of the last step: dq, dt/2 beta L dq
   double last_dt_ = 0;
-  Eigen::MatrixXd tangents_, momenta_, inertia_, answers_;  // P, M P, P^T M P and rows of P on the surface, at t_n
-  Eigen::MatrixXd on_surface_;  // rows of the trial's P on the surface, and their least squares
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit_;
+  Eigen::MatrixXd tangents_, momenta_, inertia_, answers_;       // P, M P, P^T M P and rows of P on the surface, at t_n
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit_;  // least squares of velocities on the surface
   Eigen::VectorXd known_;
   long iterations_ = 0;
 };

@@ -29,9 +29,6 @@ SPLASHDOWN_WIDE double dot(const double* __restrict a, const double* __restrict 
   for (const double s : sums) sum += s;
   return sum;
 }
-SPLASHDOWN_WIDE void add(double factor, const double* __restrict from, std::size_t count, double* __restrict to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] += factor * from[i];
-}
 /// omega = s omega + (1 - s) mean, of one mean, and of one s.
 SPLASHDOWN_WIDE void turn_to(double mean, const double* __restrict s, std::size_t count, double* __restrict omega) {
   for (std::size_t i = 0; i < count; ++i) omega[i] = s[i] * omega[i] + (1 - s[i]) * mean;
@@ -84,7 +81,7 @@ void Wake::turn(NodeField& omega, int axis, double reach) {
     if (axis == 0)
       for (std::size_t k = begin; k < end; ++k) mean[k] = dot(share.data(), first + k * row, count);
     else
-      for (std::size_t d = 0; d < count; ++d) add(share[d], first + d * row + begin, end - begin, &mean[begin]);
+      for (std::size_t d = 0; d < count; ++d) add_row(share[d], first + d * row + begin, end - begin, &mean[begin]);
   });
   balance(mean);
   in_pieces(across, 16, [&](std::size_t begin, std::size_t end) {

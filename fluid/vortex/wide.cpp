@@ -16,6 +16,10 @@ SPLASHDOWN_WIDE bool all_zero(const double* numbers, std::size_t count) {
   return any == 0;
 }
 
+SPLASHDOWN_WIDE void add_row(double factor, const double* __restrict from, std::size_t count, double* __restrict to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += factor * from[i];
+}
+
 void clear_row(double* to, std::size_t count) { std::fill_n(to, count, 0.0); }
 
 }  // namespace splashdown::vortex

@@ -23,6 +23,9 @@ constexpr std::size_t lanes = 8;
 /// Whether all numbers are zero, of either sign.
 bool all_zero(const double* numbers, std::size_t count);
 
+/// to += factor from.
+void add_row(double factor, const double* from, std::size_t count, double* to);
+
 /// to = 0: +, in one call for a row.
 void clear_row(double* to, std::size_t count);
 

@@ -17,10 +17,6 @@ namespace {
 constexpr int pad = 3;  // coarse nodes beyond the sides: of the kernel, and of the interpolation
 constexpr int factor = FarField::coarsening;
 
-SPLASHDOWN_WIDE void add_row(double weight, const double* __restrict from, std::size_t count, double* __restrict to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
-}
-
 /// -log(r)/(2 pi), where r is zero the mean that the lattice has.
 double logarithm(int m, int n) {
   if (m == 0 && n == 0) return lattice_offset / (2 * std::numbers::pi);

@@ -16,9 +16,6 @@ constexpr std::size_t rows_a_piece = 16, modes_a_chain = 64;
 SPLASHDOWN_WIDE void weigh(double scale, std::size_t count, double* __restrict row) {
   for (std::size_t i = 0; i < count; ++i) row[i] *= scale;
 }
-SPLASHDOWN_WIDE void add(double scale, const double* __restrict side, std::size_t count, double* __restrict to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] += scale * side[i];
-}
 /// row = factor (row + below).
 SPLASHDOWN_WIDE void eliminate(const double* __restrict factor, const double* __restrict below, std::size_t count,
                                double* __restrict row) {
@@ -89,8 +86,8 @@ void StreamFunction::solve(NodeField& psi, const Sides* beyond) {
       weigh(square, n, row);
       row[1] += scale * sides_.left[j];
       row[n - 2] += scale * sides_.right[j];
-      if (j == 1) add(scale, sides_.bottom.data(), n, row);
-      if (j == ny - 1) add(scale, sides_.top.data(), n, row);
+      if (j == 1) add_row(scale, sides_.bottom.data(), n, row);
+      if (j == ny - 1) add_row(scale, sides_.top.data(), n, row);
       transform_.forward(row, room.data());
     }
   });
