@@ -25,6 +25,28 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A) { return A.completeOrth
 
 Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.ldlt().solve(B); }
 
+namespace {
+
+class LowerTriangle final : public Cholesky {
+ public:
+  explicit LowerTriangle(const Eigen::MatrixXd& A) : factor_(A) {}
+  bool is_better_than(double condition) const {
+    return factor_.info() == Eigen::Success && factor_.rcond() * condition > 1;
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const override { return factor_.solve(b); }
+
+ private:
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+}  // namespace
+
+std::unique_ptr<Cholesky> Cholesky::of(const Eigen::MatrixXd& A, double condition) {
+  auto made = std::make_unique<LowerTriangle>(A);
+  if (!made->is_better_than(condition)) return nullptr;
+  return made;
+}
+
 Solutions solutions_of(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double negligible) {
   const Eigen::Index n = A.cols();
   if (A.rows() == 0 || n == 0)

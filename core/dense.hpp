@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 namespace splashdown::algebra {
 
@@ -22,6 +23,16 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 /// A^-1 B with A symmetric and not negative: LDL^T.
 Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// A = L L^T of a symmetric positive A, for many solutions with it: a sixth of the work of an inverse.
+class Cholesky {
+ public:
+  /// Of the lower half of A; empty where A is not positive, or its condition (1-norm, Higham 1988) above `condition`.
+  static std::unique_ptr<Cholesky> of(const Eigen::MatrixXd& A, double condition);
+  virtual ~Cholesky() = default;
+  /// x with A x = b.
+  virtual Eigen::VectorXd solve(const Eigen::VectorXd& b) const = 0;
+};
 
 /// All x with A x = b, x = point + directions w: the point of least norm, orthonormal directions. Conditions that
 /// contradict each other are met in the least-squares sense; singular values below `negligible` of the largest are zero.

@@ -1,4 +1,5 @@
 // Bodies that the pressure equation solves for: eliminated on the factor, and what they get of a solution.
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,7 +51,9 @@ bool PressureEquation<d>::add_bodies() {
   if (!wet.empty() && !solver_.solve(systems, static_cast<int>(wet.size()), enough)) return false;
   Y_(Eigen::all, wet) = answers;
   added_mass_.setZero(mode_count(), mode_count());
-  added_mass_(wet, wet) = algebra::transposed_product(loads, answers);
+  added_mass_(wet, wet) = is_many()
+                              ? Eigen::MatrixXd(Eigen::SparseMatrix<double>(loads.sparseView()).transpose() * answers)
+                              : algebra::transposed_product(loads, answers);
   held_inertia_.setZero(mode_count(), mode_count());
   for (std::size_t w = 0; w < modes_.size() && !held_.empty(); ++w) {
     if (layout_.deforms(w) || !moves_wall<d>(structure_.modal, layout_, w)) continue;
@@ -67,8 +70,16 @@ bool PressureEquation<d>::add_bodies() {
 template <int d>
 void PressureEquation<d>::allow(const Eigen::MatrixXd& directions, const Eigen::MatrixXd& workless) {
   elimination_.setZero(mode_count(), mode_count());
+  factor_.reset();
   if (directions.cols() == 0) return;
   const Eigen::MatrixXd inertia = structure_.modal.inertia + added_mass_ + held_inertia_;
+  if (is_many() && directions.isIdentity(0) && (workless.size() == 0 || workless == directions) &&
+      held_inertia_.isZero(0)) {
+    constexpr double worst = 1e12;  // of its condition
+    units_ = units_of(inertia.diagonal());
+    factor_ = algebra::Cholesky::of(units_.asDiagonal() * inertia * units_.asDiagonal(), worst);
+    if (factor_) return;
+  }
   if (workless.size() > 0 && workless != directions) {
     const auto scaled = [&](const Eigen::MatrixXd& W) -> Eigen::MatrixXd {
       return W * units_of(algebra::congruence(inertia, W).diagonal()).asDiagonal();
@@ -85,6 +96,12 @@ void PressureEquation<d>::allow(const Eigen::MatrixXd& directions, const Eigen::
   // As symmetric as the answers: Newton's law then holds to roundoff, however closely they were solved for.
   const bool symmetric = solver_.is_direct() && held_inertia_.isZero(0);
   elimination_ = algebra::lifted(lifted, symmetric ? Eigen::MatrixXd(0.5 * (inverse + inverse.transpose())) : inverse);
+}
+
+template <int d>
+Eigen::VectorXd PressureEquation<d>::response(const Eigen::VectorXd& impulse) const {
+  if (!factor_) return elimination_ * impulse;
+  return units_.cwiseProduct(factor_->solve(units_.cwiseProduct(impulse)));
 }
 
 template <int d>

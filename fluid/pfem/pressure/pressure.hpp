@@ -14,10 +14,12 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/dense.hpp"
 #include "core/response.hpp"
 #include "fluid/pfem/linear/assembly.hpp"
 #include "fluid/pfem/linear/linear_solver.hpp"
@@ -127,7 +129,7 @@ class PressureEquation {
   /// phi, adds to the walls' velocities, and returns y.
   Eigen::VectorXd respond(std::vector<double>& phi, std::span<WallVelocity<d>> s, const Eigen::VectorXd& further) const;
   /// (M + G)^-1 impulse, in the directions allowed: what such an impulse changes in the motions.
-  Eigen::VectorXd response(const Eigen::VectorXd& impulse) const { return elimination_ * impulse; }
+  Eigen::VectorXd response(const Eigen::VectorXd& impulse) const;
   /// Number of modes, columns of Z.
   int mode_count() const { return static_cast<int>(structure_.modal.modes.cols()); }
   /// Z and M as they were given to build.
@@ -202,6 +204,8 @@ class PressureEquation {
   void wall_modes(std::span<const WallPlace<d>> places);
   void hold_mass(std::vector<HeldNode<d>> held, double density);
   bool add_bodies();
+  /// Whether motions are too many for dense algebra at leisure; with fewer results keep their bits.
+  bool is_many() const { return mode_count() > 50; }
   Eigen::VectorXd flux_of(std::span<const Vec<d>> v) const;
   Eigen::VectorXd flux_of_walls(std::span<const WallVelocity<d>> s) const;
   Eigen::VectorXd taken_by(const Eigen::VectorXd& phi) const;
@@ -246,6 +250,9 @@ class PressureEquation {
   InterfaceLaplacian<d> laplacian_;
   InterfaceModel structure_;
   Eigen::MatrixXd Y_, added_mass_, elimination_;
+  // In place of the last, where motions are many and all are allowed: of the inertias in units that make their diagonal one.
+  std::unique_ptr<algebra::Cholesky> factor_;
+  Eigen::VectorXd units_;
   Eigen::MatrixXd held_inertia_;  // Z^T (M_h + R Y): what the held mass adds to M + G
 };
 
