@@ -123,7 +123,8 @@ void Participant<d>::start(Moving& body) {
       .system = &solid,
       .damping = body.spec.damping,
       .load = [weight, forces = body.spec.forces](double t) -> Field { return forces ? weight + forces(t) : weight; },
-      .drive = body.spec.drive};
+      .drive = body.spec.drive,
+      .unresolved = body.spec.unresolved};
   body.now.u = body.now.v = body.now.a = Field::Zero(solid.size());
   const Vec<d> centre = solid.centre(body.now.u);
   const auto& velocity = body.spec.body.velocity;

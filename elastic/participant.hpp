@@ -41,6 +41,7 @@ struct SolidSpec {
   std::unique_ptr<Solid<d>> solid;  ///< in the world frame at t = 0, with its clamps and point masses
   std::function<std::unique_ptr<Scheme>(Dynamics)> scheme;
   Rayleigh damping = {};
+  double unresolved = 0;                     ///< of walls: Dynamics::unresolved
   Vec<d> gravity = Vec<d>::Zero();           ///< [m/s^2]
   std::function<Field(double)> forces = {};  ///< on nodes besides the weight, at a time [N, N/m]; empty: none
   std::function<Field(double)> drive = {};  ///< velocities of held nodes (Dynamics); of bodies with a wall; empty: none

@@ -23,7 +23,8 @@ Solid<d>::Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double den
     }
   make_pattern();
   assemble_mass();
-  if (law_->linear()) assemble_stiffness(Field::Zero(d * mesh_.size()), constant_);
+  if (law_->linear())
+    assemble_stiffness([&](std::size_t, const Slopes&) { return law_->tangent(Mat<d>::Identity()); }, constant_);
 }
 
 template <int d>
@@ -162,10 +163,46 @@ Field Solid<d>::internal_force(const Field& u) const {
 }
 
 template <int d>
-Field Solid<d>::force_between(const Field& before, const Field& middle) const {
+Field Solid<d>::force_between(const Field& before, const Field& middle, double lead) const {
+  if (linear()) return constant_ * (middle + 2 * lead * (middle - before));
   return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
-    return law_->stress_between(gradient(before, c, slopes), gradient(middle, c, slopes));
+    const Mat<d> F_before = gradient(before, c, slopes), F = gradient(middle, c, slopes);
+    Mat<d> S = law_->stress_between(F_before, F);
+    if (lead != 0) S += lead * law_->stress_change(F_before, F);
+    return F * S;
   });
+}
+
+template <int d>
+Field Solid<d>::turned_change(const Field& before, const Field& middle) const {
+  if (linear()) return Field::Zero(this->size());
+  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
+    const Mat<d> F_before = gradient(before, c, slopes), F = gradient(middle, c, slopes);
+    return (F - F_before) * law_->stress_change(F_before, F);
+  });
+}
+
+template <int d>
+Field Solid<d>::carried_force(const Field& before, const Field& middle, const Field& now) const {
+  if (linear()) return constant_ * middle;
+  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
+    return gradient(now, c, slopes) * law_->stress_between(gradient(before, c, slopes), gradient(middle, c, slopes));
+  });
+}
+
+template <int d>
+double Solid<d>::strain_energy_between(const Field& before, const Field& middle) const {
+  if (linear()) return strain_energy(middle);
+  double sum = 0;
+  const std::size_t n = rule<d>().size();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const auto& [slopes, weight] = points_[p];
+    const Mat<d> F_before = gradient(before, p / n, slopes), F = gradient(middle, p / n, slopes);
+    const Mat<d> rate = F.transpose() * (F - F_before);
+    sum += weight * (0.5 * (law_->energy(F_before) + law_->energy(2 * F - F_before)) -
+                     0.25 * law_->stress_change(F_before, F).cwiseProduct(rate).sum());
+  }
+  return sum;
 }
 
 template <int d>
@@ -173,11 +210,32 @@ void Solid<d>::stiffness(const Field& u, Sparse& K) const {
   if (linear())
     K = constant_;
   else
-    assemble_stiffness(u, K);
+    assemble_stiffness([&](std::size_t c, const Slopes& slopes) { return law_->tangent(gradient(u, c, slopes)); }, K);
 }
 
 template <int d>
-void Solid<d>::assemble_stiffness(const Field& u, Sparse& K) const {
+void Solid<d>::stiffness_between(const Field& before, const Field& middle, double lead, Sparse& K) const {
+  const double more = 1 + 2 * lead;  // dS doubles what the middle does
+  if (linear()) {
+    K = more * constant_;
+    return;
+  }
+  const auto tangent = [&](std::size_t c, const Slopes& slopes) {
+    const Mat<d> F_before = gradient(before, c, slopes), F = gradient(middle, c, slopes);
+    const Mat<d> S = law_->stress_between(F_before, F) + lead * law_->stress_change(F_before, F);
+    const Mat<d> by_stress = S - more * law_->second_piola(F);
+    Tangent<d> A = more * law_->tangent(F);
+    for (int J = 0; J < d; ++J)
+      for (int L = 0; L < d; ++L)
+        A.template block<d, d>(d * J, d * L).diagonal().array() += 0.5 * (by_stress(J, L) + by_stress(L, J));
+    return A;
+  };
+  assemble_stiffness(tangent, K);
+}
+
+template <int d>
+template <class TangentAt>
+void Solid<d>::assemble_stiffness(const TangentAt& tangent, Sparse& K) const {
   if (K.nonZeros() != mass_.nonZeros()) K = mass_;
   K.coeffs().setZero();
   constexpr int n = cell_nodes<d>;
@@ -187,7 +245,7 @@ void Solid<d>::assemble_stiffness(const Field& u, Sparse& K) const {
     k.setZero();
     for (std::size_t p = c * count; p < (c + 1) * count; ++p) {
       const auto& G = points_[p].slopes;
-      const Tangent<d> A = points_[p].weight * law_->tangent(gradient(u, c, G));
+      const Tangent<d> A = points_[p].weight * tangent(c, G);
       for (int a = 0; a < n; ++a) {
         Eigen::Matrix<double, d, d* d> of_a = decltype(of_a)::Zero();
         for (int J = 0; J < d; ++J) of_a += G(J, a) * A.template middleRows<d>(d * J);

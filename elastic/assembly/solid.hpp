@@ -49,8 +49,17 @@ class Solid final : public System {
   const Law<d>& law() const { return *law_; }
   const Sparse& mass() const override { return mass_; }
   Field internal_force(const Field& u) const override;
-  /// The force of a step from `before` through `middle` (Law::stress_between) [N, N/m].
-  Field force_between(const Field& before, const Field& middle) const;
+  /// The force of a step from `before` through `middle`: P = F_middle (S + lead dS), S of Law::stress_between and dS its change in
+  /// the step (Law::stress_change) [N, N/m].
+  Field force_between(const Field& before, const Field& middle, double lead = 0) const;
+  /// Of force_between by its middle, but for an antisymmetric part of the order of the way [N/m, N/m^2].
+  void stiffness_between(const Field& before, const Field& middle, double lead, Sparse& K) const;
+  /// Of such a step: P = (F_middle - F_before) dS, what dS would do in the middle and not at the beginning [N, N/m].
+  Field turned_change(const Field& before, const Field& middle) const;
+  /// The force that the stress S of such a step has later: P = F_now S [N, N/m].
+  Field carried_force(const Field& before, const Field& middle, const Field& now) const;
+  /// (U_before + U_after)/2 - dS:dE/8 of such a step, U of the mean strain where psi is quadratic in E [J, J/m].
+  double strain_energy_between(const Field& before, const Field& middle) const;
   void stiffness(const Field& u, Sparse& K) const override;
   bool linear() const override { return law_->linear(); }
   double strain_energy(const Field& u) const override;
@@ -110,7 +119,9 @@ class Solid final : public System {
   void make_pattern();
   void assemble_mass();
   void sum_mass();
-  void assemble_stiffness(const Field& u, Sparse& K) const;
+  /// K of tangent(cell, slopes) at all points.
+  template <class TangentAt>
+  void assemble_stiffness(const TangentAt& tangent, Sparse& K) const;
   template <class Add>
   void add_cell(std::size_t cell, Sparse& matrix, const Add& block) const;
 

@@ -29,10 +29,15 @@ class Law {
   virtual double energy(const Mat<d>& F) const = 0;
   /// P = d psi/dF [Pa].
   virtual Mat<d> stress(const Mat<d>& F) const = 0;
-  /// P of a step from `before` through `middle`. Where psi is quadratic in E its work over the step is the change of psi,
-  /// exactly,
-  /// and P F^T is symmetric at the middle: F_middle S((E_before + E_after)/2) (Simo, Tarnow 1992). Else P(F_middle) [Pa].
-  virtual Mat<d> stress_between(const Mat<d>& /*before*/, const Mat<d>& middle) const { return stress(middle); }
+  /// S of a step from `before` through `middle`, for P = F_middle S. Where psi is quadratic in E its work over the step is the
+  /// change of psi, exactly: S((E_before + E_after)/2) (Simo, Tarnow 1992). Else S(F_middle) [Pa].
+  virtual Mat<d> stress_between(const Mat<d>& /*before*/, const Mat<d>& middle) const { return second_piola(middle); }
+  /// S after that step less S before it [Pa].
+  virtual Mat<d> stress_change(const Mat<d>& before, const Mat<d>& middle) const {
+    return second_piola(2 * middle - before) - second_piola(before);
+  }
+  /// S = F^-1 P [Pa].
+  virtual Mat<d> second_piola(const Mat<d>& F) const { return F.inverse() * stress(F); }
   /// dP/dF [Pa].
   virtual Tangent<d> tangent(const Mat<d>& F) const = 0;
   /// sigma [Pa], with what plane strain needs across the plane.

@@ -53,8 +53,13 @@ class StVenantKirchhoff final : public Law<d> {
   Mat<d> stress(const Mat<d>& F) const override { return F * second_piola(F); }
   Mat<d> stress_between(const Mat<d>& before, const Mat<d>& middle) const override {
     const Mat<d> half = middle - before;  // (E_before + E_after)/2 = E_middle + half^T half / 2
-    return middle * second_piola_of(strain(middle) + 0.5 * half.transpose() * half);
+    return second_piola_of(strain(middle) + 0.5 * half.transpose() * half);
   }
+  Mat<d> stress_change(const Mat<d>& before, const Mat<d>& middle) const override {
+    const Mat<d> rate = middle.transpose() * (middle - before);  // E_after - E_before, once more transposed
+    return second_piola_of(rate + rate.transpose());
+  }
+  Mat<d> second_piola(const Mat<d>& F) const override { return second_piola_of(strain(F)); }
   Tangent<d> tangent(const Mat<d>& F) const override {
     const Mat<d> S = second_piola(F), b = F * F.transpose();
     return tangent_of<d>([&](int i, int J, int k, int L) {
@@ -70,7 +75,6 @@ class StVenantKirchhoff final : public Law<d> {
  private:
   static Mat<d> strain(const Mat<d>& F) { return 0.5 * (F.transpose() * F - Mat<d>::Identity()); }
   Mat<d> second_piola_of(const Mat<d>& E) const { return lambda_ * E.trace() * Mat<d>::Identity() + 2 * mu_ * E; }
-  Mat<d> second_piola(const Mat<d>& F) const { return second_piola_of(strain(F)); }
   double lambda_, mu_;
 };
 

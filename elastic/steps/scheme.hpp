@@ -42,6 +42,8 @@ struct Dynamics {
   NewtonLimits newton = {};
   /// Velocities of held unknowns at a time [m/s], zero for those that stay; empty: all stay. Walls alone obey it.
   std::function<Field(double)> drive = {};
+  /// c: damps what steps do not resolve (walls/wall.hpp). Walls alone.
+  double unresolved = 0;
 };
 
 /// One scheme on one system.

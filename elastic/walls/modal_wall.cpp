@@ -1,7 +1,7 @@
 // A wall with the lowest natural modes of its body, in a frame that moves along. On the manifold x = c + R (X - C + sum q_k phi_k)
 // with tangents P = dx/d(c, theta, q), d'Alembert's principle asks the equations of wall.hpp along P_n alone:
 //
-//   (1 + alpha dt/2) P_n^T M s + dt/2 (0, 0, L (q_mid + beta dq)) = P_n^T (M v_n + I + kick F),   s = (x_{n+1} - x_n)/dt
+//   (1 + alpha dt/2) P_n^T M s + dt/2 (0, 0, L (q_mid + (beta + 2 c dt) dq)) = P_n^T (M v_n + I + kick F),   s = (x_{n+1} - x_n)/dt
 //
 // L = diag(w_k^2), q_mid, dq: mean and rate of q in the step. It is the variational integrator of this Lagrangian (Marsden, West 2001,
 // section 3.5.2: as RATTLE), so that momenta stay exact while the frame turns. The modes are those of the mean axes: phi_k has no
@@ -35,11 +35,20 @@ struct Posture {
 template <int d>
 using Way = Posture<d>;
 
+/// w of the part w x of a matrix.
+template <int d>
+Eigen::Matrix<double, rotations<d>, 1> axis_of(const Mat<d>& matrix) {
+  Eigen::Matrix<double, rotations<d>, 1> w = Eigen::Matrix<double, rotations<d>, 1>::Zero();
+  for (int k = 0; k < d; ++k) w += 0.5 * moment(Vec<d>::Unit(k).eval(), matrix.col(k).eval());
+  return w;
+}
+
 template <int d>
 class ModalWall final : public ElasticWall<d> {
   using ElasticWall<d>::solid_, ElasticWall<d>::dynamics_, ElasticWall<d>::boundary_, ElasticWall<d>::u_,
       ElasticWall<d>::s_, ElasticWall<d>::s_next_, ElasticWall<d>::load_, ElasticWall<d>::drive_, ElasticWall<d>::dt_,
       ElasticWall<d>::at_boundary, ElasticWall<d>::spread;
+  using typename ElasticWall<d>::Renewed;
 
  public:
   ModalWall(const Solid<d>& solid, Dynamics dynamics, int count) : ElasticWall<d>(solid, std::move(dynamics)) {
@@ -98,7 +107,7 @@ class ModalWall final : public ElasticWall<d> {
       if (!residual.allFinite()) break;
       Eigen::MatrixXd J = (1 + dynamics_.damping.mass * dt_ / 2) / dt_ *
                           (turns() ? Eigen::MatrixXd(momenta_.transpose() * tangents(next_)) : inertia_);
-      J.diagonal().tail(squares_.size()) += (dt_ / 4 + dynamics_.damping.stiffness / 2) * squares_;
+      J.diagonal().tail(squares_.size()) += (dt_ / 4 + first_half() / 2) * squares_;
       const Eigen::VectorXd correction = J.partialPivLu().solve(residual);
       const double size = (answers_ * correction).cwiseAbs().maxCoeff();
       go_on(-correction);
@@ -133,12 +142,21 @@ class ModalWall final : public ElasticWall<d> {
 
   Eigen::VectorXd implied() const override { return momentum_of_trial() - known_; }
 
+  /// Of a body that turns the trial obeys the impulse itself, so that momenta stay exact.
+  Renewed renewed(const Eigen::VectorXd& impulse) override {
+    if (!turns()) return ElasticWall<d>::renewed(impulse);
+    Renewed all;
+    all.status = move(impulse);
+    all.velocities = at_boundary(s_next_);
+    all.free = all.velocities - answers_ * inertia_of_step().ldlt().solve(answers_.transpose() * impulse);
+    return all;
+  }
+  double stray() const override { return std::max(stray_of(way_), stray_of(free_way_)); }
+
   ModalInertia linearised() override {
     free_posture_ = next_;
     free_way_ = way_;
-    Eigen::MatrixXd inertia = (1 + dynamics_.damping.mass * dt_ / 2) * inertia_;
-    inertia.diagonal().tail(squares_.size()) += dt_ / 2 * (dt_ / 2 + dynamics_.damping.stiffness) * squares_;
-    return {answers_, inertia};
+    return {answers_, inertia_of_step()};
   }
 
   void accept() override {
@@ -149,20 +167,20 @@ class ModalWall final : public ElasticWall<d> {
       inertia = P.transpose() * momenta;
     }
     Eigen::VectorXd momentum = (1 - dynamics_.damping.mass * dt_ / 2) * (momenta.transpose() * s_next_);
-    momentum.tail(squares_.size()) -= resistance();
+    momentum.tail(squares_.size()) -= resistance() + damping_of_second_half();
     last_slopes_ = slopes();
-    last_damping_ = damping_of_modes();
+    last_damping_ = damping_of_second_half();
     carrier_ = next_carrier_;
     last_dt_ = dt_;
     if (drive_.size() > 0) momentum -= momenta.transpose() * solid_.uniform(carrier_);
     rates_ = inertia.ldlt().solve(momentum);
-    between_ = now_.amplitudes + 0.5 * way_.amplitudes;
+    between_ = middle();
     now_ = next_;
     u_ = displacements();
   }
   double damping_work() const override {
     const Field mean = 0.5 * (s_ + s_next_);
-    return 0.5 * (last_slopes_ + slopes()).dot(last_damping_ + damping_of_modes()) +
+    return 0.5 * (last_slopes_ + slopes()).dot(last_damping_ + damping_of_first_half()) +
            dynamics_.damping.mass / 2 * mean.dot(solid_.mass() * (last_dt_ * s_ + dt_ * s_next_));
   }
   double drive_work(const Field& impulse) const override {
@@ -210,10 +228,17 @@ class ModalWall final : public ElasticWall<d> {
     return sum.cwiseQuotient(count.cwiseMax(1));
   }
   Eigen::VectorXd slopes() const { return way_.amplitudes / dt_; }
-  /// dt/2 beta L dq of the trial.
-  Eigen::VectorXd damping_of_modes() const {
-    return dt_ / 2 * dynamics_.damping.stiffness * squares_.cwiseProduct(slopes());
+  /// beta + 2 c dt: in the first half of a step damping has it in place of beta.
+  double first_half() const { return dynamics_.damping.stiffness + 2 * dynamics_.unresolved * dt_; }
+  /// dt/2 (beta + 2 c dt) L dq of the trial.
+  Eigen::VectorXd damping_of_first_half() const { return dt_ / 2 * first_half() * squares_.cwiseProduct(slopes()); }
+  /// dt/2 beta L dq - c dt L (q_mid - q_mid of the step before).
+  Eigen::VectorXd damping_of_second_half() const {
+    return dt_ * squares_.cwiseProduct(dynamics_.damping.stiffness / 2 * slopes() -
+                                       dynamics_.unresolved * (middle() - between_));
   }
+  /// q_mid of the trial.
+  Eigen::VectorXd middle() const { return now_.amplitudes + 0.5 * way_.amplitudes; }
   Field places(const Posture<d>& posture) const {
     Field x = arms_ + shapes_ * posture.amplitudes;
     if (!turns()) return x + solid_.uniform(posture.centre);
@@ -259,21 +284,33 @@ class ModalWall final : public ElasticWall<d> {
     }
     return x;
   }
+  /// Of a step on the surface: what its velocities are not those along tangents.
+  double stray_of(const Way<d>& way) const {
+    if (!turns()) return 0;
+    Eigen::VectorXd along(frame_ + shapes_.cols());
+    along << way.centre, axis_of<d>(way.turn * now_.turn.transpose()), way.amplitudes;
+    Posture<d> to = now_;
+    to.amplitudes += way.amplitudes;
+    return (at_boundary(moved(to, way, now_.turn)) - answers_ * along).norm() / dt_;
+  }
   void look_at_next() { s_next_ = moved(next_, way_, now_.turn) / dt_; }
   Field displacements() const {
     const Mat<d> one = Mat<d>::Identity();
     return moved(now_, {now_.centre - solid_.centre(Field::Zero(solid_.size())), now_.turn - one, now_.amplitudes},
                  one);
   }
-  /// dt/2 L (q_mid + beta dq) of the trial.
-  Eigen::VectorXd resistance() const {
-    return dt_ / 2 *
-           squares_.cwiseProduct(now_.amplitudes + 0.5 * way_.amplitudes + dynamics_.damping.stiffness * slopes());
+  /// dt/2 L q_mid of the trial.
+  Eigen::VectorXd resistance() const { return dt_ / 2 * squares_.cwiseProduct(middle()); }
+  /// P_n^T M_s P_n.
+  Eigen::MatrixXd inertia_of_step() const {
+    Eigen::MatrixXd inertia = (1 + dynamics_.damping.mass * dt_ / 2) * inertia_;
+    inertia.diagonal().tail(squares_.size()) += dt_ / 2 * (dt_ / 2 + first_half()) * squares_;
+    return inertia;
   }
   /// Left side of the equations.
   Eigen::VectorXd momentum_of_trial() const {
     Eigen::VectorXd sum = (1 + dynamics_.damping.mass * dt_ / 2) * (momenta_.transpose() * s_next_);
-    sum.tail(squares_.size()) += resistance();
+    sum.tail(squares_.size()) += resistance() + damping_of_first_half();
     return sum;
   }
 

@@ -10,24 +10,27 @@
 namespace splashdown::elastic {
 namespace {
 
-/// The solid within a step from u: its force at a middle is that of the step. Unknowns that are given are held, too.
+/// The solid within a step from u: its force at a middle is that of the first half, c of walls/wall.hpp included. Unknowns that are given are held, too.
 template <int d>
 class WithinStep final : public System {
  public:
-  WithinStep(const Solid<d>& solid, const Field& u, const std::vector<Eigen::Index>& given = {})
-      : solid_(solid), u_(u) {
+  WithinStep(const Solid<d>& solid, const Field& u, double unresolved, const std::vector<Eigen::Index>& given = {})
+      : solid_(solid), u_(u), unresolved_(unresolved) {
     held_ = solid.held();
     for (const auto k : given) this->hold(k);
   }
   const Sparse& mass() const override { return solid_.mass(); }
-  Field internal_force(const Field& middle) const override { return solid_.force_between(u_, middle); }
-  void stiffness(const Field& middle, Sparse& K) const override { solid_.stiffness(middle, K); }
+  Field internal_force(const Field& middle) const override { return solid_.force_between(u_, middle, 2 * unresolved_); }
+  void stiffness(const Field& middle, Sparse& K) const override {
+    solid_.stiffness_between(u_, middle, 2 * unresolved_, K);
+  }
   double strain_energy(const Field& u) const override { return solid_.strain_energy(u); }
   double length() const override { return solid_.length(); }
 
  private:
   const Solid<d>& solid_;
   const Field& u_;  // of whom it is made for
+  double unresolved_;
 };
 
 /// Numbers of unknowns within two groups; -1: in neither.
@@ -79,8 +82,8 @@ class NodalWall : public ElasticWall<d> {
   NodalWall(const Solid<d>& solid, Dynamics dynamics)
       : ElasticWall<d>(solid, std::move(dynamics)),
         groups_(groups_of(solid, boundary_.nodes)),
-        whole_(solid, u_),
-        inside_(solid, u_, groups_.outer),
+        whole_(solid, u_, dynamics_.unresolved),
+        inside_(solid, u_, dynamics_.unresolved, groups_.outer),
         whole_solver_(dynamics_.newton),
         inside_solver_(dynamics_.newton),
         p_(Field::Zero(solid.size())),
@@ -112,7 +115,7 @@ class NodalWall : public ElasticWall<d> {
     return mass_.solve(rest) + clamps;
   }
   double strain_energy() const override { return solid_.strain_energy(u_); }
-  double strain_energy_between() const override { return solid_.strain_energy(u_between_); }
+  double strain_energy_between() const override { return solid_.strain_energy_between(last_start(), u_between_); }
   long iterations() const override { return whole_solver_.iterations() + inside_solver_.iterations(); }
 
  protected:
@@ -165,7 +168,7 @@ class NodalWall : public ElasticWall<d> {
   }
 
   Eigen::VectorXd implied() const override {
-    const Field left = solid_.mass() * s_next_ + resistance() - p_ - load_;
+    const Field left = solid_.mass() * s_next_ + first_half() - p_ - load_;
     return left(groups_.outer);
   }
 
@@ -180,7 +183,7 @@ class NodalWall : public ElasticWall<d> {
   Sparse tangent() {
     free_middle_ = u_ + dt_ / 2 * s_next_;
     Sparse K;
-    solid_.stiffness(free_middle_, K);
+    whole_.stiffness(free_middle_, K);
     Sparse A = solid_.mass();
     A.coeffs() += dt_ * dt_ / 4 * K.coeffs();
     if (const auto* C = damping()) A.coeffs() += dt_ / 2 * C->coeffs();
@@ -192,19 +195,15 @@ class NodalWall : public ElasticWall<d> {
   }
 
   void accept() override {
-    p_ = solid_.mass() * s_next_ - resistance();
-    if (const auto* C = damping()) damped_ = dt_ / 2 * (*C * s_next_);
+    damped_ = damping_of_second_half();
+    p_ = solid_.mass() * s_next_ - dt_ / 2 * force() - damped_;
     let_go();
     u_between_ = u_ + dt_ / 2 * s_next_;
     u_ += dt_ * s_next_;
   }
-  double damping_work() const override {
-    const Field mean = 0.5 * (s_ + s_next_);
-    const auto* C = damping();
-    return mean.dot(damped_) + (C ? dt_ / 2 * mean.dot(*C * s_next_) : 0.0);
-  }
+  double damping_work() const override { return 0.5 * (s_ + s_next_).dot(damped_ + first_half() - dt_ / 2 * force()); }
   double drive_work(const Field& impulse) const override {
-    const Field rows = solid_.mass() * s_next_ + resistance() - reactions_ - load_ - impulse;
+    const Field rows = solid_.mass() * s_next_ + first_half() - reactions_ - load_ - impulse;
     double sum = 0;
     for (Eigen::Index k = 0; k < rows.size(); ++k)
       if (is_held(k)) sum += 0.5 * (s_[k] + s_next_[k]) * rows[k];
@@ -231,10 +230,28 @@ class NodalWall : public ElasticWall<d> {
   }
   const Sparse* damping() const { return C_.nonZeros() > 0 ? &C_ : nullptr; }
   Stage stage(const Field& g) const { return {.mass = 4 / (dt_ * dt_), .damping = 2 / dt_, .p = u_, .q = u_, .g = g}; }
-  /// dt/2 (f + C s) of the trial.
-  Field resistance() const {
-    Field all = dt_ / 2 * whole_.internal_force(u_ + dt_ / 2 * s_next_);
+  Field middle() const { return u_ + dt_ / 2 * s_next_; }
+  /// Where the last step began.
+  Field last_start() const { return 2 * u_between_ - u_; }
+  /// f_n of the trial.
+  Field force() const { return solid_.force_between(u_, middle()); }
+  /// dt/2 (f_n + C s) + c dt^2 K s of the trial.
+  Field first_half() const {
+    Field all = dt_ / 2 * whole_.internal_force(middle());
     if (const auto* C = damping()) all += dt_ / 2 * (*C * s_next_);
+    return all;
+  }
+  /// dt/2 C s - c dt (f_n - f_{n-1}) of the trial, with the stresses of both where the step ends. So that the moment stays, it also
+  /// takes back what the first half did in the middle instead of the beginning.
+  Field damping_of_second_half() const {
+    Field all = Field::Zero(solid_.size());
+    if (const auto* C = damping()) all = dt_ / 2 * (*C * s_next_);
+    if (const double c = dynamics_.unresolved; c > 0) {
+      const Field end = u_ + dt_ * s_next_;
+      all -= c * dt_ *
+             (solid_.carried_force(u_, middle(), end) - solid_.carried_force(last_start(), u_between_, end) +
+              solid_.turned_change(u_, middle()));
+    }
     return all;
   }
   /// What the inside leaves of A on the surface.
@@ -259,7 +276,7 @@ class NodalWall : public ElasticWall<d> {
   StageSolver whole_solver_, inside_solver_;
   Eigen::SimplicialLDLT<Sparse> mass_, inner_factor_;
   Field p_, free_middle_;
-  Field reactions_ = p_, damped_ = p_;  // held rows of p; dt/2 C s of the last step
+  Field reactions_ = p_, damped_ = p_;  // held rows of p; damping of the last step's second half
   Field u_between_ = Field::Zero(solid_.size());
   Sparse C_, coupling_;
   Eigen::MatrixXd shapes_, condensed_;

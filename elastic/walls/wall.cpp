@@ -1,6 +1,7 @@
 #include "elastic/walls/wall.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "elastic/stored_field.hpp"
 
@@ -10,6 +11,7 @@ template <int d>
 ElasticWall<d>::ElasticWall(const Solid<d>& solid, Dynamics dynamics)
     : solid_(solid), dynamics_(std::move(dynamics)), boundary_(boundary_of<d>(solid.mesh())) {
   u_ = s_ = a_ = s_next_ = Field::Zero(solid.size());
+  mixing_ = Mixing(d * static_cast<Eigen::Index>(boundary_.nodes.size()));
 }
 
 template <int d>
@@ -41,6 +43,7 @@ void ElasticWall<d>::begin(double t, double kick, double dt) {
   load_ = kick * dynamics_.load(t);
   if (dynamics_.drive) drive_ = dynamics_.drive(t + dt / 2);
   begun_ = {};
+  mixing_.forget();
   prepare();
   free_ = solve(Eigen::VectorXd::Zero(d * static_cast<Eigen::Index>(boundary_.nodes.size())));
   begun_ = status_;
@@ -66,19 +69,20 @@ bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   status_ = all.status;
   if (!status_.ok()) return false;
   const double change = (all.velocities - trial_).norm();
-  if (change <= tolerance * (trial_.norm() + free_.norm())) return false;
+  if (change <= std::max(tolerance * (trial_.norm() + free_.norm()), stray())) return false;
   free_ = std::move(all.free);
   return true;
 }
 
-/// The tangent of the begun step tells how far the last trial is from the one under the impulse.
+/// The tangent of the begun step tells how far the last trial is from the one under the impulse. Changes are mixed where a body
+/// bends so far that this tangent is wrong.
 template <int d>
 typename ElasticWall<d>::Renewed ElasticWall<d>::renewed(const Eigen::VectorXd& impulse) {
   const Eigen::LDLT<Eigen::MatrixXd> inertia(modal_.inertia);
   const Eigen::VectorXd obeyed = implied();
   return {.status = {},
           .velocities = trial_ + modal_.modes * inertia.solve(modal_.modes.transpose() * impulse - obeyed),
-          .free = trial_ - modal_.modes * inertia.solve(obeyed)};
+          .free = free_ + mixing_.way(trial_ - modal_.modes * inertia.solve(obeyed) - free_)};
 }
 
 template <int d>

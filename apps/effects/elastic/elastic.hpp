@@ -78,8 +78,7 @@ struct ElasticTable {
   double spectral_radius = 0.9;  ///< of generalised_alpha: five periods resolved by ten steps lose 1 % of a mode
   double shift = 1;              ///< of shifted_crank_nicolson [1/s]
   double mass_damping = 0;       ///< Rayleigh's alpha [1/s]
-  /// Rayleigh's beta [s]; default: none in dry space, in a fluid what damps vibrations that its steps do not resolve.
-  std::optional<double> stiffness_damping;
+  double stiffness_damping = 0;  ///< Rayleigh's beta [s]
   std::vector<ElasticClamp> clamps;
   std::vector<ElasticPatch> patches;
   std::string start = "undeformed";  ///< or "equilibrium" with the loads of t = 0
