@@ -48,7 +48,7 @@ FacetTree<d>::FacetTree(const std::vector<std::array<Vec<d>, d>>& facets) {
   for (const auto& f : facets)
     for (const auto& corner : f) whole.extend(corner);
   const double size = whole.diagonal().norm();
-  roundoff_ = 1e-12 * (size + whole.min().cwiseAbs().cwiseMax(whole.max().cwiseAbs()).norm());
+  set_roundoff(whole);
   for (std::size_t f = 0; f < facets.size(); ++f) cut({facets[f], static_cast<int>(f)}, part * size);
   branches_.reserve(pieces_.size());
   branches_.emplace_back();
@@ -59,6 +59,28 @@ FacetTree<d>::FacetTree(const std::vector<std::array<Vec<d>, d>>& facets) {
   for (const Key& key : order) sorted.push_back(pieces_[key.piece]);
   pieces_ = std::move(sorted);
   set_boxes();
+}
+
+template <int d>
+FacetTree<d> FacetTree<d>::moved(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
+                                 const Eigen::Matrix<int, d, Eigen::Dynamic>& facets) const {
+  if (d == 3 || empty()) return FacetTree(vertices, facets);
+  FacetTree out = *this;
+  Box whole;
+  for (Piece& piece : out.pieces_)
+    for (int k = 0; k < d; ++k) {
+      piece.corner[k] = vertices.col(facets(k, piece.facet));
+      whole.extend(piece.corner[k]);
+    }
+  for (Branch& branch : out.branches_) branch.box.setEmpty();
+  out.set_roundoff(whole);
+  out.set_boxes();
+  return out;
+}
+
+template <int d>
+void FacetTree<d>::set_roundoff(const Box& whole) {
+  roundoff_ = 1e-12 * (whole.diagonal().norm() + whole.min().cwiseAbs().cwiseMax(whole.max().cwiseAbs()).norm());
 }
 
 template <int d>

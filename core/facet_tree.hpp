@@ -28,6 +28,11 @@ class FacetTree {
   FacetTree(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
             const Eigen::Matrix<int, d, Eigen::Dynamic>& facets);
 
+  /// The same facets where their vertices are now. In 2D with the same branches, O(n): boxes overlap more as the surface is
+  /// deformed.
+  FacetTree moved(const Eigen::Matrix<double, d, Eigen::Dynamic>& vertices,
+                  const Eigen::Matrix<int, d, Eigen::Dynamic>& facets) const;
+
   /// Whether there are no facets.
   bool empty() const { return pieces_.empty(); }
   /// Closest point nearer than `reach`; facet = -1 if there is none. Its distance may exceed the least one by `slack`,
@@ -77,6 +82,7 @@ class FacetTree {
   void cut(const Piece& piece, double shortest);
   std::vector<Key> keys() const;
   void build(std::vector<Key>& keys, int branch, int first, int count);
+  void set_roundoff(const Box& whole);
   void set_boxes();
   TightBox tight_box(const Piece& piece) const;
   Leaf leaf_of(int first, int count) const;

@@ -58,8 +58,12 @@ std::shared_ptr<WallShape<d>> Wall<d>::shape_of(AtVertices<d> vertices) const {
     shape->spacing += (corner[0] - corner[1]).norm() / static_cast<double>(facets.cols());
     for (int k = 0; k < d; ++k) shape->vertex_normal.col(facets(k, f)) += angle_at(corner, k) * shape->normal.col(f);
   }
-  shape->tree = FacetTree<d>(shape->vertices, facets);
-  for (const auto& members : patch_facets_) shape->of_patch.emplace_back(shape->vertices, facets(Eigen::all, members));
+  shape->tree = made_->tree.moved(shape->vertices, facets);
+  for (std::size_t k = 0; k < patch_facets_.size(); ++k) {
+    const Eigen::Matrix<int, d, Eigen::Dynamic> members = facets(Eigen::all, patch_facets_[k]);
+    shape->of_patch.push_back(k < made_->of_patch.size() ? made_->of_patch[k].moved(shape->vertices, members)
+                                                         : FacetTree<d>(shape->vertices, members));
+  }
   for (const auto vertex : shape->vertices.colwise()) shape->box.extend(vertex);
   return shape;
 }

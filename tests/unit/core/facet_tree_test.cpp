@@ -76,8 +76,11 @@ TYPED_TEST(FacetTreeIn, finds_what_looking_at_all_facets_finds) {
   std::mt19937 random(2);
   for (int count : {1, 4, 5, 9, 300}) {
     const auto s = soup<d>(count, random);
-    const FacetTree<d> tree(s.vertices, s.facets);
+    const auto elsewhere = soup<d>(count, random);
+    const FacetTree<d> made(s.vertices, s.facets),
+        came(FacetTree<d>(elsewhere.vertices, s.facets).moved(s.vertices, s.facets));
     for (int sample = 0; sample < 200; ++sample) {
+      const auto& tree = sample % 2 == 0 ? made : came;
       const Vec<d> x = 15 * scenes::random_vector<Vec<d>>(random, {});
       double best = std::numeric_limits<double>::max();
       for (int f = 0; f < count; ++f) best = std::min(best, (closest_on(s.corners(f), x) - x).squaredNorm());
