@@ -53,15 +53,14 @@ void read_law(Reader& reader, ElasticTable& table, int dimension) {
 }
 
 void read_mesh(Reader& reader, ElasticTable& table, double& refine, int dimension) {
-  const bool needs_file = dimension == 3, sketch = reader.context().sketch != nullptr;
-  auto mesh = reader.table("mesh", needs_file ? Need::required : Need::optional,
-                           "Add mesh = {file = \"body.msh\"}: a solid in space is meshed with Gmsh.");
+  const bool sketch = reader.context().sketch != nullptr;
+  auto mesh = reader.table("mesh", Need::optional);
   if (mesh) {
     mesh->file("file", table.mesh_file, "Name a .msh file of Gmsh; relative names begin at the folder of the scene.");
     mesh->number("scale", table.mesh_scale,
                  positive("", "Use metres per unit of the file: 0.001 if it is in millimetres."));
   }
-  if (needs_file || (mesh && !sketch)) {
+  if (mesh && !sketch) {
     for (const char* key : {"size", "refine", "adapt"})
       reader.refuse(key, "the elements are those of the mesh", "Remove it, or the mesh.");
     return;
@@ -69,7 +68,10 @@ void read_mesh(Reader& reader, ElasticTable& table, double& refine, int dimensio
   refine = reader.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for elements of half the size."), presets);
   reader.number("size", table.size, refined(positive("m", "Use half of the thinnest part, e.g. 0.01."), refine),
                 sketch ? Need::optional : Need::required);
-  reader.integer("adapt", table.adapt, within(0, 20, "", "Use e.g. 5: the mesh is refined so often for the goals."));
+  if (dimension == 3)
+    reader.refuse("adapt", "meshes in space are not refined for goals", "Remove it, or use a smaller size.");
+  else
+    reader.integer("adapt", table.adapt, within(0, 20, "", "Use e.g. 5: the mesh is refined so often for the goals."));
 }
 
 void read_scheme(Reader& reader, ElasticTable& table) {

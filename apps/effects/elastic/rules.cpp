@@ -15,6 +15,7 @@
 #include "apps/effects/gravity/gravity.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/rules/problems.hpp"
+#include "elastic/mesh/thickness.hpp"
 #include "elastic/modes/modes.hpp"
 
 namespace splashdown::apps {
@@ -134,13 +135,22 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
   const auto box = extents<d>(shape_of<d>(body.shape).surface);
   const bool from_file = !table.mesh_file.empty();
   const std::string key = table.path + (from_file ? ".mesh" : ".size");
-  const double elements = box.volume() / std::pow(table.size, d) * 2;
+  double elements = box.volume() / std::pow(table.size, d) * 2;
   if (!from_file && table.size > box.sizes().maxCoeff())
     return problems.add(key, fmt::format("must not exceed the body's extent of {:g} m", box.sizes().maxCoeff()),
                         "Use half of its thinnest part.");
+  std::string cure = "Use larger elements.";
+  if constexpr (d == 3)
+    if (!from_file) {
+      const auto told = elastic::forecast(shape_of<3>(body.shape).surface, table.size);
+      elements = told.elements;
+      if (told.thin < table.size)
+        cure = fmt::format("Parts of {:.2g} m get elements as small: make them thicker, or give a mesh of Gmsh.",
+                           told.thin);
+    }
   if (!from_file && elements > most_elements)
     return problems.add(key, fmt::format("makes about {:.1g} elements, {:g} are the most", elements, most_elements),
-                        "Use larger elements.");
+                        cure);
   elastic::SolidMesh<d> mesh;
   try {
     mesh = solid_mesh<d>(body, table);
@@ -158,7 +168,8 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
   check_goals(scene, table, d * mesh.size(), problems);
   const auto lies_in = [&](const Point& point) { return place_in<d>(mesh, point).has_value(); };
   check_forces(scene, table, lies_in, problems);
-  const std::string rule = "is not in the body", cure = "Move it into the undeformed body, in the shape's frame.";
+  const std::string rule = "is not in the body";
+  cure = "Move it into the undeformed body, in the shape's frame.";
   for (std::size_t k = 0; k < table.point_masses.size(); ++k)
     if (!lies_in(table.point_masses[k].point))
       problems.add(fmt::format("{}.point_mass[{}].point", table.path, k), rule, cure);
@@ -186,8 +197,14 @@ void check_table(const Scene& scene, const ElasticTable& table, Problems& proble
 template <int d>
 std::string frequencies_of(const Scene& scene, const ElasticTable& table) {
   const auto solid = make_solid<d>(scene.bodies[table.body], table);
-  const auto nodes = fmt::format("{} nodes{}", solid->mesh().size(),
-                                 table.adapt > 0 ? fmt::format(" before it is refined {} times", table.adapt) : "");
+  auto nodes = fmt::format("{} nodes{}", solid->mesh().size(),
+                           table.adapt > 0 ? fmt::format(" before it is refined {} times", table.adapt) : "");
+  if constexpr (d == 3) {
+    nodes = fmt::format("{} elements, {}, least quality {:.2f}", solid->mesh().cells.size(), nodes,
+                        elastic::least_quality<3>(solid->mesh()));
+    if (table.mesh_file.empty())
+      nodes += fmt::format(", meshed in {:.1f} s", mesh_in_space(scene.bodies[table.body], table).seconds);
+  }
   if (table.modes == 0) return nodes;
   const auto modes = elastic::lowest_modes(*solid, table.modes, elastic::Field::Zero(solid->size()));
   std::string list;
@@ -228,15 +245,24 @@ std::vector<NamedNumber> ElasticKind::numbers(const Scene& scene) const {
 
 void ElasticKind::ask(const AskedScene& asked, std::vector<std::string>& questions) const {
   const auto* tables = asked.scene.effects.find<ElasticTables>();
-  if (!tables || !asked.scene.has_fluid()) return;
-  constexpr double coarse = 4;  // parts of a facet in which loads vary, but pressures do not
+  if (!tables) return;
   for (const auto& table : tables->of_bodies) {
     const auto& body = asked.scene.bodies[table.body];
-    if (table.size > 0 && body.size > coarse * table.size)
+    constexpr double coarse = 4;  // parts of a facet in which loads vary, but pressures do not
+    if (asked.scene.has_fluid() && table.size > 0 && body.size > coarse * table.size)
       questions.push_back(fmt::format(
           "{}.size = {:g} m: the water's elements are {:.2g} times those of the body that bends, {:g} m: did you mean "
           "{:.2g}? Loads would know nothing of what the body's elements resolve",
           label_of(table), body.size, body.size / table.size, table.size, table.size));
+    if (asked.scene.dimension != 3 || !table.mesh_file.empty() || !(table.size > 0)) continue;
+    constexpr double thick = 4;  // a slip of units or of a digit is more
+    const auto told = elastic::forecast(shape_of<3>(body.shape).surface, table.size);
+    if (table.size > thick * told.thin)
+      questions.push_back(
+          fmt::format("{}.size = {:g} m is {:.2g} times the thickness of parts of the shape, {:.2g} m: did you mean "
+                      "{:.2g}? Elements are "
+                      "as small there all the same, about {:.1g} of them in all",
+                      table.path, table.size, table.size / told.thin, told.thin, told.thin / 2, told.elements));
   }
 }
 

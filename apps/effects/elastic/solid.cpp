@@ -1,14 +1,19 @@
 #include "apps/effects/elastic/solid.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <deque>
 #include <functional>
+#include <mutex>
 #include <stdexcept>
 
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/named.hpp"
+#include "core/geometry.hpp"
 #include "elastic/mesh/boundary.hpp"
 #include "elastic/mesh/gmsh_file.hpp"
 #include "elastic/mesh/outline_mesh.hpp"
+#include "elastic/mesh/volume_mesh.hpp"
 #include "elastic/participant.hpp"
 #include "rigid/forces/curve.hpp"
 
@@ -119,14 +124,52 @@ elastic::SolidMesh<d> in_world(const Body& body, elastic::SolidMesh<d> mesh) {
   return mesh;
 }
 
+/// What density makes the mass of. Meshes of shapes in space enclose less than the shape, by their chords.
+template <int d>
+double meshed_volume(const Body& body, const ElasticTable& table, const elastic::SolidMesh<d>& mesh) {
+  if (d == 3 && table.mesh_file.empty()) {
+    double sum = 0;
+    for (const auto& cell : mesh.cells) {
+      Mat<d> sides;
+      for (int i = 0; i < d; ++i) sides.col(i) = mesh.nodes.col(cell[i + 1]) - mesh.nodes.col(cell[0]);
+      sum += sides.determinant() / factorial<d>;
+    }
+    return sum;
+  }
+  return rigid::mass_properties<d>(shape_of<d>(body.shape).surface).mass;
+}
+
 }  // namespace
+
+MeshInSpace mesh_in_space(const Body& body, const ElasticTable& table) {
+  struct Made {
+    Surface<3> surface;
+    double size;
+    MeshInSpace result;
+  };
+  static std::mutex mutex;
+  static std::deque<Made> made;  // checks, notes, walls and the run itself ask for the same
+  constexpr std::size_t most = 4;
+  const std::lock_guard lock(mutex);
+  const auto surface = shape_of<3>(body.shape).surface;
+  for (const auto& one : made)
+    if (one.size == table.size && one.surface.vertices.cols() == surface.vertices.cols() &&
+        one.surface.facets.cols() == surface.facets.cols() && one.surface.vertices == surface.vertices &&
+        one.surface.facets == surface.facets)
+      return one.result;
+  const auto begin = std::chrono::steady_clock::now();
+  auto mesh = elastic::volume_mesh(surface, table.size);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (made.size() == most) made.pop_front();
+  return made.emplace_back(Made{surface, table.size, {std::move(mesh), seconds}}).result;
+}
 
 template <int d>
 std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table,
                                               const elastic::SolidMesh<d>& mesh) {
   auto placed = in_world<d>(body, mesh);
   const auto properties = mass_properties<d>(body);
-  const double volume = rigid::mass_properties<d>(shape_of<d>(body.shape).surface).mass;
+  const double volume = meshed_volume<d>(body, table, mesh);
   auto solid =
       std::make_unique<elastic::Solid<d>>(std::move(placed), solid_law<d>(body, table), properties.mass / volume);
   const double roundoff = 1e-9 * elastic::extent(mesh);
@@ -168,7 +211,7 @@ elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table) {
   if constexpr (d == 2)
     return elastic::outline_mesh(shape_of<2>(body.shape).surface, table.size);
   else
-    throw elastic::MeshError("a solid in space has no mesh", "Add mesh = {file = \"body.msh\"}.");
+    return mesh_in_space(body, table).mesh;
 }
 
 template <int d>

@@ -25,6 +25,12 @@ std::vector<std::string> elastic_schemes();
 /// What may be looked at in a point.
 std::vector<std::string> elastic_signals();
 
+/// The mesh of a shape in space, made once for equal shapes and sizes, and how long that took [s]. Throws elastic::MeshError.
+struct MeshInSpace {
+  elastic::SolidMesh<3> mesh;
+  double seconds = 0;
+};
+MeshInSpace mesh_in_space(const Body& body, const ElasticTable& table);
 /// Undeformed, in the shape's frame. Throws elastic::MeshError.
 template <int d>
 elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "apps/build/build.hpp"
@@ -363,6 +364,69 @@ TEST(ElasticScene, asks_about_water_far_coarser_than_the_body) {
   EXPECT_TRUE(questions.at(0).starts_with("body.beam.size = 0.5 m")) << questions.at(0);
   EXPECT_EQ(ask(beam), 0u) << "there is no water";
 }
+
+/// A ball in space, meshed from its shape.
+const std::string ball = R"(title = "ball"
+dimension = 3
+[time]
+end = 0.1
+dt_max = 0.01
+[[body]]
+name = "ball"
+density = 1200
+position = [1, 2, 3]
+shape = { type = "sphere", radius = 0.5 }
+[body.elastic]
+young_modulus = 1e7
+poisson_ratio = 0.3
+size = 0.4
+)";
+
+TEST(ElasticScene, in_space_is_meshed_from_its_shape_and_keeps_its_mass) {
+  const auto scene = scene_of(ball);
+  const auto specs = solid_specs<3>(scene);
+  const auto& solid = *specs.at(0).solid;
+  EXPECT_NEAR(solid.total_mass() / (1200 * 4. / 3 * std::numbers::pi * 0.125), 1, 1e-12) << "chords enclose 9 % less";
+  EXPECT_LT((solid.centre(elastic::Field::Zero(solid.size())) - Vec<3>(1, 2, 3)).norm(), 0.01);
+  const auto note = ElasticKind().note(scene, {});
+  ASSERT_TRUE(note);
+  for (const char* word : {"elements", "nodes", "least quality", "meshed in"})
+    EXPECT_NE(note->reason.find(word), std::string::npos) << note->reason;
+}
+
+TEST(ElasticScene, asks_about_elements_far_larger_than_a_body_in_space_is_thick) {
+  const auto asked = [](const std::string& shape, const std::string& size) {
+    std::vector<std::string> questions;
+    auto text = testing::replaced(ball, "{ type = \"sphere\", radius = 0.5 }", shape);
+    const auto scene = scene_of(testing::replaced(text, "size = 0.4", "size = " + size));
+    ElasticKind().ask({.scene = scene, .level = {}}, questions);
+    return questions;
+  };
+  const std::string plate = "{ type = \"box\", size = [1, 1, 0.05] }";
+  EXPECT_TRUE(asked(plate, "0.1").empty());
+  const auto questions = asked(plate, "0.5");
+  ASSERT_EQ(questions.size(), 1u);
+  EXPECT_TRUE(questions[0].starts_with("body.ball.elastic.size = 0.5 m is 10 times")) << questions[0];
+  EXPECT_TRUE(asked("{ type = \"sphere\", radius = 0.5 }", "0.5").empty());
+}
+
+class BadElasticSceneInSpace : public ::testing::TestWithParam<Mistake> {};
+TEST_P(BadElasticSceneInSpace, is_refused_with_place_rule_and_cure) {
+  const auto& bad = GetParam();
+  testing::expect_refused(testing::replaced(ball, bad.from, bad.to), bad);
+}
+const std::vector<Mistake> mistakes_in_space = {
+    {"refined_for_goals", "size = 0.4", "size = 0.4\nadapt = 2", 15, "body.ball.elastic.adapt",
+     "in space are not refined"},
+    {"too_thin", "{ type = \"sphere\", radius = 0.5 }", "{ type = \"box\", size = [1, 1, 0.001] }", 14,
+     "body.ball.elastic.size = 0.4", "Parts of 0.001 m get elements as small"},
+    {"too_fine_in_space", "size = 0.4", "size = 0.004", 14, "body.ball.elastic.size = 0.004", "Use larger elements"},
+    {"misses_its_shape", "{ type = \"sphere\", radius = 0.5 }",
+     "{ type = \"revolved\", profile = [[0, 0], [0.01, 0.1], [0.01, 0.9], [0, 1]] }", 14,
+     "body.ball.elastic.size = 0.4", "Use smaller elements"},
+};
+INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticSceneInSpace, ::testing::ValuesIn(mistakes_in_space),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 class BadWetElasticScene : public ::testing::TestWithParam<Mistake> {};
 TEST_P(BadWetElasticScene, is_refused_with_place_rule_and_cure) {
