@@ -10,10 +10,31 @@
 
 namespace splashdown::elastic {
 
+namespace {
+
+/// Each cell has the first material.
+template <int d>
+std::vector<int> of_one_part(const SolidMesh<d>& mesh) {
+  return std::vector<int>(mesh.cells.size(), 0);
+}
+
+}  // namespace
+
 template <int d>
 Solid<d>::Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double density)
-    : mesh_(std::move(mesh)), law_(std::move(law)), density_(density), length_(extent(mesh_)) {
-  if (!(density > 0)) throw std::invalid_argument("density must be positive");
+    : Solid(mesh, std::vector<Material<d>>{{std::move(law), density}}, of_one_part(mesh)) {}
+
+template <int d>
+Solid<d>::Solid(SolidMesh<d> mesh, std::vector<Material<d>> materials, std::vector<int> part)
+    : mesh_(std::move(mesh)), materials_(std::move(materials)), part_(std::move(part)), length_(extent(mesh_)) {
+  for (const auto& material : materials_) {
+    if (!(material.density > 0)) throw std::invalid_argument("density must be positive");
+    linear_ &= material.law->linear();
+  }
+  for (const int number : part_)
+    if (number < 0 || number >= static_cast<int>(materials_.size()))
+      throw std::invalid_argument("a cell has no material");
+  if (part_.size() != mesh_.cells.size()) throw std::invalid_argument("each cell has a material");
   held_.assign(static_cast<std::size_t>(d * mesh_.size()), false);
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
     for (const auto& point : rule<d>()) {
@@ -23,13 +44,15 @@ Solid<d>::Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double den
     }
   make_pattern();
   assemble_mass();
-  if (law_->linear()) assemble_stiffness(Field::Zero(d * mesh_.size()), constant_);
+  if (linear_) assemble_stiffness(Field::Zero(d * mesh_.size()), constant_);
 }
 
 template <int d>
 std::pair<Solid<d>, std::vector<typename SplitCells<d>::At>> Solid<d>::divided() const {
   auto parts = split<d>(mesh_.nodes, mesh_.cells);
-  Solid fine(solid_mesh<d>(parts.nodes, std::move(parts.cells)), law_, density_);
+  std::vector<int> part;
+  for (const int number : part_) part.insert(part.end(), part_count<d>, number);
+  Solid fine(solid_mesh<d>(parts.nodes, std::move(parts.cells)), materials_, std::move(part));
   for (int a = 0; a < fine.mesh().size(); ++a) {
     const auto& [cell, at] = parts.places[static_cast<std::size_t>(a)];
     const auto N = shapes<d>(at);
@@ -122,9 +145,10 @@ void Solid<d>::assemble_mass() {
   const auto& points = rule<d>();
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
     Eigen::Matrix<double, cell_nodes<d>, cell_nodes<d>> m = decltype(m)::Zero();
+    const double density = materials_[static_cast<std::size_t>(part_[c])].density;
     for (std::size_t q = 0; q < points.size(); ++q) {
       const auto N = shapes<d>(points[q].at);
-      m += density_ * points_[c * points.size() + q].weight * N * N.transpose();
+      m += density * points_[c * points.size() + q].weight * N * N.transpose();
     }
     add_cell(c, mass_, [&](int a, int b) -> Mat<d> { return m(a, b) * Mat<d>::Identity(); });
   }
@@ -137,7 +161,7 @@ double Solid<d>::strain_energy(const Field& u) const {
   double sum = 0;
   const std::size_t n = rule<d>().size();
   for (std::size_t p = 0; p < points_.size(); ++p)
-    sum += points_[p].weight * law_->energy(gradient(u, p / n, points_[p].slopes));
+    sum += points_[p].weight * law(p / n).energy(gradient(u, p / n, points_[p].slopes));
   return sum;
 }
 
@@ -158,13 +182,13 @@ Field Solid<d>::force_of(const Stress& stress) const {
 template <int d>
 Field Solid<d>::internal_force(const Field& u) const {
   if (linear()) return constant_ * u;
-  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> { return law_->stress(gradient(u, c, slopes)); });
+  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> { return law(c).stress(gradient(u, c, slopes)); });
 }
 
 template <int d>
 Field Solid<d>::force_between(const Field& before, const Field& middle) const {
   return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
-    return law_->stress_between(gradient(before, c, slopes), gradient(middle, c, slopes));
+    return law(c).stress_between(gradient(before, c, slopes), gradient(middle, c, slopes));
   });
 }
 
@@ -187,7 +211,7 @@ void Solid<d>::assemble_stiffness(const Field& u, Sparse& K) const {
     k.setZero();
     for (std::size_t p = c * count; p < (c + 1) * count; ++p) {
       const auto& G = points_[p].slopes;
-      const Tangent<d> A = points_[p].weight * law_->tangent(gradient(u, c, G));
+      const Tangent<d> A = points_[p].weight * law(c).tangent(gradient(u, c, G));
       for (int a = 0; a < n; ++a) {
         Eigen::Matrix<double, d, d* d> of_a = decltype(of_a)::Zero();
         for (int J = 0; J < d; ++J) of_a += G(J, a) * A.template middleRows<d>(d * J);
@@ -315,7 +339,7 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
   StressPeak<d> most;
   const auto& points = rule<d>();
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    const double value = von_mises(law_->cauchy(gradient(u, p / points.size(), points_[p].slopes)));
+    const double value = von_mises(law(p / points.size()).cauchy(gradient(u, p / points.size(), points_[p].slopes)));
     if (!(value > most.value)) continue;
     most.value = value;
     most.cell = p / points.size();
@@ -327,7 +351,7 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
 
 template <int d>
 Mat<3> Solid<d>::stress_at_node(const Field& u, std::size_t cell, int k) const {
-  return law_->cauchy(gradient(u, cell, slopes_at(cell, node_place<d>(k))));
+  return law(cell).cauchy(gradient(u, cell, slopes_at(cell, node_place<d>(k))));
 }
 
 template <int d>
@@ -337,7 +361,7 @@ double Solid<d>::stress_error(const Field& u, const StressPeak<d>& peak) const {
   sums.fill(Mat<3>::Zero());
   std::array<int, cell_nodes<d>> counts{};
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-    for (int k = 0; k < cell_nodes<d>; ++k) {
+    for (int k = 0; k < cell_nodes<d> && part_[c] == part_[peak.cell]; ++k) {
       const auto found = std::ranges::find(own, mesh_.cells[c][static_cast<std::size_t>(k)]);
       if (found == own.end()) continue;
       const auto node = static_cast<std::size_t>(found - own.begin());
@@ -345,7 +369,7 @@ double Solid<d>::stress_error(const Field& u, const StressPeak<d>& peak) const {
       ++counts[node];
     }
   const auto N = shapes<d>(peak.in_cell);
-  Mat<3> difference = -law_->cauchy(gradient(u, peak.cell, slopes_at(peak.cell, peak.in_cell)));
+  Mat<3> difference = -law(peak.cell).cauchy(gradient(u, peak.cell, slopes_at(peak.cell, peak.in_cell)));
   for (std::size_t node = 0; node < own.size(); ++node)
     difference += N[static_cast<Eigen::Index>(node)] / counts[node] * sums[node];
   return von_mises(difference);
@@ -383,7 +407,7 @@ Mat<d> Solid<d>::strain(const Field& u, const Place<d>& place) const {
 template <int d>
 Mat<3> Solid<d>::stress(const Field& u, const Place<d>& place) const {
   const auto cell = static_cast<std::size_t>(place.cell);
-  return law_->cauchy(gradient(u, cell, slopes_at(cell, place.at)));
+  return law(cell).cauchy(gradient(u, cell, slopes_at(cell, place.at)));
 }
 
 template <int d>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -16,7 +15,6 @@
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/rules/problems.hpp"
 #include "elastic/mesh/thickness.hpp"
-#include "elastic/modes/modes.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -129,6 +127,23 @@ void check_goals(const Scene& scene, const ElasticTable& table, int unknowns, Pr
 }
 
 template <int d>
+void check_parts(const Body& body, const ElasticTable& table, const elastic::SolidMesh<d>& mesh, Problems& problems) {
+  const auto numbers = parts_of<d>(table, mesh);
+  std::set<std::string> names;
+  for (std::size_t p = 0; p < table.parts.size(); ++p) {
+    const auto& part = table.parts[p];
+    if (std::ranges::find(numbers, static_cast<int>(p) + 1) == numbers.end())
+      problems.add(part.path, "covers no element's middle, or later parts cover all of them",
+                   "Move or enlarge it (shape's frame), or use smaller elements.");
+    if (!names.insert(part.name).second)
+      problems.add(part.path + ".name", "is taken by another part", "Give every part its own name.");
+    if (part.density && body.mass)
+      problems.add(part.path + ".density", "has no meaning beside the mass of the whole body",
+                   "Give the body a density in place of its mass.");
+  }
+}
+
+template <int d>
 void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problems) {
   const auto& body = scene.bodies[table.body];
   const auto label = label_of(table);
@@ -163,6 +178,7 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
                     (drawn.max() - box.max()).cwiseAbs().maxCoeff() > same * box.sizes().maxCoeff()))
     return problems.add(key, fmt::format("the mesh spans {} m, the shape {} m", text<d>(drawn), text<d>(box)),
                         "Draw both in the same frame; mesh.scale is metres per unit of the file.");
+  check_parts<d>(body, table, mesh, problems);
   check_clamps<d>(scene, table, mesh, problems);
   check_patches<d>(table, mesh, problems);
   check_goals(scene, table, d * mesh.size(), problems);
@@ -183,34 +199,21 @@ void check_table(const Scene& scene, const ElasticTable& table, Problems& proble
   const auto label = label_of(table);
   check_body_keys(body, label, problems);
   if (problems.found_in(table.path) || problems.found_in(label + ".shape")) return;
+  std::string path = table.path;
+  const ElasticMaterial* material = &table;
   try {
     solid_law<d>(body, table);
+    for (const auto& part : table.parts) {
+      path = part.path;
+      material = &part;
+      solid_law<d>(body, part);
+    }
     shape_of<d>(body.shape);
   } catch (const std::invalid_argument& error) {
-    if (table.law == "orthotropic") problems.add(table.path + ".ply", error.what(), "Use measured moduli of one ply.");
+    if (material->law == "orthotropic") problems.add(path + ".ply", error.what(), "Use measured moduli of one ply.");
     return;  // of the shape its own check speaks
   }
   check_mesh<d>(scene, table, problems);
-}
-
-/// Natural frequencies at rest [Hz].
-template <int d>
-std::string frequencies_of(const Scene& scene, const ElasticTable& table) {
-  const auto solid = make_solid<d>(scene.bodies[table.body], table);
-  auto nodes = fmt::format("{} nodes{}", solid->mesh().size(),
-                           table.adapt > 0 ? fmt::format(" before it is refined {} times", table.adapt) : "");
-  if constexpr (d == 3) {
-    nodes = fmt::format("{} elements, {}, least quality {:.2f}", solid->mesh().cells.size(), nodes,
-                        elastic::least_quality<3>(solid->mesh()));
-    if (table.mesh_file.empty())
-      nodes += fmt::format(", meshed in {:.1f} s", mesh_in_space(scene.bodies[table.body], table).seconds);
-  }
-  if (table.modes == 0) return nodes;
-  const auto modes = elastic::lowest_modes(*solid, table.modes, elastic::Field::Zero(solid->size()));
-  std::string list;
-  for (const double w : modes.angular_frequencies)
-    list += fmt::format("{}{:.5g}", list.empty() ? "" : ", ", w / (2 * std::numbers::pi));
-  return nodes + (modes.status.ok() ? "" : ", " + modes.status.cause) + "; natural frequencies " + list + " Hz";
 }
 
 }  // namespace
@@ -264,16 +267,6 @@ void ElasticKind::ask(const AskedScene& asked, std::vector<std::string>& questio
                       "as small there all the same, about {:.1g} of them in all",
                       table.path, table.size, table.size / told.thin, told.thin, told.thin / 2, told.elements));
   }
-}
-
-std::optional<EffectNote> ElasticKind::note(const Scene& scene, const Scales&) const {
-  const auto* tables = scene.effects.find<ElasticTables>();
-  if (!tables) return {};
-  std::string reason;
-  for (const auto& table : tables->of_bodies)
-    reason += fmt::format("{}{}: {}", reason.empty() ? "" : "; ", scene.bodies[table.body].name,
-                          scene.dimension == 2 ? frequencies_of<2>(scene, table) : frequencies_of<3>(scene, table));
-  return EffectNote{"elastic", true, reason};
 }
 
 }  // namespace splashdown::apps
