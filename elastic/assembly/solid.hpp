@@ -46,7 +46,8 @@ class Solid final : public System {
  public:
   /// Throws std::invalid_argument unless the density is positive.
   Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double density);
-  /// Of several materials: `part` is the number of each cell's. Throws std::invalid_argument unless all densities are positive.
+  /// Of several materials: `part` is the number of each cell's. Throws std::invalid_argument unless all densities are
+  /// positive.
   Solid(SolidMesh<d> mesh, std::vector<Material<d>> materials, std::vector<int> part);
 
   /// The same solid with each cell divided (core/simplices/split.hpp), and where its nodes lie in the cells before. Held are
@@ -89,8 +90,8 @@ class Solid final : public System {
   double total_mass() const;                 ///< point masses included [kg, kg/m]
   Vec<d> centre(const Field& u) const;       ///< of mass [m]
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
-  /// Error of the elements there: von Mises norm of their stress minus the one that is the mean of elements of the same material at
-  /// nodes, and between nodes as displacements are (Zienkiewicz & Zhu 1987) [Pa].
+  /// Error of the elements there: von Mises norm of their stress minus the one that is the mean of elements of the same
+  /// material at nodes, and between nodes as displacements are (Zienkiewicz & Zhu 1987) [Pa].
   double stress_error(const Field& u, const StressPeak<d>& peak) const;
   /// Green's strain (F^T F - 1)/2 at a point.
   Mat<d> strain(const Field& u, const Place<d>& place) const;

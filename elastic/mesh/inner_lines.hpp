@@ -17,8 +17,8 @@ struct LinedOutline {
   std::vector<std::array<int, 2>> pieces;  ///< of the outline first
 };
 
-/// InnerLines are cut where they meet the outline and each other; what lies outside is left out. Points nearer than `near` to each other
-/// are one [m]: those of the outline stay where they are. O(n^2) for n pieces.
+/// InnerLines are cut where they meet the outline and each other; what lies outside is left out. Points nearer than `near` to
+/// each other are one [m]: those of the outline stay where they are. O(n^2) for n pieces.
 LinedOutline lined(const Surface<2>& outline, const InnerLines& lines, double near);
 
 }  // namespace splashdown::elastic

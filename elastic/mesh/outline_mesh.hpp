@@ -8,8 +8,8 @@
 
 namespace splashdown::elastic {
 
-/// Edges of triangles are at most `size` long [m], and lie along `lines` where these are inside. Throws MeshError for an outline that
-/// crosses itself.
+/// Edges of triangles are at most `size` long [m], and lie along `lines` where these are inside. Throws MeshError for an
+/// outline that crosses itself.
 SolidMesh<2> outline_mesh(const Surface<2>& outline, double size, const InnerLines& lines = {});
 /// The same where the longest edge is a function of the place, positive.
 SolidMesh<2> outline_mesh(const Surface<2>& outline, const std::function<double(const Vec<2>&)>& size,

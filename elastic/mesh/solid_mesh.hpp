@@ -42,9 +42,9 @@ struct SolidMesh {
 template <int d>
 SolidMesh<d> quadratic_mesh(const Points<d>& corners, const Simplices<d>& simplices);
 
-/// The mesh of these cells: nodes of no cell are dropped, cells that are wound the other way are turned, the boundary is found.
-/// Throws MeshError unless it is one solid: each facet between two cells at most, cells connected through facets, no cell
-/// folded or flat.
+/// The mesh of these cells: nodes of no cell are dropped, cells that are wound the other way are turned, the boundary is
+/// found. Throws MeshError unless it is one solid: each facet between two cells at most, cells connected through facets, no
+/// cell folded or flat.
 template <int d>
 SolidMesh<d> solid_mesh(const Points<d>& nodes, std::vector<std::array<int, cell_nodes<d>>> cells);
 
@@ -66,8 +66,8 @@ Place<d> in_divided(const Place<d>& place) {
 template <int d>
 std::optional<Place<d>> locate(const SolidMesh<d>& mesh, const Vec<d>& point, double near);
 
-/// Shape of a straight simplex: d (d! V)^(2/d) (d + 1)/sum of its squared edges over that of a regular one (Liu, Joe 1994); 1: it is
-/// regular, 0: flat. `cell` begins with its corners.
+/// Shape of a straight simplex: d (d! V)^(2/d) (d + 1)/sum of its squared edges over that of a regular one (Liu, Joe 1994);
+/// 1: it is regular, 0: flat. `cell` begins with its corners.
 template <int d, std::size_t n>
 double mean_ratio(const Points<d>& nodes, const std::array<int, n>& cell) {
   Mat<d> sides;

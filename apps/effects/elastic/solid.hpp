@@ -41,7 +41,8 @@ elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table);
 /// Throws std::invalid_argument for moduli that no solid has; axes in the world frame at t = 0.
 template <int d>
 std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticMaterial& material);
-/// The number of each cell's material: 0 of the body's own, else one more than that of the last part that covers the cell's middle.
+/// The number of each cell's material: 0 of the body's own, else one more than that of the last part that covers the middle
+/// of the cell.
 template <int d>
 std::vector<int> parts_of(const ElasticTable& table, const elastic::SolidMesh<d>& mesh);
 /// Lines along which elements of the plane lie: outlines of parts.

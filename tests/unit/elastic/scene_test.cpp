@@ -476,7 +476,7 @@ const std::vector<Mistake> mistakes_in_space = {
      "body.ball.elastic.size = 0.4", "Parts of 0.001 m get elements as small"},
     {"too_fine_in_space", "size = 0.4", "size = 0.004", 14, "body.ball.elastic.size = 0.004", "Use larger elements"},
     {"misses_its_shape", "{ type = \"sphere\", radius = 0.5 }",
-     "{ type = \"revolved\", profile = [[0, 0], [0.01, 0.1], [0.01, 0.9], [0, 1]] }", 14,
+     "{ type = \"revolved\", profile = [[0, 0], [0.015, 0.1], [0.015, 0.9], [0, 1]] }", 14,
      "body.ball.elastic.size = 0.4", "Use smaller elements"},
 };
 INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticSceneInSpace, ::testing::ValuesIn(mistakes_in_space),
