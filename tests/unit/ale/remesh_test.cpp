@@ -205,6 +205,31 @@ TEST(AleRemesh, drag_is_that_of_a_frame_that_moves_along) {
   EXPECT_LT(spike, 0.002);
 }
 
+// A wall by its vertices, all of which move alike, is the rigid one.
+TEST(AleRemesh, knows_walls_by_their_vertices) {
+  auto spec = channel(2, 0.25);
+  spec.walls[0].surface.vertices = spec.walls[0].pose * spec.walls[0].surface.vertices;
+  spec.walls[0].pose = Isometry<2>::Identity();
+  Carried rigid(spec);
+  spec.walls[0].deforms = true;
+  spec.motions = {deforming_wall(spec.walls[0].surface)};
+  AleFlow flow(spec);
+  const AtVertices<2> start = spec.walls[0].surface.vertices;
+  AtVertices<2> velocity = AtVertices<2>::Zero(2, start.cols());
+  velocity.row(0).setOnes();
+  const double dt = 0.1;
+  double before = 0;
+  for (int k = 0; k < 40; ++k) {
+    rigid.step(dt, Twist<2>(1, 0, 0));
+    const AtVertices<2> now = start + (k + 1) * dt * velocity;
+    scenes::step(flow, dt, before, velocity.reshaped(), now.reshaped());
+    const double drag = rigid.flow.loads()[0].physical[0];
+    EXPECT_NEAR(flow.loads()[0].physical[0], drag, 1e-6 * std::abs(drag));
+  }
+  EXPECT_GE(flow.remeshings(), 1);
+  EXPECT_EQ(flow.remeshings(), rigid.flow.remeshings());
+}
+
 // A paddle: each half round is like the one before.
 TEST(AleRemesh, a_body_turns_ten_rounds) {
   AleFlowSpec spec{.density = 1, .viscosity = 0.1, .min = {-1, -1}, .max = {1, 1}};
