@@ -60,6 +60,7 @@ ale::AleFlowSpec ale_spec(const Scene& scene) {
   spec.far = fluid.far;
   spec.growth = fluid.growth;
   spec.extension = fluid.extension == "biharmonic" ? ale::ExtensionLaw::biharmonic : ale::ExtensionLaw::laplace;
+  spec.remesh = fluid.remesh == "automatic";
   spec.corner = fluid.corner;
   if (scene.gravity) spec.gravity = vec<2>(scene.gravity->acceleration);
   spec.scheme = scheme_of(fluid);

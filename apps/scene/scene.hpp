@@ -193,6 +193,7 @@ struct AleFluid {
   double tolerance = 1e-8;                    ///< of Newton's method, relative
   int max_iterations = 30;
   std::string extension = "laplace";  ///< of walls' motions to nodes: "laplace" | "biharmonic"
+  std::string remesh = "automatic";   ///< a new mesh where bodies have moved theirs too far: "automatic" | "never"
   /// The load on a body along an axis, whose error is told.
   struct Goal {
     std::string body, direction = "x";

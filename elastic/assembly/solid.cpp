@@ -10,10 +10,31 @@
 
 namespace splashdown::elastic {
 
+namespace {
+
+/// Each cell has the first material.
+template <int d>
+std::vector<int> of_one_part(const SolidMesh<d>& mesh) {
+  return std::vector<int>(mesh.cells.size(), 0);
+}
+
+}  // namespace
+
 template <int d>
 Solid<d>::Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double density)
-    : mesh_(std::move(mesh)), law_(std::move(law)), density_(density), length_(extent(mesh_)) {
-  if (!(density > 0)) throw std::invalid_argument("density must be positive");
+    : Solid(mesh, std::vector<Material<d>>{{std::move(law), density}}, of_one_part(mesh)) {}
+
+template <int d>
+Solid<d>::Solid(SolidMesh<d> mesh, std::vector<Material<d>> materials, std::vector<int> part)
+    : mesh_(std::move(mesh)), materials_(std::move(materials)), part_(std::move(part)), length_(extent(mesh_)) {
+  for (const auto& material : materials_) {
+    if (!(material.density > 0)) throw std::invalid_argument("density must be positive");
+    linear_ &= material.law->linear();
+  }
+  for (const int number : part_)
+    if (number < 0 || number >= static_cast<int>(materials_.size()))
+      throw std::invalid_argument("a cell has no material");
+  if (part_.size() != mesh_.cells.size()) throw std::invalid_argument("each cell has a material");
   held_.assign(static_cast<std::size_t>(d * mesh_.size()), false);
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
     for (const auto& point : rule<d>()) {
@@ -23,14 +44,16 @@ Solid<d>::Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double den
     }
   make_pattern();
   assemble_mass();
-  if (law_->linear())
-    assemble_stiffness([&](std::size_t, const Slopes&) { return law_->tangent(Mat<d>::Identity()); }, constant_);
+  if (linear_)
+    assemble_stiffness([&](std::size_t c, const Slopes&) { return law(c).tangent(Mat<d>::Identity()); }, constant_);
 }
 
 template <int d>
 std::pair<Solid<d>, std::vector<typename SplitCells<d>::At>> Solid<d>::divided() const {
   auto parts = split<d>(mesh_.nodes, mesh_.cells);
-  Solid fine(solid_mesh<d>(parts.nodes, std::move(parts.cells)), law_, density_);
+  std::vector<int> part;
+  for (const int number : part_) part.insert(part.end(), part_count<d>, number);
+  Solid fine(solid_mesh<d>(parts.nodes, std::move(parts.cells)), materials_, std::move(part));
   for (int a = 0; a < fine.mesh().size(); ++a) {
     const auto& [cell, at] = parts.places[static_cast<std::size_t>(a)];
     const auto N = shapes<d>(at);
@@ -123,9 +146,10 @@ void Solid<d>::assemble_mass() {
   const auto& points = rule<d>();
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
     Eigen::Matrix<double, cell_nodes<d>, cell_nodes<d>> m = decltype(m)::Zero();
+    const double density = materials_[static_cast<std::size_t>(part_[c])].density;
     for (std::size_t q = 0; q < points.size(); ++q) {
       const auto N = shapes<d>(points[q].at);
-      m += density_ * points_[c * points.size() + q].weight * N * N.transpose();
+      m += density * points_[c * points.size() + q].weight * N * N.transpose();
     }
     add_cell(c, mass_, [&](int a, int b) -> Mat<d> { return m(a, b) * Mat<d>::Identity(); });
   }
@@ -138,7 +162,7 @@ double Solid<d>::strain_energy(const Field& u) const {
   double sum = 0;
   const std::size_t n = rule<d>().size();
   for (std::size_t p = 0; p < points_.size(); ++p)
-    sum += points_[p].weight * law_->energy(gradient(u, p / n, points_[p].slopes));
+    sum += points_[p].weight * law(p / n).energy(gradient(u, p / n, points_[p].slopes));
   return sum;
 }
 
@@ -159,7 +183,7 @@ Field Solid<d>::force_of(const Stress& stress) const {
 template <int d>
 Field Solid<d>::internal_force(const Field& u) const {
   if (linear()) return constant_ * u;
-  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> { return law_->stress(gradient(u, c, slopes)); });
+  return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> { return law(c).stress(gradient(u, c, slopes)); });
 }
 
 template <int d>
@@ -167,8 +191,8 @@ Field Solid<d>::force_between(const Field& before, const Field& middle, double l
   if (linear()) return constant_ * (middle + 2 * lead * (middle - before));
   return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
     const Mat<d> F_before = gradient(before, c, slopes), F = gradient(middle, c, slopes);
-    Mat<d> S = law_->stress_between(F_before, F);
-    if (lead != 0) S += lead * law_->stress_change(F_before, F);
+    Mat<d> S = law(c).stress_between(F_before, F);
+    if (lead != 0) S += lead * law(c).stress_change(F_before, F);
     return F * S;
   });
 }
@@ -178,7 +202,7 @@ Field Solid<d>::turned_change(const Field& before, const Field& middle) const {
   if (linear()) return Field::Zero(this->size());
   return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
     const Mat<d> F_before = gradient(before, c, slopes), F = gradient(middle, c, slopes);
-    return (F - F_before) * law_->stress_change(F_before, F);
+    return (F - F_before) * law(c).stress_change(F_before, F);
   });
 }
 
@@ -186,7 +210,7 @@ template <int d>
 Field Solid<d>::carried_force(const Field& before, const Field& middle, const Field& now) const {
   if (linear()) return constant_ * middle;
   return force_of([&](std::size_t c, const Slopes& slopes) -> Mat<d> {
-    return gradient(now, c, slopes) * law_->stress_between(gradient(before, c, slopes), gradient(middle, c, slopes));
+    return gradient(now, c, slopes) * law(c).stress_between(gradient(before, c, slopes), gradient(middle, c, slopes));
   });
 }
 
@@ -199,8 +223,8 @@ double Solid<d>::strain_energy_between(const Field& before, const Field& middle)
     const auto& [slopes, weight] = points_[p];
     const Mat<d> F_before = gradient(before, p / n, slopes), F = gradient(middle, p / n, slopes);
     const Mat<d> rate = F.transpose() * (F - F_before);
-    sum += weight * (0.5 * (law_->energy(F_before) + law_->energy(2 * F - F_before)) -
-                     0.25 * law_->stress_change(F_before, F).cwiseProduct(rate).sum());
+    sum += weight * (0.5 * (law(p / n).energy(F_before) + law(p / n).energy(2 * F - F_before)) -
+                     0.25 * law(p / n).stress_change(F_before, F).cwiseProduct(rate).sum());
   }
   return sum;
 }
@@ -210,7 +234,7 @@ void Solid<d>::stiffness(const Field& u, Sparse& K) const {
   if (linear())
     K = constant_;
   else
-    assemble_stiffness([&](std::size_t c, const Slopes& slopes) { return law_->tangent(gradient(u, c, slopes)); }, K);
+    assemble_stiffness([&](std::size_t c, const Slopes& slopes) { return law(c).tangent(gradient(u, c, slopes)); }, K);
 }
 
 template <int d>
@@ -222,9 +246,9 @@ void Solid<d>::stiffness_between(const Field& before, const Field& middle, doubl
   }
   const auto tangent = [&](std::size_t c, const Slopes& slopes) {
     const Mat<d> F_before = gradient(before, c, slopes), F = gradient(middle, c, slopes);
-    const Mat<d> S = law_->stress_between(F_before, F) + lead * law_->stress_change(F_before, F);
-    const Mat<d> by_stress = S - more * law_->second_piola(F);
-    Tangent<d> A = more * law_->tangent(F);
+    const Mat<d> S = law(c).stress_between(F_before, F) + lead * law(c).stress_change(F_before, F);
+    const Mat<d> by_stress = S - more * law(c).second_piola(F);
+    Tangent<d> A = more * law(c).tangent(F);
     for (int J = 0; J < d; ++J)
       for (int L = 0; L < d; ++L)
         A.template block<d, d>(d * J, d * L).diagonal().array() += 0.5 * (by_stress(J, L) + by_stress(L, J));
@@ -373,7 +397,7 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
   StressPeak<d> most;
   const auto& points = rule<d>();
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    const double value = von_mises(law_->cauchy(gradient(u, p / points.size(), points_[p].slopes)));
+    const double value = von_mises(law(p / points.size()).cauchy(gradient(u, p / points.size(), points_[p].slopes)));
     if (!(value > most.value)) continue;
     most.value = value;
     most.cell = p / points.size();
@@ -385,7 +409,7 @@ StressPeak<d> Solid<d>::peak(const Field& u) const {
 
 template <int d>
 Mat<3> Solid<d>::stress_at_node(const Field& u, std::size_t cell, int k) const {
-  return law_->cauchy(gradient(u, cell, slopes_at(cell, node_place<d>(k))));
+  return law(cell).cauchy(gradient(u, cell, slopes_at(cell, node_place<d>(k))));
 }
 
 template <int d>
@@ -395,7 +419,7 @@ double Solid<d>::stress_error(const Field& u, const StressPeak<d>& peak) const {
   sums.fill(Mat<3>::Zero());
   std::array<int, cell_nodes<d>> counts{};
   for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-    for (int k = 0; k < cell_nodes<d>; ++k) {
+    for (int k = 0; k < cell_nodes<d> && part_[c] == part_[peak.cell]; ++k) {
       const auto found = std::ranges::find(own, mesh_.cells[c][static_cast<std::size_t>(k)]);
       if (found == own.end()) continue;
       const auto node = static_cast<std::size_t>(found - own.begin());
@@ -403,7 +427,7 @@ double Solid<d>::stress_error(const Field& u, const StressPeak<d>& peak) const {
       ++counts[node];
     }
   const auto N = shapes<d>(peak.in_cell);
-  Mat<3> difference = -law_->cauchy(gradient(u, peak.cell, slopes_at(peak.cell, peak.in_cell)));
+  Mat<3> difference = -law(peak.cell).cauchy(gradient(u, peak.cell, slopes_at(peak.cell, peak.in_cell)));
   for (std::size_t node = 0; node < own.size(); ++node)
     difference += N[static_cast<Eigen::Index>(node)] / counts[node] * sums[node];
   return von_mises(difference);
@@ -441,7 +465,7 @@ Mat<d> Solid<d>::strain(const Field& u, const Place<d>& place) const {
 template <int d>
 Mat<3> Solid<d>::stress(const Field& u, const Place<d>& place) const {
   const auto cell = static_cast<std::size_t>(place.cell);
-  return law_->cauchy(gradient(u, cell, slopes_at(cell, place.at)));
+  return law(cell).cauchy(gradient(u, cell, slopes_at(cell, place.at)));
 }
 
 template <int d>

@@ -33,20 +33,32 @@ struct StressPeak {
   Barycentric<d> in_cell = Barycentric<d>::Zero();
 };
 
-/// A mesh with a law and a density.
+/// What a part of a solid is made of.
+template <int d>
+struct Material {
+  std::shared_ptr<const Law<d>> law;
+  double density = 0;  ///< [kg/m^3]
+};
+
+/// A mesh with laws and densities.
 template <int d>
 class Solid final : public System {
  public:
   /// Throws std::invalid_argument unless the density is positive.
   Solid(SolidMesh<d> mesh, std::shared_ptr<const Law<d>> law, double density);
+  /// Of several materials: `part` is the number of each cell's. Throws std::invalid_argument unless all densities are
+  /// positive.
+  Solid(SolidMesh<d> mesh, std::vector<Material<d>> materials, std::vector<int> part);
 
   /// The same solid with each cell divided (core/simplices/split.hpp), and where its nodes lie in the cells before. Held are
   /// nodes where all fields that this solid can have are zero.
   std::pair<Solid, std::vector<typename SplitCells<d>::At>> divided() const;
   /// At rest.
   const SolidMesh<d>& mesh() const { return mesh_; }
-  /// The same everywhere.
-  const Law<d>& law() const { return *law_; }
+  /// Of a cell.
+  const Law<d>& law(std::size_t cell = 0) const { return *materials_[static_cast<std::size_t>(part_[cell])].law; }
+  /// The number of a cell's material.
+  int part(std::size_t cell) const { return part_[cell]; }
   const Sparse& mass() const override { return mass_; }
   Field internal_force(const Field& u) const override;
   /// The force of a step from `before` through `middle`: P = F_middle (S + lead dS), S of Law::stress_between and dS its change in
@@ -61,7 +73,7 @@ class Solid final : public System {
   /// (U_before + U_after)/2 - dS:dE/8 of such a step, U of the mean strain where psi is quadratic in E [J, J/m].
   double strain_energy_between(const Field& before, const Field& middle) const;
   void stiffness(const Field& u, Sparse& K) const override;
-  bool linear() const override { return law_->linear(); }
+  bool linear() const override { return linear_; }
   double strain_energy(const Field& u) const override;
   double length() const override { return length_; }
 
@@ -87,8 +99,8 @@ class Solid final : public System {
   double total_mass() const;                 ///< point masses included [kg, kg/m]
   Vec<d> centre(const Field& u) const;       ///< of mass [m]
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
-  /// Error of the elements there: von Mises norm of their stress minus the one that is the mean of elements at nodes and between
-  /// nodes as displacements are (Zienkiewicz & Zhu 1987) [Pa].
+  /// Error of the elements there: von Mises norm of their stress minus the one that is the mean of elements of the same
+  /// material at nodes, and between nodes as displacements are (Zienkiewicz & Zhu 1987) [Pa].
   double stress_error(const Field& u, const StressPeak<d>& peak) const;
   /// Green's strain (F^T F - 1)/2 at a point.
   Mat<d> strain(const Field& u, const Place<d>& place) const;
@@ -126,8 +138,10 @@ class Solid final : public System {
   void add_cell(std::size_t cell, Sparse& matrix, const Add& block) const;
 
   SolidMesh<d> mesh_;
-  std::shared_ptr<const Law<d>> law_;
-  double density_, length_;
+  std::vector<Material<d>> materials_;
+  std::vector<int> part_;  // of each cell
+  bool linear_ = true;
+  double length_;
   std::vector<std::pair<Place<d>, double>> point_masses_;
   std::vector<Point> points_;  // of all cells in turn
   Sparse mass_;

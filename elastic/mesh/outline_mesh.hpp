@@ -4,13 +4,15 @@
 
 #include <functional>
 
-#include "elastic/mesh/solid_mesh.hpp"
+#include "elastic/mesh/inner_lines.hpp"
 
 namespace splashdown::elastic {
 
-/// Edges of triangles are at most `size` long [m]. Throws MeshError for an outline that crosses itself.
-SolidMesh<2> outline_mesh(const Surface<2>& outline, double size);
+/// Edges of triangles are at most `size` long [m], and lie along `lines` where these are inside. Throws MeshError for an
+/// outline that crosses itself.
+SolidMesh<2> outline_mesh(const Surface<2>& outline, double size, const InnerLines& lines = {});
 /// The same where the longest edge is a function of the place, positive.
-SolidMesh<2> outline_mesh(const Surface<2>& outline, const std::function<double(const Vec<2>&)>& size);
+SolidMesh<2> outline_mesh(const Surface<2>& outline, const std::function<double(const Vec<2>&)>& size,
+                          const InnerLines& lines = {});
 
 }  // namespace splashdown::elastic

@@ -191,6 +191,27 @@ std::optional<Place<d>> locate(const SolidMesh<d>& mesh, const Vec<d>& point, do
   return best;
 }
 
+template <int d>
+double least_quality(const SolidMesh<d>& mesh) {
+  double least = 1;
+  for (const auto& cell : mesh.cells) least = std::min(least, mean_ratio<d>(mesh.nodes, cell));
+  return least;
+}
+
+template <int d>
+double longest_edge(const SolidMesh<d>& mesh) {
+  double longest = 0;
+  for (const auto& cell : mesh.cells)
+    for (int i = 1; i <= d; ++i)
+      for (int k = 0; k < i; ++k)
+        longest = std::max(longest, (mesh.nodes.col(cell[i]) - mesh.nodes.col(cell[k])).norm());
+  return longest;
+}
+
+template double least_quality<2>(const SolidMesh<2>&);
+template double least_quality<3>(const SolidMesh<3>&);
+template double longest_edge<2>(const SolidMesh<2>&);
+template double longest_edge<3>(const SolidMesh<3>&);
 template SolidMesh<2> solid_mesh<2>(const Points<2>&, std::vector<std::array<int, 6>>);
 template SolidMesh<3> solid_mesh<3>(const Points<3>&, std::vector<std::array<int, 10>>);
 template SolidMesh<2> quadratic_mesh<2>(const Points<2>&, const Simplices<2>&);

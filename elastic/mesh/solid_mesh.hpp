@@ -1,7 +1,9 @@
 // A solid as quadratic simplices at rest, and what may be wrong with one.
 #pragma once
 
+#include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -40,9 +42,9 @@ struct SolidMesh {
 template <int d>
 SolidMesh<d> quadratic_mesh(const Points<d>& corners, const Simplices<d>& simplices);
 
-/// The mesh of these cells: nodes of no cell are dropped, cells that are wound the other way are turned, the boundary is found.
-/// Throws MeshError unless it is one solid: each facet between two cells at most, cells connected through facets, no cell
-/// folded or flat.
+/// The mesh of these cells: nodes of no cell are dropped, cells that are wound the other way are turned, the boundary is
+/// found. Throws MeshError unless it is one solid: each facet between two cells at most, cells connected through facets, no
+/// cell folded or flat.
 template <int d>
 SolidMesh<d> solid_mesh(const Points<d>& nodes, std::vector<std::array<int, cell_nodes<d>>> cells);
 
@@ -63,6 +65,25 @@ Place<d> in_divided(const Place<d>& place) {
 /// The cell where a point of the body at rest lies, within `near` of its surface [m]; nothing: it is outside.
 template <int d>
 std::optional<Place<d>> locate(const SolidMesh<d>& mesh, const Vec<d>& point, double near);
+
+/// Shape of a straight simplex: d (d! V)^(2/d) (d + 1)/sum of its squared edges over that of a regular one (Liu, Joe 1994);
+/// 1: it is regular, 0: flat. `cell` begins with its corners.
+template <int d, std::size_t n>
+double mean_ratio(const Points<d>& nodes, const std::array<int, n>& cell) {
+  Mat<d> sides;
+  for (int i = 0; i < d; ++i) sides.col(i) = nodes.col(cell[static_cast<std::size_t>(i) + 1]) - nodes.col(cell[0]);
+  double squares = sides.squaredNorm();
+  for (int i = 0; i < d; ++i)
+    for (int k = 0; k < i; ++k) squares += (sides.col(i) - sides.col(k)).squaredNorm();
+  const double regular = d == 2 ? 2 * std::sqrt(3.) : 6 * std::cbrt(4.);  // sum of squares over |det|^(2/d)
+  return regular * std::pow(std::abs(sides.determinant()), 2. / d) / squares;
+}
+/// The least of all cells, by their corners.
+template <int d>
+double least_quality(const SolidMesh<d>& mesh);
+/// Longest straight edge of all cells [m].
+template <int d>
+double longest_edge(const SolidMesh<d>& mesh);
 
 /// Longest edge of the box around the nodes [m].
 template <int d>

@@ -36,20 +36,19 @@ MeshSpec mesh_spec(const AleFlowSpec& spec) {
 
 AleFlow::AleFlow(AleFlowSpec spec)
     : spec_(std::move(spec)),
-      mesh_(flow_mesh(mesh_spec(spec_))),
+      lines_(divided_lines(mesh_spec(spec_))),
+      mesh_(flow_mesh(mesh_spec(spec_), lines_)),
       equations_(mesh_, spec_.density, spec_.viscosity, open_sides(spec_)),
-      extension_(mesh_, spec_.extension),
+      extension_(std::make_unique<Extension>(mesh_, spec_.extension)),
+      quality_(mesh_),
       given_({}) {
-  place_walls();
+  first_size_ = mesh_.size();
+  place_walls(mesh_.nodes);
+  first_placements();
   given_ = GivenUnknowns(given_unknowns(spec_, mesh_, equations_));
   x_ = mesh_.nodes;
   start();
-  pieces_ = straight_pieces(mesh_.cells);
-  for (const auto& edge : mesh_.boundary)
-    if (edge.wall >= 0) {
-      boundary_.push_back({{edge.nodes[0], edge.nodes[2]}, edge.wall});
-      boundary_.push_back({{edge.nodes[2], edge.nodes[1]}, edge.wall});
-    }
+  look_at_mesh();
   loads_.resize(spec_.walls.size());
   ledger_.kinetic_energy = equations_.kinetic_energy(x_, state_.velocity);
   ledger_.potential_energy = potential_energy(x_);
@@ -57,9 +56,10 @@ AleFlow::AleFlow(AleFlowSpec spec)
   look();
 }
 
-/// Nodes that two walls share belong to the first of them.
-void AleFlow::place_walls() {
+/// Nodes of walls and what moves them, by where they were at t = 0. Nodes that two walls share belong to the first of them.
+void AleFlow::place_walls(const Nodes& at_start) {
   wall_of_.assign(static_cast<std::size_t>(mesh_.size()), -1);
+  moved_.clear();
   moved_.resize(spec_.walls.size());
   for (const auto& edge : mesh_.boundary)
     for (const int a : edge.nodes) {
@@ -72,17 +72,28 @@ void AleFlow::place_walls() {
   Eigen::Index first = 0;
   for (std::size_t w = 0; w < moved_.size(); ++w) {
     auto& wall = moved_[w];
-    const auto& spec = spec_.walls[w];
-    const auto make = w < spec_.motions.size() && spec_.motions[w] ? spec_.motions[w] : rigid_wall(spec.pose);
-    wall.motion = make(mesh_.nodes(Eigen::all, wall.nodes));
+    wall.motion = motion_of(w, at_start(Eigen::all, wall.nodes));
     wall.first = first;
     first += wall.motion->coordinates();
-    state_.placements.push_back(wall.motion->first());
-    wall.numbers = state_.placements.back().size();
-    Eigen::VectorXd rates = Eigen::VectorXd::Zero(wall.motion->coordinates());
+    wall.numbers = wall.motion->first().size();
+  }
+}
+
+std::unique_ptr<MovingWall> AleFlow::motion_of(std::size_t wall, const Nodes& at_start) const {
+  const auto make =
+      wall < spec_.motions.size() && spec_.motions[wall] ? spec_.motions[wall] : rigid_wall(spec_.walls[wall].pose);
+  return make(at_start);
+}
+
+void AleFlow::first_placements() {
+  for (std::size_t w = 0; w < moved_.size(); ++w) {
+    const auto& spec = spec_.walls[w];
+    state_.placements.push_back(moved_[w].motion->first());
+    Eigen::VectorXd rates = Eigen::VectorXd::Zero(moved_[w].motion->coordinates());
     if (rates.size() == spec.velocity.size()) rates = spec.velocity;
     state_.rates.push_back(std::move(rates));
   }
+  made_at_ = state_.placements;
 }
 
 std::vector<char> AleFlow::given_unknowns(const AleFlowSpec& spec, const FlowMesh& mesh,
@@ -153,14 +164,14 @@ Nodes AleFlow::places_of(const std::vector<Eigen::VectorXd>& placements) const {
   Nodes d = Nodes::Zero(2, mesh_.size());
   for (std::size_t w = 0; w < moved_.size(); ++w) {
     const auto& wall = moved_[w];
-    if (placements[w] == wall.motion->first()) continue;
+    if (placements[w] == made_at_[w]) continue;
     const Nodes places = wall.motion->positions(placements[w]);
     for (std::size_t k = 0; k < wall.nodes.size(); ++k)
       d.col(wall.nodes[k]) = places.col(static_cast<Eigen::Index>(k)) - mesh_.nodes.col(wall.nodes[k]);
     moves = true;
   }
   if (!moves) return mesh_.nodes;
-  extension_.extend(d);
+  extension_->extend(d);
   return mesh_.nodes + d;
 }
 
@@ -244,7 +255,7 @@ void AleFlow::move_walls(const Eigen::VectorXd& rates) {
       fields_.mesh_velocity.col(a) = fields_.theta * walls.col(a) + (1 - fields_.theta) * state_.velocity.col(a);
   if (fields_.mesh_velocity.isZero(0)) return;
   const Stopwatch watch(mesh_seconds_);
-  extension_.extend(fields_.mesh_velocity);
+  extension_->extend(fields_.mesh_velocity);
 }
 
 Status AleFlow::acceptable() const {
@@ -257,6 +268,7 @@ Status AleFlow::acceptable() const {
     moves = true;
   }
   if (!moves || equations_.least_stretch(places_of(placements)) > least_allowed) return {};
+  if (spec_.remesh) return {"the mesh of the fluid folds within a step; use a smaller time.dt_max"};
   if (spec_.extension == ExtensionLaw::laplace)
     return {"the mesh of the fluid folds where bodies have moved it; use fluid.ale.extension = \"biharmonic\""};
   return {
@@ -287,6 +299,7 @@ void AleFlow::commit(const Eigen::VectorXd& placements) {
   is_begun_ = is_solved_ = false;
   x_ = places_of(state_.placements);
   book_energy(fields_.x);
+  if (is_mesh_worn()) remesh();
   look();
 }
 

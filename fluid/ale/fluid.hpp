@@ -20,6 +20,9 @@
 #include "core/status.hpp"
 #include "fluid/ale/equations/free_system.hpp"
 #include "fluid/ale/mesh/extension.hpp"
+#include "fluid/ale/mesh/hull_line.hpp"
+#include "fluid/ale/mesh/mesh_quality.hpp"
+#include "fluid/ale/mesh/moved_mesh.hpp"
 #include "fluid/ale/spec.hpp"
 
 namespace splashdown::ale {
@@ -40,7 +43,8 @@ class AleFlow final : public FluidView<2> {
   explicit AleFlow(AleFlowSpec spec);
 
   const AleFlowSpec& spec() const { return spec_; }  ///< what it was made from
-  const FlowMesh& mesh() const { return mesh_; }     ///< as it was made
+  const FlowMesh& mesh() const { return mesh_; }     ///< the newest, as it was made
+  long remeshings() const { return remeshings_; }    ///< how often that has been so far
   double time() const { return time_; }              ///< t_n [s]
   /// How many coordinates the first so many walls have together.
   Eigen::Index coordinates(std::size_t walls) const;
@@ -141,8 +145,19 @@ class AleFlow final : public FluidView<2> {
     const NextAmplitudes& next;
   };
 
-  void place_walls();
+  void place_walls(const Nodes& at_start);
+  void first_placements();
   void start();
+  void look_at_mesh();
+  std::unique_ptr<MovingWall> motion_of(std::size_t wall, const Nodes& at_start) const;
+  Nodes places_on(const std::vector<Eigen::VectorXd>& placements, std::span<const int> walls,
+                  const Nodes& at_start) const;
+  void adopt(FlowMesh mesh, const Nodes& at_start, std::vector<Eigen::VectorXd> placements);
+  MovedMesh mesh_around(const std::vector<Eigen::VectorXd>& placements) const;
+  bool is_mesh_worn() const;
+  void remesh();
+  void transfer(const FlowMesh& old, const Nodes& places_then, const Nodes& places_now);
+  Nodes projected(const Nodes& places, const std::function<Vec<2>(const Vec<2>&)>& field, double time) const;
   static std::vector<char> given_unknowns(const AleFlowSpec& spec, const FlowMesh& mesh,
                                           const FlowEquations& equations);
   static void give_sides(const AleFlowSpec& spec, const FlowMesh& mesh, const FlowEquations& equations, double time,
@@ -159,6 +174,7 @@ class AleFlow final : public FluidView<2> {
   Eigen::VectorXd correct(const WithModes& bodies, const Eigen::VectorXd& residual, Eigen::VectorXd& change);
   void find_answers(const FactoredSlope& tangent, Answers& answers) const;
   const Answers& answers_to(const Eigen::MatrixXd& modes);
+  void load_mesh(std::istream& in, double remeshings);
   void load_answers(std::istream& in, double rows, double columns, double kick);
   void find_loads();
   void add_buoyancy(Eigen::VectorXd& loads) const;
@@ -171,9 +187,15 @@ class AleFlow final : public FluidView<2> {
   void look();
 
   AleFlowSpec spec_;
+  std::vector<HullLine> lines_;  // at t = 0
   FlowMesh mesh_;
   FlowEquations equations_;
-  Extension extension_;
+  std::unique_ptr<Extension> extension_;
+  MeshQuality quality_;
+  std::vector<Eigen::VectorXd> made_at_;  // placements of walls that the mesh was made around
+  long remeshings_ = 0;
+  int first_size_ = 0;             // nodes of the first mesh
+  double momentum_of_remesh_ = 0;  // that new meshes have changed, summed
   std::vector<WallInMesh> moved_;
   std::vector<char> wall_node_;
   std::vector<int> wall_of_;  // of each node, -1: none

@@ -54,6 +54,7 @@ struct AleFlowSpec {
   double far = 0.1, growth = 0.15, corner = 1;     ///< MeshSpec
   std::function<double(const Vec<2>&)> size = {};  ///< MeshSpec
   ExtensionLaw extension = ExtensionLaw::laplace;  ///< how nodes follow walls
+  bool remesh = true;                              ///< a new mesh where bodies have moved theirs too far
   Vec<2> gravity = Vec<2>::Zero();                 ///< [m/s^2]
   FlowField force = {};                            ///< besides it, per mass [m/s^2]; empty: none
   FlowField start = {};                            ///< velocity at t = 0; empty: at rest

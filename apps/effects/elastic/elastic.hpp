@@ -11,11 +11,13 @@
 
 namespace splashdown::apps {
 
-/// A part of a body, held or loaded: what a disc around `centre`, or the box between `min` and `max`, covers; shape's frame.
+/// A part of a body, held, loaded or of its own material: what a disc around `centre`, the box between `min` and `max`, or in the
+/// plane a polygon covers; shape's frame.
 struct ElasticRegion {
   std::optional<Point> centre;
   std::optional<double> radius;
   std::optional<Point> min, max;
+  std::vector<Point> points;
 };
 
 struct ElasticClamp : ElasticRegion {
@@ -64,16 +66,28 @@ struct ElasticPly {
   Point normal = Point::UnitZ();       ///< the same; of plane scenes z
 };
 
-struct ElasticTable {
-  std::size_t body = 0;
-  std::string path;                         ///< of the table in messages
+/// What a body or a part of it is made of.
+struct ElasticMaterial {
   std::string law = "st_venant_kirchhoff";  ///< of `elastic_laws`
   double young_modulus = 0;                 ///< [Pa]
   double poisson_ratio = 0;                 ///< -1 to 1/2
   ElasticPly ply;                           ///< of law = "orthotropic"
-  double size = 0;        ///< of elements [m], divided by Body::refine; of a mesh from a file what it is
-  std::string mesh_file;  ///< of Gmsh, absolute; empty: the shape is meshed
-  double mesh_scale = 1;  ///< metres per unit of the file
+};
+
+/// A part of a body that is made of something else.
+struct ElasticPart : ElasticMaterial {
+  std::string name, path;  ///< path of its table in messages
+  ElasticRegion region;
+  std::optional<double> density;  ///< [kg/m^3]; empty: the body's
+};
+
+struct ElasticTable : ElasticMaterial {
+  std::size_t body = 0;
+  std::string path;                ///< of the table in messages
+  std::vector<ElasticPart> parts;  ///< later ones go before earlier ones
+  double size = 0;                 ///< of elements [m], divided by Body::refine; of a mesh from a file what it is
+  std::string mesh_file;           ///< of Gmsh, absolute; empty: the shape is meshed
+  double mesh_scale = 1;           ///< metres per unit of the file
   std::string scheme = "generalised_alpha";  ///< of `elastic_schemes`
   double spectral_radius = 0.9;  ///< of generalised_alpha: five periods resolved by ten steps lose 1 % of a mode
   double shift = 1;              ///< of shifted_crank_nicolson [1/s]

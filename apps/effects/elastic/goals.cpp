@@ -72,8 +72,9 @@ elastic::SolidMesh<d> goal_mesh(const Scene& scene, const ElasticTable& table) {
       JointShares together(mesh.cells.size());
       for (const auto& goal : goals) together.add(elastic::goal_error<2>(goal, *solid, u, load).by_cell);
       const auto size = refined_size(mesh.nodes, mesh.cells, together.all(), refined_share);
-      mesh = elastic::outline_mesh(shape_of<2>(body.shape).surface,
-                                   [&](const Vec<2>& x) { return std::min(table.size, size(x)); });
+      mesh = elastic::outline_mesh(
+          shape_of<2>(body.shape).surface, [&](const Vec<2>& x) { return std::min(table.size, size(x)); },
+          lines_of(table));
     }
   }
   return mesh;

@@ -29,22 +29,26 @@ void read_ply(Reader& reader, ElasticPly& ply, int dimension) {
     problems.add(reader.key("normal"), "must be across the fibres", "Use e.g. [0.0, 0.0, 1.0].");
 }
 
-void read_law(Reader& reader, ElasticTable& table, int dimension) {
-  reader.choice("law", table.law, elastic_laws());
-  if (table.law == "orthotropic") {
-    if (auto ply = reader.table("ply", Need::required)) read_ply(*ply, table.ply, dimension);
-    const std::string rule = "an orthotropic law has its moduli in [body.elastic.ply]", cure = "Remove it.";
+/// `given`: what the law already has, so that nothing has to be repeated.
+void read_law(Reader& reader, ElasticMaterial& material, int dimension, const ElasticMaterial* given = nullptr) {
+  reader.choice("law", material.law, elastic_laws());
+  const bool is_ply = material.law == "orthotropic";
+  const bool known = given && (given->law == "orthotropic") == is_ply;
+  const Need need = known ? Need::optional : Need::required;
+  if (is_ply) {
+    if (auto ply = reader.table("ply", need)) read_ply(*ply, material.ply, dimension);
+    const std::string rule = "an orthotropic law has its moduli in ply", cure = "Remove it.";
     reader.refuse("young_modulus", rule, cure);
     reader.refuse("poisson_ratio", rule, cure);
     return;
   }
   reader.refuse("ply", "only law = \"orthotropic\" has plies", "Remove it, or change the law.");
-  reader.number("young_modulus", table.young_modulus, positive("Pa", "Use e.g. 70e9 for aluminium, 1e6 for rubber."),
-                Need::required);
+  reader.number("young_modulus", material.young_modulus, positive("Pa", "Use e.g. 70e9 for aluminium, 1e6 for rubber."),
+                need);
   const std::string cure = "Use e.g. 0.33 for aluminium, 0.49 for rubber.";
-  reader.number("poisson_ratio", table.poisson_ratio, within(-1, 0.5, "", cure), Need::required);
+  reader.number("poisson_ratio", material.poisson_ratio, within(-1, 0.5, "", cure), need);
   auto& problems = reader.context().problems;
-  const double nu = table.poisson_ratio;
+  const double nu = material.poisson_ratio;
   if (!problems.found_in(reader.key("poisson_ratio")) && (nu == -1 || nu == 0.5))
     problems.add(reader.key("poisson_ratio"),
                  nu == 0.5 ? "must be below 0.5: what does not change its volume has no finite bulk modulus"
@@ -53,15 +57,14 @@ void read_law(Reader& reader, ElasticTable& table, int dimension) {
 }
 
 void read_mesh(Reader& reader, ElasticTable& table, double& refine, int dimension) {
-  const bool needs_file = dimension == 3, sketch = reader.context().sketch != nullptr;
-  auto mesh = reader.table("mesh", needs_file ? Need::required : Need::optional,
-                           "Add mesh = {file = \"body.msh\"}: a solid in space is meshed with Gmsh.");
+  const bool sketch = reader.context().sketch != nullptr;
+  auto mesh = reader.table("mesh", Need::optional);
   if (mesh) {
     mesh->file("file", table.mesh_file, "Name a .msh file of Gmsh; relative names begin at the folder of the scene.");
     mesh->number("scale", table.mesh_scale,
                  positive("", "Use metres per unit of the file: 0.001 if it is in millimetres."));
   }
-  if (needs_file || (mesh && !sketch)) {
+  if (mesh && !sketch) {
     for (const char* key : {"size", "refine", "adapt"})
       reader.refuse(key, "the elements are those of the mesh", "Remove it, or the mesh.");
     return;
@@ -69,7 +72,10 @@ void read_mesh(Reader& reader, ElasticTable& table, double& refine, int dimensio
   refine = reader.divisor("refine", within(0.01, 100, "", "Use e.g. 2 for elements of half the size."), presets);
   reader.number("size", table.size, refined(positive("m", "Use half of the thinnest part, e.g. 0.01."), refine),
                 sketch ? Need::optional : Need::required);
-  reader.integer("adapt", table.adapt, within(0, 20, "", "Use e.g. 5: the mesh is refined so often for the goals."));
+  if (dimension == 3)
+    reader.refuse("adapt", "meshes in space are not refined for goals", "Remove it, or use a smaller size.");
+  else
+    reader.integer("adapt", table.adapt, within(0, 20, "", "Use e.g. 5: the mesh is refined so often for the goals."));
 }
 
 void read_scheme(Reader& reader, ElasticTable& table) {
@@ -89,19 +95,40 @@ void read_scheme(Reader& reader, ElasticTable& table) {
                   not_negative("s", "Use twice the damping ratio of a mode over its w."));
 }
 
-/// `act`: what of the region, "held" or "loaded".
-void read_region(Reader& reader, ElasticRegion& region, int dimension, const std::string& act) {
+/// `act`: what of the region, "held" or "loaded"; `polygons`: whether one may be given.
+void read_region(Reader& reader, ElasticRegion& region, int dimension, const std::string& act, bool polygons = false) {
   const Rule place = place_rule(dimension);
   reader.point("centre", region.centre, place);
   reader.number("radius", region.radius, positive("m", "Use e.g. the radius of a bolt or of a piezo."));
   reader.point("min", region.min, place);
   reader.point("max", region.max, place);
+  std::vector<std::vector<double>> corners;
+  if (polygons) reader.rows("points", corners, 2, place);
+  for (const auto& corner : corners) region.points.emplace_back(corner[0], corner[1], 0);
   auto& problems = reader.context().problems;
   if (reader.context().sketch || problems.found_in(reader.path())) return;
+  const bool has_any = region.centre || region.radius || region.min || region.max;
+  constexpr std::size_t fewest = 3;
+  if (!has_any && region.points.size() >= fewest) return;
+  if (!region.points.empty() && !has_any)
+    return problems.add(reader.key("points"), "must be three at least", "Give the corners of a polygon in turn.");
+  if (!region.points.empty())
+    return problems.add(reader.path(), "has more than one region", "Use points, centre and radius, or min and max.");
   if ((region.centre && region.radius && !region.min && !region.max) ||
       (region.min && region.max && !region.centre && !region.radius))
     return;
   problems.add(reader.path(), "says not what is " + act, "Use centre and radius, or min and max.");
+}
+
+void read_part(Reader& reader, ElasticTable& table, int dimension) {
+  ElasticPart part;
+  static_cast<ElasticMaterial&>(part) = table;
+  part.path = reader.path();
+  read_name(reader, part.name, "frame");
+  read_law(reader, part, dimension, &table);
+  reader.number("density", part.density, positive("kg/m3", "Use e.g. 1600 for carbon fibre, 60 for foam."));
+  read_region(reader, part.region, dimension, "meant", dimension == 2);
+  table.parts.push_back(std::move(part));
 }
 
 void read_clamp(Reader& reader, ElasticClamp& clamp, int dimension) {
@@ -184,6 +211,7 @@ void ElasticKind::read(Reader& reader, Scene& scene) const {
   scene.bodies.back().deforms = true;
   table.path = reader.path();
   read_law(reader, table, dimension);
+  reader.each_table("part", [&](Reader& part) { read_part(part, table, dimension); });
   read_mesh(reader, table, scene.bodies.back().refine, dimension);
   read_scheme(reader, table);
   reader.each_table("clamp", [&](Reader& clamp) { read_clamp(clamp, table.clamps.emplace_back(), dimension); });

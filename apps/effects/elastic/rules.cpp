@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -15,7 +14,7 @@
 #include "apps/effects/gravity/gravity.hpp"
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/rules/problems.hpp"
-#include "elastic/modes/modes.hpp"
+#include "elastic/mesh/thickness.hpp"
 
 namespace splashdown::apps {
 namespace {
@@ -128,19 +127,45 @@ void check_goals(const Scene& scene, const ElasticTable& table, int unknowns, Pr
 }
 
 template <int d>
+void check_parts(const Body& body, const ElasticTable& table, const elastic::SolidMesh<d>& mesh, Problems& problems) {
+  const auto numbers = parts_of<d>(table, mesh);
+  std::set<std::string> names;
+  for (std::size_t p = 0; p < table.parts.size(); ++p) {
+    const auto& part = table.parts[p];
+    if (std::ranges::find(numbers, static_cast<int>(p) + 1) == numbers.end())
+      problems.add(part.path, "covers no element's middle, or later parts cover all of them",
+                   "Move or enlarge it (shape's frame), or use smaller elements.");
+    if (!names.insert(part.name).second)
+      problems.add(part.path + ".name", "is taken by another part", "Give every part its own name.");
+    if (part.density && body.mass)
+      problems.add(part.path + ".density", "has no meaning beside the mass of the whole body",
+                   "Give the body a density in place of its mass.");
+  }
+}
+
+template <int d>
 void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problems) {
   const auto& body = scene.bodies[table.body];
   const auto label = label_of(table);
   const auto box = extents<d>(shape_of<d>(body.shape).surface);
   const bool from_file = !table.mesh_file.empty();
   const std::string key = table.path + (from_file ? ".mesh" : ".size");
-  const double elements = box.volume() / std::pow(table.size, d) * 2;
+  double elements = box.volume() / std::pow(table.size, d) * 2;
   if (!from_file && table.size > box.sizes().maxCoeff())
     return problems.add(key, fmt::format("must not exceed the body's extent of {:g} m", box.sizes().maxCoeff()),
                         "Use half of its thinnest part.");
+  std::string cure = "Use larger elements.";
+  if constexpr (d == 3)
+    if (!from_file) {
+      const auto told = elastic::forecast(shape_of<3>(body.shape).surface, table.size);
+      elements = told.elements;
+      if (told.thin < table.size)
+        cure = fmt::format("Parts of {:.2g} m get elements as small: make them thicker, or give a mesh of Gmsh.",
+                           told.thin);
+    }
   if (!from_file && elements > most_elements)
     return problems.add(key, fmt::format("makes about {:.1g} elements, {:g} are the most", elements, most_elements),
-                        "Use larger elements.");
+                        cure);
   elastic::SolidMesh<d> mesh;
   try {
     mesh = solid_mesh<d>(body, table);
@@ -153,12 +178,14 @@ void check_mesh(const Scene& scene, const ElasticTable& table, Problems& problem
                     (drawn.max() - box.max()).cwiseAbs().maxCoeff() > same * box.sizes().maxCoeff()))
     return problems.add(key, fmt::format("the mesh spans {} m, the shape {} m", text<d>(drawn), text<d>(box)),
                         "Draw both in the same frame; mesh.scale is metres per unit of the file.");
+  check_parts<d>(body, table, mesh, problems);
   check_clamps<d>(scene, table, mesh, problems);
   check_patches<d>(table, mesh, problems);
   check_goals(scene, table, d * mesh.size(), problems);
   const auto lies_in = [&](const Point& point) { return place_in<d>(mesh, point).has_value(); };
   check_forces(scene, table, lies_in, problems);
-  const std::string rule = "is not in the body", cure = "Move it into the undeformed body, in the shape's frame.";
+  const std::string rule = "is not in the body";
+  cure = "Move it into the undeformed body, in the shape's frame.";
   for (std::size_t k = 0; k < table.point_masses.size(); ++k)
     if (!lies_in(table.point_masses[k].point))
       problems.add(fmt::format("{}.point_mass[{}].point", table.path, k), rule, cure);
@@ -172,28 +199,21 @@ void check_table(const Scene& scene, const ElasticTable& table, Problems& proble
   const auto label = label_of(table);
   check_body_keys(body, label, problems);
   if (problems.found_in(table.path) || problems.found_in(label + ".shape")) return;
+  std::string path = table.path;
+  const ElasticMaterial* material = &table;
   try {
     solid_law<d>(body, table);
+    for (const auto& part : table.parts) {
+      path = part.path;
+      material = &part;
+      solid_law<d>(body, part);
+    }
     shape_of<d>(body.shape);
   } catch (const std::invalid_argument& error) {
-    if (table.law == "orthotropic") problems.add(table.path + ".ply", error.what(), "Use measured moduli of one ply.");
+    if (material->law == "orthotropic") problems.add(path + ".ply", error.what(), "Use measured moduli of one ply.");
     return;  // of the shape its own check speaks
   }
   check_mesh<d>(scene, table, problems);
-}
-
-/// Natural frequencies at rest [Hz].
-template <int d>
-std::string frequencies_of(const Scene& scene, const ElasticTable& table) {
-  const auto solid = make_solid<d>(scene.bodies[table.body], table);
-  const auto nodes = fmt::format("{} nodes{}", solid->mesh().size(),
-                                 table.adapt > 0 ? fmt::format(" before it is refined {} times", table.adapt) : "");
-  if (table.modes == 0) return nodes;
-  const auto modes = elastic::lowest_modes(*solid, table.modes, elastic::Field::Zero(solid->size()));
-  std::string list;
-  for (const double w : modes.angular_frequencies)
-    list += fmt::format("{}{:.5g}", list.empty() ? "" : ", ", w / (2 * std::numbers::pi));
-  return nodes + (modes.status.ok() ? "" : ", " + modes.status.cause) + "; natural frequencies " + list + " Hz";
 }
 
 }  // namespace
@@ -228,26 +248,25 @@ std::vector<NamedNumber> ElasticKind::numbers(const Scene& scene) const {
 
 void ElasticKind::ask(const AskedScene& asked, std::vector<std::string>& questions) const {
   const auto* tables = asked.scene.effects.find<ElasticTables>();
-  if (!tables || !asked.scene.has_fluid()) return;
-  constexpr double coarse = 4;  // parts of a facet in which loads vary, but pressures do not
+  if (!tables) return;
   for (const auto& table : tables->of_bodies) {
     const auto& body = asked.scene.bodies[table.body];
-    if (table.size > 0 && body.size > coarse * table.size)
+    constexpr double coarse = 4;  // parts of a facet in which loads vary, but pressures do not
+    if (asked.scene.has_fluid() && table.size > 0 && body.size > coarse * table.size)
       questions.push_back(fmt::format(
           "{}.size = {:g} m: the water's elements are {:.2g} times those of the body that bends, {:g} m: did you mean "
           "{:.2g}? Loads would know nothing of what the body's elements resolve",
           label_of(table), body.size, body.size / table.size, table.size, table.size));
+    if (asked.scene.dimension != 3 || !table.mesh_file.empty() || !(table.size > 0)) continue;
+    constexpr double thick = 4;  // a slip of units or of a digit is more
+    const auto told = elastic::forecast(shape_of<3>(body.shape).surface, table.size);
+    if (table.size > thick * told.thin)
+      questions.push_back(
+          fmt::format("{}.size = {:g} m is {:.2g} times the thickness of parts of the shape, {:.2g} m: did you mean "
+                      "{:.2g}? Elements are "
+                      "as small there all the same, about {:.1g} of them in all",
+                      table.path, table.size, table.size / told.thin, told.thin, told.thin / 2, told.elements));
   }
-}
-
-std::optional<EffectNote> ElasticKind::note(const Scene& scene, const Scales&) const {
-  const auto* tables = scene.effects.find<ElasticTables>();
-  if (!tables) return {};
-  std::string reason;
-  for (const auto& table : tables->of_bodies)
-    reason += fmt::format("{}{}: {}", reason.empty() ? "" : "; ", scene.bodies[table.body].name,
-                          scene.dimension == 2 ? frequencies_of<2>(scene, table) : frequencies_of<3>(scene, table));
-  return EffectNote{"elastic", true, reason};
 }
 
 }  // namespace splashdown::apps

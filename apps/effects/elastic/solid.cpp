@@ -7,8 +7,6 @@
 #include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/named.hpp"
 #include "elastic/mesh/boundary.hpp"
-#include "elastic/mesh/gmsh_file.hpp"
-#include "elastic/mesh/outline_mesh.hpp"
 #include "elastic/participant.hpp"
 #include "rigid/forces/curve.hpp"
 
@@ -126,9 +124,10 @@ std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTab
                                               const elastic::SolidMesh<d>& mesh) {
   auto placed = in_world<d>(body, mesh);
   const auto properties = mass_properties<d>(body);
-  const double volume = rigid::mass_properties<d>(shape_of<d>(body.shape).surface).mass;
-  auto solid =
-      std::make_unique<elastic::Solid<d>>(std::move(placed), solid_law<d>(body, table), properties.mass / volume);
+  const double density = properties.mass / meshed_volume<d>(body, table, mesh);
+  std::vector<elastic::Material<d>> materials{{solid_law<d>(body, table), density}};
+  for (const auto& part : table.parts) materials.push_back({solid_law<d>(body, part), part.density.value_or(density)});
+  auto solid = std::make_unique<elastic::Solid<d>>(std::move(placed), std::move(materials), parts_of<d>(table, mesh));
   const double roundoff = 1e-9 * elastic::extent(mesh);
   for (int a = 0; a < mesh.size(); ++a)
     for (const auto& clamp : table.clamps)
@@ -151,31 +150,11 @@ bool holds(const ElasticClamp& clamp, int axis) {
   return clamp.axes.empty() || std::ranges::find(clamp.axes, std::string(1, "xyz"[axis])) != clamp.axes.end();
 }
 
-bool covers(const ElasticRegion& clamp, const Point& point, double roundoff) {
-  if (clamp.centre) return (point - *clamp.centre).norm() <= *clamp.radius + roundoff;
-  return ((point - *clamp.min).array() >= -roundoff).all() && ((*clamp.max - point).array() >= -roundoff).all();
-}
-
 template <int d>
-std::optional<elastic::Place<d>> place_in(const elastic::SolidMesh<d>& mesh, const Point& point) {
-  constexpr double near = 1e-3;  // of the extent: chords of curved outlines
-  return elastic::locate<d>(mesh, vec<d>(point), near * elastic::extent(mesh));
-}
-
-template <int d>
-elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table) {
-  if (!table.mesh_file.empty()) return elastic::read_gmsh<d>(table.mesh_file, table.mesh_scale);
-  if constexpr (d == 2)
-    return elastic::outline_mesh(shape_of<2>(body.shape).surface, table.size);
-  else
-    throw elastic::MeshError("a solid in space has no mesh", "Add mesh = {file = \"body.msh\"}.");
-}
-
-template <int d>
-std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticTable& table) {
+std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticMaterial& material) {
   for (const auto& row : law_rows<d>())
-    if (row.name == table.law) return row.make({table.young_modulus, table.poisson_ratio});
-  const auto& [E, nu, G, fibres, normal] = table.ply;
+    if (row.name == material.law) return row.make({material.young_modulus, material.poisson_ratio});
+  const auto& [E, nu, G, fibres, normal] = material.ply;
   elastic::Orthotropic moduli{.E1 = E.at(0),
                               .E2 = E.at(1),
                               .E3 = E.at(2),
@@ -187,7 +166,7 @@ std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const Elastic
                               .G23 = G.at(2)};
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<d, d>() = shape_pose<d>(body).linear();
-  moduli.axes = turn * axes_of(table.ply);
+  moduli.axes = turn * axes_of(material.ply);
   return elastic::orthotropic<d>(moduli);
 }
 
@@ -229,12 +208,8 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
   return specs;
 }
 
-template elastic::SolidMesh<2> solid_mesh<2>(const Body&, const ElasticTable&);
-template elastic::SolidMesh<3> solid_mesh<3>(const Body&, const ElasticTable&);
-template std::unique_ptr<const elastic::Law<2>> solid_law<2>(const Body&, const ElasticTable&);
-template std::unique_ptr<const elastic::Law<3>> solid_law<3>(const Body&, const ElasticTable&);
-template std::optional<elastic::Place<2>> place_in<2>(const elastic::SolidMesh<2>&, const Point&);
-template std::optional<elastic::Place<3>> place_in<3>(const elastic::SolidMesh<3>&, const Point&);
+template std::unique_ptr<const elastic::Law<2>> solid_law<2>(const Body&, const ElasticMaterial&);
+template std::unique_ptr<const elastic::Law<3>> solid_law<3>(const Body&, const ElasticMaterial&);
 template std::unique_ptr<elastic::Solid<2>> make_solid<2>(const Body&, const ElasticTable&);
 template std::unique_ptr<elastic::Solid<3>> make_solid<3>(const Body&, const ElasticTable&);
 template std::unique_ptr<elastic::Solid<2>> make_solid<2>(const Body&, const ElasticTable&,

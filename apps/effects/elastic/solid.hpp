@@ -9,6 +9,7 @@
 
 #include "apps/effects/elastic/elastic.hpp"
 #include "elastic/assembly/solid.hpp"
+#include "elastic/mesh/inner_lines.hpp"
 
 namespace splashdown::elastic {
 template <int d>
@@ -25,12 +26,27 @@ std::vector<std::string> elastic_schemes();
 /// What may be looked at in a point.
 std::vector<std::string> elastic_signals();
 
+/// The mesh of a shape in space, made once for equal shapes and sizes, and how long that took [s]. Throws elastic::MeshError.
+struct MeshInSpace {
+  elastic::SolidMesh<3> mesh;
+  double seconds = 0;
+};
+MeshInSpace mesh_in_space(const Body& body, const ElasticTable& table);
+/// What density makes the mass of: meshes of shapes in space enclose less than the shape, by their chords.
+template <int d>
+double meshed_volume(const Body& body, const ElasticTable& table, const elastic::SolidMesh<d>& mesh);
 /// Undeformed, in the shape's frame. Throws elastic::MeshError.
 template <int d>
 elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table);
 /// Throws std::invalid_argument for moduli that no solid has; axes in the world frame at t = 0.
 template <int d>
-std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticTable& table);
+std::unique_ptr<const elastic::Law<d>> solid_law(const Body& body, const ElasticMaterial& material);
+/// The number of each cell's material: 0 of the body's own, else one more than that of the last part that covers the middle
+/// of the cell.
+template <int d>
+std::vector<int> parts_of(const ElasticTable& table, const elastic::SolidMesh<d>& mesh);
+/// Lines along which elements of the plane lie: outlines of parts.
+elastic::InnerLines lines_of(const ElasticTable& table);
 /// Whether a clamp covers a point of the shape's frame, but for roundoff.
 bool covers(const ElasticRegion& clamp, const Point& point, double roundoff);
 /// Whether a clamp holds what it covers along an axis of the world.

@@ -231,6 +231,15 @@ double FlowEquations::kinetic_energy(const Nodes& x, const Nodes& velocity) cons
   return 0.5 * density_ * sum;
 }
 
+Vec<2> FlowEquations::momentum(const Nodes& x, const Nodes& velocity) const {
+  Vec<2> sum = Vec<2>::Zero();
+  for (const auto& cell : mesh_->cells) {
+    const CellNodes nodes = of(x, cell), v = of(velocity, cell);
+    for (const auto& point : cell_rule()) sum += map(point, nodes).area * (v * point.N);
+  }
+  return density_ * sum;
+}
+
 double FlowEquations::divergence(const Nodes& x, const Nodes& velocity) const {
   double sum = 0;
   for (const auto& cell : mesh_->cells) {

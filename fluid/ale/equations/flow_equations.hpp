@@ -55,6 +55,8 @@ class FlowEquations {
   double least_stretch(const Nodes& x) const;
   /// Of a velocity at these nodes [J/m].
   double kinetic_energy(const Nodes& x, const Nodes& velocity) const;
+  /// The same [kg/s]: its momentum.
+  Vec<2> momentum(const Nodes& x, const Nodes& velocity) const;
   /// Square of the L2 norm of its divergence [m^2/s^2].
   double divergence(const Nodes& x, const Nodes& velocity) const;
 

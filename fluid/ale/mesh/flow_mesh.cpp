@@ -121,15 +121,20 @@ class Collect {
       cell[static_cast<std::size_t>(3 + e)] = at->second;
       if (!ends) continue;
       BoundaryEdge edge{.nodes = {from.number, to.number, at->second}};
-      if ((j - i + 3) % 3 == 2) std::swap(edge.nodes[0], edge.nodes[1]);  // triangles run counter-clockwise
       auto& middle = nodes_[static_cast<std::size_t>(at->second)];
       if (from.line >= 0 && from.line == to.line) {
         const auto& line = lines_[static_cast<std::size_t>(from.line)];
         const double arc = line.middle(from.arc, to.arc);
         middle = line.at(arc);
         edge.wall = line.wall_at(arc);
+        edge.line = from.line;
+        edge.arcs = {from.arc, to.arc, arc};
       } else {
         edge.side = side_of(spec_, middle);
+      }
+      if ((j - i + 3) % 3 == 2) {  // triangles run counter-clockwise
+        std::swap(edge.nodes[0], edge.nodes[1]);
+        std::swap(edge.arcs[0], edge.arcs[1]);
       }
       mesh_.boundary.push_back(edge);
     }
@@ -146,8 +151,9 @@ class Collect {
 
 }  // namespace
 
-FlowMesh flow_mesh(const MeshSpec& spec) {
-  const auto lines = divided_lines(spec);
+FlowMesh flow_mesh(const MeshSpec& spec) { return flow_mesh(spec, divided_lines(spec)); }
+
+FlowMesh flow_mesh(const MeshSpec& spec, const std::vector<HullLine>& lines) {
   Triangulation triangles;
   try {
     insert_lines(spec, lines, triangles);

@@ -23,9 +23,11 @@ inline constexpr int side_count = 4;
 
 /// An edge of the boundary; the fluid lies to its left.
 struct BoundaryEdge {
-  std::array<int, 3> nodes;  ///< ends, middle
-  int wall = -1;             ///< index of the body's wall, -1: none
-  int side = -1;             ///< of the box, -1: none
+  std::array<int, 3> nodes;         ///< ends, middle
+  int wall = -1;                    ///< index of the body's wall, -1: none
+  int side = -1;                    ///< of the box, -1: none
+  int line = -1;                    ///< index of the outline that it lies on, -1: none
+  std::array<double, 3> arcs = {};  ///< of the nodes along it [m]
 };
 
 /// Triangles between the box and the hulls.
@@ -55,8 +57,12 @@ struct MeshSpec {
   double corner_angle = 30;                        ///< turns of an outline by more are corners, others are curves [deg]
 };
 
+class HullLine;
+
 /// Throws std::invalid_argument for hulls that cross the box or each other without sharing area.
 FlowMesh flow_mesh(const MeshSpec& spec);
+/// The same around outlines that are divided already (hull_line.hpp).
+FlowMesh flow_mesh(const MeshSpec& spec, const std::vector<HullLine>& lines);
 
 /// A mesh after, and where its nodes lie before.
 struct DividedMesh {

@@ -16,6 +16,10 @@ class HullLine {
   /// Divides it: edges of `sizes[wall]` at most [m], and that turn by half a radian at most; towards corners that jut out they
   /// shrink to `spec.corner` of it, by `spec.growth`.
   void divide(std::span<const double> sizes, const MeshSpec& spec);
+  /// Divides it at these arc lengths, ascending [m].
+  void cut_at(std::vector<double> cuts) { cuts_ = std::move(cuts); }
+  /// Divides it at its points.
+  void cut_at_points() { cuts_.assign(starts_.begin(), starts_.end() - 1); }
   /// Arc lengths at which edges of the mesh begin, ascending [m].
   const std::vector<double>& cuts() const { return cuts_; }
   double length() const { return starts_.back(); }  ///< [m]

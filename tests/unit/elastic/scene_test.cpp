@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "apps/build/build.hpp"
@@ -186,6 +187,41 @@ TEST(ElasticScene, tells_the_deformed_surface_with_its_stresses) {
   EXPECT_NEAR(most / world.solids->deformation(0).von_mises, 1, 0.5);
 }
 
+const std::string part_of_all = "modes = 2\npart = [{name = \"all\", min = [-9, -9], max = [9, 9]";
+
+TEST(ElasticScene, has_parts_of_other_materials) {
+  const auto text =
+      with("modes = 2",
+           "modes = 2\npart = [{name = \"tip\", young_modulus = 5e7, density = 2400, min = [0.25, -1], "
+           "max = [1, 1]}, {name = \"rod\", law = \"small_strain\", points = [[-0.5, 0], [0, 0], [0, 0.02]]}]");
+  const auto scene = scene_of(text);
+  const auto& parts = scene.effects.find<ElasticTables>()->of_bodies.at(0).parts;
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].law, "st_venant_kirchhoff") << "what is not given is the body's";
+  EXPECT_EQ(parts[0].young_modulus, 5e7);
+  EXPECT_EQ(parts[0].poisson_ratio, 0.3);
+  EXPECT_EQ(parts[1].young_modulus, 1e7);
+  EXPECT_FALSE(parts[1].density);
+  const auto specs = solid_specs<2>(scene);
+  EXPECT_NEAR(specs.at(0).solid->total_mass(), 0.075 * 1200 + 0.025 * 2400 + 2, 1e-10);
+  const auto note = ElasticKind().note(scene, {});
+  ASSERT_TRUE(note);
+  EXPECT_NE(note->reason.find("mass 152 kg/m with centre"), std::string::npos) << note->reason;
+}
+
+TEST(ElasticScene, of_a_part_that_is_no_other_moves_bit_by_bit_as_without) {
+  auto one = build_world<2>(scene_of(beam)), other = build_world<2>(scene_of(with("modes = 2", part_of_all + "}]")));
+  for (int step = 0; step < 3; ++step) {
+    for (auto* world : {&one, &other}) {
+      ASSERT_TRUE(world->stepper->attempt(0.01).ok());
+      world->stepper->commit();
+    }
+    const auto first = one.solids->deformed(0), second = other.solids->deformed(0);
+    EXPECT_EQ(first.surface.vertices, second.surface.vertices);
+    EXPECT_EQ(first.von_mises, second.von_mises);
+  }
+}
+
 TEST(ElasticScene, tells_natural_frequencies_before_the_run) {
   const auto scene = scene_of(beam);
   for (const auto* kind : effect_kinds())
@@ -232,6 +268,13 @@ TEST(ElasticScene, is_bent_by_a_traction_on_its_end_as_by_a_force_there) {
     world->stepper->commit();
   }
   EXPECT_NEAR(tip(patch) / tip(force), 1, 0.02);
+}
+
+TEST(ElasticScene, parts_have_no_density_beside_a_mass) {
+  const auto text = with("modes = 2", part_of_all + ", density = 100}]");
+  testing::expect_refused(
+      testing::replaced(text, "density = 1200", "mass = 120"),
+      {"", "", "", 20, "body.beam.elastic.part.all.density = 100", "beside the mass of the whole body"});
 }
 
 class BadElasticScene : public ::testing::TestWithParam<Mistake> {};
@@ -313,6 +356,18 @@ const std::vector<Mistake> mistakes = {
      "body.beam.elastic.point.tip.count", "one point is no line"},
     {"two_points_of_a_name", "point = [0.5, 0]}]", "point = [0.5, 0]}, {name = \"tip\", point = [0, 0]}]", 17,
      "body.beam.elastic.point[1]", "is taken by another point"},
+    {"part_beyond_the_body", "modes = 2", "part = [{name = \"far\", centre = [9, 9], radius = 1}]", 19,
+     "body.beam.elastic.part.far", "covers no element"},
+    {"part_without_a_place", "modes = 2", "part = [{name = \"where\", density = 100}]", 19,
+     "body.beam.elastic.part.where", "says not what is meant"},
+    {"part_of_two_places", "modes = 2",
+     "part = [{name = \"two\", centre = [0, 0], radius = 1, points = [[0, 0], [1, 0], [0, 1]]}]", 19,
+     "body.beam.elastic.part.two", "more than one region"},
+    {"part_incompressible", "modes = 2",
+     "part = [{name = \"jelly\", poisson_ratio = 0.5, centre = [0, 0], radius = 1}]", 19,
+     "body.beam.elastic.part.jelly.poisson_ratio = 0.5", "must be below 0.5"},
+    {"ply_without_moduli", "modes = 2", "part = [{name = \"ply\", law = \"orthotropic\", centre = [0, 0], radius = 1}]",
+     19, "body.beam.elastic.part.ply.ply is missing", ""},
     {"no_such_mesh", "size = 0.1", "mesh = {file = \"none.msh\"}", 15, "body.beam.elastic.mesh", "none.msh"},
 };
 INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticScene, ::testing::ValuesIn(mistakes),
@@ -363,6 +418,69 @@ TEST(ElasticScene, asks_about_water_far_coarser_than_the_body) {
   EXPECT_TRUE(questions.at(0).starts_with("body.beam.size = 0.5 m")) << questions.at(0);
   EXPECT_EQ(ask(beam), 0u) << "there is no water";
 }
+
+/// A ball in space, meshed from its shape.
+const std::string ball = R"(title = "ball"
+dimension = 3
+[time]
+end = 0.1
+dt_max = 0.01
+[[body]]
+name = "ball"
+density = 1200
+position = [1, 2, 3]
+shape = { type = "sphere", radius = 0.5 }
+[body.elastic]
+young_modulus = 1e7
+poisson_ratio = 0.3
+size = 0.4
+)";
+
+TEST(ElasticScene, in_space_is_meshed_from_its_shape_and_keeps_its_mass) {
+  const auto scene = scene_of(ball);
+  const auto specs = solid_specs<3>(scene);
+  const auto& solid = *specs.at(0).solid;
+  EXPECT_NEAR(solid.total_mass() / (1200 * 4. / 3 * std::numbers::pi * 0.125), 1, 1e-12) << "chords enclose 9 % less";
+  EXPECT_LT((solid.centre(elastic::Field::Zero(solid.size())) - Vec<3>(1, 2, 3)).norm(), 0.01);
+  const auto note = ElasticKind().note(scene, {});
+  ASSERT_TRUE(note);
+  for (const char* word : {"elements", "nodes", "least quality", "meshed in"})
+    EXPECT_NE(note->reason.find(word), std::string::npos) << note->reason;
+}
+
+TEST(ElasticScene, asks_about_elements_far_larger_than_a_body_in_space_is_thick) {
+  const auto asked = [](const std::string& shape, const std::string& size) {
+    std::vector<std::string> questions;
+    auto text = testing::replaced(ball, "{ type = \"sphere\", radius = 0.5 }", shape);
+    const auto scene = scene_of(testing::replaced(text, "size = 0.4", "size = " + size));
+    ElasticKind().ask({.scene = scene, .level = {}}, questions);
+    return questions;
+  };
+  const std::string plate = "{ type = \"box\", size = [1, 1, 0.05] }";
+  EXPECT_TRUE(asked(plate, "0.1").empty());
+  const auto questions = asked(plate, "0.5");
+  ASSERT_EQ(questions.size(), 1u);
+  EXPECT_TRUE(questions[0].starts_with("body.ball.elastic.size = 0.5 m is 10 times")) << questions[0];
+  EXPECT_TRUE(asked("{ type = \"sphere\", radius = 0.5 }", "0.5").empty());
+}
+
+class BadElasticSceneInSpace : public ::testing::TestWithParam<Mistake> {};
+TEST_P(BadElasticSceneInSpace, is_refused_with_place_rule_and_cure) {
+  const auto& bad = GetParam();
+  testing::expect_refused(testing::replaced(ball, bad.from, bad.to), bad);
+}
+const std::vector<Mistake> mistakes_in_space = {
+    {"refined_for_goals", "size = 0.4", "size = 0.4\nadapt = 2", 15, "body.ball.elastic.adapt",
+     "in space are not refined"},
+    {"too_thin", "{ type = \"sphere\", radius = 0.5 }", "{ type = \"box\", size = [1, 1, 0.001] }", 14,
+     "body.ball.elastic.size = 0.4", "Parts of 0.001 m get elements as small"},
+    {"too_fine_in_space", "size = 0.4", "size = 0.004", 14, "body.ball.elastic.size = 0.004", "Use larger elements"},
+    {"misses_its_shape", "{ type = \"sphere\", radius = 0.5 }",
+     "{ type = \"revolved\", profile = [[0, 0], [0.015, 0.1], [0.015, 0.9], [0, 1]] }", 14,
+     "body.ball.elastic.size = 0.4", "Use smaller elements"},
+};
+INSTANTIATE_TEST_SUITE_P(Elastic, BadElasticSceneInSpace, ::testing::ValuesIn(mistakes_in_space),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 class BadWetElasticScene : public ::testing::TestWithParam<Mistake> {};
 TEST_P(BadWetElasticScene, is_refused_with_place_rule_and_cure) {

@@ -96,7 +96,7 @@ rule("records look at views, in core, not at who solves" FILES "^apps/(record|st
 
 # Libraries, each with one home.
 rule("CGAL stays in core/surface, fluid/pfem/mesh/delaunay, fluid/pfem/initial, fluid/ale/mesh and elastic/mesh" FILES "."
-  BUT_FILES "^(core/surface/|fluid/pfem/(mesh/delaunay|initial)/|(fluid/ale/mesh/flow|elastic/mesh/outline)_mesh\\.cpp$)" INCLUDES "^(CGAL|boost)/"
+  BUT_FILES "^(core/surface/|fluid/pfem/(mesh/delaunay|initial)/|(fluid/ale/mesh/flow|elastic/mesh/(outline|volume))_mesh\\.cpp$)" INCLUDES "^(CGAL|boost)/"
   BUT_INCLUDES "^boost/(math|random)/")
 rule("Boost's distributions and sequences stay in apps/price, study/design and study/campaign" FILES "."
   BUT_FILES "^apps/(price|study/(design|campaign))/.*\\.cpp$" INCLUDES "^boost/(math|random)/")

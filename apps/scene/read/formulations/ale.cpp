@@ -38,6 +38,7 @@ void read_method(Reader& reader, AleFluid& fluid) {
   reader.number("tolerance", fluid.tolerance, within(1e-13, 1e-3, "", "Use 1e-8."));
   reader.integer("max_iterations", fluid.max_iterations, within(1, 1000, "", "Use 30."));
   reader.choice("extension", fluid.extension, {"laplace", "biharmonic"});
+  reader.choice("remesh", fluid.remesh, {"automatic", "never"});
   reader.each_table("goal", [&](Reader& table) {
     auto& goal = fluid.goals.emplace_back();
     table.text("body", goal.body, "Use the name of a body, e.g. \"cylinder\".", Need::required);
