@@ -157,7 +157,8 @@ double SurfaceRuler<d>::distance(const Vec<d>& point) const {
 
 template <int d>
 std::vector<SurfacePressurePoint<d>> surface_pressure(const WallFacets<d>& wall, std::span<const double> pressure,
-                                                      std::span<const double> repair, const SurfaceRuler<d>& ruler) {
+                                                      std::span<const double> repair, const SurfaceRuler<d>& ruler,
+                                                      std::span<const Vec<d>> at_rest) {
   std::vector<int> wetted;
   for (const auto& facet : wall.boundary)
     if (facet.wall == wall.wall) wetted.insert(wetted.end(), facet.nodes.begin(), facet.nodes.end());
@@ -169,21 +170,24 @@ std::vector<SurfacePressurePoint<d>> surface_pressure(const WallFacets<d>& wall,
   const Isometry<d> to_wall = wall.pose.inverse();
   for (const int at : wetted) {
     const Vec<d>& x = wall.points[slot(at)];
-    points.push_back({x, ruler.distance(to_wall * x), pressure[slot(at)], repair.empty() ? 0.0 : repair[slot(at)]});
+    const Vec<d> on_wall = at_rest.empty() ? Vec<d>(to_wall * x) : at_rest[slot(at)];
+    points.push_back(
+        {x, ruler.distance(on_wall), pressure[slot(at)], repair.empty() ? 0.0 : repair[slot(at)], on_wall});
   }
   std::ranges::stable_sort(points, {}, &SurfacePressurePoint<d>::s);
   return points;
 }
 
-#define SPLASHDOWN_INSTANTIATE(d)                                                                                  \
-  template std::optional<double> surface_elevation<d>(std::span<const Vec<d>>, std::span<const Facet<d>>,          \
-                                                      const Eigen::Matrix<double, d - 1, 1>&);                     \
-  template std::optional<double> wall_pressure<d>(std::span<const Vec<d>>, std::span<const Facet<d>>,              \
-                                                  std::span<const double>, const Vec<d>&);                         \
-  template double patch_force<d>(const WallFacets<d>&, std::span<const double>, const PatchRegion<d>&);            \
-  template class SurfaceRuler<d>;                                                                                  \
-  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const WallFacets<d>&, std::span<const double>, \
-                                                                    std::span<const double>, const SurfaceRuler<d>&);
+#define SPLASHDOWN_INSTANTIATE(d)                                                                                    \
+  template std::optional<double> surface_elevation<d>(std::span<const Vec<d>>, std::span<const Facet<d>>,            \
+                                                      const Eigen::Matrix<double, d - 1, 1>&);                       \
+  template std::optional<double> wall_pressure<d>(std::span<const Vec<d>>, std::span<const Facet<d>>,                \
+                                                  std::span<const double>, const Vec<d>&);                           \
+  template double patch_force<d>(const WallFacets<d>&, std::span<const double>, const PatchRegion<d>&);              \
+  template class SurfaceRuler<d>;                                                                                    \
+  template std::vector<SurfacePressurePoint<d>> surface_pressure<d>(const WallFacets<d>&, std::span<const double>,   \
+                                                                    std::span<const double>, const SurfaceRuler<d>&, \
+                                                                    std::span<const Vec<d>>);
 SPLASHDOWN_INSTANTIATE(2)
 SPLASHDOWN_INSTANTIATE(3)
 #undef SPLASHDOWN_INSTANTIATE

@@ -32,6 +32,7 @@ struct SurfacePressurePoint {
   double s;         ///< distance from the keel [m]; in 2D along the outline, counter-clockwise positive
   double p;         ///< [Pa]
   double p_repair;  ///< mean over the kick of what the repair impulse adds [Pa]
+  Vec<d> on_wall;   ///< wall frame; of a wall that deforms its place at t = 0, world frame [m]
 };
 
 /// Measures distances along a wall's surface from its keel: the lowest point, in the middle of the lowest
@@ -53,9 +54,11 @@ class SurfaceRuler {
   Vec<d> keel_point_;
 };
 
-/// Points of the wetted facets of a wall, ordered by s. `repair`: empty where there is none.
+/// Points of the wetted facets of a wall, ordered by s. `repair`: empty where there is none. `at_rest`: of a wall that deforms,
+/// where the fluid's points on it were at t = 0, world frame, as the ruler's surface is; empty: of a rigid wall.
 template <int d>
 std::vector<SurfacePressurePoint<d>> surface_pressure(const WallFacets<d>& wall, std::span<const double> pressure,
-                                                      std::span<const double> repair, const SurfaceRuler<d>& ruler);
+                                                      std::span<const double> repair, const SurfaceRuler<d>& ruler,
+                                                      std::span<const Vec<d>> at_rest = {});
 
 }  // namespace splashdown::apps

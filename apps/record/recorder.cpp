@@ -289,14 +289,15 @@ void Recorder<d>::State::write_surface_pressure(const RecordInput<d>& input, std
   const int wall = wall_called(*input.fluid, name);
   const auto w = static_cast<std::size_t>(wall);
   const auto& spec = input.fluid->walls()[w];
-  const auto& pose = input.fluid->wall_poses()[w];
-  const Isometry<d> to_wall = pose.inverse();
+  const auto at_rest = points_at_rest(*input.fluid, wall);
+  // Body k is wall k; what deforms is a body.
+  const Isometry<d> to_body = at_rest.empty() ? Isometry<d>::Identity() : input.bodies->spec(w).pose.inverse();
   const Vec<d> origin = centre_of_mass(settings, name);
   const auto& ruler = rulers.try_emplace(w, spec.surface, spec.pose).first->second;
   auto& csv = file("surface_pressure.csv", surface_pressure_header(d));
-  for (const auto& point : surface_pressure(wall_facets(*input.fluid, wall), input.fluid->pressure(),
-                                            input.fluid->repair_pressure(), ruler)) {
-    const Vec<d> on_hull = to_wall * point.x + origin;
+  for (const auto& point : surface_pressure<d>(wall_facets(*input.fluid, wall), input.fluid->pressure(),
+                                               input.fluid->repair_pressure(), ruler, at_rest)) {
+    const Vec<d> on_hull = (at_rest.empty() ? point.on_wall : Vec<d>(to_body * point.on_wall)) + origin;
     csv << input.time << name;
     for (int k = 0; k < d; ++k) csv << point.x(k);
     csv << point.s << point.p;

@@ -32,6 +32,12 @@ void read_ply(Reader& reader, ElasticPly& ply, int dimension) {
 /// `given`: what the law already has, so that nothing has to be repeated.
 void read_law(Reader& reader, ElasticMaterial& material, int dimension, const ElasticMaterial* given = nullptr) {
   reader.choice("law", material.law, elastic_laws());
+  if (given && reader.context().sketch) {  // what goes with what depends on the body's law
+    if (auto ply = reader.table("ply")) read_ply(*ply, material.ply, dimension);
+    reader.number("young_modulus", material.young_modulus, positive("Pa", "Use e.g. 70e9 for aluminium."));
+    reader.number("poisson_ratio", material.poisson_ratio, within(-1, 0.5, "", "Use e.g. 0.33 for aluminium."));
+    return;
+  }
   const bool is_ply = material.law == "orthotropic";
   const bool known = given && (given->law == "orthotropic") == is_ply;
   const Need need = known ? Need::optional : Need::required;

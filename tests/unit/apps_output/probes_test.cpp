@@ -87,5 +87,20 @@ TEST(SurfacePressure, has_the_wetted_points_of_one_wall_in_order) {
   EXPECT_EQ(surface_pressure<2>({x, boundary, 0}, p, {}, ruler)[0].p_repair, 0) << "none was made";
 }
 
+TEST(SurfacePressure, of_a_wall_that_deforms_is_measured_along_what_it_was) {
+  const std::vector<Vec<2>> at_start{{0, 0}, {0.6, 0.8}, {-0.6, 0.8}, {2, 0}};
+  std::vector<Vec<2>> x;
+  for (const auto& from : at_start)
+    x.emplace_back(from + Vec<2>(7, 0.3 * from.x() * from.x()));  // carried off and bent
+  const std::vector<double> p{5, 6, 7, 8};
+  const std::vector<Facet<2>> boundary{{{0, 1}, 0}, {{2, 0}, 0}, {{1, 3}, -1}};
+  const SurfaceRuler<2> ruler(polygon({{0, 0}, {3, 4}, {-3, 4}}), at_rest);
+  const auto points = surface_pressure<2>({x, boundary, 0}, p, {}, ruler, at_start);
+  ASSERT_EQ(points.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(points[i].s, static_cast<double>(i) - 1, 1e-14);
+  EXPECT_EQ(points[0].x, x[2]) << "where it is";
+  EXPECT_EQ(points[0].on_wall, at_start[2]) << "where it was";
+}
+
 }  // namespace
 }  // namespace splashdown::apps::probes_test

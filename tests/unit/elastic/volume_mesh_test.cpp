@@ -76,8 +76,8 @@ void expect_outward(const SolidMesh<3>& mesh, double volume) {
   EXPECT_NEAR(flux, 3 * volume, 1e-11 * volume);
 }
 
-/// Whatever the shape: edges as short as asked, no cell flatter than this. A regular one has 1; the least of a thousand random
-/// shapes was 0.06.
+/// Whatever the shape: edges as short as asked, no cell flatter than this. A regular one has 1; the least of two hundred random
+/// shapes was 0.075.
 constexpr double least_ratio = 0.05;
 void expect_good(const SolidMesh<3>& mesh, double size) {
   EXPECT_LE(longest_edge(mesh), size * (1 + 1e-12));
