@@ -318,7 +318,7 @@ class ModalWall final : public ElasticWall<d> {
   Eigen::MatrixXd shapes_;  // of the modes besides
   Eigen::VectorXd squares_;
   Field arms_;                            // X - C
-  Posture<d> now_, next_, free_posture_;  // at t_n, of the trial, of the one that the step began with
+  Posture<d> now_, next_, free_posture_;  // at t_n, of the trial, of the one without an impulse
   Way<d> way_, free_way_;                 // from now_ to these two
   Eigen::VectorXd between_;               // amplitudes in the middle of the last step
   Eigen::VectorXd rates_;                 // v_n = P_n times these, and the carrier

@@ -179,7 +179,7 @@ class NodalWall : public ElasticWall<d> {
     }
     return {shapes_, condensed_};
   }
-  /// M_s about the trial, which is the one that the step begins with.
+  /// M_s about the trial, which is the one without an impulse.
   Sparse tangent() {
     free_middle_ = u_ + dt_ / 2 * s_next_;
     Sparse K;
@@ -323,8 +323,6 @@ class LoadedWall final : public NodalWall<d> {
     }
     return {on_surface_, inertia_};
   }
-
-  void take_back(const Eigen::VectorXd& y) override { free_ -= answers_ * y; }
 
   /// Within the span of the answers.
   Status follow(const Eigen::VectorXd& velocities) override {

@@ -1,5 +1,6 @@
 #include "elastic/walls/wall.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "elastic/stored_field.hpp"
@@ -10,7 +11,6 @@ template <int d>
 ElasticWall<d>::ElasticWall(const Solid<d>& solid, Dynamics dynamics)
     : solid_(solid), dynamics_(std::move(dynamics)), boundary_(boundary_of<d>(solid.mesh())) {
   u_ = s_ = a_ = s_next_ = Field::Zero(solid.size());
-  last_impulse_ = Eigen::VectorXd::Zero(d * static_cast<Eigen::Index>(boundary_.nodes.size()));
   mixing_ = Mixing(d * static_cast<Eigen::Index>(boundary_.nodes.size()));
 }
 
@@ -45,28 +45,9 @@ void ElasticWall<d>::begin(double t, double kick, double dt) {
   begun_ = {};
   mixing_.forget();
   prepare();
-  if (solid_.linear() || !expect(kick / last_kick_ * last_impulse_)) expect(0 * last_impulse_);
-}
-
-template <int d>
-bool ElasticWall<d>::expect(const Eigen::VectorXd& impulse) {
-  begun_ = {};
-  free_ = solve(impulse);
+  free_ = solve(Eigen::VectorXd::Zero(d * static_cast<Eigen::Index>(boundary_.nodes.size())));
   begun_ = status_;
-  if (!begun_.ok() && !impulse.isZero(0)) return false;
   modal_ = linearised();
-  inertia_.reset();
-  if (impulse.isZero(0)) return true;
-  const Eigen::VectorXd answer = inertia().solve(modal_.modes.transpose() * impulse);
-  take_back(answer);
-  free_ -= modal_.modes * answer;
-  return free_.allFinite();
-}
-
-template <int d>
-const Eigen::LDLT<Eigen::MatrixXd>& ElasticWall<d>::inertia() {
-  if (!inertia_) inertia_.emplace(modal_.inertia);
-  return *inertia_;
 }
 
 template <int d>
@@ -97,10 +78,11 @@ bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
 /// bends so far that this tangent is wrong.
 template <int d>
 typename ElasticWall<d>::Renewed ElasticWall<d>::renewed(const Eigen::VectorXd& impulse) {
+  const Eigen::LDLT<Eigen::MatrixXd> inertia(modal_.inertia);
   const Eigen::VectorXd obeyed = implied();
   return {.status = {},
-          .velocities = trial_ + modal_.modes * inertia().solve(modal_.modes.transpose() * impulse - obeyed),
-          .free = free_ + mixing_.way(trial_ - modal_.modes * inertia().solve(obeyed) - free_)};
+          .velocities = trial_ + modal_.modes * inertia.solve(modal_.modes.transpose() * impulse - obeyed),
+          .free = free_ + mixing_.way(trial_ - modal_.modes * inertia.solve(obeyed) - free_)};
 }
 
 template <int d>
@@ -116,8 +98,6 @@ void ElasticWall<d>::commit() {
   dissipated_ += damping_work();
   if (drive_.size() > 0) driven_ += drive_work(spread(impulse_));
   accept();
-  last_impulse_ = impulse_;
-  last_kick_ = kick_;
   a_ = (s_next_ - s_) / kick_;
   s_ = s_next_;
 }
@@ -131,8 +111,7 @@ template <int d>
 void ElasticWall<d>::save(std::ostream& out) const {
   write_field(out, s_);
   write_field(out, a_);
-  write_field(out, last_impulse_);
-  write_field(out, Eigen::Vector3d(dissipated_, driven_, last_kick_));
+  write_field(out, Eigen::Vector2d(dissipated_, driven_));
   write(out);
 }
 
@@ -140,12 +119,10 @@ template <int d>
 void ElasticWall<d>::load(std::istream& in) {
   read_field(in, s_);
   read_field(in, a_);
-  read_field(in, last_impulse_);
-  Field numbers(3);
-  read_field(in, numbers);
-  dissipated_ = numbers[0];
-  driven_ = numbers[1];
-  last_kick_ = numbers[2];
+  Field energies(2);
+  read_field(in, energies);
+  dissipated_ = energies[0];
+  driven_ = energies[1];
   read(in);
 }
 

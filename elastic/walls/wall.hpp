@@ -19,9 +19,7 @@
 // Held unknowns move with what drives them in the middle of the step, or stay.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <iosfwd>
-#include <optional>
 
 #include "core/mixing.hpp"
 #include "core/response.hpp"
@@ -44,9 +42,9 @@ class ElasticWall {
   /// Velocities of all nodes at t = 0.
   virtual void start(const Field& velocity) = 0;
 
-  /// Fixes the step from t: how trials answer to impulses near that of the step before, per kick.
+  /// Fixes the step from t: the trial without an impulse, and how it changes with one.
   void begin(double t, double kick, double dt);
-  /// Of the begun step: velocities without an impulse as Z and M see it, until `update` puts them anew.
+  /// Of the begun step: velocities without an impulse, until `update` puts them anew.
   const Eigen::VectorXd& free() const { return free_; }
   /// Z and M of the begun step, s = free + Z y, M y = Z^T I.
   const ModalInertia& modal() const { return modal_; }
@@ -97,10 +95,8 @@ class ElasticWall {
   virtual Status move(const Eigen::VectorXd& impulse) = 0;
   /// The trial s_next_ of given velocities.
   virtual Status follow(const Eigen::VectorXd& velocities) = 0;
-  /// Z and M about the last trial.
+  /// Z and M about the trial without an impulse.
   virtual ModalInertia linearised() = 0;
-  /// Takes Z y out of what `linearised` keeps of the trial.
-  virtual void take_back(const Eigen::VectorXd& /*y*/) {}
   /// Z^T of the impulse that the last trial of `follow` obeys.
   virtual Eigen::VectorXd implied() const = 0;
   /// What an impulse makes of the last trial, and the velocities without what Z and M answer of it.
@@ -140,16 +136,9 @@ class ElasticWall {
 
  private:
   const Eigen::VectorXd& tried(const Status& status);
-  /// Begins the step about a trial. False where there is none under this impulse, or none without.
-  bool expect(const Eigen::VectorXd& impulse);
-  /// The factor of M.
-  const Eigen::LDLT<Eigen::MatrixXd>& inertia();
 
   ModalInertia modal_;
-  std::optional<Eigen::LDLT<Eigen::MatrixXd>> inertia_;
   Eigen::VectorXd free_, trial_, impulse_;
-  Eigen::VectorXd last_impulse_;  // of the last step, and its kick
-  double last_kick_ = 1;
   Mixing mixing_{0};  // of `free_`, pass by pass
   double dissipated_ = 0, driven_ = 0;
   Status begun_, status_;
