@@ -69,7 +69,9 @@ bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   status_ = all.status;
   if (!status_.ok()) return false;
   const double change = (all.velocities - trial_).norm();
-  if (change <= std::max(tolerance * (trial_.norm() + free_.norm()), stray())) return false;
+  constexpr double most_stray = 0.01;  // at most, of its velocities: more where it turns by a fiftieth of a radian
+  const double speed = trial_.norm() + free_.norm();
+  if (change <= std::max(tolerance * speed, std::min(stray(), most_stray * trial_.norm()))) return false;
   free_ = std::move(all.free);
   return true;
 }

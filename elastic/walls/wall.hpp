@@ -52,8 +52,8 @@ class ElasticWall {
   const Eigen::VectorXd& solve(const Eigen::VectorXd& impulse);
   /// The trial whose surface has these velocities, or in modes the nearest to them that it can have.
   const Eigen::VectorXd& adopt(const Eigen::VectorXd& velocities);
-  /// Whether an impulse changes the last trial by more than `tolerance` of its velocities and more than vertices stray as the
-  /// body turns; `free` is then put so that free + Z y is right near this trial, a pass of a Newton method with the tangent of
+  /// Whether an impulse changes the last trial by more than `tolerance` of its velocities, and more than vertices stray as the
+  /// body turns, a hundredth at most; `free` is then put so that free + Z y is right near this trial, a pass of a Newton method with the tangent of
   /// the begun step.
   bool update(const Eigen::VectorXd& impulse, double tolerance);
   /// Whether the last trial is a solution and no element of it is turned over.
