@@ -153,6 +153,10 @@ class ModalWall final : public ElasticWall<d> {
   }
   double stray() const override { return std::max(stray_of(way_), stray_of(free_way_)); }
 
+  double trial_energy() const override {
+    return 0.5 * (s_next_.dot(solid_.mass() * s_next_) + squares_.dot(middle().cwiseAbs2()));
+  }
+
   ModalInertia linearised() override {
     free_posture_ = next_;
     free_way_ = way_;

@@ -71,7 +71,10 @@ bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   const double change = (all.velocities - trial_).norm();
   constexpr double most_stray = 0.01;  // at most, of its velocities: more where it turns by a fiftieth of a radian
   const double speed = trial_.norm() + free_.norm();
-  if (change <= std::max(tolerance * speed, std::min(stray(), most_stray * trial_.norm()))) return false;
+  if (change <= tolerance * speed) return false;
+  constexpr double most_work = 3e-4;  // of its energy, that the fluid would not book
+  const double work = std::abs(impulse.dot(all.velocities - trial_));
+  if (change <= std::min(stray(), most_stray * trial_.norm()) && work <= most_work * trial_energy()) return false;
   free_ = std::move(all.free);
   return true;
 }

@@ -53,7 +53,7 @@ class ElasticWall {
   /// The trial whose surface has these velocities, or in modes the nearest to them that it can have.
   const Eigen::VectorXd& adopt(const Eigen::VectorXd& velocities);
   /// Whether an impulse changes the last trial by more than `tolerance` of its velocities, and more than vertices stray as the
-  /// body turns, a hundredth at most; `free` is then put so that free + Z y is right near this trial, a pass of a Newton method with the tangent of
+  /// body turns, a hundredth at most, or with more work than 3e-4 of its energy; `free` is then put so that free + Z y is right near this trial, a pass of a Newton method with the tangent of
   /// the begun step.
   bool update(const Eigen::VectorXd& impulse, double tolerance);
   /// Whether the last trial is a solution and no element of it is turned over.
@@ -109,6 +109,8 @@ class ElasticWall {
   /// Norm over the surface of what vertices stray in the trial from velocities along their tangents at t_n, because the body
   /// turns [m/s]. A fluid that holds these has the error of one beside a rigid wall, which turns while its twist stays.
   virtual double stray() const { return 0; }
+  /// Of the trial, as `kinetic_energy_between` and `strain_energy_between` have it once it is the present [J, J/m].
+  virtual double trial_energy() const { return 0; }
   /// Makes the trial the present.
   virtual void accept() = 0;
   /// What the damping of the trial's step takes in its kick, and that of the step before [J, J/m].
