@@ -61,8 +61,8 @@ class Solid final : public System {
   int part(std::size_t cell) const { return part_[cell]; }
   const Sparse& mass() const override { return mass_; }
   Field internal_force(const Field& u) const override;
-  /// The force of a step from `before` through `middle`: P = F_middle (S + lead dS), S of Law::stress_between and dS its change in
-  /// the step (Law::stress_change) [N, N/m].
+  /// The force of a step from `before` through `middle`: P = F_middle (S + lead dS), S of Law::stress_between and dS its change
+  /// in the step (Law::stress_change) [N, N/m].
   Field force_between(const Field& before, const Field& middle, double lead = 0) const;
   /// Of force_between by its middle, but for an antisymmetric part of the order of the way [N/m, N/m^2].
   void stiffness_between(const Field& before, const Field& middle, double lead, Sparse& K) const;

@@ -10,7 +10,8 @@
 namespace splashdown::elastic {
 namespace {
 
-/// The solid within a step from u: its force at a middle is that of the first half, c of walls/wall.hpp included. Unknowns that are given are held, too.
+/// The solid within a step from u: its force at a middle is that of the first half, c of walls/wall.hpp included. Unknowns that
+/// are given are held, too.
 template <int d>
 class WithinStep final : public System {
  public:
@@ -241,8 +242,8 @@ class NodalWall : public ElasticWall<d> {
     if (const auto* C = damping()) all += dt_ / 2 * (*C * s_next_);
     return all;
   }
-  /// dt/2 C s - c dt (f_n - f_{n-1}) of the trial, with the stresses of both where the step ends. So that the moment stays, it also
-  /// takes back what the first half did in the middle instead of the beginning.
+  /// dt/2 C s - c dt (f_n - f_{n-1}) of the trial, with the stresses of both where the step ends. So that the moment stays, it
+  /// also takes back what the first half did in the middle instead of the beginning.
   Field damping_of_second_half() const {
     Field all = Field::Zero(solid_.size());
     if (const auto* C = damping()) all = dt_ / 2 * (*C * s_next_);
