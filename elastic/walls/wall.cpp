@@ -44,6 +44,7 @@ void ElasticWall<d>::begin(double t, double kick, double dt) {
   if (dynamics_.drive) drive_ = dynamics_.drive(t + dt / 2);
   begun_ = {};
   mixing_.forget();
+  strayed_next_ = strayed_;
   prepare();
   free_ = solve(Eigen::VectorXd::Zero(d * static_cast<Eigen::Index>(boundary_.nodes.size())));
   begun_ = status_;
@@ -72,9 +73,11 @@ bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   constexpr double most_stray = 0.01;  // at most, of its velocities: more where it turns by a fiftieth of a radian
   const double speed = trial_.norm() + free_.norm();
   if (change <= tolerance * speed) return false;
-  constexpr double most_work = 3e-4;  // of its energy, that the fluid would not book
-  const double work = std::abs(impulse.dot(all.velocities - trial_));
-  if (change <= std::min(stray(), most_stray * trial_.norm()) && work <= most_work * trial_energy()) return false;
+  constexpr double most_work = 5e-3;  // of its energy, that the fluid has not booked, in all steps together
+  strayed_next_ = strayed_ + impulse.dot(all.velocities - trial_);
+  if (change <= std::min(stray(), most_stray * trial_.norm()) && std::abs(strayed_next_) <= most_work * trial_energy())
+    return false;
+  strayed_next_ = strayed_;
   free_ = std::move(all.free);
   return true;
 }
@@ -103,6 +106,7 @@ void ElasticWall<d>::commit() {
   dissipated_ += damping_work();
   if (drive_.size() > 0) driven_ += drive_work(spread(impulse_));
   accept();
+  strayed_ = strayed_next_;
   a_ = (s_next_ - s_) / kick_;
   s_ = s_next_;
 }
@@ -116,7 +120,7 @@ template <int d>
 void ElasticWall<d>::save(std::ostream& out) const {
   write_field(out, s_);
   write_field(out, a_);
-  write_field(out, Eigen::Vector2d(dissipated_, driven_));
+  write_field(out, Eigen::Vector3d(dissipated_, driven_, strayed_));
   write(out);
 }
 
@@ -124,10 +128,11 @@ template <int d>
 void ElasticWall<d>::load(std::istream& in) {
   read_field(in, s_);
   read_field(in, a_);
-  Field energies(2);
+  Field energies(3);
   read_field(in, energies);
   dissipated_ = energies[0];
   driven_ = energies[1];
+  strayed_ = energies[2];
   read(in);
 }
 

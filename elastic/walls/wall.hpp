@@ -53,7 +53,7 @@ class ElasticWall {
   /// The trial whose surface has these velocities, or in modes the nearest to them that it can have.
   const Eigen::VectorXd& adopt(const Eigen::VectorXd& velocities);
   /// Whether an impulse changes the last trial by more than `tolerance` of its velocities, and more than vertices stray as the
-  /// body turns, a hundredth at most, or with more work than 3e-4 of its energy; `free` is then put so that free + Z y is right
+  /// body turns, a hundredth at most, or with more work in all steps than 0.5 % of its energy; `free` is then put so that free + Z y is right
   /// near this trial, a pass of a Newton method with the tangent of the begun step.
   bool update(const Eigen::VectorXd& impulse, double tolerance);
   /// Whether the last trial is a solution and no element of it is turned over.
@@ -143,6 +143,7 @@ class ElasticWall {
   Eigen::VectorXd free_, trial_, impulse_;
   Mixing mixing_{0};  // of `free_`, pass by pass
   double dissipated_ = 0, driven_ = 0;
+  double strayed_ = 0, strayed_next_ = 0;  // work of impulses on what vertices stray, so far and with the trial
   Status begun_, status_;
 };
 
