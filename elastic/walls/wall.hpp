@@ -53,8 +53,8 @@ class ElasticWall {
   /// The trial whose surface has these velocities, or in modes the nearest to them that it can have.
   const Eigen::VectorXd& adopt(const Eigen::VectorXd& velocities);
   /// Whether an impulse changes the last trial by more than `tolerance` of its velocities, and more than vertices stray as the
-  /// body turns, a hundredth at most, or with more work in all steps than 0.5 % of its energy; `free` is then put so that free + Z y is right
-  /// near this trial, a pass of a Newton method with the tangent of the begun step.
+  /// body turns, a hundredth at most, or with more work in all steps than 0.5 % of its energy; `free` is then put so that
+  /// free + Z y is right near this trial, a pass of a Newton method with the tangent of the begun step.
   bool update(const Eigen::VectorXd& impulse, double tolerance);
   /// Whether the last trial is a solution and no element of it is turned over.
   Status acceptable() const;
