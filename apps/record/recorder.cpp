@@ -59,6 +59,7 @@ struct Recorder<d>::State {
   FrameSeries frames;
   RunStatistics run;
   double max_speed_peak = 0;
+  long remeshings = -1, remeshings_missed = -1;  ///< of the fluid's mesh; -1: not counted
   EnergyStatistics energy;
   std::vector<BodyStatistics<d>> bodies;
   std::vector<PulseStatistics> equipment;
@@ -99,8 +100,9 @@ struct Recorder<d>::State {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(started, previous_dt, still_water_level, rows, frames_due, surface_due, added_mass_due, frames, run,
-            max_speed_peak, energy, bodies, equipment, hulls, points, peak_force, met_water, body_names, speed,
-            has_fluid, sections_due, sections, lines_due, stresses, goals, cereal::binary_data(&ledger, sizeof ledger));
+            max_speed_peak, remeshings, remeshings_missed, energy, bodies, equipment, hulls, points, peak_force,
+            met_water, body_names, speed, has_fluid, sections_due, sections, lines_due, stresses, goals,
+            cereal::binary_data(&ledger, sizeof ledger));
     if (passes) archive(*passes);
   }
 
@@ -131,6 +133,7 @@ struct Recorder<d>::State {
   Vec<d> equipment_acceleration(const RecordInput<d>& input, std::size_t i) const;
   double probe_pressure(const RecordInput<d>& input, const PressureProbe<d>& probe) const;
   void write_peak();
+  void count_meshes(const FluidView<d>& fluid);
 };
 
 template <int d>
@@ -322,6 +325,14 @@ void Recorder<d>::State::write_peak() {
 }
 
 template <int d>
+void Recorder<d>::State::count_meshes(const FluidView<d>& fluid) {
+  for (const auto& [name, value] : fluid.diagnostics()) {
+    if (name == "remeshings") remeshings = std::lround(value);
+    if (name == "remeshings_missed") remeshings_missed = std::lround(value);
+  }
+}
+
+template <int d>
 Recorder<d>::Recorder(RecorderSettings<d> settings) : s_(std::make_unique<State>(std::move(settings))) {}
 
 template <int d>
@@ -341,6 +352,7 @@ void Recorder<d>::record(const RecordInput<d>& input) {
       for (const auto& [name, value, error, unit] : goals) s.goals.push_back({name, value, error, unit});
     };
     if (input.fluid) add(input.fluid->goals());
+    if (input.fluid) s.count_meshes(*input.fluid);
     if (input.solids) add(input.solids->goals());
   }
   // Each schedule is asked at each step, so that a last row does not shift the ones after a resume.
@@ -441,7 +453,9 @@ void Recorder<d>::summarise(Summary& summary) const {
   summary.goals = s.goals;
   if (s.has_fluid) {
     s.energy.summarise(summary.ledger.emplace(summary_of(s.ledger)));
-    summary.fluid = FluidSummary{s.speed, s.max_speed_peak};
+    summary.fluid = FluidSummary{s.speed, s.max_speed_peak, {}, {}};
+    if (s.remeshings >= 0) summary.fluid->remeshings = s.remeshings;
+    if (s.remeshings_missed >= 0) summary.fluid->remeshings_missed = s.remeshings_missed;
   }
   if (summary.coupling && s.run.steps > 0) {
     summary.coupling->passes_mean = static_cast<double>(s.run.passes_sum) / static_cast<double>(s.run.steps);

@@ -168,10 +168,15 @@ std::string files_text(const std::filesystem::path& directory, const std::map<st
   return text;
 }
 
+std::string new_meshes_text(const Summary& summary) {
+  const long count = summary.fluid ? summary.fluid->remeshings.value_or(0) : 0;
+  return count == 0 ? "" : fmt::format(", {} new mesh{}", count, count == 1 ? "" : "es");
+}
+
 std::string liquid_text(const Summary& summary) {
   const auto& ledger = *summary.ledger;
-  auto text = fmt::format("{} nodes ({} at most), volume error {:.2g} %", summary.nodes->final, summary.nodes->max,
-                          100 * ledger.volume_error);
+  auto text = fmt::format("{} nodes ({} at most){}, volume error {:.2g} %", summary.nodes->final, summary.nodes->max,
+                          new_meshes_text(summary), 100 * ledger.volume_error);
   if (ledger.volume_error_bodies) text += fmt::format(" ({:.2g} % of the hulls)", 100 * *ledger.volume_error_bodies);
   if (!(ledger.energy_scale > 0)) return text;  // nothing that a gain could be a share of
   const auto gain = ratio_of(ledger.energy_gain, 1);

@@ -273,9 +273,11 @@ std::string to_json(const Summary& summary) {
   if (summary.elements) json["elements"] = json_of(*summary.elements);
   if (summary.coupling) json["coupling"] = json_of(*summary.coupling);
   if (summary.ledger) json["ledger"] = json_of(*summary.ledger);
-  if (summary.fluid)
-    json["fluid"] = {{"max_speed", number(summary.fluid->max_speed)},
-                     {"max_speed_peak", number(summary.fluid->max_speed_peak)}};
+  if (const auto& fluid = summary.fluid) {
+    json["fluid"] = {{"max_speed", number(fluid->max_speed)}, {"max_speed_peak", number(fluid->max_speed_peak)}};
+    if (fluid->remeshings) json["fluid"]["remeshings"] = *fluid->remeshings;
+    if (fluid->remeshings_missed) json["fluid"]["remeshings_missed"] = *fluid->remeshings_missed;
+  }
   for (const auto& goal : summary.goals) {
     const auto dot = goal.name.rfind('.');  // "BODY.x", "POINT.uy", "BODY.f1"
     json["goals"][goal.name.substr(0, dot)][goal.name.substr(dot + 1)] = {

@@ -228,8 +228,9 @@ struct GoalSummary {
 };
 
 struct FluidSummary {
-  double max_speed = 0;       ///< of all nodes, at the end [m/s]
-  double max_speed_peak = 0;  ///< at any time
+  double max_speed = 0;                               ///< of all nodes, at the end [m/s]
+  double max_speed_peak = 0;                          ///< at any time
+  std::optional<long> remeshings, remeshings_missed;  ///< of a mesh that moves: new ones, wanted ones that were not had
 };
 
 struct CouplingSummary {

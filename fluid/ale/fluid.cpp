@@ -268,6 +268,10 @@ Status AleFlow::acceptable() const {
     moves = true;
   }
   if (!moves || equations_.least_stretch(places_of(placements)) > least_allowed) return {};
+  if (spec_.remesh && bearable_ < worn)
+    return {
+        "the mesh of the fluid folds, and there is no new one around the bodies; use smaller elements where they come "
+        "near"};
   if (spec_.remesh) return {"the mesh of the fluid folds within a step; use a smaller time.dt_max"};
   if (spec_.extension == ExtensionLaw::laplace)
     return {"the mesh of the fluid folds where bodies have moved it; use fluid.ale.extension = \"biharmonic\""};

@@ -11,6 +11,7 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,6 +37,9 @@ AleFlowSpec adapted(AleFlowSpec spec, int times, double dt, double until);
 using NextAmplitudes = std::function<Eigen::VectorXd(const Eigen::MatrixXd& answered, const Eigen::VectorXd& impulse,
                                                      const Eigen::VectorXd& y)>;
 
+/// Quality of the worst cell below which a new mesh is wanted (mesh/mesh_quality.hpp).
+constexpr double worn = 0.3;
+
 /// The flow, and how it is looked at.
 class AleFlow final : public FluidView<2> {
  public:
@@ -45,6 +49,7 @@ class AleFlow final : public FluidView<2> {
   const AleFlowSpec& spec() const { return spec_; }  ///< what it was made from
   const FlowMesh& mesh() const { return mesh_; }     ///< the newest, as it was made
   long remeshings() const { return remeshings_; }    ///< how often that has been so far
+  long missed() const { return missed_; }            ///< new meshes that were wanted and could not be had
   double time() const { return time_; }              ///< t_n [s]
   /// How many coordinates the first so many walls have together.
   Eigen::Index coordinates(std::size_t walls) const;
@@ -155,6 +160,7 @@ class AleFlow final : public FluidView<2> {
   void adopt(FlowMesh mesh, const Nodes& at_start, std::vector<Eigen::VectorXd> placements);
   MovedMesh mesh_around(const std::vector<Eigen::VectorXd>& placements) const;
   bool is_mesh_worn() const;
+  std::optional<MovedMesh> mesh_now() const;
   void remesh();
   void transfer(const FlowMesh& old, const Nodes& places_then, const Nodes& places_now);
   Nodes projected(const Nodes& places, const std::function<Vec<2>(const Vec<2>&)>& field, double time) const;
@@ -193,7 +199,8 @@ class AleFlow final : public FluidView<2> {
   std::unique_ptr<Extension> extension_;
   MeshQuality quality_;
   std::vector<Eigen::VectorXd> made_at_;  // placements of walls that the mesh was made around
-  long remeshings_ = 0;
+  long remeshings_ = 0, missed_ = 0;
+  double bearable_ = worn;         // quality of the worst cell below which a new mesh is wanted
   int first_size_ = 0;             // nodes of the first mesh
   double momentum_of_remesh_ = 0;  // that new meshes have changed, summed
   std::vector<WallInMesh> moved_;

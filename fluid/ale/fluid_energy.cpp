@@ -1,6 +1,7 @@
 // What energy the fluid has, gives and gets. The weak equations tested with the mean velocity u of a step are its balance:
 //
-//   sum r . u = d/dt 1/2 int rho u^2 + 1/2 oint rho u^2 u . n - oint_open u . mu (grad u)^T n + dissipation
+//   sum r . u = d/dt 1/2 int rho u^2 + 1/2 oint rho u^2 u . n - oint_open u . t + dissipation,
+//   t = mu (grad u)^T n + 1/2 rho min(u . n, 0) u
 //
 // r: reactions of nodes whose velocities are given (equations/flow_equations.hpp), n out of the fluid.
 #include "fluid/ale/fluid.hpp"

@@ -16,9 +16,9 @@
 namespace splashdown::ale {
 namespace {
 
-constexpr double worn = 0.3;         // quality of the worst cell (mesh_quality.hpp)
-constexpr int most_growth = 4;       // nodes over those of the first mesh
-constexpr int projection_steps = 2;  // the second takes the roundoff of the first away
+constexpr double decline = 0.3;      // of the quality at which there was no new mesh, until another one is tried
+constexpr int most_growth = 4;        // nodes over those of the first mesh
+constexpr int projection_steps = 2;   // the second takes the roundoff of the first away
 
 }  // namespace
 
@@ -55,6 +55,7 @@ void AleFlow::adopt(FlowMesh mesh, const Nodes& at_start, std::vector<Eigen::Vec
   of_pass_ = {};
   kept_answers_ = {};
   step_answers_ = {};
+  bearable_ = worn;
   look_at_mesh();
 }
 
@@ -62,21 +63,31 @@ void AleFlow::adopt(FlowMesh mesh, const Nodes& at_start, std::vector<Eigen::Vec
 bool AleFlow::is_mesh_worn() const {
   if (!spec_.remesh || x_ == mesh_.nodes) return false;
   const Stopwatch watch(mesh_seconds_);
-  return quality_.least(x_) < worn || quality_.least(2 * x_ - fields_.x) < worn;
+  return quality_.least(x_) < bearable_ || quality_.least(2 * x_ - fields_.x) < bearable_;
 }
 
-/// Keeps the mesh where none can be made: a later step may be refused then.
+/// Around the walls where they are, unless there is none or it is too large.
+std::optional<MovedMesh> AleFlow::mesh_now() const {
+  try {
+    auto made = mesh_around(state_.placements);
+    if (made.mesh.size() <= most_growth * first_size_) return made;
+  } catch (const std::invalid_argument&) {
+  }
+  return {};
+}
+
+/// Keeps the mesh where there is no other, and tries again when it is worse: a later step may be refused.
 void AleFlow::remesh() {
   const Stopwatch watch(mesh_seconds_);
-  MovedMesh made;
-  try {
-    made = mesh_around(state_.placements);
-  } catch (const std::invalid_argument&) {
+  auto made = mesh_now();
+  if (!made) {
+    ++missed_;
+    const double quality = std::min(quality_.least(x_), quality_.least(2 * x_ - fields_.x));
+    bearable_ = quality - decline * std::abs(quality);
     return;
   }
-  if (made.mesh.size() > most_growth * first_size_) return;
   const FlowMesh old = mesh_;
-  adopt(std::move(made.mesh), made.at_start, state_.placements);
+  adopt(std::move(made->mesh), made->at_start, state_.placements);
   transfer(old, fields_.x_after, x_);
   ++remeshings_;
 }

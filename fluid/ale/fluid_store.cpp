@@ -21,7 +21,7 @@ void get_ale(std::istream& in, Numbers& numbers) {
   if (!in || !numbers.allFinite()) throw std::runtime_error("holds no state of the fluid");
 }
 
-using StoredNumbers = Eigen::Matrix<double, 18, 1>;
+using StoredNumbers = Eigen::Matrix<double, 20, 1>;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void AleFlow::save(std::ostream& out) const {
       is_answered ? static_cast<double>(kept_answers_.motions.rows()) : 0,
       is_answered ? static_cast<double>(kept_answers_.motions.cols()) : 0, is_answered ? kept_answers_.kick : 0,
       ledger_.work_of_effects, ledger_.potential_energy, static_cast<double>(remeshings_), ledger_.energy_remesh,
-      momentum_of_remesh_;
+      momentum_of_remesh_, static_cast<double>(missed_), bearable_;
   put_ale(out, numbers);
   if (remeshings_ > 0)
     for (const auto& placement : made_at_) put_ale(out, placement);
@@ -98,7 +98,8 @@ void AleFlow::load_mesh(std::istream& in, double remeshings) {
 void AleFlow::load(std::istream& in) {
   StoredNumbers numbers;
   get_ale(in, numbers);
-  if (!(numbers[0] >= 0 && numbers[1] >= 0 && numbers[2] >= 0 && numbers[4] >= 0 && numbers[4] < 1e15))
+  if (!(numbers[0] >= 0 && numbers[1] >= 0 && numbers[2] >= 0 && numbers[4] >= 0 && numbers[4] < 1e15 &&
+        numbers[18] >= 0 && numbers[18] < 1e15))
     throw std::runtime_error("holds no time of the fluid");
   load_mesh(in, numbers[15]);
   for (auto* field : {&state_.velocity, &state_.before}) get_ale(in, *field);
@@ -133,6 +134,8 @@ void AleFlow::load(std::istream& in) {
   ledger_.potential_energy = numbers[14];
   ledger_.energy_remesh = numbers[16];
   momentum_of_remesh_ = numbers[17];
+  missed_ = static_cast<long>(numbers[18]);
+  bearable_ = numbers[19];
   tangent_ = first_ = &kept_;
   is_begun_ = is_solved_ = false;
   x_ = places_of(state_.placements);

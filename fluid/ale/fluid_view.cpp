@@ -72,7 +72,8 @@ std::vector<Diagnostic> AleFlow::diagnostics() const {
           {"mesh_stretch", equations_.least_stretch(x_)},
           {"divergence", std::sqrt(equations_.divergence(x_, state_.velocity))},
           {"remeshings", static_cast<double>(remeshings_)},
-          {"momentum_remesh", momentum_of_remesh_}};
+          {"momentum_remesh", momentum_of_remesh_},
+          {"remeshings_missed", static_cast<double>(missed_)}};
 }
 
 }  // namespace splashdown::ale

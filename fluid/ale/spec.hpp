@@ -15,7 +15,7 @@ namespace splashdown::ale {
 /// What a side of the box does to the fluid.
 enum class BoundaryKind {
   inflow,   ///< velocities are given
-  outflow,  ///< bears no traction: -p n + mu dv/dn = 0
+  outflow,  ///< lets through: -p n + mu dv/dn = 1/2 rho min(v . n, 0) v
   no_slip,  ///< at rest, and the fluid with it
   slip      ///< nothing crosses it, nothing rubs
 };
@@ -65,7 +65,7 @@ struct AleFlowSpec {
   std::vector<MakeMovingWall> motions = {};  ///< of walls in their order; those without one are rigid
 };
 
-/// Sides that bear no traction.
+/// Sides that let through.
 inline std::array<bool, side_count> open_sides(const AleFlowSpec& spec) {
   std::array<bool, side_count> open{};
   for (std::size_t s = 0; s < side_count; ++s) open[s] = spec.sides[s] == BoundaryKind::outflow;

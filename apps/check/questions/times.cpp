@@ -93,9 +93,47 @@ void about_end_before_motion(const PreparedScene<d>& prepared, Questions& list) 
                   with_unit(period, "s"), end * 1000));
 }
 
+/// How far a body goes through a fluid between sides at most [m]: free ones without drag, by their weight, buoyancy and added mass, and
+/// no farther than the box is long.
+template <int d>
+double way_between_sides(const Scene& scene, const PreparedBody<d>& of) {
+  constexpr int instants = 100;
+  const Body& body = *of.body;
+  const double end = scene.time.end;
+  double way = 0;
+  if (body.motion == Motion::prescribed) {
+    const auto guess = guessed_body<d>(scene, body);
+    for (int k = 1; k <= instants; ++k) way = std::max(way, guessed_motion<d>(scene, guess, end * k / instants).norm());
+  } else if (body.motion == Motion::free && (body.mass || body.density)) {
+    const double mass = mass_properties<d>(body).mass, pushed = scene.ale->density * of.uniform.mass;
+    const double pull = scene.gravity ? scene.gravity->acceleration.norm() : 0;
+    way = vec<d>(body.velocity).norm() * end + 0.5 * pull * std::abs(mass - pushed) / (mass + pushed) * end * end;
+  }
+  return std::min(way, (scene.ale->max - scene.ale->min).template head<2>().norm());
+}
+
+/// A mesh that keeps its cells bears some of a body's own size and a radian or so.
+template <int d>
+void about_way_on_one_mesh(const PreparedScene<d>& prepared, Questions& list) {
+  constexpr double most_lengths = 1, most_turn = 60;  // [deg]
+  const auto& scene = prepared.scene;
+  if (!scene.ale || scene.ale->remesh != "never") return;
+  for (const auto& of : prepared.bodies) {
+    if (of.body->deforms) continue;
+    const double lengths = way_between_sides<d>(scene, of) / of.box.sizes().maxCoeff();
+    const double turn = of.body->motion == Motion::fixed ? 0 : of.body->spin_deg.norm() * scene.time.end;
+    if (lengths <= most_lengths && turn <= most_turn) continue;
+    list.push_back(fmt::format(
+        "fluid.ale.remesh = \"never\": body.{} {}, and the cells around it fold: did you mean \"automatic\"?",
+        of.body->name,
+        lengths > most_lengths ? fmt::format("goes up to {:.2g} of its lengths", lengths)
+                               : fmt::format("turns by {:.3g} deg", turn)));
+  }
+}
+
 template <int d>
 constexpr Question<d> questions_of_times[] = {about_end_before_contact<d>, about_end_at_once<d>,
-                                              about_end_before_motion<d>};
+                                              about_end_before_motion<d>, about_way_on_one_mesh<d>};
 
 }  // namespace
 

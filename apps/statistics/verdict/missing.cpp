@@ -144,6 +144,21 @@ void add_form_drag(const Summary& summary, std::vector<Missing>& list) {
   }
 }
 
+/// The mesh of the fluid was worn, and there was no other.
+void add_missed_meshes(const Summary& summary, std::vector<Missing>& list) {
+  const long count = summary.fluid ? summary.fluid->remeshings_missed.value_or(0) : 0;
+  if (count == 0) return;
+  list.push_back(
+      {Grade::resolved,
+       fmt::format("A new mesh around the bodies was wanted {} time{} and could not be had: cells stayed that "
+                   "bodies had squeezed or sheared. Use a smaller body.NAME.size where bodies come near each "
+                   "other or a side, or bend; or end the run earlier.",
+                   count, count == 1 ? "" : "s"),
+       {},
+       {},
+       {}});
+}
+
 }  // namespace
 
 bool peak_is_to_come(const Summary& summary, const std::string& name) {
@@ -162,6 +177,7 @@ std::vector<Missing> missing(const Summary& summary) {
   add_dry_records(summary, list);
   add_early_end(summary, list);
   add_form_drag(summary, list);
+  add_missed_meshes(summary, list);
   std::ranges::stable_sort(list, std::greater(), &Missing::grade);
   return list;
 }

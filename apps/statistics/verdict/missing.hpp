@@ -6,6 +6,7 @@
 //   a body that is held, one that others may carry, a record: never met the water   told, and unresolved if nothing else did
 //   the run was interrupted, or ends before a path does                              told
 //   a free body dived by more than its length, or swung afloat for long, and no form drag took part   told
+//   a new mesh around bodies was wanted and could not be had                        told
 //
 // Told: a sentence among the reasons that leaves the grade as it is. In a scene without water nothing of this is asked for.
 #pragma once

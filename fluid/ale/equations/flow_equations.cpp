@@ -131,7 +131,8 @@ void FlowEquations::add_cell(const StepFields& fields, const Unknowns& at, std::
   }
 }
 
-/// -int mu (grad u)^T n . phi: what the symmetric stress has more than mu du/dn.
+/// -int mu (grad u)^T n . phi: what the symmetric stress has more than mu du/dn. Where the flow comes back, -int 1/2 rho (u . n) u . phi
+/// besides: it brings no energy along.
 void FlowEquations::add_open(const StepFields& fields, const Unknowns& at, const OpenEdge& edge, CellVector& R,
                              CellMatrix* K) const {
   const Cell& cell = mesh_->cells[edge.cell];
@@ -148,12 +149,19 @@ void FlowEquations::add_open(const StepFields& fields, const Unknowns& at, const
     if (edge.from > 0) reference[edge.from - 1] -= 1;
     const Vec<2> along = x * (point.slopes.transpose() * reference);
     const Vec<2> normal = on.weight * Vec<2>(along.y(), -along.x());  // times the length
-    const Vec<2> traction = viscosity_ * ((mean * g.transpose()).transpose() * normal);
+    Vec<2> traction = viscosity_ * ((mean * g.transpose()).transpose() * normal);
+    const Vec<2> u = mean * point.N;
+    const bool comes_back = u.dot(normal) < 0;
+    if (comes_back) traction += 0.5 * density_ * u.dot(normal) * u;
     for (int i = 0; i < 6; ++i) R.segment<2>(2 * i) -= point.N[i] * traction;
     if (!K) continue;
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
         K->block<2, 2>(2 * i, 2 * j) -= fields.theta * viscosity_ * point.N[i] * (g.col(j) * normal.transpose());
+    if (!comes_back) continue;
+    const Mat<2> slope = 0.5 * density_ * (u.dot(normal) * Mat<2>::Identity() + u * normal.transpose());
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) K->block<2, 2>(2 * i, 2 * j) -= fields.theta * point.N[i] * point.N[j] * slope;
   }
 }
 

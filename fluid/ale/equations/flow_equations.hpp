@@ -5,7 +5,8 @@
 //   int q div v+ = 0                                                                              on the mesh of its end
 //
 // Rates are of nodes that move: what is constant in space is preserved whatever the mesh does (geometric conservation).
-// Sides that let through bear -p n + mu dv/dn = 0 ("do nothing", Heywood, Rannacher & Turek 1996).
+// Sides that let through bear -p n + mu dv/dn = 1/2 rho min(u . n, 0) u: "do nothing" (Heywood, Rannacher & Turek 1996), where the
+// flow comes back the directional one (Braack & Mucha 2014).
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -34,7 +35,7 @@ using Unknowns = Eigen::VectorXd;
 /// Residuals and their derivatives.
 class FlowEquations {
  public:
-  /// Density [kg/m^3], dynamic viscosity [Pa s]; edges of `open` sides bear no traction. Keeps a reference to the mesh.
+  /// Density [kg/m^3], dynamic viscosity [Pa s]; edges of `open` sides let through. Keeps a reference to the mesh.
   FlowEquations(const FlowMesh& mesh, double density, double viscosity, std::array<bool, side_count> open);
 
   /// How many unknowns there are.
@@ -49,7 +50,7 @@ class FlowEquations {
   void residual(const StepFields& fields, const Unknowns& at, Eigen::VectorXd& out) const;
   /// The same with their derivatives by (v+, p), a matrix whose pattern is always the same.
   void linearise(const StepFields& fields, const Unknowns& at, Eigen::SparseMatrix<double>& slope) const;
-  /// Of the traction of open edges that is not asked to vanish, mu (grad u)^T n, u the mean velocity of the step [W/m].
+  /// Of what acts on open edges, mu (grad u)^T n + 1/2 rho min(u . n, 0) u, u the mean velocity of the step [W/m].
   double open_power(const StepFields& fields, const Unknowns& at) const;
   /// Whether every cell is unfolded at these nodes: the least determinant over that of the mesh as it was made.
   double least_stretch(const Nodes& x) const;

@@ -141,6 +141,37 @@ TEST(AleScene, runs_and_resumes) {
   EXPECT_EQ(a.str(), b.str());
 }
 
+double number_of_meshes(const World<2>& world) {
+  for (const auto& [name, value] : world.fluid->diagnostics())
+    if (name == "remeshings") return value;
+  return -1;
+}
+
+// A plate that is moved by three of its lengths: with new meshes, or as far as the first one goes.
+TEST(AleScene, makes_new_meshes_unless_it_is_told_not_to) {
+  EXPECT_TRUE(ale_spec(read(channel)).remesh);
+  for (const std::string remesh : {"automatic", "never"}) {
+    auto world = build_world<2>(read(
+        channel, {"body.plate.motion=prescribed", "body.plate.velocity=[1.5, 0.0]", "fluid.ale.remesh=" + remesh}));
+    std::string cause;
+    for (int k = 0; k < 20 && cause.empty(); ++k) {
+      const auto report = world.stepper->attempt(0.04);
+      if (report.ok())
+        world.stepper->commit();
+      else
+        cause = report.cause;
+    }
+    if (remesh == "automatic") {
+      EXPECT_EQ(cause, "");
+      EXPECT_GE(number_of_meshes(world), 2);
+    } else {
+      EXPECT_NE(cause.find("folds"), std::string::npos) << cause;
+      EXPECT_EQ(number_of_meshes(world), 0);
+    }
+  }
+  EXPECT_NE(refusal(channel, {"fluid.ale.remesh=often"}).find("must be"), std::string::npos);
+}
+
 // A body as heavy as the fluid drifts with the stream.
 TEST(AleScene, carries_a_free_body) {
   const auto scene = read(channel, {"body.plate.motion=free", "body.plate.density=1000"});

@@ -87,6 +87,19 @@ TEST(Questions, are_not_asked_of_a_body_without_mass) {
               std::vector<std::string>());
 }
 
+TEST(Questions, a_mesh_that_keeps_its_cells_does_not_bear_far_ways) {
+  const auto with = [](std::vector<std::string> set) {
+    set.push_back("fluid.ale.remesh=never");
+    return asked_of(
+        read_scene(std::filesystem::path(SPLASHDOWN_EXAMPLES) / "sedimenting_cylinder" / "scene_ale.toml", set).scene);
+  };
+  ASSERT_EQ(with({}).size(), 1u);
+  EXPECT_NE(with({})[0].find("body.cylinder goes up to"), std::string::npos) << with({})[0];
+  EXPECT_NE(with({})[0].find("did you mean \"automatic\"?"), std::string::npos) << with({})[0];
+  EXPECT_TRUE(with({"time.end=0.02"}).empty());
+  EXPECT_TRUE(with({"body.cylinder.density=1000"}).empty());
+}
+
 TEST(Questions, a_hull_of_a_kilometre_may_be_in_millimetres) {
   auto text = testing::wedge_drop_with("breadth = 0.5", "breadth = 500");
   for (const auto& [from, to] : {std::pair{"min = [-2, -1]\nmax = [2, 1]", "min = [-2000, -1000]\nmax = [2000, 1000]"},

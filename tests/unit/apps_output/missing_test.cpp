@@ -197,5 +197,16 @@ TEST(Rise, is_none_of_loads_that_have_had_it_or_have_none) {
   EXPECT_FALSE(rises([](double) { return 0.; }));
 }
 
+TEST(Missing, meshes_that_could_not_be_had_are_told) {
+  auto summary = run_of({"hull"});
+  wet(summary, "hull");
+  summary.fluid.emplace().remeshings_missed = 0;
+  EXPECT_TRUE(missing(summary).empty());
+  summary.fluid->remeshings_missed = 2;
+  ASSERT_EQ(missing(summary).size(), 1u);
+  EXPECT_EQ(missing(summary)[0].grade, Grade::resolved);
+  EXPECT_NE(missing(summary)[0].reason.find("wanted 2 times"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace splashdown::apps::missing_test

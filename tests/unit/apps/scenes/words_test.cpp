@@ -57,6 +57,13 @@ TEST(Words, a_run_closes_with_its_verdict_in_red_on_a_terminal) {
   summary.ledger->energy_gain = 0;
   judge(summary);
   EXPECT_NE(colour().find("\x1b[32mresolved\x1b[0m"), std::string::npos);
+  auto& fluid = summary.fluid.emplace();
+  for (const auto& [count, text] : {std::pair{0L, "(30 at most), volume"},
+                                    {1L, "(30 at most), 1 new mesh, volume"},
+                                    {6L, "(30 at most), 6 new meshes, volume"}}) {
+    fluid.remeshings = count;
+    EXPECT_NE(closing_text(summary, "nowhere").find(text), std::string::npos) << text;
+  }
 }
 
 TEST(Words, a_repair_share_is_one_of_what_is_left_of_the_impulse) {
