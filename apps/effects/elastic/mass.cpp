@@ -14,7 +14,6 @@ WholeMass whole_mass(const Body& body, const ElasticTable& table) {
   const Vec<d> centre = solid->centre(elastic::Field::Zero(solid->size()));
   WholeMass whole{.mass = solid->total_mass(), .centre = in_space<d>(inverse * centre)};
   const Mat<d> turn = inverse.linear(), moments = turn * solid->second_moments() * turn.transpose();
-  constexpr int n = rotations<d>;
   if constexpr (d == 2)
     whole.inertia(2, 2) = moments.trace();
   else
