@@ -22,6 +22,7 @@ struct Deformation {
   double von_mises = 0;         ///< the largest [Pa]
   double von_mises_error = 0;   ///< of it: what elements and their neighbours disagree about there [Pa]
   Vec<d> at = Vec<d>::Zero();   ///< where that is, in the undeformed body at t = 0, world frame [m]
+  std::string part = {};        ///< name of the part there; empty: none of them
   std::size_t nodes = 0;        ///< of its mesh
   std::size_t cells = 0;        ///< of its mesh
 };
@@ -32,7 +33,7 @@ struct DeformedSurface {
   Surface<d> surface;                ///< world frame [m]
   std::vector<Vec<d>> displacement;  ///< against t = 0 [m]
   std::vector<Vec<d>> v;             ///< velocities [m/s]
-  std::vector<Mat<3>> stress;        ///< Cauchy's, mean of the elements around [Pa]
+  std::vector<Mat<3>> stress;        ///< Cauchy's, mean of the elements around of one material [Pa]
   std::vector<double> von_mises;     ///< of that mean [Pa]
 };
 

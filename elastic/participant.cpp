@@ -318,6 +318,7 @@ Deformation<d> Participant<d>::deformation(std::size_t body) const {
   const auto& solid = *spec.solid;
   const auto peak = solid.peak(now.u);
   const auto* wall = moving.wall.get();
+  const auto part = static_cast<std::size_t>(solid.part(peak.cell));
   return {.strain_energy = wall ? wall->strain_energy_between() : solid.strain_energy(now.u),
           .kinetic_energy = wall ? wall->kinetic_energy_between() : 0.5 * now.v.dot(solid.mass() * now.v),
           .potential_energy = -now.u.dot(solid.mass() * solid.uniform(spec.gravity)),
@@ -326,6 +327,7 @@ Deformation<d> Participant<d>::deformation(std::size_t body) const {
           .von_mises = peak.value,
           .von_mises_error = solid.stress_error(now.u, peak),
           .at = peak.at,
+          .part = part > 0 && part <= spec.parts.size() ? spec.parts[part - 1] : "",
           .nodes = static_cast<std::size_t>(solid.mesh().size()),
           .cells = solid.mesh().cells.size()};
 }

@@ -45,6 +45,7 @@ struct SolidSpec {
   Vec<d> gravity = Vec<d>::Zero();           ///< [m/s^2]
   std::function<Field(double)> forces = {};  ///< on nodes besides the weight, at a time [N, N/m]; empty: none
   std::function<Field(double)> drive = {};  ///< velocities of held nodes (Dynamics); of bodies with a wall; empty: none
+  std::vector<std::string> parts = {};      ///< names of the solid's materials behind the first
   std::vector<NamedPlace<d>> points = {};
   std::vector<SolidGoal<d>> goals = {};  ///< whose errors are asked for; displacements: of equilibria
   /// `forces` as other meshes of the body have them; empty: there are none.

@@ -116,9 +116,10 @@ std::string body_rows(const std::string& name, const BodySummary& body, int dime
                                     fmt::join(highest->point, ", ")));
   if (const auto& stress = body.stress; stress && stress->peak.value > 0)
     text += closing_row(
-        "", fmt::format("peak von Mises stress {}{}{}, at ({:.3g}) m of the undeformed body",
+        "", fmt::format("peak von Mises stress {}{}{}, {}at ({:.3g}) m of the undeformed body",
                         with_unit(stress->peak.value, "Pa"), at(stress->peak),
-                        band_text(stress->grade ? &*stress->grade : nullptr), fmt::join(stress->point, ", ")));
+                        band_text(stress->grade ? &*stress->grade : nullptr),
+                        stress->part.empty() ? "" : "in " + stress->part + " ", fmt::join(stress->point, ", ")));
   return text;
 }
 

@@ -59,13 +59,15 @@ std::optional<double> deadrise(const Body& body) {
 
 template <int d>
 rigid::MassProperties<d> mass_properties(const Body& body) {
+  constexpr int n = rigid::rotations<d>;
+  if (body.whole)
+    return {body.whole->mass, vec<d>(body.whole->centre), body.whole->inertia.template bottomRightCorner<n, n>()};
   auto properties = shape_of<d>(body.shape).at_unit_density;
   if (body.mass)
     properties = rigid::with_mass(properties, *body.mass);
   else if (body.density)
     properties = rigid::with_density(properties, *body.density);
   if (body.centre_of_mass) properties.centre = vec<d>(*body.centre_of_mass);
-  constexpr int n = rigid::rotations<d>;
   if (body.inertia) properties.inertia = body.inertia->bottomRightCorner<n, n>();
   return properties;
 }

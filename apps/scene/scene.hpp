@@ -248,6 +248,13 @@ inline std::vector<std::string> freedom_names(int dimension) {
 /// Of a free body of which the scene says that it has no mass, over the fluid's: nothing that loads or motions of bodies in water show.
 inline constexpr double least_density = 1e-4;
 
+/// Mass, its centre in the shape's frame, and inertia about it in axes of that frame: in two dimensions the last entry alone.
+struct WholeMass {
+  double mass = 0;
+  Point centre = Point::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+};
+
 struct Body {
   std::string name;
   Shape shape;
@@ -260,6 +267,7 @@ struct Body {
   /// About the centre of mass, axes of the shape's frame [kg m^2]; default: of uniform density. In two dimensions the
   /// last entry alone [kg m].
   std::optional<Eigen::Matrix3d> inertia;
+  std::optional<WholeMass> whole;  ///< known where parts or point masses of [body.elastic] make it other than uniform
   Motion motion = Motion::free;
   std::vector<std::string> free = freedom_names(2);
   Point position = Point::Zero();          ///< of the shape's reference point at t = 0 [m]

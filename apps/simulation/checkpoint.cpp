@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char magic[] = "splashdown checkpoint 19";  // the number changes with the layout
+constexpr char magic[] = "splashdown checkpoint 20";  // the number changes with the layout
 
 template <class Archive, class State>
 void archive_all(Archive& archive, State& c) {

@@ -158,6 +158,7 @@ Json json_of(const BodySummary& body) {
   if (body.stress) {
     json["peak_von_mises"] = json_of(body.stress->peak);
     json["peak_von_mises"]["point"] = json_of(body.stress->point);
+    if (!body.stress->part.empty()) json["peak_von_mises"]["part"] = body.stress->part;
   }
   json["verdict"] = json_of(body.verdict);
   json["grades"] = json_of_grades(body);

@@ -131,6 +131,7 @@ struct MaximumPressure {
 struct StressSummary {
   Peak peak;                  ///< [Pa]
   std::vector<double> point;  ///< in the undeformed body at t = 0, world frame [m]
+  std::string part = {};      ///< name of its part there; empty: none
   Evidence evidence;
   std::optional<NumberGrade> grade;
 };

@@ -393,6 +393,14 @@ Vec<d> Solid<d>::centre(const Field& u) const {
 }
 
 template <int d>
+Mat<d> Solid<d>::second_moments() const {
+  Points<d> x = mesh_.nodes;
+  x.colwise() -= centre(Field::Zero(this->size()));
+  const Field p = mass_ * x.reshaped();
+  return x * p.reshaped(d, mesh_.size()).transpose();
+}
+
+template <int d>
 StressPeak<d> Solid<d>::peak(const Field& u) const {
   StressPeak<d> most;
   const auto& points = rule<d>();
@@ -435,16 +443,21 @@ double Solid<d>::stress_error(const Field& u, const StressPeak<d>& peak) const {
 
 template <int d>
 std::vector<Mat<3>> Solid<d>::nodal_stress(const Field& u) const {
-  std::vector<Mat<3>> sums(static_cast<std::size_t>(mesh_.size()), Mat<3>::Zero());
-  std::vector<int> counts(sums.size(), 0);
-  for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-    for (int k = 0; k < cell_nodes<d>; ++k) {
-      const auto a = static_cast<std::size_t>(mesh_.cells[c][static_cast<std::size_t>(k)]);
-      sums[a] += stress_at_node(u, c, k);
-      ++counts[a];
-    }
-  for (std::size_t a = 0; a < sums.size(); ++a) sums[a] /= counts[a];
-  return sums;
+  const auto nodes = static_cast<std::size_t>(mesh_.size());
+  std::vector<Mat<3>> all(nodes, Mat<3>::Zero());
+  for (int material = 0; material < static_cast<int>(materials_.size()); ++material) {
+    std::vector<Mat<3>> sums(nodes, Mat<3>::Zero());
+    std::vector<int> counts(nodes, 0);
+    for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+      for (int k = 0; k < cell_nodes<d> && part_[c] == material; ++k) {
+        const auto a = static_cast<std::size_t>(mesh_.cells[c][static_cast<std::size_t>(k)]);
+        sums[a] += stress_at_node(u, c, k);
+        ++counts[a];
+      }
+    for (std::size_t a = 0; a < nodes; ++a)
+      if (counts[a] > 0 && von_mises(sums[a] / counts[a]) >= von_mises(all[a])) all[a] = sums[a] / counts[a];
+  }
+  return all;
 }
 
 template <int d>

@@ -98,6 +98,7 @@ class Solid final : public System {
   Momenta<d> momenta(const Field& u, const Field& v) const;
   double total_mass() const;                 ///< point masses included [kg, kg/m]
   Vec<d> centre(const Field& u) const;       ///< of mass [m]
+  Mat<d> second_moments() const;             ///< of mass about its centre, at rest [kg m^2, kg m]
   StressPeak<d> peak(const Field& u) const;  ///< over all points of the rules
   /// Error of the elements there: von Mises norm of their stress minus the one that is the mean of elements of the same
   /// material at nodes, and between nodes as displacements are (Zienkiewicz & Zhu 1987) [Pa].
@@ -106,7 +107,8 @@ class Solid final : public System {
   Mat<d> strain(const Field& u, const Place<d>& place) const;
   /// Cauchy's stress at a point [Pa].
   Mat<3> stress(const Field& u, const Place<d>& place) const;
-  /// Cauchy's stress at all nodes, mean of the elements around them [Pa].
+  /// Cauchy's stress at all nodes, mean of the elements around them [Pa]. Between materials: of that where von Mises' is
+  /// largest, since stresses jump there.
   std::vector<Mat<3>> nodal_stress(const Field& u) const;
   /// The least det F over all points of the rules; not above zero: an element is turned over.
   double least_volume_ratio(const Field& u) const;

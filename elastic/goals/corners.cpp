@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "core/goals/corner_order.hpp"
 #include "elastic/goals/goals.hpp"
@@ -14,6 +15,7 @@ namespace {
 struct Ridge {
   double angle = 0;
   std::vector<CornerSide> sides;
+  std::set<int> materials;  // of the cells around it
 };
 
 /// Corners of cells without some of them, by their numbers, ascending.
@@ -58,7 +60,8 @@ std::map<std::array<int, d - 1>, Ridge> ridges_of(const Solid<d>& solid) {
   };
   std::map<std::array<int, d - 1>, Ridge> ridges;
   std::map<std::array<int, d>, Facet> facets;
-  for (const auto& cell : solid.mesh().cells) {
+  for (std::size_t c = 0; c < solid.mesh().cells.size(); ++c) {
+    const auto& cell = solid.mesh().cells[c];
     if (std::ranges::all_of(cell, [&](int a) { return is_held(solid, a); })) continue;
     for (int i = 0; i <= d; ++i) {
       auto& facet = facets[others<d>(cell, std::array{i})];
@@ -66,8 +69,10 @@ std::map<std::array<int, d - 1>, Ridge> ridges_of(const Solid<d>& solid) {
       for (int k = 0; k < cell_nodes<d>; ++k)
         if (node_place<d>(k)[i] == 0) facet.is_held &= is_held(solid, cell[static_cast<std::size_t>(k)]);
       for (int j = i + 1; j <= d; ++j) {
-        const auto ridge = others<d>(cell, std::array{i, j});
-        ridges[ridge].angle += angle_at(solid, cell, ridge, i, j);
+        const auto corners = others<d>(cell, std::array{i, j});
+        auto& ridge = ridges[corners];
+        ridge.angle += angle_at(solid, cell, corners, i, j);
+        ridge.materials.insert(solid.part(c));
       }
     }
   }
@@ -99,13 +104,17 @@ double kappa_of(const Law<d>& law) {
 
 template <int d>
 std::vector<double> whole_errors(const Solid<d>& solid) {
-  const double kappa = kappa_of(solid.law());
+  std::map<int, double> kappas;  // of materials
+  for (std::size_t c = 0; c < solid.mesh().cells.size(); ++c)
+    if (!kappas.contains(solid.part(c))) kappas[solid.part(c)] = kappa_of(solid.law(c));
   std::map<int, double> exponents;  // of nodes at singular corners
   for (const auto& [nodes, ridge] : ridges_of(solid)) {
     if (ridge.sides.size() != 2) continue;
     const auto one = ridge.sides[0], other = ridge.sides[1];
     if (one == other && ridge.angle < std::numbers::pi + least_corner_turn) continue;
-    const double exponent = corner_exponent(ridge.angle, one, other, kappa);
+    double exponent = 1;
+    for (const int material : ridge.materials)
+      exponent = std::min(exponent, corner_exponent(ridge.angle, one, other, kappas.at(material)));
     for (const int a : nodes) {
       const auto [found, is_new] = exponents.try_emplace(a, exponent);
       if (!is_new) found->second = std::min(found->second, exponent);

@@ -84,6 +84,7 @@ struct ElasticPart : ElasticMaterial {
 struct ElasticTable : ElasticMaterial {
   std::size_t body = 0;
   std::string path;                ///< of the table in messages
+  std::optional<double> density;   ///< of what is no part; known in complete scenes whose body has a `whole`
   std::vector<ElasticPart> parts;  ///< later ones go before earlier ones
   double size = 0;                 ///< of elements [m], divided by Body::refine; of a mesh from a file what it is
   std::string mesh_file;           ///< of Gmsh, absolute; empty: the shape is meshed
@@ -121,6 +122,7 @@ class ElasticKind final : public EffectOf<ElasticKind, ElasticTables> {
   bool knows_no_mesh() const override { return true; }  // its own rule speaks of all fluids
   void read(Reader& reader, Scene& scene) const override;
   void check(const Scene& scene, Problems& problems) const override;
+  void complete(Scene& scene) const override;
   void ask(const AskedScene& asked, std::vector<std::string>& questions) const override;
   std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const override;
   std::vector<NamedNumber> numbers(const Scene& scene) const override;

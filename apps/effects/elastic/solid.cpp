@@ -123,8 +123,7 @@ template <int d>
 std::unique_ptr<elastic::Solid<d>> make_solid(const Body& body, const ElasticTable& table,
                                               const elastic::SolidMesh<d>& mesh) {
   auto placed = in_world<d>(body, mesh);
-  const auto properties = mass_properties<d>(body);
-  const double density = properties.mass / meshed_volume<d>(body, table, mesh);
+  const double density = density_of<d>(body, table, mesh);
   std::vector<elastic::Material<d>> materials{{solid_law<d>(body, table), density}};
   for (const auto& part : table.parts) materials.push_back({solid_law<d>(body, part), part.density.value_or(density)});
   auto solid = std::make_unique<elastic::Solid<d>>(std::move(placed), std::move(materials), parts_of<d>(table, mesh));
@@ -202,6 +201,7 @@ std::vector<elastic::SolidSpec<d>> solid_specs(const Scene& scene) {
     spec.goals = solid_goals<d>(body, table, mesh);
     if (!spec.goals.empty()) spec.forces_on = loads_on<d>(scene, table);
     spec.from_equilibrium = table.start == "equilibrium";
+    for (const auto& part : table.parts) spec.parts.push_back(part.name);
     for (const auto& point : table.points)
       spec.points.push_back({point.name, *place_in<d>(mesh, point.point), signals_of(point)});
   }

@@ -35,6 +35,9 @@ MeshInSpace mesh_in_space(const Body& body, const ElasticTable& table);
 /// What density makes the mass of: meshes of shapes in space enclose less than the shape, by their chords.
 template <int d>
 double meshed_volume(const Body& body, const ElasticTable& table, const elastic::SolidMesh<d>& mesh);
+/// Of what is no part [kg/m^3].
+template <int d>
+double density_of(const Body& body, const ElasticTable& table, const elastic::SolidMesh<d>& mesh);
 /// Undeformed, in the shape's frame. Throws elastic::MeshError.
 template <int d>
 elastic::SolidMesh<d> solid_mesh(const Body& body, const ElasticTable& table);

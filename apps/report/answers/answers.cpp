@@ -156,9 +156,12 @@ std::string pressure_tiles(const RunData& run) {
 
 std::string stress_tiles(const RunData& run) {
   std::string html;
-  for (const auto& [name, body] : member(run.summary, "bodies").items())
-    html += pressure_tile("highest von Mises stress in " + name, member(body, "peak_von_mises"),
+  for (const auto& [name, body] : member(run.summary, "bodies").items()) {
+    const auto& peak = member(body, "peak_von_mises");
+    const auto part = peak.value("part", std::string());
+    html += pressure_tile("highest von Mises stress in " + name + (part.empty() ? "" : ", " + part), peak,
                           member(member(body, "grades"), "peak_von_mises"), mean_of(run, name + ".peak_von_mises"));
+  }
   return html;
 }
 

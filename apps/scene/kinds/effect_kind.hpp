@@ -90,6 +90,8 @@ class EffectKind {
   virtual bool knows_no_mesh() const { return false; }
   virtual void read(Reader& reader, Scene& scene) const = 0;                   ///< its table, which is there
   virtual void check(const Scene& /*scene*/, Problems& /*problems*/) const {}  ///< rules that join several keys
+  /// Adds what follows from all keys of a scene in which nothing is wrong.
+  virtual void complete(Scene& /*scene*/) const {}
   virtual void ask(const AskedScene& /*asked*/, std::vector<std::string>& /*questions*/) const {}
   /// Whether it matters in this scene, present or absent, by which numbers; nothing: not a word about it.
   virtual std::optional<EffectNote> note(const Scene& scene, const Scales& scales) const = 0;

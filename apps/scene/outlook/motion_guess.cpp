@@ -31,7 +31,7 @@ bool moves_along(const Body& body, int axis) {
 
 template <int d>
 double mass_guess(const Body& body) {
-  return body.mass ? *body.mass : body.density ? *body.density * shape_of<d>(body.shape).at_unit_density.mass : 0;
+  return body.mass || body.density ? mass_properties<d>(body).mass : 0;
 }
 
 /// By how much the water line is higher than that of still water where it decides the added mass (outlook.hpp).

@@ -216,6 +216,8 @@ SceneFile read_root(toml::table& table, const std::filesystem::path& folder, Pro
   check_scene(file.scene, labels, problems);
   problems.throw_if_any();
   give_least_mass(file.scene);
+  for (const auto* kind : effect_kinds())
+    if (kind->present(file.scene)) kind->complete(file.scene);
   file.resolved = echo.text();
   file.notes = std::move(context.notes);
   file.places = problems;

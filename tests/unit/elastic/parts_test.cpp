@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include "elastic/goals/goals.hpp"
 #include "elastic/modes/modes.hpp"
 #include "solids.hpp"
 
@@ -162,6 +163,65 @@ TEST(Parts, have_their_mass_and_their_centre) {
   const Solid<2> solid(mesh, two<2>(weak, weak, 1, 3), part_where<2>(mesh, [](const Vec<2>& x) { return x[0] > 1; }));
   EXPECT_NEAR(solid.total_mass(), 4, 1e-14);
   EXPECT_NEAR(solid.centre(Field::Zero(solid.size())).x(), (0.5 * 1 + 1.5 * 3) / 4, 1e-14);
+}
+
+/// Second moments about the centre: of the halves about their own, and of the way between them.
+TEST(Parts, have_their_moments_and_those_of_point_masses) {
+  const auto mesh = box_mesh<3>({2, 1, 0.5}, {4, 2, 1});
+  Solid<3> solid(mesh, two<3>(weak, weak, 1, 3), part_where<3>(mesh, [](const Vec<3>& x) { return x[0] > 1; }));
+  const Vec<3> at(2, 1, 0.5);
+  solid.add_point_mass(*locate<3>(mesh, at, 1e-9), 0.7);
+  struct Piece {
+    double mass;
+    Vec<3> centre, sides;
+  };
+  const std::array<Piece, 3> pieces{
+      {{0.5, {0.5, 0.5, 0.25}, {1, 1, 0.5}}, {1.5, {1.5, 0.5, 0.25}, {1, 1, 0.5}}, {0.7, at, Vec<3>::Zero()}}};
+  double mass = 0;
+  Vec<3> centre = Vec<3>::Zero();
+  for (const auto& piece : pieces) mass += piece.mass, centre += piece.mass * piece.centre;
+  centre /= mass;
+  Mat<3> moments = Mat<3>::Zero();
+  for (const auto& piece : pieces) {
+    const Vec<3> arm = piece.centre - centre;
+    moments += piece.mass * (arm * arm.transpose() + piece.sides.cwiseAbs2().asDiagonal().toDenseMatrix() / 12);
+  }
+  EXPECT_NEAR(solid.total_mass(), mass, 1e-13);
+  EXPECT_LT((solid.centre(Field::Zero(solid.size())) - centre).norm(), 1e-13);
+  EXPECT_LT((solid.second_moments() - moments).norm(), 1e-13);
+}
+
+/// Strained alike, two materials side by side have uniform stresses each: no node may have their mean.
+template <int d>
+void expect_no_mean_across() {
+  std::array<int, d> counts;
+  counts.fill(2);
+  const auto mesh = box_mesh<d>(Vec<d>::Ones(), counts);
+  const Solid<d> solid(mesh, two<d>(weak, strong), part_where<d>(mesh, [](const Vec<d>& x) { return x[1] > 0.5; }));
+  Field u = Field::Zero(solid.size());
+  for (int a = 0; a < mesh.size(); ++a) u[d * a] = 1e-3 * mesh.nodes(0, a);
+  const auto stress = solid.nodal_stress(u);
+  for (int a = 0; a < mesh.size(); ++a)
+    EXPECT_NEAR(stress[static_cast<std::size_t>(a)](0, 0), mesh.nodes(1, a) < 0.5 - 1e-9 ? 1e-3 : 7e-3, 1e-14)
+        << "the stiffer one tells the stress at the interface";
+}
+
+TEST(Parts, have_stresses_of_their_own_at_nodes) {
+  expect_no_mean_across<2>();
+  expect_no_mean_across<3>();
+}
+
+/// Ends of a clamp have the exponent of what is clamped: what lies far from them changes no order.
+TEST(Parts, corners_have_the_order_of_their_own_material) {
+  const auto mesh = box_mesh<2>({3, 1}, {12, 4});
+  const Isotropic stiff{.young_modulus = 1, .poisson_ratio = 0.45};
+  const auto far = part_where<2>(mesh, [](const Vec<2>& x) { return x[0] > 1.5; });
+  const auto orders = [&](Solid<2> solid) {
+    solid.clamp([](const Vec<2>& X) { return X[0] == 0; });
+    return whole_errors(solid);
+  };
+  EXPECT_EQ(orders({mesh, two<2>(weak, stiff), far}), orders({mesh, two<2>(weak, weak), far}));
+  EXPECT_NE(orders({mesh, two<2>(stiff, weak), far}), orders({mesh, two<2>(weak, weak), far}));
 }
 
 TEST(Parts, that_are_equal_are_one_bit_by_bit) {

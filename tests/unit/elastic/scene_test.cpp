@@ -8,6 +8,7 @@
 #include "apps/build/build.hpp"
 #include "apps/effects/elastic/elastic.hpp"
 #include "apps/effects/elastic/solid.hpp"
+#include "apps/scene/geometry.hpp"
 #include "apps/scene/kinds/effect_kind.hpp"
 #include "apps/scene/scales.hpp"
 #include "elastic/participant.hpp"
@@ -96,7 +97,8 @@ TEST(ElasticScene, builds_a_world_of_solids_alone_and_none_without_the_table) {
   EXPECT_EQ(world.bodies, nullptr);
   EXPECT_EQ(world.fluid, nullptr);
   EXPECT_EQ(world.solids->spec(0).name, "beam");
-  EXPECT_LT((world.solids->state(0).pose.translation() - Vec<2>(1, 2)).norm(), 1e-12);
+  const double off = 2 * 0.4 / (1200 * 0.1 + 2);  // the point mass at 0.4 m
+  EXPECT_LT((world.solids->state(0).pose.translation() - Vec<2>(1 + off, 2)).norm(), 1e-12);
   EXPECT_EQ(build_world<2>(scene_of(testing::wedge_drop)).solids, nullptr);
 }
 
@@ -207,6 +209,40 @@ TEST(ElasticScene, has_parts_of_other_materials) {
   const auto note = ElasticKind().note(scene, {});
   ASSERT_TRUE(note);
   EXPECT_NE(note->reason.find("mass 152 kg/m with centre"), std::string::npos) << note->reason;
+}
+
+/// All that ask for mass, centre and inertia are told those of the solid that is stepped.
+TEST(ElasticScene, weighs_what_its_parts_and_point_masses_do) {
+  const auto scene = scene_of(testing::replaced(
+      with("modes = 2", "modes = 2\npart = [{name = \"end\", density = 3600, min = [0, -1], max = [1, 1]}]"),
+      "position = [1, 2]", "position = [1, 2]\npitch_deg = 90"));
+  const auto properties = mass_properties<2>(scene.bodies.at(0));
+  const double left = 1200 * 0.05, right = 3600 * 0.05, mass = left + right + 2;
+  const double centre = (left * -0.25 + right * 0.25 + 2 * 0.4) / mass;
+  EXPECT_NEAR(properties.mass, mass, 1e-10);
+  EXPECT_LT((properties.centre - Vec<2>(centre, 0)).norm(), 1e-12);
+  const auto about = [&](double m, double x, double own) { return m * ((x - centre) * (x - centre) + own); };
+  const double own = (0.5 * 0.5 + 0.1 * 0.1) / 12;
+  const double inertia = about(left, -0.25, own) + about(right, 0.25, own) + about(2, 0.4, 0);
+  EXPECT_NEAR(properties.inertia(0, 0), inertia, 1e-10);
+  const auto world = build_world<2>(scene);
+  const auto& spec = world.solids->spec(0);
+  EXPECT_EQ(spec.mass, properties.mass);
+  EXPECT_EQ(spec.inertia, properties.inertia);
+  EXPECT_LT((world.solids->state(0).pose.translation() - Vec<2>(1, 2 + centre)).norm(), 1e-12)
+      << "turned by 90 degrees";
+}
+
+TEST(ElasticScene, tells_the_part_of_its_peak_stress) {
+  const auto part_of = [](const std::string& region) {
+    const auto world =
+        build_world<2>(scene_of(with("modes = 2", "scheme = \"steady\"\npart = [{name = \"root\", " + region + "}]")));
+    EXPECT_TRUE(world.stepper->attempt(0.01).ok());
+    world.stepper->commit();
+    return world.solids->deformation(0).part;
+  };
+  EXPECT_EQ(part_of("min = [-1, -1], max = [-0.2, 1]"), "root") << "the beam is bent most at its clamp";
+  EXPECT_EQ(part_of("min = [0, -1], max = [1, 1]"), "");
 }
 
 TEST(ElasticScene, of_a_part_that_is_no_other_moves_bit_by_bit_as_without) {
