@@ -54,11 +54,12 @@ void ElasticWall<d>::begin(double t, double kick, double dt) {
 template <int d>
 const Eigen::VectorXd& ElasticWall<d>::solve(const Eigen::VectorXd& impulse) {
   impulse_ = impulse;
-  return tried(move(impulse));
+  return asked_ = tried(move(impulse));
 }
 
 template <int d>
 const Eigen::VectorXd& ElasticWall<d>::adopt(const Eigen::VectorXd& velocities) {
+  asked_ = velocities;
   return tried(follow(velocities));
 }
 
@@ -69,12 +70,12 @@ bool ElasticWall<d>::update(const Eigen::VectorXd& impulse, double tolerance) {
   auto all = renewed(impulse);
   status_ = all.status;
   if (!status_.ok()) return false;
-  const double change = (all.velocities - trial_).norm();
+  const double change = (all.velocities - asked_).norm();
   constexpr double most_stray = 0.01;  // at most, of its velocities: more where it turns by a fiftieth of a radian
   const double speed = trial_.norm() + free_.norm();
   if (change <= tolerance * speed) return false;
   constexpr double most_work = 5e-3;  // of its energy, that the fluid has not booked, in all steps together
-  strayed_next_ = strayed_ + impulse.dot(all.velocities - trial_);
+  strayed_next_ = strayed_ + impulse.dot(all.velocities - asked_);
   if (change <= std::min(stray(), most_stray * trial_.norm()) && std::abs(strayed_next_) <= most_work * trial_energy())
     return false;
   strayed_next_ = strayed_;

@@ -141,6 +141,7 @@ class ElasticWall {
 
   ModalInertia modal_;
   Eigen::VectorXd free_, trial_, impulse_;
+  Eigen::VectorXd asked_;  // velocities that a trial was to have
   Mixing mixing_{0};  // of `free_`, pass by pass
   double dissipated_ = 0, driven_ = 0;
   double strayed_ = 0, strayed_next_ = 0;  // work of impulses on what vertices stray, so far and with the trial
