@@ -47,8 +47,8 @@ template <int d>
 GoalError goal_error(const SolidGoal<d>& goal, const Solid<d>& solid, const Field& u, const LoadOn<d>& load);
 
 /// What an error is over the part that the divided solid shows of it, for each cell: by the exponents of corners of what moves,
-/// in space of edges. Sides that are held along some axes alone count as free, orthotropic solids as isotropic ones. Where several
-/// materials meet at a corner, the one of the least exponent counts for all.
+/// in space of edges. Sides that are held along some axes alone count as free, orthotropic solids as isotropic ones. Where
+/// several materials meet at a corner, the one of the least exponent counts for all.
 template <int d>
 std::vector<double> whole_errors(const Solid<d>& solid);
 

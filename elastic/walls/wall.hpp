@@ -10,13 +10,8 @@
 // p is the momentum just before the kick of t_n. The tangent of the left side, M_s = M + dt/2 C + (1/4 + c) dt^2 K, is what the
 // exact interface term knows.
 //
-// c is for vibrations that the step does not resolve, w dt >> 1. The midpoint rule and C leave them as they are, p_{n+1} = -p_n;
-// kicks feed them, and shorter steps show their energy, by (dt/dt_new)^2. With c = 0.1 a step leaves 0.72 of them. Slow ones lose
-// little, since c dt K s is c (f_n - f_{n-1}) to second order: c (w dt)^3/4 of the critical damping is left, 0.01 % with forty
-// steps a period, and the frequency is (1/12 + 3c/4) (w dt)^2 low. Of large motions dt K s has the second Piola stress
-// that the step adds, and f_n - f_{n-1} theirs where the step ends: momenta stay exact (NodalWall::damping_of_second_half).
-//
-// Held unknowns move with what drives them in the middle of the step, or stay.
+// c damps vibrations that the step does not resolve, w dt >> 1: a step leaves 0.72 of them where c = 0.1 (ElasticWall). Held
+// unknowns move with what drives them in the middle of the step, or stay.
 #pragma once
 
 #include <iosfwd>
@@ -30,6 +25,12 @@
 namespace splashdown::elastic {
 
 /// begin, any number of trials, commit. Trials start from t_n.
+///
+/// The midpoint rule and C leave vibrations of w dt >> 1 as they are, p_{n+1} = -p_n; kicks feed them, and shorter steps show
+/// their energy, by (dt/dt_new)^2. Of slow ones c takes little, since c dt K s is c (f_n - f_{n-1}) to second order: c (w dt)^3/4
+/// of the critical damping is left, 0.01 % with forty steps a period, and the frequency is (1/12 + 3c/4) (w dt)^2 low. Of large
+/// motions dt K s has the second Piola stress that the step adds, and f_n - f_{n-1} theirs where the step ends: momenta stay
+/// exact (NodalWall::damping_of_second_half).
 template <int d>
 class ElasticWall {
  public:
@@ -142,7 +143,7 @@ class ElasticWall {
   ModalInertia modal_;
   Eigen::VectorXd free_, trial_, impulse_;
   Eigen::VectorXd asked_;  // velocities that a trial was to have
-  Mixing mixing_{0};  // of `free_`, pass by pass
+  Mixing mixing_{0};       // of `free_`, pass by pass
   double dissipated_ = 0, driven_ = 0;
   double strayed_ = 0, strayed_next_ = 0;  // work of impulses on what vertices stray, so far and with the trial
   Status begun_, status_;

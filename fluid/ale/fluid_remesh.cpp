@@ -17,8 +17,8 @@ namespace splashdown::ale {
 namespace {
 
 constexpr double decline = 0.3;      // of the quality at which there was no new mesh, until another one is tried
-constexpr int most_growth = 4;        // nodes over those of the first mesh
-constexpr int projection_steps = 2;   // the second takes the roundoff of the first away
+constexpr int most_growth = 4;       // nodes over those of the first mesh
+constexpr int projection_steps = 2;  // the second takes the roundoff of the first away
 
 }  // namespace
 

@@ -5,8 +5,8 @@
 //   int q div v+ = 0                                                                              on the mesh of its end
 //
 // Rates are of nodes that move: what is constant in space is preserved whatever the mesh does (geometric conservation).
-// Sides that let through bear -p n + mu dv/dn = 1/2 rho min(u . n, 0) u: "do nothing" (Heywood, Rannacher & Turek 1996), where the
-// flow comes back the directional one (Braack & Mucha 2014).
+// Sides that let through bear -p n + mu dv/dn = 1/2 rho min(u . n, 0) u: "do nothing" (Heywood, Rannacher & Turek 1996), where
+// the flow comes back the directional one (Braack & Mucha 2014).
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "apps/scene/choose/presets.hpp"
 #include "apps/scene/read/parts.hpp"
 
@@ -61,8 +63,13 @@ void read_ale(Reader& reader, AleFluid& fluid) {
   }
   Reader sides = reader.table_or_defaults("sides");
   read_sides(sides, fluid.sides);
-  Reader inflow = reader.table_or_defaults("inflow");
-  read_inflow(inflow, fluid);
+  const auto kinds = fluid.sides.all();
+  if (std::ranges::find(kinds, "inflow") != kinds.end()) {
+    Reader inflow = reader.table_or_defaults("inflow");
+    read_inflow(inflow, fluid);
+  } else if (auto inflow = reader.table("inflow")) {
+    read_inflow(*inflow, fluid);
+  }
   Reader size = reader.table_or_defaults("size");
   read_sizes(size, fluid);
   Reader method = reader.table_or_defaults("ale");
