@@ -57,7 +57,7 @@ Complex filled(const Domain& domain, double size) {
       domain, criteria, params::manifold(), params::no_perturb(), params::no_exude(),
       params::mesh_3_options(params::maximal_number_of_vertices = most_corners, params::pointer_to_error_code = &stop));
   if (stop != CGAL::CGAL_MESH_3_NO_ERROR) throw TooMany();
-  CGAL::exude_mesh_3(complex, params::sliver_bound = 10);  // degrees: more takes for ever where bodies are thin
+  CGAL::exude_mesh_3(complex);  // as far as it gets
   return complex;
 }
 
